@@ -1,0 +1,213 @@
+"""A path of coefficients: pairs (mu_s, mu_k) addressed by (seed, sample, contact, knot), the same in every engine.
+
+Compiled callers hold the *descriptor* (see `Process.descriptor`) and a *cursor*, a small array that remembers the knots
+around the last evaluation. The cursor is a cache: results depend on the address alone, never on the order of
+evaluation, the step size or the thread.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.coefficients.distributions import transform
+from stochfric_mb.coefficients.philox import normals
+from stochfric_mb.coefficients.processes import HEADER, Process
+from stochfric_mb.compile import compiled
+from stochfric_mb.errors import InputError
+from stochfric_mb.laws.contract import Law
+
+CURSOR = 10
+"""Entries of a cursor: valid, knot, mu_s and mu_k at the knot, the same at the next knot, four filter states there."""
+MAX_ATTEMPTS = 10_000
+"""Redraws of an infeasible pair before the means are taken."""
+
+
+class CoefficientPath:
+    """One realisation of the coefficients of one contact."""
+
+    def __init__(self, process: Process | None, law: Law, *, seed: int = 0, sample: int = 0, contact: int = 0) -> None:
+        """Address a path; without a process it is constant at the law's means.
+
+        Args:
+            process: the coefficient process, or None.
+            law: the law whose mu_s, mu_k are the means.
+            seed, sample, contact: address of the path, each an integer in [0, 2^32).
+
+        Raises:
+            InputError: an address outside its range, or means and deviations without feasible pairs.
+        """
+        for name, value in (("seed", seed), ("sample", sample), ("contact", contact)):
+            if int(value) != value or not 0 <= value < 2**32:
+                raise InputError(f"{name} = {value} is not an integer in [0, 2^32); choose one in that range")
+        self.process = process
+        self.seed, self.sample, self.contact = int(seed), int(sample), int(contact)
+        self.descriptor: npt.NDArray[np.float64] = constant_descriptor(law) if process is None else process.descriptor(law)
+        self._cursor = np.zeros(CURSOR)
+
+    def at(self, t: float, position: float = 0.0, events: int = 0) -> tuple[float, float]:
+        """Return (mu_s, mu_k) [-] at time t [s], belt position [m] and number of stick phases begun so far."""
+        return evaluate(
+            self.descriptor, self._cursor, self.seed, self.sample, self.contact, float(t), float(position), float(events)
+        )
+
+    def at_times(self, times: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return the pairs at the given times [s], shape (n, 2)."""
+        return np.array([self.at(float(t)) for t in np.asarray(times, dtype=np.float64)]).reshape(-1, 2)
+
+    def pairs(self, n: int, first: int = 0) -> npt.NDArray[np.float64]:
+        """Return the pairs at the ``n`` knots from ``first`` on, shape (n, 2)."""
+        out = np.empty((n, 2))
+        for i in range(n):
+            seek(self.descriptor, self._cursor, self.seed, self.sample, self.contact, first + i)
+            out[i] = self._cursor[2:4]
+        return out
+
+    def segment(self, knot: int) -> tuple[float, float, float, float]:
+        """Return (mu_s, mu_k) at ``knot`` and at the next knot."""
+        seek(self.descriptor, self._cursor, self.seed, self.sample, self.contact, knot)
+        c = self._cursor
+        return float(c[2]), float(c[3]), float(c[4]), float(c[5])
+
+
+def constant_descriptor(law: Law) -> npt.NDArray[np.float64]:
+    """Return the descriptor of constant coefficients."""
+    descriptor = np.zeros(HEADER)
+    descriptor[3:6] = 1.0, law.mu_s, law.mu_k
+    return descriptor
+
+
+@compiled
+def canonical_time(t, half_step):
+    """Return t [s] freed of the rounding of accumulated steps, so that equal times are equal to the bit.
+
+    A time within 1e-4 of a multiple of ``half_step`` (half the engine's step, 0 if unknown) is taken as that multiple;
+    a time within 1e-12 s of a whole nanosecond as that nanosecond.
+    """
+    if half_step > 0.0:
+        n = math.floor(t / half_step + 0.5)
+        if abs(t / half_step - n) < 1.0e-4:
+            t = n * half_step
+    q = math.floor(t * 1.0e9 + 0.5) / 1.0e9
+    return q if abs(t - q) < 1.0e-12 else t
+
+
+@compiled
+def evaluate(descriptor, cursor, seed, sample, contact, t, position, events):
+    """Return (mu_s, mu_k) [-]; ``cursor`` is a cache and may be moved."""
+    if descriptor[0] == 0.0:
+        return descriptor[4], descriptor[5]
+    if descriptor[1] == 0.0:
+        r = canonical_time(t, 0.0) / descriptor[3]
+    elif descriptor[1] == 1.0:
+        r = position / descriptor[3]
+    else:
+        r = events
+    knot = math.floor(r)
+    seek(descriptor, cursor, seed, sample, contact, knot)
+    if descriptor[2] == 0.0:
+        return cursor[2], cursor[3]
+    w = r - knot
+    return cursor[2] + w * (cursor[4] - cursor[2]), cursor[3] + w * (cursor[5] - cursor[3])
+
+
+@compiled
+def seek(descriptor, cursor, seed, sample, contact, knot):
+    """Move the cursor to ``knot``: its pair and the next one's."""
+    if cursor[0] == 1.0 and cursor[1] == knot:
+        return
+    if descriptor[0] <= 1.0:
+        if cursor[0] == 1.0 and cursor[1] + 1.0 == knot:
+            cursor[2], cursor[3] = cursor[4], cursor[5]
+        else:
+            cursor[2], cursor[3] = independent_pair(descriptor, seed, sample, contact, knot)
+        cursor[4], cursor[5] = independent_pair(descriptor, seed, sample, contact, knot + 1)
+    else:
+        if cursor[0] == 0.0 or cursor[1] > knot:
+            _start_filter(descriptor, cursor, seed, sample, contact)
+        for next_knot in range(int(cursor[1]) + 2, int(knot) + 2):
+            _advance_filter(descriptor, cursor, seed, sample, contact, next_knot)
+    cursor[0] = 1.0
+    cursor[1] = knot
+
+
+@compiled
+def independent_pair(descriptor, seed, sample, contact, knot):
+    """Return the feasible pair at ``knot``: draws are repeated until 0 <= mu_k < mu_s and both are within bounds."""
+    if descriptor[0] == 0.0:
+        return descriptor[4], descriptor[5]
+    for attempt in range(MAX_ATTEMPTS):
+        z_s, z_k = normals(seed, sample, contact, knot, attempt)
+        mu_s, mu_k = _pair_of_normals(descriptor, z_s, z_k)
+        inside = descriptor[10] <= mu_s <= descriptor[11] and descriptor[12] <= mu_k <= descriptor[13]
+        if inside and 0.0 <= mu_k and mu_k < mu_s:
+            return mu_s, mu_k
+    return descriptor[4], descriptor[5]
+
+
+@compiled
+def _pair_of_normals(descriptor, z_s, z_k):
+    n_s = int(descriptor[15])
+    n_k = int(descriptor[16])
+    mu_s = transform(z_s, descriptor[8], descriptor[4], descriptor[6], descriptor, HEADER, n_s)
+    mu_k = transform(z_k, descriptor[9], descriptor[5], descriptor[7], descriptor, HEADER + n_s, n_k)
+    return mu_s, mu_k
+
+
+@compiled
+def _clipped_pair(descriptor, z_s, z_k):
+    """Return the pair clipped into its bounds and to 0 <= mu_k <= mu_s (correlated processes cannot be redrawn)."""
+    mu_s, mu_k = _pair_of_normals(descriptor, z_s, z_k)
+    mu_s = max(min(max(mu_s, descriptor[10]), descriptor[11]), 0.0)
+    mu_k = max(min(max(mu_k, descriptor[12]), descriptor[13]), 0.0)
+    return mu_s, min(mu_k, mu_s)
+
+
+@compiled
+def _start_filter(descriptor, cursor, seed, sample, contact):
+    """Set the cursor to knot 0 of a correlated process, in its stationary state."""
+    z_s, z_k = normals(seed, sample, contact, 0, 0)
+    y_s, y_k = normals(seed, sample, contact, 0, 1)
+    rate = math.sqrt(3.0) / descriptor[14]
+    cursor[2], cursor[3] = _clipped_pair(descriptor, z_s, z_k)
+    cursor[4], cursor[5] = cursor[2], cursor[3]
+    cursor[6], cursor[7], cursor[8], cursor[9] = z_s, rate * y_s, z_k, rate * y_k
+    cursor[0] = 1.0
+    cursor[1] = -1.0
+    _advance_filter(descriptor, cursor, seed, sample, contact, 1)
+    cursor[1] = 0.0
+
+
+@compiled
+def _advance_filter(descriptor, cursor, seed, sample, contact, knot):
+    """Move the pair at the next knot to the pair at this one, and draw the one at ``knot`` from the filter."""
+    cursor[2], cursor[3] = cursor[4], cursor[5]
+    z_s, z_k = normals(seed, sample, contact, knot, 0)
+    if descriptor[0] == 2.0:
+        a = math.exp(-descriptor[3] / descriptor[14])
+        b = math.sqrt(1.0 - a * a)
+        cursor[6] = a * cursor[6] + b * z_s
+        cursor[8] = a * cursor[8] + b * z_k
+    else:
+        y_s, y_k = normals(seed, sample, contact, knot, 1)
+        cursor[6], cursor[7] = _matern_step(cursor[6], cursor[7], descriptor[3], descriptor[14], z_s, y_s)
+        cursor[8], cursor[9] = _matern_step(cursor[8], cursor[9], descriptor[3], descriptor[14], z_k, y_k)
+    cursor[4], cursor[5] = _clipped_pair(descriptor, cursor[6], cursor[8])
+
+
+@compiled
+def _matern_step(f, g, h, correlation, z, y):
+    """Return value and derivative of a unit Matern-3/2 process after h: exact transition and exact noise covariance."""
+    rate = math.sqrt(3.0) / correlation
+    e = math.exp(-rate * h)
+    a11, a12 = e * (1.0 + rate * h), e * h
+    a21, a22 = -e * rate * rate * h, e * (1.0 - rate * h)
+    q11 = 1.0 - (a11 * a11 + a12 * a12 * rate * rate)
+    q12 = -(a11 * a21 + a12 * a22 * rate * rate)
+    q22 = rate * rate - (a21 * a21 + a22 * a22 * rate * rate)
+    l11 = math.sqrt(max(q11, 0.0))
+    l21 = q12 / l11 if l11 > 0.0 else 0.0
+    l22 = math.sqrt(max(q22 - l21 * l21, 0.0))
+    return a11 * f + a12 * g + l11 * z, a21 * f + a22 * g + l21 * z + l22 * y

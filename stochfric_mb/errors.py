@@ -1,0 +1,92 @@
+"""The errors this package raises, and the two checks that build most of them.
+
+Every message names the value, the rule it broke and the remedy.
+"""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Iterable
+
+
+class StochfricError(Exception):
+    """Base of every error raised on purpose by this package."""
+
+
+class InputError(StochfricError, ValueError):
+    """A value, key, file or option that cannot be used as given."""
+
+
+class MissingEngineError(StochfricError, ImportError):
+    """An optional engine or reader that is not installed."""
+
+
+class StabilityError(InputError):
+    """A step size beyond the stability limit of the law."""
+
+
+class SimulationError(StochfricError, RuntimeError):
+    """An engine that failed, or returned success with a wrong or non-finite state."""
+
+
+def require_number(
+    name: str,
+    value: object,
+    *,
+    low: float = -math.inf,
+    high: float = math.inf,
+    above: float = -math.inf,
+    below: float = math.inf,
+    unit: str = "-",
+) -> float:
+    """Return ``value`` as a float once it is finite and within its bounds.
+
+    Args:
+        name: what the message calls the value.
+        value: the candidate.
+        low, high: inclusive bounds.
+        above, below: exclusive bounds.
+        unit: unit of the bounds, for the message.
+
+    Raises:
+        InputError: ``value`` is not a finite number within the bounds.
+    """
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        try:
+            value = float(value)  # type: ignore[arg-type]  # NumPy scalars
+        except (TypeError, ValueError):
+            raise InputError(f"{name} = {value!r} is not a number; give a number in [{unit}]") from None
+    number = float(value)
+    if not math.isfinite(number):
+        raise InputError(f"{name} = {number} is not finite; give a finite number in [{unit}]")
+    if number < low or number <= above or number > high or number >= below:
+        raise InputError(f"{name} = {number:g} {unit} is out of range: {name} must be {_range(low, high, above, below)}")
+    return number
+
+
+def require_name(what: str, name: str, known: Iterable[str]) -> str:
+    """Return ``name`` if it is one of ``known``; otherwise list what is known.
+
+    Raises:
+        InputError: ``name`` is unknown; the message names the nearest and lists all.
+    """
+    names = sorted(known)
+    if name in names:
+        return name
+    near = difflib.get_close_matches(str(name), names, n=1)
+    hint = f"; did you mean {near[0]!r}?" if near else ""
+    raise InputError(f"unknown {what} {name!r}{hint} Known: {', '.join(names)}")
+
+
+def _range(low: float, high: float, above: float, below: float) -> str:
+    parts: list[str] = []
+    if above > -math.inf:
+        parts.append(f"> {above:g}")
+    elif low > -math.inf:
+        parts.append(f">= {low:g}")
+    if below < math.inf:
+        parts.append(f"< {below:g}")
+    elif high < math.inf:
+        parts.append(f"<= {high:g}")
+    return " and ".join(parts)

@@ -1,0 +1,58 @@
+"""Friction laws, one file each; `LAWS` is the registry: a new law is a new file and one line here."""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib
+from typing import Any
+
+from stochfric_mb.errors import InputError, require_name
+from stochfric_mb.laws.contract import AXIOMS, GUARDS, Law
+
+LAWS: dict[str, tuple[str, str]] = {
+    "coulomb": ("stochfric_mb.laws.coulomb", "Coulomb"),
+    "havsin": ("stochfric_mb.laws.havsin", "Havsin"),
+    "tanh": ("stochfric_mb.laws.tanh", "Tanh"),
+    "karnopp": ("stochfric_mb.laws.karnopp", "Karnopp"),
+    "piecewise_linear": ("stochfric_mb.laws.piecewise_linear", "PiecewiseLinear"),
+    "smooth": ("stochfric_mb.laws.smooth", "Smooth"),
+    "elastic_stick": ("stochfric_mb.laws.elastic_stick", "ElasticStick"),
+    "stribeck": ("stochfric_mb.laws.stribeck", "Stribeck"),
+    "dahl": ("stochfric_mb.laws.dahl", "Dahl"),
+    "lugre": ("stochfric_mb.laws.lugre", "Lugre"),
+}
+"""Kind of a law -> its module and class."""
+
+__all__ = ["AXIOMS", "GUARDS", "LAWS", "Law", "law_class", "make_law", "register_law"]
+
+
+def law_class(kind: str) -> type[Law]:
+    """Return the class of a law by its kind.
+
+    Raises:
+        InputError: the kind is unknown; the message lists the known ones.
+    """
+    module, name = LAWS[require_name("law", kind, LAWS)]
+    return getattr(importlib.import_module(module), name)
+
+
+def make_law(kind: str, **parameters: Any) -> Law:
+    """Return a law from its kind and the parameters of its class.
+
+    Raises:
+        InputError: unknown kind, unknown or missing parameter, or a value out of range.
+    """
+    cls = law_class(kind)
+    fields = {f.name: f for f in dataclasses.fields(cls)}
+    for name in parameters:
+        require_name(f"parameter of law {kind}", name, fields)
+    missing = [n for n, f in fields.items() if f.default is dataclasses.MISSING and n not in parameters]
+    if missing:
+        raise InputError(f"law {kind} lacks {', '.join(missing)}; give a number for each")
+    return cls(**parameters)
+
+
+def register_law(cls: type[Law]) -> type[Law]:
+    """Add a user's own law class to the registry (usable as a class decorator)."""
+    LAWS[cls.kind] = (cls.__module__, cls.__name__)
+    return cls

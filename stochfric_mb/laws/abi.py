@@ -1,0 +1,135 @@
+"""A law's compiled functions as C function pointers, so that one compiled law serves every compiled caller.
+
+Signatures (all reals are C doubles; ``state``, ``p`` and ``out`` are pointers to doubles)::
+
+    force, commit, init, guards: void(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, state, p, out)
+    flow:                        void(vx, vy, normal_force, zx, zy, mu_s, mu_k, p, out)
+
+The wrappers below are templates: each is bound to the law's own module (its global names and its file), so that numba
+caches them beside the law.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from types import FunctionType, ModuleType
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+from stochfric_mb.compile import native
+from stochfric_mb.laws import law_class
+
+_DOUBLE = types.float64
+_POINTER = types.CPointer(types.float64)
+LAW_SIGNATURE = types.void(*[_DOUBLE] * 11, _POINTER, _POINTER, _POINTER)
+FLOW_SIGNATURE = types.void(*[_DOUBLE] * 7, _POINTER, _POINTER)
+MAX_STATE = 8
+"""Most state entries a law may have."""
+
+
+@dataclasses.dataclass(frozen=True)
+class NativeLaw:
+    """Addresses of a law's C functions in this process."""
+
+    init: int
+    """Address of ``init``."""
+    force: int
+    """Address of ``force``."""
+    commit: int
+    """Address of ``commit``."""
+    guards: int
+    """Address of ``guards``."""
+    flow: int
+    """Address of ``flow``, 0 where the law has none."""
+    n_state: int
+    """Number of state entries (at least 1)."""
+
+
+@functools.cache
+def native_law(kind: str) -> NativeLaw:
+    """Return the C functions of the law ``kind``, compiled (or loaded from the cache) at the first call."""
+    cls = law_class(kind)
+    module = cls.functions()
+    functions = {
+        name: _bind(template, module, LAW_SIGNATURE)
+        for name, template in {"init": _init, "force": _force, "commit": _commit, "guards": _guards}.items()
+    }
+    flow = _bind(_flow, module, FLOW_SIGNATURE) if cls.has_flow else 0
+    return NativeLaw(**functions, flow=flow, n_state=max(len(cls.state_names), 1))
+
+
+_alive: list[Any] = []
+
+
+def _bind(template: FunctionType, module: ModuleType, signature: Any) -> int:
+    """Compile ``template`` as if it stood in ``module``; return its address."""
+    name = f"native{template.__name__}"
+    code = template.__code__.replace(co_filename=module.__file__ or template.__code__.co_filename, co_name=name, co_qualname=name)
+    function = FunctionType(code, vars(module), name)
+    function.__module__ = module.__name__
+    function.__qualname__ = name
+    compiled = native(function, signature)
+    _alive.append(compiled)
+    return compiled.address
+
+
+# The names init, force, commit, guards and flow below are globals of the law's module.
+# ruff: noqa: F821
+
+
+def _init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, state, p, out):
+    new = init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, p)  # pyright: ignore
+    for i in range(len(new)):
+        out[i] = new[i]
+
+
+def _force(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, state, p, out):
+    out[0], out[1] = force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p)  # pyright: ignore
+
+
+def _commit(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, state, p, out):
+    new = commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p)  # pyright: ignore
+    for i in range(len(new)):
+        out[i] = new[i]
+
+
+def _guards(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, state, p, out):
+    new = guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p)  # pyright: ignore
+    for i in range(len(new)):
+        out[i] = new[i]
+
+
+def _flow(vx, vy, normal_force, zx, zy, mu_s, mu_k, p, out):
+    out[0], out[1], out[2], out[3] = flow(vx, vy, normal_force, zx, zy, mu_s, mu_k, p)  # pyright: ignore
+
+
+def _caller(n_doubles: int, n_pointers: int) -> Any:
+    """Return an intrinsic that calls a C function at an address: (address, doubles..., pointers as integers...)."""
+    double, word = ir.DoubleType(), ir.IntType(64)
+    function_type = ir.FunctionType(ir.VoidType(), [double] * n_doubles + [double.as_pointer()] * n_pointers)
+    signature = types.void(types.intp, *[types.float64] * n_doubles, *[types.intp] * n_pointers)
+
+    def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        function = builder.inttoptr(args[0], function_type.as_pointer())
+        pointers = [builder.inttoptr(a, double.as_pointer()) for a in args[1 + n_doubles :]]
+        builder.call(function, [*args[1 : 1 + n_doubles], *pointers])
+        return context.get_dummy_value()
+
+    assert word.width == 64
+    return signature, generate
+
+
+@intrinsic
+def call_law(typingctx, address, t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, state, p, out):
+    """Call force, commit, init or guards of a law at ``address``; pointers are integers (``array.ctypes.data``)."""
+    return _caller(11, 3)
+
+
+@intrinsic
+def call_flow(typingctx, address, vx, vy, normal_force, zx, zy, mu_s, mu_k, p, out):
+    """Call flow of a law at ``address``; pointers are integers."""
+    return _caller(7, 2)

@@ -1,0 +1,34 @@
+"""Small vector steps in the tangent plane that several laws share."""
+
+from __future__ import annotations
+
+import math
+
+from stochfric_mb.compile import compiled
+
+
+@compiled
+def along(magnitude, vx, vy):
+    """Return the vector of length ``magnitude`` along (vx, vy); zero where v is zero."""
+    speed = math.hypot(vx, vy)
+    if speed > 0.0:
+        return magnitude * (vx / speed), magnitude * (vy / speed)
+    return 0.0, 0.0
+
+
+@compiled
+def slip_direction(vx, vy, dx, dy):
+    """Return the unit vector along v while v keeps to the side of the committed direction d, otherwise d."""
+    speed = math.hypot(vx, vy)
+    if vx * dx + vy * dy > 0.0 and speed > 0.0:
+        return vx / speed, vy / speed
+    return dx, dy
+
+
+@compiled
+def clipped(fx, fy, limit):
+    """Return (fx, fy) shortened to length ``limit`` where it is longer (return mapping)."""
+    size = math.hypot(fx, fy)
+    if size > limit:
+        return fx * (limit / size), fy * (limit / size)
+    return fx, fy

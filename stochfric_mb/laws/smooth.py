@@ -1,0 +1,77 @@
+"""A smooth law for contact simulation: an arctangent step that falls from mu_s towards mu_k."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import ClassVar
+
+from stochfric_mb.compile import compiled
+from stochfric_mb.errors import require_number
+from stochfric_mb.laws.contract import Law
+from stochfric_mb.laws.plane import along
+
+
+@dataclasses.dataclass(frozen=True)
+class Smooth(Law):
+    """An infinitely smooth law: mu(v) = 2/pi arctan(v/v_s) [mu_k + (mu_s - mu_k)/(1 + (v/v_d)^2)].
+
+    Reference: P. Song, P. Kraus, V. Kumar, P. Dupont, J. Applied Mechanics 68, 2001, 118-128,
+    doi 10.1115/1.1331060, who smooth the sign function so that contact problems have one solution. Their article was
+    not at hand: the arctangent step is the usual form of such a law, and the fall to mu_k is ours, so that the law
+    takes both coefficients.
+    """
+
+    v_s: float = 1.0e-5
+    """Width of the step at v = 0 [m/s], > 0."""
+    v_d: float = 1.0e-3
+    """Velocity at which half of mu_s - mu_k is gone [m/s], > 0."""
+
+    kind: ClassVar[str] = "smooth"
+    equation: ClassVar[str] = "mu = 2/pi arctan(v/v_s) (mu_k + (mu_s - mu_k)/(1 + (v/v_d)^2))"
+    source: ClassVar[str] = "after Song, Kraus, Kumar and Dupont 2001"
+    exceptions: ClassVar[dict[str, str]] = {
+        "sticks": "creeps: any load is balanced at the velocity where mu(v) N equals it"
+    }
+    step_limit_formula: ClassVar[str] = "pi v_s m_eff/(mu_s N)"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require_number("v_s", self.v_s, above=0.0, unit="m/s")
+        require_number("v_d", self.v_d, above=0.0, unit="m/s")
+
+    def step_limit(self, normal_force: float, effective_mass: float) -> float:
+        """Return pi v_s m_eff/(mu_s N) [s]: at rest the law is a damper of 2 mu_s N/(pi v_s)."""
+        return math.pi * self.v_s * effective_mass / (self.mu_s * normal_force)
+
+
+@compiled
+def coefficient(speed, mu_s, mu_k, v_s, v_d):
+    """Return mu(speed) [-] for speed >= 0."""
+    fall = speed / v_d
+    return 2.0 / math.pi * math.atan(speed / v_s) * (mu_k + (mu_s - mu_k) / (1.0 + fall * fall))
+
+
+@compiled
+def init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, p):
+    """Return the state: none is needed (one unused entry)."""
+    return (0.0,)
+
+
+@compiled
+def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
+    """Return the friction force [N], mu(abs(v)) N along v."""
+    mu = coefficient(math.hypot(vx, vy), mu_s, mu_k, p[2], p[3])
+    return along(mu * normal_force, vx, vy)
+
+
+@compiled
+def commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
+    """Return the unchanged state."""
+    return (0.0,)
+
+
+@compiled
+def guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
+    """Return no guard: the law is smooth."""
+    return 1.0, 1.0, 1.0, 1.0, 1.0, 1.0

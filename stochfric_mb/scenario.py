@@ -1,0 +1,270 @@
+"""Scenarios: what is simulated, in no engine's words; read from TOML (`stochfric.scenario/1`)."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import math
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from stochfric_mb.coefficients import DISTRIBUTIONS, PROCESSES, CoefficientPath, Distribution, OutputStep, Process
+from stochfric_mb.errors import InputError, require_name, require_number
+from stochfric_mb.laws import Law, law_class, make_law
+from stochfric_mb.mechanisms import MECHANISMS, BeltBox
+
+SCHEMA = "stochfric.scenario/1"
+_TABLES = ("schema", "title", "mechanism", "law", "coefficients", "effects", "uncertainty", "simulation")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Scenario:
+    """A mechanism, its friction law and coefficients, and how long to simulate."""
+
+    mechanism: BeltBox
+    """What moves."""
+    law: Law
+    """The friction law."""
+    process: Process | None = None
+    """How the coefficients vary; None: they are constant."""
+    duration: float
+    """Time to simulate [s], > 0."""
+    output_step: float
+    """Distance between output samples [s], > 0, dividing the duration."""
+    title: str = ""
+    """A line for people."""
+    uncertainty: Mapping[str, float] = dataclasses.field(default_factory=dict)
+    """Relative standard deviations of what is believed [-]."""
+
+    def __post_init__(self) -> None:
+        require_number("simulation.duration", self.duration, above=0.0, unit="s")
+        require_number("simulation.output_step", self.output_step, above=0.0, unit="s")
+        n = self.duration / self.output_step
+        if abs(n - round(n)) > 1.0e-6 * n or round(n) < 1:
+            raise InputError(
+                f"simulation.output_step = {self.output_step:g} s does not divide duration = {self.duration:g} s; "
+                f"try {self.duration / max(round(n), 1):g} s"
+            )
+
+    @property
+    def n_outputs(self) -> int:
+        """Number of output samples, the one at t = 0 included."""
+        return round(self.duration / self.output_step) + 1
+
+    def output_times(self) -> list[float]:
+        """Return the output times [s], rounded to whole nanoseconds where they are."""
+        return [round(i * self.output_step, 9) if self.output_step >= 1.0e-6 else i * self.output_step for i in range(self.n_outputs)]
+
+    def path(self, seed: int, sample: int = 0, contact: int = 0) -> CoefficientPath:
+        """Return the coefficient path of this scenario's contact for (seed, sample, contact)."""
+        return CoefficientPath(self.process, self.law, seed=seed, sample=sample, contact=contact)
+
+    def step_limit(self) -> float:
+        """Return the law's explicit stability limit for this mechanism [s]."""
+        return self.law.step_limit(self.mechanism.normal_force, self.mechanism.mass)
+
+    def default_dt(self) -> float:
+        """Return 1e-4 s or half the law's explicit stability limit, whichever is smaller, dividing the output step."""
+        return fitting_step(min(1.0e-4, 0.5 * self.step_limit()), self.output_step)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the scenario as the content of its TOML file."""
+        tables: dict[str, Any] = {"schema": SCHEMA, "title": self.title, "mechanism": self.mechanism.to_dict(), "law": self.law.to_dict()}
+        if self.process is not None:
+            tables["coefficients"] = self.process.to_dict()
+        if self.uncertainty:
+            tables["uncertainty"] = dict(self.uncertainty)
+        return tables | {"simulation": {"duration": self.duration, "output_step": self.output_step}}
+
+
+def fitting_step(dt: float, output_step: float) -> float:
+    """Return the largest step [s] not above ``dt`` of which ``output_step`` is a whole multiple."""
+    return output_step / math.ceil(output_step / dt - 1.0e-9)
+
+
+def scenario_folders() -> list[Path]:
+    """Return the folders that hold the scenarios and scenes that come with the package."""
+    here = Path(__file__).resolve().parent
+    return [p for p in (here / "models", here.parent / "models") if p.is_dir()]
+
+
+def bundled_scenarios() -> dict[str, Path]:
+    """Return the scenarios that come with the package: name -> file."""
+    return {p.stem: p for folder in reversed(scenario_folders()) for p in sorted(folder.glob("*/*.toml"))}
+
+
+def load_scenario(source: str | Path, *, law: str | None = None, overrides: Sequence[str] = ()) -> Scenario:
+    """Read a scenario from a file, or by name from those that come with the package.
+
+    Args:
+        source: path of a TOML file, or a name such as ``kang2015_table1``.
+        law: kind of law that replaces the scenario's; shared parameters are kept.
+        overrides: ``table.key=value`` settings that replace the file's, such as ``law.mu_s=0.7``.
+
+    Raises:
+        InputError: no such file or name, or a content that is not a valid scenario; names the file and the key.
+    """
+    path = _locate(source)
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: not a TOML file: {error}") from None
+    if law is not None:
+        tables["law"] = _replace_law(tables.get("law", {}), law)
+    for setting in overrides:
+        _override(tables, setting)
+    try:
+        return scenario_from_dict(tables, folder=path.parent)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def scenario_from_dict(tables: Mapping[str, Any], *, folder: Path = Path()) -> Scenario:
+    """Return the scenario that the content of a TOML file describes.
+
+    Raises:
+        InputError: unknown or missing key, wrong type or value out of range.
+    """
+    for key in tables:
+        require_name("key", key, _TABLES)
+    if tables.get("schema") != SCHEMA:
+        raise InputError(f"schema = {tables.get('schema')!r}; this version reads {SCHEMA!r}")
+    simulation = _table(tables, "simulation")
+    for key in simulation:
+        require_name("key simulation.", key, ("duration", "output_step"))
+    if tables.get("effects"):
+        raise InputError(f"effects = {tables['effects']!r}: this version knows no effects; remove the [[effects]] tables")
+    numbers = {k: require_number(f"simulation.{k}", _need(simulation, "simulation", k)) for k in ("duration", "output_step")}
+    return Scenario(
+        title=str(tables.get("title", "")),
+        mechanism=_mechanism(_table(tables, "mechanism")),
+        law=_law(_table(tables, "law")),
+        process=_process(tables["coefficients"], numbers["output_step"], folder) if tables.get("coefficients") else None,
+        uncertainty=_uncertainty(tables.get("uncertainty", {})),
+        **numbers,
+    )
+
+
+def _locate(source: str | Path) -> Path:
+    path = Path(source)
+    if path.is_file():
+        return path
+    names = bundled_scenarios()
+    if path.suffix == "" and path.name in names and str(source) == path.name:
+        return names[path.name]
+    if path.is_dir():
+        raise InputError(f"{path} is a folder; give the scenario file in it")
+    raise InputError(f"no scenario file {str(source)!r}, and no bundled scenario of that name; bundled: {', '.join(sorted(names))}")
+
+
+def _replace_law(table: Mapping[str, Any], kind: str) -> dict[str, Any]:
+    known = {f.name for f in dataclasses.fields(law_class(kind))}
+    return {"kind": kind} | {k: v for k, v in table.items() if k in known}
+
+
+def _override(tables: dict[str, Any], setting: str) -> None:
+    name, equals, text = setting.partition("=")
+    keys = name.strip().split(".")
+    if not equals or len(keys) != 2:
+        raise InputError(f"--set {setting!r} is not of the form table.key=value, such as law.mu_s=0.7")
+    value: Any
+    try:
+        value = float(text)
+    except ValueError:
+        value = text.strip().strip("\"'")
+    tables.setdefault(keys[0], {})[keys[1]] = value
+
+
+def _table(tables: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    table = tables.get(name)
+    if not isinstance(table, Mapping):
+        raise InputError(f"table [{name}] is missing; a scenario needs [mechanism], [law] and [simulation]")
+    return table
+
+
+def _need(table: Mapping[str, Any], name: str, key: str) -> Any:
+    if key not in table:
+        raise InputError(f"key {name}.{key} is missing; add it to [{name}]")
+    return table[key]
+
+
+def _mechanism(table: Mapping[str, Any]) -> BeltBox:
+    kind = require_name("mechanism", _need(table, "mechanism", "kind"), MECHANISMS)
+    cls = MECHANISMS[kind]
+    fields = {f.name: f for f in dataclasses.fields(cls)}
+    values = {k: v for k, v in table.items() if k != "kind"}
+    for key in values:
+        require_name("key mechanism.", key, fields)
+    for key, field in fields.items():
+        if field.default is dataclasses.MISSING:
+            _need(values, "mechanism", key)
+    return cls(**{k: require_number(k, v) for k, v in values.items()})
+
+
+def _law(table: Mapping[str, Any]) -> Law:
+    kind = _need(table, "law", "kind")
+    words = {f.name for f in dataclasses.fields(law_class(str(kind))) if "choices" in f.metadata}
+    values = {k: v if k in words else require_number(f"law.{k}", v) for k, v in table.items() if k != "kind"}
+    return make_law(str(kind), **values)
+
+
+def _process(table: Any, output_step: float, folder: Path) -> Process:
+    if not isinstance(table, Mapping):
+        raise InputError(f"coefficients = {table!r} is not a table; write [coefficients]")
+    cls = PROCESSES[require_name("process", str(_need(table, "coefficients", "process")), PROCESSES)]
+    fields = {f.name: f for f in dataclasses.fields(cls)}
+    values: dict[str, Any] = {}
+    for key, value in table.items():
+        if key == "process":
+            continue
+        require_name(f"key coefficients. (process {cls.kind})", key, [*fields, "distribution"])
+        if key.startswith("distribution"):
+            values[key] = _distribution(value, folder)
+        else:
+            values[key] = require_number(f"coefficients.{key}", value)
+    if (common := values.pop("distribution", None)) is not None:
+        values = {"distribution_s": common, "distribution_k": common} | values
+    if cls is OutputStep:
+        values.setdefault("spacing", output_step)
+    for key, field in fields.items():
+        if field.default is dataclasses.MISSING:
+            _need(values, "coefficients", key)
+    return cls(**values)
+
+
+def _distribution(value: Any, folder: Path) -> Distribution:
+    table = {"kind": value} if isinstance(value, str) else dict(value)
+    cls = DISTRIBUTIONS[require_name("distribution", str(table.pop("kind", "")), DISTRIBUTIONS)]
+    if "file" in table:
+        table["values"] = _read_column(folder / str(table.pop("file")), table.pop("column", None))
+    fields = [f.name for f in dataclasses.fields(cls)]
+    for key in table:
+        require_name(f"key of distribution {cls.kind}", key, [*fields, "file", "column"])
+    if "values" in fields and "values" not in table:
+        raise InputError("distribution empirical needs file and column, or values; give a CSV file and the name of its column")
+    if isinstance(table.get("values"), list):
+        table["values"] = tuple(table["values"])
+    return cls(**table)
+
+
+def _read_column(path: Path, column: Any) -> tuple[float, ...]:
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}; distribution.file must name a CSV file with a header") from None
+    names = list(rows[0]) if rows else []
+    name = require_name(f"column of {path}", str(column if column is not None else (names[0] if names else "")), names)
+    values: list[float] = []
+    for number, row in enumerate(rows, start=2):
+        try:
+            values.append(float(row[name]))
+        except (TypeError, ValueError):
+            raise InputError(f"{path}, row {number}: {row[name]!r} in column {name!r} is not a number; remove or mend the row") from None
+    return tuple(values)
+
+
+def _uncertainty(table: Mapping[str, Any]) -> dict[str, float]:
+    return {str(k): require_number(f"uncertainty.{k}", v, low=0.0) for k, v in table.items()}
