@@ -56,5 +56,5 @@ def test_stribeck_fall_keeps_its_area(form, shape):
 
 @pytest.mark.parametrize("values", [(0.0, 13.0, 6.08), (1e-4, 0.0, 6.08), (1e-4, 13.0, -1.0), (math.nan, 13.0, 6.08)])
 def test_bad_numbers_are_named(values):
-    with pytest.raises(InputError, match="dt|normal_force|effective_mass"):
+    with pytest.raises(InputError, match=r"dt|normal_force|effective_mass"):
         elastic_substitute(make_law("coulomb", mu_s=0.8, mu_k=0.46), *values)
