@@ -48,7 +48,44 @@ _EXPORTS: dict[str, str] = {
     "SimulationError": "stochfric_mb.errors",
 }
 
-__all__ = [*_EXPORTS, "__version__"]  # pyright: ignore[reportUnsupportedDunderAll]
+__all__ = [
+    "BeltBox",
+    "CoefficientPath",
+    "Coulomb",
+    "Dahl",
+    "ElasticStick",
+    "Empirical",
+    "Friction",
+    "Havsin",
+    "InputError",
+    "Karnopp",
+    "Knots",
+    "Law",
+    "Lognormal",
+    "Lugre",
+    "Matern",
+    "MissingEngineError",
+    "Normal",
+    "OrnsteinUhlenbeck",
+    "OutputStep",
+    "PerEvent",
+    "PiecewiseLinear",
+    "Scenario",
+    "SimulationError",
+    "Smooth",
+    "Spatial",
+    "StabilityError",
+    "StochfricError",
+    "Stribeck",
+    "Tanh",
+    "Trajectory",
+    "TruncatedNormal",
+    "Uniform",
+    "__version__",
+    "load_scenario",
+    "make_law",
+    "register_law",
+]
 
 if TYPE_CHECKING:
     from stochfric_mb.coefficients import (

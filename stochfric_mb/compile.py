@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import tempfile
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numba
@@ -39,6 +40,7 @@ def _with_cache_folder(function: Callable[..., Any]) -> Callable[..., Any]:
     try:
         FunctionCache(function)
     except RuntimeError:
-        folder = os.path.join(tempfile.gettempdir(), f"stochfric_mb-{os.getuid() if hasattr(os, 'getuid') else 'cache'}")
-        numba.config.CACHE_DIR = folder  # type: ignore[attr-defined]
+        user = os.getuid() if hasattr(os, "getuid") else "cache"
+        folder = Path(tempfile.gettempdir()) / f"stochfric_mb-{user}"
+        numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]
     return function

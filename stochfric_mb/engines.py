@@ -54,7 +54,13 @@ ENGINES: dict[str, Engine] = {
         Engine("reference", "stochfric_mb.reference", "", "event-located integration", "this package"),
         Engine("mujoco", "stochfric_mb.mujoco.belt_box", "mujoco", "engine plugin, passive force, RK4", "Google DeepMind"),
         Engine("exudyn", "stochfric_mb.exudyn.belt_box", "exudyn", "symbolic user function, PostStep commit", "J. Gerstmayr"),
-        Engine("pymunk", "stochfric_mb.pymunk.belt_box", "pymunk", "force before the step; cap override for coulomb", "V. Blomqvist"),
+        Engine(
+            "pymunk",
+            "stochfric_mb.pymunk.belt_box",
+            "pymunk",
+            "force before the step; cap override for coulomb",
+            "V. Blomqvist",
+        ),
     )
 }
 """Name of an engine -> where it lives."""

@@ -45,8 +45,10 @@ def require_number(
     Args:
         name: what the message calls the value.
         value: the candidate.
-        low, high: inclusive bounds.
-        above, below: exclusive bounds.
+        low: inclusive lower bound.
+        high: inclusive upper bound.
+        above: exclusive lower bound.
+        below: exclusive upper bound.
         unit: unit of the bounds, for the message.
 
     Raises:

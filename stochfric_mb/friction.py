@@ -31,6 +31,6 @@ def as_friction(friction: Law | Friction) -> Friction:
     """
     if isinstance(friction, Friction):
         return friction
-    if isinstance(friction, Law):
+    if isinstance(friction, Law):  # pyright: ignore[reportUnnecessaryIsInstance]  # callers may not be typed
         return Friction(friction)
     raise InputError(f"friction = {friction!r} is neither a law nor a Friction; pass e.g. ElasticStick(mu_s=0.8, mu_k=0.46)")

@@ -8,7 +8,7 @@ import math
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from stochfric_mb.coefficients import DISTRIBUTIONS, PROCESSES, CoefficientPath, Distribution, OutputStep, Process
 from stochfric_mb.errors import InputError, require_name, require_number
@@ -35,7 +35,7 @@ class Scenario:
     """Distance between output samples [s], > 0, dividing the duration."""
     title: str = ""
     """A line for people."""
-    uncertainty: Mapping[str, float] = dataclasses.field(default_factory=dict)
+    uncertainty: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Relative standard deviations of what is believed [-]."""
 
     def __post_init__(self) -> None:
@@ -55,7 +55,10 @@ class Scenario:
 
     def output_times(self) -> list[float]:
         """Return the output times [s], rounded to whole nanoseconds where they are."""
-        return [round(i * self.output_step, 9) if self.output_step >= 1.0e-6 else i * self.output_step for i in range(self.n_outputs)]
+        return [
+            round(i * self.output_step, 9) if self.output_step >= 1.0e-6 else i * self.output_step
+            for i in range(self.n_outputs)
+        ]
 
     def path(self, seed: int, sample: int = 0, contact: int = 0) -> CoefficientPath:
         """Return the coefficient path of this scenario's contact for (seed, sample, contact)."""
@@ -71,7 +74,12 @@ class Scenario:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the scenario as the content of its TOML file."""
-        tables: dict[str, Any] = {"schema": SCHEMA, "title": self.title, "mechanism": self.mechanism.to_dict(), "law": self.law.to_dict()}
+        tables: dict[str, Any] = {
+            "schema": SCHEMA,
+            "title": self.title,
+            "mechanism": self.mechanism.to_dict(),
+            "law": self.law.to_dict(),
+        }
         if self.process is not None:
             tables["coefficients"] = self.process.to_dict()
         if self.uncertainty:
@@ -141,7 +149,9 @@ def scenario_from_dict(tables: Mapping[str, Any], *, folder: Path = Path()) -> S
         title=str(tables.get("title", "")),
         mechanism=_mechanism(_table(tables, "mechanism")),
         law=_law(_table(tables, "law")),
-        process=_process(tables["coefficients"], numbers["output_step"], folder) if tables.get("coefficients") else None,
+        process=_process(_table(tables, "coefficients"), numbers["output_step"], folder)
+        if tables.get("coefficients")
+        else None,
         uncertainty=_uncertainty(tables.get("uncertainty", {})),
         **numbers,
     )
@@ -156,7 +166,9 @@ def _locate(source: str | Path) -> Path:
         return names[path.name]
     if path.is_dir():
         raise InputError(f"{path} is a folder; give the scenario file in it")
-    raise InputError(f"no scenario file {str(source)!r}, and no bundled scenario of that name; bundled: {', '.join(sorted(names))}")
+    raise InputError(
+        f"no scenario file {str(source)!r}, and no bundled scenario of that name; bundled: {', '.join(sorted(names))}"
+    )
 
 
 def _replace_law(table: Mapping[str, Any], kind: str) -> dict[str, Any]:
@@ -180,8 +192,9 @@ def _override(tables: dict[str, Any], setting: str) -> None:
 def _table(tables: Mapping[str, Any], name: str) -> Mapping[str, Any]:
     table = tables.get(name)
     if not isinstance(table, Mapping):
-        raise InputError(f"table [{name}] is missing; a scenario needs [mechanism], [law] and [simulation]")
-    return table
+        needed = "a scenario needs the tables [mechanism], [law] and [simulation]"
+        raise InputError(f"{name} = {table!r}: {needed}; write [{name}]")
+    return cast(Mapping[str, Any], table)
 
 
 def _need(table: Mapping[str, Any], name: str, key: str) -> Any:
@@ -204,15 +217,17 @@ def _mechanism(table: Mapping[str, Any]) -> BeltBox:
 
 
 def _law(table: Mapping[str, Any]) -> Law:
-    kind = _need(table, "law", "kind")
-    words = {f.name for f in dataclasses.fields(law_class(str(kind))) if "choices" in f.metadata}
-    values = {k: v if k in words else require_number(f"law.{k}", v) for k, v in table.items() if k != "kind"}
-    return make_law(str(kind), **values)
+    cls = law_class(str(_need(table, "law", "kind")))
+    fields = {f.name: f for f in dataclasses.fields(cls)}
+    values = {k: v for k, v in table.items() if k != "kind"}
+    for key in values:
+        require_name(f"parameter of law {cls.kind}", key, fields)
+    return make_law(
+        cls.kind, **{k: v if "choices" in fields[k].metadata else require_number(f"law.{k}", v) for k, v in values.items()}
+    )
 
 
-def _process(table: Any, output_step: float, folder: Path) -> Process:
-    if not isinstance(table, Mapping):
-        raise InputError(f"coefficients = {table!r} is not a table; write [coefficients]")
+def _process(table: Mapping[str, Any], output_step: float, folder: Path) -> Process:
     cls = PROCESSES[require_name("process", str(_need(table, "coefficients", "process")), PROCESSES)]
     fields = {f.name: f for f in dataclasses.fields(cls)}
     values: dict[str, Any] = {}
@@ -235,7 +250,7 @@ def _process(table: Any, output_step: float, folder: Path) -> Process:
 
 
 def _distribution(value: Any, folder: Path) -> Distribution:
-    table = {"kind": value} if isinstance(value, str) else dict(value)
+    table: dict[str, Any] = {"kind": value} if isinstance(value, str) else dict(value)
     cls = DISTRIBUTIONS[require_name("distribution", str(table.pop("kind", "")), DISTRIBUTIONS)]
     if "file" in table:
         table["values"] = _read_column(folder / str(table.pop("file")), table.pop("column", None))
@@ -262,7 +277,9 @@ def _read_column(path: Path, column: Any) -> tuple[float, ...]:
         try:
             values.append(float(row[name]))
         except (TypeError, ValueError):
-            raise InputError(f"{path}, row {number}: {row[name]!r} in column {name!r} is not a number; remove or mend the row") from None
+            raise InputError(
+                f"{path}, row {number}: {row[name]!r} in column {name!r} is not a number; remove or mend the row"
+            ) from None
     return tuple(values)
 
 

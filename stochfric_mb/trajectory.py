@@ -43,7 +43,7 @@ class Trajectory:
     """Kinetic coefficient [-]."""
     stick: Array
     """1 where the contact sticks, otherwise 0."""
-    attributes: dict[str, Any] = dataclasses.field(default_factory=dict)
+    attributes: dict[str, Any] = dataclasses.field(default_factory=dict[str, Any])
     """What made it: engine, version, hook, dt, seed, notes, seconds_per_step, ..."""
     events: Array = dataclasses.field(default_factory=lambda: np.empty((0, 2)))
     """Located switches, shape (n_events, 2): time [s] and 1 (break-away) or 0 (stick); empty if not located."""

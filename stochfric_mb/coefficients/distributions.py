@@ -1,5 +1,9 @@
 """Marginal distributions of a coefficient, each a function of a standard normal (so that any process can use it)."""
 
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
 from __future__ import annotations
 
 import dataclasses
@@ -119,9 +123,7 @@ class Empirical(Distribution):
         return np.quantile(np.array(self.values), np.linspace(0.0, 1.0, QUANTILES))
 
 
-DISTRIBUTIONS: dict[str, type[Distribution]] = {
-    d.kind: d for d in (Normal, TruncatedNormal, Lognormal, Uniform, Empirical)
-}
+DISTRIBUTIONS: dict[str, type[Distribution]] = {d.kind: d for d in (Normal, TruncatedNormal, Lognormal, Uniform, Empirical)}
 """Kind of a distribution -> its class."""
 
 
@@ -132,8 +134,11 @@ def transform(z, code, mean, sigma, table, start, count):
     Args:
         z: standard normal.
         code: number of the distribution.
-        mean, sigma: mean and standard deviation [-].
-        table: array that holds the quantiles of an empirical distribution from index ``start``, ``count`` of them.
+        mean: mean [-].
+        sigma: standard deviation [-].
+        table: array that holds the quantiles of an empirical distribution.
+        start: index of the first quantile.
+        count: number of quantiles.
     """
     if code == 0.0:
         return mean + sigma * z

@@ -5,6 +5,10 @@ around the last evaluation. The cursor is a cache: results depend on the address
 evaluation, the step size or the thread.
 """
 
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
 from __future__ import annotations
 
 import math
@@ -34,7 +38,9 @@ class CoefficientPath:
         Args:
             process: the coefficient process, or None.
             law: the law whose mu_s, mu_k are the means.
-            seed, sample, contact: address of the path, each an integer in [0, 2^32).
+            seed: first part of the address, an integer in [0, 2^32).
+            sample: second part, likewise: the run of an ensemble.
+            contact: third part, likewise: the contact of a model.
 
         Raises:
             InputError: an address outside its range, or means and deviations without feasible pairs.
@@ -142,7 +148,7 @@ def independent_pair(descriptor, seed, sample, contact, knot):
         z_s, z_k = normals(seed, sample, contact, knot, attempt)
         mu_s, mu_k = _pair_of_normals(descriptor, z_s, z_k)
         inside = descriptor[10] <= mu_s <= descriptor[11] and descriptor[12] <= mu_k <= descriptor[13]
-        if inside and 0.0 <= mu_k and mu_k < mu_s:
+        if inside and mu_k >= 0.0 and mu_k < mu_s:
             return mu_s, mu_k
     return descriptor[4], descriptor[5]
 

@@ -10,6 +10,10 @@ Reference: J. Salmon, M. Moraes, R. Dror, D. Shaw, Parallel random numbers: as e
 doi 10.1145/2063384.2063405.
 """
 
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
 from __future__ import annotations
 
 import math
@@ -86,9 +90,9 @@ def _from_bits(typingctx, x):
 @compiled
 def _log(x):
     """Return the natural logarithm of a normal positive double."""
-    bits = _bits(x)
+    bits = _bits(x)  # pyright: ignore[reportCallIssue]
     exponent = float64(int64(bits >> _52) - 1023)
-    mantissa = _from_bits((bits & _MANTISSA) | _ONE)
+    mantissa = _from_bits((bits & _MANTISSA) | _ONE)  # pyright: ignore[reportCallIssue]
     if mantissa > 1.4142135623730951:
         mantissa *= 0.5
         exponent += 1.0

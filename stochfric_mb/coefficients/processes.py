@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import warnings
-from typing import Any, ClassVar
+from typing import Any, ClassVar, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +21,7 @@ class FeasibilityWarning(UserWarning):
 
 INDEPENDENT, ORNSTEIN_UHLENBECK, MATERN = 1.0, 2.0, 3.0
 TIME, POSITION, EVENT = 0.0, 1.0, 2.0
+NORMAL = Normal()
 HEADER = 20
 """Entries of a descriptor before the quantile tables."""
 
@@ -33,9 +34,9 @@ class Process:
     """Standard deviation of mu_s [-], >= 0."""
     sigma_k: float
     """Standard deviation of mu_k [-], >= 0."""
-    distribution_s: Distribution = Normal()
+    distribution_s: Distribution = NORMAL
     """Marginal distribution of mu_s."""
-    distribution_k: Distribution = Normal()
+    distribution_k: Distribution = NORMAL
     """Marginal distribution of mu_k."""
 
     kind: ClassVar[str]
@@ -70,6 +71,7 @@ class Process:
 
         Raises:
             InputError: infeasible pairs (mu_k >= mu_s or mu_k < 0) are beyond reason.
+
         Warns:
             FeasibilityWarning: below d = (mu_s - mu_k)/sqrt(sigma_s^2 + sigma_k^2) = 2.
         """
@@ -94,7 +96,8 @@ class Process:
                     table[name] = value
             elif not isinstance(value, Normal):
                 table[name] = {"kind": value.kind} | {
-                    k: list(v) if isinstance(v, tuple) else v for k, v in dataclasses.asdict(value).items()
+                    k: list(cast(tuple[float, ...], v)) if isinstance(v, tuple) else v
+                    for k, v in dataclasses.asdict(value).items()
                 }
         return table
 
@@ -222,7 +225,5 @@ class PerEvent(Process):
     linear: ClassVar[bool] = False
 
 
-PROCESSES: dict[str, type[Process]] = {
-    p.kind: p for p in (Knots, OutputStep, OrnsteinUhlenbeck, Matern, Spatial, PerEvent)
-}
+PROCESSES: dict[str, type[Process]] = {p.kind: p for p in (Knots, OutputStep, OrnsteinUhlenbeck, Matern, Spatial, PerEvent)}
 """Kind of a process -> its class."""

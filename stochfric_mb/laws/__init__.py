@@ -9,7 +9,7 @@ from typing import Any
 from stochfric_mb.errors import InputError, require_name
 from stochfric_mb.laws.contract import AXIOMS, GUARDS, Law
 
-LAWS: dict[str, tuple[str, str]] = {
+LAWS: dict[str, tuple[str, str] | type[Law]] = {
     "coulomb": ("stochfric_mb.laws.coulomb", "Coulomb"),
     "havsin": ("stochfric_mb.laws.havsin", "Havsin"),
     "tanh": ("stochfric_mb.laws.tanh", "Tanh"),
@@ -21,7 +21,7 @@ LAWS: dict[str, tuple[str, str]] = {
     "dahl": ("stochfric_mb.laws.dahl", "Dahl"),
     "lugre": ("stochfric_mb.laws.lugre", "Lugre"),
 }
-"""Kind of a law -> its module and class."""
+"""Kind of a law -> its module and class name, or the class itself if a user registered it."""
 
 __all__ = ["AXIOMS", "GUARDS", "LAWS", "Law", "law_class", "make_law", "register_law"]
 
@@ -32,8 +32,11 @@ def law_class(kind: str) -> type[Law]:
     Raises:
         InputError: the kind is unknown; the message lists the known ones.
     """
-    module, name = LAWS[require_name("law", kind, LAWS)]
-    return getattr(importlib.import_module(module), name)
+    entry = LAWS[require_name("law", kind, LAWS)]
+    if isinstance(entry, tuple):
+        module, name = entry
+        return getattr(importlib.import_module(module), name)
+    return entry
 
 
 def make_law(kind: str, **parameters: Any) -> Law:
@@ -53,6 +56,6 @@ def make_law(kind: str, **parameters: Any) -> Law:
 
 
 def register_law(cls: type[Law]) -> type[Law]:
-    """Add a user's own law class to the registry (usable as a class decorator)."""
-    LAWS[cls.kind] = (cls.__module__, cls.__name__)
+    """Add a user's own law class to the registry (usable as a class decorator); its module holds its functions."""
+    LAWS[cls.kind] = cls
     return cls

@@ -9,6 +9,10 @@ The wrappers below are templates: each is bound to the law's own module (its glo
 caches them beside the law.
 """
 
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
 from __future__ import annotations
 
 import dataclasses
@@ -68,7 +72,9 @@ _alive: list[Any] = []
 def _bind(template: FunctionType, module: ModuleType, signature: Any) -> int:
     """Compile ``template`` as if it stood in ``module``; return its address."""
     name = f"native{template.__name__}"
-    code = template.__code__.replace(co_filename=module.__file__ or template.__code__.co_filename, co_name=name, co_qualname=name)
+    code = template.__code__.replace(
+        co_filename=module.__file__ or template.__code__.co_filename, co_name=name, co_qualname=name
+    )
     function = FunctionType(code, vars(module), name)
     function.__module__ = module.__name__
     function.__qualname__ = name

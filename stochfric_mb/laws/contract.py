@@ -85,8 +85,7 @@ class Law:
         require_number("mu_s", self.mu_s, above=0.0)
         if self.mu_k > self.mu_s:
             raise InputError(
-                f"mu_k = {self.mu_k:g} is above mu_s = {self.mu_s:g}; a law needs mu_k <= mu_s: "
-                "swap them or lower mu_k"
+                f"mu_k = {self.mu_k:g} is above mu_s = {self.mu_s:g}; a law needs mu_k <= mu_s: swap them or lower mu_k"
             )
 
     def parameters(self) -> npt.NDArray[np.float64]:

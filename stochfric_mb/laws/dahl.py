@@ -1,5 +1,9 @@
 """Dahl friction: a bristle whose force approaches mu_k N along the path, whatever the speed."""
 
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
 from __future__ import annotations
 
 import dataclasses
@@ -31,6 +35,7 @@ class Dahl(Law):
     has_flow: ClassVar[bool] = True
     exceptions: ClassVar[dict[str, str]] = {
         "sticks": "drifts under a load that oscillates, and has no mu_s: it lets go at mu_k N",
+        "passive": "a bristle without damping is pumped by a normal force that changes at its own frequency",
     }
     step_limit_formula: ClassVar[str] = "2/omega, omega^2 = sigma_0 N/m_eff"
 

@@ -1,5 +1,9 @@
 """Elastic stick: a spring and a damper while stuck, an exponentially falling coefficient while sliding."""
 
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
 from __future__ import annotations
 
 import dataclasses
@@ -50,7 +54,10 @@ class ElasticStick(Law):
     source: ClassVar[str] = "Kang, Choi and Yoo 2015, eqs. 3-6"
     state_names: ClassVar[tuple[str, ...]] = ("mode", "ax", "ay", "dx", "dy")
     needs_effective_mass: ClassVar[bool] = True
-    exceptions: ClassVar[dict[str, str]] = {}
+    exceptions: ClassVar[dict[str, str]] = {
+        "passive": "re-stick starts with a loaded spring (that keeps the force continuous): a body slower than "
+        "e_lim omega can return faster than it came, by at most mu_s N e_lim/2 of energy, whether N changes or not"
+    }
     step_limit_formula: ClassVar[str] = "2 (sqrt(1 + zeta^2) - zeta)/omega, omega^2 = mu_s N/(e_lim m_eff)"
 
     def __post_init__(self) -> None:

@@ -1,5 +1,9 @@
 """Karnopp's law: a small velocity zone in which the contact counts as at rest and the holding force acts."""
 
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
 from __future__ import annotations
 
 import dataclasses
@@ -67,21 +71,11 @@ def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx
 def commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the state after an accepted step: by speed alone, and in the zone by the holding force."""
     speed = math.hypot(vx, vy)
-    hold = math.hypot(hx, hy)
-    loose = hold > mu_s * normal_force
-    if state[0] == STICK:
-        if loose:
-            return ZONE, hx / hold, hy / hold
-        return STICK, 0.0, 0.0
-    if state[0] == ZONE:
-        if speed >= p[2]:
-            return SLIP, vx / speed, vy / speed
-        if loose:
-            return ZONE, hx / hold, hy / hold
-        return STICK, 0.0, 0.0
-    if speed > p[2]:
+    sliding = speed >= p[2] if state[0] == ZONE else speed > p[2]
+    if state[0] != STICK and sliding:
         return SLIP, vx / speed, vy / speed
-    if loose:
+    hold = math.hypot(hx, hy)
+    if hold > mu_s * normal_force:
         return ZONE, hx / hold, hy / hold
     return STICK, 0.0, 0.0
 

@@ -1,5 +1,9 @@
 """LuGre friction: a bristle with damping and a Stribeck curve."""
 
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
 from __future__ import annotations
 
 import dataclasses
@@ -42,7 +46,9 @@ class Lugre(Law):
         "bounded": "sigma_1 dz/dt and sigma_2 v come on top of sigma_0 z, which alone stays within mu_s",
         "sticks": "drifts: a load that oscillates below mu_s N moves the bristle a little further each cycle",
     }
-    step_limit_formula: ClassVar[str] = "2 (sqrt(1 + zeta^2) - zeta)/omega, omega^2 = sigma_0 N/m_eff, zeta = sigma_1 N/(2 m_eff omega)"
+    step_limit_formula: ClassVar[str] = (
+        "2 (sqrt(1 + zeta^2) - zeta)/omega, omega^2 = sigma_0 N/m_eff, zeta = sigma_1 N/(2 m_eff omega)"
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -1,5 +1,9 @@
 """Small vector steps in the tangent plane that several laws share."""
 
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
 from __future__ import annotations
 
 import math

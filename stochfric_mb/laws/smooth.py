@@ -1,5 +1,9 @@
 """A smooth law for contact simulation: an arctangent step that falls from mu_s towards mu_k."""
 
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
 from __future__ import annotations
 
 import dataclasses
@@ -30,9 +34,7 @@ class Smooth(Law):
     kind: ClassVar[str] = "smooth"
     equation: ClassVar[str] = "mu = 2/pi arctan(v/v_s) (mu_k + (mu_s - mu_k)/(1 + (v/v_d)^2))"
     source: ClassVar[str] = "after Song, Kraus, Kumar and Dupont 2001"
-    exceptions: ClassVar[dict[str, str]] = {
-        "sticks": "creeps: any load is balanced at the velocity where mu(v) N equals it"
-    }
+    exceptions: ClassVar[dict[str, str]] = {"sticks": "creeps: any load is balanced at the velocity where mu(v) N equals it"}
     step_limit_formula: ClassVar[str] = "pi v_s m_eff/(mu_s N)"
 
     def __post_init__(self) -> None:

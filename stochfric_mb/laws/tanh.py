@@ -1,5 +1,9 @@
 """Hyperbolic-tangent friction, the smoothing used by the DADS code."""
 
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
 from __future__ import annotations
 
 import dataclasses

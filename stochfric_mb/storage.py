@@ -1,0 +1,307 @@
+"""Files and folders that appear whole or not at all, and trajectories in NetCDF, CSV and Parquet."""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import json
+import os
+import re
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.errors import InputError, MissingEngineError
+from stochfric_mb.scenario import Scenario
+from stochfric_mb.trajectory import COLUMNS, Trajectory
+
+SCHEMA = "stochfric.trajectory/1"
+
+Array = npt.NDArray[np.float64]
+Attributes = dict[str, Any]
+
+
+# --- whole or not at all ---------------------------------------------------------------------------------------------
+
+
+def check_target(path: str | Path, *, force: bool = False, marker: str | None = None) -> Path:
+    """Return ``path`` once it can be written: nothing there, or ``force``; a missing parent folder is no obstacle.
+
+    Args:
+        path: the file or folder to be written.
+        force: whether what is there may be replaced.
+        marker: for a folder, a file in it that shows that it was written by the same command: a folder without it is
+            never replaced unless it is empty.
+
+    Raises:
+        InputError: it exists, is of the wrong kind, or its folder cannot be written.
+    """
+    path = Path(path)
+    what = "file" if marker is None else "folder"
+    if path.exists() and path.is_dir() != (marker is not None):
+        raise InputError(f"{path} exists and is not a {what}; give another name")
+    if path.exists() and not force:
+        raise InputError(f"{path} exists; give another name, or --force to replace it")
+    if marker is not None and path.exists() and any(path.iterdir()) and not (path / marker).is_file():
+        raise InputError(f"{path} is a folder without {marker}: it was not written by this command and is not replaced")
+    parent = next(p for p in path.absolute().parents if p.exists())
+    if not parent.is_dir() or not os.access(parent, os.W_OK):
+        raise InputError(f"{parent} is not a folder that can be written; give another place for {path.name}")
+    return path
+
+
+@contextlib.contextmanager
+def whole_file(path: Path) -> Iterator[Path]:
+    """Give a temporary file beside ``path`` that becomes ``path`` when the block ends, and vanishes when it fails."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".partial", dir=path.parent)
+    os.close(handle)
+    temporary = Path(name)
+    try:
+        yield temporary
+        temporary.chmod(0o666 & ~_umask())
+        temporary.replace(path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
+
+
+@contextlib.contextmanager
+def whole_folder(path: Path) -> Iterator[Path]:
+    """Give a temporary folder beside ``path`` that becomes ``path`` when the block ends, and vanishes when it fails.
+
+    A folder that is there already is replaced; it is put back if the replacement fails.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = Path(tempfile.mkdtemp(prefix=f".{path.name}.", suffix=".partial", dir=path.parent))
+    try:
+        yield temporary
+        temporary.chmod(0o777 & ~_umask())
+        _swap(temporary, path)
+    except BaseException:
+        shutil.rmtree(temporary, ignore_errors=True)
+        raise
+
+
+def _swap(temporary: Path, path: Path) -> None:
+    if not path.exists():
+        temporary.rename(path)
+        return
+    old = temporary.with_suffix(".old")
+    path.rename(old)
+    try:
+        temporary.rename(path)
+    except BaseException:
+        old.rename(path)
+        raise
+    shutil.rmtree(old, ignore_errors=True)
+
+
+def _umask() -> int:
+    """Return the process's file mode mask (which can only be read by setting it)."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+# --- trajectories ----------------------------------------------------------------------------------------------------
+
+
+def trajectory_ending(path: str | Path) -> str:
+    """Return the ending of a trajectory file.
+
+    Raises:
+        InputError: it is none of those that can be written.
+    """
+    ending = Path(path).suffix.lower()
+    if ending not in FORMATS:
+        raise InputError(f"{path}: ending {ending!r} is unknown; a trajectory is written as {', '.join(FORMATS)}")
+    if ending == ".parquet":
+        _pyarrow()
+    return ending
+
+
+def write_trajectory(
+    trajectory: Trajectory, path: str | Path, *, scenario: Scenario | None = None, force: bool = False
+) -> Path:
+    """Return the path of the file that now holds ``trajectory``; it is written whole or not at all.
+
+    Args:
+        trajectory: what to write.
+        path: target; its ending is ``.nc`` (NetCDF 4), ``.csv`` or ``.parquet``. Missing folders are made.
+        scenario: what was simulated; kept in NetCDF and Parquet files as its TOML text.
+        force: whether an existing file is replaced.
+
+    Raises:
+        InputError: unknown ending, or the file exists.
+        MissingEngineError: Parquet without pyarrow.
+    """
+    ending = trajectory_ending(path)
+    target = check_target(path, force=force)
+    write = FORMATS[ending][0]
+    with whole_file(target) as temporary:
+        write(trajectory.columns(), _attributes(trajectory, scenario), temporary)
+    return target
+
+
+def read_trajectory(path: str | Path) -> Trajectory:
+    """Return the trajectory in a file that `write_trajectory` wrote (a CSV file has no attributes).
+
+    Raises:
+        InputError: no such file, unknown ending, or a content that is not a trajectory; names the file and the place.
+        MissingEngineError: Parquet without pyarrow.
+    """
+    ending = trajectory_ending(path)
+    path = Path(path)
+    if not path.is_file():
+        raise InputError(f"{path}: no such file")
+    columns, attributes = FORMATS[ending][1](path)
+    for name in COLUMNS:
+        if name not in columns:
+            raise InputError(f"{path}: column {name!r} is missing; a trajectory has {', '.join(COLUMNS)}")
+        if (bad := np.flatnonzero(~np.isfinite(columns[name]))).size:
+            raise InputError(f"{path}, sample {bad[0] + 1}: {name} is not finite; remove or mend the sample")
+    if (bad := np.flatnonzero(np.diff(columns["time"]) <= 0.0)).size:
+        raise InputError(f"{path}, sample {bad[0] + 2}: time does not grow; sort the samples and remove repeated ones")
+    return Trajectory(**{name: columns[name] for name in COLUMNS}, attributes=attributes)
+
+
+def versions(*packages: str) -> dict[str, str]:
+    """Return the versions of Python, of this package and of those it computes with: name -> version."""
+    import importlib.metadata
+    import platform
+
+    from stochfric_mb import __version__
+
+    own = {"python": platform.python_version(), "stochfric_mb": __version__}
+    return own | {p: importlib.metadata.version(p) for p in ("numpy", "scipy", "numba", *packages)}
+
+
+def _attributes(trajectory: Trajectory, scenario: Scenario | None) -> Attributes:
+    """Return what a file says about itself: strings and numbers only."""
+    import tomli_w
+
+    given = dict(trajectory.attributes)
+    notes = "\n".join(given.pop("notes", []))
+    values: Attributes = {"schema": SCHEMA, "title": scenario.title if scenario else ""} | given
+    values |= {"notes": notes, "versions": json.dumps(versions())}
+    if scenario is not None:
+        values["scenario"] = tomli_w.dumps(scenario.to_dict())
+    return {k: v if isinstance(v, str | int | float) else json.dumps(v) for k, v in values.items()}
+
+
+def _restored(stored: Mapping[str, Any]) -> Attributes:
+    """Return the attributes of a file as they were before `_attributes`."""
+    values: Attributes = {k: v.item() if isinstance(v, np.generic) else v for k, v in stored.items()}
+    values["notes"] = str(values.get("notes", "")).splitlines()
+    return values
+
+
+def _write_netcdf(columns: Mapping[str, Array], attributes: Attributes, path: Path) -> None:
+    import xarray
+
+    variables = {
+        name: ("time", column, {"units": _cf_unit(COLUMNS[name][0]), "long_name": COLUMNS[name][1]})
+        for name, column in columns.items()
+    }
+    time = variables.pop("time")
+    dataset = xarray.Dataset(variables, coords={"time": time}, attrs={"Conventions": "CF-1.11"} | attributes)
+    dataset.to_netcdf(path, engine="h5netcdf")
+
+
+def _cf_unit(unit: str) -> str:
+    return {"-": "1", "m/s": "m s-1"}.get(unit, unit)
+
+
+def _read_netcdf(path: Path) -> tuple[dict[str, Array], Attributes]:
+    import xarray
+
+    try:
+        with xarray.open_dataset(path, engine="h5netcdf", decode_times=False) as dataset:
+            columns = {str(n): np.asarray(dataset[n].values, dtype=np.float64) for n in COLUMNS if n in dataset}
+            attributes = _restored({str(k): v for k, v in dataset.attrs.items()})
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: not a NetCDF 4 file: {error}") from None
+    if attributes.get("schema") != SCHEMA:
+        raise InputError(f"{path}: schema = {attributes.get('schema')!r}; this version reads {SCHEMA!r}")
+    return columns, attributes
+
+
+def _headers() -> list[str]:
+    return [f"{name} [{unit}]" for name, (unit, _) in COLUMNS.items()]
+
+
+def _write_csv(columns: Mapping[str, Array], _attributes: Attributes, path: Path) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(_headers())
+        writer.writerows(zip(*(column.tolist() for column in columns.values()), strict=True))
+
+
+def _read_csv(path: Path) -> tuple[dict[str, Array], Attributes]:
+    with path.open(newline="", encoding="utf-8") as file:
+        header, *rows = list(csv.reader(file)) or [[]]
+    names = [_name_of(path, text) for text in header]
+    values = np.empty((len(rows), len(names)))
+    for number, row in enumerate(rows):
+        try:
+            values[number] = [float(text) for text in row]
+        except ValueError:
+            raise InputError(f"{path}, row {number + 2}: expected {len(names)} numbers, got {','.join(row)!r}") from None
+    return dict(zip(names, values.T.copy(), strict=True)), {}
+
+
+def _write_parquet(columns: Mapping[str, Array], attributes: Attributes, path: Path) -> None:
+    arrow = _pyarrow()
+    import pyarrow.parquet
+
+    table = arrow.table(dict(zip(_headers(), columns.values(), strict=True)))
+    pyarrow.parquet.write_table(table.replace_schema_metadata({"stochfric": json.dumps(attributes)}), path)
+
+
+def _read_parquet(path: Path) -> tuple[dict[str, Array], Attributes]:
+    arrow = _pyarrow()
+    import pyarrow.parquet
+
+    try:
+        table = pyarrow.parquet.read_table(path)
+    except arrow.ArrowInvalid as error:
+        raise InputError(f"{path}: not a Parquet file: {error}") from None
+    stored = (table.schema.metadata or {}).get(b"stochfric", b"{}")
+    columns = {_name_of(path, n): table[n].to_numpy() for n in table.column_names}
+    return columns, _restored(json.loads(stored))
+
+
+def _name_of(path: Path, header: str) -> str:
+    """Return the quantity of a header such as ``position [m]``."""
+    match = re.fullmatch(r"\s*(\w+) \[(.+)\]\s*", header)
+    name, unit = match.groups() if match else (header, "")
+    if name not in COLUMNS or unit != COLUMNS[name][0]:
+        raise InputError(f"{path}: column {header!r} is unknown; a trajectory has {', '.join(_headers())}")
+    return name
+
+
+def _pyarrow() -> Any:
+    try:
+        import pyarrow
+    except ImportError:
+        raise MissingEngineError(
+            "Parquet files need pyarrow, which is not installed; run: pip install 'stochfric_mb[parquet]', or write .nc or .csv"
+        ) from None
+    return pyarrow
+
+
+Writer = Callable[[Mapping[str, Array], Attributes, Path], None]
+Reader = Callable[[Path], tuple[dict[str, Array], Attributes]]
+
+FORMATS: dict[str, tuple[Writer, Reader]] = {
+    ".nc": (_write_netcdf, _read_netcdf),
+    ".csv": (_write_csv, _read_csv),
+    ".parquet": (_write_parquet, _read_parquet),
+}
+"""Ending of a trajectory file -> what writes and what reads it."""

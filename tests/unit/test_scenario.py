@@ -1,0 +1,120 @@
+"""Scenario files: what is read, and what is refused with which words."""
+
+import re
+
+import numpy as np
+import pytest
+import tomli_w
+
+from stochfric_mb import Havsin, InputError, Knots, load_scenario
+from stochfric_mb.coefficients import Empirical, TruncatedNormal
+from stochfric_mb.scenario import bundled_scenarios, fitting_step, scenario_from_dict
+
+NAMES = ("kang2015_table1", "kang2015_table2_13_8", "kang2015_table2_18_7")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_bundled_scenarios_round_trip(name):
+    scenario = load_scenario(name)
+    assert scenario_from_dict(scenario.to_dict()) == scenario
+    assert bundled_scenarios().keys() >= set(NAMES)
+
+
+def test_table_1_is_the_papers():
+    scenario = load_scenario("kang2015_table1")
+    m = scenario.mechanism
+    assert (m.mass, m.damping, m.stiffness, m.normal_force, m.belt_velocity) == (6.08, 0.768, 3956.0, 13.0, 2.5e-3)
+    assert scenario.process == Knots(sigma_s=0.015, sigma_k=0.023, spacing=0.01)
+    assert scenario.n_outputs == 10_001
+
+
+def test_law_and_settings_override_the_file():
+    scenario = load_scenario(
+        "kang2015_table1", law="havsin", overrides=["law.mu_s=.7", "law.v_s=2e-4", "simulation.duration=1"]
+    )
+    assert scenario.law == Havsin(mu_s=0.7, mu_k=0.46, v_s=2e-4)
+    assert scenario.duration == 1.0
+
+
+def test_the_default_step_is_half_the_limit_and_divides_the_output_step():
+    scenario = load_scenario("kang2015_table1", law="havsin")
+    dt = scenario.default_dt()
+    # 4 v_s m/(pi mu_s N), engines.md: 7.4e-5 s
+    assert scenario.step_limit() == pytest.approx(7.44e-5, rel=1e-3)
+    assert dt <= 0.5 * scenario.step_limit()
+    assert scenario.output_step / dt == pytest.approx(round(scenario.output_step / dt), abs=1e-9)
+    assert fitting_step(6e-5, 1e-3) == pytest.approx(1e-3 / 17)
+
+
+def tables(**changes):
+    content = load_scenario("kang2015_table1").to_dict()
+    for key, value in changes.items():
+        table, _, name = key.partition("__")
+        if name:
+            content[table] = {**content[table], name: value}
+        else:
+            content[table] = value
+    return content
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"mechanism__masss": 1.0}, "did you mean 'mass'"),
+        ({"mechanism__mass": -1.0}, "mass = -1 kg is out of range: mass must be > 0"),
+        ({"mechanism__mass": "heavy"}, "not a number"),
+        ({"mechanism__kind": "belt_bax"}, "did you mean 'belt_box'"),
+        ({"law__mu_k": 0.9}, "mu_k = 0.9 is above mu_s = 0.8"),
+        ({"law__form": "x"}, "unknown parameter of law elastic_stick"),
+        ({"coefficients__process": "knot"}, "did you mean 'knots'"),
+        ({"coefficients": {"process": "knots", "sigma_s": 0.1, "sigma_k": 0.1}}, "coefficients.spacing is missing"),
+        ({"simulation__output_step": 0.003}, "does not divide duration"),
+        ({"simulation__duration": -1.0}, "simulation.duration must be > 0"),
+        ({"schema": "stochfric.scenario/2"}, "this version reads"),
+        ({"law": None}, r"write \[law\]"),
+        ({"extra": {}}, "unknown key"),
+        ({"effects": [{"kind": "x"}]}, "knows no effects"),
+    ],
+)
+def test_bad_content(changes, words):
+    with pytest.raises(InputError, match=words):
+        scenario_from_dict(tables(**changes))
+
+
+def test_bad_files(tmp_path):
+    with pytest.raises(InputError, match="bundled: kang2015_table1"):
+        load_scenario("kang2015_table3")
+    with pytest.raises(InputError, match="is a folder"):
+        load_scenario(tmp_path)
+    broken = tmp_path / "broken.toml"
+    broken.write_text("a = [")
+    with pytest.raises(InputError, match=re.escape(str(broken)) + ".*not a TOML file"):
+        load_scenario(broken)
+    with pytest.raises(InputError, match=r"table\.key=value"):
+        load_scenario("kang2015_table1", overrides=["mass=3"])
+
+
+def test_distributions_from_a_file(tmp_path):
+    data = np.linspace(0.75, 0.85, 40)
+    (tmp_path / "mu.csv").write_text("id,mu_s\n" + "\n".join(f"{i},{x}" for i, x in enumerate(data)))
+    content = tables(coefficients__distribution_s={"kind": "empirical", "file": "mu.csv", "column": "mu_s"})
+    content["coefficients"]["distribution_k"] = {"kind": "truncated_normal", "lower": 0.4, "upper": 0.5}
+    (tmp_path / "s.toml").write_bytes(tomli_w.dumps(content).encode())
+    process = load_scenario(tmp_path / "s.toml").process
+    assert process.distribution_s == Empirical(tuple(data))
+    assert process.distribution_k == TruncatedNormal(0.4, 0.5)
+    content["coefficients"]["distribution_s"]["column"] = "mu"
+    (tmp_path / "s.toml").write_bytes(tomli_w.dumps(content).encode())
+    with pytest.raises(InputError, match="did you mean 'mu_s'"):
+        load_scenario(tmp_path / "s.toml")
+    (tmp_path / "mu.csv").write_text("mu\n0.1\nnone\n")
+    with pytest.raises(InputError, match="row 3: 'none'"):
+        load_scenario(tmp_path / "s.toml")
+
+
+def test_output_step_process_takes_the_output_step():
+    scenario = load_scenario("kang2015_table1", overrides=["coefficients.process=output_step", "simulation.output_step=0.01"])
+    assert scenario.process.kind == "output_step"
+    content = scenario.to_dict()
+    del content["coefficients"]["spacing"]
+    assert scenario_from_dict(content).process.knot_spacing == 0.01
