@@ -1,1 +1,25 @@
-"""Placeholder."""
+"""Friction in Exudyn: `add_friction` for any system, and the belt-box.
+
+Importing this package imports Exudyn only when one of its names is used.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from stochfric_mb.exudyn.attach import FrictionContact, add_friction
+    from stochfric_mb.exudyn.solve import solve_dynamic
+
+_HOMES = {"FrictionContact": "attach", "add_friction": "attach", "solve_dynamic": "solve"}
+
+__all__ = ["FrictionContact", "add_friction", "solve_dynamic"]
+
+
+def __getattr__(name: str) -> Any:
+    """Return a public name, loading the module that defines it."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    import importlib
+
+    return getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)

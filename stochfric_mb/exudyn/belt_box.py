@@ -1,0 +1,239 @@
+"""The belt-box oscillator in Exudyn."""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from collections.abc import Callable
+from typing import Any
+
+import exudyn
+import numpy as np
+from exudyn.advancedUtilities import CreateSymbolicUserFunction
+from exudyn.itemInterface import CoordinateSpringDamper, LoadCoordinate, MarkerNodeCoordinate, Mass1D, Node1D, NodePointGround
+
+from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_number
+from stochfric_mb.exudyn.attach import FrictionContact, add_friction
+from stochfric_mb.exudyn.solve import EXPLICIT, silent_settings, solve_dynamic
+from stochfric_mb.friction import Friction
+from stochfric_mb.laws import Law
+from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.scenario import Scenario
+from stochfric_mb.trajectory import Trajectory
+
+HOOK = "symbolic user function, PostStep commit"
+
+
+@dataclasses.dataclass
+class BuiltBeltBox:
+    """A belt-box as an Exudyn system, ready to run."""
+
+    mbs: Any
+    """The system."""
+    mass: Any
+    """Index of the object that is the box."""
+    contact: FrictionContact
+    """The friction between belt and box."""
+    scenario: Scenario
+    """What was built."""
+    law: Law
+    """The law that really runs."""
+    dt: float
+    """Step [s]."""
+    notes: list[str]
+    """What differs from the scenario."""
+
+
+def simulate(
+    scenario: Scenario,
+    *,
+    seed: int = 0,
+    sample: int = 0,
+    dt: float | None = None,
+    progress: Callable[[float], None] | None = None,
+    solver: str = "rk44",
+    locate: bool = True,
+) -> Trajectory:
+    """Return the trajectory of a scenario in Exudyn.
+
+    Args:
+        scenario: what to simulate.
+        seed, sample: address of the path of coefficients.
+        dt: step [s], dividing the output step; the scenario's default if not given.
+        progress: called with the simulated time [s] now and then.
+        solver: "rk44", "dopri5", "velocity_verlet" (explicit) or "generalized_alpha".
+        locate: whether steps end where the law switches.
+
+    Raises:
+        InputError: dt does not divide the output step, or spans more than one knot of the coefficients.
+        StabilityError: dt is beyond the law's limit for an explicit solver.
+        SimulationError: the run failed, or its outcome makes no sense.
+    """
+    dt = scenario.default_dt() if dt is None else dt
+    return integrate(
+        build(scenario, seed=seed, sample=sample, dt=dt, solver=solver), progress=progress, solver=solver, locate=locate
+    )
+
+
+def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, dt: float, solver: str = "rk44") -> BuiltBeltBox:
+    """Return the scenario as an Exudyn system: a mass on a spring and a damper, a load, and the friction.
+
+    Raises:
+        InputError, StabilityError: as `simulate`.
+    """
+    box = scenario.mechanism
+    law, notes = _law_that_runs(scenario, dt)
+    _check_step(scenario, law, dt, explicit=solver in EXPLICIT)
+    mbs, mass, ground, slide = _without_friction(box)
+    contact = add_friction(
+        mbs,
+        ground,
+        slide,
+        Friction(law, scenario.process),
+        normal_force=box.normal_force,
+        effective_mass=box.mass,
+        surface_velocity=box.belt_velocity,
+        seed=seed,
+        sample=sample,
+    )
+    mbs.Assemble()
+    return BuiltBeltBox(mbs, mass, contact, scenario, law, dt, notes)
+
+
+def integrate(
+    built: BuiltBeltBox,
+    *,
+    solver: str = "rk44",
+    locate: bool = True,
+    progress: Callable[[float], None] | None = None,
+) -> Trajectory:
+    """Return the trajectory of a built system.
+
+    Raises:
+        SimulationError: the run failed, or its outcome makes no sense.
+    """
+    scenario, mbs = built.scenario, built.mbs
+    rows = built.contact.record(scenario.output_times())
+    if progress is not None:
+        mbs.SetPreStepUserFunction(_reporter(progress, scenario.duration))
+    begin = time.perf_counter()
+    solve_dynamic(mbs, silent_settings(built.dt, scenario.duration), solver=solver, locate=locate)
+    seconds = time.perf_counter() - begin
+    n_steps = int(mbs.sys["dynamicSolver"].it.currentStepIndex) - 1
+    attributes = {
+        "engine": "exudyn",
+        "version": exudyn.__version__,
+        "hook": HOOK,
+        "solver": solver,
+        "located": locate,
+        "dt": built.dt,
+        "seed": int(built.contact.address[0]),
+        "sample": int(built.contact.address[1]),
+        "law": built.law.kind,
+        "notes": built.notes,
+        "seconds_per_step": seconds / max(n_steps, 1),
+        "n_steps": n_steps,
+    }
+    return _trajectory(scenario, rows, attributes)
+
+
+def _without_friction(box: BeltBox) -> tuple[Any, Any, Any, Any]:
+    """Return the system, the box, and the markers of ground and of the box's coordinate."""
+    mbs = exudyn.SystemContainer().AddSystem()
+    node = mbs.AddNode(
+        Node1D(referenceCoordinates=[0.0], initialCoordinates=[box.initial_position], initialVelocities=[box.initial_velocity])
+    )
+    mass = mbs.AddObject(Mass1D(nodeNumber=node, physicsMass=box.mass))
+    ground = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0))
+    slide = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
+    mbs.AddObject(CoordinateSpringDamper(markerNumbers=[ground, slide], stiffness=box.stiffness, damping=box.damping))
+    if box.excitation_amplitude != 0.0:
+        mbs.variables["load"] = CreateSymbolicUserFunction(
+            mbs,
+            function=lambda mbs, t, load: load * exudyn.symbolic.cos(box.excitation_angular_frequency * t),
+            userFunctionName="loadUserFunction",
+            itemTypeName="LoadCoordinate",
+        )
+        amplitude = box.stiffness * box.excitation_amplitude
+        mbs.AddLoad(LoadCoordinate(markerNumber=slide, load=amplitude, loadUserFunction=mbs.variables["load"]))
+    return mbs, mass, ground, slide
+
+
+def _law_that_runs(scenario: Scenario, dt: float) -> tuple[Law, list[str]]:
+    """Return the scenario's law, or its elastic substitute where it needs the holding force, and the note about it."""
+    if not scenario.law.needs_holding_force:
+        return scenario.law, []
+    from stochfric_mb.laws.substitute import elastic_substitute
+
+    law, note = elastic_substitute(scenario.law, dt, scenario.mechanism.normal_force, scenario.mechanism.mass)
+    return law, [note]
+
+
+def _check_step(scenario: Scenario, law: Law, dt: float, *, explicit: bool) -> None:
+    dt = require_number("dt", dt, above=0.0, unit="s")
+    n = scenario.output_step / dt
+    if abs(n - round(n)) > 1.0e-6 * n or round(n) < 1:
+        raise InputError(
+            f"dt = {dt:g} s does not divide the output step {scenario.output_step:g} s; try "
+            f"{scenario.output_step / max(round(n), 1):g} s"
+        )
+    limit = law.step_limit(scenario.mechanism.normal_force, scenario.mechanism.mass)
+    if explicit and dt > limit:
+        raise StabilityError(
+            f"dt = {dt:g} s is beyond the stability limit {limit:.3g} s of law {law.kind} ({law.step_limit_formula}) for an "
+            f"explicit solver; use dt <= {0.5 * limit:.2g} s or solver='generalized_alpha'"
+        )
+    process = scenario.process
+    if process is None:
+        return
+    if process.clock == 0.0 and dt > process.knot_spacing:
+        raise InputError(
+            f"dt = {dt:g} s is above the knot spacing {process.knot_spacing:g} s of process {process.kind}; use a step below it"
+        )
+
+
+def _reporter(progress: Callable[[float], None], duration: float) -> Callable[[Any, float], bool]:
+    """Return a PreStep function that reports about a hundred times."""
+    due = [0.0]
+
+    def report(mbs: Any, t: float) -> bool:
+        if t >= due[0]:
+            due[0] = t + 0.01 * duration
+            progress(t)
+        return True
+
+    return report
+
+
+def _trajectory(scenario: Scenario, rows: Any, attributes: dict[str, Any]) -> Trajectory:
+    """Return the recorded rows as a trajectory.
+
+    Raises:
+        SimulationError: rows are missing, not finite, or far beyond what the spring and the load allow.
+    """
+    box = scenario.mechanism
+    where = f"Exudyn ({attributes['solver']}, dt = {attributes['dt']:g} s)"
+    bad = ~np.all(np.isfinite(rows), axis=1)
+    if bad.any():
+        raise SimulationError(f"{where}: the motion is not finite from t = {rows[bad][0, 0]:g} s on; use a smaller step")
+    times = np.array(scenario.output_times())
+    if np.any(np.abs(rows[:, 0] - times) > 1.0e-6 * attributes["dt"]):
+        raise SimulationError(f"{where}: steps do not end at the output times; use a step that divides the output step")
+    position = box.belt_velocity * times - rows[:, 1]
+    scale = scenario.law.mu_s * box.normal_force / box.stiffness + abs(box.excitation_amplitude) + abs(box.initial_position)
+    if np.max(np.abs(position)) > 1.0e3 * scale:
+        raise SimulationError(
+            f"{where}: abs(x) reaches {np.max(np.abs(position)):.3g} m where friction and load can hold about {scale:.3g} m: the "
+            "integration is unstable; use a smaller step"
+        )
+    return Trajectory(
+        time=times,
+        position=position,
+        velocity=box.belt_velocity - rows[:, 2],
+        friction_force=rows[:, 3].copy(),
+        normal_force=np.full(len(times), box.normal_force),
+        mu_s=rows[:, 4].copy(),
+        mu_k=rows[:, 5].copy(),
+        stick=rows[:, 6].copy(),
+        attributes=attributes,
+    )

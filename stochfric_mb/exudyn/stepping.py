@@ -1,0 +1,262 @@
+"""What happens to a contact once a step: the law commits, the coefficients move on, a sample is taken.
+
+One compiled function for all laws. A contact is two arrays: ``numbers`` (floats) and ``words`` (integers: addresses of
+the law's functions and of the engine's coordinates, counters, the address of the path).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+from stochfric_mb.coefficients.path import CURSOR, canonical_time, evaluate, seek
+from stochfric_mb.coefficients.processes import EVENT, POSITION
+from stochfric_mb.compile import compiled
+from stochfric_mb.laws.abi import MAX_STATE, call_law
+from stochfric_mb.laws.contract import GUARDS
+
+# entries of ``numbers``
+T, U, V = 0, 1, 2
+"""Time [s], relative displacement [m] and velocity [m/s] at the last accepted step."""
+EVENTS, STUCK, MU_S, MU_K = 3, 4, 5, 6
+"""Stick phases begun so far, whether the contact sticks, and its coefficients, at the last accepted step."""
+NORMAL_FORCE, MASS, SURFACE_VELOCITY, STICK_SPEED, HAS_MODE = 7, 8, 9, 10, 11
+STEP, START = 12, 13
+"""The solver's step [s] and start time [s], which span the grid that steps keep to."""
+WINDOW = 14
+"""Knot in the middle of the engine's window on the path."""
+NEW = 16
+"""Scratch for a law's output."""
+GUARDS_BEFORE = NEW + 8
+CURSOR_AT = GUARDS_BEFORE + 8
+LIVE = CURSOR_AT + CURSOR
+"""State, pair and segment, in the order of `symbolic.live_names`, as the engine should have them."""
+N_LIVE_MAX = MAX_STATE + 2 + 9
+LAW = LIVE + N_LIVE_MAX
+"""The law's parameter vector, then the path's descriptor."""
+
+# entries of ``words``
+FORCE, COMMIT, GUARD, INIT = 0, 1, 2, 3
+"""Addresses of the law's functions."""
+POSITION_0, POSITION_1, VELOCITY_0, VELOCITY_1 = 4, 5, 6, 7
+"""Addresses of the coordinates of the two markers."""
+N_STATE, N_LAW, SEED, SAMPLE, CONTACT, N_RECORDS, NEXT_RECORD, STARTED = 8, 9, 10, 11, 12, 13, 14, 15
+N_WORDS = 16
+
+NOTHING, CHANGED, RECORDED, LOST, RESTARTED = 0, 1, 2, 4, 8
+"""Bits of what `advance` returns."""
+RECORD_COLUMNS = 7
+"""time, displacement, velocity, friction force, mu_s, mu_k, stick."""
+
+# event location, in parts of the step
+TOLERANCE, BEYOND, SHORTEST, GRID = 1.0e-3, 1.0e-4, 2.0e-4, 1.0e-6
+
+
+@intrinsic
+def number_at(typingctx, address):
+    """Return the double at an address."""
+
+    def generate(context, builder, signature, args):
+        return builder.load(builder.inttoptr(args[0], ir.DoubleType().as_pointer()))
+
+    return types.float64(types.int64), generate
+
+
+@compiled
+def kinematics(t, numbers, words):
+    """Return relative displacement [m] and velocity [m/s], counter-surface minus body, from the engine's coordinates."""
+    d = number_at(words[POSITION_1]) - number_at(words[POSITION_0])
+    w = number_at(words[VELOCITY_1]) - number_at(words[VELOCITY_0])
+    return numbers[SURFACE_VELOCITY] * t - d, numbers[SURFACE_VELOCITY] - w
+
+
+@compiled
+def pair_at(t, u, numbers, words):
+    """Return (mu_s, mu_k) [-] at time t and relative displacement u."""
+    descriptor = numbers[LAW + words[N_LAW] :]
+    cursor = numbers[CURSOR_AT : CURSOR_AT + CURSOR]
+    time = canonical_time(t, 0.5 * numbers[STEP])
+    return evaluate(descriptor, cursor, words[SEED], words[SAMPLE], words[CONTACT], time, u, numbers[EVENTS])
+
+
+@compiled
+def ask(address, t, u, v, mu_s, mu_k, numbers, into):
+    """Call a function of the law with the committed state; its output goes to ``numbers[into:]``."""
+    at = numbers.ctypes.data
+    state, p, out = at + 8 * LIVE, at + 8 * LAW, at + 8 * into
+    n, m = numbers[NORMAL_FORCE], numbers[MASS]
+    call_law(address, t, u, 0.0, v, 0.0, n, mu_s, mu_k, m, 0.0, 0.0, state, p, out)
+
+
+@compiled
+def advance(t, numbers, words, records):
+    """Commit an accepted step that ends at ``t``; return bits that say what the caller has to pass on.
+
+    The same time with the same motion changes nothing (a solver that goes on from where it stopped); an earlier time, or
+    a jump, is a new simulation.
+    """
+    u, v = kinematics(t, numbers, words)
+    bits = NOTHING
+    if words[STARTED] == 0 or t < numbers[T] or (t == numbers[T] and (u != numbers[U] or v != numbers[V])):
+        restart(t, u, v, numbers, words)
+        bits = CHANGED | RESTARTED
+    elif t > numbers[T]:
+        bits = _commit(t, u, v, numbers, words)
+    due = words[NEXT_RECORD]
+    if due < words[N_RECORDS] and t >= records[due, 0] - GRID * numbers[STEP]:
+        records[due, 0] = canonical_time(t, 0.5 * numbers[STEP])
+        records[due, 1], records[due, 2] = u, v
+        records[due, 4], records[due, 5], records[due, 6] = numbers[MU_S], numbers[MU_K], numbers[STUCK]
+        words[NEXT_RECORD] = due + 1
+        bits |= RECORDED
+    return bits
+
+
+@compiled
+def restart(t, u, v, numbers, words):
+    """Start the contact afresh at time t with relative displacement u and velocity v."""
+    numbers[EVENTS] = 0.0
+    numbers[T], numbers[U], numbers[V] = t, u, v
+    words[STARTED] = 1
+    mu_s, mu_k = pair_at(t, u, numbers, words)
+    _law_gives(words[INIT], t, u, v, mu_s, mu_k, numbers, words)
+    numbers[STUCK] = _sticks(v, numbers)
+    _set_pair(mu_s, mu_k, numbers, words)
+    numbers[WINDOW] = math.nan
+    _move_window(t, u, numbers, words)
+
+
+@compiled
+def _commit(t, u, v, numbers, words):
+    mu_s, mu_k = pair_at(t, u, numbers, words)
+    bits = _law_gives(words[COMMIT], t, u, v, mu_s, mu_k, numbers, words)
+    numbers[T], numbers[U], numbers[V] = t, u, v
+    stuck = _sticks(v, numbers)
+    if stuck > numbers[STUCK]:
+        numbers[EVENTS] += 1.0
+        mu_s, mu_k = pair_at(t, u, numbers, words)
+    numbers[STUCK] = stuck
+    return bits | _set_pair(mu_s, mu_k, numbers, words) | _move_window(t, u, numbers, words)
+
+
+@compiled
+def _law_gives(address, t, u, v, mu_s, mu_k, numbers, words):
+    """Take the state that ``init`` or ``commit`` gives; return CHANGED if it differs."""
+    ask(address, t, u, v, mu_s, mu_k, numbers, NEW)
+    bits = NOTHING
+    for i in range(words[N_STATE]):
+        if numbers[LIVE + i] != numbers[NEW + i]:
+            numbers[LIVE + i] = numbers[NEW + i]
+            bits = CHANGED
+    return bits
+
+
+@compiled
+def _sticks(v, numbers):
+    if numbers[HAS_MODE] == 1.0:
+        return 1.0 if numbers[LIVE] == 0.0 else 0.0
+    return 1.0 if abs(v) <= numbers[STICK_SPEED] else 0.0
+
+
+@compiled
+def _set_pair(mu_s, mu_k, numbers, words):
+    """Take the coefficients; return CHANGED if the engine's own pair differs (a path along events only)."""
+    numbers[MU_S], numbers[MU_K] = mu_s, mu_k
+    pair = LIVE + words[N_STATE]
+    if numbers[LAW + words[N_LAW] + 1] != EVENT or (numbers[pair] == mu_s and numbers[pair + 1] == mu_k):
+        return NOTHING
+    numbers[pair], numbers[pair + 1] = mu_s, mu_k
+    return CHANGED
+
+
+@compiled
+def _move_window(t, u, numbers, words):
+    """Put the engine's window on the path around the knot ahead (time) or the nearest one (position).
+
+    Returns LOST where the step has left the window it was computed with: then its coefficients were not the path's.
+    """
+    descriptor = numbers[LAW + words[N_LAW] :]
+    if descriptor[0] == 0.0 or descriptor[1] == EVENT:
+        return NOTHING
+    spacing = descriptor[3]
+    if descriptor[1] == POSITION:
+        r = u / spacing
+        middle = math.floor(r + 0.5)
+    else:
+        r = canonical_time(t, 0.5 * numbers[STEP]) / spacing
+        middle = math.floor(r) + 1.0
+    if middle == numbers[WINDOW]:
+        return NOTHING
+    bits = LOST if abs(r - numbers[WINDOW]) > 1.0 + GRID else NOTHING
+    numbers[WINDOW] = middle
+    cursor = numbers[CURSOR_AT : CURSOR_AT + CURSOR]
+    seek(descriptor, cursor, words[SEED], words[SAMPLE], words[CONTACT], middle - 1.0)
+    left_s, left_k, mid_s, mid_k = cursor[2], cursor[3], cursor[4], cursor[5]
+    seek(descriptor, cursor, words[SEED], words[SAMPLE], words[CONTACT], middle)
+    segment = numbers[LIVE + words[N_STATE] + 2 :]
+    segment[0] = middle * spacing
+    segment[1], segment[2] = left_s, left_k
+    segment[3], segment[4] = (mid_s - left_s) / spacing, (mid_k - left_k) / spacing
+    segment[5], segment[6] = (cursor[4] - mid_s) / spacing, (cursor[5] - mid_k) / spacing
+    segment[7], segment[8] = mid_s, mid_k
+    return bits | CHANGED
+
+
+@compiled
+def locate(t, numbers, words):
+    """Return the step [s] that ends at the next grid point or just beyond the law's next switch, or -1 to accept.
+
+    A switch is where a guard of the law turns from positive to not positive; it is sought on the cubic through both
+    ends of the step.
+    """
+    t_0, step = numbers[T], numbers[STEP]
+    if words[STARTED] == 0 or t <= t_0:
+        return -1.0
+    n = math.floor((t_0 - numbers[START]) / step + GRID) + 1.0
+    grid = numbers[START] + n * step
+    if t > grid + GRID * step:
+        return grid - t_0
+    u, v = kinematics(t, numbers, words)
+    mu_s, mu_k = pair_at(t_0, numbers[U], numbers, words)
+    ask(words[GUARD], t_0, numbers[U], numbers[V], mu_s, mu_k, numbers, GUARDS_BEFORE)
+    mu_s, mu_k = pair_at(t, u, numbers, words)
+    ask(words[GUARD], t, u, v, mu_s, mu_k, numbers, NEW)
+    first = 2.0
+    for i in range(GUARDS):
+        if numbers[GUARDS_BEFORE + i] > 0.0 and numbers[NEW + i] <= 0.0:
+            first = min(first, _crossing(i, t, u, v, numbers, words))
+            ask(words[GUARD], t, u, v, mu_s, mu_k, numbers, NEW)
+    h = t - t_0
+    if first > 1.0 or (1.0 - first) * h <= TOLERANCE * step or h <= 2.0 * SHORTEST * step:
+        return -1.0
+    return max(first * h + BEYOND * step, SHORTEST * step)
+
+
+@compiled
+def _crossing(i, t, u, v, numbers, words):
+    """Return where in the step, from 0 to 1, guard ``i`` turns, by bisection on the cubic through both ends."""
+    t_0, u_0, v_0 = numbers[T], numbers[U], numbers[V]
+    h = t - t_0
+    low, high = 0.0, 1.0
+    for _ in range(30):
+        s = 0.5 * (low + high)
+        a, b = u - u_0 - h * v_0, h * (v - v_0)
+        # u = u_0 + h v_0 s + (3 a - b) s^2 + (b - 2 a) s^3
+        u_s = u_0 + h * v_0 * s + (3.0 * a - b) * s * s + (b - 2.0 * a) * s**3
+        v_s = v_0 + (2.0 * (3.0 * a - b) * s + 3.0 * (b - 2.0 * a) * s * s) / h
+        mu_s, mu_k = pair_at(t_0 + s * h, u_s, numbers, words)
+        ask(words[GUARD], t_0 + s * h, u_s, v_s, mu_s, mu_k, numbers, NEW)
+        if numbers[NEW + i] > 0.0:
+            low = s
+        else:
+            high = s
+    return high
+
+
+def blank(n_law: int, n_path: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the two arrays of a contact, zero."""
+    return np.zeros(LAW + n_law + n_path), np.zeros(N_WORDS, dtype=np.int64)

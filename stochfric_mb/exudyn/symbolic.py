@@ -1,0 +1,152 @@
+"""A law's friction force as an Exudyn symbolic expression, derived from the law's own source."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import exudyn
+
+from stochfric_mb.coefficients import Process
+from stochfric_mb.coefficients.processes import EVENT, POSITION
+from stochfric_mb.exudyn.expression import Expression, Value, apply, choose, known, variable, variables
+from stochfric_mb.exudyn.trace import trace
+from stochfric_mb.laws import Law
+
+TIME, DISPLACEMENT, VELOCITY = "t", "u", "v"
+"""Variables of the force: time [s], relative displacement [m] and velocity [m/s], counter-surface minus body."""
+SEGMENT = ("knot", "start_s", "start_k", "before_s", "before_k", "after_s", "after_k", "end_s", "end_k")
+"""Variables of a path of coefficients around one of its knots: its place, the pairs before, and slopes on each side."""
+PAIR = ("mu_s", "mu_k")
+
+
+@dataclasses.dataclass(frozen=True)
+class ForceExpression:
+    """A law's force in one-dimensional sliding."""
+
+    force: Value
+    """The friction force on the body [N], of t, u, v, the state's entries and the coefficients' variables."""
+    names: tuple[str, ...]
+    """The variables that the engine must be given after each step, in the order of `live_names`."""
+
+
+def state_names(law: Law) -> tuple[str, ...]:
+    """Return a name for each entry of a law's state."""
+    return tuple(f"state_{i}" for i in range(max(len(law.state_names), 1)))
+
+
+def live_names(law: Law) -> tuple[str, ...]:
+    """Return the names of all numbers that can change from step to step: state, coefficients, their segments."""
+    return state_names(law) + PAIR + SEGMENT
+
+
+def force_expression(law: Law, process: Process | None, normal_force: float, effective_mass: float) -> ForceExpression:
+    """Return the friction force [N] of one-dimensional sliding as an expression.
+
+    Args:
+        law: a law that does without the holding force.
+        process: how the coefficients vary, None if they do not.
+        normal_force: normal force [N].
+        effective_mass: mass that the contact feels [kg].
+
+    Raises:
+        InputError: the law's source does more than an expression can hold.
+    """
+    zero = zero_entries(law, normal_force, effective_mass)
+    state = [0.0 if i in zero else variable(name) for i, name in enumerate(state_names(law))]
+    force, _ = _call(law, "force", normal_force, effective_mass, coefficients(law, process), state)
+    used = variables(force)
+    return ForceExpression(force, tuple(n for n in live_names(law) if n in used))
+
+
+def zero_entries(law: Law, normal_force: float, effective_mass: float) -> frozenset[int]:
+    """Return the entries of the state that stay zero in one-dimensional sliding: ``commit`` keeps them if it finds them so."""
+    pair = tuple(variable(name) for name in PAIR)
+    zero = _zeros(_call(law, "init", normal_force, effective_mass, pair))
+    while True:
+        state = [0.0 if i in zero else variable(name) for i, name in enumerate(state_names(law))]
+        kept = zero & _zeros(_call(law, "commit", normal_force, effective_mass, pair, state))
+        if kept == zero:
+            return zero
+        zero = kept
+
+
+def coefficients(law: Law, process: Process | None) -> tuple[Value, Value]:
+    """Return mu_s and mu_k as the force needs them: numbers, a pair per stick phase, or lines around the nearest knot."""
+    if process is None:
+        return law.mu_s, law.mu_k
+    if process.clock == EVENT:
+        return variable("mu_s"), variable("mu_k")
+    clock = variable(DISPLACEMENT if process.clock == POSITION else TIME)
+    knot = variable("knot")
+    way = apply("sub", clock, knot)
+    before = apply("lt", clock, knot)
+
+    def line(of: str) -> Value:
+        slope = choose(before, variable(f"before_{of}"), variable(f"after_{of}"))
+        if process.linear:
+            return apply("add", variable(f"end_{of}"), apply("mul", way, slope))
+        return choose(before, variable(f"start_{of}"), variable(f"end_{of}"))
+
+    return line("s"), line("k")
+
+
+def lower(expression: Value, values: Mapping[str, Any]) -> Any:
+    """Return the expression in Exudyn's symbols.
+
+    Args:
+        expression: what to write.
+        values: symbol of each variable.
+    """
+    memory: dict[Expression, Any] = {}
+
+    def write(e: Value) -> Any:
+        if known(e):
+            return exudyn.symbolic.Real(float(e))
+        if e.operation == "variable":
+            return values[e.arguments[0]]
+        if e not in memory:
+            memory[e] = _OPERATIONS[e.operation](*map(write, e.arguments))
+        return memory[e]
+
+    return write(expression)
+
+
+def _call(law: Law, name: str, normal_force: float, effective_mass: float, pair: Any, state: Any = None) -> Any:
+    function = getattr(law.functions(), name)
+    u, v = variable(DISPLACEMENT), variable(VELOCITY)
+    before = (variable(TIME), u, 0.0, v, 0.0, normal_force)
+    after = (*pair, effective_mass, 0.0, 0.0, law.parameters().tolist())
+    return trace(function, *before, *after) if state is None else trace(function, *before, state, *after)
+
+
+def _zeros(state: tuple[Value, ...]) -> frozenset[int]:
+    return frozenset(i for i, entry in enumerate(state) if i > 0 and known(entry) and entry == 0.0)
+
+
+def _from_exudyn(name: str) -> Callable[..., Any]:
+    return lambda *arguments: getattr(exudyn.symbolic, name)(*arguments)
+
+
+_OPERATIONS: dict[str, Callable[..., Any]] = {
+    "add": lambda x, y: x + y,
+    "sub": lambda x, y: x - y,
+    "mul": lambda x, y: x * y,
+    "div": lambda x, y: x / y,
+    "neg": lambda x: -x,
+    "lt": lambda x, y: x < y,
+    "le": lambda x, y: x <= y,
+    "gt": lambda x, y: x > y,
+    "ge": lambda x, y: x >= y,
+    "eq": lambda x, y: x == y,
+    "ne": lambda x, y: x != y,
+    "choose": _from_exudyn("IfThenElse"),
+    **{
+        name: _from_exudyn(name)
+        for name in (
+            "pow", "mod", "abs", "sign", "min", "max", "sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "atan2",
+            "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "floor", "ceil",
+        )
+    },
+}  # fmt: skip
