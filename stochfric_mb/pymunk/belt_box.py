@@ -1,0 +1,222 @@
+"""The belt-box oscillator in pymunk: a box that cannot turn, on a segment whose surface moves, held by a damped spring."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pymunk
+
+from stochfric_mb.errors import InputError, SimulationError, StabilityError
+from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.pymunk import contacts as c
+from stochfric_mb.pymunk.attach import ContactFriction, add_friction
+from stochfric_mb.scenario import Scenario, fitting_step
+from stochfric_mb.trajectory import Trajectory
+
+HOOK_FORCE = "compiled pre_solve callback: the law's force, pymunk's own friction off"
+HOOK_CAP = "compiled pre_solve callback: the law's cap on pymunk's own friction"
+HALF_SIDE = 0.05
+"""Half the side of the box [m]."""
+SPRING_LENGTH = 1.0
+"""Length of the unloaded spring [m]."""
+SLOP = 1.0e-5
+"""Overlap that pymunk leaves alone [m]; the box starts with half of it, in contact from the first step on."""
+REACH = 1.0e3
+"""States beyond this many static deflections are nonsense."""
+
+
+@dataclasses.dataclass
+class Model:
+    """A belt-box scenario as a pymunk space, ready to integrate."""
+
+    space: pymunk.Space
+    """The space."""
+    box: pymunk.Body
+    """The box."""
+    spring: pymunk.DampedSpring
+    """Spring and damper between the box and the frame."""
+    belt: pymunk.Segment
+    """The belt, on the static body."""
+    friction: ContactFriction | None
+    """The friction between box and belt; None: none, for comparison."""
+    scenario: Scenario
+    """What was built."""
+
+
+def simulate(
+    scenario: Scenario,
+    *,
+    seed: int = 0,
+    sample: int = 0,
+    dt: float | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Trajectory:
+    """Return the trajectory of a belt-box scenario in pymunk, sampled at the scenario's output times.
+
+    Args:
+        scenario: the scenario.
+        seed: first part of the address of the coefficient path.
+        sample: second part.
+        dt: step [s], dividing the output step; `Scenario.default_dt` if not given.
+        progress: called with the simulated time [s] now and then.
+
+    Raises:
+        StabilityError: ``dt`` is beyond the law's stability limit.
+        InputError: ``dt`` does not divide the output step.
+        SimulationError: a state that is not finite or beyond reason.
+    """
+    dt = checked_step(scenario, dt)
+    model = build(scenario, seed=seed, sample=sample)
+    try:
+        return integrate(model, dt=dt, progress=progress)
+    finally:
+        assert model.friction is not None
+        model.friction.remove()
+
+
+def checked_step(scenario: Scenario, dt: float | None) -> float:
+    """Return the step [s] to use once it divides the output step and is within the law's stability limit.
+
+    Raises:
+        StabilityError: it is beyond the limit.
+        InputError: it is not positive or does not divide the output step.
+    """
+    if dt is None:
+        return scenario.default_dt()
+    limit = scenario.step_limit()
+    if dt > limit:
+        raise StabilityError(
+            f"dt = {dt:g} s is beyond the stability limit {limit:.3g} s of the law {scenario.law.kind!r} "
+            f"({scenario.law.step_limit_formula}); use dt <= {fitting_step(0.5 * limit, scenario.output_step):.3g} s"
+        )
+    n = scenario.output_step / dt if dt > 0.0 else 0.0
+    if n < 0.5 or abs(n - round(n)) > 1.0e-6 * n:
+        near = fitting_step(dt, scenario.output_step) if dt > 0.0 else scenario.default_dt()
+        raise InputError(
+            f"dt = {dt:g} s does not divide simulation.output_step = {scenario.output_step:g} s; try {near:g} s"
+        )
+    return scenario.output_step / round(n)
+
+
+def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, with_friction: bool = True) -> Model:
+    """Return the scenario as a pymunk space with the friction added, at rest in contact, before its first step."""
+    mechanism = scenario.mechanism
+    space = pymunk.Space()
+    space.gravity = (0.0, -mechanism.normal_force / mechanism.mass)
+    space.collision_slop = SLOP
+    reach = _reach(scenario) + 2.0 * HALF_SIDE
+    belt = pymunk.Segment(space.static_body, (-reach, 0.0), (reach, 0.0), 0.0)
+    belt.surface_velocity = (mechanism.belt_velocity, 0.0)
+    box = pymunk.Body(mechanism.mass, math.inf)
+    height = HALF_SIDE - 0.5 * SLOP
+    box.position = (mechanism.initial_position, height)
+    box.velocity = (mechanism.initial_velocity, 0.0)
+    shape = pymunk.Poly.create_box(box, (2.0 * HALF_SIDE, 2.0 * HALF_SIDE))
+    frame = (-SPRING_LENGTH, height)
+    spring = pymunk.DampedSpring(
+        space.static_body, box, frame, (0.0, 0.0), SPRING_LENGTH, mechanism.stiffness, mechanism.damping
+    )
+    space.add(belt, box, shape, spring)
+    friction = None
+    if with_friction:
+        law = scenario.law if scenario.process is None else _friction(scenario)
+        friction = add_friction(space, shape, belt, law, seed=seed, sample=sample)
+        friction.slot()[c.ORIGIN] = -mechanism.initial_position
+    return Model(space, box, spring, belt, friction, scenario)
+
+
+def _friction(scenario: Scenario) -> Any:
+    from stochfric_mb.friction import Friction
+
+    return Friction(scenario.law, scenario.process)
+
+
+def _reach(scenario: Scenario) -> float:
+    """Return the displacement [m] beyond which a state is nonsense."""
+    m = scenario.mechanism
+    static = scenario.law.mu_s * m.normal_force / m.stiffness
+    swing = abs(m.initial_velocity) * math.sqrt(m.mass / m.stiffness)
+    return REACH * (static + abs(m.excitation_amplitude) + abs(m.initial_position) + swing)
+
+
+def integrate(model: Model, *, dt: float, progress: Callable[[float], None] | None = None) -> Trajectory:
+    """Return the trajectory of a built model from t = 0.
+
+    pymunk drifts and then kicks, so half a step with the position set back by as much puts positions on whole steps and
+    velocities on half steps (leap-frog); velocities are sampled as the mean before and after the kick.
+    """
+    scenario, friction = model.scenario, model.friction
+    if friction is None:
+        raise InputError("this model was built without friction; build(scenario) adds it")
+    mechanism = scenario.mechanism
+    box, step, slot = model.box, model.space.step, friction.slot()
+    times = scenario.output_times()
+    stride = round(scenario.output_step / dt)
+    rows = np.empty((len(times), 8))
+    limit = _reach(scenario)
+    force = _excitation(mechanism)
+    begin = time.perf_counter()
+    start(model, dt)
+    rows[0] = _sample(times[0], mechanism.initial_position, mechanism.initial_velocity, slot)
+    for i in range(1, len(times)):
+        if force is None:
+            for _ in range(stride - 1):
+                step(dt)
+        else:
+            for n in range((i - 1) * stride + 1, i * stride):
+                box.force = (force(n * dt), 0.0)
+                step(dt)
+            box.force = (force(i * stride * dt), 0.0)
+        before = box.velocity.x
+        step(dt)
+        rows[i] = _sample(times[i], box.position.x, 0.5 * (before + box.velocity.x), slot)
+        if not abs(rows[i, 1]) <= limit:
+            raise SimulationError(
+                f"pymunk's box is at x = {rows[i, 1]:g} m at t = {times[i]:g} s, beyond {limit:.3g} m ({REACH:g} static "
+                f"deflections): the run is broken; lower dt = {dt:g} s or check the scenario"
+            )
+        if progress is not None and i % 100 == 0:
+            progress(times[i])
+    friction.check()
+    n_steps = (len(times) - 1) * stride
+    seconds = (time.perf_counter() - begin) / n_steps
+    attributes = {
+        "engine": "pymunk",
+        "version": pymunk.version,
+        "hook": HOOK_CAP if scenario.law.needs_holding_force else HOOK_FORCE,
+        "dt": dt,
+        "seed": friction.path.seed,
+        "sample": friction.path.sample,
+        "law": scenario.law.kind,
+        "notes": [],
+        "seconds_per_step": seconds,
+        "n_steps": n_steps,
+    }
+    return Trajectory(*np.ascontiguousarray(rows.T), attributes=attributes)
+
+
+def start(model: Model, dt: float) -> None:
+    """Take the half step that puts velocities on half steps; positions are at t = 0 after it."""
+    mechanism = model.scenario.mechanism
+    box = model.box
+    x, y = box.position
+    box.position = (x - 0.5 * dt * box.velocity.x, y)
+    if model.friction is not None:
+        model.friction.time = -0.5 * dt
+    box.force = (mechanism.excitation_force(0.0), 0.0)
+    model.space.step(0.5 * dt)
+
+
+def _excitation(mechanism: BeltBox) -> Callable[[float], float] | None:
+    """Return the excitation force [N] as a function of time [s], None where there is none."""
+    return mechanism.excitation_force if mechanism.excitation_amplitude != 0.0 else None
+
+
+def _sample(t: float, x: float, v: float, slot: npt.NDArray[np.float64]) -> tuple[float, ...]:
+    return (t, x, v, slot[c.FORCE], slot[c.NORMAL], slot[c.MU_S], slot[c.MU_K], slot[c.STICK])

@@ -1,0 +1,143 @@
+"""Loads, stores and calls through addresses, for compiled code that works inside the engine's own structures."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+_DOUBLE = ir.DoubleType()
+_WORD = ir.IntType(64)
+_BYTE_POINTER = ir.IntType(8).as_pointer()
+
+
+def _loader(kind: ir.Type, result: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        value = builder.load(builder.inttoptr(args[0], kind.as_pointer()))
+        if kind is _DOUBLE or kind.width == 64:
+            return value
+        return builder.zext(value, _WORD)
+
+    return result(types.intp), generate
+
+
+@intrinsic
+def load_double(typingctx, address):
+    """Return the double at ``address``."""
+    return _loader(_DOUBLE, types.float64)
+
+
+@intrinsic
+def load_word(typingctx, address):
+    """Return the 64-bit integer or pointer at ``address``."""
+    return _loader(_WORD, types.int64)
+
+
+@intrinsic
+def load_int(typingctx, address):
+    """Return the 32-bit unsigned integer at ``address``."""
+    return _loader(ir.IntType(32), types.int64)
+
+
+@intrinsic
+def load_byte(typingctx, address):
+    """Return the byte at ``address``."""
+    return _loader(ir.IntType(8), types.int64)
+
+
+@intrinsic
+def store_double(typingctx, address, value):
+    """Write a double at ``address``."""
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        builder.store(args[1], builder.inttoptr(args[0], _DOUBLE.as_pointer()))
+        return context.get_dummy_value()
+
+    return types.void(types.intp, types.float64), generate
+
+
+@intrinsic
+def store_word(typingctx, address, value):
+    """Write a 64-bit integer at ``address``."""
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        builder.store(args[1], builder.inttoptr(args[0], _WORD.as_pointer()))
+        return context.get_dummy_value()
+
+    return types.void(types.intp, types.int64), generate
+
+
+@intrinsic
+def as_doubles(typingctx, address):
+    """Return ``address`` as a pointer to doubles, for ``numba.carray``."""
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return builder.inttoptr(args[0], context.get_value_type(signature.return_type))
+
+    return types.CPointer(types.float64)(types.intp), generate
+
+
+@intrinsic
+def as_words(typingctx, address):
+    """Return ``address`` as a pointer to 64-bit integers, for ``numba.carray``."""
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return builder.inttoptr(args[0], context.get_value_type(signature.return_type))
+
+    return types.CPointer(types.int64)(types.intp), generate
+
+
+@intrinsic
+def call_handler(typingctx, function, arbiter, space, data):
+    """Call the collision callback at address ``function``: void(arbiter, space, data)."""
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        kind = ir.FunctionType(ir.VoidType(), [_BYTE_POINTER] * 3)
+        pointers = [builder.inttoptr(a, _BYTE_POINTER) for a in args[1:]]
+        builder.call(builder.inttoptr(args[0], kind.as_pointer()), pointers)
+        return context.get_dummy_value()
+
+    return types.void(types.intp, types.intp, types.intp, types.intp), generate
+
+
+def _getter(kind: ir.Type, result: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        function = ir.FunctionType(kind, [_BYTE_POINTER])
+        value = builder.call(
+            builder.inttoptr(args[0], function.as_pointer()), [builder.inttoptr(args[1], _BYTE_POINTER)]
+        )
+        if kind is _DOUBLE or kind.width == 64:
+            return value
+        return builder.zext(value, _WORD)
+
+    return result(types.intp, types.intp), generate
+
+
+@intrinsic
+def get_double(typingctx, function, pointer):
+    """Return what the getter at address ``function`` says of ``pointer``, a double."""
+    return _getter(_DOUBLE, types.float64)
+
+
+@intrinsic
+def get_int(typingctx, function, pointer):
+    """Return what the getter at address ``function`` says of ``pointer``, an unsigned int."""
+    return _getter(ir.IntType(32), types.int64)
+
+
+@intrinsic
+def get_word(typingctx, function, pointer):
+    """Return what the getter at address ``function`` says of ``pointer``, a word."""
+    return _getter(_WORD, types.int64)
+
+
+@intrinsic
+def get_byte(typingctx, function, pointer):
+    """Return what the getter at address ``function`` says of ``pointer``, a byte."""
+    return _getter(ir.IntType(8), types.int64)
