@@ -21,6 +21,11 @@ def compiled(function: Callable[..., Any]) -> Any:
     return numba.njit(cache=True, error_model="numpy", nogil=True)(_with_cache_folder(function))
 
 
+def compiled_inline(function: Callable[..., Any]) -> Any:
+    """Return ``function`` as `compiled` does, but merged into its compiled callers, so that their loops can vectorise."""
+    return numba.njit(cache=True, error_model="numpy", nogil=True, forceinline=True)(_with_cache_folder(function))
+
+
 def inlined(function: Callable[..., Any]) -> Any:
     """Return ``function`` as a numba dispatcher that is pasted into the functions that call it."""
     return numba.njit(inline="always", error_model="numpy", nogil=True)(function)

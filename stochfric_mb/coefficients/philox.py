@@ -23,7 +23,7 @@ from llvmlite import ir
 from numba import float64, int64, types, uint64
 from numba.extending import intrinsic
 
-from stochfric_mb.compile import compiled
+from stochfric_mb.compile import compiled_inline
 
 _LOW = np.uint64(0xFFFFFFFF)
 _32 = np.uint64(32)
@@ -37,7 +37,7 @@ _MANTISSA = np.uint64(0x000FFFFFFFFFFFFF)
 _ONE = np.uint64(0x3FF0000000000000)
 
 
-@compiled
+@compiled_inline
 def philox4x32(c0, c1, c2, c3, k0, k1):
     """Return the four 32-bit output words (as uint64) of ten Philox rounds on a counter and a key of 32-bit words."""
     for _ in range(10):
@@ -49,7 +49,7 @@ def philox4x32(c0, c1, c2, c3, k0, k1):
     return c0, c1, c2, c3
 
 
-@compiled
+@compiled_inline
 def uniforms(seed, sample, contact, knot, attempt):
     """Return two uniforms in (0, 1] for the given address (all integers)."""
     word = uint64(int64(knot))
@@ -61,7 +61,7 @@ def uniforms(seed, sample, contact, knot, attempt):
     return u1, u2
 
 
-@compiled
+@compiled_inline
 def normals(seed, sample, contact, knot, attempt):
     """Return two independent standard normals for the given address: Box-Muller, cosine first."""
     u1, u2 = uniforms(seed, sample, contact, knot, attempt)
@@ -87,7 +87,7 @@ def _from_bits(typingctx, x):
     return types.float64(types.uint64), generate
 
 
-@compiled
+@compiled_inline
 def _log(x):
     """Return the natural logarithm of a normal positive double."""
     bits = _bits(x)  # pyright: ignore[reportCallIssue]
@@ -106,7 +106,7 @@ def _log(x):
     return exponent * 0.6931471805599453 + 2.0 * s * (1.0 + z * series)
 
 
-@compiled
+@compiled_inline
 def _sin(y):
     """Return sin(y) for abs(y) <= pi/2."""
     z = y * y
