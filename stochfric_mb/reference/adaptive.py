@@ -260,7 +260,7 @@ def _call(address, q, run, t, since, y):
     """Call one of the law's functions for (x, x') = y; the answer is in ``run.out``."""
     u = q.belt_velocity * t - y[0]
     mu_s, mu_k = _coefficients(q, run, since, u)
-    call_law(
+    call_law(  # pyright: ignore[reportCallIssue]
         address, t, u, 0.0, q.belt_velocity - y[1], 0.0, q.normal_force, mu_s, mu_k, q.mass, _hold(q, t, y), 0.0,
         run.state.ctypes.data, q.parameters.ctypes.data, run.out.ctypes.data,
     )  # fmt: skip
@@ -273,7 +273,7 @@ def _friction(q, run, t, since, y):
         _call(q.force, q, run, t, since, y)
         return run.out[0], 0.0
     mu_s, mu_k = _coefficients(q, run, since, q.belt_velocity * t - y[0])
-    call_flow(
+    call_flow(  # pyright: ignore[reportCallIssue]
         q.flow, q.belt_velocity - y[1], 0.0, q.normal_force, y[2], 0.0, mu_s, mu_k,
         q.parameters.ctypes.data, run.out.ctypes.data,
     )  # fmt: skip
