@@ -1,0 +1,225 @@
+"""The belt-box oscillator in MuJoCo: a box on a plane with a surface velocity, integrated by MuJoCo's Runge-Kutta."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import brentq
+
+from stochfric_mb.errors import InputError, SimulationError, StabilityError
+from stochfric_mb.friction import Friction
+from stochfric_mb.laws.substitute import elastic_substitute
+from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.mujoco import slots as s
+from stochfric_mb.mujoco.attach import add_friction, friction_instances, header
+from stochfric_mb.mujoco.config import friction_of
+from stochfric_mb.mujoco.march import COLUMNS, march
+from stochfric_mb.scenario import Scenario, fitting_step, scenario_folders
+from stochfric_mb.trajectory import Trajectory
+
+HOOK = "engine plugin (passive), RK4"
+REACH = 1.0e3
+"""States beyond this many static deflections are nonsense."""
+CHUNK = 200
+"""Outputs between two progress reports."""
+
+Array = npt.NDArray[np.float64]
+
+
+def simulate(
+    scenario: Scenario,
+    *,
+    seed: int = 0,
+    sample: int = 0,
+    dt: float | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Trajectory:
+    """Return the trajectory of a belt-box scenario in MuJoCo, sampled at the scenario's output times.
+
+    Args:
+        scenario: the scenario.
+        seed: first part of the address of the coefficient path.
+        sample: second part.
+        dt: step [s], dividing the output step; `Scenario.default_dt` if not given.
+        progress: called with the simulated time [s] now and then.
+
+    Raises:
+        StabilityError: ``dt`` is beyond the law's stability limit.
+        InputError: ``dt`` does not divide the output step.
+        SimulationError: MuJoCo met a state that is not finite or beyond reason.
+    """
+    model = build(scenario, seed=seed, sample=sample, dt=dt)
+    return integrate(model, scenario, progress=progress)
+
+
+def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, dt: float | None = None) -> mujoco.MjModel:
+    """Return the scenario as a MuJoCo model with its friction, from ``models/belt_box/belt_box.xml``.
+
+    Raises:
+        StabilityError: ``dt`` is beyond the law's stability limit.
+        InputError: ``dt`` does not divide the output step, or a seed is out of range.
+    """
+    step = checked_step(scenario, dt)
+    mechanism = scenario.mechanism
+    spec = scene(mechanism)
+    spec.option.timestep = step
+    law, _ = elastic_substitute(scenario.law, step, mechanism.normal_force, mechanism.mass)
+    add_friction(spec, ("box", "belt"), Friction(law, scenario.process), seed=seed, sample=sample)
+    return spec.compile()
+
+
+def scene(mechanism: BeltBox) -> mujoco.MjSpec:
+    """Return the belt-box scene with the mechanism's numbers, still without friction."""
+    spec = mujoco.MjSpec.from_file(str(scene_file()))
+    spec.option.gravity = [0.0, 0.0, -mechanism.normal_force / mechanism.mass]
+    spec.geom("box").mass = mechanism.mass
+    spec.geom("belt").surfacevel = [mechanism.belt_velocity, 0.0, 0.0, 0.0, 0.0, 0.0]
+    slide: Any = spec.joint("x")
+    slide.stiffness = [mechanism.stiffness, 0.0, 0.0]
+    slide.damping = [mechanism.damping, 0.0, 0.0]
+    foot: Any = spec.actuator("foot")
+    foot.gainprm[0] = mechanism.stiffness
+    return spec
+
+
+def scene_file() -> Path:
+    """Return the MJCF file of the belt-box scene.
+
+    Raises:
+        InputError: the package was installed without its models.
+    """
+    for folder in scenario_folders():
+        if (path := folder / "belt_box" / "belt_box.xml").is_file():
+            return path
+    raise InputError("models/belt_box/belt_box.xml is missing; install the package anew")
+
+
+def integrate(
+    model: mujoco.MjModel, scenario: Scenario, *, progress: Callable[[float], None] | None = None
+) -> Trajectory:
+    """Return the trajectory of a model made by `build`, as MuJoCo integrates it.
+
+    Args:
+        model: the model; whatever it holds is what moves (its step too).
+        scenario: initial state, excitation and output times.
+        progress: called with the simulated time [s] now and then.
+
+    Raises:
+        InputError: the model's step does not divide the output step.
+        SimulationError: MuJoCo met a state that is not finite or beyond reason.
+    """
+    mechanism = scenario.mechanism
+    per_output = round(scenario.output_step / model.opt.timestep)
+    if abs(per_output * model.opt.timestep - scenario.output_step) > 1.0e-9 * scenario.output_step:
+        raise InputError(f"model.opt.timestep = {model.opt.timestep:g} s does not divide {scenario.output_step:g} s")
+    data = start(model, mechanism)
+    instance = friction_instances(model)[0]
+    state = header(model, data, instance)
+    rows = np.empty((scenario.n_outputs, COLUMNS))
+    began = time.perf_counter()
+    for first in range(0, scenario.n_outputs, CHUNK):
+        part = rows[first : first + CHUNK]
+        done = march(
+            model._address, data._address, state.ctypes.data, model.joint("x").qposadr[0], model.actuator("foot").id,
+            mechanism.excitation_amplitude, mechanism.excitation_angular_frequency, model.opt.timestep,
+            first * per_output, (scenario.n_outputs - 1) * per_output, per_output, part,
+        )  # fmt: skip
+        _require_sane(data, part, done, scenario, (first + done) * scenario.output_step)
+        if progress is not None:
+            progress((first + len(part) - 1) * scenario.output_step)
+    seconds = time.perf_counter() - began
+    return _trajectory(model, state, rows, scenario, seconds)
+
+
+def start(model: mujoco.MjModel, mechanism: BeltBox) -> mujoco.MjData:
+    """Return data at the initial state, the box resting on the belt where its vertical acceleration is zero."""
+    data = mujoco.MjData(model)
+    x, z = model.joint("x"), model.joint("z")
+    data.qpos[x.qposadr[0]] = mechanism.initial_position
+    data.qvel[x.dofadr[0]] = mechanism.initial_velocity
+    rest = _resting_height(model, data, int(z.qposadr[0]), int(z.dofadr[0]))
+    state = data.qpos.copy(), data.qvel.copy()
+    mujoco.mj_resetData(model, data)
+    data.qpos[:], data.qvel[:] = state
+    data.qpos[z.qposadr[0]] = rest
+    header(model, data, friction_instances(model)[0])[s.ORIGIN] = -mechanism.initial_position
+    return data
+
+
+def _resting_height(model: mujoco.MjModel, data: mujoco.MjData, coordinate: int, dof: int) -> float:
+    def acceleration(height: float) -> float:
+        data.qpos[coordinate] = height
+        mujoco.mj_forward(model, data)
+        return float(data.qacc[dof])
+
+    return float(brentq(acceleration, -0.04, 1.0e-6, xtol=1.0e-16, rtol=1.0e-14))
+
+
+def checked_step(scenario: Scenario, dt: float | None) -> float:
+    """Return the step [s] to use once it divides the output step and is within the law's stability limit.
+
+    Raises:
+        StabilityError: it is beyond the limit.
+        InputError: it is not positive or does not divide the output step.
+    """
+    if dt is None:
+        return scenario.default_dt()
+    limit = scenario.step_limit()
+    if dt > limit:
+        raise StabilityError(
+            f"dt = {dt:g} s is beyond the stability limit {limit:.3g} s of the law {scenario.law.kind!r} "
+            f"({scenario.law.step_limit_formula}); use dt <= {fitting_step(0.5 * limit, scenario.output_step):.3g} s"
+        )
+    n = scenario.output_step / dt if dt > 0.0 else 0.0
+    if n < 0.5 or abs(n - round(n)) > 1.0e-6 * n:
+        near = fitting_step(dt, scenario.output_step) if dt > 0.0 else scenario.default_dt()
+        raise InputError(f"dt = {dt:g} s does not divide simulation.output_step = {scenario.output_step:g} s; try {near:g} s")
+    return scenario.output_step / round(n)
+
+
+def _require_sane(data: mujoco.MjData, rows: Array, done: int, scenario: Scenario, t: float) -> None:
+    bad = [name for name in ("QPOS", "QVEL", "QACC") if data.warning[getattr(mujoco.mjtWarning, f"mjWARN_BAD{name}")].number]
+    m = scenario.mechanism
+    static = scenario.law.mu_s * m.normal_force / m.stiffness + abs(m.excitation_amplitude) + abs(m.initial_position)
+    reach = REACH * static
+    farthest = float(np.max(np.abs(rows[:done, 0]), initial=0.0))
+    if done == len(rows) and not bad and farthest <= reach:
+        return
+    what = f"MuJoCo reports a bad {', '.join(bad).lower()}" if bad else f"the box is {farthest:.3g} m away"
+    if done < len(rows) and not bad:
+        what = "the state is not finite"
+    raise SimulationError(
+        f"mujoco: {what} before t = {t:.6g} s (dt = {scenario.default_dt():g} s would be safe, static deflection "
+        f"{static:.3g} m); use a smaller dt, or check the model's mass, stiffness and contact"
+    )
+
+
+def _trajectory(model: mujoco.MjModel, state: Array, rows: Array, scenario: Scenario, seconds: float) -> Trajectory:
+    instance = friction_instances(model)[0]
+    law = friction_of(_config(model, instance, "law"), "").law
+    dt = float(model.opt.timestep)
+    m = scenario.mechanism
+    _, note = elastic_substitute(scenario.law, dt, m.normal_force, m.mass)
+    n_steps = (scenario.n_outputs - 1) * round(scenario.output_step / dt)
+    return Trajectory(
+        time=np.array(scenario.output_times()),
+        **{name: rows[:, i].copy() for i, name in enumerate(
+            ("position", "velocity", "friction_force", "normal_force", "mu_s", "mu_k", "stick"))},
+        attributes={
+            "engine": "mujoco", "version": mujoco.__version__, "hook": HOOK, "dt": dt, "seed": int(state[s.SEED]),
+            "sample": int(state[s.SAMPLE]), "law": law.kind, "notes": [note] if note else [],
+            "seconds_per_step": seconds / n_steps, "n_steps": n_steps,
+        },
+    )  # fmt: skip
+
+
+def _config(model: mujoco.MjModel, instance: int, key: str) -> str:
+    from stochfric_mb.mujoco.native import plugin_text
+
+    return plugin_text(model, instance, key)

@@ -1,0 +1,204 @@
+"""Configurations of the plugin: written into a model as the scenario file's own words, and read back from there.
+
+A model carries ``law`` and ``coefficients`` as TOML keys, such as ``kind = 'elastic_stick', mu_s = 0.8, mu_k = 0.46``.
+The first time a process meets a text, compiled code calls `read` here, which parses it with the scenario's parser,
+loads the law's compiled functions and keeps the numbers; from then on no Python runs.
+"""
+
+# pyright: reportMissingParameterType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import ctypes
+import tomllib
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.compile import compiled
+from stochfric_mb.errors import InputError
+from stochfric_mb.friction import Friction
+from stochfric_mb.laws.abi import MAX_STATE, native_law
+from stochfric_mb.laws.contract import Law
+from stochfric_mb.mujoco import native
+from stochfric_mb.mujoco.native import call_reader, entry, load, load_byte
+from stochfric_mb.mujoco.slots import MAX_PARAMETERS
+from stochfric_mb.scenario import _law, _process
+
+ATTRIBUTES = ("law", "coefficients", "geom1", "geom2", "seed", "sample", "contact", "slots")
+"""Configuration keys of the plugin; geom1 is the body, geom2 the counter-surface, slots the most contacts at a time."""
+
+R_KEY, R_LAW, R_N_PARAMETERS, R_STICK_SPEED, R_HAS_MODE, R_NEEDS_MASS, R_N_DESCRIPTOR = range(7)
+R_PARAMETERS = 8
+R_DESCRIPTOR = R_PARAMETERS + MAX_PARAMETERS
+_records: dict[int, npt.NDArray[np.float64]] = {}
+
+
+def configuration(
+    friction: Friction, body: str, surface: str, *, seed: int = 0, sample: int = 0, contact: int = 0, slots: int = 16
+) -> dict[str, str]:
+    """Return the plugin's configuration as MJCF keys and values.
+
+    Raises:
+        InputError: the friction cannot run here, or an address is out of range; says why.
+    """
+    friction.path(seed, sample, contact)  # checks the address and the process against the law
+    texts = {
+        "law": _inline(friction.law.to_dict()),
+        "coefficients": _inline(friction.process.to_dict()) if friction.process is not None else "",
+        "geom1": body,
+        "geom2": surface,
+        "seed": str(int(seed)),
+        "sample": str(int(sample)),
+        "contact": str(int(contact)),
+        "slots": str(int(slots)),
+    }
+    record_of(texts["law"], texts["coefficients"], 0)
+    return texts
+
+
+def friction_of(law: str, coefficients: str) -> Friction:
+    """Return the friction that a configuration's two texts describe.
+
+    Raises:
+        InputError: unknown or missing key or value, with the same message as for a scenario file.
+    """
+    table = _parse("law", law)
+    made = _law(table)
+    process = _process(_parse("coefficients", coefficients), 0.0, Path()) if coefficients.strip() else None
+    return Friction(made, process)
+
+
+def record_of(law: str, coefficients: str, key: int) -> npt.NDArray[np.float64]:
+    """Return the numbers of a configuration, in the order of the ``R_`` places.
+
+    Raises:
+        InputError: the texts are malformed, or the law cannot run in this engine.
+    """
+    friction = friction_of(law, coefficients)
+    _require_runnable(friction.law)
+    parameters = friction.law.parameters()
+    descriptor = friction.path(0).descriptor
+    record = np.zeros(R_DESCRIPTOR + len(descriptor))
+    record[R_KEY] = key
+    record[R_LAW] = load_law(friction.law.kind)
+    record[R_N_PARAMETERS] = len(parameters)
+    record[R_STICK_SPEED] = friction.law.stick_speed
+    record[R_HAS_MODE] = friction.law.state_names[:1] == ("mode",)
+    record[R_NEEDS_MASS] = friction.law.needs_effective_mass
+    record[R_N_DESCRIPTOR] = len(descriptor)
+    record[R_PARAMETERS : R_PARAMETERS + len(parameters)] = parameters
+    record[R_DESCRIPTOR:] = descriptor
+    return record
+
+
+def load_law(kind: str) -> int:
+    """Return the identifier of a law (from its name alone, so that states travel), its functions in the table."""
+    identifier = zlib.crc32(kind.encode()) or 1
+    for probe in range(native.N_LAWS):
+        place = native.LAW_ROWS + native.LAW_WIDTH * ((identifier + probe) % native.N_LAWS)
+        if native.TABLE[place] == identifier:
+            return identifier
+        if native.TABLE[place] == 0:
+            functions = native_law(kind)
+            native.TABLE[place + 1 : place + 4] = [functions.init, functions.force, functions.commit]
+            native.TABLE[place] = identifier  # last: a row with an identifier is complete
+            return identifier
+    raise InputError(f"law {kind!r} is one too many: MuJoCo's table holds {native.N_LAWS}; use fewer laws in one process")
+
+
+def _require_runnable(law: Law) -> None:
+    if law.needs_holding_force:
+        raise InputError(
+            f"law {law.kind!r} needs the force that would hold the contact, which a passive force in MuJoCo cannot know; use "
+            "elastic_stick, or stochfric_mb.laws.substitute.elastic_substitute(law, dt, normal_force, effective_mass)"
+        )
+    if len(law.parameters()) > MAX_PARAMETERS or len(law.state_names) > MAX_STATE:
+        raise InputError(
+            f"law {law.kind!r} has {len(law.parameters())} parameters and {len(law.state_names)} state entries; "
+            f"at most {MAX_PARAMETERS} and {MAX_STATE} fit"
+        )
+
+
+def _parse(key: str, text: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads("table = {" + text + "}")["table"]
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(
+            f"{key} = {text!r} is not a list of keys ({error}); write e.g. kind = 'havsin', mu_s = 0.8, mu_k = 0.46"
+        ) from None
+
+
+def _inline(table: Mapping[str, Any]) -> str:
+    return ", ".join(f"{key} = {_toml(value)}" for key, value in table.items())
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f"'{value}'"
+    if isinstance(value, Mapping):
+        return "{" + _inline(value) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_toml(v) for v in value) + "]"
+    return repr(value.item() if isinstance(value, np.generic) else value)
+
+
+def _read(law: bytes | None, coefficients: bytes | None, key: int) -> int:
+    """Keep the numbers of a configuration under its key; return 1, or print the error and return 0."""
+    record = record_of((law or b"").decode(), (coefficients or b"").decode(), key)
+    _records[key] = record
+    native.TABLE[native.CONFIGURATIONS + key % native.N_CONFIGURATIONS] = record.ctypes.data
+    return 1
+
+
+READER = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int64)(_read)
+"""`_read` as a C function; an exception in it is printed and 0 comes back."""
+
+
+@compiled
+def text_hash(address, h):
+    """Return the FNV-1a hash, continued from ``h``, of the C string at ``address`` (0: an empty one), below 2^53."""
+    if address != 0:
+        byte = load_byte(address)
+        while byte != 0:
+            h = (h ^ byte) * 1099511628211
+            address += 1
+            byte = load_byte(address)
+    return (h ^ 255) * 1099511628211
+
+
+@compiled
+def find_record(law, coefficients):
+    """Return the address of the record of a configuration given by its two C strings, 0 if it is malformed."""
+    key = text_hash(coefficients, text_hash(law, 1469598103934665603)) & 9007199254740991
+    place = native.CONFIGURATIONS + key % native.N_CONFIGURATIONS
+    for _ in range(2):
+        address = entry(place)
+        if address != 0 and load(address) == float(key):
+            return address
+        if call_reader(entry(native.READER), law, coefficients, key) != 1:
+            return 0
+    return 0
+
+
+@compiled
+def parse_integer(address, default):
+    """Return the whole number of the C string at ``address``; ``default`` for an empty one, -1 for anything else."""
+    if address == 0 or load_byte(address) == 0:
+        return default
+    value = 0
+    byte = load_byte(address)
+    while byte != 0:
+        if byte < 48 or byte > 57 or value > 429496729600:
+            return -1
+        value = 10 * value + byte - 48
+        address += 1
+        byte = load_byte(address)
+    return value

@@ -1,0 +1,576 @@
+"""Friction at the contacts of one plugin instance: kinematics from MuJoCo, force from the law, once-per-step commits.
+
+At the first evaluation of a step (`begin`) each contact's committed slot, advanced along the displacement since its
+commit, becomes a current slot: the law's ``commit`` runs with the state at the step's start, which is exact. All
+Runge-Kutta stages use the current slots. Only `finish`, which the engine calls when it accepts the step, makes
+current slots the committed ones; so evaluations between steps change nothing.
+"""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from stochfric_mb.coefficients.path import CURSOR as CURSOR_SIZE
+from stochfric_mb.coefficients.path import canonical_time, evaluate
+from stochfric_mb.compile import compiled
+from stochfric_mb.laws.abi import MAX_STATE, call_law
+from stochfric_mb.mujoco import native as n
+from stochfric_mb.mujoco import slots as s
+
+CONTACTS_FULL = 1
+"""mjWARN_CONTACTFULL."""
+JUMP = 10.0
+"""A displacement this many times beyond what the velocities allow is a body that was moved, not a motion."""
+
+
+@compiled
+def slot(state, current, k):
+    """Return the address of slot ``k`` of the committed (0) or the current (1) block."""
+    base = s.DESCRIPTOR + int(n.load(state + 8 * s.N_DESCRIPTOR))
+    return state + 8 * (base + (current * int(n.load(state + 8 * s.N_SLOTS)) + k) * s.SLOT)
+
+
+@compiled
+def contact_address(data, i):
+    """Return the address of contact ``i``."""
+    return n.pointer_field(data, n.D_CONTACT) + i * n.entry(n.CONTACT_SIZE)
+
+
+@compiled
+def side(contact, body, surface):
+    """Return +1 if geom 1 of the contact is the body, -1 if geom 2 is, 0 if the contact is none of ours."""
+    a = n.int_field(contact, n.C_GEOM)
+    b = n.load_int(n.field(contact, n.C_GEOM) + 4)
+    if a == body and (b == surface or surface < 0):
+        return 1
+    if b == body and (a == surface or surface < 0):
+        return -1
+    if body < 0 and b == surface:
+        return 1
+    if body < 0 and a == surface:
+        return -1
+    return 0
+
+
+@compiled
+def find(state, current, count, a, b, ordinal, guess):
+    """Return the address of the slot of the contact (geoms a, b, number among equals), 0 if there is none."""
+    for i in range(count):
+        k = (guess + i) % count
+        address = slot(state, current, k)
+        if (
+            n.load(address + 8 * s.GEOM_1) == a + 1
+            and n.load(address + 8 * s.GEOM_2) == b + 1
+            and n.load(address + 8 * s.ORDINAL) == ordinal
+        ):
+            return address
+    return 0
+
+
+@compiled
+def ordinal_of(data, i):
+    """Return how many earlier contacts join the same two geoms as contact ``i``."""
+    a = n.load_word(n.field(contact_address(data, i), n.C_GEOM))
+    count = 0
+    for j in range(i):
+        if n.load_word(n.field(contact_address(data, j), n.C_GEOM)) == a:
+            count += 1
+    return count
+
+
+@compiled
+def body_of(model, geom):
+    """Return the body of a geom."""
+    return n.load_int(n.pointer_field(model, n.M_GEOM_BODY) + 4 * geom)
+
+
+@compiled
+def velocity(model, data, body, x, y, z):
+    """Return the velocity [m/s] of the body's material point at (x, y, z)."""
+    root = n.load_int(n.pointer_field(model, n.M_BODY_ROOT) + 4 * body)
+    c = n.pointer_field(data, n.D_SUBTREE_COM) + 24 * root
+    rx, ry, rz = x - n.load(c), y - n.load(c + 8), z - n.load(c + 16)
+    v = n.pointer_field(data, n.D_CVEL) + 48 * body
+    wx, wy, wz = n.load(v), n.load(v + 8), n.load(v + 16)
+    return (
+        n.load(v + 24) + wy * rz - wz * ry,
+        n.load(v + 32) + wz * rx - wx * rz,
+        n.load(v + 40) + wx * ry - wy * rx,
+    )
+
+
+@compiled
+def spin(data, body, x, y, z):
+    """Return the body's angular velocity [rad/s] about the direction (x, y, z)."""
+    v = n.pointer_field(data, n.D_CVEL) + 48 * body
+    return n.load(v) * x + n.load(v + 8) * y + n.load(v + 16) * z
+
+
+@compiled
+def to_body(data, body, x, y, z):
+    """Return the world point (x, y, z) in the body's frame."""
+    p = n.pointer_field(data, n.D_XPOS) + 24 * body
+    r = n.pointer_field(data, n.D_XMAT) + 72 * body
+    dx, dy, dz = x - n.load(p), y - n.load(p + 8), z - n.load(p + 16)
+    return (
+        n.load(r) * dx + n.load(r + 24) * dy + n.load(r + 48) * dz,
+        n.load(r + 8) * dx + n.load(r + 32) * dy + n.load(r + 56) * dz,
+        n.load(r + 16) * dx + n.load(r + 40) * dy + n.load(r + 64) * dz,
+    )
+
+
+@compiled
+def to_world(data, body, point):
+    """Return the world position of the body's point stored at ``point``."""
+    p = n.pointer_field(data, n.D_XPOS) + 24 * body
+    r = n.pointer_field(data, n.D_XMAT) + 72 * body
+    x, y, z = n.load(point), n.load(point + 8), n.load(point + 16)
+    return (
+        n.load(p) + n.load(r) * x + n.load(r + 8) * y + n.load(r + 16) * z,
+        n.load(p + 8) + n.load(r + 24) * x + n.load(r + 32) * y + n.load(r + 40) * z,
+        n.load(p + 16) + n.load(r + 48) * x + n.load(r + 56) * y + n.load(r + 64) * z,
+    )
+
+
+@compiled
+def dot(address, x, y, z):
+    """Return the scalar product of the vector at ``address`` with (x, y, z)."""
+    return n.load(address) * x + n.load(address + 8) * y + n.load(address + 16) * z
+
+
+@compiled
+def put(address, x, y, z):
+    """Write a vector."""
+    n.store(address, x)
+    n.store(address + 8, y)
+    n.store(address + 16, z)
+
+
+@compiled
+def surface_velocity(contact, sign):
+    """Return the velocity [m/s] of the counter-surface's belt relative to the body's, in world axes."""
+    f = n.field(contact, n.C_FRAME)
+    v = n.field(contact, n.C_SURFACEVEL)
+    s1, s2 = sign * n.load(v), sign * n.load(v + 8)
+    return (
+        s1 * n.load(f + 24) + s2 * n.load(f + 48),
+        s1 * n.load(f + 32) + s2 * n.load(f + 56),
+        s1 * n.load(f + 40) + s2 * n.load(f + 64),
+    )
+
+
+@compiled
+def relative_velocity(model, data, contact, sign, body, surface):
+    """Return the velocity [m/s] of the counter-surface relative to the body at the contact point, in world axes."""
+    x, y, z = point_of(contact)
+    bx, by, bz = velocity(model, data, body, x, y, z)
+    cx, cy, cz = velocity(model, data, surface, x, y, z)
+    sx, sy, sz = surface_velocity(contact, sign)
+    return cx - bx + sx, cy - by + sy, cz - bz + sz
+
+
+@compiled
+def point_of(contact):
+    """Return the contact point (world)."""
+    p = n.field(contact, n.C_POS)
+    return n.load(p), n.load(p + 8), n.load(p + 16)
+
+
+@compiled
+def bodies_of(model, contact, sign):
+    """Return the ids of the body and of the counter-surface's body."""
+    a = body_of(model, n.int_field(contact, n.C_GEOM))
+    b = body_of(model, n.load_int(n.field(contact, n.C_GEOM) + 4))
+    return (a, b) if sign > 0 else (b, a)
+
+
+@compiled
+def set_axes(data, contact, current, old, body, surface, step):
+    """Write the tangent frame: the old one carried along with the contact, or a new one along the surface velocity."""
+    f = n.field(contact, n.C_FRAME)
+    nx, ny, nz = n.load(f), n.load(f + 8), n.load(f + 16)
+    if old != 0:
+        e = old + 8 * s.AXIS_1
+        x, y, z = n.load(e), n.load(e + 8), n.load(e + 16)
+        turn = 0.5 * step * (spin(data, body, nx, ny, nz) + spin(data, surface, nx, ny, nz))
+        x, y, z = x + turn * (ny * z - nz * y), y + turn * (nz * x - nx * z), z + turn * (nx * y - ny * x)
+    else:
+        x, y, z = surface_velocity(contact, 1.0)
+        if x * x + y * y + z * z == 0.0:
+            x, y, z = (1.0, 0.0, 0.0) if abs(nx) < 0.9 else (0.0, 1.0, 0.0)
+        elif x + y + z < 0.0:
+            x, y, z = -x, -y, -z
+    along = x * nx + y * ny + z * nz
+    x, y, z = x - along * nx, y - along * ny, z - along * nz
+    size = math.sqrt(x * x + y * y + z * z)
+    if not size > 0.0:
+        x, y, z, size = n.load(f + 24), n.load(f + 32), n.load(f + 40), 1.0
+    x, y, z = x / size, y / size, z / size
+    put(current + 8 * s.AXIS_1, x, y, z)
+    put(current + 8 * s.AXIS_2, ny * z - nz * y, nz * x - nx * z, nx * y - ny * x)
+
+
+@compiled
+def displacement(data, address, body, surface, t, vx, vy):
+    """Return the displacement [m] since the slot's time: of the two bodies' contact points, plus surface velocity.
+
+    Where that is far from what the velocities allow, a body was put elsewhere or contacts changed places; then the
+    mean velocity counts.
+    """
+    e1, e2 = address + 8 * s.AXIS_1, address + 8 * s.AXIS_2
+    bx, by, bz = to_world(data, body, address + 8 * s.ON_BODY)
+    cx, cy, cz = to_world(data, surface, address + 8 * s.ON_SURFACE)
+    step = t - n.load(address + 8 * s.SINCE)
+    dx = dot(e1, cx - bx, cy - by, cz - bz) + step * n.load(address + 8 * s.SX)
+    dy = dot(e2, cx - bx, cy - by, cz - bz) + step * n.load(address + 8 * s.SY)
+    wx, wy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
+    mx, my = 0.5 * step * (vx + wx), 0.5 * step * (vy + wy)
+    allowed = JUMP * step * (math.hypot(vx, vy) + math.hypot(wx, wy)) + 1.0e-6
+    if math.hypot(dx - mx, dy - my) > allowed:
+        return mx, my
+    return dx, dy
+
+
+@compiled
+def predicted_normal_force(model, data, contact):
+    """Return the normal force [N] of a new contact, from the acceleration of the step before."""
+    row = n.int_field(contact, n.C_EFC)
+    if row < 0:
+        return 0.0
+    nv = n.int_field(model, n.M_NV)
+    sparse = n.mj_isSparse(model) != 0
+    count, first = nv, nv * row
+    if sparse:
+        count = n.load_int(n.pointer_field(data, n.D_EFC_NNZ) + 4 * row)
+        first = n.load_int(n.pointer_field(data, n.D_EFC_ADDRESS) + 4 * row)
+    jacobian, columns = n.pointer_field(data, n.D_EFC_J), n.pointer_field(data, n.D_EFC_COLUMN)
+    qvel, warm = n.pointer_field(data, n.D_QVEL), n.pointer_field(data, n.D_WARMSTART)
+    rate, acceleration = 0.0, 0.0
+    for k in range(count):
+        column = n.load_int(columns + 4 * (first + k)) if sparse else k
+        j = n.load(jacobian + 8 * (first + k))
+        rate += j * n.load(qvel + 8 * column)
+        acceleration += j * n.load(warm + 8 * column)
+    kbip = n.pointer_field(data, n.D_EFC_KBIP) + 32 * row
+    gap = n.load(n.pointer_field(data, n.D_EFC_POS) + 8 * row) - n.load(n.pointer_field(data, n.D_EFC_MARGIN) + 8 * row)
+    wanted = -n.load(kbip + 8) * rate - n.load(kbip) * n.load(kbip + 16) * gap
+    return max(0.0, n.load(n.pointer_field(data, n.D_EFC_D) + 8 * row) * (wanted - acceleration))
+
+
+@compiled
+def tangent_mass(model, data, state, contact, address, body, surface):
+    """Return the mass [kg] that a tangential force feels, 1/(J M^-1 J^T) in the direction where it is smallest."""
+    nv = n.int_field(model, n.M_NV)
+    rows = np.zeros((4, nv))
+    base = rows.ctypes.data
+    x, y, z = point_of(contact)
+    put(state + 8 * s.POINT, x, y, z)
+    for i in range(2):
+        e = address + 8 * (s.AXIS_1 + 3 * i)
+        push(model, data, state, n.load(e), n.load(e + 8), n.load(e + 16), body, surface, base + 8 * nv * i)
+    n.mj_solveM(model, data, base + 16 * nv, base, np.int32(2))
+    a, b, c = 0.0, 0.0, 0.0
+    for j in range(nv):
+        a += rows[0, j] * rows[2, j]
+        b += rows[1, j] * rows[3, j]
+        c += rows[0, j] * rows[3, j]
+    largest = 0.5 * (a + b) + math.hypot(0.5 * (a - b), c)
+    return 1.0 / largest if largest > 0.0 else 0.0
+
+
+@compiled
+def push(model, data, state, fx, fy, fz, body, surface, target):
+    """Add the generalised force of (fx, fy, fz) on the body and its opposite on the surface, at the stored point."""
+    if body > 0:
+        put(state + 8 * s.FORCE, fx, fy, fz)
+        n.mj_applyFT(
+            model, data, state + 8 * s.FORCE, state + 8 * s.TORQUE, state + 8 * s.POINT, np.int32(body), target
+        )
+    if surface > 0:
+        put(state + 8 * s.COUNTER_FORCE, -fx, -fy, -fz)
+        n.mj_applyFT(
+            model, data, state + 8 * s.COUNTER_FORCE, state + 8 * s.TORQUE, state + 8 * s.POINT, np.int32(surface), target
+        )
+
+
+@compiled
+def coefficients(state, t, position, events):
+    """Return (mu_s, mu_k) of the instance's path."""
+    return evaluate(
+        n.vector(state + 8 * s.DESCRIPTOR, int(n.load(state + 8 * s.N_DESCRIPTOR))),
+        n.vector(state + 8 * s.CURSOR, CURSOR_SIZE),
+        int(n.load(state + 8 * s.SEED)),
+        int(n.load(state + 8 * s.SAMPLE)),
+        int(n.load(state + 8 * s.CONTACT)),
+        t,
+        position,
+        events,
+    )
+
+
+@compiled
+def half_step(model):
+    """Return half the engine's step [s]."""
+    return 0.5 * n.number_field(model, n.M_TIMESTEP)
+
+
+@compiled
+def begin(model, data, state):
+    """Make the current slots for a step that starts now, at an accepted state."""
+    now = n.number_field(data, n.D_TIME)
+    n.store(state + 8 * s.EVALUATED, now)
+    n.store(state + 8 * s.STARTED, 1.0)
+    last = n.load(state + 8 * s.ADVANCED)
+    known = int(n.load(state + 8 * s.N_COMMITTED)) if last == now else 0
+    t = canonical_time(now, half_step(model))
+    body, surface = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
+    count, total = 0, 0.0
+    for i in range(n.int_field(data, n.D_NCON)):
+        contact = contact_address(data, i)
+        sign = side(contact, body, surface)
+        if sign == 0:
+            continue
+        if count == int(n.load(state + 8 * s.N_SLOTS)):
+            n.mj_warning(data, np.int32(CONTACTS_FULL), np.int32(count))
+            break
+        total += track(model, data, state, i, sign, t, known, count)
+        count += 1
+    n.store(state + 8 * s.N_CURRENT, float(count))
+    for k in range(count):
+        commit_slot(state, slot(state, 1, k), t, total, count)
+
+
+@compiled
+def track(model, data, state, i, sign, t, known, k):
+    """Fill the kinematics of current slot ``k`` from contact ``i``; return its normal force [N]."""
+    contact = contact_address(data, i)
+    address = slot(state, 1, k)
+    a = n.int_field(contact, n.C_GEOM)
+    b = n.load_int(n.field(contact, n.C_GEOM) + 4)
+    ordinal = ordinal_of(data, i)
+    old = find(state, 0, known, a, b, ordinal, k) if known > 0 else 0
+    if old != 0:
+        normal_force = n.load(old + 8 * s.NORMAL)
+        if n.load(old + 8 * s.LIVE) == 0.0:
+            old = 0
+    else:
+        normal_force = predicted_normal_force(model, data, contact)
+    fill(model, data, state, contact, sign, t, address, old)
+    n.store(address + 8 * s.GEOM_1, a + 1.0)
+    n.store(address + 8 * s.GEOM_2, b + 1.0)
+    n.store(address + 8 * s.ORDINAL, float(ordinal))
+    n.store(address + 8 * s.NORMAL, normal_force)
+    return normal_force
+
+
+@compiled
+def fill(model, data, state, contact, sign, t, address, old):
+    """Fill frame, velocity, displacement, material points and mass of a slot; its law state stays the old one."""
+    body, surface = bodies_of(model, contact, sign)
+    vx, vy, vz = relative_velocity(model, data, contact, sign, body, surface)
+    ux, uy = n.load(state + 8 * s.ORIGIN), 0.0
+    dx, dy = 0.0, 0.0
+    step = 0.0
+    if old != 0:
+        e1, e2 = old + 8 * s.AXIS_1, old + 8 * s.AXIS_2
+        dx, dy = displacement(data, old, body, surface, t, dot(e1, vx, vy, vz), dot(e2, vx, vy, vz))
+        ux, uy = n.load(old + 8 * s.UX) + dx, n.load(old + 8 * s.UY) + dy
+        step = t - n.load(old + 8 * s.SINCE)
+        for j in range(s.STATE, s.SLOT):
+            n.store(address + 8 * j, n.load(old + 8 * j))
+        for j in (s.STICK, s.EVENTS, s.ENERGY):
+            n.store(address + 8 * j, n.load(old + 8 * j))
+        n.store(address + 8 * s.WORK, n.load(old + 8 * s.FX))
+        n.store(address + 8 * (s.WORK + 1), n.load(old + 8 * s.FY))
+    else:
+        for j in (s.STICK, s.EVENTS, s.ENERGY, s.WORK, s.WORK + 1):
+            n.store(address + 8 * j, 0.0)
+    n.store(address + 8 * s.LIVE, 1.0 if old != 0 else 0.0)
+    n.store(address + 8 * (s.WORK + 2), dx)
+    n.store(address + 8 * (s.WORK + 3), dy)
+    set_axes(data, contact, address, old, body, surface, step)
+    e1, e2 = address + 8 * s.AXIS_1, address + 8 * s.AXIS_2
+    n.store(address + 8 * s.UX, ux)
+    n.store(address + 8 * s.UY, uy)
+    n.store(address + 8 * s.VX, dot(e1, vx, vy, vz))
+    n.store(address + 8 * s.VY, dot(e2, vx, vy, vz))
+    sx, sy, sz = surface_velocity(contact, sign)
+    n.store(address + 8 * s.SX, dot(e1, sx, sy, sz))
+    n.store(address + 8 * s.SY, dot(e2, sx, sy, sz))
+    n.store(address + 8 * s.SINCE, t)
+    x, y, z = point_of(contact)
+    bx, by, bz = to_body(data, body, x, y, z)
+    put(address + 8 * s.ON_BODY, bx, by, bz)
+    cx, cy, cz = to_body(data, surface, x, y, z)
+    put(address + 8 * s.ON_SURFACE, cx, cy, cz)
+    mass = 0.0
+    if n.load(state + 8 * s.NEEDS_MASS) != 0.0:
+        mass = tangent_mass(model, data, state, contact, address, body, surface)
+    n.store(address + 8 * s.MASS, mass)
+
+
+@compiled
+def commit_slot(state, address, t, total, count):
+    """Run the law's commit (init for a new contact) on a current slot.
+
+    Contacts of one pair share the mass that they feel, in proportion to their normal forces.
+    """
+    normal_force = n.load(address + 8 * s.NORMAL)
+    share = normal_force / total if total > 0.0 else 1.0 / count
+    n.store(address + 8 * s.MASS, n.load(address + 8 * s.MASS) * share)
+    events = n.load(address + 8 * s.EVENTS)
+    mu_s, mu_k = coefficients(state, t, n.load(address + 8 * s.UX), events)
+    row = n.law_row(int(n.load(state + 8 * s.LAW)))
+    new = n.load(address + 8 * s.LIVE) == 0.0
+    if row != 0:
+        ux, uy = n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
+        vx, vy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
+        call(state, address, n.load_word(row + (8 if new else 24)), t, ux, uy, vx, vy, mu_s, mu_k)
+        for j in range(MAX_STATE):
+            n.store(address + 8 * (s.STATE + j), n.load(state + 8 * (s.OUTPUT + j)))
+    stuck = 1.0 if is_stuck(state, address) else 0.0
+    if not new and stuck == 1.0 and n.load(address + 8 * s.STICK) == 0.0:
+        events += 1.0
+        mu_s, mu_k = coefficients(state, t, n.load(address + 8 * s.UX), events)
+    n.store(address + 8 * s.EVENTS, events)
+    n.store(address + 8 * s.STICK, stuck)
+    n.store(address + 8 * s.MU_S, mu_s)
+    n.store(address + 8 * s.MU_K, mu_k)
+    n.store(address + 8 * s.LIVE, 1.0)
+
+
+@compiled
+def is_stuck(state, address):
+    """Return whether a slot's contact sticks: by the law's mode, or by speed for laws without modes."""
+    if n.load(state + 8 * s.HAS_MODE) != 0.0:
+        return n.load(address + 8 * s.STATE) == 0.0
+    return math.hypot(n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)) <= n.load(state + 8 * s.STICK_SPEED)
+
+
+@compiled
+def call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k):
+    """Call one of the law's functions on a slot; the result goes to the work space."""
+    call_law(
+        function, t, ux, uy, vx, vy, n.load(address + 8 * s.NORMAL), mu_s, mu_k, n.load(address + 8 * s.MASS), 0.0, 0.0,
+        address + 8 * s.STATE, state + 8 * s.PARAMETERS, state + 8 * s.OUTPUT,
+    )  # fmt: skip
+
+
+@compiled
+def apply(model, data, state):
+    """Add the friction forces at this instant; at a step's start also record them."""
+    now = n.number_field(data, n.D_TIME)
+    starting = now == n.load(state + 8 * s.EVALUATED)
+    t = canonical_time(now, half_step(model))
+    row = n.law_row(int(n.load(state + 8 * s.LAW)))
+    target = n.pointer_field(data, n.D_QFRC_PASSIVE)
+    if row == 0:
+        n.store(target, math.nan)
+        return
+    body, surface = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
+    k = 0
+    for i in range(n.int_field(data, n.D_NCON)):
+        sign = side(contact_address(data, i), body, surface)
+        if sign != 0:
+            address = slot_at_stage(model, data, state, i, sign, t, k)
+            if address != 0:
+                apply_contact(model, data, state, i, sign, address, n.load_word(row + 16), t, starting, target)
+            k += 1
+
+
+@compiled
+def slot_at_stage(model, data, state, i, sign, t, k):
+    """Return the current slot of contact ``i``; one that was born within the step gets a slot of its own."""
+    contact = contact_address(data, i)
+    a = n.int_field(contact, n.C_GEOM)
+    b = n.load_int(n.field(contact, n.C_GEOM) + 4)
+    count = int(n.load(state + 8 * s.N_CURRENT))
+    address = find(state, 1, count, a, b, ordinal_of(data, i), k) if count > 0 else 0
+    if address != 0 or count == int(n.load(state + 8 * s.N_SLOTS)):
+        return address
+    n.store(state + 8 * s.N_CURRENT, count + 1.0)
+    normal_force = track(model, data, state, i, sign, t, 0, count)
+    address = slot(state, 1, count)
+    commit_slot(state, address, t, normal_force, 1)
+    n.store(address + 8 * s.LIVE, 0.0)
+    return address
+
+
+@compiled
+def apply_contact(model, data, state, i, sign, address, force, t, starting, target):
+    """Add the friction force of one contact."""
+    contact = contact_address(data, i)
+    body, surface = bodies_of(model, contact, sign)
+    e1, e2 = address + 8 * s.AXIS_1, address + 8 * s.AXIS_2
+    ux, uy = n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
+    if starting:
+        vx, vy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
+        mu_s, mu_k = n.load(address + 8 * s.MU_S), n.load(address + 8 * s.MU_K)
+    else:
+        wx, wy, wz = relative_velocity(model, data, contact, sign, body, surface)
+        vx, vy = dot(e1, wx, wy, wz), dot(e2, wx, wy, wz)
+        dx, dy = displacement(data, address, body, surface, t, vx, vy)
+        ux, uy = ux + dx, uy + dy
+        mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
+    call(state, address, force, t, ux, uy, vx, vy, mu_s, mu_k)
+    fx, fy = n.load(state + 8 * s.OUTPUT), n.load(state + 8 * (s.OUTPUT + 1))
+    if starting:
+        n.store(address + 8 * s.FX, fx)
+        n.store(address + 8 * s.FY, fy)
+        w = address + 8 * s.WORK
+        work = 0.5 * ((n.load(w) + fx) * n.load(w + 16) + (n.load(w + 8) + fy) * n.load(w + 24))
+        n.store(address + 8 * s.ENERGY, n.load(address + 8 * s.ENERGY) + work)
+        n.store(w + 16, 0.0)
+        n.store(w + 24, 0.0)
+    x, y, z = point_of(contact)
+    put(state + 8 * s.POINT, x, y, z)
+    push(
+        model, data, state,
+        fx * n.load(e1) + fy * n.load(e2),
+        fx * n.load(e1 + 8) + fy * n.load(e2 + 8),
+        fx * n.load(e1 + 16) + fy * n.load(e2 + 16),
+        body, surface, target,
+    )  # fmt: skip
+
+
+@compiled
+def finish(model, data, state):
+    """Commit the current slots when the engine accepts a step, with the normal forces of its last solution."""
+    count = int(n.load(state + 8 * s.N_CURRENT))
+    n_slots = int(n.load(state + 8 * s.N_SLOTS))
+    for j in range(count * s.SLOT):
+        n.store(slot(state, 0, 0) + 8 * j, n.load(slot(state, 1, 0) + 8 * j))
+    for k in range(count):
+        n.store(slot(state, 0, k) + 8 * s.NORMAL, 0.0)
+    body, surface = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
+    wrench = np.empty(6)
+    k = 0
+    for i in range(n.int_field(data, n.D_NCON)):
+        contact = contact_address(data, i)
+        if side(contact, body, surface) == 0:
+            continue
+        a = n.int_field(contact, n.C_GEOM)
+        b = n.load_int(n.field(contact, n.C_GEOM) + 4)
+        ordinal = ordinal_of(data, i)
+        address = find(state, 0, count, a, b, ordinal, k) if count > 0 else 0
+        k += 1
+        if address == 0:
+            if count == n_slots:
+                continue
+            address = slot(state, 0, count)
+            count += 1
+            n.store(address + 8 * s.GEOM_1, a + 1.0)
+            n.store(address + 8 * s.GEOM_2, b + 1.0)
+            n.store(address + 8 * s.ORDINAL, float(ordinal))
+            n.store(address + 8 * s.LIVE, 0.0)
+        n.mj_contactForce(model, data, np.int32(i), wrench.ctypes.data)
+        n.store(address + 8 * s.NORMAL, wrench[0])
+    n.store(state + 8 * s.N_COMMITTED, float(count))
+    n.store(state + 8 * s.ADVANCED, n.number_field(data, n.D_TIME))
+    n.store(state + 8 * s.STARTED, 0.0)

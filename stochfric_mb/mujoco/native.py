@@ -1,0 +1,270 @@
+"""MuJoCo's C interface for compiled code: memory access, functions, and the table that holds what changes per process.
+
+Compiled code is cached on disk and outlives a process, so nothing in it may depend on an address or on the MuJoCo
+version. All of that stands in one table whose address LLVM learns by its name each time the code is loaded:
+``TABLE`` (64-bit words) holds the address of the Python function that reads configurations, the struct offsets, the
+rows of the laws (identifier, init, force, commit) and the addresses of the configurations read so far.
+"""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import ctypes
+import functools
+from pathlib import Path
+from typing import Any
+
+import llvmlite.binding
+import mujoco
+import numba
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+from stochfric_mb.compile import compiled
+from stochfric_mb.errors import MissingEngineError
+from stochfric_mb.mujoco import layout
+
+FIELDS = (
+    ("mjModel", "opt.timestep"),
+    ("mjModel", "nv"),
+    ("mjModel", "geom_bodyid"),
+    ("mjModel", "body_rootid"),
+    ("mjModel", "plugin_stateadr"),
+    ("mjData", "time"),
+    ("mjData", "ncon"),
+    ("mjData", "contact"),
+    ("mjData", "cvel"),
+    ("mjData", "subtree_com"),
+    ("mjData", "xpos"),
+    ("mjData", "xmat"),
+    ("mjData", "qpos"),
+    ("mjData", "qvel"),
+    ("mjData", "ctrl"),
+    ("mjData", "qfrc_passive"),
+    ("mjData", "qacc_warmstart"),
+    ("mjData", "plugin_state"),
+    ("mjData", "efc_J"),
+    ("mjData", "efc_J_rownnz"),
+    ("mjData", "efc_J_rowadr"),
+    ("mjData", "efc_J_colind"),
+    ("mjData", "efc_D"),
+    ("mjData", "efc_pos"),
+    ("mjData", "efc_margin"),
+    ("mjData", "efc_KBIP"),
+    ("mjContact", "geom"),
+    ("mjContact", "pos"),
+    ("mjContact", "frame"),
+    ("mjContact", "surfacevel"),
+    ("mjContact", "efc_address"),
+)
+"""Struct fields that compiled code reads; the constants below are their places in the table, in this order."""
+(
+    M_TIMESTEP, M_NV, M_GEOM_BODY, M_BODY_ROOT, M_STATE_ADDRESS,
+    D_TIME, D_NCON, D_CONTACT, D_CVEL, D_SUBTREE_COM, D_XPOS, D_XMAT, D_QPOS, D_QVEL, D_CTRL, D_QFRC_PASSIVE,
+    D_WARMSTART, D_PLUGIN_STATE, D_EFC_J, D_EFC_NNZ, D_EFC_ADDRESS, D_EFC_COLUMN, D_EFC_D, D_EFC_POS, D_EFC_MARGIN,
+    D_EFC_KBIP, C_GEOM, C_POS, C_FRAME, C_SURFACEVEL, C_EFC,
+) = range(1, 32)  # fmt: skip
+CONTACT_SIZE = 32
+"""Place of sizeof(mjContact) in the table."""
+READER = 0
+"""Place of the address of the Python function that reads a configuration."""
+LAW_ROWS, LAW_WIDTH, N_LAWS = 64, 4, 256
+"""First place, width and number of the law rows: identifier, init, force, commit."""
+CONFIGURATIONS, N_CONFIGURATIONS = LAW_ROWS + LAW_WIDTH * N_LAWS, 4096
+"""First place and number of the configuration addresses, by hash."""
+TABLE: Any = (ctypes.c_int64 * (CONFIGURATIONS + N_CONFIGURATIONS))()
+"""What compiled code must look up in this process."""
+
+_TABLE_SYMBOL = "stochfric_mb_mujoco_table"
+_I32, _I64, _F64 = types.int32, types.intp, types.float64
+
+
+@functools.cache
+def library() -> ctypes.CDLL:
+    """Return MuJoCo's shared library, the one that the package itself has loaded.
+
+    Raises:
+        MissingEngineError: the package holds no such library.
+    """
+    folder = Path(mujoco.__file__).parent
+    for pattern in ("libmujoco*.so*", "libmujoco*.dylib", "mujoco.dll"):
+        for path in sorted(folder.glob(pattern)):
+            return ctypes.CDLL(str(path))
+    raise MissingEngineError(f"no MuJoCo library in {folder}; install the mujoco package from PyPI: pip install mujoco")
+
+
+def _external(name: str, result: Any, *arguments: Any) -> Any:
+    """Return a C function of the library for compiled code; LLVM resolves its name when cached code is loaded."""
+    address = ctypes.cast(getattr(library(), name), ctypes.c_void_p).value
+    llvmlite.binding.add_symbol(name, address)
+    return types.ExternalFunction(name, result(*arguments))
+
+
+mj_applyFT = _external("mj_applyFT", types.void, _I64, _I64, _I64, _I64, _I64, _I32, _I64)  # noqa: N816
+mj_contactForce = _external("mj_contactForce", types.void, _I64, _I64, _I32, _I64)  # noqa: N816
+mj_solveM = _external("mj_solveM", types.void, _I64, _I64, _I64, _I64, _I32)  # noqa: N816
+mj_isSparse = _external("mj_isSparse", _I32, _I64)  # noqa: N816
+mj_getPluginConfig = _external("mj_getPluginConfig", _I64, _I64, _I32, _I64)  # noqa: N816
+mj_name2id = _external("mj_name2id", _I32, _I64, _I32, _I64)
+mj_warning = _external("mj_warning", types.void, _I64, _I32, _I32)
+mj_forward = _external("mj_forward", types.void, _I64, _I64)
+mj_step = _external("mj_step", types.void, _I64, _I64)
+
+
+def fill_table() -> None:
+    """Check the struct layouts and write them into the table.
+
+    Raises:
+        MissingEngineError: a layout is not what MuJoCo says it is.
+    """
+    layout.verify()
+    llvmlite.binding.add_symbol(_TABLE_SYMBOL, ctypes.addressof(TABLE))
+    for place, (name, field) in enumerate(FIELDS, start=1):
+        TABLE[place] = layout.offset(name, field)
+    TABLE[CONTACT_SIZE] = ctypes.sizeof(layout.struct("mjContact"))
+
+
+@intrinsic
+def _table(typingctx):
+    def generate(context, builder, signature, args):
+        module = builder.module
+        variable = module.globals.get(_TABLE_SYMBOL)
+        if variable is None:
+            variable = ir.GlobalVariable(module, ir.IntType(64), _TABLE_SYMBOL)
+        return builder.ptrtoint(variable, ir.IntType(64))
+
+    return types.intp(), generate
+
+
+@intrinsic
+def load(typingctx, address):
+    """Return the double at ``address``."""
+
+    def generate(context, builder, signature, args):
+        return builder.load(builder.inttoptr(args[0], ir.DoubleType().as_pointer()))
+
+    return types.float64(types.intp), generate
+
+
+@intrinsic
+def load_word(typingctx, address):
+    """Return the 64-bit integer (or pointer) at ``address``."""
+
+    def generate(context, builder, signature, args):
+        return builder.load(builder.inttoptr(args[0], ir.IntType(64).as_pointer()))
+
+    return types.intp(types.intp), generate
+
+
+@intrinsic
+def load_int(typingctx, address):
+    """Return the 32-bit integer at ``address``."""
+
+    def generate(context, builder, signature, args):
+        value = builder.load(builder.inttoptr(args[0], ir.IntType(32).as_pointer()))
+        return builder.sext(value, ir.IntType(64))
+
+    return types.intp(types.intp), generate
+
+
+@intrinsic
+def load_byte(typingctx, address):
+    """Return the unsigned byte at ``address``."""
+
+    def generate(context, builder, signature, args):
+        value = builder.load(builder.inttoptr(args[0], ir.IntType(8).as_pointer()))
+        return builder.zext(value, ir.IntType(64))
+
+    return types.intp(types.intp), generate
+
+
+@intrinsic
+def store(typingctx, address, value):
+    """Write the double ``value`` at ``address``."""
+
+    def generate(context, builder, signature, args):
+        builder.store(args[1], builder.inttoptr(args[0], ir.DoubleType().as_pointer()))
+        return context.get_dummy_value()
+
+    return types.void(types.intp, types.float64), generate
+
+
+@intrinsic
+def _pointer(typingctx, address):
+    def generate(context, builder, signature, args):
+        return builder.inttoptr(args[0], ir.DoubleType().as_pointer())
+
+    return types.CPointer(types.float64)(types.intp), generate
+
+
+@intrinsic
+def call_reader(typingctx, function, law, coefficients, key):
+    """Call the Python function that reads a configuration; return 1 if it could."""
+
+    def generate(context, builder, signature, args):
+        word = ir.IntType(64)
+        kind = ir.FunctionType(word, [word, word, word])
+        return builder.call(builder.inttoptr(args[0], kind.as_pointer()), list(args[1:]))
+
+    return types.intp(types.intp, types.intp, types.intp, types.intp), generate
+
+
+@compiled
+def vector(address, n):
+    """Return the ``n`` doubles at ``address`` as an array (a view)."""
+    return numba.carray(_pointer(address), n)
+
+
+@compiled
+def entry(place):
+    """Return one word of the table."""
+    return load_word(_table() + 8 * place)
+
+
+@compiled
+def number_field(base, place):
+    """Return the double in a field of the struct at ``base``."""
+    return load(base + entry(place))
+
+
+@compiled
+def int_field(base, place):
+    """Return the C int in a field of the struct at ``base``."""
+    return load_int(base + entry(place))
+
+
+@compiled
+def pointer_field(base, place):
+    """Return the pointer in a field of the struct at ``base``."""
+    return load_word(base + entry(place))
+
+
+@compiled
+def field(base, place):
+    """Return the address of a field of the struct at ``base``."""
+    return base + entry(place)
+
+
+@compiled
+def law_row(identifier):
+    """Return the address of the row of a law, 0 if this process has not loaded it."""
+    for probe in range(N_LAWS):
+        row = _table() + 8 * (LAW_ROWS + LAW_WIDTH * ((identifier + probe) % N_LAWS))
+        found = load_word(row)
+        if found == identifier:
+            return row
+        if found == 0:
+            return 0
+    return 0
+
+
+def plugin_text(model: mujoco.MjModel, instance: int, key: str) -> str:
+    """Return a configuration value of a plugin instance, "" if there is none."""
+    function = library().mj_getPluginConfig
+    function.restype = ctypes.c_char_p
+    function.argtypes = [ctypes.c_void_p, ctypes.c_int, ctypes.c_char_p]
+    return (function(model._address, instance, key.encode()) or b"").decode()

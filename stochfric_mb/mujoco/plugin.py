@@ -1,0 +1,195 @@
+"""The engine plugin ``stochfric.pair``: compiled callbacks, registered with MuJoCo once per process."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import ctypes
+import functools
+from typing import Any
+
+import mujoco
+from numba import types
+
+from stochfric_mb.compile import compiled, native
+from stochfric_mb.errors import MissingEngineError
+from stochfric_mb.mujoco import config
+from stochfric_mb.mujoco import native as n
+from stochfric_mb.mujoco import slots as s
+from stochfric_mb.mujoco.contact import apply, begin, finish
+from stochfric_mb.mujoco.layout import Plugin
+
+NAME = "stochfric.pair"
+"""Name of the plugin in MJCF."""
+KEYS = 40
+"""Place in the table of the addresses of the configuration keys, in the order of `config.ATTRIBUTES`."""
+LAW, COEFFICIENTS, GEOM1, GEOM2, SEED, SAMPLE, CONTACT, SLOTS = range(8)
+DEFAULT_SLOTS = 16
+MAX_SLOTS = 1024
+UNSET = -1.0e300
+"""Time of the last advance before the first one."""
+_GEOM_OBJECT = 5
+_POINTER, _INT = types.intp, types.int32
+_alive: list[Any] = []
+
+
+@functools.cache
+def register() -> int:
+    """Return MuJoCo's slot number of the plugin, registered now unless it was before.
+
+    Raises:
+        MissingEngineError: this MuJoCo build has another struct layout than this package knows.
+    """
+    n.fill_table()
+    n.TABLE[n.READER] = ctypes.cast(config.READER, ctypes.c_void_p).value or 0
+    for i, key in enumerate(config.ATTRIBUTES):
+        _alive.append(ctypes.create_string_buffer(key.encode()))
+        n.TABLE[KEYS + i] = ctypes.addressof(_alive[-1])
+    attributes = (ctypes.c_char_p * len(config.ATTRIBUTES))(*[a.encode() for a in config.ATTRIBUTES])
+    plugin = Plugin()
+    library = n.library()
+    library.mjp_defaultPlugin(ctypes.byref(plugin))
+    plugin.name = NAME.encode()
+    plugin.nattribute = len(config.ATTRIBUTES)
+    plugin.attributes = attributes
+    plugin.capabilityflags = int(mujoco.mjtPluginCapabilityBit.mjPLUGIN_PASSIVE)
+    for name, (function, signature) in _CALLBACKS.items():
+        callback = native(function, signature)
+        _alive.append(callback)
+        setattr(plugin, name, callback.address)
+    _alive.extend([plugin, attributes])
+    library.mjp_registerPlugin.argtypes = [ctypes.c_void_p]
+    slot = library.mjp_registerPlugin(ctypes.byref(plugin))
+    _check_registered(slot, plugin)
+    return slot
+
+
+def _check_registered(slot: int, mine: Plugin) -> None:
+    """Read plugins back from MuJoCo: `Plugin` is written by hand, and must be what the library has."""
+    library = n.library()
+    library.mjp_getPluginAtSlot.restype = ctypes.POINTER(Plugin)
+    library.mjp_getPluginAtSlot.argtypes = [ctypes.c_int]
+    other = library.mjp_getPlugin
+    other.restype = ctypes.POINTER(Plugin)
+    other.argtypes = [ctypes.c_char_p, ctypes.POINTER(ctypes.c_int)]
+    found = library.mjp_getPluginAtSlot(slot)
+    same = bool(found) and all(
+        getattr(found.contents, name) == getattr(mine, name)
+        for name, _ in Plugin._fields_
+        if name != "attributes"
+    )
+    bundled = other(b"mujoco.elasticity.cable", None) or other(b"mujoco.pid", None)
+    if bundled:
+        texts = [bundled.contents.attributes[i] for i in range(bundled.contents.nattribute)]
+        same = same and all(isinstance(t, bytes) and t.isascii() for t in texts)
+    if not same:
+        raise MissingEngineError(
+            f"MuJoCo {mujoco.__version__} does not return its plugins as this package knows them (mjpPlugin changed); "
+            "install mujoco 4.0, or a newer release of this package"
+        )
+
+
+@compiled
+def state_address(model, data, instance):
+    """Return the address of an instance's state."""
+    first = n.load_int(n.pointer_field(model, n.M_STATE_ADDRESS) + 4 * instance)
+    return n.pointer_field(data, n.D_PLUGIN_STATE) + 8 * first
+
+
+@compiled
+def text_of(model, instance, key):
+    """Return the address of a configuration value, 0 if there is none."""
+    return n.mj_getPluginConfig(model, instance, n.entry(KEYS + key))
+
+
+@compiled
+def geom_of(model, instance, key):
+    """Return the id of the geom that a key names, -1 for ``*``, -2 if there is none of that name."""
+    text = text_of(model, instance, key)
+    if text == 0:
+        return -2
+    if n.load_byte(text) == 42 and n.load_byte(text + 1) == 0:
+        return -1
+    geom = n.mj_name2id(model, _INT(_GEOM_OBJECT), text)
+    return geom if geom >= 0 else -2
+
+
+@compiled
+def record_of(model, instance):
+    """Return the address of the instance's numbers, 0 if its configuration is malformed."""
+    return config.find_record(text_of(model, instance, LAW), text_of(model, instance, COEFFICIENTS))
+
+
+@compiled
+def slots_of(model, instance):
+    """Return the most contacts of the instance at a time, -1 if its configuration is malformed."""
+    slots = config.parse_integer(text_of(model, instance, SLOTS), DEFAULT_SLOTS)
+    return slots if 0 < slots <= MAX_SLOTS else -1
+
+
+def _nstate(model, instance):
+    record = record_of(model, instance)
+    slots = slots_of(model, instance)
+    if record == 0 or slots < 0:
+        return _INT(-1)
+    return _INT(s.DESCRIPTOR + int(n.load(record + 8 * config.R_N_DESCRIPTOR)) + 2 * slots * s.SLOT)
+
+
+def _init(model, data, instance):
+    bad = record_of(model, instance) == 0 or slots_of(model, instance) < 0
+    bad = bad or geom_of(model, instance, GEOM1) == -2 or geom_of(model, instance, GEOM2) == -2
+    for key in (SEED, SAMPLE, CONTACT):
+        number = config.parse_integer(text_of(model, instance, key), 0)
+        bad = bad or number < 0 or number > 4294967295
+    return _INT(-1) if bad else _INT(0)
+
+
+def _reset(model, state, plugin_data, instance):
+    record = record_of(model, instance)
+    slots = slots_of(model, instance)
+    n_descriptor = int(n.load(record + 8 * config.R_N_DESCRIPTOR))
+    for j in range(s.DESCRIPTOR + n_descriptor + 2 * slots * s.SLOT):
+        n.store(state + 8 * j, 0.0)
+    n.store(state + 8 * s.LAW, n.load(record + 8 * config.R_LAW))
+    n.store(state + 8 * s.GEOM_BODY, float(geom_of(model, instance, GEOM1)))
+    n.store(state + 8 * s.GEOM_SURFACE, float(geom_of(model, instance, GEOM2)))
+    n.store(state + 8 * s.SEED, float(config.parse_integer(text_of(model, instance, SEED), 0)))
+    n.store(state + 8 * s.SAMPLE, float(config.parse_integer(text_of(model, instance, SAMPLE), 0)))
+    n.store(state + 8 * s.CONTACT, float(config.parse_integer(text_of(model, instance, CONTACT), 0)))
+    n.store(state + 8 * s.N_SLOTS, float(slots))
+    n.store(state + 8 * s.N_DESCRIPTOR, float(n_descriptor))
+    n.store(state + 8 * s.N_PARAMETERS, n.load(record + 8 * config.R_N_PARAMETERS))
+    n.store(state + 8 * s.STICK_SPEED, n.load(record + 8 * config.R_STICK_SPEED))
+    n.store(state + 8 * s.HAS_MODE, n.load(record + 8 * config.R_HAS_MODE))
+    n.store(state + 8 * s.NEEDS_MASS, n.load(record + 8 * config.R_NEEDS_MASS))
+    n.store(state + 8 * s.ADVANCED, UNSET)
+    n.store(state + 8 * s.EVALUATED, UNSET)
+    for j in range(s.MAX_PARAMETERS):
+        n.store(state + 8 * (s.PARAMETERS + j), n.load(record + 8 * (config.R_PARAMETERS + j)))
+    for j in range(n_descriptor):
+        n.store(state + 8 * (s.DESCRIPTOR + j), n.load(record + 8 * (config.R_DESCRIPTOR + j)))
+
+
+def _compute(model, data, instance, capability):
+    state = state_address(model, data, instance)
+    now = n.number_field(data, n.D_TIME)
+    start = n.load(state + 8 * s.EVALUATED)
+    stage = start < now and now <= start + 1.0001 * n.number_field(model, n.M_TIMESTEP)
+    if not stage or n.load(state + 8 * s.STARTED) == 0.0:
+        begin(model, data, state)
+    apply(model, data, state)
+
+
+def _advance(model, data, instance):
+    finish(model, data, state_address(model, data, instance))
+
+
+_CALLBACKS: dict[str, tuple[Any, Any]] = {
+    "nstate": (_nstate, _INT(_POINTER, _INT)),
+    "init": (_init, _INT(_POINTER, _POINTER, _INT)),
+    "reset": (_reset, types.void(_POINTER, _POINTER, _POINTER, _INT)),
+    "compute": (_compute, types.void(_POINTER, _POINTER, _INT, _INT)),
+    "advance": (_advance, types.void(_POINTER, _POINTER, _INT)),
+}

@@ -1,0 +1,47 @@
+"""What stands where in the plugin's state: one header, then the committed and the current slots of the contacts.
+
+Everything a contact needs is in ``mjData.plugin_state``, so that copying, saving, pickling and batching carry it.
+The *committed* slots are what the last accepted step left; the *current* slots are derived from them at each
+evaluation at a step's start, and become the committed ones when the engine advances.
+"""
+
+from __future__ import annotations
+
+from stochfric_mb.coefficients.path import CURSOR as CURSOR_SIZE
+from stochfric_mb.laws.abi import MAX_STATE
+
+# Header: places in doubles.
+LAW, GEOM_BODY, GEOM_SURFACE, SEED, SAMPLE, CONTACT, N_SLOTS, N_DESCRIPTOR = range(8)
+"""Identifier of the law; geom ids; address of the coefficient path; slots per block; length of the descriptor."""
+N_PARAMETERS, STICK_SPEED, HAS_MODE, NEEDS_MASS, ORIGIN, NORMAL_MODE = range(8, 14)
+"""Length of p; stick speed [m/s]; two flags; displacement of a new contact [m]; 0 = explicit normal force."""
+ADVANCED, EVALUATED, N_COMMITTED, N_CURRENT, STARTED = range(14, 19)
+"""Time of the last advance and of the last evaluation at a step's start [s]; contacts in each block; 1 within a step."""
+PARAMETERS, MAX_PARAMETERS = 20, 16
+CURSOR = PARAMETERS + MAX_PARAMETERS
+FORCE = CURSOR + CURSOR_SIZE
+"""Work space: force on the body, force on the surface, zero torque, point, law output."""
+COUNTER_FORCE, TORQUE, POINT, OUTPUT = FORCE + 3, FORCE + 6, FORCE + 9, FORCE + 12
+DESCRIPTOR = OUTPUT + MAX_STATE
+"""The coefficient descriptor; the two blocks of slots follow it."""
+
+# Slot: places in doubles.
+GEOM_1, GEOM_2, ORDINAL, LIVE = range(4)
+"""Key of the contact (geom ids plus 1, number among equals), and whether it has a law state yet."""
+NORMAL, MASS, STICK, EVENTS, ENERGY, MU_S, MU_K, SINCE = range(4, 12)
+"""Normal force [N], mass felt [kg], stuck flag, stick phases begun, energy dissipated [J], coefficients, time [s]."""
+UX, UY, VX, VY, FX, FY, SX, SY = range(12, 20)
+"""Displacement [m], velocity [m/s], friction force on the body [N], surface velocity [m/s]: in the tangent frame."""
+AXIS_1, AXIS_2, ON_BODY, ON_SURFACE = 20, 23, 26, 29
+"""The tangent frame (world), and the contact point in the frames of the two bodies."""
+WORK = 32
+"""Friction forces of the step before and the displacement since, for the dissipated energy."""
+STATE = 36
+"""The law's state."""
+SLOT = STATE + MAX_STATE
+"""Length of a slot."""
+
+
+def state_size(n_descriptor: int, n_slots: int) -> int:
+    """Return the length of the plugin's state [doubles]."""
+    return DESCRIPTOR + n_descriptor + 2 * n_slots * SLOT
