@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import exudyn
@@ -15,15 +14,14 @@ from exudyn.itemInterface import CoordinateSpringDamper
 from stochfric_mb.coefficients.path import CoefficientPath
 from stochfric_mb.errors import InputError, SimulationError, require_number
 from stochfric_mb.exudyn import stepping as at
+from stochfric_mb.exudyn.hooks import Hooks
 from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, force_expression, live_names, lower
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.laws.abi import MAX_STATE, native_law
-from stochfric_mb.laws.contract import GUARDS
 
 _OUTPUT = exudyn.OutputVariableType
 _INITIAL = exudyn.ConfigurationType.Initial
-_KEY = "stochfric_mb"
 
 
 def add_friction(
@@ -52,7 +50,9 @@ def add_friction(
         marker1: coordinate marker of the body.
         friction: a law, or a law with the process of its coefficients.
         normal_force: normal force [N], > 0 (normal torque over radius for a rotation).
-        seed, sample, contact: address of the path of coefficients.
+        seed: seed of the path of coefficients.
+        sample: number of the sample.
+        contact: number of the contact: contacts with different numbers have independent paths.
         effective_mass: mass that the contact feels [kg], for laws that need it.
         surface_velocity: velocity of the counter-surface on top of marker 0's [m/s].
 
@@ -85,7 +85,8 @@ class FrictionContact:
         self._mbs, self._markers, self._numbers, self._words = mbs, markers, numbers, words
         self._records = np.empty((0, at.RECORD_COLUMNS))
         self._own = np.zeros(4)
-        self._read_engine = False
+        self.where = int(words.ctypes.data)
+        """Address of the contact for compiled code."""
         names = live_names(friction.law)
         expression = force_expression(friction.law, friction.process, self.normal_force, float(numbers[at.MASS]))
         self._symbols = {name: exudyn.symbolic.Real(name, 0.0) for name in expression.names}
@@ -95,8 +96,7 @@ class FrictionContact:
             CoordinateSpringDamper(markerNumbers=list(markers), springForceUserFunction=self._function(expression.force))
         )
         """Index of the connector that carries the force."""
-        hooks = Hooks.of(mbs)
-        hooks.contacts.append(self)
+        Hooks.of(mbs).contacts.append(self)
         self.reset()
 
     @property
@@ -155,7 +155,7 @@ class FrictionContact:
         times = np.asarray(times, dtype=np.float64)
         self._records = np.full((len(times), at.RECORD_COLUMNS), math.nan)
         self._records[:, 0] = times
-        self._words[at.N_RECORDS], self._words[at.NEXT_RECORD] = len(times), 0
+        self._words[[at.RECORDS, at.N_RECORDS, at.NEXT_RECORD]] = self._records.ctypes.data, len(times), 0
         return self._records
 
     def connect(self) -> None:
@@ -164,8 +164,8 @@ class FrictionContact:
         velocity = self._mbs.systemData.GetODE2Coordinates_t(copy=False)
         indices = [_coordinate(self._mbs, m) for m in self._markers]
         self._own[:] = 0.0
-        self._read_engine = None in indices
-        if self._read_engine:
+        self._words[at.ASK_FIRST] = int(None in indices)
+        if None in indices:
             self._bind(self._own, self._own[2:])
             return
         for words, array in (((at.POSITION_0, at.POSITION_1), position), ((at.VELOCITY_0, at.VELOCITY_1), velocity)):
@@ -173,41 +173,48 @@ class FrictionContact:
                 assert index is not None
                 self._words[word] = self._own.ctypes.data if index < 0 else array.ctypes.data + array.itemsize * index
 
-    def commit(self, t: float) -> None:
-        """Take the step that was accepted at time t [s]; called by the system's PostStep function."""
-        if self._read_engine:
+    def settle(self, t: float, bits: int) -> bool:
+        """Do what `stepping.advance` asks for at time t [s]; return whether a step may have to be watched, or no more."""
+        if bits & at.FETCH:
+            if not self._words[at.STARTED] or t <= self._numbers[at.T]:
+                self.connect()
             self._read()
-        bits = at.advance(t, self._numbers, self._words, self._records)
-        if bits == at.NOTHING:
-            return
+            bits = at.proceed(t, self.where)
         if bits & at.LOST:
             raise SimulationError(
-                f"a step that ends at t = {t:g} s crosses more than one knot of the coefficients; use a step below their spacing"
+                f"a step that ends at t = {t:g} s crosses more than one knot of the coefficients; "
+                "use a step below their spacing"
             )
-        if bits & at.RESTARTED:
-            self._numbers[at.START] = t
         if bits & at.RECORDED:
             self._records[self._words[at.NEXT_RECORD] - 1, 3] = self.force
         if bits & at.CHANGED:
             self._pass_on()
+        return bool(bits & (at.WATCH | at.RESTARTED))
 
     def recommended_step(self, t: float) -> float:
         """Return the step [s] that ends at the law's next switch or the next grid point, or -1 to accept this one."""
-        if self._read_engine:
+        if self._words[at.ASK_FIRST]:
             self._read()
-        return at.locate(t, self._numbers, self._words)
+        return at.locate(t, self.where)
 
-    def set_step(self, dt: float) -> None:
-        """Tell the contact the solver's step [s], whose grid paths and event location keep to; 0 if it varies."""
+    @property
+    def watched(self) -> bool:
+        """Whether the next step may contain a switch."""
+        return bool(self._words[at.WATCHING])
+
+    def prepare(self, dt: float, *, locate: bool) -> None:
+        """Start afresh with the solver's step [s], whose grid located steps keep to."""
         self._numbers[at.STEP] = dt
+        self._words[at.LOCATING] = int(locate)
+        self.reset()
 
     def _function(self, force: Any) -> Any:
         """Return the symbolic user function: the connector's force is what pulls marker 1 back, minus the friction."""
-        n_velocity = float(self._numbers[at.SURFACE_VELOCITY])
+        surface = float(self._numbers[at.SURFACE_VELOCITY])
 
-        def minus_friction(mbs, t, itemNumber, displacement, velocity, stiffness, damping, offset):  # noqa: ANN001, ANN202, ARG001
-            u = n_velocity * t - displacement if n_velocity else -displacement
-            v = n_velocity - velocity if n_velocity else -velocity
+        def minus_friction(mbs, t, itemNumber, displacement, velocity, stiffness, damping, offset):
+            u = surface * t - displacement if surface else -displacement
+            v = surface - velocity if surface else -velocity
             return -lower(force, {**self._symbols, TIME: t, DISPLACEMENT: u, VELOCITY: v})
 
         return CreateSymbolicUserFunction(
@@ -228,6 +235,8 @@ class FrictionContact:
 
     def _read(self) -> None:
         """Take displacement and velocity from the connector, for markers that are no plain coordinates."""
+        if not self._words[at.ASK_FIRST]:
+            return
         self._own[1] = self._mbs.GetObjectOutput(self.object, _OUTPUT.Displacement)
         self._own[3] = self._mbs.GetObjectOutput(self.object, _OUTPUT.Velocity)
 
@@ -246,77 +255,6 @@ class FrictionContact:
         return [float(a[i]) if i is not None and i >= 0 else 0.0 for a in (position, velocity) for i in indices]
 
 
-class Hooks:
-    """The functions that a system calls around its steps, for all contacts together."""
-
-    def __init__(self, mbs: Any) -> None:
-        self.contacts: list[FrictionContact] = []
-        """All contacts of the system."""
-        self._mbs = mbs
-        self._last = math.inf
-        self._others: dict[str, Callable[..., Any] | None] = {}
-        self.install()
-
-    @classmethod
-    def of(cls, mbs: Any) -> Hooks:
-        """Return the hooks of a system, made at the first call."""
-        if _KEY not in mbs.variables:
-            mbs.variables[_KEY] = cls(mbs)
-        return mbs.variables[_KEY]
-
-    def install(self, *, locate: bool = False) -> None:
-        """Put the hooks into the system's slots; what was there is called after them."""
-        self._chain("PostStep", self.post_step)
-        if locate:
-            self._chain("PostNewton", self.post_newton)
-        elif _installed(self._mbs, "PostNewton") == self.post_newton:
-            self._mbs.SetPostNewtonUserFunction(self._others.pop("PostNewton") or 0)
-
-    def post_step(self, mbs: Any, t: float) -> bool:
-        """Commit all contacts, then call the user's function."""
-        if t <= self._last:
-            for contact in self.contacts:
-                contact.connect()
-        self._last = t
-        for contact in self.contacts:
-            contact.commit(t)
-        other = self._others["PostStep"]
-        return True if other is None else other(mbs, t)
-
-    def post_newton(self, mbs: Any, t: float) -> list[float]:
-        """Ask for a shorter step where a contact switches inside this one, then call the user's function."""
-        step = -1.0
-        for contact in self.contacts:
-            wanted = contact.recommended_step(t)
-            if wanted > 0.0 and (step < 0.0 or wanted < step):
-                step = wanted
-        other = self._others["PostNewton"]
-        error, own = (0.0, -1.0) if other is None else other(mbs, t)
-        if step < 0.0:
-            return [error, own]
-        return [max(abs(error), SWITCH_ERROR), step if own < 0.0 else min(step, own)]
-
-    def _chain(self, slot: str, hook: Callable[..., Any]) -> None:
-        there = _installed(self._mbs, slot)
-        if there == hook:
-            return
-        self._others[slot] = there
-        getattr(self._mbs, f"Set{slot}UserFunction")(hook)
-
-
-def _installed(mbs: Any, slot: str) -> Callable[..., Any] | None:
-    """Return the function in one of the system's slots, or None."""
-    there = getattr(mbs, f"Get{slot}UserFunction")()
-    function = there["function"] if isinstance(there, dict) else there
-    if isinstance(function, exudyn.symbolic.UserFunction):
-        return function.Evaluate
-    return function if callable(function) else None
-
-
-SWITCH_ERROR = 10.0
-"""Error that makes Exudyn repeat a step with the recommended size (its tolerance is set below it)."""
-
-
 def _arrays(law: Law, path: CoefficientPath) -> tuple[Any, Any]:
     """Return the two arrays of a contact, with law and path in place."""
     parameters, native = law.parameters(), native_law(law.kind)
@@ -325,10 +263,10 @@ def _arrays(law: Law, path: CoefficientPath) -> tuple[Any, Any]:
     numbers[at.LAW + len(parameters) :] = path.descriptor
     numbers[at.HAS_MODE] = float(law.state_names[:1] == ("mode",))
     numbers[at.STICK_SPEED] = law.stick_speed
-    words[[at.FORCE, at.COMMIT, at.GUARD, at.INIT]] = native.force, native.commit, native.guards, native.init
+    words[[at.COMMIT, at.GUARD, at.INIT]] = native.commit, native.guards, native.init
     words[[at.N_STATE, at.N_LAW]] = native.n_state, len(parameters)
     words[[at.SEED, at.SAMPLE, at.CONTACT]] = path.seed, path.sample, path.contact
-    assert native.n_state <= MAX_STATE and at.GUARDS_BEFORE - at.NEW >= max(MAX_STATE, GUARDS)
+    assert native.n_state <= MAX_STATE
     return numbers, words
 
 

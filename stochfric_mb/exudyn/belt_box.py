@@ -58,7 +58,8 @@ def simulate(
 
     Args:
         scenario: what to simulate.
-        seed, sample: address of the path of coefficients.
+        seed: seed of the path of coefficients.
+        sample: number of the sample.
         dt: step [s], dividing the output step; the scenario's default if not given.
         progress: called with the simulated time [s] now and then.
         solver: "rk44", "dopri5", "velocity_verlet" (explicit) or "generalized_alpha".
@@ -223,8 +224,8 @@ def _trajectory(scenario: Scenario, rows: Any, attributes: dict[str, Any]) -> Tr
     scale = scenario.law.mu_s * box.normal_force / box.stiffness + abs(box.excitation_amplitude) + abs(box.initial_position)
     if np.max(np.abs(position)) > 1.0e3 * scale:
         raise SimulationError(
-            f"{where}: abs(x) reaches {np.max(np.abs(position)):.3g} m where friction and load can hold about {scale:.3g} m: the "
-            "integration is unstable; use a smaller step"
+            f"{where}: abs(x) reaches {np.max(np.abs(position)):.3g} m where friction and load can hold about {scale:.3g} m: "
+            "the integration is unstable; use a smaller step"
         )
     return Trajectory(
         time=times,

@@ -8,7 +8,7 @@ import exudyn
 import numpy as np
 
 from stochfric_mb.errors import SimulationError, require_name
-from stochfric_mb.exudyn.attach import SWITCH_ERROR, Hooks
+from stochfric_mb.exudyn.hooks import SWITCH_ERROR, Hooks
 
 _TYPE = exudyn.DynamicSolverType
 SOLVERS = {
@@ -52,12 +52,11 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     integration = settings.timeIntegration
     dt = (integration.endTime - integration.startTime) / integration.numberOfSteps
     hooks = Hooks.of(mbs)
+    for contact in hooks.contacts:
+        contact.prepare(dt, locate=locate)
     hooks.install(locate=locate)
     if locate:
         _settle_location(integration, dt)
-    for contact in hooks.contacts:
-        contact.set_step(dt)
-        contact.reset()
     exudyn.config.printToConsole = False
     try:
         success = mbs.SolveDynamic(settings, solverType=SOLVERS[solver], showHints=False)

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 from llvmlite import ir
-from numba import types
+from numba import carray, types
 from numba.extending import intrinsic
 
 from stochfric_mb.coefficients.path import CURSOR, canonical_time, evaluate, seek
@@ -32,28 +32,37 @@ WINDOW = 14
 NEW = 16
 """Scratch for a law's output."""
 GUARDS_BEFORE = NEW + 8
+"""The law's guards at the last accepted step."""
 CURSOR_AT = GUARDS_BEFORE + 8
-LIVE = CURSOR_AT + CURSOR
+WINDOW_CURSOR_AT = CURSOR_AT + CURSOR
+"""Cursors on the path: of the coefficients now, and of the engine's window."""
+LIVE = WINDOW_CURSOR_AT + CURSOR
 """State, pair and segment, in the order of `symbolic.live_names`, as the engine should have them."""
 N_LIVE_MAX = MAX_STATE + 2 + 9
 LAW = LIVE + N_LIVE_MAX
 """The law's parameter vector, then the path's descriptor."""
 
 # entries of ``words``
-FORCE, COMMIT, GUARD, INIT = 0, 1, 2, 3
+NUMBERS, RECORDS = 0, 1
+"""Addresses of the contact's numbers and of its records."""
+COMMIT, GUARD, INIT = 2, 3, 4
 """Addresses of the law's functions."""
-POSITION_0, POSITION_1, VELOCITY_0, VELOCITY_1 = 4, 5, 6, 7
+POSITION_0, POSITION_1, VELOCITY_0, VELOCITY_1 = 5, 6, 7, 8
 """Addresses of the coordinates of the two markers."""
-N_STATE, N_LAW, SEED, SAMPLE, CONTACT, N_RECORDS, NEXT_RECORD, STARTED = 8, 9, 10, 11, 12, 13, 14, 15
-N_WORDS = 16
+N_NUMBERS, N_STATE, N_LAW, SEED, SAMPLE, CONTACT, N_RECORDS, NEXT_RECORD = 9, 10, 11, 12, 13, 14, 15, 16
+STARTED, ASK_FIRST, LOCATING, WATCHING = 17, 18, 19, 20
+"""Whether the contact has begun, its coordinates must be fetched first, steps are located, and one may switch soon."""
+N_WORDS = 21
 
-NOTHING, CHANGED, RECORDED, LOST, RESTARTED = 0, 1, 2, 4, 8
+NOTHING, CHANGED, RECORDED, LOST, RESTARTED, FETCH, WATCH = 0, 1, 2, 4, 8, 16, 32
 """Bits of what `advance` returns."""
 RECORD_COLUMNS = 7
 """time, displacement, velocity, friction force, mu_s, mu_k, stick."""
 
 # event location, in parts of the step
 TOLERANCE, BEYOND, SHORTEST, GRID = 1.0e-3, 1.0e-4, 2.0e-4, 1.0e-6
+STEPS_AHEAD = 3.0
+"""A guard is watched where it may turn within so many steps at the rate of the last one."""
 
 
 @intrinsic
@@ -66,11 +75,31 @@ def number_at(typingctx, address):
     return types.float64(types.int64), generate
 
 
+@intrinsic
+def numbers_from(typingctx, address):
+    """Return the pointer to the doubles at an address."""
+
+    def generate(context, builder, signature, args):
+        return builder.inttoptr(args[0], ir.DoubleType().as_pointer())
+
+    return types.CPointer(types.float64)(types.int64), generate
+
+
+@intrinsic
+def words_from(typingctx, address):
+    """Return the pointer to the integers at an address."""
+
+    def generate(context, builder, signature, args):
+        return builder.inttoptr(args[0], ir.IntType(64).as_pointer())
+
+    return types.CPointer(types.int64)(types.int64), generate
+
+
 @compiled
 def kinematics(t, numbers, words):
     """Return relative displacement [m] and velocity [m/s], counter-surface minus body, from the engine's coordinates."""
-    d = number_at(words[POSITION_1]) - number_at(words[POSITION_0])
-    w = number_at(words[VELOCITY_1]) - number_at(words[VELOCITY_0])
+    d = number_at(words[POSITION_1]) - number_at(words[POSITION_0])  # pyright: ignore[reportCallIssue]
+    w = number_at(words[VELOCITY_1]) - number_at(words[VELOCITY_0])  # pyright: ignore[reportCallIssue]
     return numbers[SURFACE_VELOCITY] * t - d, numbers[SURFACE_VELOCITY] - w
 
 
@@ -89,30 +118,53 @@ def ask(address, t, u, v, mu_s, mu_k, numbers, into):
     at = numbers.ctypes.data
     state, p, out = at + 8 * LIVE, at + 8 * LAW, at + 8 * into
     n, m = numbers[NORMAL_FORCE], numbers[MASS]
-    call_law(address, t, u, 0.0, v, 0.0, n, mu_s, mu_k, m, 0.0, 0.0, state, p, out)
+    call_law(address, t, u, 0.0, v, 0.0, n, mu_s, mu_k, m, 0.0, 0.0, state, p, out)  # pyright: ignore[reportCallIssue]
 
 
 @compiled
-def advance(t, numbers, words, records):
-    """Commit an accepted step that ends at ``t``; return bits that say what the caller has to pass on.
+def advance(t, address):
+    """Commit the accepted step that ends at ``t`` of the contact whose words are at ``address``.
+
+    Returns bits that say what the caller has to do; FETCH: see where the coordinates are, then call `proceed`.
+    """
+    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    if words[ASK_FIRST] == 1 or words[STARTED] == 0 or t <= numbers[T]:
+        return FETCH
+    return _proceed(t, numbers, words)
+
+
+@compiled
+def proceed(t, address):
+    """Commit as `advance`, with coordinates that are in place.
 
     The same time with the same motion changes nothing (a solver that goes on from where it stopped); an earlier time, or
     a jump, is a new simulation.
     """
+    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    return _proceed(t, numbers, words)
+
+
+@compiled
+def _proceed(t, numbers, words):
     u, v = kinematics(t, numbers, words)
     bits = NOTHING
     if words[STARTED] == 0 or t < numbers[T] or (t == numbers[T] and (u != numbers[U] or v != numbers[V])):
         restart(t, u, v, numbers, words)
+        numbers[START] = t
         bits = CHANGED | RESTARTED
     elif t > numbers[T]:
         bits = _commit(t, u, v, numbers, words)
     due = words[NEXT_RECORD]
-    if due < words[N_RECORDS] and t >= records[due, 0] - GRID * numbers[STEP]:
-        records[due, 0] = canonical_time(t, 0.5 * numbers[STEP])
-        records[due, 1], records[due, 2] = u, v
-        records[due, 4], records[due, 5], records[due, 6] = numbers[MU_S], numbers[MU_K], numbers[STUCK]
-        words[NEXT_RECORD] = due + 1
-        bits |= RECORDED
+    if due < words[N_RECORDS]:
+        records = carray(numbers_from(words[RECORDS]), (words[N_RECORDS], RECORD_COLUMNS))  # pyright: ignore[reportCallIssue]
+        if t >= records[due, 0] - GRID * numbers[STEP]:
+            records[due, 0] = canonical_time(t, 0.5 * numbers[STEP])
+            records[due, 1], records[due, 2] = u, v
+            records[due, 4], records[due, 5], records[due, 6] = numbers[MU_S], numbers[MU_K], numbers[STUCK]
+            words[NEXT_RECORD] = due + 1
+            bits |= RECORDED
     return bits
 
 
@@ -128,11 +180,14 @@ def restart(t, u, v, numbers, words):
     _set_pair(mu_s, mu_k, numbers, words)
     numbers[WINDOW] = math.nan
     _move_window(t, u, numbers, words)
+    ask(words[GUARD], t, u, v, mu_s, mu_k, numbers, GUARDS_BEFORE)
+    words[WATCHING] = 1
 
 
 @compiled
 def _commit(t, u, v, numbers, words):
     mu_s, mu_k = pair_at(t, u, numbers, words)
+    mode = numbers[LIVE]
     bits = _law_gives(words[COMMIT], t, u, v, mu_s, mu_k, numbers, words)
     numbers[T], numbers[U], numbers[V] = t, u, v
     stuck = _sticks(v, numbers)
@@ -140,6 +195,9 @@ def _commit(t, u, v, numbers, words):
         numbers[EVENTS] += 1.0
         mu_s, mu_k = pair_at(t, u, numbers, words)
     numbers[STUCK] = stuck
+    if words[LOCATING] == 1:
+        switched = numbers[HAS_MODE] == 1.0 and numbers[LIVE] != mode
+        bits |= _watch(t, u, v, mu_s, mu_k, switched, numbers, words)
     return bits | _set_pair(mu_s, mu_k, numbers, words) | _move_window(t, u, numbers, words)
 
 
@@ -153,6 +211,23 @@ def _law_gives(address, t, u, v, mu_s, mu_k, numbers, words):
             numbers[LIVE + i] = numbers[NEW + i]
             bits = CHANGED
     return bits
+
+
+@compiled
+def _watch(t, u, v, mu_s, mu_k, switched, numbers, words):
+    """Find out whether the next step may contain a switch or must return to the grid; return WATCH if that is news."""
+    ask(words[GUARD], t, u, v, mu_s, mu_k, numbers, NEW)
+    n = (t - numbers[START]) / numbers[STEP]
+    watch = switched or abs(n - math.floor(n + 0.5)) > GRID
+    for i in range(GUARDS):
+        new = numbers[NEW + i]
+        if new > 0.0 and new < STEPS_AHEAD * abs(new - numbers[GUARDS_BEFORE + i]):
+            watch = True
+        numbers[GUARDS_BEFORE + i] = new
+    if watch == (words[WATCHING] == 1):
+        return NOTHING
+    words[WATCHING] = 1 if watch else 0
+    return WATCH
 
 
 @compiled
@@ -193,7 +268,7 @@ def _move_window(t, u, numbers, words):
         return NOTHING
     bits = LOST if abs(r - numbers[WINDOW]) > 1.0 + GRID else NOTHING
     numbers[WINDOW] = middle
-    cursor = numbers[CURSOR_AT : CURSOR_AT + CURSOR]
+    cursor = numbers[WINDOW_CURSOR_AT : WINDOW_CURSOR_AT + CURSOR]
     seek(descriptor, cursor, words[SEED], words[SAMPLE], words[CONTACT], middle - 1.0)
     left_s, left_k, mid_s, mid_k = cursor[2], cursor[3], cursor[4], cursor[5]
     seek(descriptor, cursor, words[SEED], words[SAMPLE], words[CONTACT], middle)
@@ -207,12 +282,14 @@ def _move_window(t, u, numbers, words):
 
 
 @compiled
-def locate(t, numbers, words):
+def locate(t, address):
     """Return the step [s] that ends at the next grid point or just beyond the law's next switch, or -1 to accept.
 
     A switch is where a guard of the law turns from positive to not positive; it is sought on the cubic through both
     ends of the step.
     """
+    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
     t_0, step = numbers[T], numbers[STEP]
     if words[STARTED] == 0 or t <= t_0:
         return -1.0
@@ -221,8 +298,6 @@ def locate(t, numbers, words):
     if t > grid + GRID * step:
         return grid - t_0
     u, v = kinematics(t, numbers, words)
-    mu_s, mu_k = pair_at(t_0, numbers[U], numbers, words)
-    ask(words[GUARD], t_0, numbers[U], numbers[V], mu_s, mu_k, numbers, GUARDS_BEFORE)
     mu_s, mu_k = pair_at(t, u, numbers, words)
     ask(words[GUARD], t, u, v, mu_s, mu_k, numbers, NEW)
     first = 2.0
@@ -259,4 +334,6 @@ def _crossing(i, t, u, v, numbers, words):
 
 def blank(n_law: int, n_path: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the two arrays of a contact, zero."""
-    return np.zeros(LAW + n_law + n_path), np.zeros(N_WORDS, dtype=np.int64)
+    numbers, words = np.zeros(LAW + n_law + n_path), np.zeros(N_WORDS, dtype=np.int64)
+    words[[NUMBERS, N_NUMBERS]] = numbers.ctypes.data, len(numbers)
+    return numbers, words

@@ -125,10 +125,6 @@ def _zeros(state: tuple[Value, ...]) -> frozenset[int]:
     return frozenset(i for i, entry in enumerate(state) if i > 0 and known(entry) and entry == 0.0)
 
 
-def _from_exudyn(name: str) -> Callable[..., Any]:
-    return lambda *arguments: getattr(exudyn.symbolic, name)(*arguments)
-
-
 _OPERATIONS: dict[str, Callable[..., Any]] = {
     "add": lambda x, y: x + y,
     "sub": lambda x, y: x - y,
@@ -141,12 +137,12 @@ _OPERATIONS: dict[str, Callable[..., Any]] = {
     "ge": lambda x, y: x >= y,
     "eq": lambda x, y: x == y,
     "ne": lambda x, y: x != y,
-    "choose": _from_exudyn("IfThenElse"),
+    "choose": exudyn.symbolic.IfThenElse,
     **{
-        name: _from_exudyn(name)
+        name: getattr(exudyn.symbolic, name)
         for name in (
-            "pow", "mod", "abs", "sign", "min", "max", "sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "atan2",
-            "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "floor", "ceil",
+            "pow", "mod", "abs", "sign", "min", "max", "sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan",
+            "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "floor", "ceil",
         )
     },
 }  # fmt: skip

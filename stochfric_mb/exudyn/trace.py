@@ -126,72 +126,93 @@ class _Frame:
 
     def value(self, node: ast.expr, names: Mapping[str, Any]) -> Any:
         """Return the value of an expression of the source."""
-        match node:
-            case ast.Constant(value=bool() | int() | float() as number):
-                return number
-            case ast.Name(id=name):
-                return self.look_up(name, names, node)
-            case ast.Attribute(value=owner, attr=name):
-                module = self.value(owner, names)
-                if isinstance(module, ModuleType) and hasattr(module, name):
-                    return getattr(module, name)
-            case ast.Tuple(elts=entries):
-                return tuple(self.value(e, names) for e in entries)
-            case ast.Subscript(value=owner, slice=index):
-                sequence, position = self.value(owner, names), self.value(index, names)
-                if isinstance(position, int) and not known_scalar(sequence):
-                    return sequence[position]
-            case ast.BinOp(left=left, op=op, right=right) if type(op) in _BINARY:
-                return apply(_BINARY[type(op)], self.value(left, names), self.value(right, names))
-            case ast.UnaryOp(op=ast.USub(), operand=operand):
-                return apply("neg", self.value(operand, names))
-            case ast.UnaryOp(op=ast.Not(), operand=operand):
-                return choose(self.value(operand, names), False, True)
-            case ast.BoolOp(op=op, values=parts):
-                return self.boolean(isinstance(op, ast.And), parts, names)
-            case ast.Compare(left=left, ops=ops, comparators=others) if all(type(o) in _COMPARE for o in ops):
-                values = [self.value(e, names) for e in (left, *others)]
-                pairs = [apply(_COMPARE[type(o)], a, b) for o, a, b in zip(ops, values, values[1:], strict=False)]
-                return functools.reduce(lambda a, b: choose(a, b, False), pairs)
-            case ast.IfExp(test=test, body=body, orelse=orelse):
-                condition = self.value(test, names)
-                if known(condition):
-                    return self.value(body if condition else orelse, names)
-                return choose(condition, self.value(body, names), self.value(orelse, names))
-            case ast.Call(func=function, args=arguments, keywords=[]):
-                return self.call(self.value(function, names), [self.value(a, names) for a in arguments], node)
-        raise self.unsupported(node)
+        handler = getattr(self, f"of_{type(node).__name__.lower()}", None)
+        result = _NOTHING if handler is None else handler(node, names)
+        if result is _NOTHING:
+            raise self.unsupported(node)
+        return result
 
-    def look_up(self, name: str, names: Mapping[str, Any], node: ast.expr) -> Any:
+    def of_constant(self, node: ast.Constant, names: Mapping[str, Any]) -> Any:
+        """Return a number of the source."""
+        return node.value if isinstance(node.value, bool | int | float) else _NOTHING
+
+    def of_name(self, node: ast.Name, names: Mapping[str, Any]) -> Any:
         """Return what a name stands for: a local, a global of the function's module, or a builtin."""
         closure = inspect.getclosurevars(self.python).nonlocals if self.python.__closure__ else {}
         for scope in (names, closure, self.globals, vars(builtins)):
-            if name in scope:
-                return scope[name]
-        raise self.unsupported(node)
+            if node.id in scope:
+                return scope[node.id]
+        return _NOTHING
 
-    def boolean(self, both: bool, parts: Sequence[ast.expr], names: Mapping[str, Any]) -> Value:
-        """Return the value of a chain of ``and`` or of ``or``; later parts are read only where they matter."""
-        first, rest = self.value(parts[0], names), parts[1:]
-        if not rest or (known(first) and bool(first) != both):
-            return first
-        later = self.boolean(both, rest, names)
-        return choose(first, later, False) if both else choose(first, True, later)
+    def of_attribute(self, node: ast.Attribute, names: Mapping[str, Any]) -> Any:
+        """Return a name of a module, such as math.pi."""
+        module = self.value(node.value, names)
+        return getattr(module, node.attr, _NOTHING) if isinstance(module, ModuleType) else _NOTHING
 
-    def call(self, function: Any, arguments: list[Any], node: ast.Call) -> Any:
+    def of_tuple(self, node: ast.Tuple, names: Mapping[str, Any]) -> Any:
+        """Return a tuple of values."""
+        return tuple(self.value(e, names) for e in node.elts)
+
+    def of_subscript(self, node: ast.Subscript, names: Mapping[str, Any]) -> Any:
+        """Return an entry of a sequence at a known place."""
+        sequence, place = self.value(node.value, names), self.value(node.slice, names)
+        return sequence[place] if isinstance(place, int) and hasattr(sequence, "__getitem__") else _NOTHING
+
+    def of_binop(self, node: ast.BinOp, names: Mapping[str, Any]) -> Any:
+        """Return a sum, difference, product, ..."""
+        if type(node.op) not in _BINARY:
+            return _NOTHING
+        return apply(_BINARY[type(node.op)], self.value(node.left, names), self.value(node.right, names))
+
+    def of_unaryop(self, node: ast.UnaryOp, names: Mapping[str, Any]) -> Any:
+        """Return a negative or a negation."""
+        operand = self.value(node.operand, names)
+        if isinstance(node.op, ast.USub):
+            return apply("neg", operand)
+        return choose(operand, False, True) if isinstance(node.op, ast.Not) else _NOTHING
+
+    def of_boolop(self, node: ast.BoolOp, names: Mapping[str, Any]) -> Any:
+        """Return the value of a chain of ``and`` or of ``or``."""
+        return self.chain(isinstance(node.op, ast.And), node.values, names)
+
+    def of_compare(self, node: ast.Compare, names: Mapping[str, Any]) -> Any:
+        """Return a comparison, or a chain of them."""
+        if not all(type(o) in _COMPARE for o in node.ops):
+            return _NOTHING
+        values = [self.value(e, names) for e in (node.left, *node.comparators)]
+        pairs = [apply(_COMPARE[type(o)], a, b) for o, a, b in zip(node.ops, values, values[1:], strict=False)]
+        return functools.reduce(lambda a, b: choose(a, b, False), pairs)
+
+    def of_ifexp(self, node: ast.IfExp, names: Mapping[str, Any]) -> Any:
+        """Return ``a if condition else b``."""
+        condition = self.value(node.test, names)
+        if known(condition):
+            return self.value(node.body if condition else node.orelse, names)
+        return choose(condition, self.value(node.body, names), self.value(node.orelse, names))
+
+    def of_call(self, node: ast.Call, names: Mapping[str, Any]) -> Any:
         """Return the value of a call: of a known operation, or of a function whose source is traced."""
+        if node.keywords:
+            return _NOTHING
+        function, arguments = self.value(node.func, names), [self.value(a, names) for a in node.args]
         name = getattr(function, "__name__", "")
         if function is math.hypot and len(arguments) == 2:
             return hypot(*arguments)
         if function in (min, max):
             return functools.reduce(functools.partial(apply, name), arguments)
-        if function is float:
-            return arguments[0]
         if function is abs or (getattr(math, name, None) is function and name in FUNCTIONS):
             return apply(name, *arguments)
         if hasattr(function, "py_func") or isinstance(function, FunctionType):
             return trace(function, *arguments)
-        raise self.unsupported(node)
+        return _NOTHING
+
+    def chain(self, both: bool, parts: Sequence[ast.expr], names: Mapping[str, Any]) -> Value:
+        """Return the value of a chain of ``and`` or of ``or``; later parts are read only where they matter."""
+        first, rest = self.value(parts[0], names), parts[1:]
+        if not rest or (known(first) and bool(first) != both):
+            return first
+        later = self.chain(both, rest, names)
+        return choose(first, later, False) if both else choose(first, True, later)
 
     def unsupported(self, node: ast.AST) -> InputError:
         """Return the error for source that is more than arithmetic, branches, tuples and calls."""
@@ -200,11 +221,6 @@ class _Frame:
             f"{self.python.__module__}.{self.python.__name__}: {text!r} cannot be made an expression; a law for this engine "
             "consists of arithmetic, math functions, branches, tuples with fixed indices and calls of such functions"
         )
-
-
-def known_scalar(value: Any) -> bool:
-    """Return whether ``value`` is one value and no sequence."""
-    return not hasattr(value, "__getitem__")
 
 
 def _returns(statement: ast.If) -> bool:

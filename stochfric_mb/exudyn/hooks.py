@@ -1,0 +1,106 @@
+"""The functions that an Exudyn system calls around its steps, shared by all its contacts and by the user's own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Protocol
+
+import exudyn
+
+from stochfric_mb.exudyn.stepping import advance
+
+SWITCH_ERROR = 10.0
+"""Error that makes Exudyn repeat a step with the recommended size (its tolerance is set below it)."""
+_KEY = "stochfric_mb"
+
+
+class Contact(Protocol):
+    """What hooks need of a contact."""
+
+    where: int
+    """Address of the contact for compiled code."""
+
+    @property
+    def watched(self) -> bool:
+        """Whether the next step may contain a switch."""
+        ...
+
+    def settle(self, t: float, bits: int) -> bool:
+        """Do what `advance` asks for; return whether `watched` may have changed."""
+        ...
+
+    def prepare(self, dt: float, *, locate: bool) -> None:
+        """Start afresh with the solver's step [s]."""
+        ...
+
+    def recommended_step(self, t: float) -> float:
+        """Return the step [s] to repeat the one that ends at t with, or -1 to accept it."""
+        ...
+
+
+class Hooks:
+    """PostStep commits all contacts; PostNewton, while a switch may be near, asks for steps that end there.
+
+    A system has one slot for each. Functions that were there are called after these.
+    """
+
+    def __init__(self, mbs: Any) -> None:
+        self.contacts: list[Contact] = []
+        """All contacts of the system."""
+        self._mbs = mbs
+        self._locating = False
+        self._own = {"PostStep": self.post_step, "PostNewton": self.post_newton}
+        self._other: dict[str, Callable[..., Any] | None] = {"PostStep": None, "PostNewton": None}
+        self.install(locate=False)
+
+    @classmethod
+    def of(cls, mbs: Any) -> Hooks:
+        """Return the hooks of a system, made at the first call."""
+        if _KEY not in mbs.variables:
+            mbs.variables[_KEY] = cls(mbs)
+        return mbs.variables[_KEY]
+
+    def install(self, *, locate: bool) -> None:
+        """Take the system's slots, remembering what is there; ``locate``: whether steps end where a law switches."""
+        self._locating = locate
+        for slot, own in self._own.items():
+            there = _installed(self._mbs, slot)
+            if there != own and there is not None:
+                self._other[slot] = there
+        self._mbs.SetPostStepUserFunction(self.post_step)
+        self.watch()
+
+    def watch(self) -> None:
+        """Put PostNewton in place while it is needed, and take it away otherwise: it costs as much as a step."""
+        other = self._other["PostNewton"]
+        if self._locating and (other is not None or any(c.watched for c in self.contacts)):
+            self._mbs.SetPostNewtonUserFunction(self.post_newton)
+        else:
+            self._mbs.SetPostNewtonUserFunction(other or 0)
+
+    def post_step(self, mbs: Any, t: float) -> bool:
+        """Commit all contacts, then call the user's function."""
+        for contact in self.contacts:
+            bits = advance(t, contact.where)
+            if bits and contact.settle(t, bits):
+                self.watch()
+        other = self._other["PostStep"]
+        return True if other is None else other(mbs, t)
+
+    def post_newton(self, mbs: Any, t: float) -> list[float]:
+        """Ask for a shorter step where a contact switches inside this one; otherwise the user's function decides."""
+        steps = [step for contact in self.contacts if (step := contact.recommended_step(t)) > 0.0]
+        other = self._other["PostNewton"]
+        error, step = (0.0, -1.0) if other is None else other(mbs, t)
+        if not steps:
+            return [error, step]
+        return [max(abs(error), SWITCH_ERROR), min(steps if step < 0.0 else [*steps, step])]
+
+
+def _installed(mbs: Any, slot: str) -> Callable[..., Any] | None:
+    """Return the function in one of the system's slots, or None."""
+    there = getattr(mbs, f"Get{slot}UserFunction")()
+    function = there["function"] if isinstance(there, dict) else there
+    if isinstance(function, exudyn.symbolic.UserFunction):
+        return function.Evaluate
+    return function if callable(function) else None
