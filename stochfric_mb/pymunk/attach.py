@@ -206,7 +206,7 @@ def _table(friction: Friction, path: CoefficientPath, capacity: int) -> npt.NDAr
     functions = native_law(law.kind)
     table = np.zeros(c.TABLE, dtype=np.int64)
     table[c.CAPACITY] = capacity
-    table[[c.INIT, c.FORCE_LAW, c.COMMIT]] = functions.init, functions.force, functions.commit
+    table[[c.INIT, c.FORCE_LAW, c.COMMIT, c.GUARD]] = functions.init, functions.force, functions.commit, functions.guards
     table[c.DESCRIPTOR_SIZE] = len(path.descriptor)
     table[[c.SEED, c.SAMPLE]] = path.seed, path.sample
     table[c.HAS_MODE] = law.state_names[:1] == ("mode",)

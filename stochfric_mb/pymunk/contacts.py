@@ -29,6 +29,7 @@ from numba import types
 from stochfric_mb.coefficients.path import CURSOR, canonical_time, evaluate
 from stochfric_mb.compile import compiled, native
 from stochfric_mb.laws.abi import MAX_STATE, call_law
+from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.pymunk.layout import NAMES
 from stochfric_mb.pymunk.memory import (
     as_doubles,
@@ -51,20 +52,23 @@ OLD_DATA, OLD_BEGIN, OLD_BEFORE, OLD_AFTER, OLD_SEPARATE, TABLE_ADDRESS, CONTEXT
 
 # One table for each call of add_friction.
 (
-    USED, CAPACITY, PAIRS, SLOTS, CLOCK, BY_TYPE, TYPE_A, TYPE_B, INIT, FORCE_LAW, COMMIT, PARAMETERS, DESCRIPTOR,
+    USED, CAPACITY, PAIRS, SLOTS, CLOCK, BY_TYPE, TYPE_A, TYPE_B, INIT, FORCE_LAW, COMMIT, GUARD, PARAMETERS, DESCRIPTOR,
     DESCRIPTOR_SIZE, SEED, SAMPLE, HAS_MODE, PER_EVENT, HOLDING, LAST_STAMP, PROBLEM, LAYOUT,
-) = range(22)  # fmt: skip
+) = range(23)  # fmt: skip
 TABLE = LAYOUT + len(NAMES)
 OVERFLOW, NOT_FINITE = 1, 2
 """Values of the table's entry PROBLEM."""
 
 SHAPE_A, SHAPE_B, CONTACT, STAMP, PAIR = range(5)
 
-# A slot. RATE is the relative velocity over the last drift, VELOCITY the one at the time of the force.
+# A slot. RATE is the relative velocity over the last drift, VELOCITY the one at the time of the force. EXTRA_... are
+# impulses that pymunk applies but does not count where the step size changes: it scales the last step's impulses by the
+# ratio of the steps when it starts from them, not its record of them.
 (
     DISPLACEMENT, RATE, FORCE, NORMAL, MU_S, MU_K, STICK, EVENTS, CAP, STEP, VELOCITY, EFFECTIVE_MASS, TIME, ORIGIN,
-) = range(14)  # fmt: skip
-STATE = 16
+    EXTRA_NORMAL, EXTRA_TANGENT, PAST_DISPLACEMENT, PAST_VELOCITY, PAST_MU_S, PAST_MU_K,
+) = range(20)  # fmt: skip
+STATE = 24
 CURSOR_AT = STATE + MAX_STATE
 OUT = CURSOR_AT + CURSOR
 SLOT = OUT + MAX_STATE
@@ -88,6 +92,10 @@ ENDLESS = 1.0e12
 """A load no friction can hold, in normal forces: it asks a law for its cap."""
 ITERATIONS = 30
 """Most iterations for the velocity at the time of the force."""
+SWITCHES = 4
+"""Most switches located within a step."""
+BISECTIONS = 40
+"""Halvings of a step to locate a switch."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -277,7 +285,10 @@ def before_solve(arbiter, space, table_address):
         s[DISPLACEMENT] = s[ORIGIN]
         s[FORCE] = 0.0
         s[CAP] = 0.0
+        s[EXTRA_NORMAL], s[EXTRA_TANGENT] = 0.0, 0.0
     else:
+        normal, tangent = impulses(table, arbiter)
+        s[EXTRA_NORMAL], s[EXTRA_TANGENT] = normal * (dt / s[STEP] - 1.0), tangent * (dt / s[STEP] - 1.0)
         acceleration = (rate - s[RATE]) / s[STEP] + inverse_mass * s[FORCE]
         s[DISPLACEMENT] += rate * dt
     s[EFFECTIVE_MASS] = 1.0 / inverse_mass if inverse_mass > 0.0 else math.inf
@@ -307,15 +318,22 @@ def after_solve(arbiter, space, table_address):
     if slot < 0:
         return
     s = numba.carray(as_doubles(table[SLOTS]), (table[CAPACITY], SLOT))[slot]
+    normal, tangent = impulses(table, arbiter)
+    s[NORMAL] = (normal + s[EXTRA_NORMAL]) / s[STEP]
+    if table[HOLDING] == 1:
+        s[FORCE] = -(tangent + s[EXTRA_TANGENT]) / s[STEP]
+
+
+@compiled
+def impulses(table, arbiter):
+    """Return the sums of the contact's recorded normal and tangential impulses [N s]."""
     normal, tangent = 0.0, 0.0
     point = load_word(arbiter + table[POINTS])
     for _ in range(load_int(arbiter + table[COUNT])):
         normal += load_double(point + table[NORMAL_IMPULSE])
         tangent += load_double(point + table[TANGENT_IMPULSE])
         point += table[POINT_SIZE]
-    s[NORMAL] = normal / s[STEP]
-    if table[HOLDING] == 1:
-        s[FORCE] = -tangent / s[STEP]
+    return normal, tangent
 
 
 @compiled
@@ -329,7 +347,9 @@ def set_cap(table, clock, s, contact, first, rate, acceleration, inverse_mass, d
     else:
         v = rate + 0.5 * dt * (acceleration - inverse_mass * s[FORCE])
     load = acceleration / inverse_mass if inverse_mass > 0.0 else 0.0
-    remember(table, clock, s, contact, first, v, load)
+    coefficients(table, s, contact)
+    remember(table, clock, s, contact, first, s[TIME], s[DISPLACEMENT], v, s[MU_S], s[MU_K], load)
+    s[VELOCITY] = v
     normal = s[NORMAL] if s[NORMAL] > 0.0 else 1.0
     s[CAP] = abs(law_force(table, s, v, normal, math.copysign(ENDLESS * normal, load))) / normal
     if not math.isfinite(s[CAP]):
@@ -340,14 +360,81 @@ def set_cap(table, clock, s, contact, first, rate, acceleration, inverse_mass, d
 @compiled
 def settle(table, clock, s, contact, first, v_free, compliance):
     """Return the friction force [N] at the velocity v that it leads to, v = v_free - compliance F(v); commits at v."""
+    s[PAST_MU_S], s[PAST_MU_K] = s[MU_S], s[MU_K]
+    coefficients(table, s, contact)
     if first:
-        remember(table, clock, s, contact, first, v_free, 0.0)
-        return law_force(table, s, v_free, s[NORMAL], 0.0)
-    v = meet(table, s, v_free, compliance)
-    remember(table, clock, s, contact, first, v, 0.0)
-    v = meet(table, s, v_free, compliance)
+        v = v_free
+    else:
+        v = meet(table, s, v_free, compliance)
+        locate(table, clock, s, contact, v)
+    remember(table, clock, s, contact, first, s[TIME], s[DISPLACEMENT], v, s[MU_S], s[MU_K], 0.0)
+    if not first:
+        v = meet(table, s, v_free, compliance)
     s[VELOCITY] = v
+    s[PAST_VELOCITY], s[PAST_DISPLACEMENT] = v, s[DISPLACEMENT]
     return law_force(table, s, v, s[NORMAL], 0.0)
+
+
+@compiled
+def locate(table, clock, s, contact, v):
+    """Commit at each point within the last step where the law switches, found on its guards by bisection.
+
+    Between its ends the step is a cubic in displacement and linear in velocity and coefficients. Without this, a
+    switch would be late by up to a step, and what the law remembers of it (such as where a contact stuck) first order.
+    """
+    out = s[OUT : OUT + GUARDS]
+    low = 0.0
+    for _ in range(SWITCHES):
+        guards_at(table, s, v, low)
+        before = (out[0], out[1], out[2], out[3], out[4], out[5])
+        guards_at(table, s, v, 1.0)
+        after = (out[0], out[1], out[2], out[3], out[4], out[5])
+        theta = 2.0
+        for i in range(GUARDS):
+            if before[i] > 0.0 >= after[i]:
+                theta = min(theta, crossing(table, s, v, i, low))
+        if theta >= 1.0:
+            return
+        u, w, mu_s, mu_k = between(s, v, theta)
+        remember(table, clock, s, contact, False, s[TIME] - (1.0 - theta) * s[STEP], u, w, mu_s, mu_k, 0.0)
+        low = theta
+
+
+@compiled
+def crossing(table, s, v, i, low):
+    """Return the fraction of the step at which guard ``i`` is no longer positive, after ``low``."""
+    out = s[OUT : OUT + GUARDS]
+    high = 1.0
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        guards_at(table, s, v, middle)
+        if out[i] > 0.0:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+@compiled
+def between(s, v, theta):
+    """Return displacement, velocity, mu_s and mu_k at a fraction of the last step."""
+    u0, u1 = s[PAST_DISPLACEMENT], s[DISPLACEMENT]
+    v0, h = s[PAST_VELOCITY], s[STEP]
+    rest = 1.0 - theta
+    u = rest * rest * (u0 * (1.0 + 2.0 * theta) + theta * h * v0) + theta * theta * (u1 * (3.0 - 2.0 * theta) - rest * h * v)
+    mu_s = rest * s[PAST_MU_S] + theta * s[MU_S]
+    mu_k = rest * s[PAST_MU_K] + theta * s[MU_K]
+    return u, rest * v0 + theta * v, mu_s, mu_k
+
+
+@compiled
+def guards_at(table, s, v, theta):
+    """Write the law's guards at a fraction of the last step into the slot's scratch space."""
+    u, w, mu_s, mu_k = between(s, v, theta)
+    call_law(
+        table[GUARD], s[TIME] - (1.0 - theta) * s[STEP], u, 0.0, w, 0.0, s[NORMAL], mu_s, mu_k, s[EFFECTIVE_MASS], 0.0, 0.0,
+        s[STATE : STATE + MAX_STATE].ctypes.data, table[PARAMETERS], s[OUT : OUT + MAX_STATE].ctypes.data,
+    )  # fmt: skip
 
 
 @compiled
@@ -375,19 +462,17 @@ def meet(table, s, v_free, compliance):
 
 
 @compiled
-def remember(table, clock, s, contact, first, v, load):
-    """Evaluate the coefficients and commit (or, at first contact, start) the state of the law at velocity v [m/s]."""
-    coefficients(table, s, contact)
+def remember(table, clock, s, contact, first, time, u, v, mu_s, mu_k, load):
+    """Commit (or, at first contact, start) the state of the law, and count the stick phases."""
     was_stuck = s[STICK]
     state = s[STATE : STATE + MAX_STATE]
     out = s[OUT : OUT + MAX_STATE]
     call_law(
-        table[INIT] if first else table[COMMIT], s[TIME], s[DISPLACEMENT], 0.0, v, 0.0, s[NORMAL], s[MU_S], s[MU_K],
-        s[EFFECTIVE_MASS], load, 0.0, state.ctypes.data, table[PARAMETERS], out.ctypes.data,
+        table[INIT] if first else table[COMMIT], time, u, 0.0, v, 0.0, s[NORMAL], mu_s, mu_k, s[EFFECTIVE_MASS], load, 0.0,
+        state.ctypes.data, table[PARAMETERS], out.ctypes.data,
     )  # fmt: skip
     for i in range(MAX_STATE):
         state[i] = out[i]
-    s[VELOCITY] = v
     stuck = state[0] == 0.0 if table[HAS_MODE] == 1 else abs(v) <= clock[STICK_SPEED]
     s[STICK] = 1.0 if stuck else 0.0
     if stuck and was_stuck == 0.0 and not first:
