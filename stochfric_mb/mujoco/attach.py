@@ -187,7 +187,7 @@ def _require_slots(slots: int) -> int:
 def _free_name(spec: mujoco.MjSpec, name: str) -> str:
     taken = {p.name for p in spec.plugins}
     if name in taken:
-        raise InputError(f"the model has a plugin {name!r} already: this pair has its friction; build the spec anew to change it")
+        raise InputError(f"the model has a plugin {name!r} already: this pair has friction; build the spec anew to change it")
     return name
 
 

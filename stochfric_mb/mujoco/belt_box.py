@@ -100,9 +100,7 @@ def scene_file() -> Path:
     raise InputError("models/belt_box/belt_box.xml is missing; install the package anew")
 
 
-def integrate(
-    model: mujoco.MjModel, scenario: Scenario, *, progress: Callable[[float], None] | None = None
-) -> Trajectory:
+def integrate(model: mujoco.MjModel, scenario: Scenario, *, progress: Callable[[float], None] | None = None) -> Trajectory:
     """Return the trajectory of a model made by `build`, as MuJoCo integrates it.
 
     Args:

@@ -18,6 +18,7 @@ import numpy as np
 
 from stochfric_mb.coefficients.path import CURSOR as CURSOR_SIZE
 from stochfric_mb.coefficients.path import canonical_time, evaluate
+from stochfric_mb.coefficients.processes import TIME
 from stochfric_mb.compile import compiled
 from stochfric_mb.laws.abi import MAX_STATE, call_law
 from stochfric_mb.mujoco import native as n
@@ -267,41 +268,98 @@ def predicted_normal_force(model, data, contact):
 def tangent_mass(model, data, state, contact, address, body, surface):
     """Return the mass [kg] that a tangential force feels, 1/(J M^-1 J^T) in the direction where it is smallest."""
     nv = n.int_field(model, n.M_NV)
-    rows = np.zeros((4, nv))
-    base = rows.ctypes.data
+    if nv > s.MAX_ROW:
+        rows = np.empty((7, nv))
+        return _tangent_mass(model, data, state, contact, address, body, surface, nv, rows.ctypes.data)
+    return _tangent_mass(model, data, state, contact, address, body, surface, nv, state + 8 * s.ROWS)
+
+
+@compiled
+def _tangent_mass(model, data, state, contact, address, body, surface, nv, rows):
+    for j in range(2 * nv):
+        n.store(rows + 8 * j, 0.0)
     x, y, z = point_of(contact)
     put(state + 8 * s.POINT, x, y, z)
-    for i in range(2):
-        e = address + 8 * (s.AXIS_1 + 3 * i)
-        push(model, data, state, n.load(e), n.load(e + 8), n.load(e + 16), body, surface, base + 8 * nv * i)
-    n.mj_solveM(model, data, base + 16 * nv, base, np.int32(2))
+    add_rows(model, data, state, address, body, 1.0, nv, rows)
+    add_rows(model, data, state, address, surface, -1.0, nv, rows)
+    n.mj_solveM(model, data, rows + 16 * nv, rows, np.int32(2))
     a, b, c = 0.0, 0.0, 0.0
-    for j in range(nv):
-        a += rows[0, j] * rows[2, j]
-        b += rows[1, j] * rows[3, j]
-        c += rows[0, j] * rows[3, j]
+    for j in range(0, 8 * nv, 8):
+        a += n.load(rows + j) * n.load(rows + j + 16 * nv)
+        b += n.load(rows + j + 8 * nv) * n.load(rows + j + 24 * nv)
+        c += n.load(rows + j) * n.load(rows + j + 24 * nv)
     largest = 0.5 * (a + b) + math.hypot(0.5 * (a - b), c)
     return 1.0 / largest if largest > 0.0 else 0.0
 
 
 @compiled
-def push(model, data, state, fx, fy, fz, body, surface, target):
-    """Add the generalised force of (fx, fy, fz) on the body and its opposite on the surface, at the stored point."""
+def add_rows(model, data, state, address, body, sign, nv, rows):
+    """Add the body's point velocity per generalised velocity along both axes to the first two rows."""
+    if body == 0:
+        return
+    jacobian = rows + 32 * nv
+    n.mj_jac(model, data, jacobian, 0, state + 8 * s.POINT, np.int32(body))
+    for i in range(2):
+        e = address + 8 * (s.AXIS_1 + 3 * i)
+        x, y, z = sign * n.load(e), sign * n.load(e + 8), sign * n.load(e + 16)
+        row = rows + 8 * nv * i
+        for j in range(0, 8 * nv, 8):
+            k = jacobian + j
+            n.store(row + j, n.load(row + j) + x * n.load(k) + y * n.load(k + 8 * nv) + z * n.load(k + 16 * nv))
+
+
+@compiled
+def clear_push(state, contact):
+    """Start a sum of forces and torques about the contact's point."""
+    put(state + 8 * s.FORCE, 0.0, 0.0, 0.0)
+    put(state + 8 * s.TORQUE, 0.0, 0.0, 0.0)
+    x, y, z = point_of(contact)
+    put(state + 8 * s.POINT, x, y, z)
+
+
+@compiled
+def add_push(state, contact, fx, fy, fz):
+    """Add a force on the body at the contact's point to the sum."""
+    x, y, z = point_of(contact)
+    f, m, p = state + 8 * s.FORCE, state + 8 * s.TORQUE, state + 8 * s.POINT
+    x, y, z = x - n.load(p), y - n.load(p + 8), z - n.load(p + 16)
+    put(f, n.load(f) + fx, n.load(f + 8) + fy, n.load(f + 16) + fz)
+    put(
+        m,
+        n.load(m) + y * fz - z * fy,
+        n.load(m + 8) + z * fx - x * fz,
+        n.load(m + 16) + x * fy - y * fx,
+    )
+
+
+@compiled
+def push(model, data, state, body, surface, target):
+    """Add the generalised force of the sum on the body, and of its opposite on the surface."""
+    f, m, p = state + 8 * s.FORCE, state + 8 * s.TORQUE, state + 8 * s.POINT
     if body > 0:
-        put(state + 8 * s.FORCE, fx, fy, fz)
-        n.mj_applyFT(
-            model, data, state + 8 * s.FORCE, state + 8 * s.TORQUE, state + 8 * s.POINT, np.int32(body), target
-        )
+        n.mj_applyFT(model, data, f, m, p, np.int32(body), target)
     if surface > 0:
-        put(state + 8 * s.COUNTER_FORCE, -fx, -fy, -fz)
-        n.mj_applyFT(
-            model, data, state + 8 * s.COUNTER_FORCE, state + 8 * s.TORQUE, state + 8 * s.POINT, np.int32(surface), target
-        )
+        g, k = state + 8 * s.COUNTER_FORCE, state + 8 * s.COUNTER_TORQUE
+        put(g, -n.load(f), -n.load(f + 8), -n.load(f + 16))
+        put(k, -n.load(m), -n.load(m + 8), -n.load(m + 16))
+        n.mj_applyFT(model, data, g, k, p, np.int32(surface), target)
 
 
 @compiled
 def coefficients(state, t, position, events):
-    """Return (mu_s, mu_k) of the instance's path."""
+    """Return (mu_s, mu_k) of the instance's path; along time, once for all its contacts."""
+    kept = state + 8 * s.COEFFICIENTS
+    if n.load(state + 8 * (s.DESCRIPTOR + 1)) != TIME:
+        return coefficients_anew(state, t, position, events)
+    if n.load(kept) != t:
+        mu_s, mu_k = coefficients_anew(state, t, position, events)
+        put(kept, t, mu_s, mu_k)
+    return n.load(kept + 8), n.load(kept + 16)
+
+
+@compiled
+def coefficients_anew(state, t, position, events):
+    """Return (mu_s, mu_k) of the instance's path, evaluated now."""
     return evaluate(
         n.vector(state + 8 * s.DESCRIPTOR, int(n.load(state + 8 * s.N_DESCRIPTOR))),
         n.vector(state + 8 * s.CURSOR, CURSOR_SIZE),
@@ -473,15 +531,27 @@ def apply(model, data, state):
     if row == 0:
         n.store(target, math.nan)
         return
-    body, surface = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
+    geom, other = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
     k = 0
+    last_body, last_surface = -1, -1
     for i in range(n.int_field(data, n.D_NCON)):
-        sign = side(contact_address(data, i), body, surface)
-        if sign != 0:
-            address = slot_at_stage(model, data, state, i, sign, t, k)
-            if address != 0:
-                apply_contact(model, data, state, i, sign, address, n.load_word(row + 16), t, starting, target)
-            k += 1
+        contact = contact_address(data, i)
+        sign = side(contact, geom, other)
+        if sign == 0:
+            continue
+        address = slot_at_stage(model, data, state, i, sign, t, k)
+        k += 1
+        if address == 0:
+            continue
+        body, surface = bodies_of(model, contact, sign)
+        if body != last_body or surface != last_surface:
+            if last_body >= 0:
+                push(model, data, state, last_body, last_surface, target)
+            clear_push(state, contact)
+            last_body, last_surface = body, surface
+        apply_contact(model, data, state, contact, sign, body, surface, address, n.load_word(row + 16), t, starting)
+    if last_body >= 0:
+        push(model, data, state, last_body, last_surface, target)
 
 
 @compiled
@@ -503,10 +573,8 @@ def slot_at_stage(model, data, state, i, sign, t, k):
 
 
 @compiled
-def apply_contact(model, data, state, i, sign, address, force, t, starting, target):
-    """Add the friction force of one contact."""
-    contact = contact_address(data, i)
-    body, surface = bodies_of(model, contact, sign)
+def apply_contact(model, data, state, contact, sign, body, surface, address, force, t, starting):
+    """Add the friction force of one contact to the sum."""
     e1, e2 = address + 8 * s.AXIS_1, address + 8 * s.AXIS_2
     ux, uy = n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
     if starting:
@@ -528,15 +596,13 @@ def apply_contact(model, data, state, i, sign, address, force, t, starting, targ
         n.store(address + 8 * s.ENERGY, n.load(address + 8 * s.ENERGY) + work)
         n.store(w + 16, 0.0)
         n.store(w + 24, 0.0)
-    x, y, z = point_of(contact)
-    put(state + 8 * s.POINT, x, y, z)
-    push(
-        model, data, state,
+    add_push(
+        state,
+        contact,
         fx * n.load(e1) + fy * n.load(e2),
         fx * n.load(e1 + 8) + fy * n.load(e2 + 8),
         fx * n.load(e1 + 16) + fy * n.load(e2 + 16),
-        body, surface, target,
-    )  # fmt: skip
+    )
 
 
 @compiled

@@ -66,7 +66,7 @@ def offset(name: str, field: str) -> int:
     for part in field.split("."):
         descriptor = getattr(kind, part)
         base += descriptor.offset
-        kind = dict((f[0], f[1]) for f in kind._fields_)[part]
+        kind = {f[0]: f[1] for f in kind._fields_}[part]
     return base
 
 
@@ -103,7 +103,7 @@ def verify() -> int:
                 wrong.append(f"mjContact.{field}")
     if wrong or checked < 100 or data.ncon < 2:
         raise MissingEngineError(
-            f"the struct layout of MuJoCo {mujoco.__version__} differs from its own description in {wrong or 'too few fields'}; "
+            f"the layout of MuJoCo {mujoco.__version__} differs from its own description in {wrong or 'too few fields'}; "
             "install another MuJoCo build (pip install --force-reinstall mujoco) or report this version"
         )
     return checked

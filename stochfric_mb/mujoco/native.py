@@ -106,6 +106,7 @@ def _external(name: str, result: Any, *arguments: Any) -> Any:
 
 mj_applyFT = _external("mj_applyFT", types.void, _I64, _I64, _I64, _I64, _I64, _I32, _I64)  # noqa: N816
 mj_contactForce = _external("mj_contactForce", types.void, _I64, _I64, _I32, _I64)  # noqa: N816
+mj_jac = _external("mj_jac", types.void, _I64, _I64, _I64, _I64, _I64, _I32)
 mj_solveM = _external("mj_solveM", types.void, _I64, _I64, _I64, _I64, _I32)  # noqa: N816
 mj_isSparse = _external("mj_isSparse", _I32, _I64)  # noqa: N816
 mj_getPluginConfig = _external("mj_getPluginConfig", _I64, _I64, _I32, _I64)  # noqa: N816
@@ -128,16 +129,29 @@ def fill_table() -> None:
     TABLE[CONTACT_SIZE] = ctypes.sizeof(layout.struct("mjContact"))
 
 
+def _table_variable(module: ir.Module) -> Any:
+    variable = module.globals.get(_TABLE_SYMBOL)
+    return ir.GlobalVariable(module, ir.IntType(64), _TABLE_SYMBOL) if variable is None else variable
+
+
 @intrinsic
 def _table(typingctx):
     def generate(context, builder, signature, args):
-        module = builder.module
-        variable = module.globals.get(_TABLE_SYMBOL)
-        if variable is None:
-            variable = ir.GlobalVariable(module, ir.IntType(64), _TABLE_SYMBOL)
-        return builder.ptrtoint(variable, ir.IntType(64))
+        return builder.ptrtoint(_table_variable(builder.module), ir.IntType(64))
 
     return types.intp(), generate
+
+
+@intrinsic
+def offset(typingctx, place):
+    """Return the struct offset at ``place`` of the table, which never changes within a process."""
+
+    def generate(context, builder, signature, args):
+        word = builder.load(builder.gep(_table_variable(builder.module), [args[0]]))
+        word.set_metadata("invariant.load", builder.module.add_metadata([]))
+        return word
+
+    return types.intp(types.intp), generate
 
 
 @intrinsic
@@ -228,25 +242,25 @@ def entry(place):
 @compiled
 def number_field(base, place):
     """Return the double in a field of the struct at ``base``."""
-    return load(base + entry(place))
+    return load(base + offset(place))
 
 
 @compiled
 def int_field(base, place):
     """Return the C int in a field of the struct at ``base``."""
-    return load_int(base + entry(place))
+    return load_int(base + offset(place))
 
 
 @compiled
 def pointer_field(base, place):
     """Return the pointer in a field of the struct at ``base``."""
-    return load_word(base + entry(place))
+    return load_word(base + offset(place))
 
 
 @compiled
 def field(base, place):
     """Return the address of a field of the struct at ``base``."""
-    return base + entry(place)
+    return base + offset(place)
 
 
 @compiled

@@ -76,9 +76,7 @@ def _check_registered(slot: int, mine: Plugin) -> None:
     other.argtypes = [ctypes.c_char_p, ctypes.POINTER(ctypes.c_int)]
     found = library.mjp_getPluginAtSlot(slot)
     same = bool(found) and all(
-        getattr(found.contents, name) == getattr(mine, name)
-        for name, _ in Plugin._fields_
-        if name != "attributes"
+        getattr(found.contents, name) == getattr(mine, name) for name, _ in Plugin._fields_ if name != "attributes"
     )
     bundled = other(b"mujoco.elasticity.cable", None) or other(b"mujoco.pid", None)
     if bundled:
@@ -166,6 +164,7 @@ def _reset(model, state, plugin_data, instance):
     n.store(state + 8 * s.NEEDS_MASS, n.load(record + 8 * config.R_NEEDS_MASS))
     n.store(state + 8 * s.ADVANCED, UNSET)
     n.store(state + 8 * s.EVALUATED, UNSET)
+    n.store(state + 8 * s.COEFFICIENTS, UNSET)
     for j in range(s.MAX_PARAMETERS):
         n.store(state + 8 * (s.PARAMETERS + j), n.load(record + 8 * (config.R_PARAMETERS + j)))
     for j in range(n_descriptor):
@@ -176,7 +175,7 @@ def _compute(model, data, instance, capability):
     state = state_address(model, data, instance)
     now = n.number_field(data, n.D_TIME)
     start = n.load(state + 8 * s.EVALUATED)
-    stage = start < now and now <= start + 1.0001 * n.number_field(model, n.M_TIMESTEP)
+    stage = start < now <= start + 1.0001 * n.number_field(model, n.M_TIMESTEP)
     if not stage or n.load(state + 8 * s.STARTED) == 0.0:
         begin(model, data, state)
     apply(model, data, state)

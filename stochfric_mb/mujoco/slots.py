@@ -20,9 +20,13 @@ ADVANCED, EVALUATED, N_COMMITTED, N_CURRENT, STARTED = range(14, 19)
 PARAMETERS, MAX_PARAMETERS = 20, 16
 CURSOR = PARAMETERS + MAX_PARAMETERS
 FORCE = CURSOR + CURSOR_SIZE
-"""Work space: force on the body, force on the surface, zero torque, point, law output."""
-COUNTER_FORCE, TORQUE, POINT, OUTPUT = FORCE + 3, FORCE + 6, FORCE + 9, FORCE + 12
-DESCRIPTOR = OUTPUT + MAX_STATE
+"""Work space: force and torque on the body, their opposites on the surface, the point where they act, law output."""
+TORQUE, COUNTER_FORCE, COUNTER_TORQUE, POINT, OUTPUT = FORCE + 3, FORCE + 6, FORCE + 9, FORCE + 12, FORCE + 15
+COEFFICIENTS = OUTPUT + MAX_STATE
+"""Time of the last evaluation of a path along time [s], and its mu_s and mu_k."""
+ROWS, MAX_ROW = COEFFICIENTS + 3, 32
+"""Work space: seven rows of so many generalised coordinates."""
+DESCRIPTOR = ROWS + 7 * MAX_ROW
 """The coefficient descriptor; the two blocks of slots follow it."""
 
 # Slot: places in doubles.
