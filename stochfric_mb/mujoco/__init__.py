@@ -1,8 +1,15 @@
 """MuJoCo: friction as an engine plugin, for any pair of geoms of any model.
 
-Importing this package registers the plugin, so that models that name it can be loaded.
+Importing this package registers the plugin, so that models that name it can be loaded::
+
+    spec = mujoco.MjSpec.from_file("scene.xml")
+    add_friction(spec, ("box", "belt"), ElasticStick(mu_s=0.8, mu_k=0.46))
+    model = spec.compile()
 """
 
+from stochfric_mb.mujoco.attach import IntegratorWarning, Reading, add_friction, readings
 from stochfric_mb.mujoco.plugin import register
+
+__all__ = ["IntegratorWarning", "Reading", "add_friction", "readings", "register"]
 
 register()

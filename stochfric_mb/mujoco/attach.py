@@ -1,5 +1,8 @@
 """Add friction to a pair of geoms of any MuJoCo model, and read it while the model runs."""
 
+# pyright: reportAttributeAccessIssue=false
+# (MuJoCo's bindings are not typed)
+
 from __future__ import annotations
 
 import dataclasses

@@ -1,5 +1,8 @@
 """The belt-box oscillator in MuJoCo: a box on a plane with a surface velocity, integrated by MuJoCo's Runge-Kutta."""
 
+# pyright: reportAttributeAccessIssue=false
+# (MuJoCo's bindings are not typed)
+
 from __future__ import annotations
 
 import time
@@ -26,6 +29,8 @@ from stochfric_mb.trajectory import Trajectory
 HOOK = "engine plugin (passive), RK4"
 REACH = 1.0e3
 """States beyond this many static deflections are nonsense."""
+DEEPEST = -0.04
+"""Lowest vertical coordinate at which rest is looked for [m]; the box is 0.1 m high."""
 CHUNK = 200
 """Outputs between two progress reports."""
 
@@ -151,12 +156,19 @@ def start(model: mujoco.MjModel, mechanism: BeltBox) -> mujoco.MjData:
 
 
 def _resting_height(model: mujoco.MjModel, data: mujoco.MjData, coordinate: int, dof: int) -> float:
+    """Return the vertical coordinate [m] at which the box rests: the root of its vertical acceleration."""
+
     def acceleration(height: float) -> float:
         data.qpos[coordinate] = height
         mujoco.mj_forward(model, data)
         return float(data.qacc[dof])
 
-    return float(brentq(acceleration, -0.04, 1.0e-6, xtol=1.0e-16, rtol=1.0e-14))
+    if acceleration(DEEPEST) <= 0.0:
+        raise SimulationError(
+            f"mujoco: the box sinks deeper than {-DEEPEST:g} m into the belt; lower normal_force/mass or stiffen it"
+        )
+    root: Any = brentq(acceleration, DEEPEST, 1.0e-6, xtol=1.0e-16)
+    return root
 
 
 def checked_step(scenario: Scenario, dt: float | None) -> float:

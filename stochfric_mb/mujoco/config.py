@@ -6,7 +6,8 @@ loads the law's compiled functions and keeps the numbers; from then on no Python
 """
 
 # pyright: reportMissingParameterType=false
-# (compiled functions are typed by numba)
+# pyright: reportCallIssue=false, reportAttributeAccessIssue=false
+# (compiled functions are typed by numba; MuJoCo's bindings are not typed)
 
 from __future__ import annotations
 

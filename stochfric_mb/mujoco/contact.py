@@ -8,7 +8,8 @@ current slots the committed ones; so evaluations between steps change nothing.
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
 # pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# (compiled functions are typed by numba)
+# pyright: reportCallIssue=false, reportAttributeAccessIssue=false
+# (compiled functions are typed by numba; MuJoCo's bindings are not typed)
 
 from __future__ import annotations
 

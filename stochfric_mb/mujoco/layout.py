@@ -1,5 +1,8 @@
 """Layouts of MuJoCo's C structs, built from what the package says of itself and checked against its own bindings."""
 
+# pyright: reportAttributeAccessIssue=false
+# (MuJoCo's bindings are not typed)
+
 from __future__ import annotations
 
 import ctypes

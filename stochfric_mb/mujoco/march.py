@@ -2,7 +2,8 @@
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
 # pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# (compiled functions are typed by numba)
+# pyright: reportCallIssue=false, reportAttributeAccessIssue=false
+# (compiled functions are typed by numba; MuJoCo's bindings are not typed)
 
 from __future__ import annotations
 

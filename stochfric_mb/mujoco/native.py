@@ -8,7 +8,8 @@ rows of the laws (identifier, init, force, commit) and the addresses of the conf
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
 # pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# (compiled functions are typed by numba)
+# pyright: reportCallIssue=false, reportAttributeAccessIssue=false
+# (compiled functions are typed by numba; MuJoCo's bindings are not typed)
 
 from __future__ import annotations
 
@@ -19,9 +20,8 @@ from typing import Any
 
 import llvmlite.binding
 import mujoco
-import numba
 from llvmlite import ir
-from numba import types
+from numba import carray, types  # pyright: ignore[reportPrivateImportUsage]
 from numba.extending import intrinsic
 
 from stochfric_mb.compile import compiled
@@ -230,7 +230,7 @@ def call_reader(typingctx, function, law, coefficients, key):
 @compiled
 def vector(address, n):
     """Return the ``n`` doubles at ``address`` as an array (a view)."""
-    return numba.carray(_pointer(address), n)
+    return carray(_pointer(address), n)
 
 
 @compiled

@@ -2,7 +2,8 @@
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
 # pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# (compiled functions are typed by numba)
+# pyright: reportCallIssue=false, reportAttributeAccessIssue=false
+# (compiled functions are typed by numba; MuJoCo's bindings are not typed)
 
 from __future__ import annotations
 
@@ -76,7 +77,7 @@ def _check_registered(slot: int, mine: Plugin) -> None:
     other.argtypes = [ctypes.c_char_p, ctypes.POINTER(ctypes.c_int)]
     found = library.mjp_getPluginAtSlot(slot)
     same = bool(found) and all(
-        getattr(found.contents, name) == getattr(mine, name) for name, _ in Plugin._fields_ if name != "attributes"
+        getattr(found.contents, field[0]) == getattr(mine, field[0]) for field in Plugin._fields_ if field[0] != "attributes"
     )
     bundled = other(b"mujoco.elasticity.cable", None) or other(b"mujoco.pid", None)
     if bundled:
