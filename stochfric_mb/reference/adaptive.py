@@ -34,7 +34,7 @@ MAX_SETTLES = 20
 RESOLUTION = 1.0e-19
 """Time [s] to which an event is located within its step."""
 CHECKS = 4
-"""Parts of a step at whose ends the guards are looked at."""
+"""Even parts of a step at whose ends, at least, the guards are looked at."""
 ALL_GUARDS = GUARDS + 4
 """The law's guards, two for the stick speed (laws without a mode) and two for knots along the belt."""
 # Entries of Run.segment: the coefficients between the knots around the present state
@@ -108,8 +108,10 @@ class Run(NamedTuple):
     """Rates of the step tried last, shape (STAGES + 1, 3)."""
     probe: Any
     """(x, x', z) of a stage or a check point."""
+    checks: Any
+    """Check points of a step, in parts of it, shape (3 CHECKS + 1,)."""
     table: Any
-    """Guards at the check points of a step, shape (CHECKS + 1, ALL_GUARDS)."""
+    """Guards at the check points of a step, shape (3 CHECKS + 1, ALL_GUARDS)."""
     out: Any
     """Where a law's functions write."""
     cursor: Any
@@ -130,7 +132,8 @@ def new_run() -> Run:
         end=np.zeros(3),
         stages=np.zeros((STAGES + 1, 3)),
         probe=np.zeros(3),
-        table=np.ones((CHECKS + 1, ALL_GUARDS)),
+        checks=np.zeros(3 * CHECKS + 1),
+        table=np.ones((3 * CHECKS + 1, ALL_GUARDS)),
         out=np.zeros(MAX_STATE + GUARDS),
         cursor=np.zeros(CURSOR),
         output_cursor=np.zeros(CURSOR),
@@ -429,22 +432,61 @@ def _interpolate(run, theta, h):
 
 
 @compiled
+def _check_points(q, run, h):
+    """Write the parts of the step at which guards are looked at into ``run.checks``; return the index of the last.
+
+    They are even parts, and on the cubic the zeros and extrema of v_rel: between them abs(v_rel) is monotone, so that
+    no speed limit, however narrow, is stepped over.
+    """
+    a = h * run.stages[0, 1]
+    b = h * run.stages[STAGES, 1]
+    d = run.end[1] - run.y[1]
+    w, c1, c2, c3 = q.belt_velocity - run.y[1], -a, -(3.0 * d - 2.0 * a - b), -(a + b - 2.0 * d)
+    n = 0
+    run.checks[0] = 0.0
+    for c in range(CHECKS):
+        low, high = c / CHECKS, (c + 1) / CHECKS
+        zero = _cubic_zero(w, c1, c2, c3, low, high)
+        turn = _cubic_zero(c1, 2.0 * c2, 3.0 * c3, 0.0, low, high)
+        for theta in (min(zero, turn), max(zero, turn), high):
+            if run.checks[n] < theta <= high:
+                n += 1
+                run.checks[n] = theta
+    return n
+
+
+@compiled
+def _cubic_zero(c0, c1, c2, c3, low, high):
+    """Return where c0 + c1 s + c2 s^2 + c3 s^3 changes sign between low and high, infinity if it does not."""
+    positive = c0 + low * (c1 + low * (c2 + low * c3)) > 0.0
+    if positive == (c0 + high * (c1 + high * (c2 + high * c3)) > 0.0):
+        return math.inf
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        if (c0 + middle * (c1 + middle * (c2 + middle * c3)) > 0.0) == positive:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+@compiled
 def _bracket(q, run, t_leg, tau, h):
     """Return (low, high) [s] within the step between which the first armed guard seems to turn negative, or (0, 0)."""
     g = run.table
     for i in range(ALL_GUARDS):
         g[0, i] = run.guards[i]
-    for c in range(1, CHECKS + 1):
-        theta = c / CHECKS
+    n = _check_points(q, run, h)
+    for c in range(1, n + 1):
+        theta = run.checks[c]
         _measure_within(q, run, t_leg, tau, theta, h, g[c])
-        if c > 1:
-            dip = _dip(q, run, t_leg, tau, h, c - 1)
-            if dip > 0.0:
-                return (c - 2) / CHECKS * h, dip * h
+        dip = _dip(q, run, t_leg, tau, h, c - 1) if c > 1 else 0.0
+        if dip > 0.0:
+            return run.checks[c - 2] * h, dip * h
         for i in range(ALL_GUARDS):
             if g[c, i] < 0.0 and run.armed[i]:
-                return (c - 1) / CHECKS * h, theta * h
-        if c < CHECKS:
+                return run.checks[c - 1] * h, theta * h
+        if c < n:
             for i in range(ALL_GUARDS):
                 run.armed[i] = run.armed[i] or g[c, i] > 0.0
     return 0.0, 0.0
@@ -465,16 +507,17 @@ def _measure_within(q, run, t_leg, tau, theta, h, g):
 def _dip(q, run, t_leg, tau, h, c):
     """Return the part of the step at which an armed guard dips below zero around check point c, or 0."""
     g = run.table
+    t0, t1, t2 = run.checks[c - 1], run.checks[c], run.checks[c + 1]
     first = 0.0
     for i in range(ALL_GUARDS):
         before, here, after = g[c - 1, i], g[c, i], g[c + 1, i]
         if not (run.armed[i] and 0.0 <= here <= before and here < after):
             continue
-        curvature = before - 2.0 * here + after
-        offset = 0.5 * (before - after) / curvature
-        if here - 0.25 * (before - after) * offset > 0.5 * here:
+        falling = (here - before) / (t1 - t0)
+        curvature = ((after - here) / (t2 - t1) - falling) / (t2 - t0)
+        theta = 0.5 * (t0 + t1 - falling / curvature)
+        if here - curvature * (theta - t1) ** 2 > 0.5 * here:
             continue
-        theta = (c + offset) / CHECKS
         _measure_within(q, run, t_leg, tau, theta, h, run.guards)
         if run.guards[i] < 0.0 and (first == 0.0 or theta < first):
             first = theta
