@@ -124,9 +124,7 @@ def _acceleration(trajectory: Trajectory, mechanism: BeltBox) -> Array:
     return (trajectory.friction_force + spring - mechanism.damping * trajectory.velocity) / mechanism.mass
 
 
-def _crossing(
-    bracket: tuple[float, float], speeds: tuple[float, float], rates: tuple[float, float], level: float
-) -> float:
+def _crossing(bracket: tuple[float, float], speeds: tuple[float, float], rates: tuple[float, float], level: float) -> float:
     """Return the time [s] in ``bracket`` at which the speed rises through ``level``.
 
     At break-away the speed is a convex function of time, smooth or with a kink: it lies above its tangents at both

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import csv
+import importlib
 import json
 import os
 import re
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -56,7 +57,7 @@ def check_target(path: str | Path, *, force: bool = False, marker: str | None = 
 
 
 @contextlib.contextmanager
-def whole_file(path: Path) -> Iterator[Path]:
+def whole_file(path: Path) -> Generator[Path]:
     """Give a temporary file beside ``path`` that becomes ``path`` when the block ends, and vanishes when it fails."""
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".partial", dir=path.parent)
@@ -72,7 +73,7 @@ def whole_file(path: Path) -> Iterator[Path]:
 
 
 @contextlib.contextmanager
-def whole_folder(path: Path) -> Iterator[Path]:
+def whole_folder(path: Path) -> Generator[Path]:
     """Give a temporary folder beside ``path`` that becomes ``path`` when the block ends, and vanishes when it fails.
 
     A folder that is there already is replaced; it is put back if the replacement fails.
@@ -210,7 +211,7 @@ def _write_netcdf(columns: Mapping[str, Array], attributes: Attributes, path: Pa
         for name, column in columns.items()
     }
     time = variables.pop("time")
-    dataset = xarray.Dataset(variables, coords={"time": time}, attrs={"Conventions": "CF-1.11"} | attributes)
+    dataset: Any = xarray.Dataset(variables, coords={"time": time}, attrs={"Conventions": "CF-1.11"} | attributes)
     dataset.to_netcdf(path, engine="h5netcdf")
 
 
@@ -221,8 +222,9 @@ def _cf_unit(unit: str) -> str:
 def _read_netcdf(path: Path) -> tuple[dict[str, Array], Attributes]:
     import xarray
 
+    library: Any = xarray
     try:
-        with xarray.open_dataset(path, engine="h5netcdf", decode_times=False) as dataset:
+        with library.open_dataset(path, engine="h5netcdf", decode_times=False) as dataset:
             columns = {str(n): np.asarray(dataset[n].values, dtype=np.float64) for n in COLUMNS if n in dataset}
             attributes = _restored({str(k): v for k, v in dataset.attrs.items()})
     except (OSError, ValueError) as error:
@@ -258,21 +260,19 @@ def _read_csv(path: Path) -> tuple[dict[str, Array], Attributes]:
 
 def _write_parquet(columns: Mapping[str, Array], attributes: Attributes, path: Path) -> None:
     arrow = _pyarrow()
-    import pyarrow.parquet
-
     table = arrow.table(dict(zip(_headers(), columns.values(), strict=True)))
-    pyarrow.parquet.write_table(table.replace_schema_metadata({"stochfric": json.dumps(attributes)}), path)
+    arrow.parquet.write_table(table.replace_schema_metadata({"stochfric": json.dumps(attributes)}), path)
 
 
 def _read_parquet(path: Path) -> tuple[dict[str, Array], Attributes]:
     arrow = _pyarrow()
-    import pyarrow.parquet
-
+    table: Any
     try:
-        table = pyarrow.parquet.read_table(path)
+        table = arrow.parquet.read_table(path)
     except arrow.ArrowInvalid as error:
         raise InputError(f"{path}: not a Parquet file: {error}") from None
-    stored = (table.schema.metadata or {}).get(b"stochfric", b"{}")
+    metadata: dict[bytes, bytes] = table.schema.metadata or {}
+    stored = metadata.get(b"stochfric", b"{}")
     columns = {_name_of(path, n): table[n].to_numpy() for n in table.column_names}
     return columns, _restored(json.loads(stored))
 
@@ -288,12 +288,13 @@ def _name_of(path: Path, header: str) -> str:
 
 def _pyarrow() -> Any:
     try:
-        import pyarrow
+        arrow = importlib.import_module("pyarrow")
+        importlib.import_module("pyarrow.parquet")
     except ImportError:
         raise MissingEngineError(
             "Parquet files need pyarrow, which is not installed; run: pip install 'stochfric_mb[parquet]', or write .nc or .csv"
         ) from None
-    return pyarrow
+    return arrow
 
 
 Writer = Callable[[Mapping[str, Array], Attributes, Path], None]

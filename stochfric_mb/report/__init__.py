@@ -1,1 +1,1 @@
-"""Placeholder."""
+"""Reports: figures and pages that need nothing but themselves (no network, no second file)."""

@@ -1,0 +1,98 @@
+"""``stochfric compare``: the same law, seed and coefficient path in several engines, against the reference."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from stochfric_mb.commands.options import command_line, engine_names, scenario_options
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from stochfric_mb.compare import Comparison
+
+EXAMPLE = """\b
+Example:
+  stochfric compare kang2015_table1 --seed 1 --out comparison
+"""
+MARKER = "compare.json"
+"""File that shows that a folder holds a comparison."""
+ERRORS = "Engine minus reference: position, period, stick fraction, coefficients; computing time"
+
+
+@click.command(epilog=EXAMPLE)
+@scenario_options
+@click.option("--engines", metavar="A,B,...", help="Engines to compare with the reference; default: all that are installed.")
+@click.option(
+    "--convergence/--no-convergence", default=True, show_default=True, help="Measure the error at four steps as well."
+)
+@click.option("--out", required=True, metavar="DIR", help="Folder for compare.json, report.html and plots.")
+def compare(
+    scenario: str,
+    seed: int,
+    dt: float | None,
+    law: str | None,
+    overrides: tuple[str, ...],
+    force: bool,
+    engines: str | None,
+    convergence: bool,
+    out: str,
+) -> None:
+    """Compare engines with the reference on SCENARIO (a TOML file or the name of a bundled one) and write a report."""
+    from stochfric_mb import compare as library
+    from stochfric_mb.commands.progress import display
+    from stochfric_mb.engines import adapter
+    from stochfric_mb.scenario import load_scenario
+    from stochfric_mb.storage import check_target, whole_folder
+
+    target = check_target(out, force=force, marker=MARKER)
+    names = engine_names(engines)
+    with display() as shown:
+        shown.note("loading engines")
+        for name in names or ():
+            adapter(name)
+        problem = load_scenario(scenario, law=law, overrides=overrides)
+        result = library.compare(problem, engines=names, seed=seed, dt=dt, convergence=convergence, stage=shown.stage)
+        shown.note("drawing the report")
+        with whole_folder(target) as folder:
+            write(result, folder, command_line())
+    _show(result)
+    click.echo(f"{target / 'report.html'}")
+
+
+def write(comparison: Comparison, folder: Path, command: str) -> None:
+    """Write compare.json, report.html and plots/ of a comparison into an existing folder."""
+    import json
+
+    from stochfric_mb.report.comparison import figures, page
+
+    drawn = figures(comparison)
+    (folder / "plots").mkdir()
+    for name, png in drawn.items():
+        (folder / "plots" / f"{name}.png").write_bytes(png)
+    content = comparison.to_dict() | {"command": command}
+    (folder / MARKER).write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    (folder / "report.html").write_text(page(comparison, drawn, command), encoding="utf-8")
+
+
+def _show(comparison: Comparison) -> None:
+    from stochfric_mb.commands.tables import print_table
+
+    rows: list[list[str]] = []
+    for name, engine in comparison.to_dict()["engines"].items():
+        error, seconds = engine["period_relative_error"], engine["seconds_per_step"]
+        rows.append([
+            name,
+            f"{1.0e6 * engine['max_abs_position_error']:.3g}",
+            f"{1.0e6 * engine['rms_position_error']:.3g}",
+            "-" if error is None else f"{100.0 * error:.2g}",
+            f"{engine['stick_fraction_error']:.2g}",
+            f"{engine['coefficient_path_max_difference']:.2g}",
+            "-" if seconds is None else f"{1.0e6 * seconds:.3g}",
+        ])  # fmt: skip
+    print_table(("engine", "max [um]", "rms [um]", "period [%]", "stick", "path", "us/step"), rows, title=ERRORS)
+    for engine in comparison.engines:
+        for note in engine.notes:
+            click.echo(f"Note, {engine.name}: {note}")

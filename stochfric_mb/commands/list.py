@@ -1,0 +1,92 @@
+"""``stochfric list``: what there is, with equation and source."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import click
+
+EXAMPLE = """\b
+Example:
+  stochfric list laws
+"""
+
+
+@click.command("list", epilog=EXAMPLE)
+@click.argument("what", type=click.Choice(["laws", "processes", "effects", "engines"]))
+def list_(what: str) -> None:
+    """List what there is: laws, processes, effects or engines, with equation and source."""
+    _LISTS[what]()
+
+
+def _laws() -> None:
+    from stochfric_mb.commands.tables import print_cards
+    from stochfric_mb.laws import AXIOMS, LAWS, law_class
+
+    cards: list[tuple[str, list[tuple[str, str]]]] = []
+    for kind in LAWS:
+        cls = law_class(kind)
+        lines = [("equation", cls.equation), ("parameters", _parameters(cls)), ("source", cls.source)]
+        cards.append((kind, lines + _broken(cls.exceptions)))
+    print_cards(cards, title="Friction laws")
+    click.echo("Every law is tested on these axioms, unless it says that one does not hold:")
+    for name, text in AXIOMS.items():
+        click.echo(f"  {name}: {text}")
+
+
+def _broken(exceptions: Mapping[str, str]) -> list[tuple[str, str]]:
+    if not exceptions:
+        return [("axioms", "all hold")]
+    return [(f"not {name}", reason) for name, reason in exceptions.items()]
+
+
+def _processes() -> None:
+    from stochfric_mb.coefficients import PROCESSES
+    from stochfric_mb.commands.tables import print_cards
+
+    cards = [
+        (kind, [("equation", cls.equation), ("parameters", _parameters(cls)), ("source", cls.source)])
+        for kind, cls in PROCESSES.items()
+    ]
+    print_cards(cards, title="Coefficient processes")
+
+
+def _effects() -> None:
+    click.echo("No effects: this version knows none, and scenarios cannot have [[effects]] yet.")
+
+
+def _engines() -> None:
+    from stochfric_mb.commands.tables import print_table
+    from stochfric_mb.engines import ENGINES
+
+    rows = [
+        (e.name, e.version or f"not installed: pip install 'stochfric_mb[{e.name}]'", e.hook, e.source)
+        for e in ENGINES.values()
+    ]
+    print_table(("engine", "version", "how friction enters", "source"), rows, title="Engines")
+
+
+def _parameters(cls: type) -> str:
+    """Return the fields of a dataclass with their defaults."""
+    import dataclasses
+
+    return ", ".join(
+        _parameter(f.name, None if f.default is dataclasses.MISSING else (f.default,)) for f in dataclasses.fields(cls)
+    )
+
+
+def _parameter(name: str, default: tuple[object] | None) -> str:
+    if default is None:
+        return name
+    value = default[0]
+    if value is None:
+        return f"{name} (optional)"
+    return f"{name} = {value:g}" if isinstance(value, float) else f"{name} = {getattr(value, 'kind', value)}"
+
+
+_LISTS: dict[str, Callable[[], None]] = {
+    "laws": _laws,
+    "processes": _processes,
+    "effects": _effects,
+    "engines": _engines,
+}

@@ -1,0 +1,67 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable
+from typing import Any
+
+import click
+from click.core import ParameterSource
+
+from stochfric_mb.engines import ENGINES
+from stochfric_mb.errors import InputError, require_name
+
+
+def scenario_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Return ``command`` with SCENARIO, --seed, --dt, --law, --set and --force."""
+    for option in (
+        click.option("--force", is_flag=True, help="Replace what is at --out."),
+        click.option(
+            "--set", "overrides", multiple=True, metavar="TABLE.KEY=VALUE", help="Override a value of the scenario; repeatable."
+        ),
+        click.option("--law", metavar="KIND", help="Replace the scenario's law; shared parameters are kept."),
+        click.option(
+            "--dt", type=float, metavar="DT", help="Step of the engine [s]; default 1e-4, or half the law's stability limit."
+        ),
+        click.option(
+            "--seed", type=click.IntRange(0, 2**32 - 1), default=0, show_default=True, help="Seed of the coefficients."
+        ),
+        click.argument("scenario"),
+    ):
+        command = option(command)
+    return command
+
+
+def engine_names(text: str | None) -> list[str] | None:
+    """Return the engines in a comma-separated list, None if there is no list.
+
+    Raises:
+        InputError: a name is unknown, or the list is empty.
+    """
+    if text is None:
+        return None
+    names = [name.strip() for name in text.split(",") if name.strip()]
+    if not names:
+        raise InputError(f"--engines {text!r} names no engine; known: {', '.join(ENGINES)}")
+    return [require_name("engine", name, ENGINES) for name in names]
+
+
+def command_line() -> str:
+    """Return the command that is running, with the arguments and options that were given, ready for a shell."""
+    ctx = click.get_current_context()
+    words = ["stochfric", str(ctx.info_name)]
+    for parameter in ctx.command.params:
+        name = str(parameter.name)
+        if ctx.get_parameter_source(name) is ParameterSource.COMMANDLINE:
+            words += _words(parameter, ctx.params[name])
+    return shlex.join(words)
+
+
+def _words(parameter: click.Parameter, value: Any) -> list[str]:
+    if not isinstance(parameter, click.Option):
+        return [str(value)]
+    if parameter.is_flag:
+        return [parameter.opts[0] if value else (parameter.secondary_opts or parameter.opts)[0]]
+    values = value if parameter.multiple else (value,)
+    return [word for v in values for word in (parameter.opts[0], str(v))]

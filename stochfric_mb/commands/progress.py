@@ -1,0 +1,69 @@
+"""Progress on stderr: what runs, how far it is, how long it still takes; silent where stderr is no terminal."""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Callable, Generator
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+REFRESH = 0.05
+"""Least time between two updates of a bar [s]."""
+
+
+class Display:
+    """Bars of the runs of one command, one under the other."""
+
+    def __init__(self, progress: Progress) -> None:
+        """Show runs on ``progress``."""
+        self._progress = progress
+        self._finish: Callable[[], None] = lambda: None
+
+    def stage(self, name: str, duration: float) -> Callable[[float], None]:
+        """Begin the run ``name`` over ``duration`` [s]; return what is called with the simulated time [s].
+
+        Until its first call the bar only shows life: the engine is loading and compiling.
+        """
+        self._finish()
+        progress = self._progress
+        task = progress.add_task(name, total=None, detail="loading and compiling")
+        shown = 0.0
+
+        def advance(t: float) -> None:
+            nonlocal shown
+            now = time.monotonic()
+            if now - shown >= REFRESH:
+                shown = now
+                progress.update(task, total=duration, completed=t, detail=f"{t:.3g} / {duration:g} s simulated")
+
+        def finish() -> None:
+            progress.update(task, total=duration, completed=duration, detail=f"{duration:g} s simulated")
+            progress.stop_task(task)
+
+        self._finish = finish
+        return advance
+
+    def note(self, text: str) -> None:
+        """Show that something other than a simulation is being done."""
+        self._finish()
+        self._finish = lambda: None
+        self._progress.add_task(text, total=None, detail="")
+
+
+@contextlib.contextmanager
+def display() -> Generator[Display]:
+    """Give the display of one command; its bars stay on the screen afterwards."""
+    console = Console(stderr=True)
+    columns = (
+        SpinnerColumn(finished_text="[green]✓[/]"),
+        TextColumn("{task.description}"),
+        BarColumn(bar_width=24),
+        TextColumn("{task.fields[detail]}"),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as progress:
+        yield Display(progress)

@@ -1,0 +1,39 @@
+"""Tables on stdout."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+WIDTH = 100
+"""Width of a table where stdout is no terminal."""
+
+
+def print_table(head: Sequence[str], rows: Sequence[Sequence[str]], *, title: str | None = None) -> None:
+    """Print a table; its first column is never broken, the others fold."""
+    console = Console()
+    if title is not None:
+        console.print(title, style="bold", highlight=False)
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for number, name in enumerate(head):
+        table.add_column(Text(name), no_wrap=number == 0, overflow="fold")
+    for row in rows:
+        table.add_row(*map(Text, row))
+    console.print(table, width=console.width if console.is_terminal else WIDTH)
+
+
+def print_cards(cards: Sequence[tuple[str, Sequence[tuple[str, str]]]], *, title: str) -> None:
+    """Print one card each: a name, and lines of what and text; made for texts too long for a table's cells."""
+    console = Console()
+    console.print(title, style="bold", highlight=False)
+    table = Table("name", "", "", box=box.SIMPLE_HEAD, pad_edge=False, show_header=False)
+    table.columns[0].no_wrap = table.columns[1].no_wrap = True
+    for name, lines in cards:
+        for number, (what, text) in enumerate(lines):
+            table.add_row(Text(name if number == 0 else "", style="bold"), Text(what, style="dim"), Text(text))
+        table.add_section()
+    console.print(table, width=console.width if console.is_terminal else WIDTH)
