@@ -15,7 +15,7 @@ from stochfric_mb.coefficients.path import CoefficientPath
 from stochfric_mb.errors import InputError, SimulationError, require_number
 from stochfric_mb.exudyn import stepping as at
 from stochfric_mb.exudyn.hooks import Hooks
-from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, force_expression, live_names, lower
+from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, force_expression, live_names, lower, symbolic
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.laws.abi import MAX_STATE, native_law
@@ -89,14 +89,17 @@ class FrictionContact:
         """Address of the contact for compiled code."""
         names = live_names(friction.law)
         expression = force_expression(friction.law, friction.process, self.normal_force, float(numbers[at.MASS]))
-        self._symbols = {name: exudyn.symbolic.Real(name, 0.0) for name in expression.names}
-        self._live = [(at.LIVE + names.index(name), symbol) for name, symbol in self._symbols.items()]
-        self._given = [math.nan] * len(self._live)
+        self._symbols = {name: symbolic.Real(name, 0.0) for name in expression.names}
+        self._live = numbers[at.LIVE : at.LIVE + len(names)]
+        self._places = [(names.index(name), symbol) for name, symbol in self._symbols.items()]
+        self._given = [math.nan] * len(names)
         self.object = mbs.AddObject(
             CoordinateSpringDamper(markerNumbers=list(markers), springForceUserFunction=self._function(expression.force))
         )
         """Index of the connector that carries the force."""
-        Hooks.of(mbs).contacts.append(self)
+        hooks = Hooks.of(mbs)
+        hooks.contacts.append(self)
+        hooks.install(locate=False)
         self.reset()
 
     @property
@@ -139,12 +142,11 @@ class FrictionContact:
         self._own[:] = self._initial()
         self._bind(self._own, self._own[2:])
         self._words[at.STARTED] = 0
-        self._words[at.NEXT_RECORD] = 0
-        self._numbers[at.START] = 0.0
-        u, v = at.kinematics(0.0, self._numbers, self._words)
-        at.restart(0.0, u, v, self._numbers, self._words)
-        self._words[at.STARTED] = 0
+        at.proceed(0.0, self.where)
+        at.locate(0.0, self.where)  # compiled now rather than in the middle of a run
+        at.advance(0.0, self.where)
         self._pass_on()
+        self._words[[at.STARTED, at.NEXT_RECORD]] = 0
 
     def record(self, times: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return an array that the next simulation fills, shape (n, 7), a row for each time.
@@ -186,7 +188,7 @@ class FrictionContact:
                 "use a step below their spacing"
             )
         if bits & at.RECORDED:
-            self._records[self._words[at.NEXT_RECORD] - 1, 3] = self.force
+            self._records[self._words.item(at.NEXT_RECORD) - 1, 3] = self.force
         if bits & at.CHANGED:
             self._pass_on()
         return bool(bits & (at.WATCH | at.RESTARTED))
@@ -226,12 +228,13 @@ class FrictionContact:
 
     def _pass_on(self) -> None:
         """Set those of the engine's parameters that have changed."""
-        numbers, given = self._numbers, self._given
-        for i, (place, symbol) in enumerate(self._live):
-            value = numbers.item(place)
-            if value != given[i]:
-                given[i] = value
-                symbol.SetValue(value)
+        wanted, given = self._live.tolist(), self._given
+        if wanted == given:
+            return
+        for place, symbol in self._places:
+            if wanted[place] != given[place]:
+                symbol.SetValue(wanted[place])
+        self._given = wanted
 
     def _read(self) -> None:
         """Take displacement and velocity from the connector, for markers that are no plain coordinates."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import operator
+import weakref
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -35,13 +36,12 @@ class Expression:
         raise TypeError(f"the truth of {self!r} is not known; build it with choose()")
 
 
-FUNCTIONS: dict[str, Callable[..., float]] = {
+FUNCTIONS: dict[str, Callable[..., Any]] = {
     "add": operator.add,
     "sub": operator.sub,
     "mul": operator.mul,
     "div": operator.truediv,
     "pow": operator.pow,
-    "mod": operator.mod,
     "neg": operator.neg,
     "sign": lambda x: float((x > 0.0) - (x < 0.0)),
     "abs": abs,
@@ -63,7 +63,7 @@ FUNCTIONS: dict[str, Callable[..., float]] = {
 }  # fmt: skip
 """Operations on numbers; "choose" (condition, if true, if not) is the only other one."""
 
-_nodes: dict[tuple[Any, ...], Expression] = {}
+_nodes: weakref.WeakValueDictionary[tuple[Any, ...], Expression] = weakref.WeakValueDictionary()
 
 
 def variable(name: str) -> Expression:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, Protocol
 
-import exudyn
-
 from stochfric_mb.exudyn.stepping import advance
+from stochfric_mb.exudyn.symbolic import symbolic
 
 SWITCH_ERROR = 10.0
 """Error that makes Exudyn repeat a step with the recommended size (its tolerance is set below it)."""
@@ -49,9 +48,8 @@ class Hooks:
         """All contacts of the system."""
         self._mbs = mbs
         self._locating = False
-        self._own = {"PostStep": self.post_step, "PostNewton": self.post_newton}
+        self._own: dict[str, Callable[..., Any]] = {}
         self._other: dict[str, Callable[..., Any] | None] = {"PostStep": None, "PostNewton": None}
-        self.install(locate=False)
 
     @classmethod
     def of(cls, mbs: Any) -> Hooks:
@@ -63,44 +61,54 @@ class Hooks:
     def install(self, *, locate: bool) -> None:
         """Take the system's slots, remembering what is there; ``locate``: whether steps end where a law switches."""
         self._locating = locate
-        for slot, own in self._own.items():
+        for slot in self._other:
             there = _installed(self._mbs, slot)
-            if there != own and there is not None:
+            if there is not None and there is not self._own.get(slot):
                 self._other[slot] = there
-        self._mbs.SetPostStepUserFunction(self.post_step)
+        self._own = {"PostStep": self._post_step(), "PostNewton": self._post_newton()}
+        self._mbs.SetPostStepUserFunction(self._own["PostStep"])
         self.watch()
 
     def watch(self) -> None:
         """Put PostNewton in place while it is needed, and take it away otherwise: it costs as much as a step."""
         other = self._other["PostNewton"]
         if self._locating and (other is not None or any(c.watched for c in self.contacts)):
-            self._mbs.SetPostNewtonUserFunction(self.post_newton)
+            self._mbs.SetPostNewtonUserFunction(self._own["PostNewton"])
         else:
             self._mbs.SetPostNewtonUserFunction(other or 0)
 
-    def post_step(self, mbs: Any, t: float) -> bool:
-        """Commit all contacts, then call the user's function."""
-        for contact in self.contacts:
-            bits = advance(t, contact.where)
-            if bits and contact.settle(t, bits):
-                self.watch()
-        other = self._other["PostStep"]
-        return True if other is None else other(mbs, t)
+    def _post_step(self) -> Callable[[Any, float], bool]:
+        """Return the function that commits all contacts, then calls the user's (a closure: it runs every step)."""
+        contacts = [(c.where, c.settle) for c in self.contacts]
+        watch, other = self.watch, self._other["PostStep"]
 
-    def post_newton(self, mbs: Any, t: float) -> list[float]:
-        """Ask for a shorter step where a contact switches inside this one; otherwise the user's function decides."""
-        steps = [step for contact in self.contacts if (step := contact.recommended_step(t)) > 0.0]
-        other = self._other["PostNewton"]
-        error, step = (0.0, -1.0) if other is None else other(mbs, t)
-        if not steps:
-            return [error, step]
-        return [max(abs(error), SWITCH_ERROR), min(steps if step < 0.0 else [*steps, step])]
+        def post_step(mbs: Any, t: float) -> bool:
+            for where, settle in contacts:
+                bits = advance(t, where)
+                if bits and settle(t, bits):
+                    watch()
+            return True if other is None else other(mbs, t)
+
+        return post_step
+
+    def _post_newton(self) -> Callable[[Any, float], list[float]]:
+        """Return the function that asks for a shorter step where a contact switches, and otherwise calls the user's."""
+        contacts, other = self.contacts, self._other["PostNewton"]
+
+        def post_newton(mbs: Any, t: float) -> list[float]:
+            steps = [step for contact in contacts if (step := contact.recommended_step(t)) > 0.0]
+            error, step = (0.0, -1.0) if other is None else other(mbs, t)
+            if not steps:
+                return [error, step]
+            return [max(abs(error), SWITCH_ERROR), min(steps if step < 0.0 else [*steps, step])]
+
+        return post_newton
 
 
 def _installed(mbs: Any, slot: str) -> Callable[..., Any] | None:
     """Return the function in one of the system's slots, or None."""
     there = getattr(mbs, f"Get{slot}UserFunction")()
     function = there["function"] if isinstance(there, dict) else there
-    if isinstance(function, exudyn.symbolic.UserFunction):
+    if isinstance(function, symbolic.UserFunction):
         return function.Evaluate
     return function if callable(function) else None

@@ -57,13 +57,15 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     hooks.install(locate=locate)
     if locate:
         _settle_location(integration, dt)
-    exudyn.config.printToConsole = False
+    printed, exudyn.config.printToConsole = exudyn.config.printToConsole, False
     try:
         success = mbs.SolveDynamic(settings, solverType=SOLVERS[solver], showHints=False)
     except exudyn.ExudynError as error:
         if isinstance(error.__cause__, Exception):
             raise error.__cause__ from error.__cause__.__cause__
         raise SimulationError(f"Exudyn ({solver}, dt = {dt:g} s) failed: {error}") from error
+    finally:
+        exudyn.config.printToConsole = printed
     if not success:
         raise SimulationError(f"Exudyn ({solver}, dt = {dt:g} s) gave up; use a smaller step or another solver")
     for what in (mbs.systemData.GetODE2Coordinates(), mbs.systemData.GetODE2Coordinates_t()):

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 from llvmlite import ir
-from numba import carray, types
+from numba import carray, types  # pyright: ignore[reportPrivateImportUsage]
 from numba.extending import intrinsic
 
 from stochfric_mb.coefficients.path import CURSOR, canonical_time, evaluate, seek
@@ -29,7 +29,9 @@ STEP, START = 12, 13
 """The solver's step [s] and start time [s], which span the grid that steps keep to."""
 WINDOW = 14
 """Knot in the middle of the engine's window on the path."""
-NEW = 16
+SAFE, SAFE_WIDTH = 15, 16
+"""Middle and half width of the stretch, of time or displacement, in which the window stays."""
+NEW = 17
 """Scratch for a law's output."""
 GUARDS_BEFORE = NEW + 8
 """The law's guards at the last accepted step."""
@@ -60,7 +62,9 @@ RECORD_COLUMNS = 7
 """time, displacement, velocity, friction force, mu_s, mu_k, stick."""
 
 # event location, in parts of the step
-TOLERANCE, BEYOND, SHORTEST, GRID = 1.0e-3, 1.0e-4, 2.0e-4, 1.0e-6
+TOLERANCE, BEYOND, SHORTEST, GRID = 1.0e-3, 1.0e-4, 2.0e-4, 5.0e-5
+"""How near the end of a step a switch may lie, how far beyond it steps end, the shortest step asked for, and what counts
+as on the grid (as `canonical_time` has it, since engine time is a sum of rounded steps)."""
 STEPS_AHEAD = 3.0
 """A guard is watched where it may turn within so many steps at the rate of the last one."""
 
@@ -178,7 +182,7 @@ def restart(t, u, v, numbers, words):
     _law_gives(words[INIT], t, u, v, mu_s, mu_k, numbers, words)
     numbers[STUCK] = _sticks(v, numbers)
     _set_pair(mu_s, mu_k, numbers, words)
-    numbers[WINDOW] = math.nan
+    numbers[WINDOW], numbers[SAFE_WIDTH] = math.nan, 0.0
     _move_window(t, u, numbers, words)
     ask(words[GUARD], t, u, v, mu_s, mu_k, numbers, GUARDS_BEFORE)
     words[WATCHING] = 1
@@ -258,12 +262,17 @@ def _move_window(t, u, numbers, words):
     if descriptor[0] == 0.0 or descriptor[1] == EVENT:
         return NOTHING
     spacing = descriptor[3]
+    place = u if descriptor[1] == POSITION else t
+    if abs(place - numbers[SAFE]) < numbers[SAFE_WIDTH]:
+        return NOTHING
     if descriptor[1] == POSITION:
         r = u / spacing
         middle = math.floor(r + 0.5)
     else:
         r = canonical_time(t, 0.5 * numbers[STEP]) / spacing
         middle = math.floor(r) + 1.0
+    reach = 0.0 if descriptor[1] == POSITION else 0.5
+    numbers[SAFE], numbers[SAFE_WIDTH] = (middle - reach) * spacing, (0.5 - GRID) * spacing
     if middle == numbers[WINDOW]:
         return NOTHING
     bits = LOST if abs(r - numbers[WINDOW]) > 1.0 + GRID else NOTHING

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -14,6 +15,8 @@ from stochfric_mb.exudyn.expression import Expression, Value, apply, choose, kno
 from stochfric_mb.exudyn.trace import trace
 from stochfric_mb.laws import Law
 
+symbolic: Any = exudyn.symbolic  # pyright: ignore[reportAttributeAccessIssue]  # a compiled submodule
+"""Exudyn's symbols."""
 TIME, DISPLACEMENT, VELOCITY = "t", "u", "v"
 """Variables of the force: time [s], relative displacement [m] and velocity [m/s], counter-surface minus body."""
 SEGMENT = ("knot", "start_s", "start_k", "before_s", "before_k", "after_s", "after_k", "end_s", "end_k")
@@ -41,6 +44,7 @@ def live_names(law: Law) -> tuple[str, ...]:
     return state_names(law) + PAIR + SEGMENT
 
 
+@functools.lru_cache(maxsize=64)
 def force_expression(law: Law, process: Process | None, normal_force: float, effective_mass: float) -> ForceExpression:
     """Return the friction force [N] of one-dimensional sliding as an expression.
 
@@ -103,7 +107,7 @@ def lower(expression: Value, values: Mapping[str, Any]) -> Any:
 
     def write(e: Value) -> Any:
         if known(e):
-            return exudyn.symbolic.Real(float(e))
+            return symbolic.Real(float(e))
         if e.operation == "variable":
             return values[e.arguments[0]]
         if e not in memory:
@@ -137,11 +141,11 @@ _OPERATIONS: dict[str, Callable[..., Any]] = {
     "ge": lambda x, y: x >= y,
     "eq": lambda x, y: x == y,
     "ne": lambda x, y: x != y,
-    "choose": exudyn.symbolic.IfThenElse,
+    "choose": symbolic.IfThenElse,
     **{
-        name: getattr(exudyn.symbolic, name)
+        name: getattr(symbolic, name)
         for name in (
-            "pow", "mod", "abs", "sign", "min", "max", "sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan",
+            "pow", "abs", "sign", "min", "max", "sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan",
             "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "floor", "ceil",
         )
     },

@@ -19,9 +19,7 @@ from typing import Any
 from stochfric_mb.errors import InputError
 from stochfric_mb.exudyn.expression import FUNCTIONS, Value, apply, choose, hypot, known
 
-_BINARY = {
-    ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div", ast.Pow: "pow", ast.Mod: "mod",
-}  # fmt: skip
+_BINARY = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div", ast.Pow: "pow"}
 _COMPARE = {ast.Lt: "lt", ast.LtE: "le", ast.Gt: "gt", ast.GtE: "ge", ast.Eq: "eq", ast.NotEq: "ne"}
 _NOTHING = object()
 """What a block gives that does not return."""
