@@ -16,7 +16,7 @@ from stochfric_mb.errors import InputError, require_name
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.config import configuration
+from stochfric_mb.mujoco.config import MAX_SLOTS, configuration
 from stochfric_mb.mujoco.plugin import NAME, register
 
 
@@ -180,8 +180,6 @@ def _require_passive_forces(spec: mujoco.MjSpec) -> None:
 
 
 def _require_slots(slots: int) -> int:
-    from stochfric_mb.mujoco.plugin import MAX_SLOTS
-
     if int(slots) != slots or not 0 < slots <= MAX_SLOTS:
         raise InputError(f"slots = {slots!r} must be a whole number from 1 to {MAX_SLOTS}; 16 suits most pairs")
     return int(slots)

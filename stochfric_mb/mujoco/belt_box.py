@@ -163,7 +163,9 @@ def _resting_height(model: mujoco.MjModel, data: mujoco.MjData, coordinate: int,
         mujoco.mj_forward(model, data)
         return float(data.qacc[dof])
 
-    if acceleration(DEEPEST) <= 0.0:
+    if not acceleration(1.0e-6) < 0.0:
+        raise SimulationError("mujoco: the box does not fall onto the belt; check the model's gravity, mass and stiffness")
+    if not acceleration(DEEPEST) > 0.0:
         raise SimulationError(
             f"mujoco: the box sinks deeper than {-DEEPEST:g} m into the belt; lower normal_force/mass or stiffen it"
         )

@@ -27,13 +27,15 @@ from stochfric_mb.friction import Friction
 from stochfric_mb.laws.abi import MAX_STATE, native_law
 from stochfric_mb.laws.contract import Law
 from stochfric_mb.mujoco import native
-from stochfric_mb.mujoco.native import call_reader, entry, load, load_byte
+from stochfric_mb.mujoco.native import call_python, entry, load, load_byte
 from stochfric_mb.mujoco.slots import MAX_PARAMETERS
 from stochfric_mb.scenario import _law, _process
 
 ATTRIBUTES = ("law", "coefficients", "geom1", "geom2", "seed", "sample", "contact", "slots")
 """Configuration keys of the plugin; geom1 is the body, geom2 the counter-surface, slots the most contacts at a time."""
 
+MAX_SLOTS = 1024
+"""Most contacts of an instance."""
 R_KEY, R_LAW, R_N_PARAMETERS, R_STICK_SPEED, R_HAS_MODE, R_NEEDS_MASS, R_N_DESCRIPTOR = range(7)
 R_PARAMETERS = 8
 R_DESCRIPTOR = R_PARAMETERS + MAX_PARAMETERS
@@ -163,6 +165,23 @@ READER = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_char_p, ctypes.c_char_p, ctyp
 """`_read` as a C function; an exception in it is printed and 0 comes back."""
 
 
+def _explain(model: int, instance: int, _: int) -> int:
+    """Raise the error that says why an instance was refused; ctypes prints it, MuJoCo refuses the model."""
+    texts = {key: native.plugin_text(model, instance, key) for key in ATTRIBUTES}
+    record_of(texts["law"], texts["coefficients"], 0)
+    for key in ("seed", "sample", "contact", "slots"):
+        if texts[key] and not (texts[key].isdecimal() and int(texts[key]) < 2**32):
+            raise InputError(f"plugin key {key} = {texts[key]!r} is not a whole number in [0, 2^32); write one")
+    raise InputError(
+        f"plugin keys geom1 = {texts['geom1']!r}, geom2 = {texts['geom2']!r}, slots = {texts['slots']!r}: the geoms must be "
+        f"names of the model's geoms, and slots a number from 1 to {MAX_SLOTS}"
+    )
+
+
+EXPLAINER = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64)(_explain)
+"""`_explain` as a C function."""
+
+
 @compiled
 def text_hash(address, h):
     """Return the FNV-1a hash, continued from ``h``, of the C string at ``address`` (0: an empty one), below 2^53."""
@@ -184,7 +203,7 @@ def find_record(law, coefficients):
         address = entry(place)
         if address != 0 and load(address) == float(key):
             return address
-        if call_reader(entry(native.READER), law, coefficients, key) != 1:
+        if call_python(entry(native.READER), law, coefficients, key) != 1:
             return 0
     return 0
 

@@ -70,8 +70,8 @@ FIELDS = (
 ) = range(1, 32)  # fmt: skip
 CONTACT_SIZE = 32
 """Place of sizeof(mjContact) in the table."""
-READER = 0
-"""Place of the address of the Python function that reads a configuration."""
+READER, EXPLAINER = 0, 48
+"""Places of the addresses of the Python functions that read a configuration and say what is wrong with one."""
 LAW_ROWS, LAW_WIDTH, N_LAWS = 64, 4, 256
 """First place, width and number of the law rows: identifier, init, force, commit."""
 CONFIGURATIONS, N_CONFIGURATIONS = LAW_ROWS + LAW_WIDTH * N_LAWS, 4096
@@ -216,8 +216,8 @@ def _pointer(typingctx, address):
 
 
 @intrinsic
-def call_reader(typingctx, function, law, coefficients, key):
-    """Call the Python function that reads a configuration; return 1 if it could."""
+def call_python(typingctx, function, a, b, c):
+    """Call a Python function of three words at an address; return its answer, 0 if it raised (and printed) an error."""
 
     def generate(context, builder, signature, args):
         word = ir.IntType(64)
@@ -276,9 +276,10 @@ def law_row(identifier):
     return 0
 
 
-def plugin_text(model: mujoco.MjModel, instance: int, key: str) -> str:
-    """Return a configuration value of a plugin instance, "" if there is none."""
+def plugin_text(model: mujoco.MjModel | int, instance: int, key: str) -> str:
+    """Return a configuration value of a plugin instance, "" if there is none; a model may be given by its address."""
     function = library().mj_getPluginConfig
     function.restype = ctypes.c_char_p
     function.argtypes = [ctypes.c_void_p, ctypes.c_int, ctypes.c_char_p]
-    return (function(model._address, instance, key.encode()) or b"").decode()
+    address = model if isinstance(model, int) else model._address
+    return (function(address, instance, key.encode()) or b"").decode()

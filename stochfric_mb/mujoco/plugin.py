@@ -28,7 +28,6 @@ KEYS = 40
 """Place in the table of the addresses of the configuration keys, in the order of `config.ATTRIBUTES`."""
 LAW, COEFFICIENTS, GEOM1, GEOM2, SEED, SAMPLE, CONTACT, SLOTS = range(8)
 DEFAULT_SLOTS = 16
-MAX_SLOTS = 1024
 UNSET = -1.0e300
 """Time of the last advance before the first one."""
 _GEOM_OBJECT = 5
@@ -45,6 +44,7 @@ def register() -> int:
     """
     n.fill_table()
     n.TABLE[n.READER] = ctypes.cast(config.READER, ctypes.c_void_p).value or 0
+    n.TABLE[n.EXPLAINER] = ctypes.cast(config.EXPLAINER, ctypes.c_void_p).value or 0
     for i, key in enumerate(config.ATTRIBUTES):
         _alive.append(ctypes.create_string_buffer(key.encode()))
         n.TABLE[KEYS + i] = ctypes.addressof(_alive[-1])
@@ -125,13 +125,16 @@ def record_of(model, instance):
 def slots_of(model, instance):
     """Return the most contacts of the instance at a time, -1 if its configuration is malformed."""
     slots = config.parse_integer(text_of(model, instance, SLOTS), DEFAULT_SLOTS)
-    return slots if 0 < slots <= MAX_SLOTS else -1
+    return slots if 0 < slots <= config.MAX_SLOTS else -1
 
 
 def _nstate(model, instance):
     record = record_of(model, instance)
     slots = slots_of(model, instance)
-    if record == 0 or slots < 0:
+    if record == 0:
+        return _INT(-1)
+    if slots < 0:
+        n.call_python(n.entry(n.EXPLAINER), model, instance, 0)
         return _INT(-1)
     return _INT(s.DESCRIPTOR + int(n.load(record + 8 * config.R_N_DESCRIPTOR)) + 2 * slots * s.SLOT)
 
@@ -142,7 +145,10 @@ def _init(model, data, instance):
     for key in (SEED, SAMPLE, CONTACT):
         number = config.parse_integer(text_of(model, instance, key), 0)
         bad = bad or number < 0 or number > 4294967295
-    return _INT(-1) if bad else _INT(0)
+    if bad:
+        n.call_python(n.entry(n.EXPLAINER), model, instance, 0)
+        return _INT(-1)
+    return _INT(0)
 
 
 def _reset(model, state, plugin_data, instance):
