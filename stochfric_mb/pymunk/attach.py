@@ -95,6 +95,13 @@ class ContactFriction:
         rows = zip(self._pairs[: self._table[c.USED]], self._slots, strict=False)
         return [self._reading(pair, slot, int(pair[c.STAMP]) == now) for pair, slot in rows]
 
+    def step_limit(self) -> float:
+        """Return the largest stable step [s] of the law for the contacts that touched in the step last taken."""
+        now = lib.cpSpaceGetTimestamp(self.space._space)
+        slots = self._slots[: self._table[c.USED]][self._pairs[: self._table[c.USED], c.STAMP] == now]
+        limits = [self.friction.law.step_limit(s[c.NORMAL], s[c.EFFECTIVE_MASS]) for s in slots if s[c.NORMAL] > 0.0]
+        return float(min(limits, default=math.inf))
+
     def slot(self, number: int = 0) -> npt.NDArray[np.float64]:
         """Return the live record of a contact (entries named in `stochfric_mb.pymunk.contacts`)."""
         return self._slots[number]
@@ -212,6 +219,7 @@ def _table(friction: Friction, path: CoefficientPath, capacity: int) -> npt.NDAr
     table[c.HAS_MODE] = law.state_names[:1] == ("mode",)
     table[c.PER_EVENT] = isinstance(friction.process, PerEvent)
     table[c.HOLDING] = law.needs_holding_force
+    table[c.STATEFUL] = bool(law.state_names)
     table[c.LAYOUT :] = layout()
     return table
 
@@ -230,7 +238,8 @@ def _keys(space: pymunk.Space, pairs: list[tuple[pymunk.Shape, pymunk.Shape]]) -
     keys: dict[frozenset[int], tuple[int, int]] = {}
     for x, y in pairs:
         key = (x.collision_type, y.collision_type)
-        keys.setdefault(frozenset(key), key[::-1] if key[::-1] in space._handlers else key)
+        turned = (y.collision_type, x.collision_type)
+        keys.setdefault(frozenset(key), turned if turned in space._handlers else key)
     return list(keys.values())
 
 
@@ -248,10 +257,10 @@ class _SharedHandler(CollisionHandler):
             pointer = _original(phase, None) if function is None else ffi.cast("cpCollisionBeginFunc", ours)
             setattr(self._handler, _POINTERS[phase], pointer)
 
-    begin = property(lambda self: self._begin, lambda self, f: self._chain("begin", f))
-    pre_solve = property(lambda self: self._pre_solve, lambda self, f: self._chain("pre_solve", f))
-    post_solve = property(lambda self: self._post_solve, lambda self, f: self._chain("post_solve", f))
-    separate = property(lambda self: self._separate, lambda self, f: self._chain("separate", f))
+    begin = property(lambda self: self._begin, lambda self, f: self._chain("begin", f))  # pyright: ignore[reportIncompatibleMethodOverride]
+    pre_solve = property(lambda self: self._pre_solve, lambda self, f: self._chain("pre_solve", f))  # pyright: ignore[reportIncompatibleMethodOverride]
+    post_solve = property(lambda self: self._post_solve, lambda self, f: self._chain("post_solve", f))  # pyright: ignore[reportIncompatibleMethodOverride]
+    separate = property(lambda self: self._separate, lambda self, f: self._chain("separate", f))  # pyright: ignore[reportIncompatibleMethodOverride]
 
 
 _contexts: dict[int, npt.NDArray[np.int64]] = {}
@@ -265,7 +274,7 @@ def _original(phase: str, function: Callable[..., None] | None) -> Any:
 def _take_over(space: pymunk.Space, key: tuple[int, int], handle: ContactFriction) -> CollisionHandler:
     """Put the compiled callbacks in front of a handler's own; what was there is chained."""
     space.on_collision(*key)
-    handler = space._handlers[key]
+    handler: Any = space._handlers[key]
     if isinstance(handler, _SharedHandler):
         raise InputError(
             f"collision types {key} already have friction; remove() it first, or give all shapes of these types at once"
@@ -290,7 +299,7 @@ def _restore(handler: CollisionHandler) -> None:
     context = handler._context
     handler._handler.userData = ffi.cast("void *", int(context[c.OLD_DATA]))
     del handler._context, handler._friction
-    handler.__class__ = CollisionHandler
+    handler.__class__ = CollisionHandler  # pyright: ignore[reportAttributeAccessIssue]
     for phase in _PHASES:
         setattr(handler, phase, getattr(handler, f"_{phase}"))
     del _contexts[context.ctypes.data]

@@ -6,14 +6,14 @@ import dataclasses
 import math
 import time
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import pymunk
+from pymunk.constraints import DampedSpring
 
 from stochfric_mb.errors import InputError, SimulationError, StabilityError
-from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.friction import Friction
 from stochfric_mb.pymunk import contacts as c
 from stochfric_mb.pymunk.attach import ContactFriction, add_friction
 from stochfric_mb.scenario import Scenario, fitting_step
@@ -39,7 +39,7 @@ class Model:
     """The space."""
     box: pymunk.Body
     """The box."""
-    spring: pymunk.DampedSpring
+    spring: DampedSpring
     """Spring and damper between the box and the frame."""
     belt: pymunk.Segment
     """The belt, on the static body."""
@@ -98,9 +98,7 @@ def checked_step(scenario: Scenario, dt: float | None) -> float:
     n = scenario.output_step / dt if dt > 0.0 else 0.0
     if n < 0.5 or abs(n - round(n)) > 1.0e-6 * n:
         near = fitting_step(dt, scenario.output_step) if dt > 0.0 else scenario.default_dt()
-        raise InputError(
-            f"dt = {dt:g} s does not divide simulation.output_step = {scenario.output_step:g} s; try {near:g} s"
-        )
+        raise InputError(f"dt = {dt:g} s does not divide simulation.output_step = {scenario.output_step:g} s; try {near:g} s")
     return scenario.output_step / round(n)
 
 
@@ -119,22 +117,13 @@ def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, with_friction: 
     box.velocity = (mechanism.initial_velocity, 0.0)
     shape = pymunk.Poly.create_box(box, (2.0 * HALF_SIDE, 2.0 * HALF_SIDE))
     frame = (-SPRING_LENGTH, height)
-    spring = pymunk.DampedSpring(
-        space.static_body, box, frame, (0.0, 0.0), SPRING_LENGTH, mechanism.stiffness, mechanism.damping
-    )
+    spring = DampedSpring(space.static_body, box, frame, (0.0, 0.0), SPRING_LENGTH, mechanism.stiffness, mechanism.damping)
     space.add(belt, box, shape, spring)
     friction = None
     if with_friction:
-        law = scenario.law if scenario.process is None else _friction(scenario)
-        friction = add_friction(space, shape, belt, law, seed=seed, sample=sample)
+        friction = add_friction(space, shape, belt, Friction(scenario.law, scenario.process), seed=seed, sample=sample)
         friction.slot()[c.ORIGIN] = -mechanism.initial_position
     return Model(space, box, spring, belt, friction, scenario)
-
-
-def _friction(scenario: Scenario) -> Any:
-    from stochfric_mb.friction import Friction
-
-    return Friction(scenario.law, scenario.process)
 
 
 def _reach(scenario: Scenario) -> float:
@@ -155,26 +144,18 @@ def integrate(model: Model, *, dt: float, progress: Callable[[float], None] | No
     if friction is None:
         raise InputError("this model was built without friction; build(scenario) adds it")
     mechanism = scenario.mechanism
-    box, step, slot = model.box, model.space.step, friction.slot()
+    box, slot = model.box, friction.slot()
     times = scenario.output_times()
     stride = round(scenario.output_step / dt)
     rows = np.empty((len(times), 8))
     limit = _reach(scenario)
-    force = _excitation(mechanism)
     begin = time.perf_counter()
     start(model, dt)
     rows[0] = _sample(times[0], mechanism.initial_position, mechanism.initial_velocity, slot)
     for i in range(1, len(times)):
-        if force is None:
-            for _ in range(stride - 1):
-                step(dt)
-        else:
-            for n in range((i - 1) * stride + 1, i * stride):
-                box.force = (force(n * dt), 0.0)
-                step(dt)
-            box.force = (force(i * stride * dt), 0.0)
+        advance(model, dt, (i - 1) * stride + 1, stride - 1)
         before = box.velocity.x
-        step(dt)
+        advance(model, dt, i * stride, 1)
         rows[i] = _sample(times[i], box.position.x, 0.5 * (before + box.velocity.x), slot)
         if not abs(rows[i, 1]) <= limit:
             raise SimulationError(
@@ -213,9 +194,16 @@ def start(model: Model, dt: float) -> None:
     model.space.step(0.5 * dt)
 
 
-def _excitation(mechanism: BeltBox) -> Callable[[float], float] | None:
-    """Return the excitation force [N] as a function of time [s], None where there is none."""
-    return mechanism.excitation_force if mechanism.excitation_amplitude != 0.0 else None
+def advance(model: Model, dt: float, first: int, n: int) -> None:
+    """Take the ``n`` steps of ``dt`` [s] whose numbers start at ``first``; step i applies the forces of t = i dt."""
+    step, box, mechanism = model.space.step, model.box, model.scenario.mechanism
+    if mechanism.excitation_amplitude == 0.0:
+        for _ in range(n):
+            step(dt)
+        return
+    for i in range(first, first + n):
+        box.force = (mechanism.excitation_force(i * dt), 0.0)
+        step(dt)
 
 
 def _sample(t: float, x: float, v: float, slot: npt.NDArray[np.float64]) -> tuple[float, ...]:

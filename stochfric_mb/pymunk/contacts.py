@@ -13,7 +13,8 @@ Each contact (pair of shapes) has a slot: a row of `SLOT` doubles and a row of `
 """
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportUnknownLambdaType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: reportCallIssue=false, reportPrivateImportUsage=false
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -53,8 +54,8 @@ OLD_DATA, OLD_BEGIN, OLD_BEFORE, OLD_AFTER, OLD_SEPARATE, TABLE_ADDRESS, CONTEXT
 # One table for each call of add_friction.
 (
     USED, CAPACITY, PAIRS, SLOTS, CLOCK, BY_TYPE, TYPE_A, TYPE_B, INIT, FORCE_LAW, COMMIT, GUARD, PARAMETERS, DESCRIPTOR,
-    DESCRIPTOR_SIZE, SEED, SAMPLE, HAS_MODE, PER_EVENT, HOLDING, LAST_STAMP, PROBLEM, LAYOUT,
-) = range(23)  # fmt: skip
+    DESCRIPTOR_SIZE, SEED, SAMPLE, HAS_MODE, PER_EVENT, HOLDING, STATEFUL, LAST_STAMP, PROBLEM, LAYOUT,
+) = range(24)  # fmt: skip
 TABLE = LAYOUT + len(NAMES)
 OVERFLOW, NOT_FINITE = 1, 2
 """Values of the table's entry PROBLEM."""
@@ -67,7 +68,8 @@ SHAPE_A, SHAPE_B, CONTACT, STAMP, PAIR = range(5)
 (
     DISPLACEMENT, RATE, FORCE, NORMAL, MU_S, MU_K, STICK, EVENTS, CAP, STEP, VELOCITY, EFFECTIVE_MASS, TIME, ORIGIN,
     EXTRA_NORMAL, EXTRA_TANGENT, PAST_DISPLACEMENT, PAST_VELOCITY, PAST_MU_S, PAST_MU_K,
-) = range(20)  # fmt: skip
+    PAST_ACCELERATION,
+) = range(21)  # fmt: skip
 STATE = 24
 CURSOR_AT = STATE + MAX_STATE
 OUT = CURSOR_AT + CURSOR
@@ -338,15 +340,22 @@ def impulses(table, arbiter):
 
 @compiled
 def set_cap(table, clock, s, contact, first, rate, acceleration, inverse_mass, dt):
-    """Set the cap [-] of pymunk's own friction: the law's answer to an endless load."""
+    """Set the cap [-] of pymunk's own friction: the law's answer to an endless load.
+
+    ``acceleration`` is the one of the last step without friction; while the contact is held it is carried on to this
+    step along a line, so that break-away falls on the step nearest to it.
+    """
     held = not first and abs(s[FORCE]) < s[CAP] * s[NORMAL] * (1.0 - 1.0e-9)
+    now = acceleration
     if held:
         v = 0.0
+        now += acceleration - s[PAST_ACCELERATION]
     elif first:
         v = rate
     else:
         v = rate + 0.5 * dt * (acceleration - inverse_mass * s[FORCE])
-    load = acceleration / inverse_mass if inverse_mass > 0.0 else 0.0
+    s[PAST_ACCELERATION] = acceleration
+    load = now / inverse_mass if inverse_mass > 0.0 else 0.0
     coefficients(table, s, contact)
     remember(table, clock, s, contact, first, s[TIME], s[DISPLACEMENT], v, s[MU_S], s[MU_K], load)
     s[VELOCITY] = v
@@ -366,9 +375,10 @@ def settle(table, clock, s, contact, first, v_free, compliance):
         v = v_free
     else:
         v = meet(table, s, v_free, compliance)
-        locate(table, clock, s, contact, v)
-    remember(table, clock, s, contact, first, s[TIME], s[DISPLACEMENT], v, s[MU_S], s[MU_K], 0.0)
-    if not first:
+        if table[STATEFUL] == 1:
+            locate(table, clock, s, contact, v)
+    changed = remember(table, clock, s, contact, first, s[TIME], s[DISPLACEMENT], v, s[MU_S], s[MU_K], 0.0)
+    if changed and not first:
         v = meet(table, s, v_free, compliance)
     s[VELOCITY] = v
     s[PAST_VELOCITY], s[PAST_DISPLACEMENT] = v, s[DISPLACEMENT]
@@ -463,7 +473,7 @@ def meet(table, s, v_free, compliance):
 
 @compiled
 def remember(table, clock, s, contact, first, time, u, v, mu_s, mu_k, load):
-    """Commit (or, at first contact, start) the state of the law, and count the stick phases."""
+    """Commit (or, at first contact, start) the state of the law; count stick phases; return whether anything changed."""
     was_stuck = s[STICK]
     state = s[STATE : STATE + MAX_STATE]
     out = s[OUT : OUT + MAX_STATE]
@@ -471,7 +481,9 @@ def remember(table, clock, s, contact, first, time, u, v, mu_s, mu_k, load):
         table[INIT] if first else table[COMMIT], time, u, 0.0, v, 0.0, s[NORMAL], mu_s, mu_k, s[EFFECTIVE_MASS], load, 0.0,
         state.ctypes.data, table[PARAMETERS], out.ctypes.data,
     )  # fmt: skip
+    changed = False
     for i in range(MAX_STATE):
+        changed = changed or state[i] != out[i]
         state[i] = out[i]
     stuck = state[0] == 0.0 if table[HAS_MODE] == 1 else abs(v) <= clock[STICK_SPEED]
     s[STICK] = 1.0 if stuck else 0.0
@@ -479,6 +491,8 @@ def remember(table, clock, s, contact, first, time, u, v, mu_s, mu_k, load):
         s[EVENTS] += 1.0
         if table[PER_EVENT] == 1:
             coefficients(table, s, contact)
+            changed = True
+    return changed
 
 
 @compiled

@@ -17,7 +17,7 @@ _WORD = ir.IntType(64)
 _BYTE_POINTER = ir.IntType(8).as_pointer()
 
 
-def _loader(kind: ir.Type, result: Any) -> Any:
+def _loader(kind: Any, result: Any) -> Any:
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         value = builder.load(builder.inttoptr(args[0], kind.as_pointer()))
         if kind is _DOUBLE or kind.width == 64:
@@ -106,12 +106,10 @@ def call_handler(typingctx, function, arbiter, space, data):
     return types.void(types.intp, types.intp, types.intp, types.intp), generate
 
 
-def _getter(kind: ir.Type, result: Any) -> Any:
+def _getter(kind: Any, result: Any) -> Any:
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         function = ir.FunctionType(kind, [_BYTE_POINTER])
-        value = builder.call(
-            builder.inttoptr(args[0], function.as_pointer()), [builder.inttoptr(args[1], _BYTE_POINTER)]
-        )
+        value = builder.call(builder.inttoptr(args[0], function.as_pointer()), [builder.inttoptr(args[1], _BYTE_POINTER)])
         if kind is _DOUBLE or kind.width == 64:
             return value
         return builder.zext(value, _WORD)
