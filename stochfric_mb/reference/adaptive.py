@@ -25,6 +25,7 @@ from stochfric_mb.coefficients.processes import EVENT, POSITION, TIME
 from stochfric_mb.compile import compiled
 from stochfric_mb.laws.abi import MAX_STATE, call_flow, call_law
 from stochfric_mb.laws.contract import GUARDS
+from stochfric_mb.reference.events import BREAK_AWAY, STICK, note
 from stochfric_mb.reference.tableau import E3, E5, STAGES, A, B, C
 
 OK, TOO_MANY_STEPS, NOT_FINITE = 0.0, 1.0, 2.0
@@ -150,7 +151,8 @@ def start(q, run, t, given):
     tau = _along(q, run, t, 0.0)
     if not given:
         _call(q.init, q, run, t, tau, run.y)
-        run.state[:] = run.out[:MAX_STATE]
+        for i in range(MAX_STATE):
+            run.state[i] = run.out[i]
     if q.bristle >= 0:
         run.y[2] = run.state[q.bristle]
     if _pinned(q, run):
@@ -163,9 +165,9 @@ def start(q, run, t, given):
 
 @compiled
 def march(q, run, times, rows):
-    """Integrate to each of ``times`` [s]; fill ``rows`` (n, 6): x, x', F, mu_s, mu_k, stick; return the new events.
+    """Integrate to each of ``times`` [s]; fill ``rows`` (n, 6): x, x', F, mu_s, mu_k, stick; return the log of new events.
 
-    The events are rows (time, 1 for break-away or 0 for stick).
+    Their number is ``run.clock[N_EVENTS]``.
     """
     log = np.empty((64, 2))
     run.clock[N_EVENTS] = 0.0
@@ -175,7 +177,7 @@ def march(q, run, times, rows):
         if run.clock[STATUS] != OK:
             break
         _record(q, run, rows[i])
-    return log[: int(run.clock[N_EVENTS])].copy()
+    return log
 
 
 @compiled
@@ -200,18 +202,18 @@ def _load_first_segment(q, run, t):
     run.segment[EVENTS] = 0.0
     spacing = q.descriptor[3]
     if q.descriptor[1] == TIME:
-        knot = math.floor(canonical_time(t, 0.0) / spacing)
-        if (knot + 1) * spacing <= t + 1.0e-12:
-            knot += 1
+        knot = float(math.floor(canonical_time(t, 0.0) / spacing))
+        if (knot + 1.0) * spacing <= t + 1.0e-12:
+            knot += 1.0
     elif q.descriptor[1] == POSITION:
         u = q.belt_velocity * t - run.y[0]
-        knot = math.floor(u / spacing)
+        knot = float(math.floor(u / spacing))
         if u < knot * spacing:
-            knot -= 1
-        elif u >= (knot + 1) * spacing:
-            knot += 1
+            knot -= 1.0
+        elif u >= (knot + 1.0) * spacing:
+            knot += 1.0
     else:
-        knot = 0
+        knot = 0.0
     _load_segment(q, run, knot)
 
 
@@ -227,7 +229,7 @@ def _load_segment(q, run, knot):
     spacing = q.descriptor[3]
     seek(q.descriptor, run.cursor, q.seed, q.sample, q.contact, int(knot))
     s[ORIGIN] = s[LOW] = knot * spacing
-    s[HIGH] = (knot + 1) * spacing
+    s[HIGH] = (knot + 1.0) * spacing
     s[MU_S], s[MU_K] = run.cursor[2], run.cursor[3]
     s[SLOPE_S] = s[SLOPE_K] = 0.0
     if q.descriptor[2] == 1.0 and q.descriptor[1] != EVENT:
@@ -496,7 +498,8 @@ def _bracket(q, run, t_leg, tau, h):
 def _measure_within(q, run, t_leg, tau, theta, h, g):
     """Write the guards at the part theta of the step tried last into ``g``."""
     if theta == 1.0:
-        run.probe[:] = run.end
+        for j in range(3):
+            run.probe[j] = run.end[j]
     else:
         _interpolate(run, theta, h)
     part = tau + theta * h
@@ -573,7 +576,8 @@ def _settle(q, run, t_leg, tau, located, log):
             run.state[q.bristle] = run.y[2]
         else:
             _call(q.commit, q, run, t, since, run.y)
-            run.state[:] = run.out[:MAX_STATE]
+            for i in range(MAX_STATE):
+                run.state[i] = run.out[i]
         if _pinned(q, run):
             run.y[1] = q.belt_velocity
         switched = switched or (q.moded and run.state[0] != mode)
@@ -603,13 +607,7 @@ def _note(q, run, t, log):
     if now == clock[STUCK]:
         return log, False
     clock[STUCK] = now
-    n = int(clock[N_EVENTS])
-    if n == len(log):
-        grown = np.empty((2 * n, 2))
-        grown[:n] = log
-        log = grown
-    log[n, 0] = t
-    log[n, 1] = 1.0 - now
+    log = note(log, int(clock[N_EVENTS]), t, STICK if now == 1.0 else BREAK_AWAY)
     clock[N_EVENTS] += 1.0
     if now == 1.0:
         run.segment[EVENTS] += 1.0

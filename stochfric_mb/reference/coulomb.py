@@ -26,6 +26,7 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.laws import Law
 from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.reference.events import BREAK_AWAY, STICK, note
 from stochfric_mb.trajectory import Array
 
 MAX_SWITCHES_PER_LEG = 10_000
@@ -232,21 +233,10 @@ def _leg(o, line, t, length, x, v, mode, log, n_events):
         if mode != 0.0:
             new = _mode_at_rest(o, t + tau, x, mu_s + slope_s * tau)
         if (new == 0.0) != (mode == 0.0):
-            log, n_events = _note(log, n_events, t + tau, 0.0 if new == 0.0 else 1.0)
+            log = note(log, n_events, t + tau, STICK if new == 0.0 else BREAK_AWAY)
+            n_events += 1
         mode = new
     return x, v, mode, log, n_events, False
-
-
-@compiled
-def _note(log, n_events, t, kind):
-    """Append an event to a log that grows; return both."""
-    if n_events == len(log):
-        grown = np.empty((2 * n_events, 2))
-        grown[:n_events] = log
-        log = grown
-    log[n_events, 0] = t
-    log[n_events, 1] = kind
-    return log, n_events + 1
 
 
 # --- curves -----------------------------------------------------------------------------------------------------------

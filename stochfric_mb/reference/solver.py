@@ -207,7 +207,8 @@ def _march(
     events: list[Array] = []
     for first in range(0, len(outputs), CHUNK):
         part = slice(first, first + CHUNK)
-        events.append(adaptive.march(problem, run, outputs[part], rows[part]))
+        log = adaptive.march(problem, run, outputs[part], rows[part])
+        events.append(log[: int(run.clock[adaptive.N_EVENTS])])
         if run.clock[adaptive.STATUS] != adaptive.OK:
             raise SimulationError(_breakdown(run))
         if progress is not None:
