@@ -114,11 +114,15 @@ def init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, p)
 
 @compiled
 def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
-    """Return the friction force [N]: spring and damper within mu_s N while stuck, mu(abs(v)) N while sliding."""
+    """Return the friction force [N]: spring and damper within mu_s N while stuck, mu(abs(v)) N while sliding.
+
+    The deflection counts within its limit, which a falling mu_s lowers between commits (continuous return mapping).
+    """
     if state[0] == STICK:
         k = stick_stiffness(normal_force, p)
         c = stick_damping(normal_force, effective_mass, p)
-        return clipped(k * (ux - state[1]) + c * vx, k * (uy - state[2]) + c * vy, mu_s * normal_force)
+        zx, zy = clipped(ux - state[1], uy - state[2], deflection_limit(mu_s, p))
+        return clipped(k * zx + c * vx, k * zy + c * vy, mu_s * normal_force)
     ex, ey = slip_direction(vx, vy, state[3], state[4])
     speed = max(vx * ex + vy * ey, 0.0)
     f = slip_coefficient(speed, mu_s, mu_k, p[4], p[5]) * normal_force
@@ -176,8 +180,10 @@ def guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, h
         zy = uy - state[2]
         k = stick_stiffness(normal_force, p)
         c = stick_damping(normal_force, effective_mass, p)
-        cap = mu_s * normal_force - math.hypot(k * zx + c * vx, k * zy + c * vy)
-        return deflection_limit(mu_s, p) - math.hypot(zx, zy), cap, -cap, 1.0, 1.0, 1.0
+        limit = deflection_limit(mu_s, p)
+        wx, wy = clipped(zx, zy, limit)
+        cap = mu_s * normal_force - math.hypot(k * wx + c * vx, k * wy + c * vy)
+        return limit - math.hypot(zx, zy), cap, -cap, 1.0, 1.0, 1.0
     ahead = vx * state[3] + vy * state[4]
     if state[0] == SLIP_PEAK:
         return ahead, p[4] - speed, 1.0, 1.0, 1.0, 1.0
