@@ -1,0 +1,392 @@
+"""Coulomb, event-driven: one matrix product a leg, and the leg's Taylor polynomial only where an event falls.
+
+Within a leg mu_s and mu_k are linear in time. While sliding, position and velocity at its end are linear in those at
+its start, in mu_k at both ends and in the harmonic excitation: the state transition of the oscillator, exact whatever
+the length. A leg in which a contact may break away, stick or turn over is done sample by sample: legs are at most 0.35
+rad of the fastest part of the motion long, so that twelve terms of the Taylor series are exact to rounding
+(0.35^13/13! = 2e-16), and events are roots of a polynomial.
+"""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+import scipy.linalg
+
+from stochfric_mb.coefficients.path import CURSOR
+from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.ensemble.lanes import (
+    LANES,
+    OPEN,
+    begin,
+    close,
+    first_pairs,
+    next_pairs,
+    note_break_away,
+    note_slip_end,
+)
+from stochfric_mb.ensemble.schedule import Array, Schedule, schedule
+from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.scenario import Scenario
+
+LONGEST_LEG = 0.35
+"""Longest leg [rad of the fastest part of the motion]."""
+TERMS = 13
+"""Coefficients of a leg's Taylor polynomial."""
+DIVISORS: Array = np.array([1.0 / ((e + 1) * (e + 2)) for e in range(TERMS)])
+"""1/((e + 1) (e + 2)): what turns the e-th coefficient of an acceleration into the next one but two of the position."""
+MAX_SWITCHES = 10_000
+"""Most switches within one leg."""
+
+
+class Problem(NamedTuple):
+    """What all samples share."""
+
+    legs: Schedule
+    """The common time grid."""
+    transition: Array
+    """x and x' at a leg's end from x, x', mu_k at its start and mu_k at its end, shape (n_kinds, 2, 4)."""
+    drive: Array
+    """k u_0 cos W t [N] at the start and the end of each leg, and its share of x and x' at the end, shape (n_legs, 4)."""
+    descriptor: Array
+    """Descriptor of the coefficient paths."""
+    mass: float
+    """m [kg]; then c [N s/m], k [N/m], N [N], k u_0 [N], W [rad/s], v_b [m/s], x and x' at t = 0, least slip [m]."""
+    damping: float
+    stiffness: float
+    normal_force: float
+    amplitude: float
+    frequency: float
+    belt_velocity: float
+    position: float
+    velocity: float
+    least_slip: float
+
+
+def problem(scenario: Scenario, output_times: Array, least_slip: float) -> Problem:
+    """Return what all samples of an ensemble share."""
+    b = scenario.mechanism
+    fastest = max(math.sqrt(b.stiffness / b.mass), b.excitation_angular_frequency, b.damping / b.mass)
+    legs = schedule(scenario, output_times, longest=LONGEST_LEG / fastest)
+    transition, drive = _tables(b, legs)
+    return Problem(
+        legs=legs,
+        transition=transition,
+        drive=drive,
+        descriptor=scenario.path(0).descriptor,
+        mass=b.mass,
+        damping=b.damping,
+        stiffness=b.stiffness,
+        normal_force=b.normal_force,
+        amplitude=b.stiffness * b.excitation_amplitude,
+        frequency=b.excitation_angular_frequency,
+        belt_velocity=b.belt_velocity,
+        position=b.initial_position,
+        velocity=b.initial_velocity,
+        least_slip=least_slip,
+    )
+
+
+def _tables(b: BeltBox, legs: Schedule) -> tuple[Array, Array]:
+    """Return ``transition`` and ``drive`` from the exponential of (x, x', mu, mu', cos W t, sin W t)."""
+    w, amplitude = b.excitation_angular_frequency, b.stiffness * b.excitation_amplitude
+    rates = np.zeros((6, 6))
+    rates[0, 1] = 1.0
+    rates[1] = -b.stiffness / b.mass, -b.damping / b.mass, b.normal_force / b.mass, 0.0, amplitude / b.mass, 0.0
+    rates[2, 3] = 1.0
+    rates[4, 5], rates[5, 4] = -w, w
+    exact = np.array([scipy.linalg.expm(rates * h) for h in legs.lengths]).reshape(-1, 6, 6)
+    h = legs.lengths[:, None]
+    transition = exact[:, :2, :4].copy()
+    transition[:, :, 3] /= h
+    transition[:, :, 2] -= transition[:, :, 3]
+    phase = w * legs.start
+    response = exact[legs.kind, :2, 4] * np.cos(phase)[:, None] + exact[legs.kind, :2, 5] * np.sin(phase)[:, None]
+    ends = amplitude * np.cos(w * np.stack([legs.start, legs.start + legs.length], axis=1))
+    return transition, np.concatenate([ends, response], axis=1)
+
+
+@compiled
+def simulate(q: Any, seed: int, first: int, n: int, position: Any, velocity: Any, stick: Any, tallies: Any) -> int:
+    """Run samples ``first`` .. ``first + n - 1``; write (n, n_outputs) arrays and tallies; return 0 or the leg that failed."""
+    for group in range((n + LANES - 1) // LANES):
+        low = group * LANES
+        high = min(low + LANES, n)
+        failed = _group(
+            q, seed, first + low, high - low, position[low:high], velocity[low:high], stick[low:high], tallies[low:high]
+        )
+        if failed > 0:
+            return failed
+    return 0
+
+
+@compiled
+def _group(q, seed, first, n, position, velocity, stick, tallies):
+    """Run one group of lanes."""
+    x = np.full(LANES, q.position)
+    v = np.full(LANES, q.velocity)
+    mode = np.empty(LANES)
+    a_s, a_k, b_s, b_k = np.empty(LANES), np.empty(LANES), np.empty(LANES), np.empty(LANES)
+    eventful = np.empty(LANES)
+    tally, pending = np.empty((5, LANES)), np.empty((OPEN, LANES))
+    cursors = np.zeros((LANES, CURSOR))
+    work = np.empty((3, TERMS))
+    first_pairs(q.descriptor, cursors, seed, first, a_s, a_k, b_s, b_k)
+    knot = 0
+    for j in range(LANES):
+        mode[j] = _first_mode(q, a_s[j])
+        begin(tally, pending, j, mode[j] == 0.0)
+    if q.legs.output_at_start:
+        _record(0, n, x, v, mode, position, velocity, stick)
+    for i in range(len(q.legs.length)):
+        if q.legs.knot[i] > knot:
+            knot += 1
+            next_pairs(q.descriptor, cursors, seed, first, knot, a_s, a_k, b_s, b_k)
+        if _calm_leg(q, i, x, v, mode, a_s, a_k, b_s, b_k, eventful) > 0:
+            for j in range(LANES):
+                if eventful[j] == 1.0 and not _eventful_leg(q, i, j, x, v, mode, a_s, a_k, b_s, b_k, tally, pending, work):
+                    return i + 1
+        if q.legs.output[i] >= 0:
+            _record(q.legs.output[i], n, x, v, mode, position, velocity, stick)
+    end = q.legs.start[-1] + q.legs.length[-1]
+    for j in range(n):
+        close(tally, pending, j, end, q.belt_velocity * end - x[j], q.least_slip)
+        tallies[j] = tally[:, j]
+    return 0
+
+
+@compiled
+def _record(output, n, x, v, mode, position, velocity, stick):
+    for j in range(n):
+        position[j, output] = x[j]
+        velocity[j, output] = v[j]
+        stick[j, output] = mode[j] == 0.0
+
+
+@compiled
+def _first_mode(q, mu_s):
+    """Return 0 (stick) or the direction of sliding at t = 0."""
+    if q.velocity != q.belt_velocity:
+        return 1.0 if q.velocity < q.belt_velocity else -1.0
+    return _mode_at_rest(q, 0.0, q.position, mu_s)
+
+
+@compiled
+def _mode_at_rest(q, t, x, mu_s):
+    """Return 0 (stick) or the direction in which a contact at rest breaks away."""
+    hold = q.stiffness * x + q.damping * q.belt_velocity - q.amplitude * math.cos(q.frequency * t)
+    if abs(hold) <= mu_s * q.normal_force:
+        return 0.0
+    return 1.0 if hold > 0.0 else -1.0
+
+
+@compiled
+def _calm_leg(q, i, x, v, mode, a_s, a_k, b_s, b_k, eventful):
+    """Move the lanes without an event to the end of leg i; mark the others and return how many they are."""
+    e = q.transition[q.legs.kind[i]]
+    xx, xv, x0, x1, vx, vv, v0, v1 = e[0, 0], e[0, 1], e[0, 2], e[0, 3], e[1, 0], e[1, 1], e[1, 2], e[1, 3]
+    f0, f1, fx, fv = q.drive[i, 0], q.drive[i, 1], q.drive[i, 2], q.drive[i, 3]
+    h, w0, w1 = q.legs.length[i], q.legs.from_knot[i], q.legs.to_knot[i]
+    c, k, nf, vb = q.damping, q.stiffness, q.normal_force, q.belt_velocity
+    bulge = abs(q.amplitude) * q.frequency * q.frequency * h * h / 8.0
+    count = 0
+    for j in range(LANES):
+        s = mode[j]
+        d_s = b_s[j] - a_s[j]
+        d_k = b_k[j] - a_k[j]
+        s0, s1 = (a_s[j] + w0 * d_s) * nf - bulge, (a_s[j] + w1 * d_s) * nf - bulge
+        k0, k1 = a_k[j] + w0 * d_k, a_k[j] + w1 * d_k
+        x_stick = x[j] + vb * h
+        holds = (abs(k * x[j] + c * vb - f0) <= s0) & (abs(k * x_stick + c * vb - f1) <= s1)
+        x_slip = xx * x[j] + xv * v[j] + s * (x0 * k0 + x1 * k1) + fx
+        v_slip = vx * x[j] + vv * v[j] + s * (v0 * k0 + v1 * k1) + fv
+        g0 = s * (k * x[j] + c * v[j] - f0) - k0 * nf
+        g1 = s * (k * x_slip + c * v_slip - f1) - k1 * nf
+        speed0 = s * (vb - v[j])
+        speed1 = s * (vb - v_slip)
+        slides = (speed1 > 0.0) & ((g0 >= 0.0) | (g1 <= 0.0)) & ((speed0 > 0.0) | ((speed0 == 0.0) & (g0 > 0.0)))
+        stuck = s == 0.0
+        calm = holds if stuck else slides
+        x[j] = (x_stick if stuck else x_slip) if calm else x[j]
+        v[j] = (vb if stuck else v_slip) if calm else v[j]
+        eventful[j] = 0.0 if calm else 1.0
+        count += 0 if calm else 1
+    return count
+
+
+@compiled
+def _eventful_leg(q, i, j, x, v, mode, a_s, a_k, b_s, b_k, tally, pending, work):
+    """Move lane j to the end of leg i, event by event; return whether that ended."""
+    length, part = q.legs.length[i], q.legs.to_knot[i] - q.legs.from_knot[i]
+    mu_s = a_s[j] + q.legs.from_knot[i] * (b_s[j] - a_s[j])
+    mu_k = a_k[j] + q.legs.from_knot[i] * (b_k[j] - a_k[j])
+    slope_s = part * (b_s[j] - a_s[j]) / length
+    slope_k = part * (b_k[j] - a_k[j]) / length
+    g, dg, motion = work[0], work[1], work[2]
+    tau = 0.0
+    for _ in range(MAX_SWITCHES):
+        t, rest = q.legs.start[i] + tau, length - tau
+        s = mode[j]
+        if s == 0.0:
+            dt, new = _break_away(q, t, x[j], mu_s + slope_s * tau, slope_s, rest, g, dg)
+            dt = min(dt, rest)
+            x[j] += q.belt_velocity * dt
+            v[j] = q.belt_velocity
+        else:
+            _slip_motion(q, t, x[j], v[j], s, mu_k + slope_k * tau, slope_k, motion)
+            for e in range(TERMS - 1):
+                g[e] = -s * (e + 1) * motion[e + 1]
+            g[0] += s * q.belt_velocity
+            dt = min(first_zero(g, dg, TERMS - 1, rest), rest)
+            x[j] = _value(motion, TERMS, dt)
+            v[j] = q.belt_velocity - s * _value(g, TERMS - 1, dt) if dt == rest else q.belt_velocity
+            new = s
+        tau += dt
+        if dt == rest:
+            return True
+        t = q.legs.start[i] + tau
+        place = q.belt_velocity * t - x[j]
+        if s == 0.0:
+            note_break_away(tally, pending, j, t, place, mu_s + slope_s * tau)
+        else:
+            new = _mode_at_rest(q, t, x[j], mu_s + slope_s * tau)
+            note_slip_end(tally, pending, j, t, place, q.least_slip, new == 0.0)
+        mode[j] = new
+    return False
+
+
+@compiled
+def _slip_motion(q, t, x, v, s, mu_k, slope, out):
+    """Write the Taylor coefficients of the position while sliding in direction s from (x, v) at time t."""
+    wave = q.amplitude * math.cos(q.frequency * t) if q.amplitude != 0.0 else 0.0
+    next_wave = -q.amplitude * q.frequency * math.sin(q.frequency * t) if q.amplitude != 0.0 else 0.0
+    inverse_mass = 1.0 / q.mass
+    out[0] = x
+    out[1] = v
+    for e in range(TERMS - 2):
+        force = wave
+        if e == 0:
+            force += s * q.normal_force * mu_k
+        elif e == 1:
+            force += s * q.normal_force * slope
+        force -= q.damping * (e + 1) * out[e + 1] + q.stiffness * out[e]
+        out[e + 2] = force * inverse_mass * DIVISORS[e]
+        wave, next_wave = next_wave, -q.frequency * q.frequency * wave * DIVISORS[e]
+
+
+@compiled
+def _break_away(q, t, x, mu_s, slope, length, g, dg):
+    """Return (time to break-away [s], direction); infinity if the contact holds for ``length``."""
+    hold = q.stiffness * x + q.damping * q.belt_velocity
+    rate = q.stiffness * q.belt_velocity
+    best, direction = math.inf, 0.0
+    for s in (1.0, -1.0):
+        wave, next_wave = 0.0, 0.0
+        n = 2
+        if q.amplitude != 0.0:
+            wave = s * q.amplitude * math.cos(q.frequency * t)
+            next_wave = -s * q.amplitude * q.frequency * math.sin(q.frequency * t)
+            n = TERMS
+        g[0], g[1] = mu_s * q.normal_force - s * hold, slope * q.normal_force - s * rate
+        for e in range(n):
+            g[e] = wave if e > 1 else g[e] + wave
+            wave, next_wave = next_wave, -q.frequency * q.frequency * wave * DIVISORS[e]
+        dt = first_zero(g, dg, n, length)
+        if dt < best:
+            best, direction = dt, s
+    return best, direction
+
+
+# --- polynomials ------------------------------------------------------------------------------------------------------
+
+
+@compiled_inline
+def _value(g, n, t):
+    """Return g[0] + g[1] t + ... + g[n - 1] t^(n - 1)."""
+    value = g[n - 1]
+    for e in range(n - 2, -1, -1):
+        value = value * t + g[e]
+    return value
+
+
+@compiled
+def first_zero(g, dg, n, length):
+    """Return the first time in [0, length) after which the polynomial g is negative, or infinity.
+
+    A polynomial that starts at zero and rises counts as positive until it comes back. It has at most one extremum
+    within ``length``; ``dg`` is room for its derivative.
+    """
+    for e in range(n - 1):
+        dg[e] = (e + 1) * g[e + 1]
+    low, here = 0.0, g[0]
+    there, slope = _value(g, n, length), _value(dg, n - 1, length)
+    if here <= 0.0:
+        low, here = _after_start(g, dg, n, length, slope)
+        if here <= 0.0:
+            return 0.0
+    if there < 0.0:
+        return _root(g, dg, n, low, length, here, there)
+    if _value(dg, n - 1, low) < 0.0 and slope > 0.0:
+        bottom = _bisected(dg, n - 1, low, length)
+        there = _value(g, n, bottom)
+        if there < 0.0:
+            return _root(g, dg, n, low, bottom, here, there)
+    return math.inf
+
+
+@compiled
+def _after_start(g, dg, n, length, slope):
+    """Return a time at which a polynomial that starts at zero has risen above it, and its value; (0, value) if it falls."""
+    ahead = 1.0e-3 * length
+    value = _value(g, n, ahead)
+    if value > 0.0:
+        return ahead, value
+    if dg[0] > 0.0 and slope < 0.0:
+        top = _bisected(dg, n - 1, 0.0, length)
+        return top, _value(g, n, top)
+    return 0.0, min(value, 0.0)
+
+
+@compiled
+def _root(g, dg, n, positive, negative, here, there):
+    """Return the zero of g between a time where it is positive and a later one where it is not, by guarded Newton.
+
+    Newton's error squares: once a step is below 1e-10 of the bracket the next one would be below rounding.
+    """
+    enough = 1.0e-10 * (negative - positive)
+    t = positive + (negative - positive) * (here / (here - there))
+    for _ in range(100):
+        value, slope = g[n - 1], 0.0
+        for e in range(n - 2, -1, -1):
+            slope = slope * t + value
+            value = value * t + g[e]
+        if value > 0.0:
+            positive = t
+        else:
+            negative = t
+        new = t - value / slope if slope < 0.0 else negative
+        if not positive <= new <= negative:
+            new = 0.5 * (positive + negative)
+        elif abs(new - t) <= enough:
+            return new
+        t = new
+    return t
+
+
+@compiled
+def _bisected(g, n, a, b):
+    """Return the zero of g between two times where it has different signs."""
+    rising = _value(g, n, a) < 0.0
+    for _ in range(60):
+        middle = 0.5 * (a + b)
+        if (_value(g, n, middle) < 0.0) == rising:
+            a = middle
+        else:
+            b = middle
+    return 0.5 * (a + b)

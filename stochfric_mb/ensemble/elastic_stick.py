@@ -1,0 +1,354 @@
+"""Elastic stick, samples side by side: Runge-Kutta of order 4 at a fixed step, with the law's switches located.
+
+While no lane switches, all of them make the same step without branches. A lane that has passed a switch at the end of
+a step (break-away, the peak at v_s, re-stick) makes that step again alone, with the law's own functions: up to the
+switch, commit, and on. The deflection needs no equation: z = z_0 + v_b (t - t_0) - (x - x_0) exactly.
+"""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from stochfric_mb.coefficients.path import CURSOR
+from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.ensemble.lanes import (
+    LANES,
+    OPEN,
+    TALLIES,
+    begin,
+    close,
+    exponential,
+    first_pairs,
+    fma,
+    next_pairs,
+    note_crossings,
+)
+from stochfric_mb.laws import elastic_stick as law
+from stochfric_mb.laws.elastic_stick import SLIP_PEAK, STICK
+
+# Rows of the flat array: position and velocity, the same one step before, of a stage; sum of the first three
+# accelerations, sum of the second and third; pair at the knot, its change to the next knot, pair there; mu_s; mode,
+# direction of sliding, deflection + position, whether the lane has passed a switch
+X, V, OLD_X, OLD_V, STAGE_X, STAGE_V, SUM, MIDDLE, A_S, A_K, D_S, D_K, B_S, B_K, MU, MODE, SIGN, ZX, SWITCHED = (
+    LANES * i for i in range(19)
+)
+ROWS = 19
+MAX_SWITCHES = 20
+"""Most switches located within one step; after them the rest of it is made in one go."""
+MAX_HALVINGS = 60
+
+
+@compiled_inline
+def coefficient(speed, mu_s, mu_k, v_s, rate):
+    """Return the sliding coefficient [-], the law's `slip_coefficient` without branches; ``rate`` = 1/decay_velocity."""
+    y = (v_s - speed) * rate
+    return fma(mu_s - mu_k, exponential(y if y < 0.0 else 0.0), mu_k)
+
+
+@compiled
+def simulate(q: Any, seed: int, first: int, n: int, position: Any, velocity: Any, stick: Any, tallies: Any) -> int:
+    """Run samples ``first`` .. ``first + n - 1``; write (n, n_outputs) arrays and tallies; return 0."""
+    for group in range((n + LANES - 1) // LANES):
+        low = group * LANES
+        high = min(low + LANES, n)
+        _group(q, seed, first + low, high - low, position[low:high], velocity[low:high], stick[low:high], tallies[low:high])
+    return 0
+
+
+@compiled
+def _group(q, seed, first, n, position, velocity, stick, tallies):
+    """Run one group of lanes."""
+    m = np.zeros(ROWS * LANES)
+    m[X : X + LANES] = m[STAGE_X : STAGE_X + LANES] = q.position
+    m[V : V + LANES] = m[STAGE_V : STAGE_V + LANES] = q.velocity
+    a_s, a_k, b_s, b_k = (m[A_S : A_S + LANES], m[A_K : A_K + LANES], m[B_S : B_S + LANES], m[B_K : B_K + LANES])
+    tally, pending = np.empty((TALLIES, LANES)), np.empty((OPEN, LANES))
+    cursors = np.zeros((LANES, CURSOR))
+    first_pairs(q.descriptor, cursors, seed, first, a_s, a_k, b_s, b_k)
+    _slopes(m)
+    _start(q, m, tally, pending)
+    knot = 0
+    if q.legs.output_at_start:
+        _record(0, n, m, position, velocity, stick)
+    numbers = _numbers(q)
+    for i in range(len(q.legs.length)):
+        if q.legs.knot[i] > knot:
+            knot += 1
+            next_pairs(q.descriptor, cursors, seed, first, knot, a_s, a_k, b_s, b_k)
+            _slopes(m)
+        n_steps = int(q.n_steps[q.legs.kind[i]])
+        h = q.legs.length[i] / n_steps
+        part = (q.legs.to_knot[i] - q.legs.from_knot[i]) / n_steps
+        for step in range(n_steps):
+            t = q.legs.start[i] + step * h
+            w = q.legs.from_knot[i] + step * part
+            switched, crossed = _step(q.amplitude / q.mass, q.frequency, t, h, w, part, numbers, m)
+            if switched > 0:
+                for j in range(LANES):
+                    if m[SWITCHED + j] == 1.0:
+                        _switching_step(q, j, t, h, w, part, m)
+            if switched + crossed > 0:
+                _note(q, t, h, w, m, tally, pending)
+        if q.legs.output[i] >= 0:
+            _record(q.legs.output[i], n, m, position, velocity, stick)
+    end = q.legs.start[-1] + q.legs.length[-1]
+    for j in range(n):
+        close(tally, pending, j, end, q.belt_velocity * end - m[X + j], q.least_slip)
+        tallies[j] = tally[:, j]
+
+
+@compiled
+def _start(q, m, tally, pending):
+    """Set every lane to the law's own state at t = 0."""
+    v_rel = q.belt_velocity - q.velocity
+    for j in range(LANES):
+        s = law.init(
+            0.0, 0.0, 0.0, v_rel, 0.0, q.normal_force, m[A_S + j], m[A_K + j], q.mass, 0.0, 0.0, q.parameters
+        )  # fmt: skip
+        m[MODE + j], m[SIGN + j], m[ZX + j] = s[0], s[3], q.position - s[1]
+        begin(tally, pending, j, abs(v_rel) <= q.stick_speed)
+
+
+@compiled
+def _slopes(m):
+    """Write the change of each pair to the next knot."""
+    for j in range(LANES):
+        m[D_S + j] = m[B_S + j] - m[A_S + j]
+        m[D_K + j] = m[B_K + j] - m[A_K + j]
+
+
+@compiled
+def _numbers(q):
+    """Return v_b, v_s, 1/decay_velocity, e_lim/mean mu_s and the rest per unit of mass: k_stick, c_stick, N, c, k."""
+    p = q.parameters
+    rate = 1.0 / p[5] if p[5] > 0.0 else 1.0e300
+    k_stick = law.stick_stiffness(q.normal_force, p) / q.mass
+    c_stick = law.stick_damping(q.normal_force, q.mass, p) / q.mass
+    reach = law.deflection_limit(1.0, p)
+    return (
+        q.belt_velocity,
+        p[4],
+        rate,
+        reach,
+        k_stick,
+        c_stick,
+        q.normal_force / q.mass,
+        q.damping / q.mass,
+        q.stiffness / q.mass,
+    )
+
+
+# --- all lanes at once ------------------------------------------------------------------------------------------------
+
+
+@compiled
+def _step(amplitude, frequency, t, h, w, part, numbers, m):
+    """Make one step of every lane; return how many have passed a switch, and how many have passed v_s or turned over."""
+    f0 = f1 = f2 = 0.0
+    if amplitude != 0.0:
+        f0 = amplitude * math.cos(frequency * t)
+        f1 = amplitude * math.cos(frequency * (t + 0.5 * h))
+        f2 = amplitude * math.cos(frequency * (t + h))
+    _stage(w, 0.0, 0.5 * h, 0.0, f0, numbers, m)
+    _stage(w + 0.5 * part, 0.5 * h, 0.5 * h, 1.0, f1, numbers, m)
+    _stage(w + 0.5 * part, 0.5 * h, h, 1.0, f1, numbers, m)
+    return _last_stage(w + part, h, f2, numbers, m)
+
+
+@compiled_inline
+def _acceleration(j, w, tau, drive, numbers, m):
+    """Return x'' [m/s^2] of lane j at its stage, ``tau`` after the start of the step."""
+    v_b, v_s, rate, _, k_stick, c_stick, load, damping, stiffness = numbers
+    x, v = m[STAGE_X + j], m[STAGE_V + j]
+    v_rel = v_b - v
+    mu_s, mu_k = fma(w, m[D_S + j], m[A_S + j]), fma(w, m[D_K + j], m[A_K + j])
+    cap = mu_s * load
+    held = fma(k_stick, fma(v_b, tau, m[ZX + j]) - x, c_stick * v_rel)
+    held = cap if held > cap else held
+    held = -cap if held < -cap else held
+    s = m[SIGN + j]
+    ahead = s * v_rel
+    slid = s * load * coefficient(ahead if ahead > 0.0 else 0.0, mu_s, mu_k, v_s, rate)
+    return fma(-damping, v, fma(-stiffness, x, drive)) + (held if m[MODE + j] == STICK else slid)
+
+
+@compiled
+def _stage(w, tau, ahead, middle, drive, numbers, m):
+    """Evaluate an acceleration and go ``ahead`` [s] from the start of the step with it.
+
+    ``middle`` is 0 for the first stage and 1 for the second and third.
+    """
+    for j in range(LANES):
+        a = _acceleration(j, w, tau, drive, numbers, m)
+        v = m[STAGE_V + j]
+        m[SUM + j] += a
+        m[MIDDLE + j] += middle * a
+        m[STAGE_X + j] = fma(ahead, v, m[X + j])
+        m[STAGE_V + j] = fma(ahead, a, m[V + j])
+
+
+@compiled
+def _last_stage(w, h, drive, numbers, m):
+    """Evaluate the fourth acceleration, finish the step, and look for switches."""
+    v_b, v_s, reach = numbers[0], numbers[1], numbers[3]
+    switched = 0
+    crossed = 0
+    for j in range(LANES):
+        a = _acceleration(j, w, h, drive, numbers, m)
+        x, v = m[X + j], m[V + j]
+        three = m[SUM + j]
+        x_new = fma(h * h / 6.0, three, fma(h, v, x))
+        v_new = fma(h / 6.0, three + m[MIDDLE + j] + a, v)
+        was, now = v_b - v, v_b - v_new
+        zx = fma(v_b, h, m[ZX + j])
+        limit = reach * fma(w, m[D_S + j], m[A_S + j])
+        ahead = m[SIGN + j] * now
+        peak = (ahead <= 0.0) | (ahead > v_s)
+        slip = peak if m[MODE + j] == SLIP_PEAK else ahead <= v_s
+        switch = (abs(zx - x_new) >= limit) if m[MODE + j] == STICK else slip
+        switched += 1 if switch else 0
+        crossed += 1 if ((abs(was) <= v_s) != (abs(now) <= v_s)) | (was * now < 0.0) else 0
+        m[SWITCHED + j] = 1.0 if switch else 0.0
+        m[OLD_X + j] = x
+        m[OLD_V + j] = v
+        m[X + j] = m[STAGE_X + j] = x_new
+        m[V + j] = m[STAGE_V + j] = v_new
+        m[ZX + j] = zx
+        m[SUM + j] = m[MIDDLE + j] = 0.0
+    return switched, crossed
+
+
+# --- one lane that switches -------------------------------------------------------------------------------------------
+
+
+@compiled
+def _switching_step(q, j, t, h, w, part, m):
+    """Make the last step of lane j again, with its switches located and committed by the law."""
+    x, v = m[OLD_X + j], m[OLD_V + j]
+    z = m[ZX + j] - q.belt_velocity * h - x
+    state = (m[MODE + j], 0.0, 0.0, m[SIGN + j], 0.0)
+    tau = 0.0
+    for count in range(MAX_SWITCHES + 1):
+        rest = h - tau
+        dt = rest
+        if count < MAX_SWITCHES and _margin(q, j, tau, h, w, part, m, z, v, state) > 0.0:
+            dt = _switch_time(q, j, t, tau, rest, h, w, part, m, x, v, z, state)
+        x_new, v = _single_step(q, j, t, tau, dt, h, w, part, m, x, v, z, state)
+        z += q.belt_velocity * dt - (x_new - x)
+        x = x_new
+        tau += dt
+        mu_s, mu_k = _pair(j, w + part * (tau / h), m)
+        new = law.commit(
+            t + tau, z, 0.0, q.belt_velocity - v, 0.0, q.normal_force, state, mu_s, mu_k, q.mass, 0.0, 0.0, q.parameters
+        )  # fmt: skip
+        z -= new[1]
+        state = (new[0], 0.0, 0.0, new[3], 0.0)
+        if dt == rest:
+            break
+    m[X + j] = m[STAGE_X + j] = x
+    m[V + j] = m[STAGE_V + j] = v
+    m[ZX + j] = z + x
+    m[MODE + j], m[SIGN + j] = state[0], state[3]
+
+
+@compiled
+def _pair(j, w, m):
+    return fma(w, m[D_S + j], m[A_S + j]), fma(w, m[D_K + j], m[A_K + j])
+
+
+@compiled
+def _margin(q, j, tau, h, w, part, m, z, v, state):
+    """Return the law's smallest distance to a switch, positive before it."""
+    mu_s, mu_k = _pair(j, w + part * (tau / h), m)
+    g = law.guards(
+        0.0, z, 0.0, q.belt_velocity - v, 0.0, q.normal_force, state, mu_s, mu_k, q.mass, 0.0, 0.0, q.parameters
+    )  # fmt: skip
+    return g[0] if state[0] == STICK else min(g[0], g[1])
+
+
+@compiled
+def _switch_time(q, j, t, tau, rest, h, w, part, m, x, v, z, state):
+    """Return the time to the switch [s], just past it, or ``rest`` if there is none: false position (Illinois)."""
+    low, high = 0.0, rest
+    at_low = _margin(q, j, tau, h, w, part, m, z, v, state)
+    at_high = _margin_after(q, j, t, tau, rest, h, w, part, m, x, v, z, state)
+    if at_high > 0.0:
+        return rest
+    side = 0
+    for _ in range(MAX_HALVINGS):
+        if high - low <= 1.0e-12 * h:
+            break
+        middle = low + (high - low) * at_low / (at_low - at_high)
+        if not low < middle < high:
+            middle = 0.5 * (low + high)
+        value = _margin_after(q, j, t, tau, middle, h, w, part, m, x, v, z, state)
+        if value > 0.0:
+            low, at_low = middle, value
+            at_high *= 0.5 if side == 1 else 1.0
+            side = 1
+        else:
+            high, at_high = middle, value
+            at_low *= 0.5 if side == -1 else 1.0
+            side = -1
+            if value == 0.0:
+                break
+    return high
+
+
+@compiled
+def _margin_after(q, j, t, tau, dt, h, w, part, m, x, v, z, state):
+    x_new, v_new = _single_step(q, j, t, tau, dt, h, w, part, m, x, v, z, state)
+    return _margin(q, j, tau + dt, h, w, part, m, z + q.belt_velocity * dt - (x_new - x), v_new, state)
+
+
+@compiled
+def _single_step(q, j, t, tau, dt, h, w, part, m, x, v, z, state):
+    """Return x and x' of one lane a Runge-Kutta step ``dt`` after ``tau`` into the step, with the law's own force."""
+    a0 = _single_acceleration(q, j, t, tau, h, w, part, m, x, v, z, state)
+    half = 0.5 * dt
+    x1, v1 = x + half * v, v + half * a0
+    z1 = z + q.belt_velocity * half - (x1 - x)
+    a1 = _single_acceleration(q, j, t, tau + half, h, w, part, m, x1, v1, z1, state)
+    x2, v2 = x + half * v1, v + half * a1
+    z2 = z + q.belt_velocity * half - (x2 - x)
+    a2 = _single_acceleration(q, j, t, tau + half, h, w, part, m, x2, v2, z2, state)
+    x3, v3 = x + dt * v2, v + dt * a2
+    z3 = z + q.belt_velocity * dt - (x3 - x)
+    a3 = _single_acceleration(q, j, t, tau + dt, h, w, part, m, x3, v3, z3, state)
+    return x + dt * v + dt * dt / 6.0 * (a0 + a1 + a2), v + dt / 6.0 * (a0 + 2.0 * (a1 + a2) + a3)
+
+
+@compiled
+def _single_acceleration(q, j, t, tau, h, w, part, m, x, v, z, state):
+    """Return x'' [m/s^2] with the law's own force."""
+    mu_s, mu_k = _pair(j, w + part * (tau / h), m)
+    f, _ = law.force(
+        t + tau, z, 0.0, q.belt_velocity - v, 0.0, q.normal_force, state, mu_s, mu_k, q.mass, 0.0, 0.0, q.parameters
+    )  # fmt: skip
+    drive = q.amplitude * math.cos(q.frequency * (t + tau)) if q.amplitude != 0.0 else 0.0
+    return (f + drive - q.damping * v - q.stiffness * x) / q.mass
+
+
+@compiled
+def _note(q, t, h, w, m, tally, pending):
+    """Note what happened within the step before now."""
+    for j in range(LANES):
+        m[MU + j] = m[A_S + j] + w * m[D_S + j]
+    rows = m.reshape(ROWS, LANES)
+    x, v, before, mu_s = rows[X // LANES], rows[V // LANES], rows[OLD_V // LANES], rows[MU // LANES]
+    note_crossings(t, h, q.belt_velocity, q.stick_speed, x, v, before, mu_s, tally, pending, q.least_slip)
+
+
+@compiled
+def _record(output, n, m, position, velocity, stick):
+    for j in range(n):
+        position[j, output] = m[X + j]
+        velocity[j, output] = m[V + j]
+        stick[j, output] = m[MODE + j] == STICK
