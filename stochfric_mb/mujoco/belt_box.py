@@ -133,7 +133,7 @@ def integrate(model: mujoco.MjModel, scenario: Scenario, *, progress: Callable[[
             mechanism.excitation_amplitude, mechanism.excitation_angular_frequency, model.opt.timestep,
             first * per_output, (scenario.n_outputs - 1) * per_output, per_output, part,
         )  # fmt: skip
-        _require_sane(data, part, done, scenario, (first + done) * scenario.output_step)
+        _require_sane(data, part, done, scenario, (first + done) * scenario.output_step, model.opt.timestep)
         if progress is not None:
             progress((first + len(part) - 1) * scenario.output_step)
     seconds = time.perf_counter() - began
@@ -195,7 +195,7 @@ def checked_step(scenario: Scenario, dt: float | None) -> float:
     return scenario.output_step / round(n)
 
 
-def _require_sane(data: mujoco.MjData, rows: Array, done: int, scenario: Scenario, t: float) -> None:
+def _require_sane(data: mujoco.MjData, rows: Array, done: int, scenario: Scenario, t: float, dt: float) -> None:
     bad = [name for name in ("QPOS", "QVEL", "QACC") if data.warning[getattr(mujoco.mjtWarning, f"mjWARN_BAD{name}")].number]
     m = scenario.mechanism
     static = scenario.law.mu_s * m.normal_force / m.stiffness + abs(m.excitation_amplitude) + abs(m.initial_position)
@@ -207,8 +207,8 @@ def _require_sane(data: mujoco.MjData, rows: Array, done: int, scenario: Scenari
     if done < len(rows) and not bad:
         what = "the state is not finite"
     raise SimulationError(
-        f"mujoco: {what} before t = {t:.6g} s (dt = {scenario.default_dt():g} s would be safe, static deflection "
-        f"{static:.3g} m); use a smaller dt, or check the model's mass, stiffness and contact"
+        f"mujoco: {what} before t = {t:.6g} s (dt = {dt:g} s, static deflection {static:.3g} m); "
+        "use a smaller dt, or check the model's mass, stiffness, damping and contact"
     )
 
 

@@ -109,7 +109,8 @@ def load_law(kind: str) -> int:
             return identifier
         if native.TABLE[place] == 0:
             functions = native_law(kind)
-            native.TABLE[place + 1 : place + 4] = [functions.init, functions.force, functions.commit]
+            addresses = [functions.init, functions.force, functions.commit, functions.guards]
+            native.TABLE[place + 1 : place + native.LAW_WIDTH] = addresses
             native.TABLE[place] = identifier  # last: a row with an identifier is complete
             return identifier
     raise InputError(f"law {kind!r} is one too many: MuJoCo's table holds {native.N_LAWS}; use fewer laws in one process")
@@ -174,7 +175,7 @@ def _explain(model: int, instance: int, _: int) -> int:
             raise InputError(f"plugin key {key} = {texts[key]!r} is not a whole number in [0, 2^32); write one")
     raise InputError(
         f"plugin keys geom1 = {texts['geom1']!r}, geom2 = {texts['geom2']!r}, slots = {texts['slots']!r}: the geoms must be "
-        f"names of the model's geoms, and slots a number from 1 to {MAX_SLOTS}"
+        f"two of the model's (one may be '*'), and slots a number from 1 to {MAX_SLOTS}"
     )
 
 

@@ -22,11 +22,14 @@ from stochfric_mb.coefficients.path import canonical_time, evaluate
 from stochfric_mb.coefficients.processes import TIME
 from stochfric_mb.compile import compiled
 from stochfric_mb.laws.abi import MAX_STATE, call_law
+from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 
 CONTACTS_FULL = 1
 """mjWARN_CONTACTFULL."""
+SWITCHES, BISECTIONS = 4, 40
+"""Most switches of a law looked for within one step, and halvings of the step to find one."""
 JUMP = 10.0
 """A displacement this many times beyond what the velocities allow is a body that was moved, not a motion."""
 
@@ -46,9 +49,14 @@ def contact_address(data, i):
 
 @compiled
 def side(contact, body, surface):
-    """Return +1 if geom 1 of the contact is the body, -1 if geom 2 is, 0 if the contact is none of ours."""
+    """Return +1 if geom 1 of the contact is the body, -1 if geom 2 is, 0 if the contact is none of ours.
+
+    ``body`` or ``surface`` -1 stands for any geom; contacts of flexible bodies have geom -1 and are never ours.
+    """
     a = n.int_field(contact, n.C_GEOM)
     b = n.load_int(n.field(contact, n.C_GEOM) + 4)
+    if a < 0 or b < 0:
+        return 0
     if a == body and (b == surface or surface < 0):
         return 1
     if b == body and (a == surface or surface < 0):
@@ -445,6 +453,9 @@ def fill(model, data, state, contact, sign, t, address, old):
             n.store(address + 8 * j, n.load(old + 8 * j))
         for j in (s.STICK, s.EVENTS, s.ENERGY):
             n.store(address + 8 * j, n.load(old + 8 * j))
+        put(address + 8 * s.BEFORE, n.load(old + 8 * s.SINCE), n.load(old + 8 * s.UX), n.load(old + 8 * s.UY))
+        n.store(address + 8 * (s.BEFORE + 3), n.load(old + 8 * s.VX))
+        n.store(address + 8 * (s.BEFORE + 4), n.load(old + 8 * s.VY))
         n.store(address + 8 * s.WORK, n.load(old + 8 * s.FX))
         n.store(address + 8 * (s.WORK + 1), n.load(old + 8 * s.FY))
     else:
@@ -483,33 +494,104 @@ def commit_slot(state, address, t, total, count):
     normal_force = n.load(address + 8 * s.NORMAL)
     share = normal_force / total if total > 0.0 else 1.0 / count
     n.store(address + 8 * s.MASS, n.load(address + 8 * s.MASS) * share)
-    events = n.load(address + 8 * s.EVENTS)
-    mu_s, mu_k = coefficients(state, t, n.load(address + 8 * s.UX), events)
     row = n.law_row(int(n.load(state + 8 * s.LAW)))
-    new = n.load(address + 8 * s.LIVE) == 0.0
-    if row != 0:
-        ux, uy = n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
-        vx, vy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
-        call(state, address, n.load_word(row + (8 if new else 24)), t, ux, uy, vx, vy, mu_s, mu_k)
-        for j in range(MAX_STATE):
-            n.store(address + 8 * (s.STATE + j), n.load(state + 8 * (s.OUTPUT + j)))
-    stuck = 1.0 if is_stuck(state, address) else 0.0
-    if not new and stuck == 1.0 and n.load(address + 8 * s.STICK) == 0.0:
-        events += 1.0
-        mu_s, mu_k = coefficients(state, t, n.load(address + 8 * s.UX), events)
-    n.store(address + 8 * s.EVENTS, events)
-    n.store(address + 8 * s.STICK, stuck)
+    if row == 0:
+        return
+    ux, uy = n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
+    vx, vy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
+    if n.load(address + 8 * s.LIVE) == 0.0:
+        switch(state, address, n.load_word(row + n.INIT), t, ux, uy, vx, vy)
+        n.store(address + 8 * s.EVENTS, 0.0)
+    else:
+        if n.load(state + 8 * s.HAS_MODE) != 0.0:
+            switch_within(state, address, row, t)
+        switch(state, address, n.load_word(row + n.COMMIT), t, ux, uy, vx, vy)
+    mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
     n.store(address + 8 * s.MU_S, mu_s)
     n.store(address + 8 * s.MU_K, mu_k)
     n.store(address + 8 * s.LIVE, 1.0)
 
 
 @compiled
-def is_stuck(state, address):
-    """Return whether a slot's contact sticks: by the law's mode, or by speed for laws without modes."""
+def switch(state, address, function, t, ux, uy, vx, vy):
+    """Give a slot the law state that ``function`` (init or commit) returns; count the stick phases that begin."""
+    mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
+    call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k)
+    for j in range(MAX_STATE):
+        n.store(address + 8 * (s.STATE + j), n.load(state + 8 * (s.OUTPUT + j)))
+    was = n.load(address + 8 * s.STICK)
     if n.load(state + 8 * s.HAS_MODE) != 0.0:
-        return n.load(address + 8 * s.STATE) == 0.0
-    return math.hypot(n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)) <= n.load(state + 8 * s.STICK_SPEED)
+        stuck = 1.0 if n.load(address + 8 * s.STATE) == 0.0 else 0.0
+    else:
+        stuck = 1.0 if math.hypot(vx, vy) <= n.load(state + 8 * s.STICK_SPEED) else 0.0
+    n.store(address + 8 * s.STICK, stuck)
+    if stuck > was:
+        n.store(address + 8 * s.EVENTS, n.load(address + 8 * s.EVENTS) + 1.0)
+
+
+@compiled
+def switch_within(state, address, row, t):
+    """Let a law with modes switch where it should have within the step that has just ended.
+
+    Where one of the law's guards has changed sign, ``commit`` runs with the state there, by the cubic through both
+    ends of the step: what the law remembers of a switch then does not depend on where the step ended.
+    """
+    start, end = 0.0, 1.0
+    for _ in range(SWITCHES):
+        guards_at(state, address, row, t, start)
+        for j in range(GUARDS):
+            n.store(state + 8 * (s.START_GUARDS + j), n.load(state + 8 * (s.OUTPUT + j)))
+        if not guard_crossed(state, address, row, t, 1.0):
+            return
+        low, end = start, 1.0
+        for _ in range(BISECTIONS):
+            middle = 0.5 * (low + end)
+            if guard_crossed(state, address, row, t, middle):
+                end = middle
+            else:
+                low = middle
+        ux, uy, vx, vy = between(address, t, end)
+        before = n.load(address + 8 * s.BEFORE)
+        switch(state, address, n.load_word(row + n.COMMIT), before + end * (t - before), ux, uy, vx, vy)
+        start = end
+
+
+@compiled
+def between(address, t, part):
+    """Return displacement [m] and velocity [m/s] at a part of the step that ends at ``t``: the cubic through its ends."""
+    b = address + 8 * s.BEFORE
+    h = t - n.load(b)
+    ux, uy, vx, vy = n.load(b + 8), n.load(b + 16), n.load(b + 24), n.load(b + 32)
+    dx, dy = n.load(address + 8 * s.UX) - ux, n.load(address + 8 * s.UY) - uy
+    wx, wy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
+    p, q = part, 1.0 - part
+    end, here, there = p * p * (3.0 - 2.0 * p), p * q * q * h, -p * p * q * h
+    rise, early, late = 6.0 * p * q / h, q * (1.0 - 3.0 * p), p * (3.0 * p - 2.0)
+    return (
+        ux + end * dx + here * vx + there * wx,
+        uy + end * dy + here * vy + there * wy,
+        rise * dx + early * vx + late * wx,
+        rise * dy + early * vy + late * wy,
+    )
+
+
+@compiled
+def guards_at(state, address, row, t, part):
+    """Write the law's guards at a part of the step to the work space."""
+    ux, uy, vx, vy = between(address, t, part)
+    before = n.load(address + 8 * s.BEFORE)
+    mu_s, mu_k = coefficients(state, before + part * (t - before), ux, n.load(address + 8 * s.EVENTS))
+    call(state, address, n.load_word(row + n.GUARD), before + part * (t - before), ux, uy, vx, vy, mu_s, mu_k)
+
+
+@compiled
+def guard_crossed(state, address, row, t, part):
+    """Return whether a guard that was positive at the start of the search is not positive at a part of the step."""
+    guards_at(state, address, row, t, part)
+    for j in range(GUARDS):
+        if n.load(state + 8 * (s.START_GUARDS + j)) > 0.0 and n.load(state + 8 * (s.OUTPUT + j)) <= 0.0:
+            return True
+    return False
 
 
 @compiled
@@ -550,7 +632,7 @@ def apply(model, data, state):
                 push(model, data, state, last_body, last_surface, target)
             clear_push(state, contact)
             last_body, last_surface = body, surface
-        apply_contact(model, data, state, contact, sign, body, surface, address, n.load_word(row + 16), t, starting)
+        apply_contact(model, data, state, contact, sign, body, surface, address, n.load_word(row + n.FORCE), t, starting)
     if last_body >= 0:
         push(model, data, state, last_body, last_surface, target)
 
@@ -637,7 +719,7 @@ def finish(model, data, state):
             n.store(address + 8 * s.ORDINAL, float(ordinal))
             n.store(address + 8 * s.LIVE, 0.0)
         n.mj_contactForce(model, data, np.int32(i), wrench.ctypes.data)
-        n.store(address + 8 * s.NORMAL, wrench[0])
+        n.store(address + 8 * s.NORMAL, max(wrench[0], 0.0))
     n.store(state + 8 * s.N_COMMITTED, float(count))
     n.store(state + 8 * s.ADVANCED, n.number_field(data, n.D_TIME))
     n.store(state + 8 * s.STARTED, 0.0)

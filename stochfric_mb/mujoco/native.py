@@ -3,7 +3,7 @@
 Compiled code is cached on disk and outlives a process, so nothing in it may depend on an address or on the MuJoCo
 version. All of that stands in one table whose address LLVM learns by its name each time the code is loaded:
 ``TABLE`` (64-bit words) holds the address of the Python function that reads configurations, the struct offsets, the
-rows of the laws (identifier, init, force, commit) and the addresses of the configurations read so far.
+rows of the laws (identifier, init, force, commit, guards) and the addresses of the configurations read so far.
 """
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
@@ -72,8 +72,10 @@ CONTACT_SIZE = 32
 """Place of sizeof(mjContact) in the table."""
 READER, EXPLAINER = 0, 48
 """Places of the addresses of the Python functions that read a configuration and say what is wrong with one."""
-LAW_ROWS, LAW_WIDTH, N_LAWS = 64, 4, 256
-"""First place, width and number of the law rows: identifier, init, force, commit."""
+LAW_ROWS, LAW_WIDTH, N_LAWS = 64, 5, 256
+"""First place, width and number of the law rows."""
+INIT, FORCE, COMMIT, GUARD = 8, 16, 24, 32
+"""Where a law's functions stand in its row [byte]; its identifier stands first."""
 CONFIGURATIONS, N_CONFIGURATIONS = LAW_ROWS + LAW_WIDTH * N_LAWS, 4096
 """First place and number of the configuration addresses, by hash."""
 TABLE: Any = (ctypes.c_int64 * (CONFIGURATIONS + N_CONFIGURATIONS))()

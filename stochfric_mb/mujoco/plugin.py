@@ -141,7 +141,8 @@ def _nstate(model, instance):
 
 def _init(model, data, instance):
     bad = record_of(model, instance) == 0 or slots_of(model, instance) < 0
-    bad = bad or geom_of(model, instance, GEOM1) == -2 or geom_of(model, instance, GEOM2) == -2
+    body, surface = geom_of(model, instance, GEOM1), geom_of(model, instance, GEOM2)
+    bad = bad or body == -2 or surface in (-2, body)
     for key in (SEED, SAMPLE, CONTACT):
         number = config.parse_integer(text_of(model, instance, key), 0)
         bad = bad or number < 0 or number > 4294967295

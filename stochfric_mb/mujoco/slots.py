@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from stochfric_mb.coefficients.path import CURSOR as CURSOR_SIZE
 from stochfric_mb.laws.abi import MAX_STATE
+from stochfric_mb.laws.contract import GUARDS
 
 # Header: places in doubles.
 LAW, GEOM_BODY, GEOM_SURFACE, SEED, SAMPLE, CONTACT, N_SLOTS, N_DESCRIPTOR = range(8)
@@ -26,7 +27,9 @@ COEFFICIENTS = OUTPUT + MAX_STATE
 """Time of the last evaluation of a path along time [s], and its mu_s and mu_k."""
 ROWS, MAX_ROW = COEFFICIENTS + 3, 32
 """Work space: seven rows of so many generalised coordinates."""
-DESCRIPTOR = ROWS + 7 * MAX_ROW
+START_GUARDS = ROWS + 7 * MAX_ROW
+"""Work space: the law's guards where a search for a switch starts."""
+DESCRIPTOR = START_GUARDS + GUARDS
 """The coefficient descriptor; the two blocks of slots follow it."""
 
 # Slot: places in doubles.
@@ -40,7 +43,9 @@ AXIS_1, AXIS_2, ON_BODY, ON_SURFACE = 20, 23, 26, 29
 """The tangent frame (world), and the contact point in the frames of the two bodies."""
 WORK = 32
 """Friction forces of the step before and the displacement since, for the dissipated energy."""
-STATE = 36
+BEFORE = 36
+"""Time, displacement and velocity at the commit before: t, ux, uy, vx, vy."""
+STATE = 41
 """The law's state."""
 SLOT = STATE + MAX_STATE
 """Length of a slot."""

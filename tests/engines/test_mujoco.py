@@ -79,8 +79,9 @@ def check_against_reference(case, dt, tolerance):
 
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_elastic_stick_follows_the_reference(name):
-    # Modes change at steps, up to dt = 1e-4 s late, at belt speeds of 1 to 2.5 mm/s: an error of 0.1 to 0.25 um a switch.
-    ours = check_against_reference(scenario(name, duration=2.0), 1e-4, 1e-6)
+    # Switches are located within the step, so the error is that of the force between a switch and the step's end:
+    # second order in dt, below 1e-9 m. One switch found a step late would shift the anchor by 1.4e-7 m.
+    ours = check_against_reference(scenario(name, duration=2.0), 1e-4, 1e-8)
     assert ours.attributes["hook"] == "engine plugin (passive), RK4"
     assert ours.attributes["law"] == "elastic_stick"
     assert ours.attributes["n_steps"] == 20_000
@@ -89,7 +90,7 @@ def test_elastic_stick_follows_the_reference(name):
 @pytest.mark.long
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_elastic_stick_follows_the_reference_for_ten_seconds(name):
-    check_against_reference(load_scenario(name), 1e-4, 2e-6)
+    check_against_reference(load_scenario(name), 1e-4, 2e-7)  # ten stick-slips amplify the errors of the first
 
 
 @pytest.mark.parametrize("name", SCENARIOS)
@@ -108,9 +109,8 @@ def test_havsin_follows_the_reference_for_ten_seconds(name):
 def test_paths_along_position_and_events_follow_the_reference(process):
     case = scenario("kang2015_table1", process=process, duration=2.0)
     ours, exact = belt_box.simulate(case, seed=3), reference.simulate(case, seed=3)
-    # The path runs along the motion: as exact as the position (1e-6 m of 2e-4 m between knots, times the spread).
-    assert rms(ours.position - exact.position) < 2e-6
-    assert rms(ours.mu_k - exact.mu_k) < 1e-2 * 0.023 + (0.01 if isinstance(process, PerEvent) else 0.0)
+    assert rms(ours.position - exact.position) < 1e-8
+    assert rms(ours.mu_k - exact.mu_k) < 1e-3  # the path runs along the motion; an event may fall one sample apart
     assert len(np.unique(ours.mu_s)) > 1
 
 
@@ -131,6 +131,15 @@ def test_step_size_convergence():
     assert math.log2(errors[0] / errors[1]) > 3.0  # fourth order, less where a step straddles a kink of the law
 
 
+def test_step_size_convergence_with_switches():
+    case = scenario("kang2015_table1", duration=2.0, process=None)
+    exact = reference.simulate(case).position
+    errors = [rms(belt_box.simulate(case, dt=dt).position - exact) for dt in (5e-4, 5e-5)]
+    assert (
+        math.log10(errors[0] / errors[1]) > 1.5
+    )  # second order on average over where steps fall; first order without location
+
+
 def test_the_engine_integrates_its_own_model():
     case = scenario("kang2015_table1", duration=2.0)
     model = belt_box.build(case)
@@ -146,7 +155,7 @@ def test_initial_state_and_moving_foot():
     case = dataclasses.replace(
         case, mechanism=dataclasses.replace(case.mechanism, initial_position=1e-3, initial_velocity=-2e-3)
     )
-    ours = check_against_reference(case, 1e-4, 1e-6)
+    ours = check_against_reference(case, 1e-4, 1e-8)
     assert ours.position[0] == 1e-3
     assert ours.velocity[0] == -2e-3
 
@@ -429,6 +438,7 @@ def raw_plugin(**changes):
         ({"sample": "1.5"}, "sample = '1.5'"),
         ({"slots": "0"}, "slots = '0'"),
         ({"geom2": "flor"}, "geom2 = 'flor'"),
+        ({"geom1": "*", "geom2": "*"}, "geom1 = '*'"),
         ({"law": "kind = 'hafsin'"}, "did you mean 'havsin'"),
     ],
 )
