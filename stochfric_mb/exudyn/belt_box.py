@@ -14,6 +14,7 @@ from exudyn.itemInterface import CoordinateSpringDamper, LoadCoordinate, MarkerN
 
 from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_number
 from stochfric_mb.exudyn.attach import FrictionContact, add_friction
+from stochfric_mb.exudyn.hooks import installed
 from stochfric_mb.exudyn.solve import EXPLICIT, silent_settings, solve_dynamic
 from stochfric_mb.exudyn.symbolic import symbolic
 from stochfric_mb.friction import Friction
@@ -94,7 +95,7 @@ def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, dt: float, solv
     box = scenario.mechanism
     law, notes = _law_that_runs(scenario, dt)
     _check_step(scenario, law, dt, explicit=solver in EXPLICIT)
-    mbs, mass, ground, slide = _without_friction(box)
+    mbs, mass, ground, slide = without_friction(box)
     contact = add_friction(
         mbs,
         ground,
@@ -126,7 +127,7 @@ def integrate(
     times = np.array(scenario.output_times())
     rows = built.contact.record(times)
     if progress is not None:
-        mbs.SetPreStepUserFunction(_reporter(progress, scenario.duration))
+        mbs.SetPreStepUserFunction(_reporter(progress, scenario.duration, installed(mbs, "PreStep")))
     begin = time.perf_counter()
     solve_dynamic(mbs, silent_settings(built.dt, scenario.duration), solver=solver, locate=locate)
     seconds = time.perf_counter() - begin
@@ -148,13 +149,13 @@ def integrate(
     return _trajectory(scenario, times, rows, attributes)
 
 
-def _without_friction(box: BeltBox) -> tuple[Any, Any, Any, Any]:
+def without_friction(box: BeltBox) -> tuple[Any, Any, Any, Any]:
     """Return the system, the box, and the markers of ground and of the box's coordinate."""
     mbs = _new_system()
     node = mbs.AddNode(
         Node1D(referenceCoordinates=[0.0], initialCoordinates=[box.initial_position], initialVelocities=[box.initial_velocity])
     )
-    mass = mbs.AddObject(Mass1D(nodeNumber=node, physicsMass=box.mass))
+    mass = mbs.AddObject(Mass1D(nodeNumber=node, mass=box.mass))
     ground = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0))
     slide = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
     mbs.AddObject(CoordinateSpringDamper(markerNumbers=[ground, slide], stiffness=box.stiffness, damping=box.damping))
@@ -207,15 +208,17 @@ def _check_step(scenario: Scenario, law: Law, dt: float, *, explicit: bool) -> N
         )
 
 
-def _reporter(progress: Callable[[float], None], duration: float) -> Callable[[Any, float], bool]:
-    """Return a PreStep function that reports about a hundred times."""
+def _reporter(
+    progress: Callable[[float], None], duration: float, other: Callable[..., bool] | None
+) -> Callable[[Any, float], bool]:
+    """Return a PreStep function that reports about a hundred times, and calls the one that was there."""
     due = [0.0]
 
     def report(mbs: Any, t: float) -> bool:
         if t >= due[0]:
             due[0] = t + 0.01 * duration
             progress(t)
-        return True
+        return True if other is None else other(mbs, t)
 
     return report
 

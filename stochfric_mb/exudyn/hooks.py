@@ -62,7 +62,7 @@ class Hooks:
         """Take the system's slots, remembering what is there; ``locate``: whether steps end where a law switches."""
         self._locating = locate
         for slot in self._other:
-            there = _installed(self._mbs, slot)
+            there = installed(self._mbs, slot)
             if there is not None and there is not self._own.get(slot):
                 self._other[slot] = there
         self._own = {"PostStep": self._post_step(), "PostNewton": self._post_newton()}
@@ -105,7 +105,7 @@ class Hooks:
         return post_newton
 
 
-def _installed(mbs: Any, slot: str) -> Callable[..., Any] | None:
+def installed(mbs: Any, slot: str) -> Callable[..., Any] | None:
     """Return the function in one of the system's slots, or None."""
     there = getattr(mbs, f"Get{slot}UserFunction")()
     function = there["function"] if isinstance(there, dict) else there

@@ -29,6 +29,8 @@ def silent_settings(dt: float, duration: float) -> Any:
     settings.timeIntegration.verboseMode = 0
     settings.timeIntegration.verboseModeFile = 0
     settings.timeIntegration.automaticStepSize = False
+    settings.timeIntegration.adaptiveStep = False
+    settings.timeIntegration.absoluteTolerance = settings.timeIntegration.relativeTolerance = 1.0e30  # dopri5 rejects no step
     settings.timeIntegration.endTime = duration
     settings.timeIntegration.numberOfSteps = round(duration / dt)
     return settings
