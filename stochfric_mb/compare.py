@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from stochfric_mb import metrics
+from stochfric_mb.coefficients.processes import EVENT
 from stochfric_mb.engines import adapter, installed_engines
 from stochfric_mb.errors import InputError, StochfricError, require_number
 from stochfric_mb.scenario import Scenario, fitting_step
@@ -235,8 +236,20 @@ def _compared(name: str, run: Trajectory, reference: Trajectory, scenario: Scena
         period_relative_error=(period - true_period) / true_period,
         stick_fraction_error=stick - true_stick,
         coefficient_path_max_difference=metrics.coefficient_path_difference(run, reference, scenario, seed=seed),
-        notes=tuple(run.attributes.get("notes", [])),
+        notes=(*run.attributes.get("notes", []), *_event_notes(run, reference, scenario, seed)),
     )
+
+
+def _event_notes(run: Trajectory, reference: Trajectory, scenario: Scenario, seed: int) -> list[str]:
+    """Return a note if the run ends with another draw than the reference: one of them saw a stick phase more."""
+    if scenario.process is None or scenario.process.clock != EVENT:
+        return []
+    mine, theirs = (int(metrics.draws_used(t, scenario, seed=seed)[-1]) for t in (run, reference))
+    if mine == theirs:
+        return []
+    return [
+        f"ends with draw {mine} of the coefficients, the reference with draw {theirs}: not every stick phase is seen by both"
+    ]
 
 
 def _with_convergence(

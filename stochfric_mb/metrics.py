@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.coefficients.processes import EVENT, POSITION, Process
+from stochfric_mb.coefficients.processes import EVENT, POSITION
 from stochfric_mb.laws.contract import Law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.scenario import Scenario
@@ -89,24 +89,43 @@ def coefficient_path_difference(trajectory: Trajectory, reference: Trajectory, s
 
     Along time the two trajectories must have used equal coefficients. A field along the belt and a sequence of draws
     are equal as such, not as functions of time: for ``spatial`` each pair is compared with the field at the run's own
-    belt position, for ``per_event`` the two sequences of distinct pairs are compared, as far as both go.
+    belt position, for ``per_event`` the pairs used, in order, with the draws they are (see `draws_used`).
     """
-    used = np.column_stack([trajectory.mu_s, trajectory.mu_k])
-    clock = None if (process := scenario.process) is None else process.clock
-    if clock == POSITION:
-        return max_abs_difference(used, _field(trajectory, scenario, process, seed))
-    other = np.column_stack([reference.mu_s, reference.mu_k])
-    if clock == EVENT:
-        mine, theirs = _distinct(used), _distinct(other)
-        n = min(len(mine), len(theirs))
-        return max_abs_difference(mine[:n], theirs[:n])
-    return max_abs_difference(used, other)
+    process = scenario.process
+    if process is not None and process.clock == POSITION:
+        return max_abs_difference(_pairs(trajectory), _field(trajectory, scenario, seed))
+    if process is not None and process.clock == EVENT:
+        used = _distinct(_pairs(trajectory))
+        return max_abs_difference(used, scenario.path(seed).pairs(_horizon(used))[draws_used(trajectory, scenario, seed=seed)])
+    return max_abs_difference(_pairs(trajectory), _pairs(reference))
 
 
-def _field(trajectory: Trajectory, scenario: Scenario, process: Process | None, seed: int) -> Array:
-    from stochfric_mb.coefficients import CoefficientPath
+def draws_used(trajectory: Trajectory, scenario: Scenario, *, seed: int) -> npt.NDArray[np.intp]:
+    """Return which draws of a ``per_event`` path a run used, in order, shape (m,): for each the nearest that follows.
 
-    path = CoefficientPath(process, scenario.law, seed=seed)
+    A draw whose stick phase falls between two samples leaves no trace and is passed over.
+    """
+    used = _distinct(_pairs(trajectory))
+    draws = scenario.path(seed).pairs(_horizon(used))
+    found = np.empty(len(used), dtype=np.intp)
+    first = 0
+    for number, pair in enumerate(used):
+        found[number] = first + np.argmin(np.max(np.abs(draws[first:] - pair), axis=1))
+        first = min(int(found[number]) + 1, len(draws) - 1)
+    return found
+
+
+def _horizon(used: Array) -> int:
+    """Return how many draws are searched for the pairs used."""
+    return 4 * len(used) + 64
+
+
+def _pairs(trajectory: Trajectory) -> Array:
+    return np.column_stack([trajectory.mu_s, trajectory.mu_k])
+
+
+def _field(trajectory: Trajectory, scenario: Scenario, seed: int) -> Array:
+    path = scenario.path(seed)
     places = relative_displacement(trajectory, scenario.mechanism)
     return np.array([path.at(float(t), float(u)) for t, u in zip(trajectory.time, places, strict=True)])
 

@@ -59,11 +59,11 @@ def _engines() -> None:
     from stochfric_mb.commands.tables import print_table
     from stochfric_mb.engines import ENGINES
 
-    rows = [
-        (e.name, e.version or f"not installed: pip install 'stochfric_mb[{e.name}]'", e.hook, e.source)
-        for e in ENGINES.values()
-    ]
+    rows = [(e.name, e.version or "not installed", e.hook, e.source) for e in ENGINES.values()]
     print_table(("engine", "version", "how friction enters", "source"), rows, title="Engines")
+    for engine in ENGINES.values():
+        if not engine.installed:
+            click.echo(f"{engine.name} is not installed; run: pip install 'stochfric_mb[{engine.name}]'")
 
 
 def _parameters(cls: type) -> str:

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
 
 from stochfric_mb.compare import Comparison
 from stochfric_mb.metrics import relative_velocity
@@ -153,15 +154,15 @@ def _friction(comparison: Comparison) -> Figure:
 
 def _error(comparison: Comparison) -> Figure:
     figure, (axes,) = new_figure(9.2, 3.3)
-    lowest = np.inf
-    for engine in comparison.engines:
-        difference = np.abs(engine.trajectory.position - comparison.reference.position)
-        difference = np.where(difference > 0.0, difference, np.nan)
-        axes.semilogy(engine.trajectory.time, difference, color=colour(engine.name), label=engine.name, linewidth=0.9)
-        if np.isfinite(difference).any():
-            lowest = min(lowest, float(np.nanpercentile(difference, 2.0)))
-    if np.isfinite(lowest):
-        axes.set_ylim(bottom=0.3 * lowest)
+    true = comparison.reference.position
+    errors = {e.name: np.abs(e.trajectory.position - true) for e in comparison.engines}
+    seen = [error[error > 0.0] for error in errors.values() if error.any()]
+    if seen:
+        axes.set_yscale("log")
+        axes.set_ylim(0.3 * min(float(np.percentile(e, 2.0)) for e in seen), 3.0 * max(float(e.max()) for e in seen))
+    for name, error in errors.items():
+        shown = np.where(error > 0.0, error, np.nan) if seen else error
+        axes.plot(comparison.reference.time, shown, color=colour(name), label=name, linewidth=0.9)
     axes.set(xlabel="time [s]", ylabel="abs(position - reference) [m]")
     legend(figure, axes)
     return figure
@@ -169,29 +170,32 @@ def _error(comparison: Comparison) -> Figure:
 
 def _convergence(comparison: Comparison) -> Figure:
     figure, (axes,) = new_figure(4.8, 3.9)
-    for engine in comparison.engines:
-        steps = [p.dt for p in engine.convergence]
-        errors = [max(p.rms_position_error, FLOOR) for p in engine.convergence]
-        axes.loglog(steps, errors, "o-", color=colour(engine.name), label=engine.name, markersize=4.5)
+    points = [p for engine in comparison.engines for p in engine.convergence]
+    shown = [max(p.rms_position_error, FLOOR) for p in points]
+    steps = sorted({p.dt for p in points})
+    axes.set(xscale="log", yscale="log")
+    axes.set(xlim=(0.8 * steps[0], 1.25 * steps[-1]), ylim=(0.5 * min(shown), 2.0 * max(shown)))
     _orders(axes)
-    ticks = sorted({p.dt for engine in comparison.engines for p in engine.convergence})
-    axes.set_xticks(ticks, [f"{step:.3g}" for step in ticks])
-    axes.minorticks_off()
+    for engine in comparison.engines:
+        errors = [max(p.rms_position_error, FLOOR) for p in engine.convergence]
+        axes.plot(
+            [p.dt for p in engine.convergence], errors, "o-", color=colour(engine.name), label=engine.name, markersize=4.5
+        )
+    axes.set_xticks(steps, [f"{step:.3g}" for step in steps])
+    axes.xaxis.set_minor_locator(NullLocator())
     axes.set(xlabel="step [s]", ylabel="rms position error [m]")
     legend(figure, axes)
     return figure
 
 
 def _orders(axes: Axes) -> None:
-    """Draw lines of slope 1, 2 and 4 through the upper right corner of what is shown."""
+    """Draw lines of slope 1, 2 and 4 from the upper right corner down."""
     low, high = axes.get_xlim()
     bottom, top = axes.get_ylim()
-    steps = np.array([low, high])
     for order in (1, 2, 4):
-        axes.loglog(steps, top * (steps / high) ** order, color="#cbd2d9", linewidth=0.9, zorder=0)
+        axes.plot([low, high], [top * (low / high) ** order, top], color="#cbd2d9", linewidth=0.9, zorder=0)
         at = max(low, high * (bottom / top) ** (1.0 / order))
         axes.text(at, top * (at / high) ** order, f" {order}", color="#9aa5b1", fontsize=8, va="bottom")
-    axes.set(xlim=(low, high), ylim=(bottom, top))
 
 
 _FIGURES: dict[str, Callable[[Comparison], Figure]] = {

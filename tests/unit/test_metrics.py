@@ -101,7 +101,7 @@ def test_ringing_after_a_slip_is_no_break_away():
 
 def test_reversed_belt_has_the_same_period():
     times = np.arange(0.0, 10.0, 1e-3)
-    x, v, friction, breaks, _ = coulomb_cycle(times)
+    x, v, friction, _, _ = coulomb_cycle(times)
     backward = dataclasses.replace(M, belt_velocity=-M.belt_velocity)
     run = trajectory(times, -x, -v, -friction)
     forward = metrics.period(trajectory(times, x, v, friction), LAW, M)
@@ -131,7 +131,7 @@ def _used(scenario, pairs, x=None):
 def test_path_difference_along_time():
     scenario = load_scenario("kang2015_table1")
     pairs = scenario.path(1).at_times(scenario.output_times()[:200])
-    reference, other = _used(scenario, pairs), _used(scenario, pairs + [[0.0, 1e-3]])
+    reference, other = _used(scenario, pairs), _used(scenario, pairs + np.array([0.0, 1e-3]))
     assert metrics.coefficient_path_difference(reference, reference, scenario, seed=1) == 0.0
     assert metrics.coefficient_path_difference(other, reference, scenario, seed=1) == pytest.approx(1e-3, rel=1e-9)
 
@@ -155,12 +155,16 @@ def test_path_difference_along_the_belt_is_taken_at_the_runs_own_position():
     assert metrics.coefficient_path_difference(early, reference, scenario, seed=2) > 1e-3
 
 
-def test_path_difference_by_event_compares_the_sequences():
+def test_path_difference_by_event_follows_the_sequence_of_draws():
     from stochfric_mb import PerEvent
 
     scenario = dataclasses.replace(load_scenario("kang2015_table1"), process=PerEvent(sigma_s=0.015, sigma_k=0.023))
-    pairs = scenario.path(1).pairs(3)
-    reference, late = _used(scenario, pairs[[0, 0, 1, 1, 2]]), _used(scenario, pairs[[0, 0, 0, 1, 1]])
-    assert metrics.coefficient_path_difference(late, reference, scenario, seed=1) == 0.0
-    wrong = _used(scenario, pairs[[0, 0, 2, 2, 1]])
-    assert metrics.coefficient_path_difference(wrong, reference, scenario, seed=1) > 1e-3
+    draws = scenario.path(1).pairs(4)
+    reference = _used(scenario, draws[[0, 0, 1, 1, 2]])
+    for order in ([0, 0, 0, 1, 1], [0, 0, 2, 3, 3]):  # late; one stick phase between two samples
+        run = _used(scenario, draws[order])
+        assert metrics.coefficient_path_difference(run, reference, scenario, seed=1) == 0.0
+        assert metrics.draws_used(run, scenario, seed=1).tolist() == sorted(set(order))
+    wrong = _used(scenario, draws[[0, 0, 2, 2, 1]])
+    assert metrics.coefficient_path_difference(wrong, reference, scenario, seed=1) > 1e-4  # out of order: no draw fits
+    assert metrics.coefficient_path_difference(reference, reference, scenario, seed=2) > 1e-4
