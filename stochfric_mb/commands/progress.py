@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import time
 from collections.abc import Callable, Generator
 
@@ -28,7 +29,7 @@ class Display:
         """
         self._finish()
         progress = self._progress
-        task = progress.add_task(name, total=None, detail="loading and compiling")
+        task = progress.add_task(name, total=None, detail="loading and compiling", left="")
         shown = 0.0
 
         def advance(t: float) -> None:
@@ -36,10 +37,11 @@ class Display:
             now = time.monotonic()
             if now - shown >= REFRESH:
                 shown = now
-                progress.update(task, total=duration, completed=t, detail=f"{t:.3g} / {duration:g} s simulated")
+                detail = f"{t:.3g} / {duration:g} s simulated"
+                progress.update(task, total=duration, completed=t, detail=detail, left="left")
 
         def finish() -> None:
-            progress.update(task, total=duration, completed=duration, detail=f"{duration:g} s simulated")
+            progress.update(task, total=duration, completed=duration, detail=f"{duration:g} s simulated", left="left")
             progress.stop_task(task)
 
         self._finish = finish
@@ -48,8 +50,8 @@ class Display:
     def note(self, text: str) -> None:
         """Show that something other than a simulation is being done."""
         self._finish()
-        self._finish = lambda: None
-        self._progress.add_task(text, total=None, detail="")
+        task = self._progress.add_task(text, total=None, detail="", left="")
+        self._finish = functools.partial(self._progress.remove_task, task)
 
 
 @contextlib.contextmanager
@@ -62,8 +64,8 @@ def display() -> Generator[Display]:
         BarColumn(bar_width=24),
         TextColumn("{task.fields[detail]}"),
         TimeElapsedColumn(),
-        TextColumn("left"),
         TimeRemainingColumn(),
+        TextColumn("{task.fields[left]}"),
     )
     with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as progress:
         yield Display(progress)

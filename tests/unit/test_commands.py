@@ -323,3 +323,24 @@ def test_list_processes_and_engines_and_effects():
     assert all(name in shown for name in engines.ENGINES)
     assert "No effects" in invoke("list", "effects").output
     failing(invoke("list", "colours"), "laws")
+
+
+def test_progress_shows_life_then_simulated_time(monkeypatch):
+    import io
+
+    from rich.console import Console
+
+    from stochfric_mb.commands import progress
+
+    console = Console(file=io.StringIO(), force_terminal=True, width=120)
+    monkeypatch.setattr(progress, "Console", lambda **_: console)
+    with progress.display() as shown:
+        advance = shown.stage("mujoco", 10.0)
+        shown._progress.refresh()
+        advance(2.5)
+        shown._progress.refresh()
+        shown.note("writing run.nc")
+        shown._progress.refresh()
+    text = console.file.getvalue()
+    parts = ["loading and compiling", "2.5 / 10 s simulated", "left", "writing run.nc"]
+    assert [text.index(p) for p in parts] == sorted(text.index(p) for p in parts)
