@@ -499,26 +499,50 @@ def commit_slot(state, address, t, total, count):
         return
     ux, uy = n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
     vx, vy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
+    modes = n.load(state + 8 * s.HAS_MODE) != 0.0
     if n.load(address + 8 * s.LIVE) == 0.0:
-        switch(state, address, n.load_word(row + n.INIT), t, ux, uy, vx, vy)
+        changed = switch(state, address, n.load_word(row + n.INIT), t, ux, uy, vx, vy)
         n.store(address + 8 * s.EVENTS, 0.0)
     else:
-        if n.load(state + 8 * s.HAS_MODE) != 0.0:
+        if modes:
             switch_within(state, address, row, t)
-        switch(state, address, n.load_word(row + n.COMMIT), t, ux, uy, vx, vy)
+        changed = switch(state, address, n.load_word(row + n.COMMIT), t, ux, uy, vx, vy)
     mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
     n.store(address + 8 * s.MU_S, mu_s)
     n.store(address + 8 * s.MU_K, mu_k)
     n.store(address + 8 * s.LIVE, 1.0)
+    if modes and changed:
+        guards_at(state, address, row, t, ux, uy, vx, vy)
+        keep_guards(state, address)
+
+
+@compiled
+def keep_guards(state, address):
+    """Copy the guards from the work space to the slot, for the search in the time that follows."""
+    for j in range(GUARDS):
+        n.store(address + 8 * (s.START_GUARDS + j), n.load(state + 8 * (s.OUTPUT + j)))
+
+
+@compiled
+def guards_at(state, address, row, t, ux, uy, vx, vy):
+    """Write the law's guards at this instant to the work space."""
+    mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
+    call(state, address, n.load_word(row + n.GUARD), t, ux, uy, vx, vy, mu_s, mu_k)
 
 
 @compiled
 def switch(state, address, function, t, ux, uy, vx, vy):
-    """Give a slot the law state that ``function`` (init or commit) returns; count the stick phases that begin."""
+    """Give a slot the law state that ``function`` (init or commit) returns; return whether it is another one.
+
+    Stick phases that begin are counted.
+    """
+    changed = n.load(address + 8 * s.LIVE) == 0.0
     mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
     call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k)
     for j in range(MAX_STATE):
-        n.store(address + 8 * (s.STATE + j), n.load(state + 8 * (s.OUTPUT + j)))
+        new = n.load(state + 8 * (s.OUTPUT + j))
+        changed = changed or n.load(address + 8 * (s.STATE + j)) != new
+        n.store(address + 8 * (s.STATE + j), new)
     was = n.load(address + 8 * s.STICK)
     if n.load(state + 8 * s.HAS_MODE) != 0.0:
         stuck = 1.0 if n.load(address + 8 * s.STATE) == 0.0 else 0.0
@@ -527,6 +551,7 @@ def switch(state, address, function, t, ux, uy, vx, vy):
     n.store(address + 8 * s.STICK, stuck)
     if stuck > was:
         n.store(address + 8 * s.EVENTS, n.load(address + 8 * s.EVENTS) + 1.0)
+    return changed
 
 
 @compiled
@@ -536,12 +561,11 @@ def switch_within(state, address, row, t):
     Where one of the law's guards has changed sign, ``commit`` runs with the state there, by the cubic through both
     ends of the step: what the law remembers of a switch then does not depend on where the step ended.
     """
-    start, end = 0.0, 1.0
+    before = n.load(address + 8 * s.BEFORE)
+    start = 0.0
     for _ in range(SWITCHES):
-        guards_at(state, address, row, t, start)
-        for j in range(GUARDS):
-            n.store(state + 8 * (s.START_GUARDS + j), n.load(state + 8 * (s.OUTPUT + j)))
         if not guard_crossed(state, address, row, t, 1.0):
+            keep_guards(state, address)
             return
         low, end = start, 1.0
         for _ in range(BISECTIONS):
@@ -551,8 +575,10 @@ def switch_within(state, address, row, t):
             else:
                 low = middle
         ux, uy, vx, vy = between(address, t, end)
-        before = n.load(address + 8 * s.BEFORE)
-        switch(state, address, n.load_word(row + n.COMMIT), before + end * (t - before), ux, uy, vx, vy)
+        now = before + end * (t - before)
+        switch(state, address, n.load_word(row + n.COMMIT), now, ux, uy, vx, vy)
+        guards_at(state, address, row, now, ux, uy, vx, vy)
+        keep_guards(state, address)
         start = end
 
 
@@ -576,20 +602,17 @@ def between(address, t, part):
 
 
 @compiled
-def guards_at(state, address, row, t, part):
-    """Write the law's guards at a part of the step to the work space."""
-    ux, uy, vx, vy = between(address, t, part)
-    before = n.load(address + 8 * s.BEFORE)
-    mu_s, mu_k = coefficients(state, before + part * (t - before), ux, n.load(address + 8 * s.EVENTS))
-    call(state, address, n.load_word(row + n.GUARD), before + part * (t - before), ux, uy, vx, vy, mu_s, mu_k)
-
-
-@compiled
 def guard_crossed(state, address, row, t, part):
     """Return whether a guard that was positive at the start of the search is not positive at a part of the step."""
-    guards_at(state, address, row, t, part)
+    if part == 1.0:
+        ux, uy = n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
+        guards_at(state, address, row, t, ux, uy, n.load(address + 8 * s.VX), n.load(address + 8 * s.VY))
+    else:
+        ux, uy, vx, vy = between(address, t, part)
+        before = n.load(address + 8 * s.BEFORE)
+        guards_at(state, address, row, before + part * (t - before), ux, uy, vx, vy)
     for j in range(GUARDS):
-        if n.load(state + 8 * (s.START_GUARDS + j)) > 0.0 and n.load(state + 8 * (s.OUTPUT + j)) <= 0.0:
+        if n.load(address + 8 * (s.START_GUARDS + j)) > 0.0 and n.load(state + 8 * (s.OUTPUT + j)) <= 0.0:
             return True
     return False
 

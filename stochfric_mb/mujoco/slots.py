@@ -27,9 +27,7 @@ COEFFICIENTS = OUTPUT + MAX_STATE
 """Time of the last evaluation of a path along time [s], and its mu_s and mu_k."""
 ROWS, MAX_ROW = COEFFICIENTS + 3, 32
 """Work space: seven rows of so many generalised coordinates."""
-START_GUARDS = ROWS + 7 * MAX_ROW
-"""Work space: the law's guards where a search for a switch starts."""
-DESCRIPTOR = START_GUARDS + GUARDS
+DESCRIPTOR = ROWS + 7 * MAX_ROW
 """The coefficient descriptor; the two blocks of slots follow it."""
 
 # Slot: places in doubles.
@@ -45,7 +43,9 @@ WORK = 32
 """Friction forces of the step before and the displacement since, for the dissipated energy."""
 BEFORE = 36
 """Time, displacement and velocity at the commit before: t, ux, uy, vx, vy."""
-STATE = 41
+START_GUARDS = 41
+"""The law's guards at the last switch or commit, for laws with modes."""
+STATE = START_GUARDS + GUARDS
 """The law's state."""
 SLOT = STATE + MAX_STATE
 """Length of a slot."""
