@@ -36,8 +36,7 @@ from stochfric_mb.metrics import period
 from stochfric_mb.scenario import Scenario, load_scenario
 from stochfric_mb.trajectory import Trajectory
 
-# Table 2 at 18.7 rad/s with seed 1 lingers at an unstable balance at t = 1.5 s, where 1e-11 m becomes 1e-7 m; seed 2 does not
-SCENARIOS = (("kang2015_table1", 1), ("kang2015_table2_13_8", 1), ("kang2015_table2_18_7", 2))
+SCENARIOS = ("kang2015_table1", "kang2015_table2_13_8", "kang2015_table2_18_7")
 ELASTIC = make_law("elastic_stick", mu_s=0.8, mu_k=0.5, decay_velocity=0.0)
 
 
@@ -59,7 +58,7 @@ def order(steps: tuple[float, ...], errors: list[float]) -> float:
 # --- accuracy ---------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("name", "seed"), SCENARIOS)
+@pytest.mark.parametrize("name", SCENARIOS)
 @pytest.mark.parametrize(
     ("law", "dt", "tolerance"),
     [
@@ -67,9 +66,9 @@ def order(steps: tuple[float, ...], errors: list[float]) -> float:
         ("havsin", 2e-5, 1e-10),  # goal 0.05 um; measured 1e-7 to 1e-6 um
     ],
 )
-def test_agrees_with_the_reference(name: str, seed: int, law: str, dt: float, tolerance: float) -> None:
+def test_agrees_with_the_reference(name: str, law: str, dt: float, tolerance: float) -> None:
     s = scenario(name, law)
-    run, exact = simulate(s, seed=seed, dt=dt), reference.simulate(s, seed=seed)
+    run, exact = simulate(s, seed=1, dt=dt), reference.simulate(s, seed=1)
     assert rms_error(run, exact) < tolerance
     assert np.array_equal(run.time, exact.time)
     assert np.array_equal(run.mu_s, exact.mu_s)
@@ -79,12 +78,14 @@ def test_agrees_with_the_reference(name: str, seed: int, law: str, dt: float, to
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(("name", "seed"), SCENARIOS)
+@pytest.mark.parametrize("name", SCENARIOS)
 @pytest.mark.parametrize(("law", "dt", "tolerance"), [("elastic_stick", 1e-4, 3e-7), ("havsin", 2e-5, 5e-8)])
-def test_ten_seconds(name: str, seed: int, law: str, dt: float, tolerance: float) -> None:
+def test_ten_seconds(name: str, law: str, dt: float, tolerance: float) -> None:
     s = scenario(name, law, duration=10.0)
-    run, exact = simulate(s, seed=seed, dt=dt), reference.simulate(s, seed=seed)
-    assert rms_error(run, exact) < tolerance  # the goals; measured 5e-5 to 5e-4 um (elastic), 1e-6 um (havsin)
+    run, exact = simulate(s, seed=1, dt=dt), reference.simulate(s, seed=1)
+    # the goals; measured 1e-4 um (elastic; 0.09 um at 18.7 rad/s, where the box lingers at an unstable balance at 1.5 s
+    # and 1e-11 m becomes 1e-7 m) and 1e-6 um (havsin)
+    assert rms_error(run, exact) < tolerance
     mine, theirs = (period(r, s.law, s.mechanism) for r in (run, exact))
     assert mine == pytest.approx(theirs, rel=1e-4)  # the goal
     assert np.array_equal(run.mu_s, exact.mu_s)
@@ -367,6 +368,59 @@ def test_seed_and_sample_address_the_path() -> None:
     for (seed, sample), mu_s in paths.items():
         assert np.array_equal(mu_s, s.path(seed, sample).at_times(s.output_times())[:, 0])
     assert not np.array_equal(paths[0, 0], paths[0, 1])
+
+
+# --- a user's own law -------------------------------------------------------------------------------------------------
+
+OWN_LAW = """
+import dataclasses, math
+from typing import ClassVar
+from stochfric_mb.compile import compiled
+from stochfric_mb.laws.contract import Law
+
+
+@dataclasses.dataclass(frozen=True)
+class Fading(Law):
+    length: float = 0.5
+    kind: ClassVar[str] = "fading"
+    equation: ClassVar[str] = "mu = mu_k exp(-abs(u)/length) tanh(v/1e-3)"
+    source: ClassVar[str] = "a test"
+
+
+@compiled
+def init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, p):
+    return (0.0,)
+
+
+@compiled
+def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
+    mu = mu_k * math.exp(-math.hypot(ux, uy) / p[2])
+    return mu * normal_force * math.tanh(vx / 1.0e-3), mu * normal_force * math.tanh(vy / 1.0e-3)
+
+
+@compiled
+def commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
+    return (0.0,)
+
+
+@compiled
+def guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
+    return 1.0, 1.0, 1.0, 1.0, 1.0, 1.0
+"""
+
+
+def test_a_users_own_law_runs(tmp_path: Path, monkeypatch) -> None:
+    (tmp_path / "fading_law.py").write_text(OWN_LAW, encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setitem(LAWS, "fading", ("fading_law", "Fading"))
+    mbs, ground, slide, data = free_mass(2.0)
+    add_friction(mbs, ground, slide, make_law("fading", mu_s=0.5, mu_k=0.5), normal_force=4.0)
+    mbs.Assemble()
+    solve_dynamic(mbs, silent_settings(1e-4, 0.3))
+    x, v = data.GetODE2Coordinates()[0], data.GetODE2Coordinates_t()[0]
+    # energy: m v^2/2 falls by mu_k N length (1 - exp(-x/length)); RK4 at 1e-4 s is exact to rounding here
+    assert 0.5 * v**2 == pytest.approx(2.0 - 0.5 * 4.0 * 0.5 * (1.0 - math.exp(-x / 0.5)), rel=1e-10)
+    assert v < 1.9
 
 
 # --- contacts of one's own --------------------------------------------------------------------------------------------
