@@ -178,7 +178,7 @@ class FrictionContact:
     def settle(self, t: float, bits: int) -> bool:
         """Do what `stepping.advance` asks for at time t [s]; return whether a step may have to be watched, or no more."""
         if bits & at.FETCH:
-            if not self._words[at.STARTED] or t <= self._numbers[at.T]:
+            if not self._words[at.STARTED] or not 0.0 < t - self._numbers[at.T] <= self._numbers[at.REACH]:
                 self.connect()
             self._read()
             bits = at.proceed(t, self.where)
@@ -204,11 +204,14 @@ class FrictionContact:
         """Whether the next step may contain a switch."""
         return bool(self._words[at.WATCHING])
 
-    def prepare(self, dt: float, *, locate: bool) -> None:
+    def prepare(self, dt: float) -> None:
         """Start afresh with the solver's step [s], whose grid located steps keep to."""
         self._numbers[at.STEP] = dt
-        self._words[at.LOCATING] = int(locate)
         self.reset()
+
+    def locate(self, on: bool) -> None:
+        """Say whether steps are to end where the law switches."""
+        self._words[at.LOCATING] = int(on)
 
     def _function(self, force: Any) -> Any:
         """Return the symbolic user function: the connector's force is what pulls marker 1 back, minus the friction."""

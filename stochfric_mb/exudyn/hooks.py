@@ -28,8 +28,12 @@ class Contact(Protocol):
         """Do what `advance` asks for; return whether `watched` may have changed."""
         ...
 
-    def prepare(self, dt: float, *, locate: bool) -> None:
+    def prepare(self, dt: float) -> None:
         """Start afresh with the solver's step [s]."""
+        ...
+
+    def locate(self, on: bool) -> None:
+        """Say whether steps are to end where the law switches."""
         ...
 
     def recommended_step(self, t: float) -> float:
@@ -61,6 +65,8 @@ class Hooks:
     def install(self, *, locate: bool) -> None:
         """Take the system's slots, remembering what is there; ``locate``: whether steps end where a law switches."""
         self._locating = locate
+        for contact in self.contacts:
+            contact.locate(locate)
         for slot in self._other:
             there = installed(self._mbs, slot)
             if there is not None and there is not self._own.get(slot):

@@ -55,7 +55,7 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     dt = (integration.endTime - integration.startTime) / integration.numberOfSteps
     hooks = Hooks.of(mbs)
     for contact in hooks.contacts:
-        contact.prepare(dt, locate=locate)
+        contact.prepare(dt)
     hooks.install(locate=locate)
     if locate:
         _settle_location(integration, dt)
@@ -68,6 +68,7 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
         raise SimulationError(f"Exudyn ({solver}, dt = {dt:g} s) failed: {error}") from error
     finally:
         exudyn.config.printToConsole = printed
+        hooks.install(locate=False)
     if not success:
         raise SimulationError(f"Exudyn ({solver}, dt = {dt:g} s) gave up; use a smaller step or another solver")
     for what in (mbs.systemData.GetODE2Coordinates(), mbs.systemData.GetODE2Coordinates_t()):

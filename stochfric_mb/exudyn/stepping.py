@@ -31,7 +31,9 @@ WINDOW = 14
 """Knot in the middle of the engine's window on the path."""
 SAFE, SAFE_WIDTH = 15, 16
 """Middle and half width of the stretch, of time or displacement, in which the window stays."""
-NEW = 17
+REACH = 17
+"""Longest time to the next step [s] after which the engine's coordinates are taken to be where they were."""
+NEW = 18
 """Scratch for a law's output."""
 GUARDS_BEFORE = NEW + 8
 """The law's guards at the last accepted step."""
@@ -65,6 +67,8 @@ RECORD_COLUMNS = 7
 TOLERANCE, BEYOND, SHORTEST, GRID = 1.0e-3, 1.0e-4, 2.0e-4, 5.0e-5
 """How near the end of a step a switch may lie, how far beyond it steps end, the shortest step asked for, and what counts
 as on the grid (as `canonical_time` has it, since engine time is a sum of rounded steps)."""
+ROUNDING = 1.0e-9
+"""What a sum of many steps may differ from the time it stands for [s]."""
 STEPS_AHEAD = 3.0
 """A guard is watched where it may turn within so many steps at the rate of the last one."""
 
@@ -133,7 +137,8 @@ def advance(t, address):
     """
     words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
     numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
-    if words[ASK_FIRST] == 1 or words[STARTED] == 0 or t <= numbers[T]:
+    ahead = t - numbers[T]
+    if words[ASK_FIRST] == 1 or words[STARTED] == 0 or ahead <= 0.0 or ahead > numbers[REACH]:
         return FETCH
     return _proceed(t, numbers, words)
 
@@ -163,7 +168,7 @@ def _proceed(t, numbers, words):
     due = words[NEXT_RECORD]
     if due < words[N_RECORDS]:
         records = carray(numbers_from(words[RECORDS]), (words[N_RECORDS], RECORD_COLUMNS))  # pyright: ignore[reportCallIssue]
-        if t >= records[due, 0] - GRID * numbers[STEP]:
+        if t >= records[due, 0] - max(GRID * numbers[STEP], ROUNDING):
             records[due, 0] = canonical_time(t, 0.5 * numbers[STEP])
             records[due, 1], records[due, 2] = u, v
             records[due, 4], records[due, 5], records[due, 6] = numbers[MU_S], numbers[MU_K], numbers[STUCK]
@@ -177,6 +182,7 @@ def restart(t, u, v, numbers, words):
     """Start the contact afresh at time t with relative displacement u and velocity v."""
     numbers[EVENTS] = 0.0
     numbers[T], numbers[U], numbers[V] = t, u, v
+    numbers[REACH] = 1.5 * numbers[STEP]
     words[STARTED] = 1
     mu_s, mu_k = pair_at(t, u, numbers, words)
     _law_gives(words[INIT], t, u, v, mu_s, mu_k, numbers, words)
@@ -193,6 +199,7 @@ def _commit(t, u, v, numbers, words):
     mu_s, mu_k = pair_at(t, u, numbers, words)
     mode = numbers[LIVE]
     bits = _law_gives(words[COMMIT], t, u, v, mu_s, mu_k, numbers, words)
+    numbers[REACH] = 1.5 * max(numbers[STEP], t - numbers[T])
     numbers[T], numbers[U], numbers[V] = t, u, v
     stuck = _sticks(v, numbers)
     if stuck > numbers[STUCK]:

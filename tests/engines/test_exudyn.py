@@ -292,6 +292,22 @@ def test_a_simulation_can_go_on_from_where_it_stopped() -> None:
     assert whole.contact.stick == parts.contact.stick
 
 
+def test_a_system_may_grow_between_simulations() -> None:
+    mbs, ground, slide, data = free_mass(0.5)
+    contact = add_friction(mbs, ground, slide, ELASTIC, normal_force=1.0, effective_mass=1.0)
+    mbs.Assemble()
+    solve_dynamic(mbs, silent_settings(1e-4, 0.1))
+    for _ in range(50):  # the engine moves its coordinates elsewhere
+        add_mass(mbs, 0.0)
+    mbs.Assemble()
+    settings = silent_settings(1e-4, 0.4)
+    settings.timeIntegration.startTime, settings.timeIntegration.numberOfSteps = 0.3, 1000  # later than the last step
+    rows = contact.record([0.4])
+    mbs.SolveDynamic(settings, solverType=SOLVERS["rk44"], showHints=False)
+    assert data.GetODE2Coordinates_t()[0] == pytest.approx(0.5 - 0.5 * 0.1, rel=1e-9)
+    assert rows[0, 2] == -data.GetODE2Coordinates_t()[0]
+
+
 def test_the_users_functions_are_called() -> None:
     s = scenario(duration=0.1)
     built = build(s, seed=1, dt=1e-4)
