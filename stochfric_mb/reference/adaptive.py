@@ -412,7 +412,7 @@ def _leg(q, run, t_end, log):
         else:
             grown = h * (6.0 if error == 0.0 else min(6.0, 0.9 * (q.tolerance / error) ** 0.125))
             clock[STEP] = min(q.longest, max(grown, clock[STEP]) if last else max(grown, 0.3 * h))
-    clock[NOW] = t_end
+    clock[NOW] = t_end if clock[STATUS] == OK else t_leg + tau
     if at_knot and clock[STATUS] == OK:
         _load_segment(q, run, run.segment[KNOT] + 1.0)
         if q.descriptor[2] == 0.0:
@@ -543,9 +543,12 @@ def _crossed(q, run, t_leg, tau, h):
 def _locate(q, run, t_leg, tau, low, high):
     """Return the shortest step h [s] after which an armed guard is negative, by bisection down to rounding.
 
-    The solution there is in ``run.end``. The bracket rests on an interpolation: if nothing has crossed after ``high``,
-    the step ``high`` is as good as any other and is returned.
+    The solution there is in ``run.end``. The bracket rests on an interpolation: if ``low`` is already beyond the
+    event, the search starts from nothing; if nothing has crossed after ``high``, the step ``high`` is as good as any
+    other and is returned.
     """
+    if low > 0.0 and _crossed(q, run, t_leg, tau, low):
+        low, high = 0.0, low
     if not _crossed(q, run, t_leg, tau, high):
         return high
     while True:

@@ -30,6 +30,8 @@ from stochfric_mb.reference.events import BREAK_AWAY, STICK, note
 from stochfric_mb.trajectory import Array
 
 MAX_SWITCHES_PER_LEG = 10_000
+SHORTEST = 1.0e-14
+"""Rest of a leg [s] in which nothing is looked for: below the rounding of the forces."""
 
 
 class Curve(NamedTuple):
@@ -216,6 +218,8 @@ def _leg(o, line, t, length, x, v, mode, log, n_events):
     tau = 0.0
     for _ in range(MAX_SWITCHES_PER_LEG):
         rest = length - tau
+        if rest < SHORTEST:
+            return x + v * rest, v, mode, log, n_events, True
         if mode == 0.0:
             dt, direction = _break_away(o, t + tau, x, mu_s + slope_s * tau, slope_s, rest)
             x += o.belt_velocity * min(dt, rest)
