@@ -4,7 +4,8 @@ An adapter module has one function::
 
     simulate(scenario, *, seed=0, sample=0, dt=None, progress=None) -> Trajectory
 
-`progress`, if given, is called with the simulated time [s] now and then.
+`progress`, if given, is called with the simulated time [s] now and then. Engines of other packages join by an entry
+point in the group `GROUP`, name = module, or by `register_engine`.
 """
 
 from __future__ import annotations
@@ -32,11 +33,18 @@ class Engine:
     """How friction enters."""
     source: str
     """Who makes the engine."""
+    distribution: str = ""
+    """Name to install it by, where it is not ``package``."""
 
     @property
     def installed(self) -> bool:
         """Whether the engine can be imported here."""
         return not self.package or importlib.util.find_spec(self.package) is not None
+
+    @property
+    def remedy(self) -> str:
+        """What to give ``pip install`` where the engine is missing."""
+        return self.distribution or f"'stochfric_mb[{self.name}]'"
 
     @property
     def version(self) -> str | None:
@@ -45,10 +53,24 @@ class Engine:
             from stochfric_mb import __version__
 
             return __version__
-        return importlib.metadata.version(self.package) if self.installed else None
+        return importlib.metadata.version(self.distribution or self.package) if self.installed else None
 
 
-ENGINES: dict[str, Engine] = {
+GROUP = "stochfric_mb.engines"
+"""Group of the entry points by which other packages bring engines."""
+
+
+def _brought() -> dict[str, Engine]:
+    """Return the engines that installed packages bring by an entry point; nothing is loaded."""
+    found: dict[str, Engine] = {}
+    for entry in importlib.metadata.entry_points(group=GROUP):
+        distribution = entry.dist.name if entry.dist is not None else ""
+        package = entry.module.partition(".")[0]
+        found[entry.name] = Engine(entry.name, entry.module, package, "see its adapter", distribution, distribution)
+    return found
+
+
+_BUILT_IN = {
     e.name: e
     for e in (
         Engine("reference", "stochfric_mb.reference", "", "event-located integration", "this package"),
@@ -63,7 +85,14 @@ ENGINES: dict[str, Engine] = {
         ),
     )
 }
+ENGINES: dict[str, Engine] = _BUILT_IN | {name: e for name, e in _brought().items() if name not in _BUILT_IN}
 """Name of an engine -> where it lives."""
+
+
+def register_engine(engine: Engine) -> Engine:
+    """Add an engine to the registry of this process, in the place of one of the same name; return it."""
+    ENGINES[engine.name] = engine
+    return engine
 
 
 def installed_engines() -> list[str]:
@@ -80,5 +109,5 @@ def adapter(name: str) -> Any:
     """
     engine = ENGINES[require_name("engine", name, ENGINES)]
     if not engine.installed:
-        raise MissingEngineError(f"engine {name!r} is not installed; run: pip install 'stochfric_mb[{name}]'")
+        raise MissingEngineError(f"engine {name!r} is not installed; run: pip install {engine.remedy}")
     return importlib.import_module(engine.adapter)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from stochfric_mb.coefficients import DISTRIBUTIONS, PROCESSES, CoefficientPath, Distribution, OutputStep, Process
-from stochfric_mb.errors import InputError, require_name, require_number
+from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_name, require_number
 from stochfric_mb.laws import Law, law_class, make_law
 from stochfric_mb.mechanisms import MECHANISMS, BeltBox
 
@@ -71,6 +71,44 @@ class Scenario:
     def default_dt(self) -> float:
         """Return 1e-4 s or half the law's explicit stability limit, whichever is smaller, dividing the output step."""
         return fitting_step(min(1.0e-4, 0.5 * self.step_limit()), self.output_step)
+
+    def checked_step(self, dt: float | None) -> float:
+        """Return the step [s] to use: ``dt`` once it can be, `default_dt` if it is None.
+
+        Raises:
+            StabilityError: it is beyond the law's stability limit.
+            InputError: it is not positive or does not divide the output step.
+        """
+        if dt is None:
+            return self.default_dt()
+        require_number("dt", dt, above=0.0, unit="s")
+        limit = self.step_limit()
+        if dt > limit:
+            raise StabilityError(
+                f"dt = {dt:g} s is beyond the stability limit {limit:.3g} s of the law {self.law.kind!r} "
+                f"({self.law.step_limit_formula}); use dt <= {fitting_step(0.5 * limit, self.output_step):.3g} s"
+            )
+        n = self.output_step / dt
+        if n < 0.5 or abs(n - round(n)) > 1.0e-6 * n:
+            near = fitting_step(dt, self.output_step)
+            raise InputError(f"dt = {dt:g} s does not divide simulation.output_step = {self.output_step:g} s; try {near:g} s")
+        return self.output_step / round(n)
+
+    def require_sane(self, engine: str, t: float, position: float, dt: float) -> None:
+        """Return if ``position`` [m] is finite and within 1000 static deflections (with what the motion adds).
+
+        Raises:
+            SimulationError: it is not: the run has broken down.
+        """
+        m = self.mechanism
+        static = self.law.mu_s * m.normal_force / m.stiffness
+        swing = abs(m.initial_velocity) * math.sqrt(m.mass / m.stiffness)
+        reach = 1.0e3 * (static + abs(m.excitation_amplitude) + abs(m.initial_position) + swing)
+        if not abs(position) <= reach:
+            raise SimulationError(
+                f"{engine}: the box is at x = {position:g} m at t = {t:g} s, beyond {reach:.3g} m (1000 static deflections): "
+                f"the run has broken down; lower dt = {dt:g} s or check the scenario"
+            )
 
     def to_dict(self) -> dict[str, Any]:
         """Return the scenario as the content of its TOML file."""

@@ -63,7 +63,7 @@ def _engines() -> None:
     print_table(("engine", "version", "how friction enters", "source"), rows, title="Engines")
     for engine in ENGINES.values():
         if not engine.installed:
-            click.echo(f"{engine.name} is not installed; run: pip install 'stochfric_mb[{engine.name}]'")
+            click.echo(f"{engine.name} is not installed; run: pip install {engine.remedy}")
 
 
 def _parameters(cls: type) -> str:
