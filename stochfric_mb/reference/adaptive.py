@@ -88,57 +88,34 @@ class Problem(NamedTuple):
     """Step [s] that is taken whatever its error: only a jump that no guard announces asks for it."""
 
 
-class Run(NamedTuple):
-    """What changes during a run: arrays that are written in place."""
-
-    y: Any
-    """Present (x, x', z)."""
-    state: Any
-    """The law's state."""
-    segment: Any
-    """Coefficients between the knots around the present state."""
-    clock: Any
-    """Time, step size, stick flag and counters."""
-    armed: Any
-    """Guards that have been positive since the last switch."""
-    guards: Any
-    """Present values of the guards."""
-    end: Any
-    """(x, x', z) at the end of the step tried last."""
-    stages: Any
-    """Rates of the step tried last, shape (STAGES + 1, 3)."""
-    probe: Any
-    """(x, x', z) of a stage or a check point."""
-    checks: Any
-    """Check points of a step, in parts of it, shape (3 CHECKS + 1,)."""
-    table: Any
-    """Guards at the check points of a step, shape (3 CHECKS + 1, ALL_GUARDS)."""
-    out: Any
-    """Where a law's functions write."""
-    cursor: Any
-    """Knots around the present state."""
-    output_cursor: Any
-    """Knots around the last output."""
+_REAL = np.float64
+RUN = np.dtype(
+    [
+        ("y", _REAL, 3),  # present (x, x', z)
+        ("state", _REAL, MAX_STATE),  # the law's state
+        ("segment", _REAL, 9),  # coefficients between the knots around the present state
+        ("clock", _REAL, 6),  # time, step size, stick flag and counters
+        ("armed", _REAL, ALL_GUARDS),  # 1 for a guard that has been positive since the last switch
+        ("guards", _REAL, ALL_GUARDS),  # present values of the guards
+        ("end", _REAL, 3),  # (x, x', z) at the end of the step tried last
+        ("stages", _REAL, (STAGES + 1, 3)),  # rates of the step tried last
+        ("probe", _REAL, 3),  # (x, x', z) of a stage or a check point
+        ("checks", _REAL, 3 * CHECKS + 1),  # check points of a step, in parts of it
+        ("table", _REAL, (3 * CHECKS + 1, ALL_GUARDS)),  # guards at the check points of a step
+        ("out", _REAL, MAX_STATE + GUARDS),  # where a law's functions write
+        ("cursor", _REAL, CURSOR),  # knots around the present state
+        ("output_cursor", _REAL, CURSOR),  # knots around the last output
+    ]
+)
+"""What changes during a run: a record, which compiled functions pass as one pointer and write in place."""
 
 
-def new_run() -> Run:
-    """Return the arrays of a run, all zero."""
-    return Run(
-        y=np.zeros(3),
-        state=np.zeros(MAX_STATE),
-        segment=np.zeros(9),
-        clock=np.zeros(6),
-        armed=np.zeros(ALL_GUARDS, dtype=np.bool_),
-        guards=np.ones(ALL_GUARDS),
-        end=np.zeros(3),
-        stages=np.zeros((STAGES + 1, 3)),
-        probe=np.zeros(3),
-        checks=np.zeros(3 * CHECKS + 1),
-        table=np.ones((3 * CHECKS + 1, ALL_GUARDS)),
-        out=np.zeros(MAX_STATE + GUARDS),
-        cursor=np.zeros(CURSOR),
-        output_cursor=np.zeros(CURSOR),
-    )
+def new_run() -> Any:
+    """Return the record of a run."""
+    run = np.zeros(1, RUN).view(np.recarray)[0]
+    run.guards[:] = 1.0
+    run.table[:] = 1.0
+    return run
 
 
 @compiled
@@ -159,7 +136,7 @@ def start(q, run, t, given):
         run.y[1] = q.belt_velocity
     _measure(q, run, t, tau, run.y, run.guards)
     for i in range(ALL_GUARDS):
-        run.armed[i] = run.guards[i] > 0.0 or i >= GUARDS + 2
+        run.armed[i] = 1.0 if run.guards[i] > 0.0 or i >= GUARDS + 2 else 0.0
     clock[STUCK] = _sticks(q, run, run.y)
 
 
@@ -486,11 +463,12 @@ def _bracket(q, run, t_leg, tau, h):
         if dip > 0.0:
             return run.checks[c - 2] * h, dip * h
         for i in range(ALL_GUARDS):
-            if g[c, i] < 0.0 and run.armed[i]:
+            if g[c, i] < 0.0 and run.armed[i] == 1.0:
                 return run.checks[c - 1] * h, theta * h
         if c < n:
             for i in range(ALL_GUARDS):
-                run.armed[i] = run.armed[i] or g[c, i] > 0.0
+                if g[c, i] > 0.0:
+                    run.armed[i] = 1.0
     return 0.0, 0.0
 
 
@@ -514,7 +492,7 @@ def _dip(q, run, t_leg, tau, h, c):
     first = 0.0
     for i in range(ALL_GUARDS):
         before, here, after = g[c - 1, i], g[c, i], g[c + 1, i]
-        if not (run.armed[i] and 0.0 <= here <= before and here < after):
+        if not (run.armed[i] == 1.0 and 0.0 <= here <= before and here < after):
             continue
         falling = (here - before) / (t1 - t0)
         curvature = ((after - here) / (t2 - t1) - falling) / (t2 - t0)
@@ -534,7 +512,7 @@ def _crossed(q, run, t_leg, tau, h):
     part = tau + h
     _measure(q, run, t_leg + part, _along(q, run, t_leg, part), run.end, run.guards)
     for i in range(ALL_GUARDS):  # noqa: SIM110  (numba knows no generators)
-        if run.armed[i] and run.guards[i] < 0.0:
+        if run.armed[i] == 1.0 and run.guards[i] < 0.0:
             return True
     return False
 
@@ -591,14 +569,16 @@ def _settle(q, run, t_leg, tau, located, log):
         elif not (moved and q.descriptor[2] == 0.0):
             break
     for i in range(ALL_GUARDS):
-        fired = located and not switched and run.armed[i] and run.guards[i] < 0.0
-        run.armed[i] = run.armed[i] and not switched and not fired
+        fired = located and not switched and run.armed[i] == 1.0 and run.guards[i] < 0.0
         run.table[0, i] = 1.0 if fired else 0.0
+        if fired or switched:
+            run.armed[i] = 0.0
     _measure(q, run, t, _along(q, run, t_leg, tau), run.y, run.guards)
     for i in range(ALL_GUARDS):
         g = run.guards[i]
-        fired = run.table[0, i] == 1.0
-        run.armed[i] = (g > 0.0 and not fired) or (g == 0.0 and run.armed[i]) or i >= GUARDS + 2
+        positive = g > 0.0 and run.table[0, i] == 0.0
+        still = g == 0.0 and run.armed[i] == 1.0
+        run.armed[i] = 1.0 if positive or still or i >= GUARDS + 2 else 0.0
     return log, switched
 
 

@@ -187,7 +187,7 @@ def _start(
     state: tuple[float, float],
     law_state: Sequence[float] | None,
     start_time: float,
-) -> adaptive.Run:
+) -> Any:
     run = adaptive.new_run()
     run.y[:2] = state
     if law_state is not None:
@@ -200,7 +200,7 @@ def _start(
 
 
 def _march(
-    problem: adaptive.Problem, run: adaptive.Run, outputs: Array, progress: Callable[[float], None] | None
+    problem: adaptive.Problem, run: Any, outputs: Array, progress: Callable[[float], None] | None
 ) -> tuple[Array, Array]:
     """Return the rows and the events of the whole run, in chunks so that it can report and be interrupted."""
     rows = np.empty((len(outputs), 6))
@@ -216,7 +216,7 @@ def _march(
     return rows, np.concatenate(events)
 
 
-def _breakdown(run: adaptive.Run) -> str:
+def _breakdown(run: Any) -> str:
     where = f"after t = {run.clock[adaptive.NOW]:.9g} s, at x = {run.y[0]:.6g} m and velocity {run.y[1]:.6g} m/s"
     if run.clock[adaptive.STATUS] == adaptive.NOT_FINITE:
         return f"the solution is not finite {where}; the law returned no finite force there: check its parameters"
