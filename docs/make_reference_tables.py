@@ -210,8 +210,8 @@ m x'' + c x' + k x = F + k u_0 cos(W t), with the friction force F of the law.
 Two things to know:
 
 - Elastic stick with a random mu_s: the limit mu_s(t) N can fall onto the deflection while v_rel points back. The
-  deflection is then clipped at each step, in steps of at most a few microseconds after each switch, until the limit
-  falls more slowly than the contact relaxes.
+  deflection is then clipped at the end of each of the short steps that follow the switch, until the contact relaxes
+  faster than the limit falls.
 - A `per_event` path draws a new pair at each re-stick; the law commits again with the new pair at the same instant.
 
 ## Limit cycles with constant coefficients
