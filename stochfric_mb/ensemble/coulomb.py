@@ -24,6 +24,8 @@ from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.ensemble.lanes import (
     LANES,
     OPEN,
+    TALLIES,
+    aligned,
     begin,
     close,
     first_pairs,
@@ -101,14 +103,14 @@ def _tables(b: BeltBox, legs: Schedule) -> tuple[Array, Array]:
     rates[1] = -b.stiffness / b.mass, -b.damping / b.mass, b.normal_force / b.mass, 0.0, amplitude / b.mass, 0.0
     rates[2, 3] = 1.0
     rates[4, 5], rates[5, 4] = -w, w
-    exact = np.array([scipy.linalg.expm(rates * h) for h in legs.lengths]).reshape(-1, 6, 6)
+    exact: Array = np.array([scipy.linalg.expm(rates * h) for h in legs.lengths], dtype=np.float64).reshape(-1, 6, 6)
     h = legs.lengths[:, None]
     transition = exact[:, :2, :4].copy()
     transition[:, :, 3] /= h
     transition[:, :, 2] -= transition[:, :, 3]
-    phase = w * legs.start
+    phase: Array = w * legs.start
     response = exact[legs.kind, :2, 4] * np.cos(phase)[:, None] + exact[legs.kind, :2, 5] * np.sin(phase)[:, None]
-    ends = amplitude * np.cos(w * np.stack([legs.start, legs.start + legs.length], axis=1))
+    ends: Array = amplitude * np.cos(w * np.stack([legs.start, legs.start + legs.length], axis=1))
     return transition, np.concatenate([ends, response], axis=1)
 
 
@@ -129,12 +131,11 @@ def simulate(q: Any, seed: int, first: int, n: int, position: Any, velocity: Any
 @compiled
 def _group(q, seed, first, n, position, velocity, stick, tallies):
     """Run one group of lanes."""
-    x = np.full(LANES, q.position)
-    v = np.full(LANES, q.velocity)
-    mode = np.empty(LANES)
-    a_s, a_k, b_s, b_k = np.empty(LANES), np.empty(LANES), np.empty(LANES), np.empty(LANES)
-    eventful = np.empty(LANES)
-    tally, pending = np.empty((5, LANES)), np.empty((OPEN, LANES))
+    x, v, mode, eventful = aligned(LANES), aligned(LANES), aligned(LANES), aligned(LANES)
+    a_s, a_k, b_s, b_k = aligned(LANES), aligned(LANES), aligned(LANES), aligned(LANES)
+    x[:] = q.position
+    v[:] = q.velocity
+    tally, pending = np.empty((TALLIES, LANES)), np.empty((OPEN, LANES))
     cursors = np.zeros((LANES, CURSOR))
     work = np.empty((3, TERMS))
     first_pairs(q.descriptor, cursors, seed, first, a_s, a_k, b_s, b_k)

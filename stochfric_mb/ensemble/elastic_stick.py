@@ -22,6 +22,7 @@ from stochfric_mb.ensemble.lanes import (
     LANES,
     OPEN,
     TALLIES,
+    aligned,
     begin,
     close,
     exponential,
@@ -31,7 +32,7 @@ from stochfric_mb.ensemble.lanes import (
     note_crossings,
 )
 from stochfric_mb.laws import elastic_stick as law
-from stochfric_mb.laws.elastic_stick import SLIP_PEAK, STICK
+from stochfric_mb.laws.elastic_stick import SLIP, SLIP_PEAK, STICK
 
 # Rows of the flat array: position and velocity, the same one step before, of a stage; sum of the first three
 # accelerations, sum of the second and third; pair at the knot, its change to the next knot, pair there; mu_s; mode,
@@ -43,6 +44,8 @@ ROWS = 19
 MAX_SWITCHES = 20
 """Most switches located within one step; after them the rest of it is made in one go."""
 MAX_HALVINGS = 60
+RESOLUTION = 1.0e-10
+"""Part of a step to which a switch is located."""
 
 
 @compiled_inline
@@ -50,6 +53,16 @@ def coefficient(speed, mu_s, mu_k, v_s, rate):
     """Return the sliding coefficient [-], the law's `slip_coefficient` without branches; ``rate`` = 1/decay_velocity."""
     y = (v_s - speed) * rate
     return fma(mu_s - mu_k, exponential(y if y < 0.0 else 0.0), mu_k)
+
+
+@compiled_inline
+def stick_force(z, v_rel, limit, stiffness, damping, cap):
+    """Return the force of a stuck contact, the law's `force` without branches: z within ``limit``, the sum within ``cap``."""
+    z = limit if z > limit else z
+    z = -limit if z < -limit else z
+    f = fma(stiffness, z, damping * v_rel)
+    f = cap if f > cap else f
+    return -cap if f < -cap else f
 
 
 @compiled
@@ -65,7 +78,7 @@ def simulate(q: Any, seed: int, first: int, n: int, position: Any, velocity: Any
 @compiled
 def _group(q, seed, first, n, position, velocity, stick, tallies):
     """Run one group of lanes."""
-    m = np.zeros(ROWS * LANES)
+    m = aligned(ROWS * LANES)
     m[X : X + LANES] = m[STAGE_X : STAGE_X + LANES] = q.position
     m[V : V + LANES] = m[STAGE_V : STAGE_V + LANES] = q.velocity
     a_s, a_k, b_s, b_k = (m[A_S : A_S + LANES], m[A_K : A_K + LANES], m[B_S : B_S + LANES], m[B_K : B_K + LANES])
@@ -78,6 +91,7 @@ def _group(q, seed, first, n, position, velocity, stick, tallies):
     if q.legs.output_at_start:
         _record(0, n, m, position, velocity, stick)
     numbers = _numbers(q)
+    body = (q.mass, q.damping, q.stiffness, q.normal_force, q.amplitude, q.frequency, q.belt_velocity)
     for i in range(len(q.legs.length)):
         if q.legs.knot[i] > knot:
             knot += 1
@@ -93,7 +107,7 @@ def _group(q, seed, first, n, position, velocity, stick, tallies):
             if switched > 0:
                 for j in range(LANES):
                     if m[SWITCHED + j] == 1.0:
-                        _switching_step(q, j, t, h, w, part, m)
+                        _switching_step(body, q.parameters, j, t, h, w, part, m)
             if switched + crossed > 0:
                 _note(q, t, h, w, m, tally, pending)
         if q.legs.output[i] >= 0:
@@ -159,20 +173,17 @@ def _step(amplitude, frequency, t, h, w, part, numbers, m):
     _stage(w, 0.0, 0.5 * h, 0.0, f0, numbers, m)
     _stage(w + 0.5 * part, 0.5 * h, 0.5 * h, 1.0, f1, numbers, m)
     _stage(w + 0.5 * part, 0.5 * h, h, 1.0, f1, numbers, m)
-    return _last_stage(w + part, h, f2, numbers, m)
+    return _last_stage(w, w + part, h, f2, numbers, m)
 
 
 @compiled_inline
 def _acceleration(j, w, tau, drive, numbers, m):
     """Return x'' [m/s^2] of lane j at its stage, ``tau`` after the start of the step."""
-    v_b, v_s, rate, _, k_stick, c_stick, load, damping, stiffness = numbers
+    v_b, v_s, rate, reach, k_stick, c_stick, load, damping, stiffness = numbers
     x, v = m[STAGE_X + j], m[STAGE_V + j]
     v_rel = v_b - v
     mu_s, mu_k = fma(w, m[D_S + j], m[A_S + j]), fma(w, m[D_K + j], m[A_K + j])
-    cap = mu_s * load
-    held = fma(k_stick, fma(v_b, tau, m[ZX + j]) - x, c_stick * v_rel)
-    held = cap if held > cap else held
-    held = -cap if held < -cap else held
+    held = stick_force(fma(v_b, tau, m[ZX + j]) - x, v_rel, reach * mu_s, k_stick, c_stick, mu_s * load)
     s = m[SIGN + j]
     ahead = s * v_rel
     slid = s * load * coefficient(ahead if ahead > 0.0 else 0.0, mu_s, mu_k, v_s, rate)
@@ -195,9 +206,9 @@ def _stage(w, tau, ahead, middle, drive, numbers, m):
 
 
 @compiled
-def _last_stage(w, h, drive, numbers, m):
-    """Evaluate the fourth acceleration, finish the step, and look for switches."""
-    v_b, v_s, reach = numbers[0], numbers[1], numbers[3]
+def _last_stage(w_old, w, h, drive, numbers, m):
+    """Evaluate the fourth acceleration, finish the step, and look for switches and for the kink at the cap."""
+    v_b, v_s, _, reach, k_stick, c_stick, load, _, _ = numbers
     switched = 0
     crossed = 0
     for j in range(LANES):
@@ -207,12 +218,17 @@ def _last_stage(w, h, drive, numbers, m):
         x_new = fma(h * h / 6.0, three, fma(h, v, x))
         v_new = fma(h / 6.0, three + m[MIDDLE + j] + a, v)
         was, now = v_b - v, v_b - v_new
+        z_old = m[ZX + j] - x
         zx = fma(v_b, h, m[ZX + j])
-        limit = reach * fma(w, m[D_S + j], m[A_S + j])
+        z = zx - x_new
+        cap_old = load * fma(w_old, m[D_S + j], m[A_S + j])
+        mu_s = fma(w, m[D_S + j], m[A_S + j])
+        capped_old = abs(fma(k_stick, z_old, c_stick * was)) >= cap_old
+        capped = abs(fma(k_stick, z, c_stick * now)) >= load * mu_s
         ahead = m[SIGN + j] * now
         peak = (ahead <= 0.0) | (ahead > v_s)
         slip = peak if m[MODE + j] == SLIP_PEAK else ahead <= v_s
-        switch = (abs(zx - x_new) >= limit) if m[MODE + j] == STICK else slip
+        switch = ((abs(z) >= reach * mu_s) | (capped != capped_old)) if m[MODE + j] == STICK else slip
         switched += 1 if switch else 0
         crossed += 1 if ((abs(was) <= v_s) != (abs(now) <= v_s)) | (was * now < 0.0) else 0
         m[SWITCHED + j] = 1.0 if switch else 0.0
@@ -226,69 +242,74 @@ def _last_stage(w, h, drive, numbers, m):
 
 
 # --- one lane that switches -------------------------------------------------------------------------------------------
+# body: m, c, k, N, k u_0, W, v_b; line: time and mu_s, mu_k at the start of the step, and their slopes; y: x, x', z
 
 
 @compiled
-def _switching_step(q, j, t, h, w, part, m):
+def _switching_step(body, p, j, t, h, w, part, m):
     """Make the last step of lane j again, with its switches located and committed by the law."""
-    x, v = m[OLD_X + j], m[OLD_V + j]
-    z = m[ZX + j] - q.belt_velocity * h - x
+    d_s, d_k = m[D_S + j], m[D_K + j]
+    line = (t, m[A_S + j] + w * d_s, m[A_K + j] + w * d_k, part * d_s / h, part * d_k / h)
+    y = (m[OLD_X + j], m[OLD_V + j], m[ZX + j] - body[6] * h - m[OLD_X + j])
     state = (m[MODE + j], 0.0, 0.0, m[SIGN + j], 0.0)
     tau = 0.0
     for count in range(MAX_SWITCHES + 1):
-        rest = h - tau
-        dt = rest
-        if count < MAX_SWITCHES and _margin(q, j, tau, h, w, part, m, z, v, state) > 0.0:
-            dt = _switch_time(q, j, t, tau, rest, h, w, part, m, x, v, z, state)
-        x_new, v = _single_step(q, j, t, tau, dt, h, w, part, m, x, v, z, state)
-        z += q.belt_velocity * dt - (x_new - x)
-        x = x_new
-        tau += dt
-        mu_s, mu_k = _pair(j, w + part * (tau / h), m)
-        new = law.commit(
-            t + tau, z, 0.0, q.belt_velocity - v, 0.0, q.normal_force, state, mu_s, mu_k, q.mass, 0.0, 0.0, q.parameters
-        )  # fmt: skip
-        z -= new[1]
+        dt = h - tau
+        if count < MAX_SWITCHES:
+            dt = _switch_time(body, p, line, state, tau, dt, y)
+        last = dt == h - tau
+        y = _advance(body, p, line, state, tau, dt, y)
+        tau = h if last else tau + dt
+        mu_s, mu_k = line[1] + tau * line[3], line[2] + tau * line[4]
+        new = law.commit(t + tau, y[2], 0.0, body[6] - y[1], 0.0, body[3], state, mu_s, mu_k, body[0], 0.0, 0.0, p)
+        y = (y[0], y[1], y[2] - new[1])
         state = (new[0], 0.0, 0.0, new[3], 0.0)
-        if dt == rest:
+        if last:
             break
-    m[X + j] = m[STAGE_X + j] = x
-    m[V + j] = m[STAGE_V + j] = v
-    m[ZX + j] = z + x
+    m[X + j] = m[STAGE_X + j] = y[0]
+    m[V + j] = m[STAGE_V + j] = y[1]
+    m[ZX + j] = y[2] + y[0]
     m[MODE + j], m[SIGN + j] = state[0], state[3]
 
 
 @compiled
-def _pair(j, w, m):
-    return fma(w, m[D_S + j], m[A_S + j]), fma(w, m[D_K + j], m[A_K + j])
+def _margin(body, p, line, state, capped, tau, y):
+    """Return the law's smallest distance to a switch or to the kink at the cap, positive before it."""
+    mu_s, mu_k = line[1] + tau * line[3], line[2] + tau * line[4]
+    g = law.guards(line[0] + tau, y[2], 0.0, body[6] - y[1], 0.0, body[3], state, mu_s, mu_k, body[0], 0.0, 0.0, p)
+    if state[0] == STICK:
+        return min(g[0], g[2] if capped else g[1])
+    return min(g[0], g[1])
 
 
 @compiled
-def _margin(q, j, tau, h, w, part, m, z, v, state):
-    """Return the law's smallest distance to a switch, positive before it."""
-    mu_s, mu_k = _pair(j, w + part * (tau / h), m)
-    g = law.guards(
-        0.0, z, 0.0, q.belt_velocity - v, 0.0, q.normal_force, state, mu_s, mu_k, q.mass, 0.0, 0.0, q.parameters
-    )  # fmt: skip
-    return g[0] if state[0] == STICK else min(g[0], g[1])
+def _is_capped(body, p, line, state, tau, y):
+    """Return whether the force of a stuck contact has reached its cap."""
+    mu_s, mu_k = line[1] + tau * line[3], line[2] + tau * line[4]
+    g = law.guards(line[0] + tau, y[2], 0.0, body[6] - y[1], 0.0, body[3], state, mu_s, mu_k, body[0], 0.0, 0.0, p)
+    return g[1] <= 0.0
 
 
 @compiled
-def _switch_time(q, j, t, tau, rest, h, w, part, m, x, v, z, state):
-    """Return the time to the switch [s], just past it, or ``rest`` if there is none: false position (Illinois)."""
+def _switch_time(body, p, line, state, tau, rest, y):
+    """Return the time to the switch [s], just past it, or ``rest`` if there is none: false position (Illinois).
+
+    A contact that is at a switch already (a clipped deflection whose limit falls) is committed at the end only.
+    """
     low, high = 0.0, rest
-    at_low = _margin(q, j, tau, h, w, part, m, z, v, state)
-    at_high = _margin_after(q, j, t, tau, rest, h, w, part, m, x, v, z, state)
-    if at_high > 0.0:
+    capped = state[0] == STICK and _is_capped(body, p, line, state, tau, y)
+    at_low = _margin(body, p, line, state, capped, tau, y)
+    at_high = _margin(body, p, line, state, capped, tau + rest, _advance(body, p, line, state, tau, rest, y))
+    if at_low <= 0.0 or at_high > 0.0:
         return rest
     side = 0
     for _ in range(MAX_HALVINGS):
-        if high - low <= 1.0e-12 * h:
+        if high - low <= RESOLUTION * rest or at_high == 0.0:
             break
         middle = low + (high - low) * at_low / (at_low - at_high)
         if not low < middle < high:
             middle = 0.5 * (low + high)
-        value = _margin_after(q, j, t, tau, middle, h, w, part, m, x, v, z, state)
+        value = _margin(body, p, line, state, capped, tau + middle, _advance(body, p, line, state, tau, middle, y))
         if value > 0.0:
             low, at_low = middle, value
             at_high *= 0.5 if side == 1 else 1.0
@@ -297,43 +318,44 @@ def _switch_time(q, j, t, tau, rest, h, w, part, m, x, v, z, state):
             high, at_high = middle, value
             at_low *= 0.5 if side == -1 else 1.0
             side = -1
-            if value == 0.0:
-                break
     return high
 
 
 @compiled
-def _margin_after(q, j, t, tau, dt, h, w, part, m, x, v, z, state):
-    x_new, v_new = _single_step(q, j, t, tau, dt, h, w, part, m, x, v, z, state)
-    return _margin(q, j, tau + dt, h, w, part, m, z + q.belt_velocity * dt - (x_new - x), v_new, state)
-
-
-@compiled
-def _single_step(q, j, t, tau, dt, h, w, part, m, x, v, z, state):
-    """Return x and x' of one lane a Runge-Kutta step ``dt`` after ``tau`` into the step, with the law's own force."""
-    a0 = _single_acceleration(q, j, t, tau, h, w, part, m, x, v, z, state)
+def _advance(body, p, line, state, tau, dt, y):
+    """Return y a Runge-Kutta step ``dt`` after ``tau`` into the step, with the law's own force."""
+    x, v, z = y
     half = 0.5 * dt
+    a0 = _single_acceleration(body, p, line, state, tau, x, v, z)
     x1, v1 = x + half * v, v + half * a0
-    z1 = z + q.belt_velocity * half - (x1 - x)
-    a1 = _single_acceleration(q, j, t, tau + half, h, w, part, m, x1, v1, z1, state)
+    a1 = _single_acceleration(body, p, line, state, tau + half, x1, v1, z + body[6] * half - (x1 - x))
     x2, v2 = x + half * v1, v + half * a1
-    z2 = z + q.belt_velocity * half - (x2 - x)
-    a2 = _single_acceleration(q, j, t, tau + half, h, w, part, m, x2, v2, z2, state)
+    a2 = _single_acceleration(body, p, line, state, tau + half, x2, v2, z + body[6] * half - (x2 - x))
     x3, v3 = x + dt * v2, v + dt * a2
-    z3 = z + q.belt_velocity * dt - (x3 - x)
-    a3 = _single_acceleration(q, j, t, tau + dt, h, w, part, m, x3, v3, z3, state)
-    return x + dt * v + dt * dt / 6.0 * (a0 + a1 + a2), v + dt / 6.0 * (a0 + 2.0 * (a1 + a2) + a3)
+    a3 = _single_acceleration(body, p, line, state, tau + dt, x3, v3, z + body[6] * dt - (x3 - x))
+    x_new = x + dt * v + dt * dt / 6.0 * (a0 + a1 + a2)
+    return x_new, v + dt / 6.0 * (a0 + 2.0 * (a1 + a2) + a3), z + body[6] * dt - (x_new - x)
 
 
 @compiled
-def _single_acceleration(q, j, t, tau, h, w, part, m, x, v, z, state):
+def _single_acceleration(body, p, line, state, tau, x, v, z):
     """Return x'' [m/s^2] with the law's own force."""
-    mu_s, mu_k = _pair(j, w + part * (tau / h), m)
-    f, _ = law.force(
-        t + tau, z, 0.0, q.belt_velocity - v, 0.0, q.normal_force, state, mu_s, mu_k, q.mass, 0.0, 0.0, q.parameters
-    )  # fmt: skip
-    drive = q.amplitude * math.cos(q.frequency * (t + tau)) if q.amplitude != 0.0 else 0.0
-    return (f + drive - q.damping * v - q.stiffness * x) / q.mass
+    mass, damping, stiffness, normal_force, amplitude, frequency, v_b = body
+    t = line[0] + tau
+    mu_s, mu_k = _branch(line[1] + tau * line[3], line[2] + tau * line[4], state, p)
+    f, _ = law.force(t, z, 0.0, v_b - v, 0.0, normal_force, state, mu_s, mu_k, mass, 0.0, 0.0, p)
+    drive = amplitude * math.cos(frequency * t) if amplitude != 0.0 else 0.0
+    return (f + drive - damping * v - stiffness * x) / mass
+
+
+@compiled
+def _branch(mu_s, mu_k, state, p):
+    """Return the pair that continues the present mode's force past its switch, so that a trial step meets no jump."""
+    if state[0] == SLIP_PEAK:
+        return mu_s, mu_s
+    if state[0] == SLIP and p[5] <= 0.0:
+        return mu_k, mu_k
+    return mu_s, mu_k
 
 
 @compiled

@@ -24,6 +24,7 @@ from stochfric_mb.ensemble.lanes import (
     LANES,
     OPEN,
     TALLIES,
+    aligned,
     begin,
     close,
     first_pairs,
@@ -63,7 +64,7 @@ def simulate(q: Any, seed: int, first: int, n: int, position: Any, velocity: Any
 @compiled
 def _group(q, seed, first, n, position, velocity, stick, tallies):
     """Run one group of lanes."""
-    m = np.zeros(ROWS * LANES)
+    m = aligned(ROWS * LANES)
     m[X : X + LANES] = m[STAGE_X : STAGE_X + LANES] = q.position
     m[V : V + LANES] = m[STAGE_V : STAGE_V + LANES] = q.velocity
     a_s, a_k, b_s, b_k = (m[A_S : A_S + LANES], m[A_K : A_K + LANES], m[B_S : B_S + LANES], m[B_K : B_K + LANES])

@@ -112,7 +112,7 @@ class Sketch:
     @property
     def quantile_error(self) -> Array:
         """Bin width at each time: no quantile is off by more, shape (n_times,)."""
-        return np.exp2(self.exponent.astype(np.float64))
+        return np.array([math.ldexp(1.0, int(e)) for e in self.exponent])
 
     def quantiles(self, levels: npt.ArrayLike) -> Array:
         """Return the quantiles at the given levels (linear between order statistics), shape (n_levels, n_times)."""
