@@ -22,7 +22,8 @@ def elastic_substitute(law: Law, dt: float, normal_force: float, effective_mass:
     A law that needs no holding force comes back unchanged. Otherwise e_lim [m] is the smallest whose step limit
     2 (sqrt(1 + zeta^2) - zeta) sqrt(e_lim m_eff/(mu_s N)) is ``MARGIN`` dt. Sliding, decay_velocity is 0 (mu_k at
     once) or, where the law has a Stribeck curve, the one that gives the fall the same area. v_s is the law's own, or
-    a thousandth of the velocity mu_s N dt/m_eff that friction changes in one step.
+    a millionth of the velocity mu_s N dt/m_eff that friction changes in one step: below v_s mu stays at mu_s, which puts off
+    break-away by sqrt(2 m_eff v_s/(rate of the load)) (at a thousandth this delay was 5 dt, and fell with sqrt(dt) alone).
 
     Args:
         law: the law to stand in for.
@@ -40,7 +41,7 @@ def elastic_substitute(law: Law, dt: float, normal_force: float, effective_mass:
         return law, ""
     acceleration = law.mu_s * normal_force / effective_mass
     e_lim = acceleration * (0.5 * MARGIN * dt / (math.sqrt(1.0 + ZETA**2) - ZETA)) ** 2
-    v_s = float(getattr(law, "v_s", 1.0e-3 * acceleration * dt))
+    v_s = float(getattr(law, "v_s", 1.0e-6 * acceleration * dt))
     decay_velocity = float(getattr(law, "stribeck_velocity", 0.0)) * FALL_AREA[getattr(law, "form", "exponential")]
     elastic = ElasticStick(law.mu_s, law.mu_k, e_lim=e_lim, zeta=ZETA, v_s=v_s, decay_velocity=decay_velocity)
     note = (
