@@ -18,8 +18,8 @@ used by the reference, by every engine and by Python::
 - ``hx, hy`` [N]: friction force that would hold the contact still (used by laws with ``needs_holding_force``).
 - ``state``: floats; ``force`` never changes it, ``commit`` returns the next one and is called **once per accepted
   step**, nowhere else.
-- ``guards``: numbers that change from positive to not positive where the law switches or has a kink; the
-  event-located reference stops there. Unused entries are 1.
+- ``guards``: numbers that fall from positive to negative where the law switches or has a kink; the event-located
+  reference stops there, on the strictly negative side, where ``commit`` switches. Unused entries are 1.
 
 A law whose memory is a differential equation also has::
 
