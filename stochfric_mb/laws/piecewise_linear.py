@@ -14,6 +14,9 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.laws.contract import Law
 from stochfric_mb.laws.plane import along
+from stochfric_mb.laws.stateless import commit, init
+
+__all__ = ["PiecewiseLinear", "coefficient", "commit", "force", "guards", "init"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -62,22 +65,10 @@ def coefficient(speed, mu_s, mu_k, v_s, v_d):
 
 
 @compiled
-def init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, p):
-    """Return the state: none is needed (one unused entry)."""
-    return (0.0,)
-
-
-@compiled
 def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the friction force [N], mu(abs(v)) N along v."""
     mu = coefficient(math.hypot(vx, vy), mu_s, mu_k, p[2], p[3])
     return along(mu * normal_force, vx, vy)
-
-
-@compiled
-def commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
-    """Return the unchanged state."""
-    return (0.0,)
 
 
 @compiled

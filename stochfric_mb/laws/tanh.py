@@ -14,6 +14,9 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.errors import require_number
 from stochfric_mb.laws.contract import Law
 from stochfric_mb.laws.plane import along
+from stochfric_mb.laws.stateless import commit, init
+
+__all__ = ["Tanh", "commit", "force", "guards", "init"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -47,21 +50,9 @@ class Tanh(Law):
 
 
 @compiled
-def init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, p):
-    """Return the state: none is needed (one unused entry)."""
-    return (0.0,)
-
-
-@compiled
 def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the friction force [N], mu_k tanh(abs(v)/v_s) N along v."""
     return along(mu_k * math.tanh(math.hypot(vx, vy) / p[2]) * normal_force, vx, vy)
-
-
-@compiled
-def commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
-    """Return the unchanged state."""
-    return (0.0,)
 
 
 @compiled
