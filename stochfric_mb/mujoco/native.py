@@ -78,7 +78,34 @@ INIT, FORCE, COMMIT, GUARD = 8, 16, 24, 32
 """Where a law's functions stand in its row [byte]; its identifier stands first."""
 CONFIGURATIONS, N_CONFIGURATIONS = LAW_ROWS + LAW_WIDTH * N_LAWS, 4096
 """First place and number of the configuration addresses, by hash."""
-TABLE: Any = (ctypes.c_int64 * (CONFIGURATIONS + N_CONFIGURATIONS))()
+FURTHER_FIELDS = (
+    ("mjModel", "opt.integrator"),
+    ("mjModel", "nplugin"),
+    ("mjModel", "plugin"),
+    ("mjModel", "jnt_dofadr"),
+    ("mjModel", "jnt_qposadr"),
+    ("mjModel", "dof_treeid"),
+    ("mjModel", "ten_J_rownnz"),
+    ("mjModel", "ten_J_rowadr"),
+    ("mjModel", "ten_J_colind"),
+    ("mjData", "tree_asleep"),
+    ("mjData", "ten_J"),
+    ("mjData", "ten_length"),
+    ("mjData", "nefc"),
+    ("mjData", "qacc"),
+    ("mjData", "qfrc_bias"),
+    ("mjModel", "nu"),
+    ("mjData", "qfrc_actuator"),
+)
+"""More struct fields, for joints, tendons and the callback; the constants below are their places in the table."""
+FURTHER = CONFIGURATIONS + N_CONFIGURATIONS
+(
+    M_INTEGRATOR, M_NPLUGIN, M_PLUGIN, M_JOINT_DOF, M_JOINT_QPOS, M_DOF_TREE, M_TENDON_NNZ, M_TENDON_ADDRESS,
+    M_TENDON_COLUMN, D_TREE_ASLEEP, D_TENDON_J, D_TENDON_LENGTH, D_NEFC, D_QACC, D_QFRC_BIAS, M_NU, D_QFRC_ACTUATOR,
+) = range(FURTHER, FURTHER + 17)  # fmt: skip
+JOINTS_SLOT, CALLBACK_BEFORE, CALLBACK_ROWS, CALLBACK_COUNT, CALLBACK_MESSAGE = range(FURTHER + 32, FURTHER + 37)
+"""MuJoCo's number of the joints' plugin; the callback installed before, and the friction contexts that are active."""
+TABLE: Any = (ctypes.c_int64 * (FURTHER + 64))()
 """What compiled code must look up in this process."""
 
 _TABLE_SYMBOL = "stochfric_mb_mujoco_table"
@@ -116,6 +143,12 @@ mj_name2id = _external("mj_name2id", _I32, _I64, _I32, _I64)
 mj_warning = _external("mj_warning", types.void, _I64, _I32, _I32)
 mj_forward = _external("mj_forward", types.void, _I64, _I64)
 mj_step = _external("mj_step", types.void, _I64, _I64)
+mj_fwdActuation = _external("mj_fwdActuation", types.void, _I64, _I64)  # noqa: N816
+mj_fwdAcceleration = _external("mj_fwdAcceleration", types.void, _I64, _I64)  # noqa: N816
+mj_fwdConstraint = _external("mj_fwdConstraint", types.void, _I64, _I64)  # noqa: N816
+mj_referenceConstraint = _external("mj_referenceConstraint", types.void, _I64, _I64)  # noqa: N816
+mj_rne = _external("mj_rne", types.void, _I64, _I64, _I32, _I64)
+mju_error = _external("mju_error", types.void, _I64)
 
 
 def fill_table() -> None:
@@ -127,6 +160,8 @@ def fill_table() -> None:
     layout.verify()
     llvmlite.binding.add_symbol(_TABLE_SYMBOL, ctypes.addressof(TABLE))
     for place, (name, field) in enumerate(FIELDS, start=1):
+        TABLE[place] = layout.offset(name, field)
+    for place, (name, field) in enumerate(FURTHER_FIELDS, start=FURTHER):
         TABLE[place] = layout.offset(name, field)
     TABLE[CONTACT_SIZE] = ctypes.sizeof(layout.struct("mjContact"))
 
