@@ -3,145 +3,182 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import pymunk
 from pymunk._chipmunk_cffi import ffi, lib
-from pymunk._collision_handler import CollisionHandler
 
 from stochfric_mb.coefficients import CoefficientPath, PerEvent
-from stochfric_mb.errors import InputError, SimulationError, require_number
+from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_number
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.laws.abi import native_law
-from stochfric_mb.pymunk import contacts as c
-from stochfric_mb.pymunk.layout import address_of, layout
+from stochfric_mb.pymunk import records as r
+from stochfric_mb.pymunk.handlers import attach, detach
+from stochfric_mb.pymunk.layout import NAMES, address_of, layout
 
-Shapes = pymunk.Shape | Sequence[pymunk.Shape] | int
-_PHASES = {"begin": c.OLD_BEGIN, "pre_solve": c.OLD_BEFORE, "post_solve": c.OLD_AFTER, "separate": c.OLD_SEPARATE}
-_POINTERS = {"begin": "beginFunc", "pre_solve": "preSolveFunc", "post_solve": "postSolveFunc", "separate": "separateFunc"}
-_LIBRARY = {
-    "begin": "ext_cpCollisionBeginFunc", "pre_solve": "ext_cpCollisionPreSolveFunc",
-    "post_solve": "ext_cpCollisionPostSolveFunc", "separate": "ext_cpCollisionSeparateFunc",
-}  # fmt: skip
+Shapes = pymunk.Shape | Sequence[pymunk.Shape] | int | str
+"""One side of the contacts: a shape, shapes, a collision type, or ``"*"`` for all."""
+ALL_SHAPES = "*"
+MARGIN = 0.5
+"""Share of the stability limit that messages recommend."""
 
 
 @dataclasses.dataclass(frozen=True)
 class ContactReading:
-    """What one contact had in the step last taken."""
+    """What one contact (one pair of shapes) had in the step last taken."""
 
-    a: int
-    """Number of shape a, in the order given (with collision types: pymunk's address of it)."""
-    b: int
-    """Number of shape b, likewise."""
-    touching: bool
-    """Whether the shapes touched in that step; forces are 0 where they did not."""
+    contact: int
+    """Number of the contact, third part of the address of its coefficient path."""
+    a: pymunk.Shape
+    """The body's shape."""
+    b: pymunk.Shape
+    """The counter-surface's shape."""
     force: float
-    """Friction force on the body of a [N], positive along the velocity of b relative to a."""
+    """Friction force on the body of ``a`` [N] along ``direction``."""
     normal_force: float
     """Normal force [N]."""
     velocity: float
-    """Velocity of b relative to a along the contact [m/s], along (n_y, -n_x) of the normal n from b to a."""
+    """Velocity of ``b`` relative to ``a`` [m/s] along ``direction``, at the time of the force."""
+    displacement: float
+    """Displacement of ``b`` relative to ``a`` since they met [m], likewise."""
     mu_s: float
     """Static coefficient [-]."""
     mu_k: float
     """Kinetic coefficient [-]."""
     stick: bool
     """Whether the contact sticks."""
+    stick_phases: int
+    """How often the contact has begun to stick."""
+    effective_mass: float
+    """Mass that the friction force feels [kg]."""
+    direction: tuple[float, float]
+    """Unit vector (n_y, -n_x) of the normal n from ``b`` to ``a``."""
 
 
 class ContactFriction:
     """Friction added to a space by `add_friction`; ``remove()`` takes it away."""
 
-    def __init__(self, space: pymunk.Space, friction: Friction, path: CoefficientPath, table: npt.NDArray[np.int64]) -> None:
+    def __init__(self, space: pymunk.Space, friction: Friction, path: CoefficientPath, capacity: int) -> None:
         """Hold what the compiled callbacks use; called by `add_friction`."""
         self.space = space
         self.friction = friction
         self.path = path
-        self._table = table
+        self.table = _table(friction, path, capacity)
         self._parameters = friction.law.parameters()
-        self._pairs = np.zeros((int(table[c.CAPACITY]), c.PAIR), dtype=np.int64)
-        self._slots = np.zeros((int(table[c.CAPACITY]), c.SLOT))
-        self._clock = np.array([0.0, friction.law.stick_speed])
-        self._handlers: list[CollisionHandler] = []
-        self._names: dict[int, int] = {}
-        table[c.PAIRS] = self._pairs.ctypes.data
-        table[c.SLOTS] = self._slots.ctypes.data
-        table[c.CLOCK] = self._clock.ctypes.data
-        table[c.PARAMETERS] = self._parameters.ctypes.data
-        table[c.DESCRIPTOR] = path.descriptor.ctypes.data
+        self._pairs = np.full((capacity, r.PAIR), -1, dtype=np.int64)
+        self._slots = np.zeros((capacity, r.SLOT))
+        self._clock = np.zeros(r.CLOCK_SIZE)
+        self._clock[[r.STICK_SPEED, r.LARGEST_LOAD]] = friction.law.stick_speed, math.inf
+        self._sides: list[Any] = []
+        self.table[r.PAIRS] = self._pairs.ctypes.data
+        self.table[r.SLOTS] = self._slots.ctypes.data
+        self.table[r.CLOCK] = self._clock.ctypes.data
+        self.table[r.PARAMETERS] = self._parameters.ctypes.data
+        self.table[r.DESCRIPTOR] = path.descriptor.ctypes.data
+        self.table[r.LAST_STAMP] = lib.cpSpaceGetTimestamp(space._space)
 
     @property
     def time(self) -> float:
-        """Time of the force last applied [s]; the coefficients run along it."""
-        return float(self._clock[c.NOW])
+        """Time of the force last applied [s]; the coefficients run along it. It starts at 0 and may be set."""
+        return float(self._clock[r.NOW])
 
     @time.setter
     def time(self, value: float) -> None:
-        self._clock[c.NOW] = value
+        self._clock[r.NOW] = value
+
+    @property
+    def initial_displacement(self) -> float:
+        """Displacement with which contacts start [m]: the origin of coefficients that vary along the surface."""
+        return float(self._clock[r.START])
+
+    @initial_displacement.setter
+    def initial_displacement(self, value: float) -> None:
+        self._clock[r.START] = value
 
     def readings(self) -> list[ContactReading]:
-        """Return what each contact had in the step last taken, in the order in which contacts are numbered.
+        """Return what each contact had in the step last taken, in the order of their numbers; those that touched.
 
         Raises:
             SimulationError: see `check`.
         """
         self.check()
-        now = lib.cpSpaceGetTimestamp(self.space._space)
-        rows = zip(self._pairs[: self._table[c.USED]], self._slots, strict=False)
-        return [self._reading(pair, slot, int(pair[c.STAMP]) == now) for pair, slot in rows]
+        rows = self._touching()
+        if not len(rows):
+            return []
+        shapes = {_number(shape): shape for shape in self.space.shapes}
+        found = [_reading(self._pairs[i], self._slots[i], shapes) for i in rows]
+        return sorted((x for x in found if x is not None), key=lambda x: x.contact)
 
     def step_limit(self) -> float:
         """Return the largest stable step [s] of the law for the contacts that touched in the step last taken."""
-        now = lib.cpSpaceGetTimestamp(self.space._space)
-        slots = self._slots[: self._table[c.USED]][self._pairs[: self._table[c.USED], c.STAMP] == now]
-        limits = [self.friction.law.step_limit(s[c.NORMAL], s[c.EFFECTIVE_MASS]) for s in slots if s[c.NORMAL] > 0.0]
-        return float(min(limits, default=math.inf))
+        law = self.friction.law
+        slots = (s for s in self._slots[self._touching()] if s[r.NORMAL] > 0.0)
+        return float(min((law.step_limit(s[r.NORMAL], s[r.EFFECTIVE_MASS]) for s in slots), default=math.inf))
 
     def slot(self, number: int = 0) -> npt.NDArray[np.float64]:
-        """Return the live record of a contact (entries named in `stochfric_mb.pymunk.contacts`)."""
+        """Return the live record of a contact (entries named in `stochfric_mb.pymunk.records`), in order of first touch."""
         return self._slots[number]
 
     def check(self) -> None:
-        """Do nothing while all is well.
+        """Do nothing while all is well. ``space.step`` raises the same errors when they arise.
 
         Raises:
-            SimulationError: the law gave a force that is not finite, or there are more contacts than ``max_contacts``.
+            SimulationError: a motion or a force that is not finite, or more contacts than ``max_contacts``.
+            StabilityError: the step was beyond the stability limit of the law for several steps.
         """
-        problem = int(self._table[c.PROBLEM])
-        if problem & c.NOT_FINITE:
-            raise SimulationError(
-                f"the law {self.friction.law.kind!r} gave a force that is not finite; lower dt or check its parameters"
+        error = self.problem()
+        if error is not None:
+            raise error
+        for body in self.space.bodies:
+            x, y = body.position
+            u, v = body.velocity
+            if not math.isfinite(x + y + u + v + body.angular_velocity):
+                raise SimulationError(
+                    f"a body is at {(x, y)} with velocity {(u, v)}: the run is broken, states must be finite; lower dt or "
+                    "check the forces on it"
+                )
+
+    def problem(self) -> Exception | None:
+        """Return the error that `check` would raise for the contacts, or None."""
+        law, problem = self.friction.law, int(self.table[r.PROBLEM])
+        if problem & r.NOT_FINITE:
+            return SimulationError(
+                f"a contact's motion, or the force of the law {law.kind!r} on it, is not finite; lower dt or check the law's "
+                "parameters and the forces on the bodies"
             )
-        if problem & c.OVERFLOW:
-            raise SimulationError(
-                f"more than max_contacts = {self._table[c.CAPACITY]} pairs of shapes touched, and the rest had pymunk's own "
+        if problem & r.UNSTABLE:
+            dt, load = self._clock[r.CHECKED_STEP], self._clock[r.WORST_LOAD]
+            limit = law.step_limit(load, 1.0)
+            return StabilityError(
+                f"dt = {dt:g} s is beyond the stability limit {limit:.3g} s of the law {law.kind!r} "
+                f"({law.step_limit_formula}) for a contact with N/m_eff = {load:.3g} N/kg; use dt <= {MARGIN * limit:.2g} s"
+            )
+        if problem & r.OVERFLOW:
+            return SimulationError(
+                f"more than max_contacts = {len(self._slots)} pairs of shapes touched at a time, and the rest had pymunk's own "
                 "friction; raise max_contacts"
             )
+        return None
+
+    def prepare(self, dt: float) -> None:
+        """Find the largest stable load for steps of ``dt`` [s]; the callbacks ask for it when ``dt`` is new."""
+        if self._clock[r.CHECKED_STEP] != dt:
+            self._clock[r.CHECKED_STEP] = dt
+            self._clock[r.LARGEST_LOAD] = largest_load(self.friction.law, dt)
 
     def remove(self) -> None:
         """Take the friction away: the handlers and pymunk's own friction are as they were before."""
-        for handler in self._handlers:
-            _restore(handler)
-        self._handlers.clear()
+        detach(self.space, self)
 
-    def _reading(self, pair: npt.NDArray[np.int64], slot: npt.NDArray[np.float64], touching: bool) -> ContactReading:
-        a, b = int(pair[c.SHAPE_A]), int(pair[c.SHAPE_B])
-        return ContactReading(
-            a=self._names.get(a, a),
-            b=self._names.get(b, b),
-            touching=touching,
-            force=float(slot[c.FORCE]) if touching else 0.0,
-            normal_force=float(slot[c.NORMAL]) if touching else 0.0,
-            velocity=float(slot[c.VELOCITY]),
-            mu_s=float(slot[c.MU_S]),
-            mu_k=float(slot[c.MU_K]),
-            stick=touching and bool(slot[c.STICK]),
-        )
+    def _touching(self) -> npt.NDArray[np.intp]:
+        now = lib.cpSpaceGetTimestamp(self.space._space)
+        return np.flatnonzero(self._pairs[: self.table[r.USED], r.STAMP] == now)
 
 
 def add_friction(
@@ -152,154 +189,137 @@ def add_friction(
     *,
     seed: int = 0,
     sample: int = 0,
-    max_contacts: int = 256,
+    max_contacts: int = 1024,
 ) -> ContactFriction:
     """Let a friction law act where ``a`` touches ``b``, instead of pymunk's own friction; the handle that undoes it.
 
+    Nothing else changes: call ``space.step(dt)`` as before. The time of the coefficients starts at 0, and each contact
+    has a path of its own: contact i len(b) + j between the shapes a[i] and b[j] where both are listed, otherwise
+    contacts are numbered by first touch. A contact that opens and closes again starts anew on the same path.
+
     Laws with true stick (coulomb, karnopp, stribeck) set the cap of pymunk's own friction solver; all others are
-    applied as forces. Nothing else changes: call ``space.step(dt)`` as before. The time of the coefficients starts at 0
-    and each contact has a path of its own, numbered in the order of ``a`` then ``b``, or by first touch if collision
-    types are given. Handlers on the same collision types go on working, those set later too.
+    applied as forces while they stick. Where several frictions fit a contact, the one added first acts. The user's
+    collision handlers go on working; their exceptions are raised by ``space.step``.
 
     Args:
         space: the space.
-        a: the bodies: a shape, shapes, or a collision type.
-        b: the counter-surfaces: a shape, shapes, or a collision type.
+        a: the bodies: a shape, shapes, a collision type, or ``"*"`` for any shape.
+        b: the counter-surfaces, likewise.
         friction: a law, or a law with random coefficients.
         seed: first part of the address of the coefficient paths.
         sample: second part.
-        max_contacts: most pairs of shapes that may ever touch, if collision types are given.
+        max_contacts: most pairs of shapes that may touch at a time.
 
     Raises:
-        InputError: shapes that are not in the space, sensors, or a mixture of shapes and types.
+        InputError: shapes that are not in the space, or sensors.
         SimulationError: this build of pymunk has an unknown layout.
     """
     friction = as_friction(friction)
-    path = friction.path(seed, sample)
-    pairs = [] if isinstance(a, int) and isinstance(b, int) else _pairs(space, a, b)
-    capacity = len(pairs) or int(require_number("max_contacts", max_contacts, low=1.0))
-    table = _table(friction, path, capacity)
-    table[c.LAST_STAMP] = lib.cpSpaceGetTimestamp(space._space)
-    handle = ContactFriction(space, friction, path, table)
-    if isinstance(a, int) and isinstance(b, int):
-        table[[c.BY_TYPE, c.TYPE_A, c.TYPE_B]] = 1, a, b
-        keys: Iterable[tuple[int, int]] = [(a, b)]
-    else:
-        _fill(handle, pairs)
-        keys = _keys(space, pairs)
-    for key in keys:
-        handle._handlers.append(_take_over(space, key, handle))
+    capacity = int(require_number("max_contacts", max_contacts, low=1.0))
+    handle = ContactFriction(space, friction, friction.path(seed, sample), capacity)
+    listed = [_fill_side(handle, r.SIDE_A, space, a), _fill_side(handle, r.SIDE_B, space, b)]
+    if all(listed) and not any(x.body is not y.body for x in listed[0] for y in listed[1]):
+        raise InputError("a and b hold no two shapes on different bodies; nothing could touch")
+    attach(space, handle)
     return handle
 
 
-def _pairs(space: pymunk.Space, a: Shapes, b: Shapes) -> list[tuple[pymunk.Shape, pymunk.Shape]]:
-    if isinstance(a, int) or isinstance(b, int):
-        raise InputError(f"a = {a!r} and b = {b!r}: give shapes for both, or collision types for both")
-    first = [a] if isinstance(a, pymunk.Shape) else list(a)
-    second = [b] if isinstance(b, pymunk.Shape) else list(b)
-    for shape in first + second:
-        if shape.space is not space:
-            raise InputError(f"shape {shape!r} is not in this space; add it to the space before its friction")
-        if shape.sensor:
-            raise InputError(f"shape {shape!r} is a sensor and feels no contact force; set shape.sensor = False")
-    pairs = [(x, y) for x in first for y in second if x.body is not y.body]
-    if not pairs:
-        raise InputError("a and b hold no two shapes on different bodies; nothing could touch")
-    return pairs
+def largest_load(law: Law, dt: float) -> float:
+    """Return the largest normal force per effective mass [N/kg] at which steps of ``dt`` [s] are stable, by bisection.
+
+    A force N f(u, v) on a mass m depends on N/m alone, and so does the limit.
+    """
+    if law.needs_holding_force or not dt > 0.0 or law.step_limit(1.0e12, 1.0) >= dt:
+        return math.inf
+    low, high = -12.0, 12.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if law.step_limit(10.0**middle, 1.0) >= dt else (low, middle)
+    return 10.0**low
 
 
 def _table(friction: Friction, path: CoefficientPath, capacity: int) -> npt.NDArray[np.int64]:
     law = friction.law
     functions = native_law(law.kind)
-    table = np.zeros(c.TABLE, dtype=np.int64)
-    table[c.CAPACITY] = capacity
-    table[[c.INIT, c.FORCE_LAW, c.COMMIT, c.GUARD]] = functions.init, functions.force, functions.commit, functions.guards
-    table[c.DESCRIPTOR_SIZE] = len(path.descriptor)
-    table[[c.SEED, c.SAMPLE]] = path.seed, path.sample
-    table[c.HAS_MODE] = law.state_names[:1] == ("mode",)
-    table[c.PER_EVENT] = isinstance(friction.process, PerEvent)
-    table[c.HOLDING] = law.needs_holding_force
-    table[c.STATEFUL] = bool(law.state_names)
-    table[c.LAYOUT :] = layout()
+    table = np.zeros(r.TABLE, dtype=np.int64)
+    table[r.CAPACITY] = capacity
+    table[[r.INIT, r.FORCE_LAW, r.COMMIT, r.GUARD]] = functions.init, functions.force, functions.commit, functions.guards
+    table[r.DESCRIPTOR_SIZE] = len(path.descriptor)
+    table[[r.SEED, r.SAMPLE]] = path.seed, path.sample
+    table[r.HAS_MODE] = law.state_names[:1] == ("mode",)
+    table[r.PER_EVENT] = isinstance(friction.process, PerEvent)
+    table[r.HOLDING] = law.needs_holding_force
+    table[r.STATEFUL] = bool(law.state_names)
+    table[r.LAYOUT :] = layout()
     return table
 
 
-def _fill(handle: ContactFriction, pairs: list[tuple[pymunk.Shape, pymunk.Shape]]) -> None:
-    for i, (x, y) in enumerate(pairs):
-        handle._pairs[i] = address_of(x._shape), address_of(y._shape), i, -1
-    for shapes in zip(*pairs, strict=True):
-        for i, shape in enumerate(dict.fromkeys(shapes)):
-            handle._names[address_of(shape._shape)] = i
-    handle._table[c.USED] = len(pairs)
+def _fill_side(handle: ContactFriction, side: int, space: pymunk.Space, which: Shapes) -> list[pymunk.Shape]:
+    """Enter which shapes belong to a side; return those that are listed."""
+    table = handle.table
+    if isinstance(which, str):
+        if which != ALL_SHAPES:
+            raise InputError(f"{which!r} names no shapes; give a shape, shapes, a collision type, or {ALL_SHAPES!r} for all")
+        table[side + r.SIDE_KIND] = r.ANY
+        return []
+    if isinstance(which, int):
+        table[side + r.SIDE_KIND] = r.TYPE
+        table[side + r.SIDE_TYPE] = which
+        return []
+    shapes = list(dict.fromkeys([which] if isinstance(which, pymunk.Shape) else which))
+    if not shapes:
+        raise InputError("a and b must hold at least one shape each; the list is empty")
+    for shape in shapes:
+        _require_solid(shape, space)
+    addresses = np.array([address_of(s._shape) for s in shapes], dtype=np.int64)
+    numbers = np.argsort(addresses)
+    addresses = addresses[numbers]
+    handle._sides.append((shapes, addresses, numbers))
+    table[side + r.SIDE_KIND] = r.LISTED
+    table[side + r.SIDE_SIZE] = len(shapes)
+    table[side + r.SIDE_ADDRESSES] = addresses.ctypes.data
+    table[side + r.SIDE_NUMBERS] = numbers.ctypes.data
+    return shapes
 
 
-def _keys(space: pymunk.Space, pairs: list[tuple[pymunk.Shape, pymunk.Shape]]) -> list[tuple[int, int]]:
-    """Return the pairs of collision types to listen to, each unordered pair once, as the user ordered it if he did."""
-    keys: dict[frozenset[int], tuple[int, int]] = {}
-    for x, y in pairs:
-        key = (x.collision_type, y.collision_type)
-        turned = (y.collision_type, x.collision_type)
-        keys.setdefault(frozenset(key), turned if turned in space._handlers else key)
-    return list(keys.values())
+def _require_solid(shape: pymunk.Shape, space: pymunk.Space) -> None:
+    if not isinstance(shape, pymunk.Shape):  # pyright: ignore[reportUnnecessaryIsInstance]  # callers may not be typed
+        raise InputError(f"{shape!r} is no pymunk shape; give a shape, shapes, a collision type, or {ALL_SHAPES!r}")
+    if shape.space is not space:
+        raise InputError(f"shape {shape!r} is not in this space; add it to the space before its friction")
+    if shape.sensor:
+        raise InputError(f"shape {shape!r} is a sensor and feels no contact force; set shape.sensor = False")
 
 
-class _SharedHandler(CollisionHandler):
-    """A collision handler whose Python callbacks are called by the compiled ones, in the order of time."""
-
-    _context: npt.NDArray[np.int64]
-    _friction: ContactFriction
-
-    def _chain(self, phase: str, function: Callable[..., None] | None) -> None:
-        setattr(self, f"_{phase}", function)
-        self._context[_PHASES[phase]] = address_of(_original(phase, function))
-        if phase in ("begin", "separate"):
-            ours = getattr(c.callbacks(), phase)
-            pointer = _original(phase, None) if function is None else ffi.cast("cpCollisionBeginFunc", ours)
-            setattr(self._handler, _POINTERS[phase], pointer)
-
-    begin = property(lambda self: self._begin, lambda self, f: self._chain("begin", f))  # pyright: ignore[reportIncompatibleMethodOverride]
-    pre_solve = property(lambda self: self._pre_solve, lambda self, f: self._chain("pre_solve", f))  # pyright: ignore[reportIncompatibleMethodOverride]
-    post_solve = property(lambda self: self._post_solve, lambda self, f: self._chain("post_solve", f))  # pyright: ignore[reportIncompatibleMethodOverride]
-    separate = property(lambda self: self._separate, lambda self, f: self._chain("separate", f))  # pyright: ignore[reportIncompatibleMethodOverride]
+@functools.cache
+def _number_offset() -> int:
+    return int(layout()[NAMES.index("shape.number")])
 
 
-_contexts: dict[int, npt.NDArray[np.int64]] = {}
-"""Contexts in use, kept until removed: a space may call ``separate`` while it is being taken apart."""
+def _number(shape: pymunk.Shape) -> int:
+    """Return the number that the space gave to a shape."""
+    return int(ffi.cast("int64_t *", address_of(shape._shape) + _number_offset())[0])
 
 
-def _original(phase: str, function: Callable[..., None] | None) -> Any:
-    return ffi.addressof(lib, "DoNothing") if function is None else getattr(lib, _LIBRARY[phase])
-
-
-def _take_over(space: pymunk.Space, key: tuple[int, int], handle: ContactFriction) -> CollisionHandler:
-    """Put the compiled callbacks in front of a handler's own; what was there is chained."""
-    space.on_collision(*key)
-    handler: Any = space._handlers[key]
-    if isinstance(handler, _SharedHandler):
-        raise InputError(
-            f"collision types {key} already have friction; remove() it first, or give all shapes of these types at once"
-        )
-    context = np.zeros(c.CONTEXT, dtype=np.int64)
-    context[c.OLD_DATA] = address_of(handler._handler.userData)
-    context[c.TABLE_ADDRESS] = handle._table.ctypes.data
-    _contexts[context.ctypes.data] = context
-    handler.__class__ = _SharedHandler
-    handler._context, handler._friction = context, handle
-    handler._handler.userData = ffi.cast("void *", context.ctypes.data)
-    for phase in _PHASES:
-        handler._chain(phase, getattr(handler, f"_{phase}"))
-    handler._handler.preSolveFunc = ffi.cast("cpCollisionPreSolveFunc", c.callbacks().before)
-    handler._handler.postSolveFunc = ffi.cast("cpCollisionPostSolveFunc", c.callbacks().after)
-    return handler
-
-
-def _restore(handler: CollisionHandler) -> None:
-    """Give a handler back to pymunk alone."""
-    assert isinstance(handler, _SharedHandler)
-    context = handler._context
-    handler._handler.userData = ffi.cast("void *", int(context[c.OLD_DATA]))
-    del handler._context, handler._friction
-    handler.__class__ = CollisionHandler  # pyright: ignore[reportAttributeAccessIssue]
-    for phase in _PHASES:
-        setattr(handler, phase, getattr(handler, f"_{phase}"))
-    del _contexts[context.ctypes.data]
+def _reading(
+    pair: npt.NDArray[np.int64], slot: npt.NDArray[np.float64], shapes: dict[int, pymunk.Shape]
+) -> ContactReading | None:
+    """Return a contact's reading, None if one of its shapes was removed since the step."""
+    a, b = shapes.get(int(pair[r.NUMBER_A])), shapes.get(int(pair[r.NUMBER_B]))
+    if a is None or b is None:
+        return None
+    return ContactReading(
+        contact=int(pair[r.CONTACT]),
+        a=a,
+        b=b,
+        force=float(slot[r.FORCE]),
+        normal_force=float(slot[r.NORMAL]),
+        velocity=float(slot[r.VELOCITY]),
+        displacement=float(slot[r.DISPLACEMENT]),
+        mu_s=float(slot[r.MU_S]),
+        mu_k=float(slot[r.MU_K]),
+        stick=bool(slot[r.STICK]),
+        stick_phases=int(slot[r.EVENTS]),
+        effective_mass=float(slot[r.EFFECTIVE_MASS]),
+        direction=(float(slot[r.NORMAL_Y]), -float(slot[r.NORMAL_X])),
+    )

@@ -14,7 +14,7 @@ from pymunk.constraints import DampedSpring
 
 from stochfric_mb.errors import InputError, SimulationError, StabilityError
 from stochfric_mb.friction import Friction
-from stochfric_mb.pymunk import contacts as c
+from stochfric_mb.pymunk import records as r
 from stochfric_mb.pymunk.attach import ContactFriction, add_friction
 from stochfric_mb.scenario import Scenario, fitting_step
 from stochfric_mb.trajectory import Trajectory
@@ -122,7 +122,7 @@ def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, with_friction: 
     friction = None
     if with_friction:
         friction = add_friction(space, shape, belt, Friction(scenario.law, scenario.process), seed=seed, sample=sample)
-        friction.slot()[c.ORIGIN] = -mechanism.initial_position
+        friction.initial_displacement = -mechanism.initial_position
     return Model(space, box, spring, belt, friction, scenario)
 
 
@@ -207,4 +207,4 @@ def advance(model: Model, dt: float, first: int, n: int) -> None:
 
 
 def _sample(t: float, x: float, v: float, slot: npt.NDArray[np.float64]) -> tuple[float, ...]:
-    return (t, x, v, slot[c.FORCE], slot[c.NORMAL], slot[c.MU_S], slot[c.MU_K], slot[c.STICK])
+    return (t, x, v, slot[r.FORCE], slot[r.NORMAL], slot[r.MU_S], slot[r.MU_K], slot[r.STICK])

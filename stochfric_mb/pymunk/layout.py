@@ -1,7 +1,7 @@
 """Where the running pymunk keeps what compiled callbacks need: field offsets and addresses of its C functions.
 
-The structures of arbiters, contacts and handlers are public (their offsets come from pymunk's own declarations); bodies
-and spaces are opaque. Their few fields are *found*: each is set to a number of its own through pymunk's API and looked
+The structures of arbiters, contacts and handlers are public (their offsets come from pymunk's own declarations); bodies,
+shapes and spaces are opaque. Their few fields are *found*: each is set to a number of its own through pymunk's API and looked
 up in the structure's memory, so that a changed layout is noticed and never guessed.
 """
 
@@ -19,13 +19,14 @@ from stochfric_mb.errors import SimulationError
 
 BODY_FIELDS = ("m_inv", "p", "v", "f", "i_inv", "w", "t")
 ARBITER_FIELDS = (
-    "u", "surface_vr", "data", "a", "b", "body_a", "body_b", "count", "contacts", "n", "state", "processCollision",
+    "e", "u", "surface_vr", "data", "a", "b", "body_a", "body_b", "count", "contacts", "n", "state", "processCollision",
 )  # fmt: skip
 CONTACT_FIELDS = ("r1", "r2", "jnAcc", "jtAcc")
 GETTERS = ("cpSpaceGetTimestamp", "cpSpaceGetCurrentTimeStep", "cpShapeGetCollisionType", "cpShapeGetSensor")
 NAMES = (
     *(f"body.{n}" for n in BODY_FIELDS),
     "space.gravity",
+    "shape.number",
     *(f"arbiter.{n}" for n in ARBITER_FIELDS),
     *(f"contact.{n}" for n in CONTACT_FIELDS),
     "contact.size",
@@ -35,6 +36,7 @@ NAMES = (
 """Order of the entries of `layout`."""
 _BODY_BYTES = 176
 _SPACE_BYTES = 96
+_SHAPE_BYTES = 256
 
 
 @functools.cache
@@ -44,7 +46,7 @@ def layout() -> npt.NDArray[np.int64]:
     Raises:
         SimulationError: this build of pymunk keeps them elsewhere.
     """
-    values = _body_offsets() | _space_offsets()
+    values = _body_offsets() | _space_offsets() | {"shape.number": _shape_number_offset()}
     values |= {f"arbiter.{n}": ffi.offsetof("struct cpArbiter", n) for n in ARBITER_FIELDS}
     values |= {f"contact.{n}": ffi.offsetof("struct cpContact", n) for n in CONTACT_FIELDS}
     values["contact.size"] = ffi.sizeof("struct cpContact")
@@ -78,10 +80,27 @@ def _space_offsets() -> dict[str, int]:
     return {"space.gravity": _find(memory, (21.25, 22.25), "cpSpace.gravity")}
 
 
+def _shape_number_offset() -> int:
+    """Return the offset of the number that a space gives to each shape it takes in: 0, 1, 2, ..., never given twice."""
+    space, shapes = pymunk.Space(), []
+    for i in range(6):
+        body = pymunk.Body(1.0, 1.0)
+        body.position = (31.25 * i, 0.0)
+        shapes.append(pymunk.Poly.create_box(body, (1.0, 1.0)))
+        space.add(body, shapes[-1])
+    memories = [bytes(ffi.buffer(ffi.cast("char *", s._shape), _SHAPE_BYTES)) for s in shapes]
+    numbers = [struct.unpack(f"={_SHAPE_BYTES // 8}q", m) for m in memories]
+    places = [8 * i for i, column in enumerate(zip(*numbers, strict=True)) if column == tuple(range(6))]
+    return _only(places, "cpShape.hashid")
+
+
 def _find(memory: bytes, numbers: tuple[float, ...], name: str) -> int:
     """Return the only aligned offset at which ``memory`` holds ``numbers`` as doubles."""
     pattern = struct.pack(f"={len(numbers)}d", *numbers)
-    places = [i for i in range(0, len(memory), 8) if memory.startswith(pattern, i)]
+    return _only([i for i in range(0, len(memory), 8) if memory.startswith(pattern, i)], name)
+
+
+def _only(places: list[int], name: str) -> int:
     if len(places) != 1:
         raise SimulationError(
             f"pymunk {pymunk.version} keeps {name} at {len(places)} places, 1 expected: its layout is not the one known "

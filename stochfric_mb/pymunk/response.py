@@ -1,0 +1,212 @@
+"""What the law answers at a contact: its force, or its cap, and the switches it passes within a step.
+
+At the time of the force positions are known, velocities half a step earlier. The velocity is the one at hand plus half
+a step of acceleration, in which the friction force is solved for together with the law: the leap-frog scheme, second
+order wherever the force is smooth.
+"""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: reportCallIssue=false, reportPrivateImportUsage=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import math
+
+import numba
+
+from stochfric_mb.coefficients.path import CURSOR, evaluate
+from stochfric_mb.compile import compiled
+from stochfric_mb.laws.abi import MAX_STATE, call_law
+from stochfric_mb.laws.contract import GUARDS
+from stochfric_mb.pymunk import records as r
+from stochfric_mb.pymunk.memory import as_doubles
+
+ENDLESS = 1.0e12
+"""A load no friction can hold, in normal forces: it asks a law for its cap."""
+ITERATIONS = 30
+"""Most iterations for the velocity at the time of the force."""
+SWITCHES = 4
+"""Most switches located within a step."""
+BISECTIONS = 40
+"""Halvings of a step to locate a switch."""
+
+
+@compiled
+def settle(table, clock, s, contact, first, v_free, compliance):
+    """Return the friction force [N] at the velocity v that it leads to, v = v_free - compliance F(v); commits at v."""
+    s[r.PAST_MU_S], s[r.PAST_MU_K] = s[r.MU_S], s[r.MU_K]
+    coefficients(table, s, contact)
+    if first:
+        v = v_free
+    else:
+        v = meet(table, s, v_free, compliance)
+        if table[r.STATEFUL] == 1:
+            locate(table, clock, s, contact, v)
+    changed = remember(table, clock, s, contact, first, s[r.TIME], s[r.DISPLACEMENT], v, s[r.MU_S], s[r.MU_K], 0.0)
+    if changed and not first:
+        v = meet(table, s, v_free, compliance)
+    s[r.VELOCITY] = v
+    s[r.PAST_VELOCITY], s[r.PAST_DISPLACEMENT] = v, s[r.DISPLACEMENT]
+    return law_force(table, s, v, s[r.NORMAL], 0.0)
+
+
+@compiled
+def set_cap(table, clock, s, contact, first, rate, acceleration, inverse_mass, dt):
+    """Set the cap [-] of pymunk's own friction: the law's answer to an endless load.
+
+    ``acceleration`` is the one of the last step without friction; while the contact is held it is carried on to this
+    step along a line, so that break-away falls on the step nearest to it.
+    """
+    held = not first and abs(s[r.FORCE]) < s[r.CAP] * s[r.PAST_NORMAL] * (1.0 - 1.0e-9)
+    now = acceleration
+    if held:
+        v = 0.0
+        now += acceleration - s[r.PAST_ACCELERATION]
+    elif first:
+        v = rate
+    else:
+        v = rate + 0.5 * dt * (acceleration - inverse_mass * s[r.FORCE])
+    s[r.PAST_ACCELERATION] = acceleration
+    load = now / inverse_mass if inverse_mass > 0.0 else 0.0
+    coefficients(table, s, contact)
+    remember(table, clock, s, contact, first, s[r.TIME], s[r.DISPLACEMENT], v, s[r.MU_S], s[r.MU_K], load)
+    s[r.VELOCITY] = v
+    normal = s[r.NORMAL] if s[r.NORMAL] > 0.0 else 1.0
+    s[r.CAP] = abs(law_force(table, s, v, normal, math.copysign(ENDLESS * normal, load))) / normal
+    if not math.isfinite(s[r.CAP]):
+        table[r.PROBLEM] |= r.NOT_FINITE
+        s[r.CAP] = 0.0
+
+
+@compiled
+def locate(table, clock, s, contact, v):
+    """Commit at each point within the last step where the law switches, found on its guards by bisection.
+
+    Between its ends the step is a cubic in displacement and linear in velocity and coefficients. Without this, a
+    switch would be late by up to a step, and what the law remembers of it (such as where a contact stuck) first order.
+    """
+    out = s[r.OUT : r.OUT + GUARDS]
+    low = 0.0
+    for _ in range(SWITCHES):
+        guards_at(table, s, v, low)
+        before = (out[0], out[1], out[2], out[3], out[4], out[5])
+        guards_at(table, s, v, 1.0)
+        after = (out[0], out[1], out[2], out[3], out[4], out[5])
+        theta = 2.0
+        for i in range(GUARDS):
+            if before[i] > 0.0 >= after[i]:
+                theta = min(theta, crossing(table, s, v, i, low))
+        if theta >= 1.0:
+            return
+        u, w, mu_s, mu_k = between(s, v, theta)
+        remember(table, clock, s, contact, False, s[r.TIME] - (1.0 - theta) * s[r.STEP], u, w, mu_s, mu_k, 0.0)
+        low = theta
+
+
+@compiled
+def crossing(table, s, v, i, low):
+    """Return the fraction of the step at which guard ``i`` is no longer positive, after ``low``."""
+    out = s[r.OUT : r.OUT + GUARDS]
+    high = 1.0
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        guards_at(table, s, v, middle)
+        if out[i] > 0.0:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+@compiled
+def between(s, v, theta):
+    """Return displacement, velocity, mu_s and mu_k at a fraction of the last step."""
+    u0, u1 = s[r.PAST_DISPLACEMENT], s[r.DISPLACEMENT]
+    v0, h = s[r.PAST_VELOCITY], s[r.STEP]
+    rest = 1.0 - theta
+    u = rest * rest * (u0 * (1.0 + 2.0 * theta) + theta * h * v0) + theta * theta * (u1 * (3.0 - 2.0 * theta) - rest * h * v)
+    mu_s = rest * s[r.PAST_MU_S] + theta * s[r.MU_S]
+    mu_k = rest * s[r.PAST_MU_K] + theta * s[r.MU_K]
+    return u, rest * v0 + theta * v, mu_s, mu_k
+
+
+@compiled
+def guards_at(table, s, v, theta):
+    """Write the law's guards at a fraction of the last step into the slot's scratch space."""
+    u, w, mu_s, mu_k = between(s, v, theta)
+    call_law(
+        table[r.GUARD], s[r.TIME] - (1.0 - theta) * s[r.STEP], u, 0.0, w, 0.0, s[r.NORMAL], mu_s, mu_k,
+        s[r.EFFECTIVE_MASS], 0.0, 0.0,
+        s[r.STATE : r.STATE + MAX_STATE].ctypes.data, table[r.PARAMETERS], s[r.OUT : r.OUT + MAX_STATE].ctypes.data,
+    )  # fmt: skip
+
+
+@compiled
+def meet(table, s, v_free, compliance):
+    """Return the root v [m/s] of v - v_free + compliance F(v), by a safeguarded secant iteration."""
+    v0 = v_free
+    g0 = compliance * law_force(table, s, v0, s[r.NORMAL], 0.0)
+    v1 = v0 - g0
+    if g0 == 0.0:
+        return v0
+    g1 = v1 - v_free + compliance * law_force(table, s, v1, s[r.NORMAL], 0.0)
+    for _ in range(ITERATIONS):
+        if abs(g1) <= 1.0e-13 * abs(v1) + 1.0e-18 or g1 == g0:
+            break
+        v2 = v1 - g1 * (v1 - v0) / (g1 - g0)
+        g2 = v2 - v_free + compliance * law_force(table, s, v2, s[r.NORMAL], 0.0)
+        if g2 * g1 < 0.0:
+            v0, g0 = v1, g1
+        elif g1 * g0 < 0.0:
+            g0 *= 0.5
+        else:
+            v0, g0 = v1, g1
+        v1, g1 = v2, g2
+    return v1
+
+
+@compiled
+def remember(table, clock, s, contact, first, time, u, v, mu_s, mu_k, load):
+    """Commit (or, at first contact, start) the state of the law; count stick phases; return whether anything changed."""
+    was_stuck = s[r.STICK]
+    state = s[r.STATE : r.STATE + MAX_STATE]
+    out = s[r.OUT : r.OUT + MAX_STATE]
+    call_law(
+        table[r.INIT] if first else table[r.COMMIT], time, u, 0.0, v, 0.0, s[r.NORMAL], mu_s, mu_k,
+        s[r.EFFECTIVE_MASS], load, 0.0,
+        state.ctypes.data, table[r.PARAMETERS], out.ctypes.data,
+    )  # fmt: skip
+    changed = False
+    for i in range(MAX_STATE):
+        changed = changed or state[i] != out[i]
+        state[i] = out[i]
+    stuck = state[0] == 0.0 if table[r.HAS_MODE] == 1 else abs(v) <= clock[r.STICK_SPEED]
+    s[r.STICK] = 1.0 if stuck else 0.0
+    if stuck and was_stuck == 0.0 and not first:
+        s[r.EVENTS] += 1.0
+        if table[r.PER_EVENT] == 1:
+            coefficients(table, s, contact)
+            changed = True
+    return changed
+
+
+@compiled
+def coefficients(table, s, contact):
+    """Evaluate mu_s and mu_k of the contact at its time, displacement and number of stick phases."""
+    s[r.MU_S], s[r.MU_K] = evaluate(
+        numba.carray(as_doubles(table[r.DESCRIPTOR]), table[r.DESCRIPTOR_SIZE]), s[r.CURSOR_AT : r.CURSOR_AT + CURSOR],
+        table[r.SEED], table[r.SAMPLE], contact, s[r.TIME], s[r.DISPLACEMENT], s[r.EVENTS],
+    )  # fmt: skip
+
+
+@compiled
+def law_force(table, s, v, normal_force, load):
+    """Return the friction force [N] of the law at velocity v [m/s] and load [N]."""
+    out = s[r.OUT : r.OUT + MAX_STATE]
+    call_law(
+        table[r.FORCE_LAW], s[r.TIME], s[r.DISPLACEMENT], 0.0, v, 0.0, normal_force, s[r.MU_S], s[r.MU_K], s[r.EFFECTIVE_MASS],
+        load, 0.0, s[r.STATE : r.STATE + MAX_STATE].ctypes.data, table[r.PARAMETERS], out.ctypes.data,
+    )  # fmt: skip
+    return out[0]
