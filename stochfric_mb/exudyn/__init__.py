@@ -8,10 +8,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from stochfric_mb.exudyn.attach import FrictionContact, add_friction
+    from stochfric_mb.exudyn.attach import add_friction
+    from stochfric_mb.exudyn.contact import FrictionContact
     from stochfric_mb.exudyn.solve import solve_dynamic
 
-_HOMES = {"FrictionContact": "attach", "add_friction": "attach", "solve_dynamic": "solve"}
+_HOMES = {"FrictionContact": "contact", "add_friction": "attach", "solve_dynamic": "solve"}
 
 __all__ = ["FrictionContact", "add_friction", "solve_dynamic"]
 

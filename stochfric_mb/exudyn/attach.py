@@ -1,27 +1,22 @@
-"""Friction between two coordinate markers of any Exudyn system."""
+"""Friction between two markers of any Exudyn system: coordinates, or positions of two bodies."""
 
 from __future__ import annotations
 
-import math
+from collections.abc import Callable, Sequence
 from typing import Any
 
-import exudyn
 import numpy as np
-import numpy.typing as npt
 from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from exudyn.itemInterface import CoordinateSpringDamper
 
-from stochfric_mb.coefficients.path import CoefficientPath
-from stochfric_mb.errors import InputError, SimulationError, require_number
+from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.exudyn import stepping as at
-from stochfric_mb.exudyn.hooks import Hooks
-from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, force_expression, live_names, lower, symbolic
-from stochfric_mb.friction import Friction, as_friction
+from stochfric_mb.exudyn.contact import CURRENT, INITIAL, OUTPUT, FrictionContact
+from stochfric_mb.exudyn.normal import Normal, as_normal
+from stochfric_mb.exudyn.plane import PlaneContact
+from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, ForceExpression, force_expression, lower
+from stochfric_mb.friction import Friction
 from stochfric_mb.laws import Law
-from stochfric_mb.laws.abi import MAX_STATE, native_law
-
-_OUTPUT = exudyn.OutputVariableType
-_INITIAL = exudyn.ConfigurationType.Initial
 
 
 def add_friction(
@@ -30,188 +25,121 @@ def add_friction(
     marker1: Any,
     friction: Law | Friction,
     *,
-    normal_force: float,
+    normal_force: float | Callable[[float], float] | str | Any = None,
+    normal: Sequence[float] | None = None,
+    contact_stiffness: float | None = None,
+    contact_damping: float = 0.0,
+    touch: float = 0.0,
+    surface_velocity: float | Sequence[float] = 0.0,
+    effective_mass: float | None = None,
     seed: int = 0,
     sample: int = 0,
     contact: int = 0,
-    effective_mass: float | None = None,
-    surface_velocity: float = 0.0,
 ) -> FrictionContact:
-    """Return the contact that now acts between two coordinate markers of an Exudyn system.
+    """Return the contact that now acts between two markers of an Exudyn system.
 
-    The friction force on ``marker1``'s coordinate acts along ``surface_velocity - (velocity1 - velocity0)``; marker 0 gets
-    the opposite one. A symbolic user function evaluates the law, so that it runs without Python in every solver; the
-    state is committed after each accepted step, in the system's PostStep function, which calls the one that was there.
-    A simulation that starts again starts with fresh friction.
+    Coordinate markers: sliding along a line. The friction force on ``marker1``'s coordinate acts along
+    ``surface_velocity - (velocity1 - velocity0)``; marker 0 gets the opposite one. Position markers: sliding in the plane
+    across ``normal``, which does not turn with a body.
+
+    A symbolic user function evaluates the law, so that it runs without Python in every solver; the state is committed
+    after each accepted step, in the system's PostStep function, which calls the one that was there. A simulation that
+    starts again starts with fresh friction.
 
     Args:
         mbs: the system.
-        marker0: coordinate marker of the counter-surface.
-        marker1: coordinate marker of the body.
+        marker0: marker of the counter-surface.
+        marker1: marker of the body; both of coordinates, or both of positions.
         friction: a law, or a law with the process of its coefficients.
-        normal_force: normal force [N], > 0 (normal torque over radius for a rotation).
+        normal_force: normal force: a number [N], > 0 (normal torque over radius for a rotation); a function of time; or
+            a constraint, by its object index or its name, whose reaction it is (implicit solvers only). It goes on along
+            a line from step to step. Positions may have ``contact_stiffness`` instead.
+        normal: direction from the counter-surface to the body, for positions.
+        contact_stiffness: stiffness of a unilateral normal contact [N/m], > 0, which acts on the bodies too.
+        contact_damping: its damping [N s/m], >= 0.
+        touch: distance of the markers along the normal at which contact begins [m].
+        surface_velocity: velocity of the counter-surface on top of marker 0's [m/s]: a number for coordinates, a vector
+            for positions.
+        effective_mass: mass that the contact feels [kg], for laws that need it.
         seed: seed of the path of coefficients.
         sample: number of the sample.
         contact: number of the contact: contacts with different numbers have independent paths.
-        effective_mass: mass that the contact feels [kg], for laws that need it.
-        surface_velocity: velocity of the counter-surface on top of marker 0's [m/s].
 
     Raises:
-        InputError: a law that needs the holding force, a missing effective mass, or a number out of range.
+        InputError: a law that needs the holding force, a missing effective mass, markers of different or unknown kinds,
+            no normal force or two, or a number out of range.
     """
-    friction = as_friction(friction)
-    law = friction.law
-    if law.needs_holding_force:
-        raise InputError(
-            f"law {law.kind} needs the force that would hold the contact still, which Exudyn does not give; use "
-            "stochfric_mb.laws.substitute.elastic_substitute(law, dt, normal_force, effective_mass)"
-        )
-    if law.needs_effective_mass and effective_mass is None:
-        raise InputError(f"law {law.kind} needs effective_mass [kg], the mass that the contact feels; pass it")
-    mass = require_number("effective_mass", 1.0 if effective_mass is None else effective_mass, above=0.0, unit="kg")
-    numbers, words = _arrays(law, friction.path(seed, sample, contact))
-    numbers[at.NORMAL_FORCE] = require_number("normal_force", normal_force, above=0.0, unit="N")
-    numbers[at.MASS] = mass
-    numbers[at.SURFACE_VELOCITY] = require_number("surface_velocity", surface_velocity, unit="m/s")
-    return FrictionContact(mbs, (marker0, marker1), friction, numbers, words)
+    options: dict[str, Any] = {"effective_mass": effective_mass, "seed": seed, "sample": sample, "contact": contact}
+    kinds = {_marker_kind(mbs, m) for m in (marker0, marker1)}
+    markers = (marker0, marker1)
+    if kinds == {"coordinate"}:
+        if normal is not None or contact_stiffness is not None:
+            raise InputError("normal and contact_stiffness are for position markers; give coordinates a normal_force")
+        return CoordinateContact(mbs, markers, friction, as_normal(mbs, normal_force), surface_velocity, **options)
+    if kinds == {"position"}:
+        if (normal_force is None) == (contact_stiffness is None):
+            raise InputError("give either normal_force or contact_stiffness, which makes one")
+        given = None if normal_force is None else as_normal(mbs, normal_force)
+        penalty = None if contact_stiffness is None else (contact_stiffness, contact_damping, touch)
+        return PlaneContact(mbs, markers, friction, given, penalty, normal, surface_velocity, **options)
+    raise InputError("friction acts between two coordinate markers or between two position markers; these are of both kinds")
 
 
-class FrictionContact:
-    """A contact in an Exudyn system; made by `add_friction`."""
+class CoordinateContact(FrictionContact):
+    """Friction between two coordinates; made by `add_friction`."""
 
-    def __init__(self, mbs: Any, markers: tuple[Any, Any], friction: Friction, numbers: Any, words: Any) -> None:
-        self.friction = friction
-        """The law and the process of its coefficients."""
-        self._mbs, self._markers, self._numbers, self._words = mbs, markers, numbers, words
-        self._records = np.empty((0, at.RECORD_COLUMNS))
+    def __init__(
+        self,
+        mbs: Any,
+        markers: tuple[Any, Any],
+        friction: Law | Friction,
+        normal: Normal,
+        surface_velocity: Any,
+        **options: Any,
+    ) -> None:
+        super().__init__(mbs, friction, normal, **options)
+        self._markers = markers
         self._own = np.zeros(4)
-        self.where = int(words.ctypes.data)
-        """Address of the contact for compiled code."""
-        names = live_names(friction.law)
-        expression = force_expression(friction.law, friction.process, self.normal_force, float(numbers[at.MASS]))
-        self._symbols = {name: symbolic.Real(name, 0.0) for name in expression.names}
-        self._live = numbers[at.LIVE : at.LIVE + len(names)]
-        self._places = [(names.index(name), symbol) for name, symbol in self._symbols.items()]
-        self._given = [math.nan] * len(names)
+        self._numbers[at.SURFACE_VELOCITY] = require_number("surface_velocity", surface_velocity, unit="m/s")
+        expression = line_expression(self)
+        self._make_symbols(expression.names)
         self.object = mbs.AddObject(
             CoordinateSpringDamper(markerNumbers=list(markers), springForceUserFunction=self._function(expression.force))
         )
-        """Index of the connector that carries the force."""
-        hooks = Hooks.of(mbs)
-        hooks.contacts.append(self)
-        hooks.install(locate=False)
-        self.reset()
+        self._begin(expression.names)
 
-    @property
-    def address(self) -> tuple[int, int, int]:
-        """Address of the path of coefficients: seed, sample, contact."""
-        return tuple(int(w) for w in self._words[[at.SEED, at.SAMPLE, at.CONTACT]])  # type: ignore[return-value]
-
-    @property
-    def force(self) -> float:
-        """The friction force [N] on marker 1 that the engine applies now."""
-        return -float(self._mbs.GetObjectOutput(self.object, _OUTPUT.Force))
-
-    @property
-    def normal_force(self) -> float:
-        """The normal force [N]."""
-        return float(self._numbers[at.NORMAL_FORCE])
-
-    @property
-    def mu_s(self) -> float:
-        """The static coefficient [-] after the last step."""
-        return float(self._numbers[at.MU_S])
-
-    @property
-    def mu_k(self) -> float:
-        """The kinetic coefficient [-] after the last step."""
-        return float(self._numbers[at.MU_K])
-
-    @property
-    def stick(self) -> bool:
-        """Whether the contact sticks after the last step."""
-        return bool(self._numbers[at.STUCK])
-
-    @property
-    def state(self) -> npt.NDArray[np.float64]:
-        """The law's committed state, shape (n_state,)."""
-        return self._numbers[at.LIVE : at.LIVE + self._words[at.N_STATE]].copy()
-
-    def reset(self) -> None:
-        """Start the contact afresh, at the system's initial displacement and velocity."""
-        self._own[:] = self._initial()
-        self._bind(self._own, self._own[2:])
-        self._words[at.STARTED] = 0
-        at.proceed(0.0, self.where)
-        at.locate(0.0, self.where)  # compiled now rather than in the middle of a run
-        at.advance(0.0, self.where)
-        self._pass_on()
-        self._words[[at.STARTED, at.NEXT_RECORD]] = 0
-
-    def record(self, times: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Return an array that the next simulation fills, shape (n, 7), a row for each time.
-
-        Columns: time [s], relative displacement [m] and velocity [m/s] (counter-surface minus body), friction force [N],
-        mu_s, mu_k [-], stick (1 or 0). Rows are taken at the end of the first step that reaches each time.
-        """
-        times = np.asarray(times, dtype=np.float64)
-        self._records = np.full((len(times), at.RECORD_COLUMNS), math.nan)
-        self._records[:, 0] = times
-        self._words[[at.RECORDS, at.N_RECORDS, at.NEXT_RECORD]] = self._records.ctypes.data, len(times), 0
-        return self._records
+    def _forces(self) -> tuple[float, float]:
+        return -float(self._mbs.GetObjectOutput(self.object, OUTPUT.Force)), 0.0
 
     def connect(self) -> None:
         """Find out where the engine keeps the two coordinates (again, whenever a simulation starts)."""
-        position = self._mbs.systemData.GetODE2Coordinates(copy=False)
-        velocity = self._mbs.systemData.GetODE2Coordinates_t(copy=False)
-        indices = [_coordinate(self._mbs, m) for m in self._markers]
+        indices = [coordinate_index(self._mbs, m) for m in self._markers]
         self._own[:] = 0.0
-        self._words[at.ASK_FIRST] = int(None in indices)
-        if None in indices:
-            self._bind(self._own, self._own[2:])
-            return
-        for words, array in (((at.POSITION_0, at.POSITION_1), position), ((at.VELOCITY_0, at.VELOCITY_1), velocity)):
-            for word, index in zip(words, indices, strict=True):
-                assert index is not None
-                self._words[word] = self._own.ctypes.data if index < 0 else array.ctypes.data + array.itemsize * index
+        self._plain = None not in indices
+        self._words[at.ASK_FIRST] = int(not self._plain or self._normal.changes)
+        if self._plain:
+            bind_coordinates(self._mbs, self._words, self._own, indices)
+        else:
+            self._bind_own()
 
-    def settle(self, t: float, bits: int) -> bool:
-        """Do what `stepping.advance` asks for at time t [s]; return whether a step may have to be watched, or no more."""
-        if bits & at.FETCH:
-            if not self._words[at.STARTED] or not 0.0 < t - self._numbers[at.T] <= self._numbers[at.REACH]:
-                self.connect()
-            self._read()
-            bits = at.proceed(t, self.where)
-        if bits & at.LOST:
-            raise SimulationError(
-                f"a step that ends at t = {t:g} s crosses more than one knot of the coefficients; "
-                "use a step below their spacing"
-            )
-        if bits & at.RECORDED:
-            self._records[self._words.item(at.NEXT_RECORD) - 1, 3] = self.force
-        if bits & at.CHANGED:
-            self._pass_on()
-        return bool(bits & (at.WATCH | at.RESTARTED))
+    def _read_motion(self, configuration: Any = CURRENT) -> None:
+        """Take displacement and velocity from the connector, for markers that are no plain coordinates."""
+        if configuration == INITIAL:
+            self._own[:] = _initial(self._mbs, self._markers)
+            self._bind_own()
+        elif not self._plain:
+            self._own[1] = self._mbs.GetObjectOutput(self.object, OUTPUT.Displacement)
+            self._own[3] = self._mbs.GetObjectOutput(self.object, OUTPUT.Velocity)
 
-    def recommended_step(self, t: float) -> float:
-        """Return the step [s] that ends at the law's next switch or the next grid point, or -1 to accept this one."""
-        if self._words[at.ASK_FIRST]:
-            self._read()
-        return at.locate(t, self.where)
+    def reset(self) -> None:
+        """Start the contact afresh, at the system's initial displacement and velocity."""
+        self._own[:] = 0.0
+        self._plain = False
+        self._bind_own()
+        super().reset()
 
-    @property
-    def watched(self) -> bool:
-        """Whether the next step may contain a switch."""
-        return bool(self._words[at.WATCHING])
-
-    def prepare(self, dt: float) -> None:
-        """Start afresh with the solver's step [s], whose grid located steps keep to."""
-        self._numbers[at.STEP] = dt
-        self.reset()
-
-    def locate(self, on: bool) -> None:
-        """Say whether steps are to end where the law switches."""
-        self._words[at.LOCATING] = int(on)
+    def _bind_own(self) -> None:
+        bind_own(self._words, self._own)
 
     def _function(self, force: Any) -> Any:
         """Return the symbolic user function: the connector's force is what pulls marker 1 back, minus the friction."""
@@ -229,54 +157,31 @@ class FrictionContact:
             itemTypeName="ObjectConnectorCoordinateSpringDamper",
         )
 
-    def _pass_on(self) -> None:
-        """Set those of the engine's parameters that have changed."""
-        wanted, given = self._live.tolist(), self._given
-        if wanted == given:
-            return
-        for place, symbol in self._places:
-            if wanted[place] != given[place]:
-                symbol.SetValue(wanted[place])
-        self._given = wanted
 
-    def _read(self) -> None:
-        """Take displacement and velocity from the connector, for markers that are no plain coordinates."""
-        if not self._words[at.ASK_FIRST]:
-            return
-        self._own[1] = self._mbs.GetObjectOutput(self.object, _OUTPUT.Displacement)
-        self._own[3] = self._mbs.GetObjectOutput(self.object, _OUTPUT.Velocity)
-
-    def _bind(self, position: Any, velocity: Any) -> None:
-        place, size = self._words, position.itemsize
-        place[at.POSITION_0], place[at.POSITION_1] = position.ctypes.data, position.ctypes.data + size
-        place[at.VELOCITY_0], place[at.VELOCITY_1] = velocity.ctypes.data, velocity.ctypes.data + size
-
-    def _initial(self) -> list[float]:
-        """Return initial positions and velocities of the two markers, zero before the system is assembled."""
-        data = self._mbs.systemData
-        position, velocity = data.GetODE2Coordinates(_INITIAL), data.GetODE2Coordinates_t(_INITIAL)
-        if len(position) == 0:
-            return [0.0] * 4
-        indices = [_coordinate(self._mbs, m) for m in self._markers]
-        return [float(a[i]) if i is not None and i >= 0 else 0.0 for a in (position, velocity) for i in indices]
+def line_expression(contact: FrictionContact) -> ForceExpression:
+    """Return the force of a contact that slides along a line."""
+    normal, friction = contact._normal, contact.friction
+    n = None if normal.changes else normal.at(0.0)
+    return force_expression(friction.law, friction.process, n, float(contact._numbers[at.MASS]))
 
 
-def _arrays(law: Law, path: CoefficientPath) -> tuple[Any, Any]:
-    """Return the two arrays of a contact, with law and path in place."""
-    parameters, native = law.parameters(), native_law(law.kind)
-    numbers, words = at.blank(len(parameters), len(path.descriptor))
-    numbers[at.LAW : at.LAW + len(parameters)] = parameters
-    numbers[at.LAW + len(parameters) :] = path.descriptor
-    numbers[at.HAS_MODE] = float(law.state_names[:1] == ("mode",))
-    numbers[at.STICK_SPEED] = law.stick_speed
-    words[[at.COMMIT, at.GUARD, at.INIT]] = native.commit, native.guards, native.init
-    words[[at.N_STATE, at.N_LAW]] = native.n_state, len(parameters)
-    words[[at.SEED, at.SAMPLE, at.CONTACT]] = path.seed, path.sample, path.contact
-    assert native.n_state <= MAX_STATE
-    return numbers, words
+def bind_own(words: Any, own: Any) -> None:
+    """Let a contact read positions and velocities of its markers from an array of its own, shape (4,)."""
+    start = own.ctypes.data
+    words[[at.POSITION_0, at.POSITION_1, at.VELOCITY_0, at.VELOCITY_1]] = [start + own.itemsize * i for i in range(4)]
 
 
-def _coordinate(mbs: Any, marker: Any) -> int | None:
+def bind_coordinates(mbs: Any, words: Any, zero: Any, indices: Sequence[int | None]) -> None:
+    """Let a contact read positions and velocities of its markers where the engine keeps them; -1: ground."""
+    position = mbs.systemData.GetODE2Coordinates(copy=False)
+    velocity = mbs.systemData.GetODE2Coordinates_t(copy=False)
+    for places, array in (((at.POSITION_0, at.POSITION_1), position), ((at.VELOCITY_0, at.VELOCITY_1), velocity)):
+        for place, index in zip(places, indices, strict=True):
+            assert index is not None
+            words[place] = zero.ctypes.data if index < 0 else array.ctypes.data + array.itemsize * index
+
+
+def coordinate_index(mbs: Any, marker: Any) -> int | None:
     """Return the place of a marker's coordinate among the system's, -1 on ground, None if it is no plain coordinate."""
     entry = mbs.GetMarker(marker)
     if entry["markerType"] != "NodeCoordinate":
@@ -284,3 +189,25 @@ def _coordinate(mbs: Any, marker: Any) -> int | None:
     if "Ground" in mbs.GetNode(entry["nodeNumber"])["nodeType"]:
         return -1
     return int(mbs.systemData.GetNodeLTGODE2(entry["nodeNumber"])[entry["coordinate"]])
+
+
+def _initial(mbs: Any, markers: Sequence[Any]) -> list[float]:
+    """Return initial positions and velocities of two coordinate markers, 0 where they are no plain coordinates."""
+    data = mbs.systemData
+    indices = [coordinate_index(mbs, m) for m in markers]
+    both = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
+    return [float(a[i]) if i is not None and i >= 0 else 0.0 for a in both for i in indices]
+
+
+def _marker_kind(mbs: Any, marker: Any) -> str:
+    """Return "coordinate" or "position".
+
+    Raises:
+        InputError: a marker of another kind.
+    """
+    kind = mbs.GetMarker(marker)["markerType"]
+    if kind.endswith("Coordinate"):
+        return "coordinate"
+    if kind in ("BodyPosition", "BodyRigid", "NodePosition", "NodeRigid", "SuperElementPosition", "SuperElementRigid"):
+        return "position"
+    raise InputError(f"marker {int(marker)} is a {kind}; friction acts between markers of coordinates or of positions")

@@ -13,7 +13,8 @@ from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from exudyn.itemInterface import CoordinateSpringDamper, LoadCoordinate, MarkerNodeCoordinate, Mass1D, Node1D, NodePointGround
 
 from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_number
-from stochfric_mb.exudyn.attach import FrictionContact, add_friction
+from stochfric_mb.exudyn.attach import add_friction
+from stochfric_mb.exudyn.contact import FrictionContact
 from stochfric_mb.exudyn.hooks import installed
 from stochfric_mb.exudyn.solve import EXPLICIT, silent_settings, solve_dynamic
 from stochfric_mb.exudyn.symbolic import symbolic

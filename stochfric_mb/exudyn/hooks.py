@@ -36,6 +36,20 @@ class Contact(Protocol):
         """Say whether steps are to end where the law switches."""
         ...
 
+    @property
+    def needs_reactions(self) -> bool:
+        """Whether the normal force is a reaction, which explicit solvers do not compute."""
+        ...
+
+    @property
+    def unsure(self) -> bool:
+        """Whether the step to come has a normal force that is only guessed."""
+        ...
+
+    def refine(self) -> bool:
+        """Take the normal force of the trial step where it was guessed; return whether the step must be repeated."""
+        ...
+
     def recommended_step(self, t: float) -> float:
         """Return the step [s] to repeat the one that ends at t with, or -1 to accept it."""
         ...
@@ -78,7 +92,8 @@ class Hooks:
     def watch(self) -> None:
         """Put PostNewton in place while it is needed, and take it away otherwise: it costs as much as a step."""
         other = self._other["PostNewton"]
-        if self._locating and (other is not None or any(c.watched for c in self.contacts)):
+        needed = self._locating and (other is not None or any(c.watched for c in self.contacts))
+        if needed or any(c.unsure for c in self.contacts):
             self._mbs.SetPostNewtonUserFunction(self._own["PostNewton"])
         else:
             self._mbs.SetPostNewtonUserFunction(other or 0)
@@ -102,7 +117,9 @@ class Hooks:
         contacts, other = self.contacts, self._other["PostNewton"]
 
         def post_newton(mbs: Any, t: float) -> list[float]:
-            steps = [step for contact in contacts if (step := contact.recommended_step(t)) > 0.0]
+            if any([contact.refine() for contact in contacts]):
+                return [SWITCH_ERROR, -1.0]
+            steps = [step for contact in contacts if (step := contact.recommended_step(t)) > 0.0] if self._locating else []
             error, step = (0.0, -1.0) if other is None else other(mbs, t)
             if not steps:
                 return [error, step]

@@ -7,8 +7,9 @@ from typing import Any
 import exudyn
 import numpy as np
 
-from stochfric_mb.errors import SimulationError, require_name
+from stochfric_mb.errors import InputError, SimulationError, require_name
 from stochfric_mb.exudyn.hooks import SWITCH_ERROR, Hooks
+from stochfric_mb.exudyn.normal import NO_REACTION
 
 _TYPE = exudyn.DynamicSolverType
 SOLVERS = {
@@ -47,6 +48,7 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
             fixed steps again, so that output times are met exactly.
 
     Raises:
+        InputError: a normal force is read from a constraint, and the solver is explicit.
         SimulationError: the solver gave up, or the motion is not finite.
         Exception: what a user's callback raised.
     """
@@ -54,6 +56,8 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     integration = settings.timeIntegration
     dt = (integration.endTime - integration.startTime) / integration.numberOfSteps
     hooks = Hooks.of(mbs)
+    if solver in EXPLICIT and any(contact.needs_reactions for contact in hooks.contacts):
+        raise InputError(NO_REACTION)
     for contact in hooks.contacts:
         contact.prepare(dt)
     hooks.install(locate=locate)

@@ -20,20 +20,33 @@ from stochfric_mb.laws.abi import MAX_STATE, call_law
 from stochfric_mb.laws.contract import GUARDS
 
 # entries of ``numbers``
-T, U, V = 0, 1, 2
-"""Time [s], relative displacement [m] and velocity [m/s] at the last accepted step."""
-EVENTS, STUCK, MU_S, MU_K = 3, 4, 5, 6
+T, U, V, U_2, V_2 = 0, 1, 2, 3, 4
+"""Time [s], relative displacement [m] and velocity [m/s], in both directions, at the last accepted step."""
+EVENTS, STUCK, MU_S, MU_K = 5, 6, 7, 8
 """Stick phases begun so far, whether the contact sticks, and its coefficients, at the last accepted step."""
-NORMAL_FORCE, MASS, SURFACE_VELOCITY, STICK_SPEED, HAS_MODE = 7, 8, 9, 10, 11
-STEP, START = 12, 13
+NORMAL_FORCE, MASS, STICK_SPEED, HAS_MODE = 9, 10, 11, 12
+"""Normal force [N] at the last accepted step, mass that the contact feels [kg], and two properties of the law."""
+STEP, START = 13, 14
 """The solver's step [s] and start time [s], which span the grid that steps keep to."""
-WINDOW = 14
+WINDOW = 15
 """Knot in the middle of the engine's window on the path."""
-SAFE, SAFE_WIDTH = 15, 16
+SAFE, SAFE_WIDTH = 16, 17
 """Middle and half width of the stretch, of time or displacement, in which the window stays."""
-REACH = 17
+REACH = 18
 """Longest time to the next step [s] after which the engine's coordinates are taken to be where they were."""
-NEW = 18
+SURFACE_VELOCITY, SURFACE_VELOCITY_2 = 19, 20
+"""Velocity of the counter-surface on top of marker 0's, in both directions [m/s]."""
+RADIUS = 21
+"""Length by which a rotation is multiplied to a sliding distance [m/rad]; 1 for displacements."""
+GIVEN_NORMAL, GIVEN_RATE = 22, 23
+"""Normal force [N] now, and its expected rate of change [N/s] in the next step, where something else sets it."""
+STIFFNESS, DAMPING, TOUCH = 24, 25, 26
+"""Normal contact: stiffness [N/m], damping [N s/m], and distance along the normal at which it begins [m]."""
+AXIS_1, AXIS_2, NORMAL = 27, 30, 33
+"""Directions of the tangent plane and its normal, from the counter-surface to the body."""
+DISTANCE, RATE = 36, 39
+"""Position [m] and velocity [m/s] of marker 1 relative to marker 0."""
+NEW = 42
 """Scratch for a law's output."""
 GUARDS_BEFORE = NEW + 8
 """The law's guards at the last accepted step."""
@@ -41,8 +54,8 @@ CURSOR_AT = GUARDS_BEFORE + 8
 WINDOW_CURSOR_AT = CURSOR_AT + CURSOR
 """Cursors on the path: of the coefficients now, and of the engine's window."""
 LIVE = WINDOW_CURSOR_AT + CURSOR
-"""State, pair and segment, in the order of `symbolic.live_names`, as the engine should have them."""
-N_LIVE_MAX = MAX_STATE + 2 + 9
+"""State, pair, line of the normal force and segment, in the order of `symbolic.live_names`, as the engine should have them."""
+N_LIVE_MAX = MAX_STATE + 2 + 2 + 9
 LAW = LIVE + N_LIVE_MAX
 """The law's parameter vector, then the path's descriptor."""
 
@@ -56,12 +69,14 @@ POSITION_0, POSITION_1, VELOCITY_0, VELOCITY_1 = 5, 6, 7, 8
 N_NUMBERS, N_STATE, N_LAW, SEED, SAMPLE, CONTACT, N_RECORDS, NEXT_RECORD = 9, 10, 11, 12, 13, 14, 15, 16
 STARTED, ASK_FIRST, LOCATING, WATCHING = 17, 18, 19, 20
 """Whether the contact has begun, its coordinates must be fetched first, steps are located, and one may switch soon."""
-N_WORDS = 21
+PLANE, PENALTY, FORCE = 21, 22, 23
+"""Whether it slides in a plane, whether the normal force follows from the penetration, address of the law's force."""
+N_WORDS = 24
 
 NOTHING, CHANGED, RECORDED, LOST, RESTARTED, FETCH, WATCH = 0, 1, 2, 4, 8, 16, 32
 """Bits of what `advance` returns."""
-RECORD_COLUMNS = 7
-"""time, displacement, velocity, friction force, mu_s, mu_k, stick."""
+RECORD_COLUMNS = 11
+"""time, displacement, velocity, friction force, mu_s, mu_k, stick, normal force; second displacement, velocity, force."""
 
 # event location, in parts of the step
 TOLERANCE, BEYOND, SHORTEST, GRID = 1.0e-3, 1.0e-4, 2.0e-4, 5.0e-5
@@ -104,11 +119,40 @@ def words_from(typingctx, address):
 
 
 @compiled
+def dot(numbers, a, b):
+    """Return the product of the vectors at ``numbers[a:]`` and ``numbers[b:]``."""
+    return numbers[a] * numbers[b] + numbers[a + 1] * numbers[b + 1] + numbers[a + 2] * numbers[b + 2]
+
+
+@compiled
 def kinematics(t, numbers, words):
-    """Return relative displacement [m] and velocity [m/s], counter-surface minus body, from the engine's coordinates."""
+    """Return relative displacements [m] and velocities [m/s], counter-surface minus body, from the engine's coordinates."""
+    w = numbers[SURFACE_VELOCITY]
+    if words[PLANE] == 1:
+        w_2 = numbers[SURFACE_VELOCITY_2]
+        ux, uy = w * t - dot(numbers, AXIS_1, DISTANCE), w_2 * t - dot(numbers, AXIS_2, DISTANCE)
+        return ux, uy, w - dot(numbers, AXIS_1, RATE), w_2 - dot(numbers, AXIS_2, RATE)
     d = number_at(words[POSITION_1]) - number_at(words[POSITION_0])  # pyright: ignore[reportCallIssue]
-    w = number_at(words[VELOCITY_1]) - number_at(words[VELOCITY_0])  # pyright: ignore[reportCallIssue]
-    return numbers[SURFACE_VELOCITY] * t - d, numbers[SURFACE_VELOCITY] - w
+    v = number_at(words[VELOCITY_1]) - number_at(words[VELOCITY_0])  # pyright: ignore[reportCallIssue]
+    return w * t - numbers[RADIUS] * d, 0.0, w - numbers[RADIUS] * v, 0.0
+
+
+@compiled
+def normal_force_at(t, numbers, words):
+    """Return the normal force [N] that the engine uses at time t: penalty, or the line on from the last step."""
+    if words[PENALTY] == 1:
+        return penalty(numbers)
+    line = LIVE + words[N_STATE] + 2
+    return max(numbers[line] + numbers[line + 1] * t, 0.0)
+
+
+@compiled
+def penalty(numbers):
+    """Return the unilateral normal force [N] of the penetration, k p + c dp/dt while it is positive and p > 0."""
+    depth = numbers[TOUCH] - dot(numbers, NORMAL, DISTANCE)
+    if depth <= 0.0:
+        return 0.0
+    return max(numbers[STIFFNESS] * depth - numbers[DAMPING] * dot(numbers, NORMAL, RATE), 0.0)
 
 
 @compiled
@@ -121,12 +165,13 @@ def pair_at(t, u, numbers, words):
 
 
 @compiled
-def ask(address, t, u, v, mu_s, mu_k, numbers, into):
+def ask(address, t, motion, n, pair, numbers, into):
     """Call a function of the law with the committed state; its output goes to ``numbers[into:]``."""
     at = numbers.ctypes.data
     state, p, out = at + 8 * LIVE, at + 8 * LAW, at + 8 * into
-    n, m = numbers[NORMAL_FORCE], numbers[MASS]
-    call_law(address, t, u, 0.0, v, 0.0, n, mu_s, mu_k, m, 0.0, 0.0, state, p, out)  # pyright: ignore[reportCallIssue]
+    ux, uy, vx, vy = motion
+    m = numbers[MASS]
+    call_law(address, t, ux, uy, vx, vy, n, pair[0], pair[1], m, 0.0, 0.0, state, p, out)  # pyright: ignore[reportCallIssue]
 
 
 @compiled
@@ -157,65 +202,83 @@ def proceed(t, address):
 
 @compiled
 def _proceed(t, numbers, words):
-    u, v = kinematics(t, numbers, words)
+    motion = kinematics(t, numbers, words)
+    n = penalty(numbers) if words[PENALTY] == 1 else max(numbers[GIVEN_NORMAL], 0.0)
     bits = NOTHING
-    if words[STARTED] == 0 or t < numbers[T] or (t == numbers[T] and (u != numbers[U] or v != numbers[V])):
-        restart(t, u, v, numbers, words)
+    if words[STARTED] == 0 or t < numbers[T] or (t == numbers[T] and _moved(motion, numbers)):
+        restart(t, motion, n, numbers, words)
         numbers[START] = t
         bits = CHANGED | RESTARTED
     elif t > numbers[T]:
-        bits = _commit(t, u, v, numbers, words)
+        bits = _commit(t, motion, n, numbers, words)
     due = words[NEXT_RECORD]
     if due < words[N_RECORDS]:
         records = carray(numbers_from(words[RECORDS]), (words[N_RECORDS], RECORD_COLUMNS))  # pyright: ignore[reportCallIssue]
         if t >= records[due, 0] - max(GRID * numbers[STEP], ROUNDING):
             records[due, 0] = canonical_time(t, 0.5 * numbers[STEP])
-            records[due, 1], records[due, 2] = u, v
+            records[due, 1], records[due, 8], records[due, 2], records[due, 9] = motion
             records[due, 4], records[due, 5], records[due, 6] = numbers[MU_S], numbers[MU_K], numbers[STUCK]
+            records[due, 7] = n
             words[NEXT_RECORD] = due + 1
             bits |= RECORDED
     return bits
 
 
 @compiled
-def restart(t, u, v, numbers, words):
-    """Start the contact afresh at time t with relative displacement u and velocity v."""
+def _moved(motion, numbers):
+    ux, uy, vx, vy = motion
+    return ux != numbers[U] or uy != numbers[U_2] or vx != numbers[V] or vy != numbers[V_2]
+
+
+@compiled
+def _keep(t, motion, n, numbers):
+    """Remember the accepted step."""
+    numbers[T], numbers[NORMAL_FORCE] = t, n
+    numbers[U], numbers[U_2], numbers[V], numbers[V_2] = motion
+
+
+@compiled
+def restart(t, motion, n, numbers, words):
+    """Start the contact afresh at time t."""
     numbers[EVENTS] = 0.0
-    numbers[T], numbers[U], numbers[V] = t, u, v
+    _keep(t, motion, n, numbers)
     numbers[REACH] = 1.5 * numbers[STEP]
     words[STARTED] = 1
-    mu_s, mu_k = pair_at(t, u, numbers, words)
-    _law_gives(words[INIT], t, u, v, mu_s, mu_k, numbers, words)
-    numbers[STUCK] = _sticks(v, numbers)
-    _set_pair(mu_s, mu_k, numbers, words)
+    pair = pair_at(t, motion[0], numbers, words)
+    _law_gives(words[INIT], t, motion, n, pair, numbers, words)
+    numbers[STUCK] = _sticks(motion, n, numbers)
+    _set_pair(pair, numbers, words)
+    _set_normal_line(t, numbers, words)
     numbers[WINDOW], numbers[SAFE_WIDTH] = math.nan, 0.0
-    _move_window(t, u, numbers, words)
-    ask(words[GUARD], t, u, v, mu_s, mu_k, numbers, GUARDS_BEFORE)
+    _move_window(t, motion[0], numbers, words)
+    ask(words[GUARD], t, motion, n, pair, numbers, GUARDS_BEFORE)
     words[WATCHING] = 1
 
 
 @compiled
-def _commit(t, u, v, numbers, words):
-    mu_s, mu_k = pair_at(t, u, numbers, words)
+def _commit(t, motion, n, numbers, words):
+    pair = pair_at(t, motion[0], numbers, words)
     mode = numbers[LIVE]
-    bits = _law_gives(words[COMMIT], t, u, v, mu_s, mu_k, numbers, words)
+    function = words[COMMIT] if n > 0.0 else words[INIT]  # without normal force the contact begins again
+    bits = _law_gives(function, t, motion, n, pair, numbers, words)
     numbers[REACH] = 1.5 * max(numbers[STEP], t - numbers[T])
-    numbers[T], numbers[U], numbers[V] = t, u, v
-    stuck = _sticks(v, numbers)
+    _keep(t, motion, n, numbers)
+    stuck = _sticks(motion, n, numbers)
     if stuck > numbers[STUCK]:
         numbers[EVENTS] += 1.0
-        mu_s, mu_k = pair_at(t, u, numbers, words)
+        pair = pair_at(t, motion[0], numbers, words)
     numbers[STUCK] = stuck
     if words[LOCATING] == 1:
         switched = numbers[HAS_MODE] == 1.0 and numbers[LIVE] != mode
-        bits |= _watch(t, u, v, mu_s, mu_k, switched, numbers, words)
-    return bits | _set_pair(mu_s, mu_k, numbers, words) | _move_window(t, u, numbers, words)
+        bits |= _watch(t, motion, n, pair, switched, numbers, words)
+    bits |= _set_pair(pair, numbers, words) | _set_normal_line(t, numbers, words)
+    return bits | _move_window(t, motion[0], numbers, words)
 
 
 @compiled
-def _law_gives(address, t, u, v, mu_s, mu_k, numbers, words):
+def _law_gives(address, t, motion, n, pair, numbers, words):
     """Take the state that ``init`` or ``commit`` gives; return CHANGED if it differs."""
-    ask(address, t, u, v, mu_s, mu_k, numbers, NEW)
+    ask(address, t, motion, n, pair, numbers, NEW)
     bits = NOTHING
     for i in range(words[N_STATE]):
         if numbers[LIVE + i] != numbers[NEW + i]:
@@ -225,11 +288,11 @@ def _law_gives(address, t, u, v, mu_s, mu_k, numbers, words):
 
 
 @compiled
-def _watch(t, u, v, mu_s, mu_k, switched, numbers, words):
+def _watch(t, motion, n, pair, switched, numbers, words):
     """Find out whether the next step may contain a switch or must return to the grid; return WATCH if that is news."""
-    ask(words[GUARD], t, u, v, mu_s, mu_k, numbers, NEW)
-    n = (t - numbers[START]) / numbers[STEP]
-    watch = switched or abs(n - math.floor(n + 0.5)) > GRID
+    ask(words[GUARD], t, motion, n, pair, numbers, NEW)
+    steps = (t - numbers[START]) / numbers[STEP]
+    watch = switched or abs(steps - math.floor(steps + 0.5)) > GRID
     for i in range(GUARDS):
         new = numbers[NEW + i]
         if new > 0.0 and new < STEPS_AHEAD * abs(new - numbers[GUARDS_BEFORE + i]):
@@ -242,20 +305,34 @@ def _watch(t, u, v, mu_s, mu_k, switched, numbers, words):
 
 
 @compiled
-def _sticks(v, numbers):
+def _sticks(motion, n, numbers):
+    if n <= 0.0:
+        return 0.0
     if numbers[HAS_MODE] == 1.0:
         return 1.0 if numbers[LIVE] == 0.0 else 0.0
-    return 1.0 if abs(v) <= numbers[STICK_SPEED] else 0.0
+    return 1.0 if math.hypot(motion[2], motion[3]) <= numbers[STICK_SPEED] else 0.0
 
 
 @compiled
-def _set_pair(mu_s, mu_k, numbers, words):
+def _set_pair(pair, numbers, words):
     """Take the coefficients; return CHANGED if the engine's own pair differs (a path along events only)."""
-    numbers[MU_S], numbers[MU_K] = mu_s, mu_k
-    pair = LIVE + words[N_STATE]
-    if numbers[LAW + words[N_LAW] + 1] != EVENT or (numbers[pair] == mu_s and numbers[pair + 1] == mu_k):
+    numbers[MU_S], numbers[MU_K] = pair
+    at = LIVE + words[N_STATE]
+    if numbers[LAW + words[N_LAW] + 1] != EVENT or (numbers[at] == pair[0] and numbers[at + 1] == pair[1]):
         return NOTHING
-    numbers[pair], numbers[pair + 1] = mu_s, mu_k
+    numbers[at], numbers[at + 1] = pair
+    return CHANGED
+
+
+@compiled
+def _set_normal_line(t, numbers, words):
+    """Put the engine's normal force on the line from now on; return CHANGED if it is another one."""
+    line = LIVE + words[N_STATE] + 2
+    rate = numbers[GIVEN_RATE]
+    start = numbers[GIVEN_NORMAL] - rate * t
+    if numbers[line] == start and numbers[line + 1] == rate:
+        return NOTHING
+    numbers[line], numbers[line + 1] = start, rate
     return CHANGED
 
 
@@ -288,7 +365,7 @@ def _move_window(t, u, numbers, words):
     seek(descriptor, cursor, words[SEED], words[SAMPLE], words[CONTACT], middle - 1.0)
     left_s, left_k, mid_s, mid_k = cursor[2], cursor[3], cursor[4], cursor[5]
     seek(descriptor, cursor, words[SEED], words[SAMPLE], words[CONTACT], middle)
-    segment = numbers[LIVE + words[N_STATE] + 2 :]
+    segment = numbers[LIVE + words[N_STATE] + 4 :]
     segment[0] = middle * spacing
     segment[1], segment[2] = left_s, left_k
     segment[3], segment[4] = (mid_s - left_s) / spacing, (mid_k - left_k) / spacing
@@ -313,14 +390,14 @@ def locate(t, address):
     grid = numbers[START] + n * step
     if t > grid + GRID * step:
         return grid - t_0
-    u, v = kinematics(t, numbers, words)
-    mu_s, mu_k = pair_at(t, u, numbers, words)
-    ask(words[GUARD], t, u, v, mu_s, mu_k, numbers, NEW)
+    motion, normal_force = kinematics(t, numbers, words), normal_force_at(t, numbers, words)
+    pair = pair_at(t, motion[0], numbers, words)
+    ask(words[GUARD], t, motion, normal_force, pair, numbers, NEW)
     first = 2.0
     for i in range(GUARDS):
         if numbers[GUARDS_BEFORE + i] > 0.0 and numbers[NEW + i] <= 0.0:
-            first = min(first, _crossing(i, t, u, v, numbers, words))
-            ask(words[GUARD], t, u, v, mu_s, mu_k, numbers, NEW)
+            first = min(first, _crossing(i, t, motion, normal_force, numbers, words))
+            ask(words[GUARD], t, motion, normal_force, pair, numbers, NEW)
     h = t - t_0
     if first > 1.0 or (1.0 - first) * h <= TOLERANCE * step or h <= 2.0 * SHORTEST * step:
         return -1.0
@@ -328,24 +405,48 @@ def locate(t, address):
 
 
 @compiled
-def _crossing(i, t, u, v, numbers, words):
+def _crossing(i, t, motion, normal_force, numbers, words):
     """Return where in the step, from 0 to 1, guard ``i`` turns, by bisection on the cubic through both ends."""
-    t_0, u_0, v_0 = numbers[T], numbers[U], numbers[V]
-    h = t - t_0
+    t_0, h = numbers[T], t - numbers[T]
+    ux, uy, vx, vy = motion
     low, high = 0.0, 1.0
     for _ in range(30):
         s = 0.5 * (low + high)
-        a, b = u - u_0 - h * v_0, h * (v - v_0)
-        # u = u_0 + h v_0 s + (3 a - b) s^2 + (b - 2 a) s^3
-        u_s = u_0 + h * v_0 * s + (3.0 * a - b) * s * s + (b - 2.0 * a) * s**3
-        v_s = v_0 + (2.0 * (3.0 * a - b) * s + 3.0 * (b - 2.0 * a) * s * s) / h
-        mu_s, mu_k = pair_at(t_0 + s * h, u_s, numbers, words)
-        ask(words[GUARD], t_0 + s * h, u_s, v_s, mu_s, mu_k, numbers, NEW)
+        x, v_x = _between(s, h, numbers[U], numbers[V], ux, vx)
+        y, v_y = _between(s, h, numbers[U_2], numbers[V_2], uy, vy)
+        n = numbers[NORMAL_FORCE] + s * (normal_force - numbers[NORMAL_FORCE])
+        pair = pair_at(t_0 + s * h, x, numbers, words)
+        ask(words[GUARD], t_0 + s * h, (x, y, v_x, v_y), n, pair, numbers, NEW)
         if numbers[NEW + i] > 0.0:
             low = s
         else:
             high = s
     return high
+
+
+@compiled
+def _between(s, h, u_0, v_0, u, v):
+    """Return u and v at the part s of a step h, u = u_0 + h v_0 s + (3 a - b) s^2 + (b - 2 a) s^3."""
+    a, b = u - u_0 - h * v_0, h * (v - v_0)
+    u_s = u_0 + h * v_0 * s + (3.0 * a - b) * s * s + (b - 2.0 * a) * s**3
+    return u_s, v_0 + (2.0 * (3.0 * a - b) * s + 3.0 * (b - 2.0 * a) * s * s) / h
+
+
+@compiled
+def force_now(t, address, into):
+    """Put the friction force [N] at time t at the doubles ``into``: its two directions and the normal force.
+
+    Coordinates must be in place; nothing is committed.
+    """
+    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    out = carray(numbers_from(into), (3,))  # pyright: ignore[reportCallIssue]
+    out[0], out[1] = 0.0, 0.0
+    motion, out[2] = kinematics(t, numbers, words), normal_force_at(t, numbers, words)
+    if out[2] > 0.0:
+        pair = pair_at(t, motion[0], numbers, words)
+        ask(words[FORCE], t, motion, out[2], pair, numbers, NEW)
+        out[0], out[1] = numbers[NEW], numbers[NEW + 1]
 
 
 def blank(n_law: int, n_path: int) -> tuple[np.ndarray, np.ndarray]:

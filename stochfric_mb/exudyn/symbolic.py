@@ -17,19 +17,25 @@ from stochfric_mb.laws import Law
 
 symbolic: Any = exudyn.symbolic  # pyright: ignore[reportAttributeAccessIssue]  # a compiled submodule
 """Exudyn's symbols."""
-TIME, DISPLACEMENT, VELOCITY = "t", "u", "v"
+TIME, DISPLACEMENT, VELOCITY, DISPLACEMENT_2, VELOCITY_2 = "t", "u", "v", "u_2", "v_2"
 """Variables of the force: time [s], relative displacement [m] and velocity [m/s], counter-surface minus body."""
 SEGMENT = ("knot", "start_s", "start_k", "before_s", "before_k", "after_s", "after_k", "end_s", "end_k")
 """Variables of a path of coefficients around one of its knots: its place, the pairs before, and slopes on each side."""
 PAIR = ("mu_s", "mu_k")
+NORMAL_LINE = ("normal_now", "normal_rate")
+"""Variables of a normal force that changes, normal_now + normal_rate t, never negative."""
+NORMAL_FORCE = "normal_force"
+"""Variable that stands for the normal force in the force in a plane."""
 
 
 @dataclasses.dataclass(frozen=True)
 class ForceExpression:
-    """A law's force in one-dimensional sliding."""
+    """A law's force as expressions."""
 
     force: Value
     """The friction force on the body [N], of t, u, v, the state's entries and the coefficients' variables."""
+    force_2: Value
+    """The same along the second direction of the tangent plane; 0 for sliding along a line."""
     names: tuple[str, ...]
     """The variables that the engine must be given after each step, in the order of `live_names`."""
 
@@ -40,28 +46,51 @@ def state_names(law: Law) -> tuple[str, ...]:
 
 
 def live_names(law: Law) -> tuple[str, ...]:
-    """Return the names of all numbers that can change from step to step: state, coefficients, their segments."""
-    return state_names(law) + PAIR + SEGMENT
+    """Return the names of all numbers that can change from step to step: state, coefficients, normal force, segments."""
+    return state_names(law) + PAIR + NORMAL_LINE + SEGMENT
 
 
 @functools.lru_cache(maxsize=64)
-def force_expression(law: Law, process: Process | None, normal_force: float, effective_mass: float) -> ForceExpression:
+def force_expression(law: Law, process: Process | None, normal_force: float | None, effective_mass: float) -> ForceExpression:
     """Return the friction force [N] of one-dimensional sliding as an expression.
 
     Args:
         law: a law that does without the holding force.
         process: how the coefficients vary, None if they do not.
-        normal_force: normal force [N].
+        normal_force: normal force [N], None for one that changes: then it is a line in time given after each step.
         effective_mass: mass that the contact feels [kg].
 
     Raises:
         InputError: the law's source does more than an expression can hold.
     """
-    zero = zero_entries(law, normal_force, effective_mass)
+    zero = zero_entries(law, 1.0 if normal_force is None else normal_force, effective_mass)
     state = [0.0 if i in zero else variable(name) for i, name in enumerate(state_names(law))]
-    force, _ = _call(law, "force", normal_force, effective_mass, coefficients(law, process), state)
-    used = variables(force)
-    return ForceExpression(force, tuple(n for n in live_names(law) if n in used))
+    n = normal_line() if normal_force is None else normal_force
+    force, _ = _call(law, "force", n, effective_mass, coefficients(law, process), state)
+    return ForceExpression(force, 0.0, _names(law, variables(force)))
+
+
+@functools.lru_cache(maxsize=64)
+def plane_force_expression(law: Law, process: Process | None, effective_mass: float) -> ForceExpression:
+    """Return the friction force [N] in a plane, of both displacements and velocities and of the variable `NORMAL_FORCE`.
+
+    Raises:
+        InputError: as `force_expression`.
+    """
+    state = [variable(name) for name in state_names(law)]
+    n, second = variable(NORMAL_FORCE), (variable(DISPLACEMENT_2), variable(VELOCITY_2))
+    pair = _call(law, "force", n, effective_mass, coefficients(law, process), state, second)
+    return ForceExpression(*pair, _names(law, variables(pair[0]) | variables(pair[1])))
+
+
+def normal_line() -> Value:
+    """Return a normal force that changes along a line in time after each step and is never negative."""
+    now, rate = map(variable, NORMAL_LINE)
+    return apply("max", apply("add", now, apply("mul", rate, variable(TIME))), 0.0)
+
+
+def _names(law: Law, used: set[str]) -> tuple[str, ...]:
+    return tuple(n for n in live_names(law) if n in used)
 
 
 def zero_entries(law: Law, normal_force: float, effective_mass: float) -> frozenset[int]:
@@ -117,10 +146,12 @@ def lower(expression: Value, values: Mapping[str, Any]) -> Any:
     return write(expression)
 
 
-def _call(law: Law, name: str, normal_force: float, effective_mass: float, pair: Any, state: Any = None) -> Any:
+def _call(
+    law: Law, name: str, normal_force: Value, effective_mass: float, pair: Any, state: Any = None, second: Any = (0.0, 0.0)
+) -> Any:
     function = getattr(law.functions(), name)
     u, v = variable(DISPLACEMENT), variable(VELOCITY)
-    before = (variable(TIME), u, 0.0, v, 0.0, normal_force)
+    before = (variable(TIME), u, second[0], v, second[1], normal_force)
     after = (*pair, effective_mass, 0.0, 0.0, law.parameters().tolist())
     return trace(function, *before, *after) if state is None else trace(function, *before, state, *after)
 

@@ -1,0 +1,278 @@
+"""What all friction contacts in an Exudyn system share: their memory, and what happens to it around the steps."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import exudyn
+import numpy as np
+import numpy.typing as npt
+from exudyn.itemInterface import SensorUserFunction
+
+from stochfric_mb.coefficients.path import CoefficientPath
+from stochfric_mb.errors import InputError, SimulationError, require_number
+from stochfric_mb.exudyn import stepping as at
+from stochfric_mb.exudyn.hooks import Hooks
+from stochfric_mb.exudyn.normal import NO_REACTION, Normal, is_explicit
+from stochfric_mb.exudyn.symbolic import live_names, symbolic
+from stochfric_mb.friction import Friction, as_friction
+from stochfric_mb.laws import Law
+from stochfric_mb.laws.abi import MAX_STATE, native_law
+
+OUTPUT = exudyn.OutputVariableType
+INITIAL = exudyn.ConfigurationType.Initial
+CURRENT = exudyn.ConfigurationType.Current
+SENSOR_NAMES = ("friction_force", "normal_force", "stick", "mu_s", "mu_k")
+"""Entries of a contact's sensor: force [N] (its size where it slides in a plane), normal force [N], 1 or 0, [-], [-]."""
+
+
+class FrictionContact:
+    """A contact in an Exudyn system; made by `add_friction` and its like."""
+
+    def __init__(
+        self,
+        mbs: Any,
+        friction: Law | Friction,
+        normal: Normal,
+        *,
+        seed: int,
+        sample: int,
+        contact: int,
+        effective_mass: float | None,
+    ) -> None:
+        """Prepare the memory; the kinds of contact say what the force acts on, then call `_begin`."""
+        self.friction = as_friction(friction)
+        """The law and the process of its coefficients."""
+        law = self.friction.law
+        mass = _effective_mass(law, effective_mass)
+        self._mbs, self._normal = mbs, normal
+        self._numbers, self._words = _arrays(law, self.friction.path(seed, sample, contact))
+        self._numbers[[at.MASS, at.RADIUS]] = mass, 1.0
+        self._numbers[at.NORMAL_FORCE] = self._numbers[at.GIVEN_NORMAL] = 0.0 if normal.changes else normal.at(0.0)
+        self._records = np.empty((0, at.RECORD_COLUMNS))
+        self._names = live_names(law)
+        self._live = self._numbers[at.LIVE : at.LIVE + len(self._names)]
+        self._symbols: dict[str, Any] = {}
+        self._places: list[tuple[int, Any]] = []
+        self._given = [math.nan] * len(self._names)
+        self._unsure = False
+        self.where = int(self._words.ctypes.data)
+        """Address of the contact for compiled code."""
+        self.object: Any = None
+        """Index of the object (or load) that carries the force."""
+
+    # what the kinds of contact differ in
+
+    def _read_motion(self, configuration: Any = CURRENT) -> None:
+        """Take the relative motion from the engine."""
+        raise NotImplementedError
+
+    def _forces(self) -> tuple[float, float]:
+        """Return the friction force [N] on the body in both directions, as the engine applies it now."""
+        raise NotImplementedError
+
+    def connect(self) -> None:
+        """Find out where the engine keeps what the contact needs (again, whenever a simulation starts)."""
+
+    @property
+    def force(self) -> Any:
+        """The friction force [N] on marker 1 that the engine applies now."""
+        return self._forces()[0]
+
+    @property
+    def address(self) -> tuple[int, int, int]:
+        """Address of the path of coefficients: seed, sample, contact."""
+        return tuple(int(w) for w in self._words[[at.SEED, at.SAMPLE, at.CONTACT]])  # type: ignore[return-value]
+
+    @property
+    def normal_force(self) -> float:
+        """The normal force [N] after the last step."""
+        return float(self._numbers[at.NORMAL_FORCE])
+
+    @property
+    def mu_s(self) -> float:
+        """The static coefficient [-] after the last step."""
+        return float(self._numbers[at.MU_S])
+
+    @property
+    def mu_k(self) -> float:
+        """The kinetic coefficient [-] after the last step."""
+        return float(self._numbers[at.MU_K])
+
+    @property
+    def stick(self) -> bool:
+        """Whether the contact sticks after the last step."""
+        return bool(self._numbers[at.STUCK])
+
+    @property
+    def state(self) -> npt.NDArray[np.float64]:
+        """The law's committed state, shape (n_state,)."""
+        return self._numbers[at.LIVE : at.LIVE + self._words[at.N_STATE]].copy()
+
+    @property
+    def needs_reactions(self) -> bool:
+        """Whether the normal force is a reaction, which explicit solvers do not compute."""
+        return self._normal.reaction
+
+    def add_sensor(self, **options: Any) -> Any:
+        """Return the number of a new sensor with the entries `SENSOR_NAMES`; options are those of Exudyn's sensors."""
+
+        def values(mbs: Any, t: float, numbers: Any, factors: Any, configuration: Any) -> list[float]:
+            return [math.hypot(*self._forces()) if self._words[at.PLANE] else self._forces()[0], *self._values()]
+
+        return self._mbs.AddSensor(SensorUserFunction(sensorNumbers=[], factors=[], sensorUserFunction=values, **options))
+
+    def reset(self) -> None:
+        """Start the contact afresh, at the system's initial displacement and velocity."""
+        if len(self._mbs.systemData.GetODE2Coordinates(INITIAL)):
+            self._read_motion(INITIAL)
+        self._words[at.STARTED] = 0
+        at.proceed(0.0, self.where)
+        at.locate(0.0, self.where)  # compiled now rather than in the middle of a run
+        at.advance(0.0, self.where)
+        self._pass_on()
+        self._words[[at.STARTED, at.NEXT_RECORD]] = 0
+
+    def record(self, times: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return an array that the next simulation fills, shape (n, 11), a row for each time.
+
+        Columns: time [s], relative displacement [m] and velocity [m/s] (counter-surface minus body), friction force [N],
+        mu_s, mu_k [-], stick (1 or 0), normal force [N]; then displacement, velocity and friction force in the second
+        direction of a tangent plane. Rows are taken at the end of the first step that reaches each time.
+        """
+        times = np.asarray(times, dtype=np.float64)
+        self._records = np.full((len(times), at.RECORD_COLUMNS), math.nan)
+        self._records[:, 0] = times
+        self._words[[at.RECORDS, at.N_RECORDS, at.NEXT_RECORD]] = self._records.ctypes.data, len(times), 0
+        return self._records
+
+    def settle(self, t: float, bits: int) -> bool:
+        """Do what `stepping.advance` asks for at time t [s]; return whether a step may have to be watched, or no more."""
+        was_unsure = self._unsure
+        if bits & at.FETCH:
+            if not self._words[at.STARTED] or not 0.0 < t - self._numbers[at.T] <= self._numbers[at.REACH]:
+                self.connect()
+            if self._words[at.ASK_FIRST]:
+                self._read_motion()
+            if self._normal.changes:
+                self._read_normal(t)
+            bits = at.proceed(t, self.where)
+            self._unsure = bool(bits & at.RESTARTED) and self._normal.reaction
+        if bits & at.LOST:
+            raise SimulationError(
+                f"a step that ends at t = {t:g} s crosses more than one knot of the coefficients; "
+                "use a step below their spacing"
+            )
+        if bits & at.RECORDED:
+            self._records[self._words.item(at.NEXT_RECORD) - 1, [3, 10]] = self._forces()
+        if bits & at.CHANGED:
+            self._pass_on()
+        return bool(bits & (at.WATCH | at.RESTARTED)) or was_unsure
+
+    def refine(self) -> bool:
+        """Take the normal force of the trial step where no earlier one is known; return whether it must be repeated."""
+        if not self._unsure:
+            return False
+        self._unsure = False
+        self._numbers[[at.NORMAL_FORCE, at.GIVEN_NORMAL]] = self._normal.at(0.0)
+        line = self._names.index("normal_now")
+        self._live[line], self._live[line + 1] = self._numbers[at.GIVEN_NORMAL], 0.0
+        self._pass_on()
+        return True
+
+    @property
+    def unsure(self) -> bool:
+        """Whether the step to come has a normal force that is only guessed."""
+        return self._unsure
+
+    def recommended_step(self, t: float) -> float:
+        """Return the step [s] that ends at the law's next switch or the next grid point, or -1 to accept this one."""
+        if self._words[at.ASK_FIRST]:
+            self._read_motion()
+        return at.locate(t, self.where)
+
+    @property
+    def watched(self) -> bool:
+        """Whether the next step may contain a switch."""
+        return bool(self._words[at.WATCHING])
+
+    def prepare(self, dt: float) -> None:
+        """Start afresh with the solver's step [s], whose grid located steps keep to."""
+        self._numbers[at.STEP] = dt
+        self.reset()
+
+    def locate(self, on: bool) -> None:
+        """Say whether steps are to end where the law switches."""
+        self._words[at.LOCATING] = int(on)
+
+    def _begin(self, names: tuple[str, ...] = ()) -> None:
+        """Join the system's hooks; ``names``: the variables that the engine is given after each step."""
+        self._places = [(self._names.index(name), self._symbols[name]) for name in names]
+        self._words[at.ASK_FIRST] |= int(self._normal.changes)
+        hooks = Hooks.of(self._mbs)
+        hooks.contacts.append(self)
+        hooks.install(locate=False)
+        self.reset()
+
+    def _make_symbols(self, names: tuple[str, ...]) -> dict[str, Any]:
+        self._symbols = {name: symbolic.Real(name, 0.0) for name in names}
+        return self._symbols
+
+    def _pass_on(self) -> None:
+        """Set those of the engine's parameters that have changed."""
+        wanted, given = self._live.tolist(), self._given
+        if wanted == given:
+            return
+        for place, symbol in self._places:
+            if wanted[place] != given[place]:
+                symbol.SetValue(wanted[place])
+        self._given = wanted
+
+    def _read_normal(self, t: float) -> None:
+        """Take the normal force at the end of the step, and the rate at which it is likely to change in the next one."""
+        if self._normal.reaction and is_explicit(self._mbs):
+            raise InputError(NO_REACTION)
+        numbers, now = self._numbers, self._normal.at(t)
+        started, behind = self._words[at.STARTED], t - numbers[at.T]
+        rate = 0.0
+        if self._normal.reaction:
+            if started and behind > 0.0:
+                rate = (now - numbers[at.NORMAL_FORCE]) / behind
+        elif (ahead := numbers[at.STEP] or (behind if started else 0.0)) > 0.0:
+            rate = (self._normal.at(t + ahead) - now) / ahead
+        numbers[[at.GIVEN_NORMAL, at.GIVEN_RATE]] = now, rate
+
+    def _values(self) -> list[float]:
+        return self._numbers[[at.NORMAL_FORCE, at.STUCK, at.MU_S, at.MU_K]].tolist()
+
+
+def _effective_mass(law: Law, mass: float | None) -> float:
+    """Return the effective mass [kg] for a law that Exudyn can run.
+
+    Raises:
+        InputError: the law needs the holding force, or a mass that is missing.
+    """
+    if law.needs_holding_force:
+        raise InputError(
+            f"law {law.kind} needs the force that would hold the contact still, which Exudyn does not give; use "
+            "stochfric_mb.laws.substitute.elastic_substitute(law, dt, normal_force, effective_mass)"
+        )
+    if law.needs_effective_mass and mass is None:
+        raise InputError(f"law {law.kind} needs effective_mass [kg], the mass that the contact feels; pass it")
+    return require_number("effective_mass", 1.0 if mass is None else mass, above=0.0, unit="kg")
+
+
+def _arrays(law: Law, path: CoefficientPath) -> tuple[Any, Any]:
+    """Return the two arrays of a contact, with law and path in place."""
+    parameters, native = law.parameters(), native_law(law.kind)
+    numbers, words = at.blank(len(parameters), len(path.descriptor))
+    numbers[at.LAW : at.LAW + len(parameters)] = parameters
+    numbers[at.LAW + len(parameters) :] = path.descriptor
+    numbers[at.HAS_MODE] = float(law.state_names[:1] == ("mode",))
+    numbers[at.STICK_SPEED] = law.stick_speed
+    words[[at.COMMIT, at.GUARD, at.INIT, at.FORCE]] = native.commit, native.guards, native.init, native.force
+    words[[at.N_STATE, at.N_LAW]] = native.n_state, len(parameters)
+    words[[at.SEED, at.SAMPLE, at.CONTACT]] = path.seed, path.sample, path.contact
+    assert native.n_state <= MAX_STATE
+    return numbers, words

@@ -1,0 +1,107 @@
+"""Where the normal force of a contact comes from: a constant, a function of time, or the reaction of a constraint."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import exudyn
+
+from stochfric_mb.errors import InputError, require_number
+
+_OUTPUT = exudyn.OutputVariableType
+
+
+class ConstantNormal:
+    """The same normal force at all times."""
+
+    changes = False
+    """Whether it has to be asked for after each step."""
+    reaction = False
+    """Whether it is a result of the step: known only after it, and only where the solver computes reactions."""
+
+    def __init__(self, force: float) -> None:
+        self.force = force
+        """Normal force [N]."""
+
+    def at(self, t: float) -> float:
+        """Return the normal force [N] at time t [s]."""
+        return self.force
+
+
+class TimedNormal:
+    """A normal force that is a function of time."""
+
+    changes, reaction = True, False
+
+    def __init__(self, function: Callable[[float], float]) -> None:
+        self._function = function
+
+    def at(self, t: float) -> float:
+        """Return the normal force [N] at time t [s], 0 where the function is negative.
+
+        Raises:
+            InputError: it is not a finite number.
+        """
+        return max(require_number(f"normal_force at t = {t:g} s", self._function(t), unit="N"), 0.0)
+
+
+class ReactionNormal:
+    """The size of a constraint's reaction."""
+
+    changes, reaction = True, True
+
+    def __init__(self, mbs: Any, number: Any, across: Sequence[int] = (0, 1, 2)) -> None:
+        """Read the reaction of object ``number``, of which the components ``across`` press the surfaces together."""
+        self._mbs, self._object, self._across = mbs, number, across
+        kind = mbs.GetObject(number)["objectType"]
+        if not (kind.startswith("Joint") or "Coordinate" in kind) or "Spring" in kind:
+            raise InputError(
+                f"normal_force: object {int(number)} is a {kind}; name a constraint or a joint, whose reaction is the normal force"
+            )
+        local = kind.startswith("Joint") and kind != "JointRevolute2D"
+        self._variable = _OUTPUT.ForceLocal if local else _OUTPUT.Force
+
+    def at(self, t: float) -> float:
+        """Return the normal force [N] after the last step; ``t`` is not used."""
+        force = self._mbs.GetObjectOutput(self._object, self._variable)
+        if isinstance(force, float):
+            return abs(force)
+        return math.hypot(*(force[i] for i in self._across if i < len(force)))
+
+
+Normal = ConstantNormal | TimedNormal | ReactionNormal
+
+
+def as_normal(mbs: Any, normal_force: Any) -> Normal:
+    """Return the source of a normal force.
+
+    Args:
+        mbs: the system.
+        normal_force: number [N], > 0; function of time; constraint or joint, by its index or its name.
+
+    Raises:
+        InputError: it is none of these, or a name or index that the system does not have.
+    """
+    if isinstance(normal_force, exudyn.ObjectIndex):
+        return ReactionNormal(mbs, normal_force)
+    if isinstance(normal_force, str):
+        names = [mbs.GetObject(i)["name"] for i in range(mbs.systemData.NumberOfObjects())]
+        if normal_force not in names:
+            raise InputError(f"normal_force: no object is called {normal_force!r}; there are {', '.join(names)}")
+        return ReactionNormal(mbs, mbs.GetObjectNumber(normal_force))
+    if callable(normal_force):
+        return TimedNormal(normal_force)
+    return ConstantNormal(require_number("normal_force", normal_force, above=0.0, unit="N"))
+
+
+def is_explicit(mbs: Any) -> bool:
+    """Return whether the solver that runs now integrates explicitly, and so computes no reactions."""
+    return "Explicit" in type(mbs.sys.get("dynamicSolver")).__name__
+
+
+NO_REACTION = (
+    "an explicit solver computes no reactions, Exudyn reports them as 0: a normal force from a constraint needs "
+    "solver='generalized_alpha', or give normal_force as a number or a function of time"
+)
