@@ -17,7 +17,6 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-import scipy.linalg
 
 from stochfric_mb.coefficients.path import CURSOR
 from stochfric_mb.compile import compiled, compiled_inline
@@ -43,8 +42,14 @@ TERMS = 13
 """Coefficients of a leg's Taylor polynomial."""
 DIVISORS: Array = np.array([1.0 / ((e + 1) * (e + 2)) for e in range(TERMS)])
 """1/((e + 1) (e + 2)): what turns the e-th coefficient of an acceleration into the next one but two of the position."""
+TABLE_TERMS = 20
+"""The same for the tables, whose error would add up over the legs."""
 MAX_SWITCHES = 10_000
 """Most switches within one leg."""
+# Rows of the flat array: position, velocity, 0 (stick) or the direction of sliding, whether the leg has an event, pair
+# at the knot, pair at the next knot
+X, V, MODE, EVENTFUL, A_S, A_K, B_S, B_K = (LANES * i for i in range(8))
+ROWS = 8
 
 
 class Problem(NamedTuple):
@@ -96,22 +101,35 @@ def problem(scenario: Scenario, output_times: Array, least_slip: float) -> Probl
 
 
 def _tables(b: BeltBox, legs: Schedule) -> tuple[Array, Array]:
-    """Return ``transition`` and ``drive`` from the exponential of (x, x', mu, mu', cos W t, sin W t)."""
-    w, amplitude = b.excitation_angular_frequency, b.stiffness * b.excitation_amplitude
-    rates = np.zeros((6, 6))
-    rates[0, 1] = 1.0
-    rates[1] = -b.stiffness / b.mass, -b.damping / b.mass, b.normal_force / b.mass, 0.0, amplitude / b.mass, 0.0
-    rates[2, 3] = 1.0
-    rates[4, 5], rates[5, 4] = -w, w
-    exact: Array = np.array([scipy.linalg.expm(rates * h) for h in legs.lengths], dtype=np.float64).reshape(-1, 6, 6)
-    h = legs.lengths[:, None]
-    transition = exact[:, :2, :4].copy()
-    transition[:, :, 3] /= h
-    transition[:, :, 2] -= transition[:, :, 3]
+    """Return ``transition`` and ``drive``."""
+    w, amplitude, h = b.excitation_angular_frequency, b.stiffness * b.excitation_amplitude, legs.lengths
+    rising = _response(b, h, slope=b.normal_force) / h[:, None]  # to mu_k going from 0 to 1
+    constant = _response(b, h, force=b.normal_force)
+    columns = [_response(b, h, x=1.0), _response(b, h, v=1.0), constant - rising, rising]
     phase: Array = w * legs.start
-    response = exact[legs.kind, :2, 4] * np.cos(phase)[:, None] + exact[legs.kind, :2, 5] * np.sin(phase)[:, None]
+    cosine = _response(b, h, force=amplitude, frequency=w)[legs.kind]
+    sine = _response(b, h, slope=amplitude * w, frequency=w)[legs.kind]
+    response = cosine * np.cos(phase)[:, None] - sine * np.sin(phase)[:, None]
     ends: Array = amplitude * np.cos(w * np.stack([legs.start, legs.start + legs.length], axis=1))
-    return transition, np.concatenate([ends, response], axis=1)
+    return np.ascontiguousarray(np.stack(columns, axis=2)), np.concatenate([ends, response], axis=1)
+
+
+def _response(
+    b: BeltBox, h: Array, *, x: float = 0.0, v: float = 0.0, force: float = 0.0, slope: float = 0.0, frequency: float = 0.0
+) -> Array:
+    """Return x and x' at the times h [s], shape (n, 2), from a force f with f(0), f'(0) given and f'' = -frequency^2 f.
+
+    By the Taylor series (and not by a matrix exponential, whose linear algebra would wake up its own threads).
+    """
+    c = [x, v]
+    for e in range(TABLE_TERMS - 2):
+        c.append((force - b.damping * (e + 1) * c[e + 1] - b.stiffness * c[e]) / (b.mass * (e + 1) * (e + 2)))
+        force, slope = slope, -(frequency**2) * force / ((e + 1) * (e + 2))
+    position, velocity = np.zeros(len(h)), np.zeros(len(h))
+    for e in range(TABLE_TERMS - 1, -1, -1):
+        velocity = velocity * h + position
+        position = position * h + c[e]
+    return np.stack([position, velocity], axis=1)
 
 
 @compiled
@@ -131,173 +149,183 @@ def simulate(q: Any, seed: int, first: int, n: int, position: Any, velocity: Any
 @compiled
 def _group(q, seed, first, n, position, velocity, stick, tallies):
     """Run one group of lanes."""
-    x, v, mode, eventful = aligned(LANES), aligned(LANES), aligned(LANES), aligned(LANES)
-    a_s, a_k, b_s, b_k = aligned(LANES), aligned(LANES), aligned(LANES), aligned(LANES)
-    x[:] = q.position
-    v[:] = q.velocity
+    m = aligned(ROWS * LANES)
+    m[X : X + LANES] = q.position
+    m[V : V + LANES] = q.velocity
+    a_s, a_k, b_s, b_k = (m[A_S : A_S + LANES], m[A_K : A_K + LANES], m[B_S : B_S + LANES], m[B_K : B_K + LANES])
     tally, pending = np.empty((TALLIES, LANES)), np.empty((OPEN, LANES))
     cursors = np.zeros((LANES, CURSOR))
     work = np.empty((3, TERMS))
     first_pairs(q.descriptor, cursors, seed, first, a_s, a_k, b_s, b_k)
-    knot = 0
+    body = (
+        q.mass, q.damping, q.stiffness, q.normal_force, q.amplitude, q.frequency, q.belt_velocity, q.least_slip,
+    )  # fmt: skip
     for j in range(LANES):
-        mode[j] = _first_mode(q, a_s[j])
-        begin(tally, pending, j, mode[j] == 0.0)
+        m[MODE + j] = _first_mode(body, q.position, q.velocity, a_s[j])
+        begin(tally, pending, j, m[MODE + j] == 0.0)
     if q.legs.output_at_start:
-        _record(0, n, x, v, mode, position, velocity, stick)
+        _record(0, n, m, position, velocity, stick)
+    knot = 0
     for i in range(len(q.legs.length)):
         if q.legs.knot[i] > knot:
             knot += 1
             next_pairs(q.descriptor, cursors, seed, first, knot, a_s, a_k, b_s, b_k)
-        if _calm_leg(q, i, x, v, mode, a_s, a_k, b_s, b_k, eventful) > 0:
+        leg = (q.legs.start[i], q.legs.length[i], q.legs.from_knot[i], q.legs.to_knot[i])
+        if _calm_leg(body, leg, q.transition[q.legs.kind[i]], q.drive[i], m) > 0:
             for j in range(LANES):
-                if eventful[j] == 1.0 and not _eventful_leg(q, i, j, x, v, mode, a_s, a_k, b_s, b_k, tally, pending, work):
+                if m[EVENTFUL + j] == 1.0 and not _eventful_leg(body, leg, j, m, tally, pending, work):
                     return i + 1
         if q.legs.output[i] >= 0:
-            _record(q.legs.output[i], n, x, v, mode, position, velocity, stick)
+            _record(q.legs.output[i], n, m, position, velocity, stick)
     end = q.legs.start[-1] + q.legs.length[-1]
     for j in range(n):
-        close(tally, pending, j, end, q.belt_velocity * end - x[j], q.least_slip)
+        close(tally, pending, j, end, q.belt_velocity * end - m[X + j], q.least_slip)
         tallies[j] = tally[:, j]
     return 0
 
 
 @compiled
-def _record(output, n, x, v, mode, position, velocity, stick):
+def _record(output, n, m, position, velocity, stick):
     for j in range(n):
-        position[j, output] = x[j]
-        velocity[j, output] = v[j]
-        stick[j, output] = mode[j] == 0.0
+        position[j, output] = m[X + j]
+        velocity[j, output] = m[V + j]
+        stick[j, output] = m[MODE + j] == 0.0
+
+
+# body: m, c, k, N, k u_0, W, v_b, least slip; leg: start, length, parts of the way between knots at its start and end
 
 
 @compiled
-def _first_mode(q, mu_s):
+def _first_mode(body, x, v, mu_s):
     """Return 0 (stick) or the direction of sliding at t = 0."""
-    if q.velocity != q.belt_velocity:
-        return 1.0 if q.velocity < q.belt_velocity else -1.0
-    return _mode_at_rest(q, 0.0, q.position, mu_s)
+    if v != body[6]:
+        return 1.0 if v < body[6] else -1.0
+    return _mode_at_rest(body, 0.0, x, mu_s)
 
 
 @compiled
-def _mode_at_rest(q, t, x, mu_s):
+def _mode_at_rest(body, t, x, mu_s):
     """Return 0 (stick) or the direction in which a contact at rest breaks away."""
-    hold = q.stiffness * x + q.damping * q.belt_velocity - q.amplitude * math.cos(q.frequency * t)
-    if abs(hold) <= mu_s * q.normal_force:
+    _, damping, stiffness, normal_force, amplitude, frequency, v_b, _ = body
+    hold = stiffness * x + damping * v_b - (amplitude * math.cos(frequency * t) if amplitude != 0.0 else 0.0)
+    if abs(hold) <= mu_s * normal_force:
         return 0.0
     return 1.0 if hold > 0.0 else -1.0
 
 
 @compiled
-def _calm_leg(q, i, x, v, mode, a_s, a_k, b_s, b_k, eventful):
-    """Move the lanes without an event to the end of leg i; mark the others and return how many they are."""
-    e = q.transition[q.legs.kind[i]]
+def _calm_leg(body, leg, e, drive, m):
+    """Move the lanes without an event to the end of a leg; mark the others and return how many they are."""
     xx, xv, x0, x1, vx, vv, v0, v1 = e[0, 0], e[0, 1], e[0, 2], e[0, 3], e[1, 0], e[1, 1], e[1, 2], e[1, 3]
-    f0, f1, fx, fv = q.drive[i, 0], q.drive[i, 1], q.drive[i, 2], q.drive[i, 3]
-    h, w0, w1 = q.legs.length[i], q.legs.from_knot[i], q.legs.to_knot[i]
-    c, k, nf, vb = q.damping, q.stiffness, q.normal_force, q.belt_velocity
-    bulge = abs(q.amplitude) * q.frequency * q.frequency * h * h / 8.0
+    f0, f1, fx, fv = drive[0], drive[1], drive[2], drive[3]
+    _, c, k, nf, amplitude, frequency, vb, _ = body
+    _, h, w0, w1 = leg
+    bulge = abs(amplitude) * frequency * frequency * h * h / 8.0
     count = 0
     for j in range(LANES):
-        s = mode[j]
-        d_s = b_s[j] - a_s[j]
-        d_k = b_k[j] - a_k[j]
-        s0, s1 = (a_s[j] + w0 * d_s) * nf - bulge, (a_s[j] + w1 * d_s) * nf - bulge
-        k0, k1 = a_k[j] + w0 * d_k, a_k[j] + w1 * d_k
-        x_stick = x[j] + vb * h
-        holds = (abs(k * x[j] + c * vb - f0) <= s0) & (abs(k * x_stick + c * vb - f1) <= s1)
-        x_slip = xx * x[j] + xv * v[j] + s * (x0 * k0 + x1 * k1) + fx
-        v_slip = vx * x[j] + vv * v[j] + s * (v0 * k0 + v1 * k1) + fv
-        g0 = s * (k * x[j] + c * v[j] - f0) - k0 * nf
+        s, x, v = m[MODE + j], m[X + j], m[V + j]
+        a_s, a_k = m[A_S + j], m[A_K + j]
+        d_s, d_k = m[B_S + j] - a_s, m[B_K + j] - a_k
+        s0, s1 = (a_s + w0 * d_s) * nf - bulge, (a_s + w1 * d_s) * nf - bulge
+        k0, k1 = a_k + w0 * d_k, a_k + w1 * d_k
+        x_stick = x + vb * h
+        holds = (abs(k * x + c * vb - f0) <= s0) & (abs(k * x_stick + c * vb - f1) <= s1)
+        x_slip = xx * x + xv * v + s * (x0 * k0 + x1 * k1) + fx
+        v_slip = vx * x + vv * v + s * (v0 * k0 + v1 * k1) + fv
+        g0 = s * (k * x + c * v - f0) - k0 * nf
         g1 = s * (k * x_slip + c * v_slip - f1) - k1 * nf
-        speed0 = s * (vb - v[j])
+        speed0 = s * (vb - v)
         speed1 = s * (vb - v_slip)
         slides = (speed1 > 0.0) & ((g0 >= 0.0) | (g1 <= 0.0)) & ((speed0 > 0.0) | ((speed0 == 0.0) & (g0 > 0.0)))
         stuck = s == 0.0
         calm = holds if stuck else slides
-        x[j] = (x_stick if stuck else x_slip) if calm else x[j]
-        v[j] = (vb if stuck else v_slip) if calm else v[j]
-        eventful[j] = 0.0 if calm else 1.0
+        m[X + j] = (x_stick if stuck else x_slip) if calm else x
+        m[V + j] = (vb if stuck else v_slip) if calm else v
+        m[EVENTFUL + j] = 0.0 if calm else 1.0
         count += 0 if calm else 1
     return count
 
 
 @compiled
-def _eventful_leg(q, i, j, x, v, mode, a_s, a_k, b_s, b_k, tally, pending, work):
-    """Move lane j to the end of leg i, event by event; return whether that ended."""
-    length, part = q.legs.length[i], q.legs.to_knot[i] - q.legs.from_knot[i]
-    mu_s = a_s[j] + q.legs.from_knot[i] * (b_s[j] - a_s[j])
-    mu_k = a_k[j] + q.legs.from_knot[i] * (b_k[j] - a_k[j])
-    slope_s = part * (b_s[j] - a_s[j]) / length
-    slope_k = part * (b_k[j] - a_k[j]) / length
+def _eventful_leg(body, leg, j, m, tally, pending, work):
+    """Move lane j to the end of a leg, event by event; return whether that ended."""
+    v_b, least_slip = body[6], body[7]
+    start, length, w0, w1 = leg
+    a_s, a_k = m[A_S + j], m[A_K + j]
+    d_s, d_k = m[B_S + j] - a_s, m[B_K + j] - a_k
+    mu_s, mu_k = a_s + w0 * d_s, a_k + w0 * d_k
+    slope_s, slope_k = (w1 - w0) * d_s / length, (w1 - w0) * d_k / length
     g, dg, motion = work[0], work[1], work[2]
+    x, v, s = m[X + j], m[V + j], m[MODE + j]
     tau = 0.0
     for _ in range(MAX_SWITCHES):
-        t, rest = q.legs.start[i] + tau, length - tau
-        s = mode[j]
+        t, rest = start + tau, length - tau
         if s == 0.0:
-            dt, new = _break_away(q, t, x[j], mu_s + slope_s * tau, slope_s, rest, g, dg)
+            dt, new = _break_away(body, t, x, mu_s + slope_s * tau, slope_s, rest, g, dg)
             dt = min(dt, rest)
-            x[j] += q.belt_velocity * dt
-            v[j] = q.belt_velocity
+            x += v_b * dt
+            v = v_b
         else:
-            _slip_motion(q, t, x[j], v[j], s, mu_k + slope_k * tau, slope_k, motion)
+            _slip_motion(body, t, x, v, s, mu_k + slope_k * tau, slope_k, motion)
             for e in range(TERMS - 1):
                 g[e] = -s * (e + 1) * motion[e + 1]
-            g[0] += s * q.belt_velocity
+            g[0] += s * v_b
             dt = min(first_zero(g, dg, TERMS - 1, rest), rest)
-            x[j] = _value(motion, TERMS, dt)
-            v[j] = q.belt_velocity - s * _value(g, TERMS - 1, dt) if dt == rest else q.belt_velocity
+            x = _value(motion, TERMS, dt)
+            v = v_b - s * _value(g, TERMS - 1, dt) if dt == rest else v_b
             new = s
-        tau += dt
         if dt == rest:
+            m[X + j], m[V + j], m[MODE + j] = x, v, s
             return True
-        t = q.legs.start[i] + tau
-        place = q.belt_velocity * t - x[j]
+        tau += dt
+        t = start + tau
         if s == 0.0:
-            note_break_away(tally, pending, j, t, place, mu_s + slope_s * tau)
+            note_break_away(tally, pending, j, t, v_b * t - x, mu_s + slope_s * tau)
         else:
-            new = _mode_at_rest(q, t, x[j], mu_s + slope_s * tau)
-            note_slip_end(tally, pending, j, t, place, q.least_slip, new == 0.0)
-        mode[j] = new
+            new = _mode_at_rest(body, t, x, mu_s + slope_s * tau)
+            note_slip_end(tally, pending, j, t, v_b * t - x, least_slip, new == 0.0)
+        s = new
     return False
 
 
 @compiled
-def _slip_motion(q, t, x, v, s, mu_k, slope, out):
+def _slip_motion(body, t, x, v, s, mu_k, slope, out):
     """Write the Taylor coefficients of the position while sliding in direction s from (x, v) at time t."""
-    wave = q.amplitude * math.cos(q.frequency * t) if q.amplitude != 0.0 else 0.0
-    next_wave = -q.amplitude * q.frequency * math.sin(q.frequency * t) if q.amplitude != 0.0 else 0.0
-    inverse_mass = 1.0 / q.mass
+    mass, damping, stiffness, normal_force, amplitude, frequency, _, _ = body
+    wave = amplitude * math.cos(frequency * t) if amplitude != 0.0 else 0.0
+    next_wave = -amplitude * frequency * math.sin(frequency * t) if amplitude != 0.0 else 0.0
+    inverse_mass = 1.0 / mass
     out[0] = x
     out[1] = v
     for e in range(TERMS - 2):
         force = wave
         if e == 0:
-            force += s * q.normal_force * mu_k
+            force += s * normal_force * mu_k
         elif e == 1:
-            force += s * q.normal_force * slope
-        force -= q.damping * (e + 1) * out[e + 1] + q.stiffness * out[e]
+            force += s * normal_force * slope
+        force -= damping * (e + 1) * out[e + 1] + stiffness * out[e]
         out[e + 2] = force * inverse_mass * DIVISORS[e]
-        wave, next_wave = next_wave, -q.frequency * q.frequency * wave * DIVISORS[e]
+        wave, next_wave = next_wave, -frequency * frequency * wave * DIVISORS[e]
 
 
 @compiled
-def _break_away(q, t, x, mu_s, slope, length, g, dg):
+def _break_away(body, t, x, mu_s, slope, length, g, dg):
     """Return (time to break-away [s], direction); infinity if the contact holds for ``length``."""
-    hold = q.stiffness * x + q.damping * q.belt_velocity
-    rate = q.stiffness * q.belt_velocity
+    _, damping, stiffness, normal_force, amplitude, frequency, v_b, _ = body
+    hold = stiffness * x + damping * v_b
+    rate = stiffness * v_b
     best, direction = math.inf, 0.0
     for s in (1.0, -1.0):
         wave, next_wave = 0.0, 0.0
         n = 2
-        if q.amplitude != 0.0:
-            wave = s * q.amplitude * math.cos(q.frequency * t)
-            next_wave = -s * q.amplitude * q.frequency * math.sin(q.frequency * t)
+        if amplitude != 0.0:
+            wave = s * amplitude * math.cos(frequency * t)
+            next_wave = -s * amplitude * frequency * math.sin(frequency * t)
             n = TERMS
-        g[0], g[1] = mu_s * q.normal_force - s * hold, slope * q.normal_force - s * rate
+        g[0], g[1] = mu_s * normal_force - s * hold, slope * normal_force - s * rate
         for e in range(n):
             g[e] = wave if e > 1 else g[e] + wave
-            wave, next_wave = next_wave, -q.frequency * q.frequency * wave * DIVISORS[e]
+            wave, next_wave = next_wave, -frequency * frequency * wave * DIVISORS[e]
         dt = first_zero(g, dg, n, length)
         if dt < best:
             best, direction = dt, s

