@@ -9,12 +9,31 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from stochfric_mb.exudyn.attach import add_friction
+    from stochfric_mb.exudyn.bristle import add_bristle
     from stochfric_mb.exudyn.contact import FrictionContact
-    from stochfric_mb.exudyn.solve import solve_dynamic
+    from stochfric_mb.exudyn.joint import add_joint_friction
+    from stochfric_mb.exudyn.load import add_friction_load
+    from stochfric_mb.exudyn.solve import silent_settings, solve_dynamic
 
-_HOMES = {"FrictionContact": "contact", "add_friction": "attach", "solve_dynamic": "solve"}
+_HOMES = {
+    "FrictionContact": "contact",
+    "add_bristle": "bristle",
+    "add_friction": "attach",
+    "add_friction_load": "load",
+    "add_joint_friction": "joint",
+    "silent_settings": "solve",
+    "solve_dynamic": "solve",
+}
 
-__all__ = ["FrictionContact", "add_friction", "solve_dynamic"]
+__all__ = [
+    "FrictionContact",
+    "add_bristle",
+    "add_friction",
+    "add_friction_load",
+    "add_joint_friction",
+    "silent_settings",
+    "solve_dynamic",
+]
 
 
 def __getattr__(name: str) -> Any:

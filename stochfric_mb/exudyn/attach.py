@@ -11,7 +11,7 @@ from exudyn.itemInterface import CoordinateSpringDamper
 
 from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.exudyn import stepping as at
-from stochfric_mb.exudyn.contact import CURRENT, INITIAL, OUTPUT, FrictionContact
+from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
 from stochfric_mb.exudyn.normal import Normal, as_normal
 from stochfric_mb.exudyn.plane import PlaneContact
 from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, ForceExpression, force_expression, lower
@@ -70,7 +70,7 @@ def add_friction(
             no normal force or two, or a number out of range.
     """
     options: dict[str, Any] = {"effective_mass": effective_mass, "seed": seed, "sample": sample, "contact": contact}
-    kinds = {_marker_kind(mbs, m) for m in (marker0, marker1)}
+    kinds = {marker_kind(mbs, m) for m in (marker0, marker1)}
     markers = (marker0, marker1)
     if kinds == {"coordinate"}:
         if normal is not None or contact_stiffness is not None:
@@ -122,12 +122,9 @@ class CoordinateContact(FrictionContact):
         else:
             self._bind_own()
 
-    def _read_motion(self, configuration: Any = CURRENT) -> None:
+    def _read_motion(self) -> None:
         """Take displacement and velocity from the connector, for markers that are no plain coordinates."""
-        if configuration == INITIAL:
-            self._own[:] = _initial(self._mbs, self._markers)
-            self._bind_own()
-        elif not self._plain:
+        if not self._plain:
             self._own[1] = self._mbs.GetObjectOutput(self.object, OUTPUT.Displacement)
             self._own[3] = self._mbs.GetObjectOutput(self.object, OUTPUT.Velocity)
 
@@ -191,15 +188,7 @@ def coordinate_index(mbs: Any, marker: Any) -> int | None:
     return int(mbs.systemData.GetNodeLTGODE2(entry["nodeNumber"])[entry["coordinate"]])
 
 
-def _initial(mbs: Any, markers: Sequence[Any]) -> list[float]:
-    """Return initial positions and velocities of two coordinate markers, 0 where they are no plain coordinates."""
-    data = mbs.systemData
-    indices = [coordinate_index(mbs, m) for m in markers]
-    both = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
-    return [float(a[i]) if i is not None and i >= 0 else 0.0 for a in both for i in indices]
-
-
-def _marker_kind(mbs: Any, marker: Any) -> str:
+def marker_kind(mbs: Any, marker: Any) -> str:
     """Return "coordinate" or "position".
 
     Raises:

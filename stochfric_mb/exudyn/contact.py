@@ -22,7 +22,6 @@ from stochfric_mb.laws.abi import MAX_STATE, native_law
 
 OUTPUT = exudyn.OutputVariableType
 INITIAL = exudyn.ConfigurationType.Initial
-CURRENT = exudyn.ConfigurationType.Current
 SENSOR_NAMES = ("friction_force", "normal_force", "stick", "mu_s", "mu_k")
 """Entries of a contact's sensor: force [N] (its size where it slides in a plane), normal force [N], 1 or 0, [-], [-]."""
 
@@ -62,9 +61,12 @@ class FrictionContact:
         self.object: Any = None
         """Index of the object (or load) that carries the force."""
 
+    is_load = False
+    """Whether the force is a load, which implicit solvers differentiate only where they are told to."""
+
     # what the kinds of contact differ in
 
-    def _read_motion(self, configuration: Any = CURRENT) -> None:
+    def _read_motion(self) -> None:
         """Take the relative motion from the engine."""
         raise NotImplementedError
 
@@ -125,8 +127,7 @@ class FrictionContact:
 
     def reset(self) -> None:
         """Start the contact afresh, at the system's initial displacement and velocity."""
-        if len(self._mbs.systemData.GetODE2Coordinates(INITIAL)):
-            self._read_motion(INITIAL)
+        self._read_initial_motion()
         self._words[at.STARTED] = 0
         at.proceed(0.0, self.where)
         at.locate(0.0, self.where)  # compiled now rather than in the middle of a run
@@ -242,6 +243,20 @@ class FrictionContact:
         elif (ahead := numbers[at.STEP] or (behind if started else 0.0)) > 0.0:
             rate = (self._normal.at(t + ahead) - now) / ahead
         numbers[[at.GIVEN_NORMAL, at.GIVEN_RATE]] = now, rate
+
+    def _read_initial_motion(self) -> None:
+        """Take the relative motion at the start of a simulation; connectors tell the current one only."""
+        data = self._mbs.systemData
+        if len(data.GetODE2Coordinates(INITIAL)) == 0:
+            return
+        x, v = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
+        data.SetODE2Coordinates(data.GetODE2Coordinates(INITIAL))
+        data.SetODE2Coordinates_t(data.GetODE2Coordinates_t(INITIAL))
+        try:
+            self._read_motion()
+        finally:
+            data.SetODE2Coordinates(x)
+            data.SetODE2Coordinates_t(v)
 
     def _values(self) -> list[float]:
         return self._numbers[[at.NORMAL_FORCE, at.STUCK, at.MU_S, at.MU_K]].tolist()

@@ -36,6 +36,9 @@ class Contact(Protocol):
         """Say whether steps are to end where the law switches."""
         ...
 
+    is_load: bool
+    """Whether the force is a load."""
+
     @property
     def needs_reactions(self) -> bool:
         """Whether the normal force is a reaction, which explicit solvers do not compute."""
@@ -64,6 +67,8 @@ class Hooks:
     def __init__(self, mbs: Any) -> None:
         self.contacts: list[Contact] = []
         """All contacts of the system."""
+        self.followers: list[Callable[[float], None]] = []
+        """Functions of time [s] called after each accepted step, after the contacts have committed."""
         self._mbs = mbs
         self._locating = False
         self._own: dict[str, Callable[..., Any]] = {}
@@ -101,13 +106,15 @@ class Hooks:
     def _post_step(self) -> Callable[[Any, float], bool]:
         """Return the function that commits all contacts, then calls the user's (a closure: it runs every step)."""
         contacts = [(c.where, c.settle) for c in self.contacts]
-        watch, other = self.watch, self._other["PostStep"]
+        watch, other, followers = self.watch, self._other["PostStep"], tuple(self.followers)
 
         def post_step(mbs: Any, t: float) -> bool:
             for where, settle in contacts:
                 bits = advance(t, where)
                 if bits and settle(t, bits):
                     watch()
+            for follow in followers:
+                follow(t)
             return True if other is None else other(mbs, t)
 
         return post_step

@@ -12,7 +12,7 @@ from exudyn.itemInterface import CartesianSpringDamper
 
 from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.exudyn import stepping as at
-from stochfric_mb.exudyn.contact import CURRENT, OUTPUT, FrictionContact
+from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
 from stochfric_mb.exudyn.expression import Value, apply, choose, variable
 from stochfric_mb.exudyn.normal import ConstantNormal, Normal
 from stochfric_mb.exudyn.symbolic import (
@@ -51,6 +51,8 @@ class PlaneContact(FrictionContact):
         self._markers = markers
         set_plane(self, penalty, normal, surface_velocity)
         self._words[at.ASK_FIRST] = 1
+        self._distance = self._numbers[at.DISTANCE : at.DISTANCE + 3]
+        self._rate = self._numbers[at.RATE : at.RATE + 3]
         self._connector()
 
     def _connector(self) -> None:
@@ -80,10 +82,11 @@ class PlaneContact(FrictionContact):
     def _axes(self) -> Any:
         return self._numbers[at.AXIS_1 : at.AXIS_1 + 9].reshape(3, 3)
 
-    def _read_motion(self, configuration: Any = CURRENT) -> None:
-        """Take position and velocity of marker 1 relative to marker 0 from the connector."""
-        self._numbers[at.DISTANCE : at.DISTANCE + 3] = self._mbs.GetObjectOutput(self.object, OUTPUT.Displacement, configuration)
-        self._numbers[at.RATE : at.RATE + 3] = self._mbs.GetObjectOutput(self.object, OUTPUT.Velocity, configuration)
+    def _read_motion(self) -> None:
+        """Take position and velocity of marker 1 relative to marker 0 (the connector would evaluate its force to tell)."""
+        marker, (first, second) = self._mbs.GetMarkerOutput, self._markers
+        np.subtract(marker(second, OUTPUT.Position), marker(first, OUTPUT.Position), out=self._distance)
+        np.subtract(marker(second, OUTPUT.Velocity), marker(first, OUTPUT.Velocity), out=self._rate)
 
     def _function(self, forces: tuple[Value, Value], normal: Value) -> Any:
         """Return the symbolic user function: what pulls marker 1 back, minus the friction and the normal force."""

@@ -61,6 +61,8 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     for contact in hooks.contacts:
         contact.prepare(dt)
     hooks.install(locate=locate)
+    if any(contact.is_load for contact in hooks.contacts) and integration.computeLoadsJacobian == 0:
+        integration.computeLoadsJacobian = 2
     if locate:
         _settle_location(integration, dt)
     printed, exudyn.config.printToConsole = exudyn.config.printToConsole, False

@@ -1,0 +1,99 @@
+"""Exudyn's own bristle friction with coefficients that follow a path: the cheap route where its law is enough."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from exudyn.itemInterface import CoordinateSpringDamperExt, NodeGenericData
+
+from stochfric_mb.coefficients.processes import EVENT, POSITION
+from stochfric_mb.errors import InputError, require_number
+from stochfric_mb.exudyn.hooks import Hooks
+from stochfric_mb.friction import Friction, as_friction
+from stochfric_mb.laws import Law
+from stochfric_mb.laws.elastic_stick import ElasticStick
+
+
+def add_bristle(
+    mbs: Any,
+    marker0: Any,
+    marker1: Any,
+    friction: Law | Friction,
+    *,
+    normal_force: float,
+    effective_mass: float,
+    seed: int = 0,
+    sample: int = 0,
+    contact: int = 0,
+) -> Bristle:
+    """Return Exudyn's bristle (CoordinateSpringDamperExt) with the parameters nearest to an elastic stick.
+
+    Stuck: spring mu_s N/e_lim and damper 2 zeta sqrt(k m_eff). Sliding: mu_k + (mu_s - mu_k) exp(-v/decay_velocity), the
+    law's with v_s = 0. The coefficients are those at the middle of each step, passed in the system's PostStep function.
+
+    Args:
+        mbs: the system.
+        marker0: coordinate marker of the counter-surface. A moving one needs a coordinate that moves.
+        marker1: coordinate marker of the body.
+        friction: an `ElasticStick`, or one with a process in time.
+        normal_force: normal force [N], > 0.
+        effective_mass: mass that the contact feels [kg], > 0.
+        seed: seed of the path of coefficients.
+        sample: number of the sample.
+        contact: number of the contact.
+
+    Raises:
+        InputError: another law, a process along the surface or along events, or a number out of range.
+    """
+    friction = as_friction(friction)
+    law = friction.law
+    if not isinstance(law, ElasticStick):
+        raise InputError(f"the bristle is an elastic stick; law {law.kind} needs add_friction")
+    if friction.process is not None and friction.process.clock in (POSITION, EVENT):
+        raise InputError(f"the bristle takes coefficients of time alone; process {friction.process.kind} needs add_friction")
+    n = require_number("normal_force", normal_force, above=0.0, unit="N")
+    mass = require_number("effective_mass", effective_mass, above=0.0, unit="kg")
+    stiffness = law.mu_s * n / law.e_lim
+    node = mbs.AddNode(NodeGenericData(initialCoordinates=[0.0, 0.0, 0.0], numberOfDataCoordinates=3))
+    connector = CoordinateSpringDamperExt(
+        markerNumbers=[marker0, marker1],
+        nodeNumber=node,
+        dynamicFrictionForce=law.mu_k * n,
+        staticFrictionOffsetForce=(law.mu_s - law.mu_k) * n,
+        stickingStiffness=stiffness,
+        stickingDamping=2.0 * law.zeta * math.sqrt(stiffness * mass),
+        exponentialDecayStatic=max(law.decay_velocity, 1.0e-9),
+        frictionProportionalZone=0.0,
+    )
+    return Bristle(mbs, mbs.AddObject(connector), friction, n, (seed, sample, contact))
+
+
+class Bristle:
+    """Exudyn's bristle in a system; made by `add_bristle`."""
+
+    def __init__(self, mbs: Any, number: Any, friction: Friction, normal_force: float, address: tuple[int, int, int]) -> None:
+        self.object = number
+        """Index of the connector."""
+        self._mbs, self._normal_force = mbs, normal_force
+        self._path = friction.path(*address)
+        self._last = math.nan
+        self.mu_s, self.mu_k = self._path.at(0.0)
+        """The coefficients [-] of the step to come."""
+        if friction.process is not None:
+            hooks = Hooks.of(mbs)
+            hooks.followers.append(self.follow)
+            hooks.install(locate=False)
+            self._set(0.0)
+
+    def follow(self, t: float) -> None:
+        """Pass on the coefficients at the middle of the step that begins at t [s], as long as the last one."""
+        step = t - self._last if t > self._last else 0.0
+        self._last = t
+        self._set(t + 0.5 * step)
+
+    def _set(self, t: float) -> None:
+        self.mu_s, self.mu_k = self._path.at(t)
+        n = self._normal_force
+        self._mbs.SetObjectParameter(self.object, "dynamicFrictionForce", self.mu_k * n)
+        self._mbs.SetObjectParameter(self.object, "staticFrictionOffsetForce", (self.mu_s - self.mu_k) * n)

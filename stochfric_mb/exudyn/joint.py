@@ -1,0 +1,136 @@
+"""Friction in joints: the rotation of a revolute joint, the sliding of a prismatic one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from exudyn.advancedUtilities import CreateSymbolicUserFunction
+from exudyn.itemInterface import LinearSpringDamper, MarkerBodyRigid, TorsionalSpringDamper
+
+from stochfric_mb.errors import InputError, require_number
+from stochfric_mb.exudyn import stepping as at
+from stochfric_mb.exudyn.attach import bind_own, line_expression
+from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
+from stochfric_mb.exudyn.normal import Normal, ReactionNormal, as_normal
+from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, lower
+from stochfric_mb.friction import Friction
+from stochfric_mb.laws import Law
+
+_PRESSING = {"JointRevoluteZ": (0, 1), "JointRevolute2D": (0, 1), "JointPrismaticX": (1, 2), "JointPrismatic2D": (1, 2)}
+"""Kind of joint -> components of its reaction that press its surfaces together."""
+
+
+def add_joint_friction(
+    mbs: Any,
+    joint: Any,
+    friction: Law | Friction,
+    *,
+    radius: float = 1.0,
+    normal_force: float | Callable[[float], float] | str | Any = None,
+    effective_mass: float | None = None,
+    seed: int = 0,
+    sample: int = 0,
+    contact: int = 0,
+) -> FrictionContact:
+    """Return the friction that now acts in a revolute or prismatic joint, against the motion of its second body.
+
+    Revolute: sliding is ``radius`` times the angle, the friction torque ``radius`` times the force. Prismatic: sliding is
+    the displacement along the joint's axis.
+
+    Args:
+        mbs: the system.
+        joint: object index of a RevoluteJointZ, RevoluteJoint2D, PrismaticJointX or PrismaticJoint2D.
+        friction: a law, or a law with the process of its coefficients.
+        radius: radius of the pin [m], > 0; for revolute joints.
+        normal_force: as `add_friction` has it; if not given, the joint's own reaction across its axis (implicit solvers
+            only).
+        effective_mass: mass that the contact feels [kg] (inertia over radius^2), for laws that need it.
+        seed: seed of the path of coefficients.
+        sample: number of the sample.
+        contact: number of the contact: contacts with different numbers have independent paths.
+
+    Raises:
+        InputError: another kind of joint, or as `add_friction`.
+    """
+    kind = mbs.GetObject(joint)["objectType"]
+    if kind not in _PRESSING:
+        raise InputError(f"object {int(joint)} is a {kind}; friction in joints is for {', '.join(_PRESSING)}")
+    normal = ReactionNormal(mbs, joint, _PRESSING[kind]) if normal_force is None else as_normal(mbs, normal_force)
+    options: dict[str, Any] = {"effective_mass": effective_mass, "seed": seed, "sample": sample, "contact": contact}
+    return JointContact(mbs, joint, friction, normal, require_number("radius", radius, above=0.0, unit="m"), **options)
+
+
+class JointContact(FrictionContact):
+    """Friction in a joint; made by `add_joint_friction`."""
+
+    def __init__(
+        self, mbs: Any, joint: Any, friction: Law | Friction, normal: Normal, radius: float, **options: Any
+    ) -> None:
+        super().__init__(mbs, friction, normal, **options)
+        self._own = np.zeros(4)
+        bind_own(self._words, self._own)
+        self._words[at.ASK_FIRST] = 1
+        entry = mbs.GetObject(joint)
+        self._turns = "Revolute" in entry["objectType"]
+        """Whether the joint turns."""
+        self._radius = radius if self._turns else 1.0
+        self._numbers[at.RADIUS] = self._radius
+        self._displacement = OUTPUT.Rotation if self._turns else OUTPUT.DisplacementLocal
+        self._velocity = OUTPUT.AngularVelocityLocal if self._turns else OUTPUT.VelocityLocal
+        self._reaction = OUTPUT.TorqueLocal if self._turns else OUTPUT.ForceLocal
+        markers = [_with_orientation(mbs, m) for m in entry["markerNumbers"]]
+        expression = line_expression(self)
+        self._make_symbols(expression.names)
+        function = self._function(expression.force)
+        if self._turns:
+            turn = {name: entry[name] for name in ("rotationMarker0", "rotationMarker1") if name in entry}
+            connector = TorsionalSpringDamper(markerNumbers=markers, springTorqueUserFunction=function, **turn)
+        else:
+            axis = entry["axisMarker0"] if "axisMarker0" in entry else entry["rotationMarker0"][:, 0]
+            connector = LinearSpringDamper(markerNumbers=markers, axisMarker0=axis, springForceUserFunction=function)
+        self.object = mbs.AddObject(connector)
+        self._begin(expression.names)
+
+    @property
+    def torque(self) -> float:
+        """The friction torque [N m] on the second body of a revolute joint."""
+        return self._radius * self.force
+
+    def _forces(self) -> tuple[float, float]:
+        return -float(self._mbs.GetObjectOutput(self.object, self._reaction)) / self._radius, 0.0
+
+    def connect(self) -> None:
+        """Keep to reading the joint's motion after each step."""
+        self._words[at.ASK_FIRST] = 1
+
+    def _read_motion(self) -> None:
+        """Take angle or displacement, and its rate, from the connector."""
+        self._own[1] = self._mbs.GetObjectOutput(self.object, self._displacement)
+        self._own[3] = self._mbs.GetObjectOutput(self.object, self._velocity)
+
+    def _function(self, force: Any) -> Any:
+        """Return the symbolic user function: the torque or force that pulls the second body back, minus the friction."""
+        r, name = self._radius, "Torsional" if self._turns else "Linear"
+
+        def minus_friction(mbs, t, itemNumber, displacement, velocity, stiffness, damping, offset):
+            return -lower(force, {**self._symbols, TIME: t, DISPLACEMENT: -r * displacement, VELOCITY: -r * velocity}) * r
+
+        def minus_torque(mbs, t, itemNumber, rotation, angularVelocity, stiffness, damping, offset):
+            return minus_friction(mbs, t, itemNumber, rotation, angularVelocity, stiffness, damping, offset)
+
+        return CreateSymbolicUserFunction(
+            self._mbs,
+            function=minus_torque if self._turns else minus_friction,
+            userFunctionName="springTorqueUserFunction" if self._turns else "springForceUserFunction",
+            itemTypeName=f"ObjectConnector{name}SpringDamper",
+        )
+
+
+def _with_orientation(mbs: Any, marker: Any) -> Any:
+    """Return the marker, or a new one at the same place of the same body that has an orientation."""
+    entry = mbs.GetMarker(marker)
+    if entry["markerType"] != "BodyPosition":
+        return marker
+    return mbs.AddMarker(MarkerBodyRigid(bodyNumber=entry["bodyNumber"], localPosition=entry["localPosition"]))
