@@ -15,6 +15,7 @@ from pymunk.constraints import DampedSpring
 from stochfric_mb.errors import InputError, SimulationError, StabilityError
 from stochfric_mb.friction import Friction
 from stochfric_mb.pymunk import records as r
+from stochfric_mb.pymunk import stepping
 from stochfric_mb.pymunk.attach import ContactFriction, add_friction
 from stochfric_mb.scenario import Scenario, fitting_step
 from stochfric_mb.trajectory import Trajectory
@@ -184,14 +185,8 @@ def integrate(model: Model, *, dt: float, progress: Callable[[float], None] | No
 
 def start(model: Model, dt: float) -> None:
     """Take the half step that puts velocities on half steps; positions are at t = 0 after it."""
-    mechanism = model.scenario.mechanism
-    box = model.box
-    x, y = box.position
-    box.position = (x - 0.5 * dt * box.velocity.x, y)
-    if model.friction is not None:
-        model.friction.time = -0.5 * dt
-    box.force = (mechanism.excitation_force(0.0), 0.0)
-    model.space.step(0.5 * dt)
+    model.box.force = (model.scenario.mechanism.excitation_force(0.0), 0.0)
+    stepping.start(model.space, dt)
 
 
 def advance(model: Model, dt: float, first: int, n: int) -> None:

@@ -134,13 +134,13 @@ def respond(table, clock, s, pair, arbiter, space, dt):
     if s[r.PENDING] == 1.0:
         take_back(table, s, a, b, sign == s[r.ORDER])
     s[r.ORDER] = sign
-    nx, ny, ax, ay, bx, by, rate, v_normal, inverse_mass, inverse_normal = motion(table, arbiter, body_is_a)
+    first = s[r.KNOWN] == 0.0 or load_int(arbiter + table[r.ARBITER_STATE]) == table[r.FIRST]
+    nx, ny, ax, ay, bx, by, rate, v_normal, inverse_mass, inverse_normal = motion(table, arbiter, body_is_a, first)
     if not math.isfinite(rate) or not math.isfinite(v_normal):
         table[r.PROBLEM] |= r.NOT_FINITE
         return
     if inverse_normal == 0.0:
         return
-    first = s[r.KNOWN] == 0.0 or load_int(arbiter + table[r.ARBITER_STATE]) == table[r.FIRST]
     s[r.KNOWN] = 1.0
     s[r.NORMAL_X], s[r.NORMAL_Y] = nx, ny
     a_x, a_y = free_acceleration(table, space, a, ax, ay)

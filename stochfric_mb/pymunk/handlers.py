@@ -39,6 +39,8 @@ class Member(Protocol):
 
     table: npt.NDArray[np.int64]
     """Its table."""
+    time: float
+    """Time of the force last applied [s]."""
 
     def prepare(self, dt: float) -> None:
         """Get ready for steps of ``dt`` [s]."""
@@ -69,6 +71,12 @@ def detach(space: pymunk.Space, member: Member) -> None:
     handler.publish()
     if not handler.members:
         _release(space, handler)
+
+
+def members(space: pymunk.Space) -> list[Member]:
+    """Return the frictions of a space, in the order in which they are asked."""
+    handler = space._handlers.get(ALL)
+    return handler.members if isinstance(handler, SharedHandler) else []
 
 
 def raise_after_step(space: pymunk.Space, error: BaseException) -> None:
@@ -210,14 +218,14 @@ def _shared(space: pymunk.Space) -> SharedHandler:
     made = ALL not in space._handlers
     space.on_collision(*ALL)
     handler: Any = space._handlers[ALL]
-    members: list[Member] = []
-    alarm = ffi.new_handle(_Alarm(space, members))
+    frictions: list[Member] = []
+    alarm = ffi.new_handle(_Alarm(space, frictions))
     context = np.zeros(r.CONTEXT, dtype=np.int64)
     context[r.OLD_DATA] = address_of(handler._handler.userData)
     context[r.ALARM] = address_of(lib.ext_cpCollisionPostSolveFunc)
     context[r.ALARM_DATA] = address_of(alarm)
     _contexts[context.ctypes.data] = context, alarm
-    handler.context, handler.members, handler.made = context, members, made
+    handler.context, handler.members, handler.made = context, frictions, made
     handler._handler.userData = ffi.cast("void *", context.ctypes.data)
     _guard(handler, SharedHandler)
     for phase, pointer in _POINTERS.items():

@@ -24,8 +24,10 @@ def advance_clock(table, clock, space):
 
 
 @compiled
-def motion(table, arbiter, body_is_a):
+def motion(table, arbiter, body_is_a, first):
     """Return the frame and the motion of a contact, relative quantities as counter-surface minus body.
+
+    Bodies that press on each other at two points cannot turn, and friction feels their masses alone.
 
     Returns:
         normal (2) from surface to body, tangent is (n_y, -n_x); arms (4) of shape a and b; tangential velocity
@@ -37,7 +39,9 @@ def motion(table, arbiter, body_is_a):
     count = load_int(arbiter + table[r.COUNT])
     point = load_word(arbiter + table[r.POINTS])
     ax, ay, bx, by = 0.0, 0.0, 0.0, 0.0
+    pressed = 0
     for _ in range(count):
+        pressed += 1 if first or load_double(point + table[r.NORMAL_IMPULSE]) > 0.0 else 0
         ax += load_double(point + table[r.ARM_1]) / count
         ay += load_double(point + table[r.ARM_1] + 8) / count
         bx += load_double(point + table[r.ARM_2]) / count
@@ -56,7 +60,9 @@ def motion(table, arbiter, body_is_a):
     i_a, i_b = load_double(a + table[r.I_INV]), load_double(b + table[r.I_INV])
     turn_a, turn_b = ax * nx + ay * ny, bx * nx + by * ny
     tip_a, tip_b = ax * ny - ay * nx, bx * ny - by * nx
-    inverse_tangential = inverse_mass + i_a * turn_a * turn_a + i_b * turn_b * turn_b
+    inverse_tangential = inverse_mass
+    if pressed < 2:
+        inverse_tangential += i_a * turn_a * turn_a + i_b * turn_b * turn_b
     inverse_normal = inverse_mass + i_a * tip_a * tip_a + i_b * tip_b * tip_b
     return nx, ny, ax, ay, bx, by, v_rel, v_normal, inverse_tangential, inverse_normal
 
