@@ -17,6 +17,7 @@ from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.config import MAX_SLOTS, configuration
+from stochfric_mb.mujoco.joints import Joint, Tendon, add_joint_friction, joint_instances, joint_reading
 from stochfric_mb.mujoco.plugin import NAME, register
 
 
@@ -31,11 +32,11 @@ class Reading:
     time: float
     """Time [s]."""
     body: str
-    """Geom on which ``force`` acts."""
+    """Geom on which ``force`` acts; a joint's or tendon's name."""
     surface: str
-    """The counter-surface."""
+    """The counter-surface; empty for a joint or tendon."""
     force: tuple[float, float, float]
-    """Friction force on the body [N], world axes."""
+    """Friction force on the body [N], world axes; for a joint or tendon, along its coordinate [N or N m], 0, 0."""
     normal_force: float
     """Normal force that the law was given [N]."""
     mu_s: float
@@ -58,22 +59,24 @@ class Reading:
 
 def add_friction(
     spec: mujoco.MjSpec,
-    geoms: tuple[str, str],
+    geoms: tuple[str, str] | Joint | Tendon,
     friction: Law | Friction,
     *,
+    normal_force: float | None = None,
     seed: int = 0,
     sample: int = 0,
     contact: int = 0,
     slots: int = 16,
 ) -> str:
-    """Return the name of the plugin instance that now computes the friction between two geoms.
+    """Return the name of the plugin instance that now computes the friction between two geoms, or of a joint or tendon.
 
     The pair becomes an explicit contact pair with ``condim`` 1 (no native friction); all other contacts stay as they are.
 
     Args:
         spec: the model, before it is compiled; changed in place.
-        geoms: names of the body's geom and of the counter-surface's.
+        geoms: names of the body's geom and of the counter-surface's, or a `Joint` or `Tendon` (see `add_joint_friction`).
         friction: a law, or a `Friction` with a coefficient process.
+        normal_force: the given load of a joint or tendon [N, for a hinge N m]; contacts have MuJoCo's own normal force.
         seed: first part of the coefficient path's address.
         sample: second part: the run of an ensemble.
         contact: third part: number of this pair in the model.
@@ -87,8 +90,14 @@ def add_friction(
         IntegratorWarning: the model uses the ``discrete`` integrator.
     """
     register()
-    body, surface = _require_geoms(spec, geoms)
     _require_passive_forces(spec)
+    if isinstance(geoms, Joint | Tendon):
+        return add_joint_friction(
+            spec, geoms, friction, normal_force=normal_force, seed=seed, sample=sample, contact=contact
+        )
+    if normal_force is not None:
+        raise InputError(f"normal_force = {normal_force!r} is for joints and tendons; contacts have MuJoCo's normal force")
+    body, surface = _require_geoms(spec, geoms)
     texts = configuration(
         as_friction(friction), body, surface, seed=seed, sample=sample, contact=contact, slots=_require_slots(slots)
     )
@@ -105,7 +114,10 @@ def readings(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, list[Readi
 
     The readings belong to the last evaluation at a step's start: call ``mj_forward`` first to have them at ``data.time``.
     """
-    return {_name(model, mujoco.mjtObj.mjOBJ_PLUGIN, i): _instance_readings(model, data, i) for i in friction_instances(model)}
+    found = {_name(model, mujoco.mjtObj.mjOBJ_PLUGIN, i): _instance_readings(model, data, i) for i in friction_instances(model)}
+    for i in joint_instances(model):
+        found[_name(model, mujoco.mjtObj.mjOBJ_PLUGIN, i)] = joint_reading(model, header(model, data, i))
+    return found
 
 
 def friction_instances(model: mujoco.MjModel) -> list[int]:

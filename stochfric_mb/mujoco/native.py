@@ -96,13 +96,15 @@ FURTHER_FIELDS = (
     ("mjData", "qfrc_bias"),
     ("mjModel", "nu"),
     ("mjData", "qfrc_actuator"),
+    ("mjModel", "jnt_type"),
 )
 """More struct fields, for joints, tendons and the callback; the constants below are their places in the table."""
 FURTHER = CONFIGURATIONS + N_CONFIGURATIONS
 (
     M_INTEGRATOR, M_NPLUGIN, M_PLUGIN, M_JOINT_DOF, M_JOINT_QPOS, M_DOF_TREE, M_TENDON_NNZ, M_TENDON_ADDRESS,
     M_TENDON_COLUMN, D_TREE_ASLEEP, D_TENDON_J, D_TENDON_LENGTH, D_NEFC, D_QACC, D_QFRC_BIAS, M_NU, D_QFRC_ACTUATOR,
-) = range(FURTHER, FURTHER + 17)  # fmt: skip
+    M_JOINT_TYPE,
+) = range(FURTHER, FURTHER + 18)  # fmt: skip
 JOINTS_SLOT, CALLBACK_BEFORE, CALLBACK_ROWS, CALLBACK_COUNT, CALLBACK_MESSAGE = range(FURTHER + 32, FURTHER + 37)
 """MuJoCo's number of the joints' plugin; the callback installed before, and the friction contexts that are active."""
 TABLE: Any = (ctypes.c_int64 * (FURTHER + 64))()
