@@ -3,16 +3,16 @@
 ::
 
     contact = Contact(ElasticStick(mu_s=0.8, mu_k=0.46), effective_mass=6.08, dt=1e-4)
-    contact.start(0.0, u, v, normal_force)                # once
-    f = contact.force(t, u, v, normal_force)              # as often as the solver likes
-    contact.commit(t, u, v, normal_force)                 # once per accepted step, nowhere else
+    contact.start(0.0, u, v, normal_force)  # once
+    f = contact.force(t, u, v, normal_force)  # as often as the solver likes
+    contact.commit(t, u, v, normal_force)  # once per accepted step, nowhere else
 
 ``u`` and ``v`` are relative displacement [m] and velocity [m/s], counter-surface minus body; the force [N] that comes
 out acts on the body, along ``+v``.
 """
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

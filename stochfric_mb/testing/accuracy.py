@@ -16,7 +16,7 @@ class Accuracy:
     """Order in the step where the force is smooth [-], > 0; infinite: the solution depends on no step."""
     switch_order: float = 1.0
     """Order where contacts stick and break away [-]: 1 if switches fall on whole steps, more if they are located."""
-    factor: float = 10.0
+    factor: float = 1.0
     """Error over scale (rate dt)^order [-], > 0, with the scale and the rate of a case."""
     floor: float = 1.0e-8
     """Error over scale that no step goes below [-]: rounding, and how well the engine solves for the normal force."""
@@ -32,7 +32,7 @@ class Accuracy:
         """Whether the solution depends on no step."""
         return math.isinf(self.order)
 
-    def tolerance(self, scale: float, rate: float, dt: float, *, switches: bool = False) -> float:
+    def tolerance(self, scale: float, rate: float, dt: float, *, switches: bool = False, stand_in: bool = False) -> float:
         """Return the error to allow: scale (floor + factor (rate dt)^order).
 
         Args:
@@ -40,16 +40,18 @@ class Accuracy:
             rate: fastest rate of the motion that matters [1/s].
             dt: step [s].
             switches: whether contacts stick or break away.
+            stand_in: whether an elastic law ran in the place of one with true stick: with a stiffness that follows from
+                the step its switches are late by about a step, so that they are of first order at best.
         """
-        order = self.switch_order if switches else self.order
+        order = min(self.switch_order, 1.0 if stand_in else math.inf) if switches else self.order
         return scale * (self.floor + (0.0 if math.isinf(order) else self.factor * (rate * dt) ** order))
 
 
 EXACT = math.inf
 BUILT_IN: dict[str, Accuracy] = {
     "reference": Accuracy(order=EXACT, switch_order=EXACT),
-    "mujoco": Accuracy(order=2, switch_order=1),
-    "exudyn": Accuracy(order=2, switch_order=1),
-    "pymunk": Accuracy(order=1, switch_order=1),
+    "mujoco": Accuracy(order=2, switch_order=2),  # Runge-Kutta; switches located within the step
+    "exudyn": Accuracy(order=2, switch_order=2),  # likewise
+    "pymunk": Accuracy(order=1, switch_order=1),  # its damper acts after the kick; coulomb switches on whole steps
 }
-"""Engine -> its class; the reasons are in ``docs/adapters.md``."""
+"""Engine -> its class."""

@@ -65,10 +65,10 @@ def load_time(m: BeltBox, force: float) -> float:
 
 
 def coulomb_cycle(m: BeltBox, mu_s: float, mu_k: float) -> tuple[float, float, float]:
-    """Return period [s], position at break-away and at stick [m] of the stick-slip cycle with constant belt velocity.
+    """Return period [s], highest and lowest position [m] of the stick-slip cycle with constant belt velocity.
 
     Stuck, x grows at v_b up to (mu_s N - c v_b)/k. Sliding is the damped motion from there until x' = v_b again, found by
-    bisection of the closed form.
+    bisection of the closed form; it overshoots by about v_b^2 m/(2 (mu_s - mu_k) N) at the top and at the bottom.
     """
     v_b = m.belt_velocity
     top = (mu_s * m.normal_force - m.damping * v_b) / m.stiffness
@@ -78,5 +78,5 @@ def coulomb_cycle(m: BeltBox, mu_s: float, mu_k: float) -> tuple[float, float, f
     for _ in range(100):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if motion(np.array([middle]))[1][0] < v_b else (low, middle)
-    bottom = float(motion(np.array([low]))[0][0])
-    return low + (top - bottom) / v_b, top, bottom
+    x, _ = motion(np.linspace(0.0, low, 100_001))  # a parabola between points 1 us apart: to 1e-12 m
+    return low + (top - float(x[-1])) / v_b, float(np.max(x)), float(np.min(x))

@@ -28,7 +28,7 @@ def chosen(config: pytest.Config) -> list[str]:
     """Return the names of the engines to run on, each once; files relative to where they are named."""
     from stochfric_mb.engines import ENGINES
 
-    named: list[str] = [_resolved(name, config.invocation_params.dir) for name in config.getoption(OPTION)]
+    named: list[str] = [_resolved(name, config.invocation_params.dir) for name in config.getoption(OPTION) or ()]
     if not named:
         named = [*ENGINES, *(_resolved(name, config.rootpath) for name in config.getini(INI))]
     return list(dict.fromkeys(named))
