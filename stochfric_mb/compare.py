@@ -20,12 +20,12 @@ CONVERGENCE_DURATION = 2.0
 """Simulated time over which convergence is measured [s]."""
 CONVERGENCE_BUDGET = 60.0
 """Computing time for all convergence runs together [s]; runs expected to take longer than what is left are skipped."""
-COARSEST = 1.0e-3
-"""Coarsest step of a convergence study [s]."""
-LIMIT_SHARE = 0.8
-"""Coarsest step over the law's stability limit, at most [-]."""
-REFINEMENTS = (1.0, 2.0, 5.0, 10.0)
-"""Coarsest step over each step of a convergence study [-]."""
+COARSE_STEPS = (1.0e-3, 5.0e-4, 2.0e-4, 1.0e-4)
+"""Steps of a convergence study [s]."""
+FINE_STEPS = (6.0e-5, 4.0e-5, 2.0e-5, 1.0e-5)
+"""Steps for laws that are not stable at the first of those [s]."""
+LIMIT_SHARE = 0.95
+"""Largest share of the law's explicit limit that a step of the study takes [-]."""
 
 Advance = Callable[[float], None]
 """Called with the simulated time [s] now and then."""
@@ -208,12 +208,13 @@ def checked_step(scenario: Scenario, dt: float) -> float:
 def convergence_steps(scenario: Scenario) -> list[float]:
     """Return the steps of a convergence study [s], coarsest first, all dividing the output step.
 
-    The coarsest is 1e-3 s or 0.8 of the law's explicit stability limit, whichever is smaller; then a half, a fifth and
-    a tenth of it, each lowered to the nearest step that fits.
+    1e-3, 5e-4, 2e-4 and 1e-4 s where the law is stable at the first, otherwise 6e-5, 4e-5, 2e-5 and 1e-5 s, reduced in
+    proportion where the first is above 0.95 of the law's explicit limit; each lowered to the nearest step that fits.
     """
-    coarsest = min(COARSEST, LIMIT_SHARE * scenario.step_limit(), scenario.output_step)
-    steps = [fitting_step(coarsest / r, scenario.output_step) for r in REFINEMENTS]
-    return list(dict.fromkeys(steps))
+    limit = LIMIT_SHARE * scenario.step_limit()
+    steps = COARSE_STEPS if COARSE_STEPS[0] <= limit else FINE_STEPS
+    scale = min(1.0, limit / steps[0])
+    return list(dict.fromkeys(fitting_step(min(scale * dt, scenario.output_step), scenario.output_step) for dt in steps))
 
 
 def shortened(scenario: Scenario) -> Scenario:
