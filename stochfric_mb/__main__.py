@@ -11,6 +11,7 @@ import click
 COMMANDS: dict[str, tuple[str, str]] = {
     "run": ("stochfric_mb.commands.run:run", "Simulate one trajectory and write it to a file."),
     "compare": ("stochfric_mb.commands.compare:compare", "Compare engines with the reference and write a report."),
+    "check": ("stochfric_mb.commands.check:check", "Probe the friction of a MuJoCo model and say what to change."),
     "list": ("stochfric_mb.commands.list:list_", "List laws, processes, effects or engines."),
 }
 """Name of a command -> where it lives and what it does; a new command is a new file and one line here."""

@@ -1,0 +1,118 @@
+"""``stochfric check``: what a MuJoCo model's own friction does, and ours in its place."""
+
+from __future__ import annotations
+
+import importlib
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from stochfric_mb.mujoco.findings import CheckResult
+
+EXAMPLE = """\b
+Example:
+  stochfric check models/belt_box/belt_box.xml
+"""
+TITLE = "Friction as it is (native) and with this package's law (ours)"
+HEAD = ("site", "load", "drift", "50 %", "90 %", "breaks", "slows", "energy", "limit")
+LEGEND = """\
+load: friction force in the given state, in % of mu N; drift: in um/s (urad/s) under that load, at 50 and at 90 % of
+mu N; breaks: break-away force in % of mu_s N; slows: deceleration in % of mu_k N/m; energy: created by friction [J];
+limit: step limit of our law [s]; -: could not be measured, see notes in the file"""
+
+
+@click.command(epilog=EXAMPLE)
+@click.argument("model", metavar="MODEL")
+@click.option("--keyframe", metavar="NAME", help="Keyframe to start from, by name or number; default: the initial state.")
+@click.option("--settle", type=float, default=2.0, show_default=True, metavar="S", help="Time left to itself first [s].")
+@click.option("--duration", type=float, default=0.5, show_default=True, metavar="S", help="Time of each hold [s].")
+@click.option("--law", default="elastic_stick", show_default=True, metavar="KIND", help="Our law.")
+@click.option("--mu-k-ratio", type=float, default=1.0, show_default=True, help="Its mu_k over mu_s, from 0 to 1.")
+@click.option("--most", type=click.IntRange(1), default=12, show_default=True, help="Most contact pairs to probe.")
+@click.option("--out", "--json", default="check.json", show_default=True, metavar="FILE", help="What to write.")
+@click.option("--force", is_flag=True, help="Replace what is at --out.")
+def check(
+    model: str,
+    keyframe: str | None,
+    settle: float,
+    duration: float,
+    law: str,
+    mu_k_ratio: float,
+    most: int,
+    out: str,
+    force: bool,
+) -> None:
+    """Probe each contact pair, joint and tendon with friction in MODEL (MJCF, URDF or MJB) and say what to change."""
+    from stochfric_mb.commands.progress import display
+    from stochfric_mb.engines import ENGINES
+    from stochfric_mb.errors import MissingEngineError
+    from stochfric_mb.storage import check_target, whole_file
+
+    target = check_target(Path(out) / "check.json" if Path(out).is_dir() else out, force=force)
+    if not ENGINES["mujoco"].installed:
+        raise MissingEngineError("mujoco is not installed; run: pip install 'stochfric_mb[mujoco]'")
+    with display() as shown:
+        shown.note("loading mujoco")
+        probe = importlib.import_module("stochfric_mb.mujoco.check").check
+
+        result: CheckResult = probe(
+            model, keyframe=keyframe, settle=settle, duration=duration, law=law, mu_k_ratio=mu_k_ratio, most=most,
+            stage=shown.stage,
+        )  # fmt: skip
+        content = result.to_dict()
+        with whole_file(target) as temporary:
+            temporary.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    _show(content)
+    click.echo(str(target))
+
+
+def _show(content: Mapping[str, Any]) -> None:
+    from stochfric_mb.commands.tables import print_cards, print_table
+
+    about = f"timestep {content['timestep']:g} s, {content['integrator']}, {content['cone']} cone"
+    click.echo(f"{content['model']}: {about}")
+    rows = content["rows"]
+    if not rows:
+        click.echo("No touching pair, joint or tendon has friction: nothing to check")
+    else:
+        print_table(HEAD, [line for row in rows for line in _lines(row)], title=TITLE)
+        click.echo(LEGEND)
+        print_cards([(row["name"], [(row["kind"], row["advice"])]) for row in rows], title="What to change")
+    for note in content["notes"]:
+        click.echo(f"Note: {note}")
+
+
+def _lines(row: Mapping[str, Any]) -> list[list[str]]:
+    """Return the lines of a site: its name, then one for each friction."""
+    lines = [[row["name"], *7 * [""], _limit(row["step_limit"])]]
+    for name in ("native", "ours"):
+        found = row[name]
+        lines.append([f"  {name}", *(["-"] * 7 if found is None else _numbers(found)), ""])
+    return lines
+
+
+def _limit(limit: float | None) -> str:
+    return "" if limit is None else f"{limit:.2g}"
+
+
+def _numbers(found: Mapping[str, Any]) -> list[str]:
+    broken, slide = found["break_away"], found["slide"]
+    own = found["own"]
+    return [
+        f"{100.0 * own['load']:.0f} %",
+        *map(_drift, (own, *found["held"])),
+        "none" if broken is None else f"{100.0 * broken['share']:.0f} %",
+        "-" if slide is None else f"{100.0 * slide['deceleration'] / slide['expected']:.0f} %",
+        f"{found['energy_created']:.1g}",
+    ]
+
+
+def _drift(drift: Mapping[str, float] | None) -> str:
+    if drift is None:
+        return "-"
+    value = 1.0e6 * drift["speed"]
+    return f"{value:.0f}" if abs(value) >= 100.0 else f"{value:.2g}"
