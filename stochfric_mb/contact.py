@@ -18,7 +18,7 @@ out acts on the body, along ``+v``.
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -114,6 +114,8 @@ class _Contact:
         return dict(zip(self.law.state_names, self._state.tolist(), strict=False)) if self._book[ALIVE] else {}
 
     def _call(self, function: Any, *numbers: float) -> None:
+        if not math.isfinite(sum(numbers)):
+            self._broken("what the solver gives is not finite", numbers)
         function(
             self._functions, self._address, self._descriptor, self._cursor, self._parameters, self._state, self._book,
             self._out, *numbers,
@@ -123,11 +125,13 @@ class _Contact:
         self._call(_compute, *numbers)
         fx, fy = float(self._out[0]), float(self._out[1])
         if not math.isfinite(fx + fy):
-            raise SimulationError(
-                f"law {self.law.kind} gives no finite force for (t, u, v, normal force, hold) = {numbers}; "
-                "the motion has broken down: use a smaller step"
-            )
+            self._broken("the force is not finite", numbers)
         return fx, fy
+
+    def _broken(self, what: str, numbers: tuple[float, ...]) -> NoReturn:
+        names = ("t", "ux", "uy", "vx", "vy", "normal_force", "hx", "hy")
+        given = ", ".join(f"{name} = {value:g}" for name, value in zip(names, numbers, strict=True))
+        raise SimulationError(f"law {self.law.kind}: {what}: {given}; the motion has broken down: use a smaller step")
 
     def __getstate__(self) -> dict[str, Any]:
         return {k: v for k, v in vars(self).items() if k != "_functions"}  # addresses belong to this process
@@ -155,7 +159,7 @@ class Contact(_Contact):
             hold: friction force that would keep v as it is [N], for laws with ``needs_holding_force``.
 
         Raises:
-            SimulationError: the law gives no finite force.
+            SimulationError: an argument or the force is not finite.
         """
         return self._force(t, u, 0.0, v, 0.0, normal_force, hold, 0.0)[0]
 
