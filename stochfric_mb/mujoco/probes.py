@@ -25,7 +25,7 @@ OVERLOAD = 1.4
 """Load at the end of the break-away ramp, over the limit."""
 BREAK_AWAY_TIME = 2.0
 """Duration of the break-away ramp, over that of a hold."""
-AVERAGED = 0.05
+AVERAGED = 0.02
 """Share of the break-away ramp over which the friction force is averaged."""
 EXCESS = 0.02
 """Force over the limit that tells motion from creep, see `break_away`."""
@@ -33,6 +33,8 @@ LEAST_STEPS = 10
 """Fewest steps of a run."""
 SLIDE_STEPS, MOST_SLIDE_STEPS = 10, 400
 """Steps in which a slide should lose half its speed, and most steps of one."""
+FIRST_SLIDE_STEP = 2
+"""Step after which the deceleration is measured: a kicked contact that was stuck needs one to notice."""
 SLIDE_SPEED = 0.05
 """Least speed of a slide [m/s or rad/s]; far above the velocities at which coefficients fall."""
 TOUCHING = 0.9
@@ -256,6 +258,6 @@ def slide(
     if last < SLIDE_STEPS // 2 or not without.column("touching")[last]:
         return None, record, "stops within a few steps" if record.touching == 1.0 else "the contact is lost"
     pressing = float(without.column("limit")[: last + 1].mean()) or limit
-    lost = without.column("velocity")[last] - record.column("velocity")[last]
+    lost = without.column("velocity") - record.column("velocity")
     touching = float(record.column("touching")[: last + 1].mean())
-    return Slide(float(lost / (last * step)), pressing / mass, mass, touching), record, ""
+    return Slide(float((lost[last] - lost[FIRST_SLIDE_STEP]) / ((last - FIRST_SLIDE_STEP) * step)), pressing / mass, mass, touching), record, ""
