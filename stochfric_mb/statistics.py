@@ -168,7 +168,8 @@ def crps(observation: npt.ArrayLike, ensemble: npt.ArrayLike) -> Array:
         InputError: shapes that do not match, or one member only.
 
     Reference: T. Gneiting, A. Raftery, J. Am. Stat. Assoc. 102, 2007, 359-378, doi 10.1198/016214506000001437; C. Ferro,
-    Q. J. R. Meteorol. Soc. 140, 2014, 1917-1923, doi 10.1002/qj.2270 (fair).
+    Q. J. R. Meteorol. Soc. 140, 2014, 1917-1923, doi 10.1002/qj.2270 (fair); M. Zamo, P. Naveau, Math. Geosci. 50, 2018,
+    209-234, doi 10.1007/s11004-017-9709-7 (the same from probability weighted moments, in n log n instead of n^2).
     """
     try:
         import scoringrules
@@ -180,7 +181,7 @@ def crps(observation: npt.ArrayLike, ensemble: npt.ArrayLike) -> Array:
             f"an observation of shape {y.shape} needs an ensemble of shape (n_runs >= 2, *{y.shape}), not {members.shape}"
         )
     members = np.ascontiguousarray(np.moveaxis(members, 0, -1))
-    return np.asarray(scoringrules.crps_ensemble(y, members, estimator="fair", backend="numpy"), dtype=np.float64)
+    return np.asarray(scoringrules.crps_ensemble(y, members, estimator="pwm", backend="numpy"), dtype=np.float64)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -20,10 +20,12 @@ import numpy as np
 from numba import types
 from numba.extending import intrinsic
 
+from stochfric_mb.coefficients.path import _matern_step as matern_step
 from stochfric_mb.coefficients.path import independent_pair, seek
 from stochfric_mb.coefficients.philox import _bits as bits
 from stochfric_mb.coefficients.philox import _from_bits as from_bits
 from stochfric_mb.coefficients.philox import normals
+from stochfric_mb.coefficients.processes import ORNSTEIN_UHLENBECK
 from stochfric_mb.compile import compiled, compiled_inline
 
 LANES = 64
@@ -116,12 +118,15 @@ def next_pairs(descriptor, cursors, seed, first, knot, a_s, a_k, b_s, b_k):
 @compiled
 def _pairs(descriptor, cursors, seed, first, knot, mu_s, mu_k):
     """Write the pair at ``knot`` of every lane, to the bit the one of a `CoefficientPath`."""
-    if descriptor[0] > 1.0:
+    normal = descriptor[8] == NORMAL_CODE and descriptor[9] == NORMAL_CODE
+    if descriptor[0] > 1.0 and normal and knot > 0:
+        _filtered_pairs(descriptor, cursors, seed, first, knot, mu_s, mu_k)
+    elif descriptor[0] > 1.0:
         for j in range(LANES):
             seek(descriptor, cursors[j], seed, first + j, 0, knot)
             mu_s[j] = cursors[j, 2]
             mu_k[j] = cursors[j, 3]
-    elif descriptor[0] == 1.0 and descriptor[8] == NORMAL_CODE and descriptor[9] == NORMAL_CODE:
+    elif descriptor[0] == 1.0 and normal:
         if _normal_pairs(descriptor, seed, first, knot, mu_s, mu_k) < LANES:
             for j in range(LANES):
                 mu_s[j], mu_k[j] = independent_pair(descriptor, seed, first + j, 0, knot)
@@ -144,6 +149,75 @@ def _normal_pairs(descriptor, seed, first, knot, mu_s, mu_k):
         mu_k[j] = k
         feasible += 1 if (low_s <= s) & (s <= high_s) & (low_k <= k) & (k <= high_k) & (k < s) else 0
     return feasible
+
+
+@compiled
+def _filtered_pairs(descriptor, cursors, seed, first, knot, mu_s, mu_k):
+    """Write the pairs at ``knot`` >= 1 of a correlated process; the knot before was asked for last.
+
+    Columns 6 to 9 of the cursors hold the filters' states at the last knot drawn; knot 1 is in columns 4 and 5 already.
+    """
+    if knot == 1:
+        for j in range(LANES):
+            mu_s[j], mu_k[j] = cursors[j, 4], cursors[j, 5]
+        return
+    factors = _filter_factors(descriptor)
+    f_s, g_s, f_k, g_k = np.empty(LANES), np.empty(LANES), np.empty(LANES), np.empty(LANES)
+    for j in range(LANES):
+        f_s[j], g_s[j], f_k[j], g_k[j] = cursors[j, 6], cursors[j, 7], cursors[j, 8], cursors[j, 9]
+    if descriptor[0] == ORNSTEIN_UHLENBECK:
+        _exponential_filter(factors, seed, first, knot, f_s, f_k)
+    else:
+        _matern_filter(factors, seed, first, knot, f_s, g_s, f_k, g_k)
+    for j in range(LANES):
+        cursors[j, 6], cursors[j, 7], cursors[j, 8], cursors[j, 9] = f_s[j], g_s[j], f_k[j], g_k[j]
+    low_s, high_s, low_k, high_k = descriptor[10], descriptor[11], descriptor[12], descriptor[13]
+    for j in range(LANES):
+        s = descriptor[4] + descriptor[6] * f_s[j]
+        k = descriptor[5] + descriptor[7] * f_k[j]
+        s = max(min(max(s, low_s), high_s), 0.0)
+        mu_s[j] = s
+        mu_k[j] = min(max(min(max(k, low_k), high_k), 0.0), s)
+
+
+@compiled
+def _filter_factors(descriptor):
+    """Return what one step of the process's filter multiplies (f, g, z, y) by, for the new f and the new g.
+
+    Those of Matern come from its own step, which is linear: unit vectors in, columns out, to the bit.
+    """
+    h, correlation = descriptor[3], descriptor[14]
+    if descriptor[0] == ORNSTEIN_UHLENBECK:
+        a = math.exp(-h / correlation)
+        return a, 0.0, math.sqrt(1.0 - a * a), 0.0, 0.0, 0.0, 0.0
+    a11, a21 = matern_step(1.0, 0.0, h, correlation, 0.0, 0.0)
+    a12, a22 = matern_step(0.0, 1.0, h, correlation, 0.0, 0.0)
+    l11, l21 = matern_step(0.0, 0.0, h, correlation, 1.0, 0.0)
+    _, l22 = matern_step(0.0, 0.0, h, correlation, 0.0, 1.0)
+    return a11, a12, l11, a21, a22, l21, l22
+
+
+@compiled
+def _exponential_filter(factors, seed, first, knot, f_s, f_k):
+    a, b = factors[0], factors[2]
+    for j in range(LANES):
+        z_s, z_k = normals(seed, first + j, 0, knot, 0)
+        f_s[j] = a * f_s[j] + b * z_s
+        f_k[j] = a * f_k[j] + b * z_k
+
+
+@compiled
+def _matern_filter(factors, seed, first, knot, f_s, g_s, f_k, g_k):
+    a11, a12, l11, a21, a22, l21, l22 = factors
+    for j in range(LANES):
+        z_s, z_k = normals(seed, first + j, 0, knot, 0)
+        y_s, y_k = normals(seed, first + j, 0, knot, 1)
+        f, g = f_s[j], g_s[j]
+        f_s[j] = a11 * f + a12 * g + l11 * z_s
+        g_s[j] = a21 * f + a22 * g + l21 * z_s + l22 * y_s
+        f, g = f_k[j], g_k[j]
+        f_k[j] = a11 * f + a12 * g + l11 * z_k
+        g_k[j] = a21 * f + a22 * g + l21 * z_k + l22 * y_k
 
 
 @compiled

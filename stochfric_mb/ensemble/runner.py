@@ -125,7 +125,7 @@ def run_block(
     """
     times = checked_times(scenario, output_times)
     _check_address(seed, first_sample, n)
-    return _checked(methods.method(scenario, engine, dt).prepare(times)(seed, first_sample, n), scenario)
+    return _checked(methods.method(scenario, engine, dt).prepare(times)(seed, first_sample, n), scenario, first_sample)
 
 
 def run(
@@ -185,7 +185,7 @@ def run(
     compute = methods.method(scenario, engine, dt).prepare(times)
     done = 0
     for part in _blocks(compute, p, seed, first_sample):
-        collect.add(_checked(part, scenario), done)
+        collect.add(_checked(part, scenario, first_sample + done), done)
         done += len(part.tallies)
         if progress is not None:
             progress(done)
@@ -267,7 +267,7 @@ class _Statistics:
         )
 
 
-def _checked(part: Block, scenario: Scenario) -> Block:
+def _checked(part: Block, scenario: Scenario, first: int) -> Block:
     """Return the block once all its positions are finite and of a size that the mechanism can reach.
 
     Raises:
@@ -280,7 +280,7 @@ def _checked(part: Block, scenario: Scenario) -> Block:
     if wrong.any():
         j = int(np.argmax(wrong))
         raise SimulationError(
-            f"run {j} of a block left every plausible position (abs(x) <= {1e3 * size:g} m) or is not finite; "
+            f"sample {first + j} left every plausible position (abs(x) <= {1e3 * size:g} m) or is not finite; "
             "take a smaller dt or check the law's parameters"
         )
     return part

@@ -55,7 +55,8 @@ def schedule(scenario: Scenario, output_times: Array, *, longest: float = math.i
     ends = _merged(np.concatenate([knots, output_times[output_times > SAME_TIME]]))
     ends = _refined(ends, longest)
     starts = np.concatenate([[0.0], ends[:-1]])
-    lengths, kind = np.unique(np.round(ends - starts, 14), return_inverse=True)
+    _, kind = np.unique(np.round(ends - starts, 14), return_inverse=True)
+    lengths: Array = np.bincount(kind, weights=ends - starts) / np.bincount(kind)  # means: roundings do not add up
     index = np.searchsorted(output_times, ends - SAME_TIME)
     is_output = np.abs(output_times[np.minimum(index, len(output_times) - 1)] - ends) <= SAME_TIME
     knot = np.zeros(len(ends), dtype=np.int64)

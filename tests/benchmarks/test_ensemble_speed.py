@@ -142,7 +142,7 @@ def lsoda(s: Scenario, end: float, rtol: float) -> Callable[[], float]:
 
 
 def times_of(end: float) -> np.ndarray:
-    return np.arange(1, round(end / 0.1) + 1) * 0.1
+    return np.round(np.arange(1, round(end / 0.1) + 1) * 0.1, 9)
 
 
 @pytest.mark.parametrize(

@@ -46,12 +46,14 @@ def scenario(law="coulomb", **changes):
 
 
 @given(st.floats(-0.5 * math.pi, 0.5 * math.pi))
+@settings(deadline=None)
 def test_sine(y):
     # 4e-16: two units in the last place of 1
     assert abs(lanes.sine(y) - math.sin(y)) < 4e-16
 
 
 @given(st.floats(-700.0, 0.0))
+@settings(deadline=None)
 def test_exponential(y):
     assert lanes.exponential(y) == pytest.approx(math.exp(y), rel=5e-16, abs=0.0)  # two units in the last place
 
@@ -103,7 +105,10 @@ PROCESSES = [
     Knots(**SIGMAS, spacing=0.01, distribution_s=TruncatedNormal(lower=0.79, upper=0.82)),
     Knots(**SIGMAS, spacing=0.01, distribution_s=Uniform(), distribution_k=Empirical(values=tuple(np.linspace(0.4, 0.5, 20)))),
     OrnsteinUhlenbeck(**SIGMAS, correlation_time=0.05),
+    OrnsteinUhlenbeck(**SIGMAS, correlation_time=0.05, distribution_k=Lognormal()),
+    OrnsteinUhlenbeck(sigma_s=0.1, sigma_k=0.1, correlation_time=0.05),  # clipped where infeasible
     Matern(**SIGMAS, correlation_time=0.05),
+    Matern(**SIGMAS, correlation_time=0.05, distribution_s=TruncatedNormal(lower=0.79, upper=0.82)),
     None,
 ]
 
@@ -124,7 +129,8 @@ def test_pairs_are_those_of_the_coefficient_path_to_the_bit(process):
     for j in (0, 1, 7, 8, lanes.LANES - 1):
         path = CoefficientPath(process, law, seed=7, sample=first + j)
         assert np.array_equal(found[:, j], path.pairs(n))
-    assert len(np.unique(found[:, :, 0])) > (1 if process is None else 5000) - 1
+    # 7680 draws, of which the narrowest bounds clip a third
+    assert len(np.unique(found[:, :, 0])) > (0 if process is None else 4000)
 
 
 # --- schedule ---------------------------------------------------------------------------------------------------------
@@ -142,6 +148,11 @@ def test_schedule_meets_every_knot_and_output_once():
     assert legs.knot[starts_knot].tolist() == list(range(30))
     assert np.sum(legs.to_knot == 1.0) == 29
     np.testing.assert_allclose((legs.knot + legs.to_knot) * 0.01, ends, atol=1e-13)
+
+
+def test_roundings_of_leg_lengths_do_not_add_up():
+    legs = schedule(scenario(process=Knots(**SIGMAS, spacing=1e-3 / 7)), np.array([10.0]))
+    assert math.fsum(legs.length) == pytest.approx(10.0, abs=1e-13)  # 70,001 legs; rounding each to 1e-14 s gives 1e-10
 
 
 def test_schedule_without_knots_and_with_an_odd_spacing():

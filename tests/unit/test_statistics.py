@@ -79,6 +79,9 @@ def test_crps_by_hand_and_of_a_normal():
     pytest.importorskip("scoringrules", reason="scoringrules is not installed")
     # E abs(X - y) - E abs(X - X')/2 with X' another member: (1 + 3)/2 - 2/2
     assert statistics.crps(0.0, [1.0, 3.0]) == pytest.approx(1.0, rel=1e-12)
+    x = RNG(0).normal(size=50)
+    pairs = np.abs(x[:, None] - x[None, :]).sum() / (50 * 49)
+    assert statistics.crps(0.2, x) == pytest.approx(np.mean(np.abs(x - 0.2)) - 0.5 * pairs, rel=1e-12)
     y = 0.7
     members = RNG(3).normal(size=(20_000, 1))
     exact = y * (2.0 * norm.cdf(y) - 1.0) + 2.0 * norm.pdf(y) - 1.0 / math.sqrt(math.pi)
