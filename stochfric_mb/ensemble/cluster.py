@@ -48,7 +48,7 @@ def connect(scheduler: Any) -> tuple[Any, bool]:
         return Client(scheduler, timeout=CONNECT, set_as_default=False), True
     except (OSError, ValueError, TypeError) as error:
         raise InputError(
-            f"no Dask scheduler at {scheduler!r} ({error}); start one with `dask scheduler` and give the address that it shows, "
+            f"no Dask scheduler at {scheduler!r} ({error}); start one with `dask scheduler` and give the address it shows, "
             "such as tcp://host:8786"
         ) from None
 

@@ -115,7 +115,7 @@ def check_memory(job: Job, target: Path, workers: int, max_bytes: int) -> None:
     needed = memory(job, target, workers)
     if needed > max_bytes:
         raise InputError(
-            f"{job.n_runs} runs at {len(job.times)} times need {needed / 2**20:.0f} MiB, more than {max_bytes / 2**20:.0f} MiB; "
+            f"{job.n_runs} runs at {len(job.times)} times need {needed / 2**20:.0f} MiB, over {max_bytes / 2**20:.0f} MiB; "
             "ask for fewer output times, for statistics only, or write to a folder that ends in .zarr"
         )
 
