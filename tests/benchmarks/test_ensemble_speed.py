@@ -204,7 +204,8 @@ def test_cost_is_linear_in_samples_and_time(kind):
     n, end = (32 * lanes.LANES, 10.0) if kind == "coulomb" else (2 * lanes.LANES, 1.0)
     base, samples, longer = ensemble_of(s, n, end / 2), ensemble_of(s, 2 * n, end / 2), ensemble_of(s, n, end)
     t = turns(base, samples, longer)
-    ratios = np.median(t[:, 1:] / t[:, :1], axis=0)
+    best = t.min(axis=0)  # least disturbed: a neighbour on the same core slows single rounds by a half
+    ratios = best[1:] / best[0]
     print(f"{kind}: twice the samples {ratios[0]:.2f}, twice the time {ratios[1]:.2f}")
     # 2 but for the preparation, which does not double; 2.5 leaves room for a busy machine
     assert np.all(ratios > 1.4)
