@@ -45,6 +45,7 @@ class FrictionContact:
         """The law and the process of its coefficients."""
         law = self.friction.law
         mass = _effective_mass(law, effective_mass)
+        self._mass_given = effective_mass is not None
         self._mbs, self._normal = mbs, normal
         self._numbers, self._words = _arrays(law, self.friction.path(seed, sample, contact))
         self._numbers[[at.MASS, at.RADIUS]] = mass, 1.0
@@ -124,6 +125,28 @@ class FrictionContact:
             return [math.hypot(*self._forces()) if self._words[at.PLANE] else self._forces()[0], *self._values()]
 
         return self._mbs.AddSensor(SensorUserFunction(sensorNumbers=[], factors=[], sensorUserFunction=values, **options))
+
+    def step_limit(self) -> tuple[float, str]:
+        """Return the largest step [s] of an explicit solver at the largest normal force so far, and the formula behind it.
+
+        Raises:
+            InputError: the law has a limit that depends on an effective mass, which was not given.
+        """
+        law, numbers = self.friction.law, self._numbers
+        mass, n = float(numbers[at.MASS]), float(max(numbers[at.LARGEST_NORMAL], numbers[at.NORMAL_FORCE]))
+        limit, formula = law.step_limit(n, mass) if n > 0.0 else math.inf, f"law {law.kind}: {law.step_limit_formula}"
+        if self._words[at.PENALTY]:
+            omega = math.sqrt(numbers[at.STIFFNESS] / mass)
+            zeta = numbers[at.DAMPING] / (2.0 * mass * omega)
+            press = 2.0 * (math.sqrt(1.0 + zeta**2) - zeta) / omega
+            if press < limit:
+                limit, formula = press, "normal contact: 2 (sqrt(1 + zeta^2) - zeta)/omega, omega^2 = contact_stiffness/m_eff"
+        if math.isfinite(limit) and not self._mass_given:
+            raise InputError(
+                f"an explicit solver has a largest step here ({formula}) that depends on effective_mass [kg], the mass that "
+                "the contact feels; pass it so that the step can be checked, or use solver='generalized_alpha'"
+            )
+        return float(limit), formula
 
     def reset(self) -> None:
         """Start the contact afresh, at the system's initial displacement and velocity."""

@@ -39,6 +39,10 @@ class Contact(Protocol):
     is_load: bool
     """Whether the force is a load."""
 
+    def step_limit(self) -> tuple[float, str]:
+        """Return the largest step [s] of an explicit solver so far, and the formula behind it."""
+        ...
+
     @property
     def needs_reactions(self) -> bool:
         """Whether the normal force is a reaction, which explicit solvers do not compute."""

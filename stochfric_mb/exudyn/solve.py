@@ -7,7 +7,7 @@ from typing import Any
 import exudyn
 import numpy as np
 
-from stochfric_mb.errors import InputError, SimulationError, require_name
+from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_name
 from stochfric_mb.exudyn.hooks import SWITCH_ERROR, Hooks
 from stochfric_mb.exudyn.normal import NO_REACTION
 
@@ -49,17 +49,23 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
 
     Raises:
         InputError: a normal force is read from a constraint, and the solver is explicit.
-        SimulationError: the solver gave up, or the motion is not finite.
+        StabilityError: the step is beyond a contact's limit for an explicit solver.
+        SimulationError: the solver gave up, the motion is not finite, or the normal force has grown so that the step was
+            beyond a contact's limit.
         Exception: what a user's callback raised.
     """
     require_name("solver", solver, SOLVERS)
     integration = settings.timeIntegration
     dt = (integration.endTime - integration.startTime) / integration.numberOfSteps
+    where = f"Exudyn ({solver}, dt = {dt:g} s)"
     hooks = Hooks.of(mbs)
+    limited = solver in EXPLICIT and not (solver == "dopri5" and integration.automaticStepSize)
     if solver in EXPLICIT and any(contact.needs_reactions for contact in hooks.contacts):
         raise InputError(NO_REACTION)
     for contact in hooks.contacts:
         contact.prepare(dt)
+    if limited and (broken := _broken_limit(hooks, dt)):
+        raise StabilityError(f"{where}: {broken}")
     hooks.install(locate=locate)
     if any(contact.is_load for contact in hooks.contacts) and integration.computeLoadsJacobian == 0:
         integration.computeLoadsJacobian = 2
@@ -71,17 +77,29 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     except exudyn.ExudynError as error:
         if isinstance(error.__cause__, Exception):
             raise error.__cause__ from error.__cause__.__cause__
-        raise SimulationError(f"Exudyn ({solver}, dt = {dt:g} s) failed: {error}") from error
+        raise SimulationError(f"{where} failed: {error}") from error
     finally:
         exudyn.config.printToConsole = printed
         hooks.install(locate=False)
+    broken = (_broken_limit(hooks, dt) if limited else "") or "use a smaller step or another solver"
     if not success:
-        raise SimulationError(f"Exudyn ({solver}, dt = {dt:g} s) gave up; use a smaller step or another solver")
+        raise SimulationError(f"{where} gave up: {broken}")
     for what in (mbs.systemData.GetODE2Coordinates(), mbs.systemData.GetODE2Coordinates_t()):
         if not np.all(np.isfinite(what)):
-            raise SimulationError(
-                f"Exudyn ({solver}, dt = {dt:g} s) reported success with a state that is not finite; use a smaller step"
-            )
+            raise SimulationError(f"{where} reported success with a state that is not finite: {broken}")
+    if limited and (broken := _broken_limit(hooks, dt)):
+        raise SimulationError(f"{where} reported success, but the outcome is not to be trusted: {broken}")
+
+
+def _broken_limit(hooks: Hooks, dt: float) -> str:
+    """Return what says that dt [s] is beyond a contact's limit for explicit solvers, "" if it is not."""
+    limit, formula = min((contact.step_limit() for contact in hooks.contacts), default=(np.inf, ""))
+    if dt <= limit:
+        return ""
+    return (
+        f"dt is beyond the stability limit {limit:.3g} s ({formula}) of an explicit solver; use dt <= {0.5 * limit:.2g} s or "
+        "solver='generalized_alpha'"
+    )
 
 
 def _settle_location(integration: Any, dt: float) -> None:

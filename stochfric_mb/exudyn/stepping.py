@@ -46,7 +46,11 @@ AXIS_1, AXIS_2, NORMAL = 27, 30, 33
 """Directions of the tangent plane and its normal, from the counter-surface to the body."""
 DISTANCE, RATE = 36, 39
 """Position [m] and velocity [m/s] of marker 1 relative to marker 0."""
-NEW = 42
+SWITCHED = 42
+"""Time of the law's last change of mode [s]."""
+LARGEST_NORMAL = 43
+"""Largest normal force [N] of this simulation."""
+NEW = 44
 """Scratch for a law's output."""
 GUARDS_BEFORE = NEW + 8
 """The law's guards at the last accepted step."""
@@ -84,6 +88,8 @@ TOLERANCE, BEYOND, SHORTEST, GRID = 1.0e-3, 1.0e-4, 2.0e-4, 5.0e-5
 as on the grid (as `canonical_time` has it, since engine time is a sum of rounded steps)."""
 ROUNDING = 1.0e-9
 """What a sum of many steps may differ from the time it stands for [s]."""
+FINE, FINE_STEPS = 0.25, 2.0
+"""Steps within so many steps after a change of mode are shortened to this part: the force changes fast then."""
 STEPS_AHEAD = 3.0
 """A guard is watched where it may turn within so many steps at the rate of the last one."""
 
@@ -234,15 +240,17 @@ def _moved(motion, numbers):
 def _keep(t, motion, n, numbers):
     """Remember the accepted step."""
     numbers[T], numbers[NORMAL_FORCE] = t, n
+    numbers[LARGEST_NORMAL] = max(numbers[LARGEST_NORMAL], n)
     numbers[U], numbers[U_2], numbers[V], numbers[V_2] = motion
 
 
 @compiled
 def restart(t, motion, n, numbers, words):
     """Start the contact afresh at time t."""
-    numbers[EVENTS] = 0.0
+    numbers[EVENTS], numbers[LARGEST_NORMAL] = 0.0, 0.0
     _keep(t, motion, n, numbers)
     numbers[REACH] = 1.5 * numbers[STEP]
+    numbers[SWITCHED] = -math.inf
     words[STARTED] = 1
     pair = pair_at(t, motion[0], numbers, words)
     _law_gives(words[INIT], t, motion, n, pair, numbers, words)
@@ -292,7 +300,9 @@ def _watch(t, motion, n, pair, switched, numbers, words):
     """Find out whether the next step may contain a switch or must return to the grid; return WATCH if that is news."""
     ask(words[GUARD], t, motion, n, pair, numbers, NEW)
     steps = (t - numbers[START]) / numbers[STEP]
-    watch = switched or abs(steps - math.floor(steps + 0.5)) > GRID
+    if switched:
+        numbers[SWITCHED] = t
+    watch = _settling(t, numbers) or abs(steps - math.floor(steps + 0.5)) > GRID
     for i in range(GUARDS):
         new = numbers[NEW + i]
         if new > 0.0 and new < STEPS_AHEAD * abs(new - numbers[GUARDS_BEFORE + i]):
@@ -302,6 +312,12 @@ def _watch(t, motion, n, pair, switched, numbers, words):
         return NOTHING
     words[WATCHING] = 1 if watch else 0
     return WATCH
+
+
+@compiled
+def _settling(t, numbers):
+    """Return whether a step that begins at t follows a change of mode closely."""
+    return t - numbers[SWITCHED] < (FINE_STEPS - GRID) * numbers[STEP]
 
 
 @compiled
@@ -388,8 +404,9 @@ def locate(t, address):
         return -1.0
     n = math.floor((t_0 - numbers[START]) / step + GRID) + 1.0
     grid = numbers[START] + n * step
-    if t > grid + GRID * step:
-        return grid - t_0
+    end = min(grid, t_0 + FINE * step) if _settling(t_0, numbers) else grid
+    if t > end + GRID * step:
+        return end - t_0
     motion, normal_force = kinematics(t, numbers, words), normal_force_at(t, numbers, words)
     pair = pair_at(t, motion[0], numbers, words)
     ask(words[GUARD], t, motion, normal_force, pair, numbers, NEW)
