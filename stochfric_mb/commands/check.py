@@ -19,6 +19,8 @@ Example:
 """
 TITLE = "Friction as it is (native) and with this package's law (ours)"
 HEAD = ("site", "load", "drift", "50 %", "90 %", "breaks", "slows", "energy", "limit")
+LEAST = 1.0e-3
+"""Drift shown as 0 below this [um/s]."""
 LEGEND = """\
 load: friction force in the given state, in % of mu N; drift: in um/s (urad/s) under that load, at 50 and at 90 % of
 mu N; breaks: break-away force in % of mu_s N; slows: deceleration in % of mu_k N/m; energy: created by friction [J];
@@ -115,4 +117,6 @@ def _drift(drift: Mapping[str, float] | None) -> str:
     if drift is None:
         return "-"
     value = 1.0e6 * drift["speed"]
+    if abs(value) < LEAST:
+        return "0"
     return f"{value:.0f}" if abs(value) >= 100.0 else f"{value:.2g}"

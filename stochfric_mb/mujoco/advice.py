@@ -46,12 +46,16 @@ def advice(row: Row, timestep: float, invented: frozenset[str]) -> str:
 def _take_over_words(row: Row) -> str:
     parameters = row.law.to_dict() if row.law is not None else {}
     words = ", ".join(f"{k}={v:.4g}" for k, v in parameters.items() if isinstance(v, float) and _told(row.law, k))
-    where = f"({row.names[0]!r}, {row.names[1]!r})" if row.kind == "contact" else repr(row.names[0])
-    return f"take it over with add_friction(spec, {where}, {type(row.law).__name__}({words}))"
+    where, load = repr(row.names), ""
+    if row.kind != "contact":
+        where, load = f"{row.kind.capitalize()}({row.names[0]!r})", f", normal_force={row.limit:.6g}"
+    return f"take it over with add_friction(spec, {where}, {type(row.law).__name__}({words}){load})"
 
 
 def _step_words(row: Row, timestep: float) -> str:
     e_lim = getattr(row.law, "e_lim", None)
+    if row.kind != "contact":
+        return ""
     if e_lim is None:
         return f"; timestep <= {row.step_limit:.2g} s" if math.isfinite(row.step_limit) else ""
     or_step = f", or timestep <= {row.default_step_limit / MARGIN:.2g} s at {ElasticStick.e_lim:g} {row.unit}"
@@ -66,8 +70,8 @@ def _smaller_step(row: Row, timestep: float) -> str:
 
 
 def _naming_words(row: Row, invented: frozenset[str]) -> str:
-    unnamed = [n for n in row.names if row.kind == "contact" and n in invented]
-    return f" (give geoms without a name one first; here {' and '.join(unnamed)}, by number)" if unnamed else ""
+    unnamed = [n for n in row.names if n in invented]
+    return f" (it needs a name first: here {' and '.join(unnamed)}, by number)" if unnamed else ""
 
 
 def _told(law: Law | None, key: str) -> bool:

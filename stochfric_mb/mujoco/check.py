@@ -27,7 +27,7 @@ from stochfric_mb.laws import Law, make_law
 from stochfric_mb.laws.coulomb import Coulomb
 from stochfric_mb.laws.elastic_stick import ElasticStick
 from stochfric_mb.laws.substitute import MARGIN, elastic_substitute
-from stochfric_mb.mujoco import probes
+from stochfric_mb.mujoco import joints, probes
 from stochfric_mb.mujoco.advice import SLIDING, advice
 from stochfric_mb.mujoco.attach import _take_over, add_friction
 from stochfric_mb.mujoco.findings import SHARES, CheckResult, Findings, Row
@@ -132,7 +132,7 @@ class _Bench:
 
     def __init__(self, model: str | Path | mujoco.MjSpec, *, law: str, mu_k_ratio: float, duration: float) -> None:
         self.spec, self.model = load(model)
-        self.invented = _name_geoms(self.spec) if self.spec is not None else frozenset()
+        self.invented = _name_all(self.spec) if self.spec is not None else frozenset()
         if self.invented and self.spec is not None:
             self.model = self.spec.compile()
         self.law, self.mu_k_ratio, self.duration = law, mu_k_ratio, duration
@@ -237,7 +237,7 @@ class _Bench:
             "law": None, "mass": math.nan, "step_limit": math.nan, "default_step_limit": math.nan, "advice": "",
         }  # fmt: skip
         return Row(
-            kind=kind, name=site.name, names=site.names if isinstance(site, ContactPair) else (site.name,),
+            kind=kind, name=site.name, names=_names(site),
             unit=_unit(self.model, site), coefficient=site.mu if isinstance(site, ContactPair) else None, **(blank | values),
         )  # fmt: skip
 
@@ -313,6 +313,8 @@ class _Bench:
         mu_s = site.mu if isinstance(site, ContactPair) else 1.0
         dt = float(self.model.opt.timestep)
         law = make_law(self.law, mu_s=mu_s, mu_k=self.mu_k_ratio * mu_s)
+        if not isinstance(site, ContactPair) and not law.needs_holding_force:
+            return law, math.inf, math.inf, ""  # implicit in the velocity: no limit
         default = law.step_limit(normal, mass)
         law, _ = elastic_substitute(law, dt, normal, mass)
         if self.law == ElasticStick.kind and default < MARGIN * dt:
@@ -327,12 +329,14 @@ class _Bench:
         """Return the model with our law at the site, or why it cannot be had."""
         if self.spec is None:
             return None, None, "a binary model cannot be changed; give the XML"
-        if not isinstance(site, ContactPair):
-            return None, None, "add_friction takes geoms only"
         spec = self.spec.copy()
-        contacts = len(pair_contacts(probes.started(self.model, self.state), site.geoms))
         try:
-            name = add_friction(spec, site.names, law, slots=max(16, 2 * contacts))
+            if isinstance(site, ContactPair):
+                contacts = len(pair_contacts(probes.started(self.model, self.state), site.geoms))
+                name = add_friction(spec, site.names, law, slots=max(16, 2 * contacts))
+            else:
+                place = joints.Joint(site.joint) if isinstance(site, Joint) else joints.Tendon(site.name)
+                name = add_friction(spec, place, law, normal_force=site.loss)
             return spec.compile(), dataclasses.replace(site, instance=name), ""
         except (InputError, ValueError) as error:
             return None, None, str(error)
@@ -373,18 +377,19 @@ def _one_line(error: Exception) -> str:
     return "; ".join(line.strip() for line in str(error).splitlines() if line.strip())
 
 
-def _name_geoms(spec: mujoco.MjSpec) -> frozenset[str]:
-    """Give every geom a name; return the names that are not the user's."""
-    taken = {g.name for g in spec.geoms}
+def _name_all(spec: mujoco.MjSpec) -> frozenset[str]:
+    """Give every geom, joint and tendon a name; return the names that are not the user's."""
     made: set[str] = set()
-    for geom in spec.geoms:
-        if not geom.name:
-            name = f"geom_{geom.id}"
-            while name in taken:
-                name += "_"
-            geom.name = name
-            taken.add(name)
-            made.add(name)
+    for kind, elements in (("geom", spec.geoms), ("joint", spec.joints), ("tendon", spec.tendons)):
+        taken = {e.name for e in elements}
+        for element in elements:
+            if not element.name:
+                name = f"{kind}_{element.id}"
+                while name in taken:
+                    name += "_"
+                element.name = name
+                taken.add(name)
+                made.add(name)
     return frozenset(made)
 
 
@@ -456,11 +461,18 @@ def _losses(model: mujoco.MjModel) -> list[AnySite]:
         joint = int(model.dof_jntid[dof])
         name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, joint) or f"joint {joint}"
         several = model.jnt_type[joint] in (mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL)
-        found.append(Joint(f"{name}[{dof - model.jnt_dofadr[joint]}]" if several else name, int(dof)))
+        shown = f"{name}[{dof - model.jnt_dofadr[joint]}]" if several else name
+        found.append(Joint(shown, name, int(dof), float(model.dof_frictionloss[dof])))
     for number in np.flatnonzero(model.tendon_frictionloss > 0.0):
         name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_TENDON, int(number)) or f"tendon {number}"
-        found.append(Tendon(name, int(number)))
+        found.append(Tendon(name, int(number), float(model.tendon_frictionloss[number])))
     return found
+
+
+def _names(site: AnySite) -> tuple[str, ...]:
+    if isinstance(site, ContactPair):
+        return site.names
+    return (site.joint if isinstance(site, Joint) else site.name,)
 
 
 def _unit(model: mujoco.MjModel, site: AnySite) -> str:

@@ -260,4 +260,5 @@ def slide(
     pressing = float(without.column("limit")[: last + 1].mean()) or limit
     lost = without.column("velocity") - record.column("velocity")
     touching = float(record.column("touching")[: last + 1].mean())
-    return Slide(float((lost[last] - lost[FIRST_SLIDE_STEP]) / ((last - FIRST_SLIDE_STEP) * step)), pressing / mass, mass, touching), record, ""
+    deceleration = (lost[last] - lost[FIRST_SLIDE_STEP]) / ((last - FIRST_SLIDE_STEP) * step)
+    return Slide(float(deceleration), pressing / mass, mass, touching), record, ""

@@ -175,8 +175,14 @@ class Joint:
 
     name: str
     """Name for tables."""
+    joint: str
+    """Name of the joint."""
     dof: int
     """The degree of freedom."""
+    loss: float
+    """Its frictionloss [N or N m]."""
+    instance: str = ""
+    """Friction instance of this package that acts here; empty: the model's own friction."""
 
     def row(self, model: mujoco.MjModel, data: mujoco.MjData) -> Array:
         """Return the unit row of the degree of freedom."""
@@ -185,9 +191,10 @@ class Joint:
         return row
 
     def sample(self, model: mujoco.MjModel, data: mujoco.MjData) -> Sample:
-        """Return what the frictionloss does."""
-        force = constraint_force(data, CONSTRAINT.mjCNSTR_FRICTION_DOF, self.dof)
-        return _scalar(float(model.dof_frictionloss[self.dof]), force, float(data.qvel[self.dof]))
+        """Return what friction does at the degree of freedom."""
+        force = _own_force(model, data, self.instance, CONSTRAINT.mjCNSTR_FRICTION_DOF, self.dof)
+        velocity = float(data.qvel[self.dof])
+        return Sample(self.loss, self.loss, -force, velocity, force * velocity, True)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -195,9 +202,13 @@ class Tendon:
     """One tendon with frictionloss."""
 
     name: str
-    """Name for tables."""
+    """Name of the tendon."""
     number: int
     """The tendon."""
+    loss: float
+    """Its frictionloss [N]."""
+    instance: str = ""
+    """Friction instance of this package that acts here; empty: the model's own friction."""
 
     def row(self, model: mujoco.MjModel, data: mujoco.MjData) -> Array:
         """Return the tendon's Jacobian."""
@@ -208,19 +219,23 @@ class Tendon:
         return row
 
     def sample(self, model: mujoco.MjModel, data: mujoco.MjData) -> Sample:
-        """Return what the frictionloss does."""
-        force = constraint_force(data, CONSTRAINT.mjCNSTR_FRICTION_TENDON, self.number)
-        return _scalar(float(model.tendon_frictionloss[self.number]), force, float(data.ten_velocity[self.number]))
+        """Return what friction does along the tendon."""
+        force = _own_force(model, data, self.instance, CONSTRAINT.mjCNSTR_FRICTION_TENDON, self.number)
+        velocity = float(data.ten_velocity[self.number])
+        return Sample(self.loss, self.loss, -force, velocity, force * velocity, True)
+
+
+def _own_force(model: mujoco.MjModel, data: mujoco.MjData, instance: str, kind: mujoco.mjtConstraint, number: int) -> float:
+    """Return the friction force along a coordinate, of an instance of this package or of the engine's constraint."""
+    if not instance:
+        return constraint_force(data, kind, number)
+    return sum(reading.force[0] for reading in readings(model, data)[instance])
 
 
 def constraint_force(data: mujoco.MjData, kind: mujoco.mjtConstraint, number: int) -> float:
     """Return the force of the constraint of a kind on an element, 0 if there is none."""
     rows = (data.efc_type == int(kind)) & (data.efc_id == number)
     return float(data.efc_force[rows].sum())
-
-
-def _scalar(limit: float, force: float, velocity: float) -> Sample:
-    return Sample(limit, limit, -force, velocity, force * velocity, True)
 
 
 # --- the mass that a probe moves -------------------------------------------------------------------------------------

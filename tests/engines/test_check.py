@@ -108,7 +108,7 @@ def test_geoms_without_a_name_are_named_in_the_copy_only():
     row = only(check(spec, duration=0.1, settle=0.5))
     assert row.names == ("geom_1", "floor")
     assert row.ours is not None
-    assert "give geoms without a name one first" in row.advice
+    assert "it needs a name first: here geom_1" in row.advice
     assert [g.name for g in spec.geoms] == ["floor", ""]
     assert not list(spec.pairs)
 
@@ -164,7 +164,21 @@ def test_a_hinge_with_frictionloss_creeps():
     inertia = 1.0 * 0.2**2 + 0.4 * 0.1**2
     assert row.native.slide.mass == pytest.approx(inertia, rel=1e-9)
     assert row.native.slide.deceleration == pytest.approx(1.0 / inertia, rel=0.02)
+    # Ours is implicit in the velocity: it holds, to rounding over the step.
+    assert all(abs(d.speed) < 1e-9 for d in (row.ours.own, *row.ours.held))
+    assert row.ours.held[1].load == pytest.approx(0.9, abs=1e-3)
+    assert row.ours.break_away.share == pytest.approx(1.0, abs=1e-3)
+    assert row.ours.slide.deceleration == pytest.approx(1.0 / inertia, rel=0.02)
+    assert row.ours.energy_created == pytest.approx(0.0, abs=1e-5)  # N e_lim/2 is what its spring can store
     assert "creeps" in row.advice
+    assert "add_friction(spec, Joint('hinge'), ElasticStick(mu_s=1, mu_k=1), normal_force=1)" in row.advice
+
+
+def test_a_load_that_a_neighbour_carries():
+    tendon = '<tendon><fixed name="cable" frictionloss=".3"><joint joint="hinge" coef="2"/></fixed></tendon>'
+    rows = checked(HINGE.format(more=tendon), settle=0.1, duration=0.1).rows
+    assert [(r.kind, r.name) for r in rows] == [("joint", "hinge"), ("tendon", "cable")]
+    assert "no break-away up to 140 % of the limit" in rows[1].ours.notes  # the hinge holds 1 N m, the load is 0.84
 
 
 def test_what_slides_already_is_not_held():
@@ -179,9 +193,11 @@ def test_what_slides_already_is_not_held():
 
 def test_a_tendon_with_frictionloss():
     tendon = '<tendon><fixed name="cable" frictionloss=".3"><joint joint="hinge" coef="2"/></fixed></tendon>'
-    rows = checked(HINGE.format(more=tendon), settle=0.1).rows
-    assert [(r.kind, r.name) for r in rows] == [("joint", "hinge"), ("tendon", "cable")]
-    cable = rows[1]
+    cable = only(checked(HINGE.format(more=tendon).replace('frictionloss="1"', ""), settle=0.1))
+    assert (cable.kind, cable.name, cable.unit) == ("tendon", "cable", "m")
+    assert cable.native.held[1].speed > 1e-3
+    assert abs(cable.ours.held[1].speed) < 1e-9
+    assert cable.ours.break_away.share == pytest.approx(1.0, abs=1e-3)
     assert cable.limit == pytest.approx(0.3)
     assert cable.native.slide.mass == pytest.approx((0.2**2 + 0.4 * 0.1**2) / 4.0, rel=1e-9)  # seen through coef 2
 
@@ -283,6 +299,8 @@ def test_urdf(tmp_path):
 def test_other_laws_run_or_say_why_not(kind):
     row = only(checked(incline(), law=kind, settle=0.3, duration=0.05))
     assert (row.ours is None) == bool(row.ours_problem)
+    joint = only(checked(HINGE.format(more=""), law=kind, settle=0.1, duration=0.05))
+    assert (joint.ours is None) == bool(joint.ours_problem)
     if kind == "havsin":  # dt < 4 v_s m_eff/(pi mu_s N)
         assert "needs a timestep <=" in row.ours_problem
 
