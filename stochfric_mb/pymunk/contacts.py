@@ -198,7 +198,7 @@ def take_back(table, s, a, b, ordered):
 def begin_contact(clock, s):
     """Reset what belongs to a contact's life."""
     s[r.DISPLACEMENT] = clock[r.START]
-    s[r.FORCE], s[r.CAP], s[r.OVER] = 0.0, 0.0, 0.0
+    s[r.FORCE], s[r.CAP], s[r.OVER], s[r.GUARDS_KNOWN] = 0.0, 0.0, 0.0, 0.0
     s[r.EXTRA_NORMAL], s[r.EXTRA_TANGENT] = 0.0, 0.0
 
 

@@ -39,8 +39,14 @@ class Member(Protocol):
 
     table: npt.NDArray[np.int64]
     """Its table."""
-    time: float
-    """Time of the force last applied [s]."""
+
+    @property
+    def time(self) -> float:
+        """Time of the force last applied [s]."""
+        ...
+
+    @time.setter
+    def time(self, value: float) -> None: ...
 
     def prepare(self, dt: float) -> None:
         """Get ready for steps of ``dt`` [s]."""

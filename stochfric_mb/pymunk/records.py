@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from stochfric_mb.coefficients.path import CURSOR
 from stochfric_mb.laws.abi import MAX_STATE
+from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.pymunk.layout import NAMES
 
 # --- context: what was there before, whom to call when something is wrong, and the addresses of the tables ---
@@ -43,7 +44,8 @@ NOW, STICK_SPEED, START, CHECKED_STEP, LARGEST_LOAD, WORST_LOAD, CLOCK_SIZE = ra
 # RATE is the relative velocity over the last drift, VELOCITY the one at the time of the force. NORMAL is what is expected
 # before the solve and what it was after it; ISOLATED is the expectation for the pair alone. PUSH and PUSH_... are what was
 # written into the bodies as a force and torques; PENDING says that no solve has followed yet;
-# ORDER is 1 where pymunk has the body first, otherwise -1. EXTRA_... are impulses that
+# ORDER is 1 where pymunk has the body first, otherwise -1. SLOPE is that of the force over velocity, GUARDS_AT.. are the
+# law's guards at the end of the last step, if GUARDS_KNOWN. EXTRA_... are impulses that
 # pymunk applies but does not count where the step size changes: it scales the last step's impulses by the ratio of the
 # steps when it starts from them, not its record of them. OVER counts steps in a row beyond the stability limit, KNOWN is 1 once
 # the contact was met.
@@ -51,9 +53,10 @@ NOW, STICK_SPEED, START, CHECKED_STEP, LARGEST_LOAD, WORST_LOAD, CLOCK_SIZE = ra
     DISPLACEMENT, RATE, FORCE, NORMAL, MU_S, MU_K, STICK, EVENTS, CAP, STEP, VELOCITY, EFFECTIVE_MASS, TIME, KNOWN,
     EXTRA_NORMAL, EXTRA_TANGENT, PAST_DISPLACEMENT, PAST_VELOCITY, PAST_MU_S, PAST_MU_K, PAST_ACCELERATION, ISOLATED,
     PUSH, PUSH_X, PUSH_Y, TORQUE_A, TORQUE_B, PENDING, OVER, NORMAL_X, NORMAL_Y, PAST_NORMAL,
-    ORDER,
-) = range(33)  # fmt: skip
-STATE = 33
+    ORDER, SLOPE, GUARDS_KNOWN,
+) = range(35)  # fmt: skip
+GUARDS_AT = 35
+STATE = GUARDS_AT + GUARDS
 CURSOR_AT = STATE + MAX_STATE
 OUT = CURSOR_AT + CURSOR
 SLOT = OUT + MAX_STATE

@@ -38,18 +38,20 @@ def settle(table, clock, s, contact, first, v_free, compliance):
     """Return the friction force [N] at the velocity v that it leads to, v = v_free - compliance F(v); commits at v."""
     s[r.PAST_MU_S], s[r.PAST_MU_K] = s[r.MU_S], s[r.MU_K]
     coefficients(table, s, contact)
-    if first:
-        v = v_free
-    else:
-        v = meet(table, s, v_free, compliance)
-        if table[r.STATEFUL] == 1:
-            locate(table, clock, s, contact, v)
+    v, force = v_free, 0.0
+    if not first:
+        v, force = meet(table, s, v_free, compliance)
+        if table[r.STATEFUL] == 1 and locate(table, clock, s, contact, v):
+            v, force = meet(table, s, v_free, compliance)
     changed = remember(table, clock, s, contact, first, s[r.TIME], s[r.DISPLACEMENT], v, s[r.MU_S], s[r.MU_K], 0.0)
-    if changed and not first:
-        v = meet(table, s, v_free, compliance)
+    if first:
+        force = law_force(table, s, v, s[r.NORMAL], 0.0)
+    elif changed and law_force(table, s, v, s[r.NORMAL], 0.0) != force:
+        s[r.GUARDS_KNOWN] = 0.0
+        v, force = meet(table, s, v_free, compliance)
     s[r.VELOCITY] = v
     s[r.PAST_VELOCITY], s[r.PAST_DISPLACEMENT] = v, s[r.DISPLACEMENT]
-    return law_force(table, s, v, s[r.NORMAL], 0.0)
+    return force
 
 
 @compiled
@@ -86,12 +88,16 @@ def locate(table, clock, s, contact, v):
 
     Between its ends the step is a cubic in displacement and linear in velocity and coefficients. Without this, a
     switch would be late by up to a step, and what the law remembers of it (such as where a contact stuck) first order.
+    Returns whether the state has changed.
     """
     out = s[r.OUT : r.OUT + GUARDS]
+    before = s[r.GUARDS_AT : r.GUARDS_AT + GUARDS]
     low = 0.0
+    changed = False
     for _ in range(SWITCHES):
-        guards_at(table, s, v, low)
-        before = (out[0], out[1], out[2], out[3], out[4], out[5])
+        if s[r.GUARDS_KNOWN] == 0.0:
+            guards_at(table, s, v, low)
+            before[:] = out
         guards_at(table, s, v, 1.0)
         after = (out[0], out[1], out[2], out[3], out[4], out[5])
         theta = 2.0
@@ -99,10 +105,14 @@ def locate(table, clock, s, contact, v):
             if before[i] > 0.0 >= after[i]:
                 theta = min(theta, crossing(table, s, v, i, low))
         if theta >= 1.0:
-            return
+            before[0], before[1], before[2], before[3], before[4], before[5] = after
+            s[r.GUARDS_KNOWN] = 1.0
+            return changed
         u, w, mu_s, mu_k = between(s, v, theta)
-        remember(table, clock, s, contact, False, s[r.TIME] - (1.0 - theta) * s[r.STEP], u, w, mu_s, mu_k, 0.0)
+        changed |= remember(table, clock, s, contact, False, s[r.TIME] - (1.0 - theta) * s[r.STEP], u, w, mu_s, mu_k, 0.0)
+        s[r.GUARDS_KNOWN] = 0.0
         low = theta
+    return changed
 
 
 @compiled
@@ -145,26 +155,37 @@ def guards_at(table, s, v, theta):
 
 @compiled
 def meet(table, s, v_free, compliance):
-    """Return the root v [m/s] of v - v_free + compliance F(v), by a safeguarded secant iteration."""
-    v0 = v_free
-    g0 = compliance * law_force(table, s, v0, s[r.NORMAL], 0.0)
-    v1 = v0 - g0
+    """Return the root v [m/s] of v - v_free + compliance F(v), and F(v) [N], by a safeguarded secant iteration.
+
+    The slope of the last step usually gives the root at once; otherwise the force at v_free gives the other end.
+    """
+    f0 = law_force(table, s, v_free, s[r.NORMAL], 0.0)
+    v0, g0 = v_free, compliance * f0
     if g0 == 0.0:
-        return v0
-    g1 = v1 - v_free + compliance * law_force(table, s, v1, s[r.NORMAL], 0.0)
+        return v0, f0
+    v1 = v0 - g0 / (1.0 + compliance * max(s[r.SLOPE], 0.0))
+    f1 = law_force(table, s, v1, s[r.NORMAL], 0.0)
+    g1 = v1 - v_free + compliance * f1
+    if abs(g1) > 0.1 * abs(g0):
+        v1 = v0 - g0
+        f1 = law_force(table, s, v1, s[r.NORMAL], 0.0)
+        g1 = v1 - v_free + compliance * f1
+    if v1 != v0:
+        s[r.SLOPE] = (f1 - f0) / (v1 - v0)
     for _ in range(ITERATIONS):
-        if abs(g1) <= 1.0e-13 * abs(v1) + 1.0e-18 or g1 == g0:
+        if abs(g1) <= 1.0e-13 * abs(v1) + 1.0e-16 * abs(v_free) + 1.0e-18 or g1 == g0:
             break
         v2 = v1 - g1 * (v1 - v0) / (g1 - g0)
-        g2 = v2 - v_free + compliance * law_force(table, s, v2, s[r.NORMAL], 0.0)
+        f2 = law_force(table, s, v2, s[r.NORMAL], 0.0)
+        g2 = v2 - v_free + compliance * f2
         if g2 * g1 < 0.0:
             v0, g0 = v1, g1
         elif g1 * g0 < 0.0:
             g0 *= 0.5
         else:
             v0, g0 = v1, g1
-        v1, g1 = v2, g2
-    return v1
+        v1, g1, f1 = v2, g2, f2
+    return v1, f1
 
 
 @compiled

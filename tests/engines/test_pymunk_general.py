@@ -475,11 +475,13 @@ def test_a_box_that_slept_holds_when_it_wakes(kind: str) -> None:
     steps(space, 50)
     assert shape.body.position == place
     shape.body.activate()
-    steps(space, 100)
+    for _ in range(100):
+        space.step(1e-3)
+        # the force of the step that was never solved is taken back: it alone would give the box 3 mm/s
+        assert shape.body.velocity.length < 1e-8
     (reading,) = handle.readings()
     assert reading.stick
-    # the force of the step that was never solved is taken back: it alone would move the box by 3 um at the first step
-    assert (shape.body.position - place).length < 1e-7
+    assert (shape.body.position - place).length < 1e-9
     assert abs(reading.force) == pytest.approx(0.3 * 2.0 * GRAVITY, rel=1e-5)
 
 
