@@ -37,6 +37,8 @@ _EXPORTS: dict[str, str] = {
     "Uniform": "stochfric_mb.coefficients",
     "Empirical": "stochfric_mb.coefficients",
     "Friction": "stochfric_mb.friction",
+    "Contact": "stochfric_mb.contact",
+    "PlaneContact": "stochfric_mb.contact",
     "BeltBox": "stochfric_mb.mechanisms",
     "Scenario": "stochfric_mb.scenario",
     "load_scenario": "stochfric_mb.scenario",
@@ -51,6 +53,7 @@ _EXPORTS: dict[str, str] = {
 __all__ = [
     "BeltBox",
     "CoefficientPath",
+    "Contact",
     "Coulomb",
     "Dahl",
     "ElasticStick",
@@ -70,6 +73,7 @@ __all__ = [
     "OutputStep",
     "PerEvent",
     "PiecewiseLinear",
+    "PlaneContact",
     "Scenario",
     "SimulationError",
     "Smooth",
@@ -102,6 +106,7 @@ if TYPE_CHECKING:
         TruncatedNormal,
         Uniform,
     )
+    from stochfric_mb.contact import Contact, PlaneContact
     from stochfric_mb.errors import InputError, MissingEngineError, SimulationError, StabilityError, StochfricError
     from stochfric_mb.friction import Friction
     from stochfric_mb.laws import Law, make_law, register_law

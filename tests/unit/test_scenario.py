@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import tomli_w
 
-from stochfric_mb import Havsin, InputError, Knots, load_scenario
+from stochfric_mb import Havsin, InputError, Knots, SimulationError, StabilityError, load_scenario
 from stochfric_mb.coefficients import Empirical, TruncatedNormal
 from stochfric_mb.scenario import bundled_scenarios, fitting_step, scenario_from_dict
 
@@ -118,3 +118,24 @@ def test_output_step_process_takes_the_output_step():
     content = scenario.to_dict()
     del content["coefficients"]["spacing"]
     assert scenario_from_dict(content).process.knot_spacing == 0.01
+
+
+def test_checked_step():
+    s = load_scenario("kang2015_table1", law="elastic_stick")
+    assert s.checked_step(None) == s.default_dt()
+    assert s.checked_step(1.0000000001e-4) == s.output_step / 10
+    with pytest.raises(StabilityError, match=r"dt = 0\.01 s is beyond the stability limit .*omega.*; use dt <= "):
+        s.checked_step(0.01)
+    with pytest.raises(InputError, match=r"dt = 0\.0003 s does not divide .*; try 0\.00025 s"):
+        s.checked_step(3e-4)
+    for wrong in (0.0, -1e-4, float("nan")):
+        with pytest.raises(InputError, match="dt = "):
+            s.checked_step(wrong)
+
+
+def test_require_sane():
+    s = load_scenario("kang2015_table1", law="elastic_stick")
+    s.require_sane("engine", 1.0, 2.6, 1e-4)  # 1000 static deflections of 2.63 mm
+    for broken in (2.7, -2.7, float("nan"), float("inf")):
+        with pytest.raises(SimulationError, match=r"engine: the box is at x = .*lower dt = 0\.0001 s"):
+            s.require_sane("engine", 1.0, broken, 1e-4)
