@@ -55,7 +55,8 @@ def add_bristle(
     n = require_number("normal_force", normal_force, above=0.0, unit="N")
     mass = require_number("effective_mass", effective_mass, above=0.0, unit="kg")
     stiffness = law.mu_s * n / law.e_lim
-    node = mbs.AddNode(NodeGenericData(initialCoordinates=[0.0, 0.0, 0.0], numberOfDataCoordinates=3))
+    start = _initial_coordinate(mbs, marker1) - _initial_coordinate(mbs, marker0)
+    node = mbs.AddNode(NodeGenericData(initialCoordinates=[0.0, start, 0.0], numberOfDataCoordinates=3))
     connector = CoordinateSpringDamperExt(
         markerNumbers=[marker0, marker1],
         nodeNumber=node,
@@ -97,3 +98,11 @@ class Bristle:
         n = self._normal_force
         self._mbs.SetObjectParameter(self.object, "dynamicFrictionForce", self.mu_k * n)
         self._mbs.SetObjectParameter(self.object, "staticFrictionOffsetForce", (self.mu_s - self.mu_k) * n)
+
+
+def _initial_coordinate(mbs: Any, marker: Any) -> float:
+    """Return the initial value of a marker's coordinate, 0 where the marker is on ground or on no node."""
+    entry = mbs.GetMarker(marker)
+    node = mbs.GetNode(entry["nodeNumber"]) if "nodeNumber" in entry else {}
+    values = node.get("initialCoordinates", node.get("initialDisplacements"))
+    return 0.0 if values is None else float(values[entry["coordinate"]])

@@ -189,7 +189,8 @@ class FrictionContact:
                 "use a step below their spacing"
             )
         if bits & at.RECORDED:
-            self._records[self._words.item(at.NEXT_RECORD) - 1, [3, 10]] = self._forces()
+            row = self._words.item(at.NEXT_RECORD) - 1
+            self._records[row, 3], self._records[row, 10] = self._forces()
         if bits & at.CHANGED:
             self._pass_on()
         return bool(bits & (at.WATCH | at.RESTARTED)) or was_unsure

@@ -84,7 +84,7 @@ class CoordinateLoad(_Load):
         self, mbs: Any, marker: Any, friction: Law | Friction, normal: Normal, surface_velocity: Any, **options: Any
     ) -> None:
         super().__init__(mbs, friction, normal, **options)
-        self._marker, self._own = marker, np.zeros(4)
+        self._marker, self._own, self._zero = marker, np.zeros(4), np.zeros(1)
         self._numbers[at.SURFACE_VELOCITY] = require_number("surface_velocity", surface_velocity, unit="m/s")
         bind_own(self._words, self._own)
         force_now, where, into, out = at.force_now, self.where, self._into, self._out
@@ -99,13 +99,18 @@ class CoordinateLoad(_Load):
     def connect(self) -> None:
         """Find out where the engine keeps the coordinate (again, whenever a simulation starts)."""
         self._words[at.ASK_FIRST] = int(self._normal.changes)
-        bind_coordinates(self._mbs, self._words, self._own, [-1, coordinate_index(self._mbs, self._marker)])
+        bind_coordinates(self._mbs, self._words, self._zero, [-1, coordinate_index(self._mbs, self._marker)])
+
+    def reset(self) -> None:
+        """Start the contact afresh, at the system's initial displacement and velocity."""
+        bind_own(self._words, self._own)
+        super().reset()
 
     def _read_motion(self) -> None:
-        """See where the coordinate is; the compiled code reads it there."""
-        if len(self._mbs.systemData.GetODE2Coordinates()):
-            self._own[:] = 0.0
-            bind_coordinates(self._mbs, self._words, self._own, [-1, coordinate_index(self._mbs, self._marker)])
+        """Copy the coordinate and its rate, for the time before a simulation starts."""
+        data, i = self._mbs.systemData, coordinate_index(self._mbs, self._marker)
+        if i is not None and 0 <= i < len(data.GetODE2Coordinates()):
+            self._own[[1, 3]] = data.GetODE2Coordinates()[i], data.GetODE2Coordinates_t()[i]
 
 
 class PositionLoad(_Load):

@@ -42,7 +42,7 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
 
     Args:
         mbs: an assembled system with contacts from `add_friction`.
-        settings: Exudyn's simulation settings; with ``locate`` the fields that event location needs are set.
+        settings: Exudyn's simulation settings; the fields that friction and, with ``locate``, event location need are set.
         solver: one of `SOLVERS`.
         locate: repeat steps so that they end where a law switches. After such a step the next ones end on the grid of
             fixed steps again, so that output times are met exactly.
@@ -69,6 +69,7 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     hooks.install(locate=locate)
     if any(contact.is_load for contact in hooks.contacts) and integration.computeLoadsJacobian == 0:
         integration.computeLoadsJacobian = 2
+    integration.newton.modifiedNewtonJacUpdatePerStep = True  # stick is stiff, slip is not: 1 iteration a step instead of 5
     if locate:
         _settle_location(integration, dt)
     printed, exudyn.config.printToConsole = exudyn.config.printToConsole, False

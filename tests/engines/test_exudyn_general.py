@@ -80,7 +80,7 @@ def box_in_space(s: Scenario, *, rigid: bool, penalty: float = 0.0):
         angles = exudyn.NodeType.RotationRxyz  # explicit solvers cannot run Euler parameters
         box = mbs.CreateRigidBody(inertia=InertiaCuboid(1e3 * m.mass, [0.1] * 3), nodeType=angles, **place)
     else:
-        box = mbs.CreateMassPoint(physicsMass=m.mass, **place)
+        box = mbs.CreateMassPoint(mass=m.mass, **place)
     up = 0.0 if penalty else 1e5
     mbs.CreateCartesianSpringDamper(itemNumbers=[ground, box], stiffness=[m.stiffness, up, 1e4], damping=[m.damping, up / 1e3, 10.0])
     markers = [mbs.AddMarker(MarkerBodyPosition(bodyNumber=b)) for b in (ground, box)]
@@ -490,25 +490,25 @@ def test_friction_is_for_revolute_and_prismatic_joints() -> None:
 # --- Exudyn's own bristle ---------------------------------------------------------------------------------------------
 
 
-def bristle_error(process: object, *, dt: float = 1e-4) -> float:
-    """Error [m] of a mass on a spring that the bristle brakes, against the same with add_friction."""
-    ends = []
-    for add in (add_bristle, add_friction):
-        s = scenario()
-        m = dataclasses.replace(s.mechanism, initial_position=0.02)
-        mbs, _, ground, slide = without_friction(m)
-        law = dataclasses.replace(s.law, v_s=1e-9)
-        add(mbs, ground, slide, Friction(law, process), normal_force=m.normal_force, effective_mass=m.mass, seed=1)
-        mbs.Assemble()
-        solve_dynamic(mbs, silent_settings(dt, 0.12), solver="generalized_alpha", locate=False)
-        ends.append(mbs.systemData.GetODE2Coordinates()[0])
-    return abs(ends[0] - ends[1])
+def braked(add, process: object) -> float:
+    """Position [m] of a mass that a spring pulls from 20 mm, after 0.12 s."""
+    s = scenario()
+    m = dataclasses.replace(s.mechanism, initial_position=0.02)
+    mbs, _, ground, slide = without_friction(m)
+    law = dataclasses.replace(s.law, v_s=1e-9)
+    add(mbs, ground, slide, Friction(law, process), normal_force=m.normal_force, effective_mass=m.mass, seed=1)
+    mbs.Assemble()
+    solve_dynamic(mbs, silent_settings(1e-4, 0.12), solver="generalized_alpha", locate=False)
+    return float(mbs.systemData.GetODE2Coordinates()[0])
 
 
 def test_the_built_in_bristle_with_stochastic_coefficients() -> None:
     process = Knots(sigma_s=0.015, sigma_k=0.1, spacing=0.01)
-    assert bristle_error(process) < 2e-7  # second order in the step; measured below
-    assert bristle_error(None) < 2e-7
+    steady, random = braked(add_bristle, None), braked(add_bristle, process)
+    # its rule of break-away differs: 2.4 um remain however small the step; measured 2.6 and 3.2 um here
+    assert steady == pytest.approx(braked(add_friction, None), abs=5e-6)
+    assert random == pytest.approx(braked(add_friction, process), abs=5e-6)
+    assert abs(random - steady) > 5e-6  # the path does its work: measured 9.8 um
 
 
 @pytest.mark.parametrize(
