@@ -1,5 +1,7 @@
 """The viewer example draws a film where there is no display."""
 
+import contextlib
+import importlib.util
 import os
 import re
 import subprocess
@@ -9,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-pytest.importorskip("mujoco")
+mujoco = pytest.importorskip("mujoco")
 image = pytest.importorskip("PIL.Image")
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "mujoco_viewer.py"
@@ -60,6 +62,37 @@ def test_a_film_where_there_is_no_display(tmp_path):
     assert re.search("No display .* writing mujoco_viewer.gif instead", done.stdout)
     with image.open(tmp_path / "mujoco_viewer.gif") as film:
         assert film.n_frames == 5
+
+
+def test_the_loop_of_the_viewer(monkeypatch):
+    monkeypatch.setenv("MUJOCO_GL", os.environ.get("MUJOCO_GL", "egl"))  # so that the example leaves it alone
+    viewer = importlib.import_module("mujoco.viewer")
+    spec = importlib.util.spec_from_file_location("mujoco_viewer", EXAMPLE)
+    example = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(example)
+    scene = example.Scene(speed=1.0)
+    counts = []
+
+    class Window:
+        """What the example uses of MuJoCo's handle of a viewer."""
+
+        cam, user_scn = mujoco.MjvCamera(), mujoco.MjvScene(scene.model, 100)
+
+        def is_running(self):
+            return len(counts) < 3
+
+        def sync(self):
+            counts.append(self.user_scn.ngeom)
+
+        lock = contextlib.nullcontext
+
+    for name in ("cam", "user_scn", "is_running", "sync", "lock"):
+        assert hasattr(viewer.Handle, name)
+    monkeypatch.setattr(viewer, "launch_passive", lambda model, data: contextlib.nullcontext(Window()))
+    example.view(scene)
+    assert len(set(counts)) == 1  # each frame draws anew
+    assert counts[0] > 20  # box, text, arrow, wall, spring and stripes
+    assert scene.data.time == pytest.approx(3 / example.RATE)
 
 
 def test_an_unknown_ending_is_refused(tmp_path):
