@@ -11,6 +11,7 @@ caches them beside the law.
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
 # pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: reportMissingTypeStubs=false
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
