@@ -36,8 +36,12 @@ POSITION, BEFORE_FORCE = s.ON_BODY, s.WORK
 """Slot places with another meaning here: position [rad or m], force of the step before."""
 RUNGE_KUTTA = 1
 """mjINT_RK4."""
-SOLUTIONS, SWEEPS, TRIALS = 8, 200, 60
+QUADRATIC = 1
+"""mjCNSTRSTATE_QUADRATIC."""
+SOLUTIONS, SWEEPS, TRIALS, HALVINGS = 8, 50, 60, 16
 """Most solutions of MuJoCo's constraints, of the joints in turn, and of one joint's equation, in a step."""
+ALONE, SLOPE, STOPPED = range(MAX_STATE, MAX_STATE + 3)
+"""Behind a coordinate's law state: velocity and slope where it was solved alone, 1 where it has stopped in this step."""
 START = 30
 """The search for a root begins with 2^-START of the way to the farthest point, and doubles."""
 SETTLED = 1.0e-10
@@ -263,8 +267,8 @@ def apply_implicit(model, data, states):
     actuator = n.vector(n.pointer_field(data, n.D_QFRC_ACTUATOR), nv)
     passive, qvel = n.vector(target, nv), n.vector(n.pointer_field(data, n.D_QVEL), nv)
     kept_qacc, kept_actuator, others = qacc.copy(), actuator.copy(), passive.copy()  # qacc is an input of mj_inverse
-    forces, end, rows = np.empty(count), np.empty(count), np.zeros((2, nv))
-    awake = np.empty(count, np.bool_)
+    forces, end, ahead = np.empty(count), np.empty(count), np.empty(nv)
+    awake, memory = np.empty(count, np.bool_), np.zeros((count, STOPPED + 1))
     for k in range(count):
         address = slot(states[k], 1, 0)
         awake[k] = not asleep(model, data, states[k]) and n.load(address + 8 * s.MASS) > 0.0
@@ -272,7 +276,9 @@ def apply_implicit(model, data, states):
             n.store(target, math.nan)
             return
         forces[k] = n.load(address + 8 * BEFORE_FORCE) if awake[k] else 0.0
-    mobility = mobilities(model, data, states, rows)
+        for j in range(MAX_STATE):
+            memory[k, j] = n.load(address + 8 * (s.STATE + j))
+    mobility = mobilities(model, data, states, False)
     n.mj_rne(model, data, np.int32(0), n.pointer_field(data, n.D_QFRC_BIAS))
     n.mj_referenceConstraint(model, data)
     n.mj_fwdActuation(model, data)
@@ -282,60 +288,177 @@ def apply_implicit(model, data, states):
             add_row(model, data, states[k], forces[k], target)
         n.mj_fwdAcceleration(model, data)
         n.mj_fwdConstraint(model, data)
-        rows[0] = qvel + h * qacc
+        ahead[:] = qvel + h * qacc
         for k in range(count):
-            end[k] = along_row(model, data, states[k], rows[0].ctypes.data)
-        change = settle(states, awake, mobility, h, end, forces)
+            end[k] = along_row(model, data, states[k], ahead.ctypes.data)
+        if n.int_field(data, n.D_NEFC) > 0:
+            mobility = mobilities(model, data, states, True)
+        change = settle(states, awake, mobility, h, end, forces, memory)
         if n.int_field(data, n.D_NEFC) == 0 or change < 10.0 * SETTLED:
             break
     passive[:] = others
     for k in range(count):
         if awake[k]:
             add_row(model, data, states[k], forces[k], target)
-            keep_force(states[k], forces[k], end[k])
+            keep_force(states[k], forces[k], memory[k, STOPPED] != 0.0)
     qacc[:] = kept_qacc
     actuator[:] = kept_actuator
 
 
 @compiled
-def mobilities(model, data, states, rows):
-    """Return W = J M^-1 J^T of all coordinates, shape (n, n) [rate per impulse]."""
-    count = len(states)
-    out = np.zeros((count, count))
+def mobilities(model, data, states, constrained):
+    """Return W = J H^-1 J^T of all coordinates, shape (n, n) [rate per impulse].
+
+    H is the mass matrix; with ``constrained``, plus that of the constraints that push (MuJoCo's soft constraints are
+    quadratic there), so that W is what a change of force really does. Elliptic cones count as open.
+    """
+    nv, count = n.int_field(model, n.M_NV), len(states)
+    rows, out = np.zeros((count, nv)), np.zeros((count, count))
     for k in range(count):
-        rows[0] = 0.0
-        add_row(model, data, states[k], 1.0, rows[0].ctypes.data)
-        n.mj_solveM(model, data, rows[1].ctypes.data, rows[0].ctypes.data, np.int32(1))
+        add_row(model, data, states[k], 1.0, rows[k].ctypes.data)
+    solved = rows.copy()
+    if constrained:
+        matrix = np.zeros((nv, nv))
+        n.mj_fullM(model, data, matrix.ctypes.data)
+        add_constraints(model, data, matrix)
+        solved = eliminate(matrix, solved.T.copy()).T.copy()
+    else:
+        n.mj_solveM(model, data, solved.ctypes.data, rows.ctypes.data, np.int32(count))
+    for k in range(count):
         for j in range(count):
-            out[j, k] = along_row(model, data, states[j], rows[1].ctypes.data)
+            out[j, k] = along_row(model, data, states[j], solved[k].ctypes.data)
     return out
 
 
 @compiled
-def settle(states, awake, mobility, h, end, forces):
-    """Solve the coordinates in turn for forces and end velocities; return the first sweep's largest change of velocity."""
+def add_constraints(model, data, matrix):
+    """Add J^T D J of the constraints in their quadratic zone to the matrix."""
+    nv = n.int_field(model, n.M_NV)
+    sparse = n.mj_isSparse(model) != 0
+    jacobian, columns = n.pointer_field(data, n.D_EFC_J), n.pointer_field(data, n.D_EFC_COLUMN)
+    for i in range(n.int_field(data, n.D_NEFC)):
+        if n.load_int(n.pointer_field(data, n.D_ROW_STATE) + 4 * i) != QUADRATIC:
+            continue
+        weight = n.load(n.pointer_field(data, n.D_EFC_D) + 8 * i)
+        first, length = nv * i, nv
+        if sparse:
+            first = n.load_int(n.pointer_field(data, n.D_EFC_ADDRESS) + 4 * i)
+            length = n.load_int(n.pointer_field(data, n.D_EFC_NNZ) + 4 * i)
+        for a in range(length):
+            row = n.load_int(columns + 4 * (first + a)) if sparse else a
+            value = weight * n.load(jacobian + 8 * (first + a))
+            for b in range(length):
+                column = n.load_int(columns + 4 * (first + b)) if sparse else b
+                matrix[row, column] += value * n.load(jacobian + 8 * (first + b))
+
+
+@compiled
+def eliminate(matrix, right):
+    """Return the solution of matrix x = right (both are overwritten), by elimination with pivots."""
+    size = len(matrix)
+    for i in range(size):
+        best = i
+        for j in range(i + 1, size):
+            if abs(matrix[j, i]) > abs(matrix[best, i]):
+                best = j
+        for k in range(i, size):
+            matrix[i, k], matrix[best, k] = matrix[best, k], matrix[i, k]
+        for k in range(right.shape[1]):
+            right[i, k], right[best, k] = right[best, k], right[i, k]
+        for j in range(i + 1, size):
+            factor = matrix[j, i] / matrix[i, i]
+            if factor != 0.0:
+                for k in range(i, size):
+                    matrix[j, k] -= factor * matrix[i, k]
+                for k in range(right.shape[1]):
+                    right[j, k] -= factor * right[i, k]
+    for i in range(size - 1, -1, -1):
+        for k in range(right.shape[1]):
+            for j in range(i + 1, size):
+                right[i, k] -= matrix[i, j] * right[j, k]
+            right[i, k] /= matrix[i, i]
+    return right
+
+
+@compiled
+def settle(states, awake, mobility, h, end, forces, memory):
+    """Solve all coordinates for forces and end velocities; return the first sweep's largest change of velocity.
+
+    Sweeps solve one coordinate after the other; between them one Newton step moves all at once.
+    """
     first = 0.0
     for sweep in range(SWEEPS):
         largest = 0.0
         for k in range(len(states)):
-            if not awake[k]:
-                continue
-            reach = h * mobility[k, k]
-            force = solve_one(states[k], h, reach, reach * forces[k] - end[k])
-            change = force - forces[k]
-            forces[k] = force
-            for j in range(len(states)):
-                end[j] += h * mobility[j, k] * change
-            largest = max(largest, reach * abs(change))
+            if awake[k]:
+                reach = h * mobility[k, k]
+                change = solve_one(states[k], h, reach, reach * forces[k] - end[k], memory[k]) - forces[k]
+                forces[k] += change
+                for j in range(len(states)):
+                    end[j] += h * mobility[j, k] * change
+                largest = max(largest, reach * abs(change))
         if sweep == 0:
             first = largest
-        if largest < SETTLED:
+        if largest < SETTLED or len(states) == 1:
             break
+        newton_step(states, awake, mobility, h, end, forces, memory)
     return first
 
 
 @compiled
-def solve_one(state, h, reach, free):
+def newton_step(states, awake, mobility, h, end, forces, memory):
+    """Move all forces and end velocities by one Newton step, from the law's slopes where each was solved alone."""
+    count = len(states)
+    matrix, miss = np.eye(count), np.zeros((count, 1))
+    for k in range(count):
+        if awake[k]:
+            slope = max(memory[k, SLOPE], 0.0)
+            miss[k, 0] = slope * (-end[k] - memory[k, ALONE])
+            for j in range(count):
+                if awake[j]:
+                    matrix[k, j] += slope * h * mobility[k, j]
+    change = eliminate(matrix, miss)[:, 0].copy()
+    moved_by = h * mobility @ change
+    part = best_part(states, awake, memory, h, forces, end, change, moved_by)
+    forces += part * change
+    end += part * moved_by
+
+
+@compiled
+def best_part(states, awake, memory, h, forces, end, change, moved_by):
+    """Return which part of a Newton step to take, 0 to 1: to the least of the potential of which the solution is the minimum.
+
+    The potential 1/2 p W^-1 p/h + sum of the integrals of F is convex where friction grows with velocity.
+    """
+    if not rise(states, awake, memory, h, forces, end, change, moved_by, 0.0) < 0.0:
+        return 0.0
+    if rise(states, awake, memory, h, forces, end, change, moved_by, 1.0) <= 0.0:
+        return 1.0
+    low, high = 0.0, 1.0
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if rise(states, awake, memory, h, forces, end, change, moved_by, middle) <= 0.0:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+@compiled
+def rise(states, awake, memory, h, forces, end, change, moved_by, part):
+    """Return the slope of the potential along a Newton step, after a part of it."""
+    total = 0.0
+    for k in range(len(states)):
+        if awake[k]:
+            row = n.law_row(int(n.load(states[k] + 8 * s.LAW)))
+            v = -(end[k] + part * moved_by[k])
+            force = force_at_end(states[k], slot(states[k], 1, 0), row, memory[k], h, v)
+            total -= moved_by[k] * (force - forces[k] - part * change[k])
+    return total
+
+
+@compiled
+def solve_one(state, h, reach, free, memory):
     """Return the force that belongs to the end velocity v = free - reach force of one coordinate.
 
     Args:
@@ -343,17 +466,21 @@ def solve_one(state, h, reach, free):
         h: step [s].
         reach: velocity per force [rad/s per N m or m/s per N].
         free: end velocity (counter-surface minus coordinate) without the force [rad/s or m/s].
+        memory: the law's state, changed here where sliding stops within the step; the velocity found and the slope
+            there are written behind it.
     """
     address = slot(state, 1, 0)
     row = n.law_row(int(n.load(state + 8 * s.LAW)))
-    memory = np.empty(MAX_STATE)
-    for j in range(MAX_STATE):
-        memory[j] = n.load(address + 8 * (s.STATE + j))
     before = n.load(address + 8 * s.VX)
-    v = root(state, address, row, memory, h, reach, free, before)
-    if v * before < 0.0:
+    v = root(state, address, row, memory, h, reach, free, before if memory[STOPPED] == 0.0 else 0.0)
+    if v * before < 0.0 and memory[STOPPED] == 0.0:
         at_rest(state, address, row, memory)
+        memory[STOPPED] = 1.0
         v = root(state, address, row, memory, h, reach, free, 0.0)
+    small = 1.0e-9 * reach * n.load(address + 8 * s.MU_S) * n.load(address + 8 * s.NORMAL) + 1.0e-300
+    force = force_at_end(state, address, row, memory, h, v)
+    memory[ALONE] = v
+    memory[SLOPE] = (force_at_end(state, address, row, memory, h, v + small) - force) / small
     return (free - v) / reach
 
 
@@ -443,12 +570,11 @@ def bracketed(state, address, row, memory, h, reach, free, low, high, small, exa
 
 
 @compiled
-def keep_force(state, force, end):
+def keep_force(state, force, stopped):
     """Write the force of the step to the current slot, and the stick that began within the step."""
     address = slot(state, 1, 0)
     n.store(address + 8 * s.FX, force)
-    v = n.load(address + 8 * s.VX)
-    if -end * v < 0.0:
+    if stopped:
         row = n.law_row(int(n.load(state + 8 * s.LAW)))
         switch(
             state,

@@ -97,14 +97,19 @@ FURTHER_FIELDS = (
     ("mjModel", "nu"),
     ("mjData", "qfrc_actuator"),
     ("mjModel", "jnt_type"),
+    ("mjData", "efc_state"),
+    ("mjModel", "nsensor"),
+    ("mjModel", "sensor_plugin"),
+    ("mjModel", "sensor_adr"),
+    ("mjData", "sensordata"),
 )
 """More struct fields, for joints, tendons and the callback; the constants below are their places in the table."""
 FURTHER = CONFIGURATIONS + N_CONFIGURATIONS
 (
     M_INTEGRATOR, M_NPLUGIN, M_PLUGIN, M_JOINT_DOF, M_JOINT_QPOS, M_DOF_TREE, M_TENDON_NNZ, M_TENDON_ADDRESS,
     M_TENDON_COLUMN, D_TREE_ASLEEP, D_TENDON_J, D_TENDON_LENGTH, D_NEFC, D_QACC, D_QFRC_BIAS, M_NU, D_QFRC_ACTUATOR,
-    M_JOINT_TYPE,
-) = range(FURTHER, FURTHER + 18)  # fmt: skip
+    M_JOINT_TYPE, D_ROW_STATE, M_NSENSOR, M_SENSOR_PLUGIN, M_SENSOR_ADDRESS, D_SENSORDATA,
+) = range(FURTHER, FURTHER + 23)  # fmt: skip
 JOINTS_SLOT, CALLBACK_BEFORE, CALLBACK_ROWS, CALLBACK_COUNT, CALLBACK_MESSAGE = range(FURTHER + 32, FURTHER + 37)
 """MuJoCo's number of the joints' plugin; the callback installed before, and the friction contexts that are active."""
 TABLE: Any = (ctypes.c_int64 * (FURTHER + 64))()
@@ -149,6 +154,7 @@ mj_fwdActuation = _external("mj_fwdActuation", types.void, _I64, _I64)  # noqa: 
 mj_fwdAcceleration = _external("mj_fwdAcceleration", types.void, _I64, _I64)  # noqa: N816
 mj_fwdConstraint = _external("mj_fwdConstraint", types.void, _I64, _I64)  # noqa: N816
 mj_referenceConstraint = _external("mj_referenceConstraint", types.void, _I64, _I64)  # noqa: N816
+mj_fullM = _external("mj_fullM", types.void, _I64, _I64, _I64)  # noqa: N816
 mj_rne = _external("mj_rne", types.void, _I64, _I64, _I32, _I64)
 mju_error = _external("mju_error", types.void, _I64)
 
