@@ -8,11 +8,11 @@ Importing this package registers the plugin, so that models that name it can be 
 """
 
 from stochfric_mb.mujoco.attach import IntegratorWarning, Reading, add_friction, readings
-from stochfric_mb.mujoco.dof_plugin import register_joints
 from stochfric_mb.mujoco.joints import Joint, Tendon
 from stochfric_mb.mujoco.plugin import register
+from stochfric_mb.mujoco.sensing import add_sensor, register_sensors
 
-__all__ = ["IntegratorWarning", "Joint", "Reading", "Tendon", "add_friction", "readings", "register"]
+__all__ = ["IntegratorWarning", "Joint", "Reading", "Tendon", "add_friction", "add_sensor", "readings", "register"]
 
 register()
-register_joints()
+register_sensors()

@@ -126,7 +126,7 @@ def _element(spec: mujoco.MjSpec, place: Joint | Tendon, what: str) -> Any:
     element = next(e for e in elements if e.name == place.name)
     if isinstance(place, Joint) and element.type not in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE):
         raise InputError(
-            f"joint {place.name!r} is a ball or free joint; friction needs one coordinate: use hinge or slide joints, or a pair "
-            "of geoms"
+            f"joint {place.name!r} is a ball or free joint, and friction needs one coordinate; "
+            "use hinge or slide joints, or a pair of geoms"
         )
     return element
