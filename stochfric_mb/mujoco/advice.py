@@ -31,7 +31,7 @@ def advice(row: Row, timestep: float, invented: frozenset[str]) -> str:
         if key in native and key in ours:  # then the body's other motion changes the normal force: it tells nothing
             del native[key], ours[key]
     if not native:
-        return "holds, breaks away and slides as it should: nothing to change"
+        return "nothing to change" + (f" ({'; '.join(row.native.notes)})" if row.native.notes else "")
     said = "; ".join(native.values())
     if row.ours is None:
         return f"{said}. Ours could not be measured: {row.ours_problem}"

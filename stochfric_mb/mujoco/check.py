@@ -176,14 +176,17 @@ class _Bench:
         found: list[tuple[AnySite, str]] = []
         for number, (geoms, seen) in enumerate(loaded):
             problem = "" if number < most else f"only the {most} most loaded pairs are probed"
-            found.append((self._pair(data, geoms, seen), problem or self._unusable(data, geoms, seen)))
+            pair = self._pair(data, geoms, seen)
+            found.append((pair, problem or self._unusable(data, geoms, seen)))
+            if seen.mu[0] != seen.mu[1]:
+                notes.append(f"{pair.name} has two sliding coefficients, {seen.mu[0]:g} and {seen.mu[1]:g}; the first is used")
         return found + [(site, "") for site in _losses(self.model)], notes
 
     def _pair(self, data: mujoco.MjData, geoms: tuple[int, int], seen: _Seen) -> ContactPair:
         model = self.model
         a, b = geoms
         force = seen.friction
-        if model.body_weldid[model.geom_bodyid[a]] == 0:
+        if not model.body_dofnum[model.body_weldid[model.geom_bodyid[a]]]:
             a, b, force = b, a, -force
         names = tuple(mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_GEOM, g) or f"#{g}" for g in (a, b))
         along = _along(model, data, (a, b), -force if np.linalg.norm(force) > LEAST_LOAD * seen.mu[0] * seen.normal else None)
@@ -460,7 +463,7 @@ def _losses(model: mujoco.MjModel) -> list[AnySite]:
     for dof in np.flatnonzero(model.dof_frictionloss > 0.0):
         joint = int(model.dof_jntid[dof])
         name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, joint) or f"joint {joint}"
-        several = model.jnt_type[joint] in (mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL)
+        several = mujoco.mjtJoint(model.jnt_type[joint]) in (mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL)
         shown = f"{name}[{dof - model.jnt_dofadr[joint]}]" if several else name
         found.append(Joint(shown, name, int(dof), float(model.dof_frictionloss[dof])))
     for number in np.flatnonzero(model.tendon_frictionloss > 0.0):
@@ -479,7 +482,7 @@ def _unit(model: mujoco.MjModel, site: AnySite) -> str:
     if not isinstance(site, Joint):
         return "m"
     joint = int(model.dof_jntid[site.dof])
-    kind, place = model.jnt_type[joint], site.dof - model.jnt_dofadr[joint]
+    kind, place = mujoco.mjtJoint(model.jnt_type[joint]), site.dof - model.jnt_dofadr[joint]
     slides = kind == mujoco.mjtJoint.mjJNT_SLIDE or (kind == mujoco.mjtJoint.mjJNT_FREE and place < 3)
     return "m" if slides else "rad"
 

@@ -85,6 +85,8 @@ class Record:
     """Step [s]."""
     end: State
     """Where the model was at the end."""
+    following: Array
+    """Velocity of the motion that `run` followed [m/s or rad/s], shape (n,)."""
 
     def column(self, name: str) -> Array:
         """Return one of `Sample`'s fields over time."""
@@ -146,6 +148,7 @@ def run(
     duration: float,
     load: Callable[[float], float] = lambda t: 0.0,
     change: Array | None = None,
+    follow: Array | None = None,
 ) -> Record:
     """Return what a site does under a load.
 
@@ -156,6 +159,7 @@ def run(
         duration: simulated time [s].
         load: the probe's force [N or N m] at a time since the start [s].
         change: added to qvel at the start.
+        follow: row of generalised velocities whose product with qvel is recorded.
 
     Raises:
         SimulationError: the state is not finite.
@@ -167,6 +171,8 @@ def run(
     applied = data.qfrc_applied.copy()
     step = float(model.opt.timestep)
     rows = [site.sample(model, data)]
+    follow = np.zeros(model.nv) if follow is None else follow
+    followed = [follow @ data.qvel]
     for i in range(max(LEAST_STEPS, round(duration / step))):
         data.qfrc_applied[:] = applied + load(i * step) * site.row(model, data) if rows[-1].touching else applied
         mujoco.mj_step(model, data)
@@ -174,7 +180,8 @@ def run(
         if not np.isfinite(data.qvel).all() or not np.isfinite(data.qacc).all() or diverged(data):
             raise SimulationError(f"the state broke {(i + 1) * step:.3g} s after the start of a probe; use a smaller timestep")
         rows.append(site.sample(model, data))
-    return Record(np.array(rows, dtype=float), step, snapshot(model, data))
+        followed.append(follow @ data.qvel)
+    return Record(np.array(rows, dtype=float), step, snapshot(model, data), np.array(followed))
 
 
 def diverged(data: mujoco.MjData) -> bool:
@@ -233,6 +240,9 @@ def slide(
 ) -> tuple[Slide | None, Record | None, str]:
     """Return the deceleration by friction, or why there is none.
 
+    The site is kicked, and the momentum of the kick's own motion is followed, (M unit) . qvel over the mass of it: a body
+    that hops or pitches on the way keeps its sliding momentum.
+
     Args:
         model: the model.
         bare: the same model without the site's friction.
@@ -251,14 +261,18 @@ def slide(
     rate = limit / mass
     speed = max(2.0 * SLIDE_STEPS * step * rate, SLIDE_SPEED)
     steps = int(np.clip(speed / (2.0 * rate * step), SLIDE_STEPS, MOST_SLIDE_STEPS))
-    record = run(model, state, site, steps * step, change=speed * unit)
-    without = run(bare, state, free, steps * step, change=speed * unit)
-    sliding = np.flatnonzero((record.column("velocity") > 0.1 * speed) & (record.column("touching") > 0.0))
-    last = int(sliding[-1]) if len(sliding) else 0
-    if last < SLIDE_STEPS // 2 or not without.column("touching")[last]:
-        return None, record, "stops within a few steps" if record.touching == 1.0 else "the contact is lost"
+    momentum = np.zeros(model.nv)
+    mujoco.mj_mulM(model, data, momentum, unit)
+    record = run(model, state, site, steps * step, change=speed * unit, follow=momentum / mass)
+    without = run(bare, state, free, steps * step, change=speed * unit, follow=momentum / mass)
+    sliding = np.flatnonzero(record.following - record.following[0] > -0.9 * speed)
+    last = int(sliding[-1])
+    if last < SLIDE_STEPS // 2:
+        return None, record, "stops within a few steps"
+    if record.touching < 0.5 or not without.column("touching")[last]:
+        return None, record, "the contact is lost"
     pressing = float(without.column("limit")[: last + 1].mean()) or limit
-    lost = without.column("velocity") - record.column("velocity")
+    lost = without.following - record.following
     touching = float(record.column("touching")[: last + 1].mean())
     deceleration = (lost[last] - lost[FIRST_SLIDE_STEP]) / ((last - FIRST_SLIDE_STEP) * step)
     return Slide(float(deceleration), pressing / mass, mass, touching), record, ""

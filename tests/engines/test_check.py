@@ -138,6 +138,45 @@ def test_a_bouncing_ball_flickers():
     assert row.ours is None
 
 
+def test_a_slide_of_a_hopping_box_is_that_of_its_momentum():
+    row = only(checked(incline(angle=0.0), settle=0.5, duration=0.1))
+    # MuJoCo's pyramids lift a sliding box: it hops, and friction acts on landing only.
+    assert row.native.slide.touching < 1.0
+    assert "hops" in " ".join(row.native.notes)
+    assert 0.3 * MU * G < row.native.slide.deceleration < 1.7 * MU * G
+    assert row.ours.slide.touching == 1.0
+    assert row.ours.slide.deceleration == pytest.approx(MU * G, rel=0.02)
+
+
+def test_several_coefficients_and_a_mocap_body():
+    text = """<mujoco><worldbody><body name="table" mocap="true"><geom name="table" type="box" size="1 1 .05"/></body>
+    <body pos="0 0 .1"><freejoint/><geom name="box" type="box" size=".05 .05 .05"/></body></worldbody>
+    <contact><pair geom1="table" geom2="box" condim="3" friction=".8 .2 .005 .0001 .0001"/></contact></mujoco>"""
+    result = checked(text, settle=0.5, duration=0.05)
+    assert only(result).names == ("box", "table")  # what can move comes first
+    assert result.notes == ("box - table has two sliding coefficients, 0.8 and 0.2; the first is used",)
+
+
+def test_a_ball_joint_has_three_lines():
+    text = """<mujoco><option gravity="0 0 0"/><worldbody><body><joint name="b" type="ball" frictionloss=".5"/>
+    <geom size=".1" pos=".2 0 0"/></body></worldbody></mujoco>"""
+    rows = checked(text, settle=0.0, duration=0.05).rows
+    assert [(r.name, r.unit) for r in rows] == [("b[0]", "rad"), ("b[1]", "rad"), ("b[2]", "rad")]
+    assert all("ball or free joint" in r.ours_problem for r in rows)
+
+
+def test_what_switches_passive_forces_off_is_said():
+    text = (
+        incline()
+        .replace("</option>", "")
+        .replace("/><worldbody>", '><flag spring="disable" damper="disable"/></option><worldbody>')
+    )
+    row = only(checked(text, settle=0.2, duration=0.05))
+    assert row.native is not None
+    assert "leaves out all passive forces" in row.ours_problem
+    assert row.ours_problem in row.advice
+
+
 def test_only_the_most_loaded_pairs_are_probed():
     boxes = "".join(
         f'<body pos="{i} 0 .05"><freejoint/><geom name="b{i}" type="box" size=".05 .05 .05" mass="{1 + i}"/></body>'
