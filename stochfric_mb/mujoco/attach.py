@@ -67,6 +67,7 @@ def add_friction(
     sample: int = 0,
     contact: int = 0,
     slots: int = 16,
+    mode: str = "auto",
 ) -> str:
     """Return the name of the plugin instance that now computes the friction between two geoms, or of a joint or tendon.
 
@@ -81,6 +82,7 @@ def add_friction(
         sample: second part: the run of an ensemble.
         contact: third part: number of this pair in the model.
         slots: most contacts between the two geoms at a time.
+        mode: ``explicit``, ``implicit``, or ``auto``: explicit where the step is below half the law's limit.
 
     Raises:
         InputError: unknown geom, a law that cannot run here, an address out of range, or options that switch passive
@@ -92,14 +94,12 @@ def add_friction(
     register()
     _require_passive_forces(spec)
     if isinstance(geoms, Joint | Tendon):
-        return add_joint_friction(
-            spec, geoms, friction, normal_force=normal_force, seed=seed, sample=sample, contact=contact
-        )
+        return add_joint_friction(spec, geoms, friction, normal_force=normal_force, seed=seed, sample=sample, contact=contact)
     if normal_force is not None:
         raise InputError(f"normal_force = {normal_force!r} is for joints and tendons; contacts have MuJoCo's normal force")
     body, surface = _require_geoms(spec, geoms)
     texts = configuration(
-        as_friction(friction), body, surface, seed=seed, sample=sample, contact=contact, slots=_require_slots(slots)
+        as_friction(friction), body, surface, seed=seed, sample=sample, contact=contact, slots=_require_slots(slots), mode=mode
     )
     name = _free_name(spec, f"friction_{body}_{surface}")
     plugin: Any = spec.add_plugin(name=name, plugin_name=NAME, active=True)

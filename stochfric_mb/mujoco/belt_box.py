@@ -75,7 +75,7 @@ def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, dt: float | Non
     spec = scene(mechanism)
     spec.option.timestep = step
     law, _ = elastic_substitute(scenario.law, step, mechanism.normal_force, mechanism.mass)
-    add_friction(spec, ("box", "belt"), Friction(law, scenario.process), seed=seed, sample=sample)
+    add_friction(spec, ("box", "belt"), Friction(law, scenario.process), seed=seed, sample=sample, mode="explicit")
     return spec.compile()
 
 

@@ -22,28 +22,39 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.compile import compiled
-from stochfric_mb.errors import InputError
+from stochfric_mb.errors import InputError, require_name
 from stochfric_mb.friction import Friction
 from stochfric_mb.laws.abi import MAX_STATE, native_law
 from stochfric_mb.laws.contract import Law
 from stochfric_mb.mujoco import native
 from stochfric_mb.mujoco.native import call_python, entry, load, load_byte
-from stochfric_mb.mujoco.slots import MAX_PARAMETERS
+from stochfric_mb.mujoco.slots import MAX_PARAMETERS, N_LIMITS
 from stochfric_mb.scenario import _law, _process
 
-ATTRIBUTES = ("law", "coefficients", "geom1", "geom2", "seed", "sample", "contact", "slots")
-"""Configuration keys of the plugin; geom1 is the body, geom2 the counter-surface, slots the most contacts at a time."""
+ATTRIBUTES = ("law", "coefficients", "geom1", "geom2", "seed", "sample", "contact", "slots", "mode")
+MODES = ("auto", "explicit", "implicit")
+"""Configuration keys of the plugin; geom1 is the body, geom2 the counter-surface, slots the most contacts at a time,
+mode one of MODES."""
 
 MAX_SLOTS = 1024
 """Most contacts of an instance."""
-R_KEY, R_LAW, R_N_PARAMETERS, R_STICK_SPEED, R_HAS_MODE, R_NEEDS_MASS, R_N_DESCRIPTOR = range(7)
+R_KEY, R_LAW, R_N_PARAMETERS, R_STICK_SPEED, R_HAS_MODE, R_NEEDS_MASS, R_N_DESCRIPTOR, R_NEEDS_HOLD = range(8)
 R_PARAMETERS = 8
-R_DESCRIPTOR = R_PARAMETERS + MAX_PARAMETERS
+R_LIMITS = R_PARAMETERS + MAX_PARAMETERS
+R_DESCRIPTOR = R_LIMITS + N_LIMITS
 _records: dict[int, npt.NDArray[np.float64]] = {}
 
 
 def configuration(
-    friction: Friction, body: str, surface: str, *, seed: int = 0, sample: int = 0, contact: int = 0, slots: int = 16
+    friction: Friction,
+    body: str,
+    surface: str,
+    *,
+    seed: int = 0,
+    sample: int = 0,
+    contact: int = 0,
+    slots: int = 16,
+    mode: str = "auto",
 ) -> dict[str, str]:
     """Return the plugin's configuration as MJCF keys and values.
 
@@ -60,7 +71,9 @@ def configuration(
         "sample": str(int(sample)),
         "contact": str(int(contact)),
         "slots": str(int(slots)),
+        "mode": require_name("mode", mode, MODES),
     }
+    require_mode(friction.law, mode)
     record_of(texts["law"], texts["coefficients"], 0)
     return texts
 
@@ -95,6 +108,8 @@ def record_of(law: str, coefficients: str, key: int) -> npt.NDArray[np.float64]:
     record[R_HAS_MODE] = friction.law.state_names[:1] == ("mode",)
     record[R_NEEDS_MASS] = friction.law.needs_effective_mass
     record[R_N_DESCRIPTOR] = len(descriptor)
+    record[R_NEEDS_HOLD] = friction.law.needs_holding_force
+    record[R_LIMITS:R_DESCRIPTOR] = [friction.law.step_limit(10.0**k, 1.0) for k in range(-4, N_LIMITS - 4)]
     record[R_PARAMETERS : R_PARAMETERS + len(parameters)] = parameters
     record[R_DESCRIPTOR:] = descriptor
     return record
@@ -117,15 +132,24 @@ def load_law(kind: str) -> int:
 
 
 def _require_runnable(law: Law) -> None:
-    if law.needs_holding_force:
-        raise InputError(
-            f"law {law.kind!r} needs the force that would hold the contact, which a passive force in MuJoCo cannot know; use "
-            "elastic_stick, or stochfric_mb.laws.substitute.elastic_substitute(law, dt, normal_force, effective_mass)"
-        )
     if len(law.parameters()) > MAX_PARAMETERS or len(law.state_names) > MAX_STATE:
         raise InputError(
             f"law {law.kind!r} has {len(law.parameters())} parameters and {len(law.state_names)} state entries; "
             f"at most {MAX_PARAMETERS} and {MAX_STATE} fit"
+        )
+
+
+def require_mode(law: Law, mode: str) -> None:
+    """Refuse a law that cannot run in the mode asked for.
+
+    Raises:
+        InputError: says why.
+    """
+    if law.needs_holding_force and mode == "explicit":
+        raise InputError(
+            f"law {law.kind!r} needs the force that would hold the contact, which the explicit mode cannot know; use mode "
+            "'implicit' (or 'auto'), elastic_stick, or "
+            "stochfric_mb.laws.substitute.elastic_substitute(law, dt, normal_force, effective_mass)"
         )
 
 
@@ -170,6 +194,7 @@ def _explain(model: int, instance: int, _: int) -> int:
     """Raise the error that says why an instance was refused; ctypes prints it, MuJoCo refuses the model."""
     texts = {key: native.plugin_text(model, instance, key) for key in ATTRIBUTES}
     record_of(texts["law"], texts["coefficients"], 0)
+    require_mode(friction_of(texts["law"], "").law, require_name("mode", texts["mode"] or "auto", MODES))
     for key in ("seed", "sample", "contact", "slots"):
         if texts[key] and not (texts[key].isdecimal() and int(texts[key]) < 2**32):
             raise InputError(f"plugin key {key} = {texts[key]!r} is not a whole number in [0, 2^32); write one")

@@ -409,8 +409,72 @@ def begin(model, data, state):
         total += track(model, data, state, i, sign, t, known, count)
         count += 1
     n.store(state + 8 * s.N_CURRENT, float(count))
+    star = body < 0 or surface < 0
     for k in range(count):
-        commit_slot(state, slot(state, 1, k), t, total, count)
+        address = slot(state, 1, k)
+        if star:
+            pair, among = pair_total(state, address, count)
+            commit_slot(state, address, t, pair, among)
+        else:
+            commit_slot(state, address, t, total, count)
+    n.store(state + 8 * s.SOLVED, 1.0 if beyond_explicit(model, state, count, total, star) else 0.0)
+
+
+@compiled
+def pair_total(state, address, count):
+    """Return the normal force [N] and the number of the contacts between the same two geoms."""
+    total, among = 0.0, 0
+    for k in range(count):
+        other = slot(state, 1, k)
+        if (
+            n.load(other + 8 * s.GEOM_1) == n.load(address + 8 * s.GEOM_1)
+            and n.load(other + 8 * s.GEOM_2) == n.load(address + 8 * s.GEOM_2)
+        ):  # fmt: skip
+            total += n.load(other + 8 * s.NORMAL)
+            among += 1
+    return total, among
+
+
+@compiled
+def beyond_explicit(model, state, count, total, star):
+    """Return whether this step's forces must be solved: asked for, needed by the law, or the explicit limit is near.
+
+    An explicit step is left when it is beyond half the law's limit, and taken again when the normal force over the
+    mass has fallen to a quarter of that which the limit allows.
+    """
+    mode = n.load(state + 8 * s.MODE)
+    if mode == s.EXPLICIT:
+        return False
+    if mode == s.IMPLICIT or n.load(state + 8 * s.NEEDS_HOLD) != 0.0:
+        return True
+    step = n.number_field(model, n.M_TIMESTEP)
+    if n.load(state + 8 * s.CRITICAL_STEP) != step:
+        n.store(state + 8 * s.CRITICAL, critical_ratio(state, 2.0 * step))
+        n.store(state + 8 * s.CRITICAL_STEP, step)
+    critical = n.load(state + 8 * s.CRITICAL)
+    for k in range(count):
+        address = slot(state, 1, k)
+        if star:
+            total, _ = pair_total(state, address, count)
+        limit = critical if n.load(address + 8 * s.IMPLICIT_STEP) == 0.0 else 0.25 * critical
+        if total > limit * n.load(address + 8 * s.FELT):
+            return True
+    return False
+
+
+@compiled
+def critical_ratio(state, step):
+    """Return the normal force over the mass [N/kg] at which the law's step limit falls to ``step``; infinite if never."""
+    limits = state + 8 * s.LIMITS
+    for k in range(s.N_LIMITS):
+        low = n.load(limits + 8 * k)
+        if low <= step:
+            if k == 0:
+                return 0.0
+            high = n.load(limits + 8 * (k - 1))
+            part = math.log(high / step) / math.log(high / low) if high < math.inf else 1.0
+            return 10.0 ** (k - 5 + part)
+    return math.inf
 
 
 @compiled
@@ -451,7 +515,7 @@ def fill(model, data, state, contact, sign, t, address, old):
         step = t - n.load(old + 8 * s.SINCE)
         for j in range(s.STATE, s.SLOT):
             n.store(address + 8 * j, n.load(old + 8 * j))
-        for j in (s.STICK, s.EVENTS, s.ENERGY):
+        for j in (s.STICK, s.EVENTS, s.ENERGY, s.HOLD_X, s.HOLD_Y, s.FELT, s.IMPLICIT_STEP):
             n.store(address + 8 * j, n.load(old + 8 * j))
         put(address + 8 * s.BEFORE, n.load(old + 8 * s.SINCE), n.load(old + 8 * s.UX), n.load(old + 8 * s.UY))
         n.store(address + 8 * (s.BEFORE + 3), n.load(old + 8 * s.VX))
@@ -459,7 +523,7 @@ def fill(model, data, state, contact, sign, t, address, old):
         n.store(address + 8 * s.WORK, n.load(old + 8 * s.FX))
         n.store(address + 8 * (s.WORK + 1), n.load(old + 8 * s.FY))
     else:
-        for j in (s.STICK, s.EVENTS, s.ENERGY, s.WORK, s.WORK + 1):
+        for j in (s.STICK, s.EVENTS, s.ENERGY, s.WORK, s.WORK + 1, s.HOLD_X, s.HOLD_Y, s.FELT, s.IMPLICIT_STEP):
             n.store(address + 8 * j, 0.0)
     n.store(address + 8 * s.LIVE, 1.0 if old != 0 else 0.0)
     n.store(address + 8 * (s.WORK + 2), dx)
@@ -479,10 +543,11 @@ def fill(model, data, state, contact, sign, t, address, old):
     put(address + 8 * s.ON_BODY, bx, by, bz)
     cx, cy, cz = to_body(data, surface, x, y, z)
     put(address + 8 * s.ON_SURFACE, cx, cy, cz)
-    mass = 0.0
-    if n.load(state + 8 * s.NEEDS_MASS) != 0.0:
-        mass = tangent_mass(model, data, state, contact, address, body, surface)
-    n.store(address + 8 * s.MASS, mass)
+    explicit = n.load(address + 8 * s.IMPLICIT_STEP) == 0.0
+    needed = explicit and n.load(state + 8 * s.NEEDS_MASS) != 0.0
+    if needed or (old == 0 and n.load(state + 8 * s.MODE) != s.EXPLICIT):
+        n.store(address + 8 * s.FELT, tangent_mass(model, data, state, contact, address, body, surface))
+    n.store(address + 8 * s.MASS, n.load(address + 8 * s.FELT) if n.load(state + 8 * s.NEEDS_MASS) != 0.0 else 0.0)
 
 
 @compiled
@@ -504,7 +569,7 @@ def commit_slot(state, address, t, total, count):
         changed = switch(state, address, n.load_word(row + n.INIT), t, ux, uy, vx, vy)
         n.store(address + 8 * s.EVENTS, 0.0)
     else:
-        if modes:
+        if modes and n.load(address + 8 * s.IMPLICIT_STEP) == 0.0:
             switch_within(state, address, row, t)
         changed = switch(state, address, n.load_word(row + n.COMMIT), t, ux, uy, vx, vy)
     mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
@@ -621,8 +686,8 @@ def guard_crossed(state, address, row, t, part):
 def call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k):
     """Call one of the law's functions on a slot; the result goes to the work space."""
     call_law(
-        function, t, ux, uy, vx, vy, n.load(address + 8 * s.NORMAL), mu_s, mu_k, n.load(address + 8 * s.MASS), 0.0, 0.0,
-        address + 8 * s.STATE, state + 8 * s.PARAMETERS, state + 8 * s.OUTPUT,
+        function, t, ux, uy, vx, vy, n.load(address + 8 * s.NORMAL), mu_s, mu_k, n.load(address + 8 * s.MASS),
+        n.load(address + 8 * s.HOLD_X), n.load(address + 8 * s.HOLD_Y), address + 8 * s.STATE, state + 8 * s.PARAMETERS, state + 8 * s.OUTPUT,
     )  # fmt: skip
 
 
@@ -697,6 +762,7 @@ def apply_contact(model, data, state, contact, sign, body, surface, address, for
     if starting:
         n.store(address + 8 * s.FX, fx)
         n.store(address + 8 * s.FY, fy)
+        n.store(address + 8 * s.IMPLICIT_STEP, 0.0)
         w = address + 8 * s.WORK
         work = 0.5 * ((n.load(w) + fx) * n.load(w + 16) + (n.load(w + 8) + fy) * n.load(w + 24))
         n.store(address + 8 * s.ENERGY, n.load(address + 8 * s.ENERGY) + work)

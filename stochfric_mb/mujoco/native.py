@@ -112,7 +112,23 @@ FURTHER = CONFIGURATIONS + N_CONFIGURATIONS
 ) = range(FURTHER, FURTHER + 23)  # fmt: skip
 JOINTS_SLOT, CALLBACK_BEFORE, CALLBACK_ROWS, CALLBACK_COUNT, CALLBACK_MESSAGE = range(FURTHER + 32, FURTHER + 37)
 """MuJoCo's number of the joints' plugin; the callback installed before, and the friction contexts that are active."""
-TABLE: Any = (ctypes.c_int64 * (FURTHER + 64))()
+SOLVER_FIELDS = (
+    ("mjModel", "opt.solver"),
+    ("mjModel", "opt.noslip_iterations"),
+    ("mjModel", "opt.disableflags"),
+    ("mjModel", "dof_damping"),
+    ("mjData", "efc_type"),
+    ("mjData", "efc_state"),
+    ("mjData", "efc_aref"),
+    ("mjData", "efc_AR"),
+)
+"""Struct fields of the implicit mode; the constants below are their places in the table."""
+KEYS, N_KEYS = FURTHER + 64, 16
+"""First place and number of the addresses of the configuration keys, in the order of `config.ATTRIBUTES`."""
+(
+    M_SOLVER, M_NOSLIP, M_DISABLE, M_DAMPING, D_EFC_TYPE, D_EFC_STATE, D_EFC_AREF, D_EFC_AR,
+) = range(KEYS + N_KEYS, KEYS + N_KEYS + 8)  # fmt: skip
+TABLE: Any = (ctypes.c_int64 * (KEYS + 64))()
 """What compiled code must look up in this process."""
 
 _TABLE_SYMBOL = "stochfric_mb_mujoco_table"
@@ -147,6 +163,10 @@ mj_solveM = _external("mj_solveM", types.void, _I64, _I64, _I64, _I64, _I32)  # 
 mj_isSparse = _external("mj_isSparse", _I32, _I64)  # noqa: N816
 mj_getPluginConfig = _external("mj_getPluginConfig", _I64, _I64, _I32, _I64)  # noqa: N816
 mj_name2id = _external("mj_name2id", _I32, _I64, _I32, _I64)
+mj_fullM = _external("mj_fullM", types.void, _I64, _I64, _I64)  # noqa: N816
+mj_mulM = _external("mj_mulM", types.void, _I64, _I64, _I64, _I64)  # noqa: N816
+mj_mulJacVec = _external("mj_mulJacVec", types.void, _I64, _I64, _I64, _I64)  # noqa: N816
+mj_projectConstraint = _external("mj_projectConstraint", types.void, _I64, _I64)  # noqa: N816
 mj_warning = _external("mj_warning", types.void, _I64, _I32, _I32)
 mj_forward = _external("mj_forward", types.void, _I64, _I64)
 mj_step = _external("mj_step", types.void, _I64, _I64)
@@ -154,7 +174,6 @@ mj_fwdActuation = _external("mj_fwdActuation", types.void, _I64, _I64)  # noqa: 
 mj_fwdAcceleration = _external("mj_fwdAcceleration", types.void, _I64, _I64)  # noqa: N816
 mj_fwdConstraint = _external("mj_fwdConstraint", types.void, _I64, _I64)  # noqa: N816
 mj_referenceConstraint = _external("mj_referenceConstraint", types.void, _I64, _I64)  # noqa: N816
-mj_fullM = _external("mj_fullM", types.void, _I64, _I64, _I64)  # noqa: N816
 mj_rne = _external("mj_rne", types.void, _I64, _I64, _I32, _I64)
 mju_error = _external("mju_error", types.void, _I64)
 
@@ -170,6 +189,8 @@ def fill_table() -> None:
     for place, (name, field) in enumerate(FIELDS, start=1):
         TABLE[place] = layout.offset(name, field)
     for place, (name, field) in enumerate(FURTHER_FIELDS, start=FURTHER):
+        TABLE[place] = layout.offset(name, field)
+    for place, (name, field) in enumerate(SOLVER_FIELDS, start=M_SOLVER):
         TABLE[place] = layout.offset(name, field)
     TABLE[CONTACT_SIZE] = ctypes.sizeof(layout.struct("mjContact"))
 

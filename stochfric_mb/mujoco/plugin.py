@@ -20,13 +20,13 @@ from stochfric_mb.mujoco import config
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.contact import apply, begin, finish
+from stochfric_mb.mujoco.implicit import is_last, keep_warm_start, solve_instances
 from stochfric_mb.mujoco.layout import Plugin
 
 NAME = "stochfric.pair"
 """Name of the plugin in MJCF."""
-KEYS = 40
-"""Place in the table of the addresses of the configuration keys, in the order of `config.ATTRIBUTES`."""
-LAW, COEFFICIENTS, GEOM1, GEOM2, SEED, SAMPLE, CONTACT, SLOTS = range(8)
+LAW, COEFFICIENTS, GEOM1, GEOM2, SEED, SAMPLE, CONTACT, SLOTS, MODE = range(9)
+"""Places of the keys in `config.ATTRIBUTES`."""
 DEFAULT_SLOTS = 16
 UNSET = -1.0e300
 """Time of the last advance before the first one."""
@@ -47,7 +47,7 @@ def register() -> int:
     n.TABLE[n.EXPLAINER] = ctypes.cast(config.EXPLAINER, ctypes.c_void_p).value or 0
     for i, key in enumerate(config.ATTRIBUTES):
         _alive.append(ctypes.create_string_buffer(key.encode()))
-        n.TABLE[KEYS + i] = ctypes.addressof(_alive[-1])
+        n.TABLE[n.KEYS + i] = ctypes.addressof(_alive[-1])
     attributes = (ctypes.c_char_p * len(config.ATTRIBUTES))(*[a.encode() for a in config.ATTRIBUTES])
     plugin = Plugin()
     library = n.library()
@@ -100,7 +100,7 @@ def state_address(model, data, instance):
 @compiled
 def text_of(model, instance, key):
     """Return the address of a configuration value, 0 if there is none."""
-    return n.mj_getPluginConfig(model, instance, n.entry(KEYS + key))
+    return n.mj_getPluginConfig(model, instance, n.entry(n.KEYS + key))
 
 
 @compiled
@@ -128,6 +128,22 @@ def slots_of(model, instance):
     return slots if 0 < slots <= config.MAX_SLOTS else -1
 
 
+@compiled
+def mode_of(model, instance):
+    """Return the mode asked for, by its first letter; -1 if there is none such (auto by default)."""
+    text = text_of(model, instance, MODE)
+    if text == 0 or n.load_byte(text) in (0, 97):
+        return s.AUTO
+    return s.EXPLICIT if n.load_byte(text) == 101 else s.IMPLICIT if n.load_byte(text) == 105 else -1
+
+
+@compiled
+def size_of(model, record, slots):
+    """Return the length of an instance's state [doubles], as `slots.state_size`."""
+    descriptor = int(n.load(record + 8 * config.R_N_DESCRIPTOR))
+    return s.DESCRIPTOR + descriptor + 2 * slots * s.SLOT + n.int_field(model, n.M_NV)
+
+
 def _nstate(model, instance):
     record = record_of(model, instance)
     slots = slots_of(model, instance)
@@ -136,13 +152,16 @@ def _nstate(model, instance):
     if slots < 0:
         n.call_python(n.entry(n.EXPLAINER), model, instance, 0)
         return _INT(-1)
-    return _INT(s.DESCRIPTOR + int(n.load(record + 8 * config.R_N_DESCRIPTOR)) + 2 * slots * s.SLOT)
+    return _INT(size_of(model, record, slots))
 
 
 def _init(model, data, instance):
     bad = record_of(model, instance) == 0 or slots_of(model, instance) < 0
     body, surface = geom_of(model, instance, GEOM1), geom_of(model, instance, GEOM2)
     bad = bad or body == -2 or surface in (-2, body)
+    mode = mode_of(model, instance)
+    bad = bad or mode < 0
+    bad = bad or (mode == s.EXPLICIT and n.load(record_of(model, instance) + 8 * config.R_NEEDS_HOLD) != 0.0)
     for key in (SEED, SAMPLE, CONTACT):
         number = config.parse_integer(text_of(model, instance, key), 0)
         bad = bad or number < 0 or number > 4294967295
@@ -156,7 +175,7 @@ def _reset(model, state, plugin_data, instance):
     record = record_of(model, instance)
     slots = slots_of(model, instance)
     n_descriptor = int(n.load(record + 8 * config.R_N_DESCRIPTOR))
-    for j in range(s.DESCRIPTOR + n_descriptor + 2 * slots * s.SLOT):
+    for j in range(size_of(model, record, slots)):
         n.store(state + 8 * j, 0.0)
     n.store(state + 8 * s.LAW, n.load(record + 8 * config.R_LAW))
     n.store(state + 8 * s.GEOM_BODY, float(geom_of(model, instance, GEOM1)))
@@ -170,6 +189,10 @@ def _reset(model, state, plugin_data, instance):
     n.store(state + 8 * s.STICK_SPEED, n.load(record + 8 * config.R_STICK_SPEED))
     n.store(state + 8 * s.HAS_MODE, n.load(record + 8 * config.R_HAS_MODE))
     n.store(state + 8 * s.NEEDS_MASS, n.load(record + 8 * config.R_NEEDS_MASS))
+    n.store(state + 8 * s.NEEDS_HOLD, n.load(record + 8 * config.R_NEEDS_HOLD))
+    n.store(state + 8 * s.MODE, float(mode_of(model, instance)))
+    for j in range(s.N_LIMITS):
+        n.store(state + 8 * (s.LIMITS + j), n.load(record + 8 * (config.R_LIMITS + j)))
     n.store(state + 8 * s.ADVANCED, UNSET)
     n.store(state + 8 * s.EVALUATED, UNSET)
     n.store(state + 8 * s.COEFFICIENTS, UNSET)
@@ -185,8 +208,13 @@ def _compute(model, data, instance, capability):
     start = n.load(state + 8 * s.EVALUATED)
     stage = start < now <= start + 1.0001 * n.number_field(model, n.M_TIMESTEP)
     if not stage or n.load(state + 8 * s.STARTED) == 0.0:
+        if n.load(state + 8 * s.STARTED) == 0.0:
+            keep_warm_start(model, data, state)
         begin(model, data, state)
-    apply(model, data, state)
+    if n.load(state + 8 * s.SOLVED) == 0.0:
+        apply(model, data, state)
+    if is_last(model, instance):
+        solve_instances(model, data, instance)
 
 
 def _advance(model, data, instance):

@@ -14,10 +14,14 @@ from stochfric_mb.laws.contract import GUARDS
 # Header: places in doubles.
 LAW, GEOM_BODY, GEOM_SURFACE, SEED, SAMPLE, CONTACT, N_SLOTS, N_DESCRIPTOR = range(8)
 """Identifier of the law; geom ids; address of the coefficient path; slots per block; length of the descriptor."""
-N_PARAMETERS, STICK_SPEED, HAS_MODE, NEEDS_MASS, ORIGIN, NORMAL_MODE = range(8, 14)
-"""Length of p; stick speed [m/s]; two flags; displacement of a new contact [m]; 0 = explicit normal force."""
+N_PARAMETERS, STICK_SPEED, HAS_MODE, NEEDS_MASS, ORIGIN, MODE = range(8, 14)
+"""Length of p; stick speed [m/s]; two flags; displacement of a new contact [m]; mode asked for."""
+AUTO, EXPLICIT, IMPLICIT = range(3)
+"""Values of MODE."""
 ADVANCED, EVALUATED, N_COMMITTED, N_CURRENT, STARTED = range(14, 19)
 """Time of the last advance and of the last evaluation at a step's start [s]; contacts in each block; 1 within a step."""
+SOLVED = 19
+"""1 where the forces of this step are solved together with its end (see `implicit`), decided at its start."""
 PARAMETERS, MAX_PARAMETERS = 20, 16
 CURSOR = PARAMETERS + MAX_PARAMETERS
 FORCE = CURSOR + CURSOR_SIZE
@@ -25,10 +29,14 @@ FORCE = CURSOR + CURSOR_SIZE
 TORQUE, COUNTER_FORCE, COUNTER_TORQUE, POINT, OUTPUT = FORCE + 3, FORCE + 6, FORCE + 9, FORCE + 12, FORCE + 15
 COEFFICIENTS = OUTPUT + MAX_STATE
 """Time of the last evaluation of a path along time [s], and its mu_s and mu_k."""
-ROWS, MAX_ROW = COEFFICIENTS + 3, 32
+NEEDS_HOLD, CRITICAL, CRITICAL_STEP = range(COEFFICIENTS + 3, COEFFICIENTS + 6)
+"""A flag; normal force over mass [N/kg] where an explicit step of CRITICAL_STEP [s] is at half its limit."""
+LIMITS, N_LIMITS = COEFFICIENTS + 6, 13
+"""The law's step limit [s] at normal forces over mass of 1e-4, 1e-3, ... 1e8 N/kg."""
+ROWS, MAX_ROW = LIMITS + N_LIMITS, 32
 """Work space: seven rows of so many generalised coordinates."""
 DESCRIPTOR = ROWS + 7 * MAX_ROW
-"""The coefficient descriptor; the two blocks of slots follow it."""
+"""The coefficient descriptor; the two blocks of slots and one row of generalised coordinates follow it."""
 
 # Slot: places in doubles.
 GEOM_1, GEOM_2, ORDINAL, LIVE = range(4)
@@ -45,12 +53,14 @@ BEFORE = 36
 """Time, displacement and velocity at the commit before: t, ux, uy, vx, vy."""
 START_GUARDS = 41
 """The law's guards at the last switch or commit, for laws with modes."""
-STATE = START_GUARDS + GUARDS
+HOLD_X, HOLD_Y, FELT, IMPLICIT_STEP = range(START_GUARDS + GUARDS, START_GUARDS + GUARDS + 4)
+"""Force that would hold the contact still [N]; mass felt by this contact alone [kg]; 1 if its last force was solved."""
+STATE = START_GUARDS + GUARDS + 4
 """The law's state."""
 SLOT = STATE + MAX_STATE
 """Length of a slot."""
 
 
-def state_size(n_descriptor: int, n_slots: int) -> int:
+def state_size(n_descriptor: int, n_slots: int, nv: int) -> int:
     """Return the length of the plugin's state [doubles]."""
-    return DESCRIPTOR + n_descriptor + 2 * n_slots * SLOT
+    return DESCRIPTOR + n_descriptor + 2 * n_slots * SLOT + nv

@@ -19,6 +19,7 @@ from stochfric_mb.coefficients.distributions import Empirical  # noqa: E402
 from stochfric_mb.errors import InputError, SimulationError, StabilityError  # noqa: E402
 from stochfric_mb.friction import Friction  # noqa: E402
 from stochfric_mb.laws import LAWS, law_class, make_law, register_law  # noqa: E402
+from stochfric_mb.laws.coulomb import Coulomb  # noqa: E402
 from stochfric_mb.laws.elastic_stick import ElasticStick  # noqa: E402
 from stochfric_mb.laws.havsin import Havsin  # noqa: E402
 from stochfric_mb.mujoco import belt_box, config, layout  # noqa: E402
@@ -412,7 +413,6 @@ def test_hand_written_xml():
         ("law", "kind = 'havsin', mu_s = 0.5", "mu_k"),
         ("law", "kind = 'hafsin', mu_s = 0.5, mu_k = 0.4", "did you mean 'havsin'"),
         ("law", "kind: havsin", "not a list of keys"),
-        ("law", "kind = 'coulomb', mu_s = 0.5, mu_k = 0.4", "holding|hold the contact"),
         ("coefficients", "process = 'knots', sigma_s = 0.1, sigma_k = 0.1", "spacing"),
     ],
 )
@@ -420,6 +420,13 @@ def test_malformed_configurations_say_why(key, value, message):
     texts = config.configuration(Friction(ELASTIC), "box", "floor") | {key: value}
     with pytest.raises(InputError, match=message):
         config.record_of(texts["law"], texts["coefficients"], 0)
+
+
+def test_a_law_with_true_stick_cannot_be_explicit():
+    with pytest.raises(InputError, match="hold the contact"):
+        config.configuration(Friction(Coulomb(mu_s=0.5, mu_k=0.4)), "box", "floor", mode="explicit")
+    with pytest.raises(InputError, match="unknown mode 'fast'"):
+        config.configuration(Friction(ELASTIC), "box", "floor", mode="fast")
 
 
 def raw_plugin(**changes):
@@ -440,6 +447,8 @@ def raw_plugin(**changes):
         ({"geom2": "flor"}, "geom2 = 'flor'"),
         ({"geom1": "*", "geom2": "*"}, "geom1 = '*'"),
         ({"law": "kind = 'hafsin'"}, "did you mean 'havsin'"),
+        ({"mode": "quick"}, "unknown mode 'quick'"),
+        ({"law": "kind = 'coulomb', mu_s = 0.5, mu_k = 0.4", "mode": "explicit"}, "hold the contact"),
     ],
 )
 def test_a_bad_configuration_in_xml_is_refused(changes, message, monkeypatch):
@@ -459,7 +468,7 @@ def test_unusable_requests_are_refused():
     with pytest.raises(InputError, match="names one geom twice"):
         engine.add_friction(box_spec(), ("box", "box"), ELASTIC)
     with pytest.raises(InputError, match="elastic_substitute"):
-        engine.add_friction(box_spec(), ("box", "floor"), make_law("coulomb", mu_s=0.8, mu_k=0.6))
+        engine.add_friction(box_spec(), ("box", "floor"), make_law("coulomb", mu_s=0.8, mu_k=0.6), mode="explicit")
     with pytest.raises(InputError, match="seed = -1"):
         engine.add_friction(box_spec(), ("box", "floor"), ELASTIC, seed=-1)
     with pytest.raises(InputError, match="slots"):
