@@ -13,11 +13,11 @@ from stochfric_mb.compile import compiled
 
 @compiled
 def along(magnitude, vx, vy):
-    """Return the vector of length ``magnitude`` along (vx, vy); zero where v is zero."""
+    """Return the vector of length ``magnitude`` along (vx, vy); zero where v is zero, not a number where v is not."""
     speed = math.hypot(vx, vy)
-    if speed > 0.0:
-        return magnitude * (vx / speed), magnitude * (vy / speed)
-    return 0.0, 0.0
+    if speed == 0.0:
+        return 0.0, 0.0
+    return magnitude * (vx / speed), magnitude * (vy / speed)
 
 
 @compiled

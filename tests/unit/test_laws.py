@@ -92,6 +92,14 @@ def test_bad_parameters(kind, parameters, words):
         make_law(kind, **parameters)
 
 
+@pytest.mark.parametrize("kind", ["havsin", "piecewise_linear", "tanh", "smooth"])
+def test_a_broken_velocity_shows_in_the_force(kind):
+    law = make_law(kind, mu_s=0.8, mu_k=0.46)
+    nan = float("nan")
+    force = law.functions().force(0.0, 0.0, 0.0, nan, 0.0, 13.0, np.zeros(1), 0.8, 0.46, 6.0, 0.0, 0.0, law.parameters())
+    assert np.isnan(force[0])
+
+
 def test_laws_are_frozen():
     with pytest.raises(dataclasses.FrozenInstanceError):
         make_law("coulomb", mu_s=0.4, mu_k=0.1).mu_s = 0.5
