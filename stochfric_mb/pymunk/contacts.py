@@ -47,6 +47,8 @@ from stochfric_mb.pymunk.response import law_force, set_cap, settle
 
 FAST = 4.0
 """Velocity beyond which a contact cannot stop within a step, in changes of velocity by friction in one step."""
+SLOW = 10.0
+"""Velocity up to which a contact's law is stiff, in stick speeds."""
 PATIENCE = 10
 """Steps in a row beyond the stability limit after which it counts as broken; an impact lasts one."""
 
@@ -228,9 +230,9 @@ def expect_normal(table, s, arbiter, first, acceleration, v_normal, inverse_norm
 
 @compiled
 def watch_step(table, clock, s):
-    """Note a contact that stays beyond the stability limit of its law at this step."""
+    """Note a contact that stays beyond the stability limit of its law at this step; fast sliding has no limit."""
     load = s[r.NORMAL] / s[r.EFFECTIVE_MASS]
-    if load <= clock[r.LARGEST_LOAD]:
+    if load <= clock[r.LARGEST_LOAD] or abs(s[r.RATE]) > SLOW * clock[r.STICK_SPEED]:
         s[r.OVER] = 0.0
         return
     s[r.OVER] += 1.0

@@ -260,4 +260,11 @@ def _release(space: pymunk.Space, handler: SharedHandler) -> None:
     space._handlers = dict(space._handlers)
     if made and not any(getattr(handler, phase) for phase in _PHASES):
         del space._handlers[ALL]
-    del _contexts[context.ctypes.data]
+    if space._locked:  # released by a callback: the compiled one that called it still holds the context
+        space.add_post_step_callback(_forget, context.ctypes.data)
+    else:
+        del _contexts[context.ctypes.data]
+
+
+def _forget(_space: pymunk.Space, address: int) -> None:
+    del _contexts[address]

@@ -10,6 +10,8 @@ import functools
 import gc
 import math
 import pickle
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -438,6 +440,36 @@ def test_two_frictions_share_a_space_and_a_collision_type() -> None:
     assert icy.body.velocity.x == before
 
 
+@pytest.mark.parametrize(
+    ("key", "phase", "steps_with_friction"),
+    [
+        ((0, 0), "begin", 21),
+        ((0, 0), "pre_solve", 11),  # there from its own step on, until the next: every other step
+        ((0, 0), "post_solve", 10),
+        ((None, None), "begin", 21),
+        ((None, None), "pre_solve", 0),  # pymunk's last call before a solve: too late for its step, gone in the next
+        ((None, None), "post_solve", 10),
+    ],
+)
+def test_friction_comes_and_goes_within_a_callback(
+    key: tuple[int | None, int | None], phase: str, steps_with_friction: int
+) -> None:
+    space, floor = space_with_floor()
+    shape = box(space, velocity=1.0)
+    handles: list[ContactFriction] = []
+
+    def switch(_arbiter: pymunk.Arbiter, s: pymunk.Space, _data: object) -> None:
+        if handles:
+            handles.pop().remove()
+        else:
+            handles.append(add_friction(s, shape, floor, law("elastic_stick")))
+
+    space.on_collision(*key, **{phase: switch})
+    steps(space, 21)
+    assert len(handles) == 1
+    assert 1.0 - shape.body.velocity.x == pytest.approx(steps_with_friction * 1e-3 * MU_K * GRAVITY, rel=1e-6)
+
+
 def test_a_collision_type_against_shapes() -> None:
     space, floor = space_with_floor()
     mine, other = box(space, velocity=1.0), box(space, 3.0, velocity=1.0)
@@ -633,6 +665,15 @@ def test_a_motion_that_is_not_finite_is_an_error() -> None:
     space.step(1e-3)
     with pytest.raises(SimulationError, match="states must be finite"):
         handle.check()
+
+
+def test_the_example_of_the_documentation_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    text = (Path(__file__).parents[2] / "docs" / "pymunk.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    exec(code, {})
+    force, normal_force, *_ = map(float, capsys.readouterr().out.split()[:4])
+    assert abs(force) < 1e-6
+    assert normal_force == pytest.approx(2.0 * GRAVITY, rel=1e-6)
 
 
 def test_a_start_needs_a_step() -> None:
