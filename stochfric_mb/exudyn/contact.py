@@ -121,8 +121,9 @@ class FrictionContact:
     def add_sensor(self, **options: Any) -> Any:
         """Return the number of a new sensor with the entries `SENSOR_NAMES`; options are those of Exudyn's sensors."""
 
-        def values(mbs: Any, t: float, numbers: Any, factors: Any, configuration: Any) -> list[float]:
-            return [math.hypot(*self._forces()) if self._words[at.PLANE] else self._forces()[0], *self._values()]
+        def values(mbs: Any, t: float, sensorNumbers: Any, factors: Any, configuration: Any) -> Any:
+            force = self._forces()
+            return [math.hypot(*force) if self._words[at.PLANE] else force[0], *self._values()]
 
         return self._mbs.AddSensor(SensorUserFunction(sensorNumbers=[], factors=[], sensorUserFunction=values, **options))
 
@@ -188,6 +189,8 @@ class FrictionContact:
                 f"a step that ends at t = {t:g} s crosses more than one knot of the coefficients; "
                 "use a step below their spacing"
             )
+        if bits & at.RESTARTED:
+            self._pass_on()
         if bits & at.RECORDED:
             row = self._words.item(at.NEXT_RECORD) - 1
             self._records[row, 3], self._records[row, 10] = self._forces()

@@ -128,7 +128,7 @@ class Hooks:
         contacts, other = self.contacts, self._other["PostNewton"]
 
         def post_newton(mbs: Any, t: float) -> list[float]:
-            if any([contact.refine() for contact in contacts]):
+            if sum(contact.refine() for contact in contacts):  # all of them
                 return [SWITCH_ERROR, -1.0]
             steps = [step for contact in contacts if (step := contact.recommended_step(t)) > 0.0] if self._locating else []
             error, step = (0.0, -1.0) if other is None else other(mbs, t)

@@ -65,9 +65,7 @@ def add_joint_friction(
 class JointContact(FrictionContact):
     """Friction in a joint; made by `add_joint_friction`."""
 
-    def __init__(
-        self, mbs: Any, joint: Any, friction: Law | Friction, normal: Normal, radius: float, **options: Any
-    ) -> None:
+    def __init__(self, mbs: Any, joint: Any, friction: Law | Friction, normal: Normal, radius: float, **options: Any) -> None:
         super().__init__(mbs, friction, normal, **options)
         self._own = np.zeros(4)
         bind_own(self._words, self._own)

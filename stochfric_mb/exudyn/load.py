@@ -89,11 +89,11 @@ class CoordinateLoad(_Load):
         bind_own(self._words, self._own)
         force_now, where, into, out = at.force_now, self.where, self._into, self._out
 
-        def load(mbs: Any, t: float, value: float) -> float:
+        def load_function(mbs: Any, t: float, load: float) -> float:
             force_now(t, where, into)
             return out[0]
 
-        self.object = mbs.AddLoad(LoadCoordinate(markerNumber=marker, load=0.0, loadUserFunction=load))
+        self.object = mbs.AddLoad(LoadCoordinate(markerNumber=marker, load=0.0, loadUserFunction=load_function))
         self._begin()
 
     def connect(self) -> None:
@@ -135,12 +135,14 @@ class PositionLoad(_Load):
         self._axes = self._numbers[at.AXIS_1 : at.AXIS_1 + 6].reshape(2, 3)
         force_now, where, into, tangential = at.force_now, self.where, self._into, self._out[:2]
 
-        def load(mbs: Any, t: float, value: Any) -> Any:
+        def load_function(mbs: Any, t: float, loadVector: Any) -> Any:
             self._read_motion()
             force_now(t, where, into)
             return tangential @ self._axes
 
-        self.object = mbs.AddLoad(LoadForceVector(markerNumber=marker, loadVector=[0.0] * 3, loadVectorUserFunction=load))
+        self.object = mbs.AddLoad(
+            LoadForceVector(markerNumber=marker, loadVector=[0.0] * 3, loadVectorUserFunction=load_function)
+        )
         self._begin()
 
     @property

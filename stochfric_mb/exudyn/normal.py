@@ -11,6 +11,7 @@ import exudyn
 from stochfric_mb.errors import InputError, require_number
 
 _OUTPUT = exudyn.OutputVariableType
+_OBJECT_INDEX: Any = exudyn.ObjectIndex  # pyright: ignore[reportAttributeAccessIssue]  # a compiled name
 
 
 class ConstantNormal:
@@ -58,7 +59,8 @@ class ReactionNormal:
         kind = mbs.GetObject(number)["objectType"]
         if not (kind.startswith("Joint") or "Coordinate" in kind) or "Spring" in kind:
             raise InputError(
-                f"normal_force: object {int(number)} is a {kind}; name a constraint or a joint, whose reaction is the normal force"
+                f"normal_force: object {int(number)} is a {kind}; name a constraint or a joint, whose "
+                "reaction is the normal force"
             )
         local = kind.startswith("Joint") and kind != "JointRevolute2D"
         self._variable = _OUTPUT.ForceLocal if local else _OUTPUT.Force
@@ -84,7 +86,7 @@ def as_normal(mbs: Any, normal_force: Any) -> Normal:
     Raises:
         InputError: it is none of these, or a name or index that the system does not have.
     """
-    if isinstance(normal_force, exudyn.ObjectIndex):
+    if isinstance(normal_force, _OBJECT_INDEX):
         return ReactionNormal(mbs, normal_force)
     if isinstance(normal_force, str):
         names = [mbs.GetObject(i)["name"] for i in range(mbs.systemData.NumberOfObjects())]
@@ -92,7 +94,8 @@ def as_normal(mbs: Any, normal_force: Any) -> Normal:
             raise InputError(f"normal_force: no object is called {normal_force!r}; there are {', '.join(names)}")
         return ReactionNormal(mbs, mbs.GetObjectNumber(normal_force))
     if callable(normal_force):
-        return TimedNormal(normal_force)
+        function: Any = normal_force
+        return TimedNormal(function)
     return ConstantNormal(require_number("normal_force", normal_force, above=0.0, unit="N"))
 
 

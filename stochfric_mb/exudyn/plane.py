@@ -19,6 +19,7 @@ from stochfric_mb.exudyn.symbolic import (
     DISPLACEMENT,
     DISPLACEMENT_2,
     NORMAL_FORCE,
+    NORMAL_LINE,
     TIME,
     VELOCITY,
     VELOCITY_2,
@@ -57,14 +58,16 @@ class PlaneContact(FrictionContact):
 
     def _connector(self) -> None:
         """Hang the force on a connector."""
-        expression = plane_force_expression(
-            self.friction.law, self.friction.process, float(self._numbers[at.MASS])
-        )
+        expression = plane_force_expression(self.friction.law, self.friction.process, float(self._numbers[at.MASS]))
         n = penalty_expression(self._numbers) if self._words[at.PENALTY] else self._given_normal()
-        names = expression.names + (() if self._words[at.PENALTY] or not self._normal.changes else ("normal_now", "normal_rate"))
+        names = expression.names + (
+            () if self._words[at.PENALTY] or not self._normal.changes else ("normal_now", "normal_rate")
+        )
         self._make_symbols(names)
         function = self._function((expression.force, expression.force_2), n)
-        self.object = self._mbs.AddObject(CartesianSpringDamper(markerNumbers=list(self._markers), springForceUserFunction=function))
+        self.object = self._mbs.AddObject(
+            CartesianSpringDamper(markerNumbers=list(self._markers), springForceUserFunction=function)
+        )
         self._begin(names)
 
     def _given_normal(self) -> Value:
@@ -129,7 +132,9 @@ def set_plane(
     if np.linalg.norm(n) == 0.0:
         raise InputError("normal = (0, 0, 0) has no direction; give the one from the counter-surface to the body")
     n /= np.linalg.norm(n)
-    w = _vector("surface_velocity", (0.0, 0.0, 0.0) if np.ndim(surface_velocity) == 0 and surface_velocity == 0.0 else surface_velocity)
+    w = _vector(
+        "surface_velocity", (0.0, 0.0, 0.0) if np.ndim(surface_velocity) == 0 and surface_velocity == 0.0 else surface_velocity
+    )
     w -= n * (n @ w)
     first = w if np.linalg.norm(w) > 0.0 else np.eye(3)[np.argmin(np.abs(n))]
     first = first - n * (n @ first)

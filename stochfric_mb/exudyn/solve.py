@@ -45,7 +45,8 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
         settings: Exudyn's simulation settings; the fields that friction and, with ``locate``, event location need are set.
         solver: one of `SOLVERS`.
         locate: repeat steps so that they end where a law switches. After such a step the next ones end on the grid of
-            fixed steps again, so that output times are met exactly.
+            fixed steps again, so that output times are met exactly. A system with constraints is then integrated by
+            Newmark's method with constraints on velocities, since short steps spoil the reactions of those on positions.
 
     Raises:
         InputError: a normal force is read from a constraint, and the solver is explicit.
@@ -67,11 +68,7 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     if limited and (broken := _broken_limit(hooks, dt)):
         raise StabilityError(f"{where}: {broken}")
     hooks.install(locate=locate)
-    if any(contact.is_load for contact in hooks.contacts) and integration.computeLoadsJacobian == 0:
-        integration.computeLoadsJacobian = 2
-    integration.newton.modifiedNewtonJacUpdatePerStep = True  # stick is stiff, slip is not: 1 iteration a step instead of 5
-    if locate:
-        _settle_location(integration, dt)
+    _settle_settings(mbs, integration, hooks, dt if locate else 0.0)
     printed, exudyn.config.printToConsole = exudyn.config.printToConsole, False
     try:
         success = mbs.SolveDynamic(settings, solverType=SOLVERS[solver], showHints=False)
@@ -85,9 +82,9 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     broken = (_broken_limit(hooks, dt) if limited else "") or "use a smaller step or another solver"
     if not success:
         raise SimulationError(f"{where} gave up: {broken}")
-    for what in (mbs.systemData.GetODE2Coordinates(), mbs.systemData.GetODE2Coordinates_t()):
-        if not np.all(np.isfinite(what)):
-            raise SimulationError(f"{where} reported success with a state that is not finite: {broken}")
+    state = np.concatenate([mbs.systemData.GetODE2Coordinates(), mbs.systemData.GetODE2Coordinates_t()])
+    if not np.all(np.isfinite(state)):
+        raise SimulationError(f"{where} reported success with a state that is not finite: {broken}")
     if limited and (broken := _broken_limit(hooks, dt)):
         raise SimulationError(f"{where} reported success, but the outcome is not to be trusted: {broken}")
 
@@ -101,6 +98,18 @@ def _broken_limit(hooks: Hooks, dt: float) -> str:
         f"dt is beyond the stability limit {limit:.3g} s ({formula}) of an explicit solver; use dt <= {0.5 * limit:.2g} s or "
         "solver='generalized_alpha'"
     )
+
+
+def _settle_settings(mbs: Any, integration: Any, hooks: Hooks, dt: float) -> None:
+    """Set what friction needs of the solver, and with dt [s] > 0 what event location needs."""
+    integration.newton.modifiedNewtonJacUpdatePerStep = True  # stick is stiff, slip is not: 1 iteration a step instead of 5
+    if any(contact.is_load for contact in hooks.contacts) and integration.computeLoadsJacobian == 0:
+        integration.computeLoadsJacobian = 2
+    if dt > 0.0:
+        _settle_location(integration, dt)
+        if len(mbs.systemData.GetAECoordinates()):
+            # reactions of constraints on positions are spoilt by the short steps that location takes (error ~ 1/h^2)
+            integration.generalizedAlpha.useNewmark = integration.generalizedAlpha.useIndex2Constraints = True
 
 
 def _settle_location(integration: Any, dt: float) -> None:

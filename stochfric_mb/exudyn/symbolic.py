@@ -80,7 +80,7 @@ def plane_force_expression(law: Law, process: Process | None, effective_mass: fl
     state = [variable(name) for name in state_names(law)]
     n, second = variable(NORMAL_FORCE), (variable(DISPLACEMENT_2), variable(VELOCITY_2))
     pair = _call(law, "force", n, effective_mass, coefficients(law, process), state, second)
-    return ForceExpression(*pair, _names(law, variables(pair[0]) | variables(pair[1])))
+    return ForceExpression(pair[0], pair[1], _names(law, variables(pair[0]) | variables(pair[1])))
 
 
 def normal_line() -> Value:

@@ -75,14 +75,20 @@ def box_in_space(s: Scenario, *, rigid: bool, penalty: float = 0.0):
     mbs = exudyn.SystemContainer().AddSystem()
     ground = mbs.CreateGround()
     sink = -m.normal_force / penalty if penalty else 0.0
-    place = {"referencePosition": [0.0] * 3, "initialDisplacement": [0.0, sink, 0.0], "gravity": [0, -m.normal_force / m.mass, 0]}
+    place = {
+        "referencePosition": [0.0] * 3,
+        "initialDisplacement": [0.0, sink, 0.0],
+        "gravity": [0, -m.normal_force / m.mass, 0],
+    }
     if rigid:
         angles = exudyn.NodeType.RotationRxyz  # explicit solvers cannot run Euler parameters
         box = mbs.CreateRigidBody(inertia=InertiaCuboid(1e3 * m.mass, [0.1] * 3), nodeType=angles, **place)
     else:
         box = mbs.CreateMassPoint(mass=m.mass, **place)
     up = 0.0 if penalty else 1e5
-    mbs.CreateCartesianSpringDamper(itemNumbers=[ground, box], stiffness=[m.stiffness, up, 1e4], damping=[m.damping, up / 1e3, 10.0])
+    mbs.CreateCartesianSpringDamper(
+        itemNumbers=[ground, box], stiffness=[m.stiffness, up, 1e4], damping=[m.damping, up / 1e3, 10.0]
+    )
     markers = [mbs.AddMarker(MarkerBodyPosition(bodyNumber=b)) for b in (ground, box)]
     if m.excitation_amplitude:
         load, w = m.stiffness * m.excitation_amplitude, m.excitation_angular_frequency
@@ -198,7 +204,9 @@ def mass_on_plane(velocity, normal, *, height: float = 0.0, mass: float = 2.0):
     mbs = exudyn.SystemContainer().AddSystem()
     n = np.array(normal) / np.linalg.norm(normal)
     ground = mbs.AddObject(ObjectGround(referencePosition=[0.3, -0.2, 0.1]))
-    node = mbs.AddNode(NodePoint(referenceCoordinates=list(np.array([0.3, -0.2, 0.1]) + height * n), initialVelocities=list(velocity)))
+    node = mbs.AddNode(
+        NodePoint(referenceCoordinates=list(np.array([0.3, -0.2, 0.1]) + height * n), initialVelocities=list(velocity))
+    )
     body = mbs.AddObject(MassPoint(nodeNumber=node, mass=mass))
     markers = [mbs.AddMarker(MarkerBodyPosition(bodyNumber=b)) for b in (ground, body)]
     return mbs, markers, n
@@ -250,7 +258,9 @@ def test_a_stuck_contact_holds_a_load_in_any_direction() -> None:
     mbs, markers, n = mass_on_plane((0.0, 0.0, 0.0), AXES[1])
     pull = across(n, 9.0, -12.0)  # 15 N of mu_s N = 16 N
     mbs.AddLoad(
-        Force(markerNumber=markers[1], loadVector=pull, loadVectorUserFunction=lambda mbs, t, f: [x * min(1.0, 10 * t) for x in f])
+        Force(
+            markerNumber=markers[1], loadVector=pull, loadVectorUserFunction=lambda mbs, t, f: [x * min(1.0, 10 * t) for x in f]
+        )
     )
     contact = add_friction(mbs, *markers, ELASTIC, normal_force=20.0, effective_mass=2.0, normal=AXES[1])
     mbs.Assemble()
@@ -263,7 +273,7 @@ def test_a_stuck_contact_holds_a_load_in_any_direction() -> None:
 @pytest.mark.parametrize("solver", ["rk44", "generalized_alpha"])
 def test_an_impact_takes_tangential_momentum_as_coulomb_says(solver: str) -> None:
     velocity, drop = np.array([2.0, -1.0, 0.5]), 0.01
-    mbs, markers, n = mass_on_plane(velocity, AXES[0], height=0.05 + drop)
+    mbs, markers, _ = mass_on_plane(velocity, AXES[0], height=0.05 + drop)
     options = {"contact_stiffness": 1e4, "touch": 0.05, "effective_mass": 2.0}
     contact = add_friction(mbs, *markers, make_law("tanh", mu_s=0.1, mu_k=0.1), normal=AXES[0], **options)
     mbs.Assemble()
@@ -549,7 +559,7 @@ def test_force_stick_and_coefficients_are_sensors(route) -> None:
 
 def test_a_step_beyond_the_limit_of_the_contact_is_refused() -> None:
     s = scenario()
-    mbs, contact = box_on_contact(s, 1)
+    mbs, _ = box_on_contact(s, 1)
     mbs.Assemble()
     with pytest.raises(StabilityError, match=r"beyond the stability limit .*contact_stiffness/m_eff"):
         solve_dynamic(mbs, silent_settings(5e-3, 0.1), solver="rk44")
@@ -593,7 +603,7 @@ def test_an_exception_in_a_users_load_or_normal_force_comes_out(solver: str) -> 
     mbs.Assemble()
     with pytest.raises(MineError, match="mine"):
         solve_dynamic(mbs, silent_settings(1e-4, 0.1), solver=solver)
-    mbs, contact = box_on_contact(scenario(), 1)
+    mbs, _ = box_on_contact(scenario(), 1)
     marker = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=0, coordinate=0))
     mbs.AddLoad(LoadCoordinate(markerNumber=marker, load=0.0, loadUserFunction=fail))
     mbs.Assemble()
@@ -621,7 +631,7 @@ def test_wrong_arguments_of_a_plane_are_named(options, message: str) -> None:
 
 
 def test_markers_of_two_kinds_are_refused() -> None:
-    mbs, (fixed, body), _ = mass_on_plane((0, 0, 0), AXES[0])
+    mbs, (_, body), _ = mass_on_plane((0, 0, 0), AXES[0])
     coordinate = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=0, coordinate=0))
     with pytest.raises(InputError, match="two coordinate markers or between two position"):
         add_friction(mbs, coordinate, body, ELASTIC, effective_mass=1.0, normal_force=1.0)
