@@ -47,6 +47,27 @@ class Display:
         self._finish = finish
         return advance
 
+    def count(self, name: str, total: int) -> Callable[[int], None]:
+        """Begin to count ``name`` up to ``total``; return what is called with how many are done.
+
+        Until its first call the bar only shows life; what is done at the first call counts for nothing in the rate.
+        """
+        self._finish()
+        progress = self._progress
+        task = progress.add_task(name, total=None, detail="loading and compiling", left="")
+        first: tuple[float, int] | None = None
+
+        def advance(done: int) -> None:
+            nonlocal first
+            now = time.monotonic()
+            first = (now, done) if first is None else first
+            spent, new = now - first[0], done - first[1]
+            rate = f", {new / spent:.3g} {name}/s, {spent / new * (total - done):.0f} s left" if new and spent > 0.0 else ""
+            progress.update(task, total=total, completed=done, detail=f"{done} / {total}{rate}")
+
+        self._finish = functools.partial(progress.stop_task, task)
+        return advance
+
     def note(self, text: str) -> None:
         """Show that something other than a simulation is being done."""
         self._finish()

@@ -105,8 +105,9 @@ def _finished(running: Iterable[Any], client: Any) -> list[Any]:
     from distributed import wait
 
     while True:
-        with contextlib.suppress(TimeoutError):
-            return list(wait(list(running), timeout=LOOK, return_when="FIRST_COMPLETED").done)
+        with contextlib.suppress(TimeoutError), client.as_current():
+            waited: Any = wait(list(running), timeout=LOOK, return_when="FIRST_COMPLETED")
+            return list(waited.done)
         _threads(client)
 
 

@@ -307,8 +307,17 @@ def _regrouped(blocks: Iterable[Block], n: int) -> Iterable[Block]:
         waiting.append(block)
         count += len(block.tallies)
         while count >= n:
-            whole = Block(*(np.concatenate(a) for a in zip(*waiting, strict=True)))
-            yield Block(*(a[:n] for a in whole))
-            waiting, count = [Block(*(a[n:] for a in whole))], count - n
+            whole = _joined(waiting)
+            yield _cut(whole, slice(None, n))
+            waiting, count = [_cut(whole, slice(n, None))], count - n
     if count:
-        yield Block(*(np.concatenate(a) for a in zip(*waiting, strict=True)))
+        yield _joined(waiting)
+
+
+def _joined(blocks: Iterable[Block]) -> Block:
+    arrays: Any = (np.concatenate(a) for a in zip(*blocks, strict=True))
+    return Block(*arrays)
+
+
+def _cut(block: Block, runs: slice) -> Block:
+    return Block(block.position[runs], block.velocity[runs], block.stick[runs], block.tallies[runs])

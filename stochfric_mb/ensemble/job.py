@@ -24,8 +24,10 @@ from stochfric_mb.scenario import Scenario
 
 THREADS, BATCH, PROCESSES = "threads", "batch", "processes"
 """How an engine uses the cores of one machine: compiled kernels on threads, MuJoCo's Batch, a process each."""
-SIDE_BY_SIDE_RUNS = 2048
-"""Runs in a block where a kernel runs samples side by side."""
+EVENT_DRIVEN_RUNS = 2048
+"""Runs in a block where a kernel runs samples side by side and needs no step."""
+FIXED_STEP_RUNS = 512
+"""Runs in a block where such a kernel steps."""
 BATCH_RUNS = 16
 """Runs in a block of MuJoCo's Batch."""
 SINGLE_RUNS = 4
@@ -128,12 +130,19 @@ def job(
     options = {"output_times": times, "statistics_only": statistics_only, "engine": engine, "dt": dt, "bins": bins}
     known = plan(scenario, n_runs, block=block, **options)
     if block is None:
-        largest = SIDE_BY_SIDE_RUNS if known.side_by_side else BATCH_RUNS if many(engine) is not None else SINGLE_RUNS
+        largest = _largest_block(engine, known)
         block = max(min(largest, BLOCK_BYTES // (17 * len(times)), known.n_runs), 1)
     return Job(
         scenario, engine, dt, tuple(times.tolist()), known.n_runs, int(seed), int(first_sample), statistics_only,
         min(int(block), MAX_SAMPLES), bins,
     )  # fmt: skip
+
+
+def _largest_block(engine: str, known: Plan) -> int:
+    """Return a number of runs that takes a few seconds, so that an interrupt costs little."""
+    if known.side_by_side:
+        return EVENT_DRIVEN_RUNS if known.dt == 0.0 else FIXED_STEP_RUNS
+    return BATCH_RUNS if many(engine) is not None else SINGLE_RUNS
 
 
 @dataclasses.dataclass(frozen=True)
@@ -182,11 +191,10 @@ def compute(given: Job, number: int, threads: int = 1) -> Block:
         SimulationError: a run broke down; names the samples.
     """
     first, n = given.span(number)
+    low = given.first_sample + first
     try:
-        part = _prepared(_Key(given))(given.seed, given.first_sample + first, n, threads)
-        return _checked(part, given.scenario)
+        return _checked(_prepared(_Key(given))(given.seed, low, n, threads), given.scenario, low)
     except SimulationError as error:
-        low = given.first_sample + first
         raise SimulationError(f"samples {low} .. {low + n - 1} of seed {given.seed}: {error}") from error
 
 

@@ -164,8 +164,9 @@ class StatisticsParts(Parts):
     def _restore(self, saved: Arrays) -> None:
         collect = self._collect
         for name in collect.sketches:
-            stored = {field.name: saved[f"{name}_{field.name}"] for field in dataclasses.fields(Sketch)}
-            collect.sketches[name] = Sketch(**stored | {"n": int(stored["n"])})
+            stored: dict[str, Any] = {field.name: saved[f"{name}_{field.name}"] for field in dataclasses.fields(Sketch)}
+            stored["n"] = int(stored["n"])
+            collect.sketches[name] = Sketch(**stored)
         collect.stuck[:] = saved["stuck"]
         collect.tallies[: len(saved["tallies"])] = saved["tallies"]
         self._folded = self._saved = int(saved["folded"])
@@ -229,7 +230,7 @@ def _save(path: Path, arrays: Arrays) -> None:
 def _load(path: Path) -> dict[str, npt.NDArray[Any]] | None:
     """Return the arrays of a file, None if it is not there or damaged (every array has a checksum)."""
     try:
-        with np.load(path, allow_pickle=False) as stored:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as stored:
             return {name: stored[name] for name in stored.files}
     except (OSError, ValueError, EOFError, zipfile.BadZipFile):
         return None

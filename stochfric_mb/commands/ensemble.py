@@ -1,0 +1,186 @@
+"""``stochfric ensemble``: many runs of one scenario into one dataset; an interrupted one goes on where it was."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from stochfric_mb.commands.options import scenario_options
+from stochfric_mb.engines import ENGINES
+from stochfric_mb.errors import InputError
+
+if TYPE_CHECKING:
+    from stochfric_mb.ensemble.job import Job
+    from stochfric_mb.ensemble.produce import Produced
+    from stochfric_mb.ensemble.result import EnsembleResult
+    from stochfric_mb.scenario import Scenario
+    from stochfric_mb.statistics import Estimate
+
+EXAMPLE = """\b
+Example:
+  stochfric ensemble kang2015_table1 --n-runs 1000 --seed 1 --output-times 2,10 --out ens.nc --plot
+"""
+MARKER = "fan_chart.png"
+"""File that shows that a folder holds plots of an ensemble."""
+INTERRUPTED = 130
+LEVELS = (0.05, 0.5, 0.95)
+"""Quantiles on the screen."""
+
+
+@click.command(epilog=EXAMPLE)
+@scenario_options
+@click.option("--n-runs", required=True, type=int, metavar="N", help="Number of runs.")
+@click.option("--engine", default="reference", show_default=True, metavar="|".join(ENGINES), help="What computes them.")
+@click.option("--output-times", metavar="T,...", help="Times that are kept [s]; default: the scenario's output step.")
+@click.option("--statistics-only", is_flag=True, help="Keep means, quantiles and histograms instead of the runs.")
+@click.option("--workers", type=int, metavar="W", help="Threads or processes on this machine; default: all cores.")
+@click.option("--scheduler", metavar="ADDRESS", help="Compute on a Dask cluster instead, such as tcp://host:8786.")
+@click.option("--out", required=True, metavar="FILE", help="What to write: .nc, or .zarr for what is beyond the memory.")
+@click.option("--plot", is_flag=True, help="Write figures into the folder OUT_plots as well.")
+def ensemble(
+    scenario: str,
+    seed: int,
+    dt: float | None,
+    law: str | None,
+    overrides: tuple[str, ...],
+    force: bool,
+    n_runs: int,
+    engine: str,
+    output_times: str | None,
+    statistics_only: bool,
+    workers: int | None,
+    scheduler: str | None,
+    out: str,
+    plot: bool,
+) -> None:
+    """Simulate many runs of SCENARIO (a TOML file or the name of a bundled one), each with its own coefficients.
+
+    Finished blocks lie in the folder OUT.parts until OUT is whole. The same command goes on where an interrupted one was.
+    """
+    from stochfric_mb.commands.progress import display
+    from stochfric_mb.ensemble.dataset import check_ensemble_target, read_ensemble
+    from stochfric_mb.ensemble.job import job
+    from stochfric_mb.ensemble.produce import check_memory, checked_workers, produce
+    from stochfric_mb.ensemble.runner import MAX_BYTES
+    from stochfric_mb.scenario import load_scenario
+    from stochfric_mb.storage import check_target
+
+    target = check_ensemble_target(out, force=force)
+    plots = check_target(plots_folder(target), force=force, marker=MARKER) if plot else None
+    problem = load_scenario(scenario, law=law, overrides=overrides)
+    times = times_of(output_times)
+    task = job(problem, n_runs, seed=seed, engine=engine, dt=dt, output_times=times, statistics_only=statistics_only)
+    here = checked_workers(workers, scheduler)
+    check_memory(task, target, here, MAX_BYTES)
+    click.echo(_plan(task, target, here, scheduler))
+    try:
+        with display() as shown:
+            shown.note(f"loading {engine}")
+            count = shown.count("runs", n_runs)
+            done = produce(task, target, workers=workers, scheduler=scheduler, force=force, progress=count)
+    except KeyboardInterrupt:
+        _say_how_to_resume(target)
+        click.get_current_context().exit(INTERRUPTED)
+    result, _ = read_ensemble(target)
+    if plots is not None:
+        _plot(result, problem, plots)
+    _show(result, done)
+
+
+def times_of(text: str | None) -> list[float] | None:
+    """Return the times in a comma-separated list [s], None if there is no list.
+
+    Raises:
+        InputError: something in it is no number.
+    """
+    if text is None:
+        return None
+    try:
+        return [float(word) for word in text.split(",") if word.strip()]
+    except ValueError:
+        raise InputError(
+            f"--output-times {text!r} is no list of times; give numbers [s] with commas, such as 0.5,2,10"
+        ) from None
+
+
+def plots_folder(target: Path) -> Path:
+    """Return the folder for the plots of an ensemble: beside it, ``_plots`` at the end of its name."""
+    return target.with_name(target.stem + "_plots")
+
+
+def _plan(task: Job, target: Path, workers: int, scheduler: str | None) -> str:
+    """Return what will be done, and the memory that it takes."""
+    from stochfric_mb.ensemble.job import BATCH, PROCESSES
+    from stochfric_mb.ensemble.produce import memory
+
+    plan = task.plan(workers)
+    kind = {BATCH: "threads of MuJoCo's Batch", PROCESSES: "processes"}.get(task.how, "threads")
+    where = f"the cluster {scheduler}" if scheduler is not None else f"{workers} {kind}"
+    kept = "statistics" if task.statistics_only else "runs"
+    return (
+        f"{plan.n_runs} runs at {plan.n_times} times, {plan.method}\n"
+        f"{plan.n_blocks} blocks of {plan.block} runs on {where}; at most {memory(task, target, workers) / 2**20:.1f} MiB "
+        f"of memory for {kept} and blocks"
+    )
+
+
+def _say_how_to_resume(target: Path) -> None:
+    from stochfric_mb.ensemble.parts import parts_folder
+
+    folder = parts_folder(target)
+    n = len(list(folder.glob("block-*.npz"))) if folder.is_dir() else 0
+    click.echo(
+        f"Interrupted; {folder} keeps what is finished ({n} block files). The same command goes on from there.", err=True
+    )
+
+
+def _plot(result: EnsembleResult, scenario: Scenario, folder: Path) -> None:
+    from stochfric_mb.report.ensemble import figures
+    from stochfric_mb.storage import whole_folder
+
+    drawn = figures(result, scenario)
+    with whole_folder(folder) as temporary:
+        for name, png in drawn.items():
+            (temporary / f"{name}.png").write_bytes(png)
+    click.echo(f"{folder}: {', '.join(drawn)}")
+
+
+def _show(result: EnsembleResult, done: Produced) -> None:
+    from stochfric_mb.commands.tables import print_table
+    from stochfric_mb.report.ensemble import at_times, chosen
+    from stochfric_mb.statistics import event_statistics
+
+    rows: list[list[str]] = []
+    few = at_times(result, chosen(result))
+    for name, unit in (("position", "mm"), ("velocity", "mm/s")):
+        numbers = [few.mean(name), few.std(name), *few.quantiles(name, LEVELS)]
+        for i, t in enumerate(few.time):
+            rows.append([f"{name} [{unit}]", f"{t:g}", *(f"{1e3 * values[i]:.4g}" for values in numbers)])
+    print_table(("", "time [s]", "mean", "std", "5 %", "median", "95 %"), rows, title="Over the runs")
+    events = event_statistics(result)
+    rows = [
+        _interval("period [s]", events.period),
+        _interval("first break-away [s]", events.first_break_away),
+        _interval("mu_s at break-away", events.break_away_mu_s),
+        _interval("stick fraction", events.stick_fraction),
+        _interval("break-aways in a run", events.n_break_aways),
+    ]
+    print_table(("", "mean", "95 % interval"), rows, title="Events")
+    about = result.attributes
+    for note in about["notes"]:
+        click.echo(f"Note: {note}")
+    resumed = f", {done.n_resumed} blocks from an interrupted run" if done.n_resumed else ""
+    step = f", dt {about['dt']:g} s" if about["dt"] else ""
+    click.echo(
+        f"{done.path}: {result.n_runs} runs, law {about['law']}, {about['engine']} {about['engine_version']}{step}, seed "
+        f"{about['seed']}; {done.seconds:.3g} s{resumed}"
+    )
+
+
+def _interval(name: str, found: Estimate | None) -> list[str]:
+    if found is None or not math.isfinite(found.low):
+        return [name, "-" if found is None else f"{found.value:.6g}", "-"]
+    return [name, f"{found.value:.6g}", f"{found.low:.6g} .. {found.high:.6g}"]
