@@ -8,11 +8,27 @@ Importing this package registers the plugin, so that models that name it can be 
 """
 
 from stochfric_mb.mujoco.attach import IntegratorWarning, Reading, add_friction, readings
+from stochfric_mb.mujoco.callback import ContactWarning, friction
 from stochfric_mb.mujoco.joints import Joint, Tendon
 from stochfric_mb.mujoco.plugin import register
 from stochfric_mb.mujoco.sensing import add_sensor, register_sensors
+from stochfric_mb.mujoco.states import set_friction, state_index, untouched
 
-__all__ = ["IntegratorWarning", "Joint", "Reading", "Tendon", "add_friction", "add_sensor", "readings", "register"]
+__all__ = [
+    "ContactWarning",
+    "IntegratorWarning",
+    "Joint",
+    "Reading",
+    "Tendon",
+    "add_friction",
+    "add_sensor",
+    "friction",
+    "readings",
+    "register",
+    "set_friction",
+    "state_index",
+    "untouched",
+]
 
 register()
 register_sensors()

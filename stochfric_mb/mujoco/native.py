@@ -102,6 +102,8 @@ FURTHER_FIELDS = (
     ("mjModel", "sensor_plugin"),
     ("mjModel", "sensor_adr"),
     ("mjData", "sensordata"),
+    ("mjModel", "signature"),
+    ("mjModel", "geom_condim"),
 )
 """More struct fields, for joints, tendons and the callback; the constants below are their places in the table."""
 FURTHER = CONFIGURATIONS + N_CONFIGURATIONS
@@ -109,7 +111,8 @@ FURTHER = CONFIGURATIONS + N_CONFIGURATIONS
     M_INTEGRATOR, M_NPLUGIN, M_PLUGIN, M_JOINT_DOF, M_JOINT_QPOS, M_DOF_TREE, M_TENDON_NNZ, M_TENDON_ADDRESS,
     M_TENDON_COLUMN, D_TREE_ASLEEP, D_TENDON_J, D_TENDON_LENGTH, D_NEFC, D_QACC, D_QFRC_BIAS, M_NU, D_QFRC_ACTUATOR,
     M_JOINT_TYPE, D_ROW_STATE, M_NSENSOR, M_SENSOR_PLUGIN, M_SENSOR_ADDRESS, D_SENSORDATA,
-) = range(FURTHER, FURTHER + 23)  # fmt: skip
+    M_SIGNATURE, M_GEOM_CONDIM,
+) = range(FURTHER, FURTHER + 25)  # fmt: skip
 JOINTS_SLOT, CALLBACK_BEFORE, CALLBACK_ROWS, CALLBACK_COUNT, CALLBACK_MESSAGE = range(FURTHER + 32, FURTHER + 37)
 """MuJoCo's number of the joints' plugin; the callback installed before, and the friction contexts that are active."""
 SOLVER_FIELDS = (
@@ -271,6 +274,17 @@ def store(typingctx, address, value):
         return context.get_dummy_value()
 
     return types.void(types.intp, types.float64), generate
+
+
+@intrinsic
+def store_word(typingctx, address, value):
+    """Write the 64-bit integer ``value`` at ``address``."""
+
+    def generate(context, builder, signature, args):
+        builder.store(args[1], builder.inttoptr(args[0], ir.IntType(64).as_pointer()))
+        return context.get_dummy_value()
+
+    return types.void(types.intp, types.intp), generate
 
 
 @intrinsic
