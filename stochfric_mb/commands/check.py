@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 EXAMPLE = """\b
 Example:
-  stochfric check models/belt_box/belt_box.xml
+  stochfric check incline
 """
 TITLE = "Friction as it is (native) and with this package's law (ours)"
 HEAD = ("site", "load", "drift", "50 %", "90 %", "breaks", "slows", "energy", "limit")
@@ -24,7 +24,7 @@ LEAST = 1.0e-3
 LEGEND = """\
 load: friction force in the given state, in % of mu N; drift: in um/s (urad/s) under that load, at 50 and at 90 % of
 mu N; breaks: break-away force in % of mu_s N; slows: deceleration in % of mu_k N/m; energy: created by friction [J];
-limit: step limit of our law [s]; -: could not be measured, see notes in the file"""
+limit: explicit step limit of our law [s]; -: could not be measured, see notes in the file"""
 
 
 @click.command(epilog=EXAMPLE)
@@ -48,7 +48,7 @@ def check(
     out: str,
     force: bool,
 ) -> None:
-    """Probe each contact pair, joint and tendon with friction in MODEL (MJCF, URDF or MJB) and say what to change."""
+    """Probe each contact pair, joint and tendon with friction in MODEL (an MJCF, URDF or MJB file) and say what to change."""
     from stochfric_mb.commands.progress import display
     from stochfric_mb.engines import ENGINES
     from stochfric_mb.errors import MissingEngineError

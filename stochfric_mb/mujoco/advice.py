@@ -6,7 +6,6 @@ import dataclasses
 import math
 
 from stochfric_mb.laws import Law
-from stochfric_mb.laws.elastic_stick import ElasticStick
 from stochfric_mb.laws.substitute import MARGIN
 from stochfric_mb.mujoco.findings import Findings, Row
 from stochfric_mb.mujoco.probes import Drift
@@ -38,7 +37,7 @@ def advice(row: Row, timestep: float, invented: frozenset[str]) -> str:
     if _much_better(row):
         ours.pop("drift", None)
     if not native.keys() - ours.keys():
-        return f"{said}. Ours does no better at this timestep ({'; '.join(ours.values())}){_smaller_step(row, timestep)}"
+        return f"{said}. Ours does no better at this timestep ({'; '.join(ours.values())})"
     left = f" (that still {'; '.join(ours.values())})" if ours else ""
     return f"{said}: {_take_over_words(row)}{left}{_step_words(row, timestep)}{_naming_words(row, invented)}"
 
@@ -53,20 +52,14 @@ def _take_over_words(row: Row) -> str:
 
 
 def _step_words(row: Row, timestep: float) -> str:
-    e_lim = getattr(row.law, "e_lim", None)
-    if row.kind != "contact":
+    if row.kind != "contact" or not math.isfinite(row.step_limit):
         return ""
-    if e_lim is None:
-        return f"; timestep <= {row.step_limit:.2g} s" if math.isfinite(row.step_limit) else ""
-    or_step = f", or timestep <= {row.default_step_limit / MARGIN:.2g} s at {ElasticStick.e_lim:g} {row.unit}"
-    need = f"; e_lim >= {e_lim:.2g} {row.unit} at timestep {timestep:g} s"
-    return need + (or_step if row.default_step_limit < MARGIN * timestep else "")
-
-
-def _smaller_step(row: Row, timestep: float) -> str:
-    if row.default_step_limit < MARGIN * timestep:
-        return f"; both need a smaller one: {row.default_step_limit / MARGIN:.2g} s suits e_lim = {ElasticStick.e_lim:g}"
-    return ""
+    if row.mode == "explicit":
+        return f"; explicit, timestep <= {row.step_limit:.2g} s"
+    or_e_lim = f" or e_lim >= {row.explicit_e_lim:.2g} m" if row.explicit_e_lim is not None else ""
+    return (
+        f"; implicit at timestep {timestep:g} s, explicit (faster) with timestep <= {row.step_limit / MARGIN:.2g} s{or_e_lim}"
+    )
 
 
 def _naming_words(row: Row, invented: frozenset[str]) -> str:

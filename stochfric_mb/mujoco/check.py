@@ -43,6 +43,7 @@ from stochfric_mb.mujoco.sites import (
     mobility,
     pair_contacts,
 )
+from stochfric_mb.scenario import scenario_folders
 
 Array = npt.NDArray[np.float64]
 AnySite = ContactPair | Joint | Tendon
@@ -221,15 +222,15 @@ class _Bench:
         limit = float(carried.column("limit").mean())
         normal = float(carried.column("normal").mean())
         native, native_problem = self._findings(self.model, site, site, limit, sliding, 1.0, advance, 0.0)
-        law, law_limit, default_limit, why = self._fitted_law(site, limit, normal, mass)
+        law, law_limit, e_lim = self._fitted_law(site, normal, mass)
         ours = None
-        if not why and law is not None:
-            model, own, why = self._ours(site, law)
-            if model is not None and own is not None:
-                ours, why = self._findings(model, own, site, limit, sliding, self.mu_k_ratio, advance, 0.5 * self.probe_time())
+        model, own, why = self._ours(site, law)
+        if model is not None and own is not None:
+            ours, why = self._findings(model, own, site, limit, sliding, self.mu_k_ratio, advance, 0.5 * self.probe_time())
         row = self._row(
             site, problem=native_problem, native=native, ours=ours, ours_problem=why, law=law, mass=mass, limit=limit,
-            normal_force=normal, step_limit=law_limit, default_step_limit=default_limit,
+            normal_force=normal, step_limit=law_limit, explicit_e_lim=e_lim,
+            mode=self._mode(site, law, law_limit),
         )  # fmt: skip
         return dataclasses.replace(row, advice=advice(row, float(self.model.opt.timestep), self.invented))
 
@@ -237,7 +238,7 @@ class _Bench:
         kind = {ContactPair: "contact", Joint: "joint", Tendon: "tendon"}[type(site)]
         blank: dict[str, Any] = {
             "normal_force": math.nan, "limit": math.nan, "problem": "", "native": None, "ours": None, "ours_problem": "",
-            "law": None, "mass": math.nan, "step_limit": math.nan, "default_step_limit": math.nan, "advice": "",
+            "law": None, "mass": math.nan, "mode": "", "step_limit": math.nan, "explicit_e_lim": None, "advice": "",
         }  # fmt: skip
         return Row(
             kind=kind, name=site.name, names=_names(site),
@@ -311,22 +312,27 @@ class _Bench:
             model.tendon_frictionloss[site.number] = 0.0
         return model
 
-    def _fitted_law(self, site: AnySite, limit: float, normal: float, mass: float) -> tuple[Law | None, float, float, str]:
-        """Return our law for a site, its step limit, that with default parameters, and why it cannot run (or empty)."""
+    def _fitted_law(self, site: AnySite, normal: float, mass: float) -> tuple[Law, float, float | None]:
+        """Return our law for a site, its explicit step limit [s], and the e_lim for which it would run explicitly [m].
+
+        With ``mode`` auto, friction runs explicitly below half the limit and implicitly above; on joints and tendons it
+        is implicit in the velocity always.
+        """
         mu_s = site.mu if isinstance(site, ContactPair) else 1.0
         dt = float(self.model.opt.timestep)
         law = make_law(self.law, mu_s=mu_s, mu_k=self.mu_k_ratio * mu_s)
-        if not isinstance(site, ContactPair) and not law.needs_holding_force:
-            return law, math.inf, math.inf, ""  # implicit in the velocity: no limit
-        default = law.step_limit(normal, mass)
-        law, _ = elastic_substitute(law, dt, normal, mass)
-        if self.law == ElasticStick.kind and default < MARGIN * dt:
-            smallest, _ = elastic_substitute(Coulomb(mu_s, law.mu_k), dt, normal, mass)
-            law = dataclasses.replace(law, e_lim=_rounded_up(getattr(smallest, "e_lim", 0.0)))  # type: ignore[call-arg]
-        reach = law.step_limit(normal, mass)
-        if dt > reach:
-            return law, reach, default, f"{law.kind} needs a timestep <= {reach:.2g} s here ({law.step_limit_formula})"
-        return law, reach, default, ""
+        if not isinstance(site, ContactPair):
+            return law, math.inf, None
+        limit = law.step_limit(normal, mass)
+        if not isinstance(law, ElasticStick) or limit >= MARGIN * dt:
+            return law, limit, None
+        stiffest, _ = elastic_substitute(Coulomb(mu_s, law.mu_k), dt, normal, mass)
+        return law, limit, _rounded_up(getattr(stiffest, "e_lim", law.e_lim))
+
+    def _mode(self, site: AnySite, law: Law, limit: float) -> str:
+        """Return how add_friction's mode auto runs a law."""
+        implicit = not isinstance(site, ContactPair) or law.needs_holding_force or limit < MARGIN * self.model.opt.timestep
+        return "implicit" if implicit else "explicit"
 
     def _ours(self, site: AnySite, law: Law) -> tuple[mujoco.MjModel | None, AnySite | None, str]:
         """Return the model with our law at the site, or why it cannot be had."""
@@ -357,9 +363,7 @@ def load(model: str | Path | mujoco.MjSpec) -> tuple[mujoco.MjSpec | None, mujoc
     if isinstance(model, mujoco.MjSpec):
         spec = model.copy()
         return spec, _compiled(spec, "the spec")
-    path = Path(model)
-    if not path.is_file():
-        raise InputError(f"{path}: no such file; give an MJCF (.xml), URDF or binary (.mjb) model")
+    path = _located(Path(model))
     try:
         if path.suffix.lower() == ".mjb":
             return None, mujoco.MjModel.from_binary_path(str(path))
@@ -367,6 +371,19 @@ def load(model: str | Path | mujoco.MjSpec) -> tuple[mujoco.MjSpec | None, mujoc
     except (ValueError, mujoco.FatalError) as error:
         raise InputError(f"{path} is no model that MuJoCo can load: {_one_line(error)}") from None
     return spec, _compiled(spec, str(path))
+
+
+def _located(path: Path) -> Path:
+    """Return a model file, or the one that comes with the package under that name."""
+    if path.is_file():
+        return path
+    bundled = [folder / path.name / f"{path.name}.xml" for folder in scenario_folders()] if path.name == str(path) else []
+    for file in bundled:
+        if file.is_file():
+            return file
+    raise InputError(
+        f"{path}: no such file; give an MJCF (.xml), URDF or binary (.mjb) model, or a bundled one: incline, belt_box"
+    )
 
 
 def _compiled(spec: mujoco.MjSpec, what: str) -> mujoco.MjModel:

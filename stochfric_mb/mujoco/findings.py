@@ -67,10 +67,12 @@ class Row:
     """The law that ran."""
     mass: float
     """Least mass that a force at the site feels [kg or kg m^2]."""
+    mode: str
+    """How it ran: explicit, or implicit where the timestep is above half its limit and on joints and tendons."""
     step_limit: float
-    """Largest stable step of that law here [s]."""
-    default_step_limit: float
-    """Largest stable step with the law's default parameters [s]."""
+    """Largest stable explicit step of that law here [s]."""
+    explicit_e_lim: float | None
+    """Smallest e_lim with which elastic stick would run explicitly at the model's timestep [m]; None where it does."""
     advice: str
     """What to change."""
 
