@@ -15,7 +15,7 @@ from stochfric_mb.errors import InputError, SimulationError, require_number
 from stochfric_mb.exudyn import stepping as at
 from stochfric_mb.exudyn.hooks import Hooks
 from stochfric_mb.exudyn.normal import NO_REACTION, Normal, is_explicit
-from stochfric_mb.exudyn.symbolic import live_names, symbolic
+from stochfric_mb.exudyn.symbolic import NORMAL_LINE, live_names, symbolic
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.laws.abi import MAX_STATE, native_law
@@ -204,7 +204,7 @@ class FrictionContact:
             return False
         self._unsure = False
         self._numbers[[at.NORMAL_FORCE, at.GIVEN_NORMAL]] = self._normal.at(0.0)
-        line = self._names.index("normal_now")
+        line = self._names.index(NORMAL_LINE[0])
         self._live[line], self._live[line + 1] = self._numbers[at.GIVEN_NORMAL], 0.0
         self._pass_on()
         return True

@@ -60,9 +60,7 @@ class PlaneContact(FrictionContact):
         """Hang the force on a connector."""
         expression = plane_force_expression(self.friction.law, self.friction.process, float(self._numbers[at.MASS]))
         n = penalty_expression(self._numbers) if self._words[at.PENALTY] else self._given_normal()
-        names = expression.names + (
-            () if self._words[at.PENALTY] or not self._normal.changes else ("normal_now", "normal_rate")
-        )
+        names = expression.names + (() if self._words[at.PENALTY] or not self._normal.changes else NORMAL_LINE)
         self._make_symbols(names)
         function = self._function((expression.force, expression.force_2), n)
         self.object = self._mbs.AddObject(
