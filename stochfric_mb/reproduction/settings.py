@@ -20,7 +20,7 @@ class Settings:
     """Output steps [s], coarse to fine."""
     resamples: int = 499
     """Bootstrap samples of an interval."""
-    n_grid: int = 20
+    n_grid: int = 8
     """Runs with which processes are compared on whole output grids."""
     n_pairs: int = 1_000_000
     """Pairs drawn to measure rejection."""
