@@ -151,7 +151,8 @@ def _rejection(result: Reproduction) -> Figure:
 
 def _densities(axes: Axes, r: Rejection) -> None:
     for i, (name, shade) in enumerate((("mu_s", "#0072b2"), ("mu_k", "#d55e00"))):
-        edges: Array = np.linspace(r.before[:, i].min(), r.before[:, i].max(), BINS + 1)
+        low, high = float(r.before[:, i].min()), float(r.before[:, i].max())
+        edges = np.linspace(low, high, BINS + 1)
         after, _ = np.histogram(r.before[r.feasible, i], bins=edges, density=True)
         before, _ = np.histogram(r.before[:, i], bins=edges, density=True)
         axes.stairs(after, edges, fill=True, color=shade, alpha=0.4, label=f"{name} after")

@@ -160,12 +160,14 @@ def gaps(
     m = forced.mechanism
     omitted = m.damping * m.excitation_angular_frequency / m.stiffness
     decay = f"{1.0 / law.decay_velocity:g} s/m"
+    slow = _period(dataclasses.replace(elastic, law=dataclasses.replace(law, decay_velocity=10.0 * law.decay_velocity)))
+    tenth = f"by {100 * abs(slow / shifts[1] - 1.0):.2g} % at a tenth of the rate"
     negative = 0.5 * math.erfc(law.mu_k / elastic.process.sigma_k / math.sqrt(2.0))
     speeds = " and ".join(f"{1e3 * _of(scenarios['havsin'], name):g}" for name in ("v_s", "v_d"))
     at = f"{m.excitation_angular_frequency:g} rad/s"
     return [
         Gap("eq. 6 lost its superscript; a depends on the unit of v_r", f"mu = a^-(v_r + b) + mu_k, decay rate {decay}",
-            swing["elastic_stick", "decay_velocity"]),
+            f"{swing['elastic_stick', 'decay_velocity']}, {tenth}"),
         Gap("eq. 5 lost its root", "c_stick = 2 zeta sqrt(k_stick m)", swing["elastic_stick", "zeta"] + " (zeta)"),
         Gap("v_r < 0", "odd extension",
             "least v_r in Table 1: " + ", ".join(f"{k} {1e3 * v:.3g} mm/s" for k, v in backward.items())),
