@@ -13,7 +13,14 @@ from typing import Any
 import numpy as np
 
 from stochfric_mb.ensemble import cluster
-from stochfric_mb.ensemble.dataset import ZARR, check_ensemble_target, ensemble_ending, write_blocks, write_ensemble
+from stochfric_mb.ensemble.dataset import (
+    CHUNK_BYTES,
+    ZARR,
+    check_ensemble_target,
+    ensemble_ending,
+    write_blocks,
+    write_ensemble,
+)
 from stochfric_mb.ensemble.job import Description, Job, describe, versions
 from stochfric_mb.ensemble.parts import Parts, open_parts
 from stochfric_mb.ensemble.result import Block
@@ -100,10 +107,13 @@ def checked_workers(workers: int | None, scheduler: Any) -> int:
 def memory(job: Job, target: Path, workers: int) -> int:
     """Return the memory that a job takes here [bytes], interpreter and libraries apart."""
     p = job.plan(workers)
-    if ensemble_ending(target) == ZARR and not job.statistics_only:
-        # a chunk of the store, put together from blocks, comes instead of the whole result
-        return p.bytes_working + 3 * max(2**23 // 8 * 17, p.block * p.n_times * 17)
-    return p.bytes_total
+    row = 17 * p.n_times
+    if job.statistics_only:
+        return p.bytes_total + p.bytes_result  # written as they are, and as quantiles
+    if ensemble_ending(target) == ZARR:
+        chunk = min(max(CHUNK_BYTES // (8 * p.n_times), 1), p.n_runs)
+        return p.bytes_working + 3 * (chunk + p.block) * row  # put together from blocks, cut, and packed
+    return p.bytes_total + 8 * p.n_times * p.n_runs  # xarray copies a variable when it writes it
 
 
 def check_memory(job: Job, target: Path, workers: int, max_bytes: int) -> None:

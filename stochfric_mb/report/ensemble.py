@@ -25,6 +25,8 @@ BANDS = ((0.005, 0.995, 0.15), (0.05, 0.95, 0.35), (0.25, 0.75, 0.65))
 """Lower and upper level of a band of the fan chart, and its opacity."""
 MAX_TIMES = 1000
 """The fan chart is drawn at no more than so many times, evenly chosen."""
+FEW_TIMES = 8
+"""Up to so many times are drawn one by one: nothing is known between them."""
 CHUNK = 100
 """Runs counted at a time in the phase portrait."""
 SHOWN = 4
@@ -88,12 +90,13 @@ def _fan_chart(result: EnsembleResult) -> Figure:
         found = dict(zip(levels, 1.0e3 * result.quantiles(name, levels), strict=True))
         for low, high, opacity in BANDS:
             text = f"{100.0 * (high - low):.0f} %"
-            if len(result.time) > 1:
+            if len(result.time) > FEW_TIMES:
                 shade: dict[str, Any] = {"color": "#0072b2", "alpha": opacity, "linewidth": 0.0, "label": text}
                 axes.fill_between(result.time, found[low], found[high], **shade)
             else:
                 axes.vlines(result.time, found[low], found[high], color="#0072b2", alpha=opacity, linewidth=9.0, label=text)
-        axes.plot(result.time, found[0.5], color=ink, linewidth=1.0, label="median", marker="o" if len(result.time) < 9 else "")
+        dots: dict[str, Any] = {} if len(result.time) > FEW_TIMES else {"marker": "o", "linestyle": ""}
+        axes.plot(result.time, found[0.5], color=ink, linewidth=1.0, label="median", **dots)
         axes.set(xlabel="time [s]", ylabel=f"{label} [{unit}]")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper left", ncols=4)
@@ -163,7 +166,7 @@ def _edges(values: Array, n: int = 160) -> Array:
 
 def _stick(result: EnsembleResult) -> Figure:
     figure, (along, over) = new_figure(9.2, 3.3, columns=2)
-    marker: dict[str, Any] = {"marker": "o"} if len(result.time) < 9 else {}
+    marker: dict[str, Any] = {} if len(result.time) > FEW_TIMES else {"marker": "o", "linestyle": ""}
     along.plot(result.time, result.stick_probability, color="#0072b2", linewidth=1.0, **marker)
     along.set(xlabel="time [s]", ylabel="share of the runs that stick", ylim=(-0.03, 1.03))
     _values(over, result.stick_fraction, "share of its time that a run sticks")

@@ -5,6 +5,7 @@ import json
 import os
 import pickle
 import signal
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from stochfric_mb.ensemble import workers
 from stochfric_mb.ensemble.dataset import open_dataset, read_ensemble, write_ensemble
 from stochfric_mb.ensemble.job import compute, describe, job
 from stochfric_mb.ensemble.parts import open_parts, parts_folder
-from stochfric_mb.ensemble.produce import produce
+from stochfric_mb.ensemble.produce import memory, produce
 from stochfric_mb.errors import InputError, SimulationError, StabilityError
 from stochfric_mb.scenario import load_scenario
 
@@ -97,6 +98,24 @@ def test_write_and_read_again(tmp_path):
         read_ensemble(tmp_path / "no.nc")
     with pytest.raises(InputError, match="no such file"):
         read_ensemble(tmp_path / "none.nc")
+
+
+@pytest.mark.parametrize(("ending", "options"), [(".nc", {}), (".zarr", {}), (".nc", {"statistics_only": True})])
+def test_memory_is_what_is_stated_before_the_run(tmp_path, monkeypatch, ending, options):
+    if ending == ".zarr":
+        pytest.importorskip("zarr")
+    monkeypatch.setattr("stochfric_mb.ensemble.dataset.CHUNK_BYTES", 2**20)
+    monkeypatch.setattr("stochfric_mb.ensemble.produce.CHUNK_BYTES", 2**20)
+    times = np.arange(1, 301) / 200
+    produce(a_job(20, output_times=times, **options), tmp_path / f"first{ending}", workers=1)  # compile and import
+    task = a_job(4000, block=200, output_times=times, **options)
+    stated = memory(task, tmp_path / f"ens{ending}", 1)
+    tracemalloc.start()
+    produce(task, tmp_path / f"ens{ending}", workers=1)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    # Python's own objects, HDF5's and Zarr's buffers come on top: 3 MB here
+    assert 0.3 * stated < peak < stated + 3e6
 
 
 # --- interrupted and resumed ------------------------------------------------------------------------------------------
