@@ -36,7 +36,19 @@ from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.attach import Reading, _reading, _require_passive_forces, add_friction
+from stochfric_mb.mujoco.attach import Reading, _reading, _require_passive_forces, _require_slots
+from stochfric_mb.mujoco.config import (
+    R_DESCRIPTOR,
+    R_HAS_MODE,
+    R_LAW,
+    R_N_DESCRIPTOR,
+    R_N_PARAMETERS,
+    R_NEEDS_MASS,
+    R_PARAMETERS,
+    R_STICK_SPEED,
+    configuration,
+    record_of,
+)
 from stochfric_mb.mujoco.contact import apply, begin, contact_address, find, ordinal_of, side, slot
 from stochfric_mb.mujoco.dof import RUNGE_KUTTA
 from stochfric_mb.mujoco.plugin import UNSET, register
@@ -97,7 +109,7 @@ class friction:  # noqa: N801  (a context, used like a function)
         self._plans = {names: _plan(model, geoms, names) for names, geoms in self._pairs.items()}
         self._states: dict[tuple[str, str], np.ndarray[Any, np.dtype[np.float64]]] = {}
         for contact, (names, law) in enumerate(pairs.items()):
-            state = _fresh_state(as_friction(law), seed=seed, sample=sample, contact=contact, slots=slots)
+            state = _fresh_state(as_friction(law), _require_slots(slots), seed=seed, sample=sample, contact=contact)
             state[s.GEOM_BODY], state[s.GEOM_SURFACE] = self._pairs[names]
             self._states[names] = state
         self._kept: list[tuple[Any, int, int]] = []
@@ -220,14 +232,32 @@ def _dimension(model: mujoco.MjModel, condim: Any, a: int, b: int) -> int:
     return int(max(condim[a], condim[b]))
 
 
-def _fresh_state(friction: Friction, **address: int) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """Return the state that the plugin would start with."""
-    spec = mujoco.MjSpec.from_string(
-        "<mujoco><worldbody><geom name='a' type='plane' size='1 1 1'/><body><freejoint/><geom name='b' size='.1'/></body>"
-        "</worldbody></mujoco>"
-    )
-    add_friction(spec, ("b", "a"), friction, mode="explicit", **address)
-    return mujoco.MjData(spec.compile()).plugin_state.copy()
+def _fresh_state(friction: Friction, slots: int, **address: int) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Return the state that the plugin would start with (no model is compiled: that would run others' callbacks)."""
+    texts = configuration(friction, "", "", mode="explicit", slots=slots, **address)
+    record = record_of(texts["law"], texts["coefficients"], 0)
+    n_descriptor = int(record[R_N_DESCRIPTOR])
+    state = np.zeros(s.state_size(n_descriptor, slots, 0))
+    for place, value in {
+        s.LAW: record[R_LAW],
+        s.SEED: address["seed"],
+        s.SAMPLE: address["sample"],
+        s.CONTACT: address["contact"],
+        s.N_SLOTS: slots,
+        s.N_DESCRIPTOR: n_descriptor,
+        s.N_PARAMETERS: record[R_N_PARAMETERS],
+        s.STICK_SPEED: record[R_STICK_SPEED],
+        s.HAS_MODE: record[R_HAS_MODE],
+        s.NEEDS_MASS: record[R_NEEDS_MASS],
+        s.MODE: s.EXPLICIT,
+        s.ADVANCED: UNSET,
+        s.EVALUATED: UNSET,
+        s.COEFFICIENTS: UNSET,
+    }.items():
+        state[place] = value
+    state[s.PARAMETERS : s.PARAMETERS + s.MAX_PARAMETERS] = record[R_PARAMETERS : R_PARAMETERS + s.MAX_PARAMETERS]
+    state[s.DESCRIPTOR : s.DESCRIPTOR + n_descriptor] = record[R_DESCRIPTOR:]
+    return state
 
 
 def _require_free(model: mujoco.MjModel, data: mujoco.MjData, pairs: Mapping[tuple[str, str], tuple[int, int]]) -> None:

@@ -17,6 +17,7 @@ from numba import types
 
 from stochfric_mb.compile import compiled, native
 from stochfric_mb.errors import InputError, require_number
+from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import config, dof
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
@@ -73,6 +74,19 @@ def register_plugin(name: str, attributes: tuple[str, ...], keys: int, capabilit
     return library.mjp_registerPlugin(ctypes.byref(plugin))
 
 
+def require_no_hold(law: Law) -> None:
+    """Refuse a law that needs the holding force.
+
+    Raises:
+        InputError: says what to use instead.
+    """
+    if law.needs_holding_force:
+        raise InputError(
+            f"law {law.kind!r} needs the force that would hold the contact, which joints and tendons do not give; use "
+            "elastic_stick with a small e_lim: it holds at any step"
+        )
+
+
 def _read_number(text: bytes | None, key: int, _: int) -> int:
     """Keep the number that a text stands for under its key (not a number if it stands for none)."""
     try:
@@ -91,6 +105,7 @@ def _explain_refusal(model: int, instance: int, _: int) -> int:
     """Raise the error that says why an instance was refused; ctypes prints it, MuJoCo refuses the model."""
     texts = {key: n.plugin_text(model, instance, key) for key in ATTRIBUTES}
     config.record_of(texts["law"], texts["coefficients"], 0)
+    require_no_hold(config.friction_of(texts["law"], "").law)
     for key in ("seed", "sample", "contact"):
         if texts[key] and not (texts[key].isdecimal() and int(texts[key]) < 2**32):
             raise InputError(f"plugin key {key} = {texts[key]!r} is not a whole number in [0, 2^32); write one")
@@ -157,7 +172,8 @@ def _nstate(model, instance):
 
 
 def _init(model, data, instance):
-    bad = record_of(model, instance) == 0
+    record = record_of(model, instance)
+    bad = record == 0 or n.load(record + 8 * config.R_NEEDS_HOLD) != 0.0
     _, number = object_of(model, instance)
     load = number_of(text_of(model, instance, NORMAL_FORCE))
     bad = bad or number < 0 or not 0.0 < load < 1.0e300

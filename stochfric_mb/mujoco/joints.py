@@ -16,7 +16,7 @@ from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import config, dof
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.dof_plugin import NAME, register_joints
+from stochfric_mb.mujoco.dof_plugin import NAME, register_joints, require_no_hold
 
 if TYPE_CHECKING:
     from stochfric_mb.mujoco.attach import Reading
@@ -72,6 +72,7 @@ def add_joint_friction(
     load = require_number("normal_force", normal_force, above=0.0, unit="N or N m")
     element = _element(spec, place, what)
     friction = as_friction(friction)
+    require_no_hold(friction.law)
     friction.path(seed, sample, contact)  # checks the address and the process against the law
     texts = config.configuration(friction, "", "", seed=seed, sample=sample, contact=contact)
     name = f"friction_{place.name}"

@@ -1,0 +1,284 @@
+"""MuJoCo: friction on joints and tendons, and friction as sensor data."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+mujoco = pytest.importorskip("mujoco")
+
+import stochfric_mb.mujoco as engine  # noqa: E402
+from stochfric_mb.coefficients import Knots  # noqa: E402
+from stochfric_mb.errors import InputError  # noqa: E402
+from stochfric_mb.friction import Friction  # noqa: E402
+from stochfric_mb.laws import make_law  # noqa: E402
+from stochfric_mb.laws.elastic_stick import ElasticStick  # noqa: E402
+from stochfric_mb.laws.havsin import Havsin  # noqa: E402
+from stochfric_mb.laws.tanh import Tanh  # noqa: E402
+from stochfric_mb.mujoco.sensing import CONTACT_FIELDS, FIELDS  # noqa: E402
+
+ARM = """<mujoco><option timestep="{dt}" integrator="{integrator}"/><worldbody><body>
+<joint name="hinge" type="hinge" axis="0 1 0" frictionloss="{loss}"/>
+<geom type="capsule" fromto="0 0 0 .2 0 0" size=".02" mass="1"/>
+<body pos=".2 0 0"><joint name="swing" type="hinge" axis="0 1 0" damping=".05"/>
+<geom type="capsule" fromto="0 0 0 0 0 -.1" size=".02" mass=".05"/></body></body></worldbody>
+<tendon><fixed name="cable"><joint joint="hinge" coef="1"/></fixed></tendon></mujoco>"""
+LOAD = 1.2
+"""Holds 1.2 N m, of which gravity's 1.08 N m are 90 %."""
+STIFF = ElasticStick(mu_s=1.0, mu_k=0.667, e_lim=1e-6, zeta=0.7)
+SLIDER = """<mujoco><option timestep="{dt}" integrator="{integrator}" gravity="0 0 0"/><worldbody><body>
+<joint name="x" type="slide" axis="1 0 0"/><geom size=".1" mass="2"/></body></worldbody></mujoco>"""
+
+
+def arm(place=None, law=STIFF, *, dt=2e-3, integrator="Euler", loss=0.0, **options):
+    spec = mujoco.MjSpec.from_string(ARM.format(dt=dt, integrator=integrator, loss=loss))
+    if place is not None:
+        engine.add_friction(spec, place, law, normal_force=LOAD, **options)
+    return spec.compile()
+
+
+def slider(law, *, dt=1e-3, integrator="Euler", load=10.0, **options):
+    spec = mujoco.MjSpec.from_string(SLIDER.format(dt=dt, integrator=integrator))
+    engine.add_friction(spec, engine.Joint("x"), law, normal_force=load, **options)
+    return spec.compile()
+
+
+def creep(model, seconds=9.0):
+    """Return the hinge's motion [rad] from one second on."""
+    data, second = mujoco.MjData(model), round(1.0 / model.opt.timestep)
+    mujoco.mj_step(model, data, nstep=second)
+    early = data.qpos[0]
+    mujoco.mj_step(model, data, nstep=round(seconds * second))
+    return abs(data.qpos[0] - early)
+
+
+@pytest.mark.parametrize("place", [engine.Joint("hinge"), engine.Tendon("cable")])
+@pytest.mark.parametrize("integrator", ["Euler", "implicit", "implicitfast"])
+@pytest.mark.parametrize(("dt", "e_lim"), [(2e-3, 1e-6), (5e-3, 1e-9)])
+def test_a_loaded_joint_holds(place, integrator, dt, e_lim):
+    model = arm(place, dataclasses.replace(STIFF, e_lim=e_lim), dt=dt, integrator=integrator)
+    assert creep(model) < 3e-12  # rounding: what is left of a millionth of a degree
+
+
+def test_native_frictionloss_creeps_where_ours_holds():
+    assert creep(arm(loss=LOAD)) > 0.1  # why this plugin exists
+
+
+def test_a_tendon_is_its_joint():
+    one, other = arm(engine.Joint("hinge")), arm(engine.Tendon("cable"))
+    a, b = mujoco.MjData(one), mujoco.MjData(other)
+    for model, data in ((one, a), (other, b)):
+        data.qvel[0] = 5.0
+        mujoco.mj_step(model, data, nstep=200)
+    assert a.qpos == pytest.approx(b.qpos, abs=1e-9)
+
+
+def test_friction_loss_is_replaced():
+    assert arm(engine.Joint("hinge"), loss=0.5).dof_frictionloss[0] == 0.0
+
+
+@pytest.mark.parametrize(("integrator", "dt"), [("Euler", 1e-3), ("implicitfast", 1e-3), ("RK4", 1e-3)])
+def test_a_slider_stops_where_it_should_and_stays(integrator, dt):
+    law = ElasticStick(mu_s=0.4, mu_k=0.4, e_lim=1e-4, zeta=0.5)
+    model = slider(law, integrator=integrator, dt=dt)
+    data = mujoco.MjData(model)
+    data.qvel[0] = 1.0
+    mujoco.mj_step(model, data, nstep=round(1.0 / dt))
+    # v^2/(2 mu_k N/m) = 0.25 m; Euler's first-order error is v dt/2, the elastic deflection below e_lim.
+    assert data.qpos[0] == pytest.approx(0.25, abs=0.5 * dt + 2e-4)
+    stopped = data.qpos[0]
+    mujoco.mj_step(model, data, nstep=1000)
+    assert abs(data.qpos[0] - stopped) < 1e-9
+    mujoco.mj_forward(model, data)
+    assert engine.readings(model, data)["friction_x"][0].dissipated == pytest.approx(1.0, rel=4e-3)  # m v^2/2; Euler: dt/2 early
+
+
+def test_converges_to_the_same_motion_from_implicit_and_explicit_steps():
+    def end(integrator, dt):
+        model = slider(Havsin(mu_s=0.5, mu_k=0.3, v_s=0.05, v_d=0.2), integrator=integrator, dt=dt)
+        data = mujoco.MjData(model)
+        data.qvel[0] = 1.0
+        mujoco.mj_step(model, data, nstep=round(0.5 / dt))
+        return data.qpos[0]
+
+    exact = end("RK4", 1e-4)
+    errors = [abs(end("Euler", dt) - exact) for dt in (4e-3, 1e-3)]
+    assert math.log(errors[0] / errors[1], 4) == pytest.approx(1.0, abs=0.2)  # first order
+    assert errors[1] < 1e-3
+
+
+@pytest.mark.parametrize("kind", ["havsin", "tanh", "lugre", "dahl", "piecewise_linear", "smooth", "elastic_stick"])
+def test_every_law_stops_a_slider(kind):
+    model = slider(make_law(kind, mu_s=0.5, mu_k=0.4))
+    data = mujoco.MjData(model)
+    data.qvel[0] = 0.5
+    mujoco.mj_step(model, data, nstep=1000)
+    assert 0.04 < data.qpos[0] < 0.07  # 0.0625 m at mu_k = 0.4, 0.05 m at 0.5
+    assert abs(data.qvel[0]) < 1e-3
+
+
+def test_joints_hold_each_other():
+    links = "".join(
+        f'<body pos="{0.2 * bool(i)} 0 0"><joint name="j{i}" axis="0 1 {0.3 * i}"/>'
+        '<geom type="capsule" fromto="0 0 0 .2 0 0" size=".03"/>' for i in range(4)
+    )  # fmt: skip
+    text = f'<mujoco><option timestep="5e-3" integrator="implicitfast"/><worldbody>{links}{"</body>" * 4}</worldbody></mujoco>'
+    spec = mujoco.MjSpec.from_string(text)
+    for i in range(4):
+        engine.add_friction(spec, engine.Joint(f"j{i}"), STIFF, normal_force=40.0 / 2**i, contact=i)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, nstep=200)
+    early = data.qpos.copy()
+    mujoco.mj_step(model, data, nstep=400)
+    assert np.abs(data.qpos).max() < 1e-5  # they sag by less than ten e_lim
+    assert np.abs(data.qpos - early).max() < 1e-11
+
+
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "RK4"])
+def test_extra_evaluations_change_nothing(integrator):
+    process = Knots(sigma_s=0.05, sigma_k=0.05, spacing=0.01)
+    law = Friction(ElasticStick(mu_s=1.0, mu_k=0.6, e_lim=1e-4, zeta=0.7), process)
+    model = arm(engine.Joint("hinge"), law, dt=1e-3, integrator=integrator, seed=3)
+    plain, nosy = mujoco.MjData(model), mujoco.MjData(model)
+    plain.qvel[0] = nosy.qvel[0] = 1.0
+    for i in range(500):
+        mujoco.mj_step(model, plain)
+        mujoco.mj_step(model, nosy)
+        if i % 7 == 0:
+            mujoco.mj_forward(model, nosy)
+            before = nosy.qacc.copy()
+            mujoco.mj_inverse(model, nosy)
+            assert np.array_equal(nosy.qacc, before)
+    assert np.array_equal(plain.qpos, nosy.qpos)
+    assert np.array_equal(plain.qvel, nosy.qvel)
+    assert np.array_equal(plain.plugin_state[:20], nosy.plugin_state[:20]) or plain.time == nosy.time
+
+
+def test_the_force_of_a_creeping_law_is_that_of_the_end_velocity():
+    law = Tanh(mu_s=0.5, mu_k=0.5)
+    model = slider(law)
+    data = mujoco.MjData(model)
+    data.qfrc_applied[0] = 3.0  # of 5 N
+    mujoco.mj_step(model, data, nstep=2000)
+    mujoco.mj_forward(model, data)
+    reading = engine.readings(model, data)["friction_x"][0]
+    assert reading.force[0] == pytest.approx(-3.0, rel=1e-9)
+    assert reading.effective_mass == pytest.approx(2.0, rel=1e-12)
+
+
+# --- sensors --------------------------------------------------------------------------------------------------------
+
+BOX = """<mujoco><option timestep="1e-3" integrator="RK4"/><worldbody><geom name="floor" type="plane" size="5 5 1"/>
+<body pos="0 0 .05"><freejoint/><geom name="box" type="box" size=".05 .05 .05" mass="1"/></body>
+<body pos="1 0 1"><joint name="x" type="slide" axis="1 0 0"/><geom size=".1" contype="0" conaffinity="0"/></body>
+</worldbody></mujoco>"""
+
+
+def watched():
+    spec = mujoco.MjSpec.from_string(BOX)
+    pair = engine.add_friction(spec, ("box", "floor"), ElasticStick(mu_s=0.8, mu_k=0.6), mode="explicit")
+    joint = engine.add_friction(spec, engine.Joint("x"), STIFF, normal_force=1.0)
+    engine.add_sensor(spec, pair, contacts=5)
+    engine.add_sensor(spec, joint, name="joint")
+    return spec
+
+
+def test_sensors_read_what_readings_do():
+    model = watched().compile()
+    data = mujoco.MjData(model)
+    data.qvel[0] = data.qvel[6] = 1.0
+    mujoco.mj_step(model, data, nstep=60)
+    mujoco.mj_forward(model, data)
+    contacts = engine.readings(model, data)["friction_box_floor"]
+    sums = dict(zip(FIELDS, data.sensor("friction_box_floor").data, strict=False))
+    assert sums["contacts"] == len(contacts) == 4
+    assert sums["force_x"] == pytest.approx(sum(c.force[0] for c in contacts), rel=1e-12)
+    assert sums["force_x"] == pytest.approx(-0.6 * sums["normal_force"], rel=1e-9)
+    assert sums["dissipated"] == pytest.approx(sum(c.dissipated for c in contacts), rel=1e-12)
+    rows = data.sensor("friction_box_floor").data[len(FIELDS) :].reshape(5, len(CONTACT_FIELDS))
+    assert rows[:4, 3] == pytest.approx([c.normal_force for c in contacts], rel=1e-12)
+    assert not rows[4].any()
+    joint = dict(zip(FIELDS, data.sensor("joint").data, strict=True))
+    assert joint["force_x"] == engine.readings(model, data)["friction_x"][0].force[0]
+    assert joint["normal_force"] == 1.0
+    assert joint["mu_k"] == STIFF.mu_k
+
+
+def test_sensors_and_joints_work_from_xml():
+    spec = watched()
+    model, again = spec.compile(), mujoco.MjModel.from_xml_string(spec.to_xml())
+    results = []
+    for m in (model, again):
+        data = mujoco.MjData(m)
+        data.qvel[0] = data.qvel[6] = 1.0
+        mujoco.mj_step(m, data, nstep=60)
+        results.append(data.sensordata.copy())
+    assert results[0] == pytest.approx(results[1], rel=1e-6, abs=1e-9)  # MuJoCo writes six digits of its own numbers
+
+
+# --- errors ---------------------------------------------------------------------------------------------------------
+
+
+def test_unusable_requests_are_refused():
+    def spec(kind="hinge"):
+        return mujoco.MjSpec.from_string(
+            f'<mujoco><worldbody><body><joint name="a" type="{kind}"/><geom size=".1"/></body></worldbody></mujoco>'
+        )
+
+    with pytest.raises(InputError, match="unknown joint 'b'"):
+        engine.add_friction(spec(), engine.Joint("b"), STIFF, normal_force=1.0)
+    with pytest.raises(InputError, match="unknown tendon 'b'"):
+        engine.add_friction(spec(), engine.Tendon("b"), STIFF, normal_force=1.0)
+    with pytest.raises(InputError, match="needs its load"):
+        engine.add_friction(spec(), engine.Joint("a"), STIFF)
+    with pytest.raises(InputError, match="normal_force = -1"):
+        engine.add_friction(spec(), engine.Joint("a"), STIFF, normal_force=-1.0)
+    with pytest.raises(InputError, match="holds at any step"):
+        engine.add_friction(spec(), engine.Joint("a"), make_law("coulomb", mu_s=0.5, mu_k=0.4), normal_force=1.0)
+    with pytest.raises(InputError, match="ball or free"):
+        engine.add_friction(spec("ball"), engine.Joint("a"), STIFF, normal_force=1.0)
+    twice = spec()
+    engine.add_friction(twice, engine.Joint("a"), STIFF, normal_force=1.0)
+    with pytest.raises(InputError, match="already"):
+        engine.add_friction(twice, engine.Joint("a"), STIFF, normal_force=1.0)
+    off = spec()
+    off.option.disableflags = mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER
+    with pytest.raises(InputError, match="passive"):
+        engine.add_friction(off, engine.Joint("a"), STIFF, normal_force=1.0)
+    off = spec()
+    off.option.integrator = mujoco.mjtIntegrator.mjINT_DISCRETE
+    with pytest.warns(engine.IntegratorWarning, match="discrete"):
+        engine.add_friction(off, engine.Joint("a"), STIFF, normal_force=1.0)
+    with pytest.raises(InputError, match="is for joints and tendons"):
+        engine.add_friction(mujoco.MjSpec.from_string(BOX), ("box", "floor"), STIFF, normal_force=1.0)
+    with pytest.raises(InputError, match="unknown friction 'x'"):
+        engine.add_sensor(spec(), "x")
+    with pytest.raises(InputError, match="contacts = 65"):
+        engine.add_sensor(twice, "friction_a", contacts=65)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"joint": "b"}, "joint = 'b'"),
+        ({"joint": "a", "tendon": "a"}, "give one of them"),
+        ({"normal_force": "heavy"}, "normal_force"),
+        ({"normal_force": "-1"}, "normal_force"),
+        ({"seed": "-1"}, "seed = '-1'"),
+        ({"law": "kind = 'hafsin'"}, "did you mean 'havsin'"),
+        ({"law": "kind = 'coulomb', mu_s = 0.5, mu_k = 0.4"}, "hold the contact"),
+    ],
+)
+def test_a_bad_configuration_in_xml_is_refused(changes, message, monkeypatch):
+    import sys
+
+    said = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda problem: said.append(str(problem.exc_value)))
+    spec = mujoco.MjSpec.from_string('<mujoco><worldbody><body><joint name="a"/><geom size=".1"/></body></worldbody></mujoco>')
+    engine.add_friction(spec, engine.Joint("a"), STIFF, normal_force=1.0)
+    spec.plugins[0].config = dict(spec.plugins[0].config) | changes
+    with pytest.raises(ValueError, match="plugin"):
+        spec.compile()
+    assert any(message in text for text in said)
