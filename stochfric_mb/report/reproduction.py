@@ -129,6 +129,7 @@ def _steps(result: Reproduction, quantity: str, n: int | None) -> Figure:
                 x = np.sort(1.0e3 * values(found, quantity, i)[:n])
                 axes.step(x, np.arange(1, len(x) + 1) / len(x), color=shade, label=f"output step {step:g} s", linewidth=1.4)
             axes.set_title(f"{law}, {t:g} s")
+            axes.ticklabel_format(axis="x", useOffset=False)
             axes.set(ylim=(-0.02, 1.02), xlabel=f"{quantity} [{unit}]" if t == result.settings.times[-1] else "")
     for axes in panels[:, 0]:
         axes.set_ylabel("share of the runs")

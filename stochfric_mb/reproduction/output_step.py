@@ -40,6 +40,9 @@ BATCH = 100
 """Samples of a batch, as many as the paper's ensembles."""
 LEVEL = 0.05
 """Level of a single test in a batch [-]."""
+DECIMALS = 12
+"""Positions and velocities are rounded to so many decimals of m and m/s: velocities of runs that stick, equal in theory,
+differ by 1e-16 m/s, and a test of ranks would compare the rounding."""
 RESOLUTION = 1.0e-3
 """Width of the bins in which a histogram would show velocities [m/s]; those of runs that stick fall into one."""
 FEWEST_SLIPPING = 20
@@ -223,7 +226,7 @@ def values(result: EnsembleResult, quantity: str, i: int) -> Array:
     """Return displacement [m] or velocity [m/s] of each run at output time number ``i``."""
     array = result.position if quantity == "position" else result.velocity
     assert array is not None
-    return array[:, i]
+    return np.round(array[:, i], DECIMALS)
 
 
 def _distances(study: StepStudy, quantity: str, settings: Settings) -> list[Number]:
