@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from stochfric_mb import Trajectory, engines
+from stochfric_mb import Trajectory, engines, reproduction
 from stochfric_mb.__main__ import COMMANDS, main
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.storage import read_trajectory
@@ -88,6 +88,11 @@ def test_help_ends_with_an_example(name):
 
 def test_examples_are_valid_commands(fake, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    few = dataclasses.replace(
+        reproduction.QUICK, n_many=100, steps=(0.01, 0.001), resamples=9, n_grid=1, n_pairs=10_000, n_paths=100, n_portrait=2,
+        discarded=dict.fromkeys(reproduction.QUICK.discarded, 10.0), portrait_time=5.0, n_sensitivity=2, n_cost=2,
+    )  # fmt: skip
+    monkeypatch.setattr(reproduction, "QUICK", few)
     for name in COMMANDS:
         words = invoke(name, "--help").output.rstrip().splitlines()[-1].split()
         result = invoke(*words[1:])
