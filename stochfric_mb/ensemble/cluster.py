@@ -67,7 +67,7 @@ def on_cluster(job: Job, numbers: Iterable[int], client: Any) -> Iterator[tuple[
                 running[client.submit(_outcome, job, number, pure=False, key=f"stochfric-{uuid.uuid4().hex}")] = number
             if not running:
                 return
-            for future in _finished(running, client):
+            for future in sorted(_finished(running, client), key=running.__getitem__):
                 block, found = _result(future, client)
                 _require_same(found, versions(job.engine))
                 yield running.pop(future), block

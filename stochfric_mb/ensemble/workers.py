@@ -81,7 +81,7 @@ def _as_finished(pool: Executor, job: Job, numbers: Iterator[int], workers: int,
                 running[pool.submit(compute, job, number)] = number
             if not running:
                 return
-            for future in wait(running, return_when=FIRST_COMPLETED).done:
+            for future in sorted(wait(running, return_when=FIRST_COMPLETED).done, key=running.__getitem__):
                 block = future.result()
                 number = running.pop(future)
                 begun.discard(number)
