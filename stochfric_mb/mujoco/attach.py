@@ -173,7 +173,17 @@ def _require_geoms(spec: mujoco.MjSpec, geoms: tuple[str, str]) -> tuple[str, st
     body, surface = (require_name("geom", name, known) for name in geoms)
     if body == surface:
         raise InputError(f"geoms = {geoms!r} names one geom twice; friction needs two")
+    if "*" not in geoms and _carrier(spec.geom(body)) == _carrier(spec.geom(surface)):
+        raise InputError(f"geoms = {geoms!r} belong to one rigid body, so they never slide on each other; choose geoms that move")
     return body, surface
+
+
+def _carrier(geom: Any) -> int:
+    """Return the number of the body that carries a geom: the nearest one with joints, or the world."""
+    body = geom.parent
+    while body.parent is not None and body.parent.id != body.id and not body.joints and body.id != 0:
+        body = body.parent
+    return int(body.id)
 
 
 def _require_passive_forces(spec: mujoco.MjSpec) -> None:

@@ -91,7 +91,7 @@ def test_a_slider_stops_where_it_should_and_stays(integrator, dt):
     mujoco.mj_step(model, data, nstep=1000)
     assert abs(data.qpos[0] - stopped) < 1e-9
     mujoco.mj_forward(model, data)
-    assert engine.readings(model, data)["friction_x"][0].dissipated == pytest.approx(1.0, rel=4e-3)  # m v^2/2; Euler: dt/2 early
+    assert engine.readings(model, data)["friction_x"][0].dissipated == pytest.approx(1.0, rel=4e-3)  # Euler: dt/2 early
 
 
 def test_converges_to_the_same_motion_from_implicit_and_explicit_steps():

@@ -213,3 +213,14 @@ def test_a_thousand_cycles_leak_nothing(route):
     for _ in range(1000):
         cycle()
     assert peak() - before < 8e6  # a leak of one state (12 kB) a cycle would be 12 MB
+
+
+def test_geoms_of_one_body_are_refused():
+    spec = mujoco.MjSpec.from_string(
+        '<mujoco><worldbody><geom name="floor" size=".1"/><body><geom name="shelf" size=".1"/></body><body><joint/>'
+        '<geom name="a" size=".1"/><body><geom name="b" size=".1"/></body></body></worldbody></mujoco>'
+    )
+    for pair in (("a", "b"), ("floor", "shelf")):
+        with pytest.raises(InputError, match="one rigid body"):
+            engine.add_friction(spec, pair, LAW)
+    engine.add_friction(spec, ("b", "shelf"), LAW)
