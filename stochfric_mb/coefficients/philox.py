@@ -12,6 +12,7 @@ doi 10.1145/2063384.2063405.
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
 # pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: reportMissingTypeStubs=false
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
