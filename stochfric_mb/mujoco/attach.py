@@ -20,6 +20,9 @@ from stochfric_mb.mujoco.config import MAX_SLOTS, configuration
 from stochfric_mb.mujoco.joints import Joint, Tendon, add_joint_friction, joint_instances, joint_reading
 from stochfric_mb.mujoco.plugin import NAME, register
 
+ANY = "*"
+"""Stands for every geom that the other one can collide with."""
+
 
 class IntegratorWarning(UserWarning):
     """An integrator with which friction is known to be inaccurate."""
@@ -66,22 +69,26 @@ def add_friction(
     seed: int = 0,
     sample: int = 0,
     contact: int = 0,
-    slots: int = 16,
+    slots: int | None = None,
     mode: str = "auto",
 ) -> str:
     """Return the name of the plugin instance that now computes the friction between two geoms, or of a joint or tendon.
 
     The pair becomes an explicit contact pair with ``condim`` 1 (no native friction); all other contacts stay as they are.
+    With ``"*"`` for one side, so does every pair of the named geom with a geom that it can collide with (by contype,
+    conaffinity, excludes, welding and the parent filter); geoms without a name get one. All these contacts share one
+    coefficient path; give them an instance each to have paths of their own.
 
     Args:
         spec: the model, before it is compiled; changed in place.
-        geoms: names of the body's geom and of the counter-surface's, or a `Joint` or `Tendon` (see `add_joint_friction`).
+        geoms: names of the body's geom and of the counter-surface's (one may be ``"*"``), or a `Joint` or `Tendon`
+            (see `add_joint_friction`).
         friction: a law, or a `Friction` with a coefficient process.
         normal_force: the given load of a joint or tendon [N, for a hinge N m]; contacts have MuJoCo's own normal force.
         seed: first part of the coefficient path's address.
         sample: second part: the run of an ensemble.
         contact: third part: number of this pair in the model.
-        slots: most contacts between the two geoms at a time.
+        slots: most contacts at a time; 16, or four for each pair of a ``"*"``, if not given.
         mode: ``explicit``, ``implicit``, or ``auto``: explicit where the step is below half the law's limit.
 
     Raises:
@@ -98,14 +105,18 @@ def add_friction(
     if normal_force is not None:
         raise InputError(f"normal_force = {normal_force!r} is for joints and tendons; contacts have MuJoCo's normal force")
     body, surface = _require_geoms(spec, geoms)
+    pairs = colliding_pairs(spec, body, surface) if ANY in (body, surface) else [(body, surface)]
+    _require_free(spec, pairs)
+    slots = max(16, min(4 * len(pairs), MAX_SLOTS)) if slots is None else slots
     texts = configuration(
         as_friction(friction), body, surface, seed=seed, sample=sample, contact=contact, slots=_require_slots(slots), mode=mode
     )
-    name = _free_name(spec, f"friction_{body}_{surface}")
+    name = _free_name(spec, f"friction_{body}_{surface}".replace(ANY, "any"))
     plugin: Any = spec.add_plugin(name=name, plugin_name=NAME, active=True)
     plugin.config = {key: value for key, value in texts.items() if value}
     spec.activate_plugin(NAME)
-    _take_over(spec, body, surface)
+    for pair in pairs:
+        _take_over(spec, *pair)
     return name
 
 
@@ -170,12 +181,71 @@ def _require_geoms(spec: mujoco.MjSpec, geoms: tuple[str, str]) -> tuple[str, st
     if isinstance(geoms, str) or len(geoms) != 2:
         raise InputError(f"geoms = {geoms!r} is not a pair; give the names of the body's and the counter-surface's geom")
     known = [g.name for g in spec.geoms if g.name]
-    body, surface = (require_name("geom", name, known) for name in geoms)
+    body, surface = (name if name == ANY else require_name("geom", name, known) for name in geoms)
+    if body == surface == ANY:
+        raise InputError("geoms = ('*', '*') names no geom; name one of the two, e.g. ('*', 'floor')")
     if body == surface:
         raise InputError(f"geoms = {geoms!r} names one geom twice; friction needs two")
     if "*" not in geoms and _carrier(spec.geom(body)) == _carrier(spec.geom(surface)):
         raise InputError(f"geoms = {geoms!r} belong to one rigid body, so they never slide on each other; choose geoms that move")
     return body, surface
+
+
+def colliding_pairs(spec: mujoco.MjSpec, body: str, surface: str) -> list[tuple[str, str]]:
+    """Return the pairs (body's geom, surface's geom) that ``"*"`` stands for: those that MuJoCo would let collide.
+
+    Geoms without a name get one, in place.
+
+    Raises:
+        InputError: there are none.
+    """
+    for i, geom in enumerate(spec.geoms):
+        if not geom.name:
+            geom.name = f"geom_{i}"
+    copy = spec.copy()
+    model = copy.compile()
+    named = model.geom(surface if body == ANY else body).id
+    others = [model.geom(i).name for i in range(model.ngeom) if _can_collide(model, named, i)]
+    if not others:
+        raise InputError(f"geom {model.geom(named).name!r} can collide with no other; check contype, conaffinity and excludes")
+    return [(other, surface) if body == ANY else (body, other) for other in others]
+
+
+def _can_collide(model: mujoco.MjModel, a: int, b: int) -> bool:
+    """Return whether MuJoCo lets two geoms collide (its documentation, computation chapter, collision detection)."""
+    pairs = {frozenset((int(i), int(j))) for i, j in zip(model.pair_geom1, model.pair_geom2, strict=True)}
+    if frozenset((a, b)) in pairs:
+        return True
+    kinds = {mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD}
+    if a == b or {int(model.geom_type[a]), int(model.geom_type[b])} <= {int(k) for k in kinds}:
+        return False
+    if not (model.geom_contype[a] & model.geom_conaffinity[b] or model.geom_contype[b] & model.geom_conaffinity[a]):
+        return False
+    bodies = sorted((int(model.geom_bodyid[a]), int(model.geom_bodyid[b])))
+    if (bodies[0] << 16) + bodies[1] in model.exclude_signature:
+        return False
+    welds = [int(model.body_weldid[i]) for i in bodies]
+    parents = [int(model.body_weldid[model.body_parentid[w]]) for w in welds]
+    filtered = not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_FILTERPARENT
+    if filtered and 0 not in welds and (welds[0] == parents[1] or welds[1] == parents[0]):
+        return False
+    return welds[0] != welds[1]
+
+
+def _require_free(spec: mujoco.MjSpec, pairs: list[tuple[str, str]]) -> None:
+    """Refuse pairs that an instance of this package has already."""
+    for plugin in spec.plugins:
+        if plugin.plugin_name != NAME:
+            continue
+        theirs = plugin.config.get("geom1"), plugin.config.get("geom2")
+        for pair in pairs:
+            if any(
+                all(mine in (its, ANY) or its == ANY for mine, its in zip(p, theirs, strict=True)) for p in (pair, pair[::-1])
+            ):
+                raise InputError(
+                    f"geoms {pair[0]!r} and {pair[1]!r} have friction already, from the plugin instance {plugin.name!r}; "
+                    "build the spec anew to change it, or name the geoms one by one instead of '*'"
+                )
 
 
 def _carrier(geom: Any) -> int:

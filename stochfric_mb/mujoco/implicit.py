@@ -43,7 +43,7 @@ from stochfric_mb.mujoco.contact import (
 )
 from stochfric_mb.mujoco.root import local_force
 
-OUTER, SWEEPS, ROUNDS = 8, 40, 4
+OUTER, SWEEPS, ROUNDS = 6, 20, 4
 """Most solutions by MuJoCo, sweeps over the contacts, and rounds of mode switches, in one step."""
 NEWTON_EVERY, NEWTON_STEPS, HALVINGS = 3, 12, 6
 """Sweeps before Newton's method on all contacts is tried; its most steps, and most halvings of one."""
@@ -55,6 +55,8 @@ MAX_DENSE = 200
 """Above so many degrees of freedom the answer of the other constraints comes from repeated solutions alone."""
 TOLERANCE = 1.0e-12
 """Change of the velocities in a sweep, relative to those that friction changes in a step, at which sweeps end."""
+TURNED = 1.0e-9
+"""How far beyond rest a sliding contact is braked, relative to the velocity taken, so that its law sees it turned."""
 QUADRATIC, CONE = 1, 4
 """mjtConstraintState of rows that answer linearly."""
 FRICTION_DOF, FRICTION_TENDON, ELLIPTIC = 1, 2, 7
@@ -157,7 +159,7 @@ def gather(model, data, state, places, count):
 
 
 @compiled
-def solve(model, data, places, warm):
+def solve(model, data, places, warm):  # noqa: PLR0915
     """Find the friction forces of the contacts in ``places``, add them to the passive forces and to the slots."""
     nv = n.int_field(model, n.M_NV)
     m = len(places)
@@ -201,7 +203,7 @@ def solve(model, data, places, warm):
         settle(places, tangent, answer, motion, normal, numbers, response, rows, f, u, change, end, h, nv)
         if starting:
             for _ in range(ROUNDS):
-                if not switch_ahead(places, tangent, numbers, response, u, f, t, end, h, nv):
+                if not switch_ahead(places, tangent, numbers, response, rows, u, t, end, h, nv):
                     break
                 settle(places, tangent, answer, motion, normal, numbers, response, rows, f, u, change, end, h, nv)
         if consistent(model, data, states, change, qacc, nv):
@@ -423,9 +425,9 @@ def normal_forces(data, places, normal, qacc, rows, nv):
 @compiled
 def settle(places, tangent, answer, motion, normal, numbers, response, rows, f, u, change, end, h, nv):
     """Find the forces of all contacts: each contact in turn, then Newton's method on all of them where that is slow."""
-    if near(places, tangent, normal, numbers, rows, f, u, change, end, h, nv):
-        if newton_all(places, tangent, answer, motion, normal, numbers, rows, f, u, change, end, h, nv):
-            return
+    ready = near(places, tangent, normal, numbers, rows, f, u, change, end, h, nv)
+    if ready and newton_all(places, tangent, answer, motion, normal, numbers, rows, f, u, change, end, h, nv):
+        return
     old = np.empty(nv)
     for i in range(SWEEPS):
         old[:] = u
@@ -450,7 +452,8 @@ def near(places, tangent, normal, numbers, rows, f, u, change, end, h, nv):
             return False
         vx, vy = contact_motion(address, row, tangent, normal, rows, u, change, q, nv)
         gx, gy = law_at(state, address, end, h, row, vx, vy)
-        if math.hypot(f[q, 0] - gx, f[q, 1] - gy) > NEAR * row[MU] * n.load(address + 8 * s.NORMAL):
+        turned = slides(state, address) and gx * vx + gy * vy < 0.0
+        if turned or math.hypot(f[q, 0] - gx, f[q, 1] - gy) > NEAR * row[MU] * n.load(address + 8 * s.NORMAL):
             return False
         edge = n.load(state + 8 * s.STICK_SPEED)
         if n.load(state + 8 * s.HAS_MODE) == 0.0 and (math.hypot(vx, vy) > edge) != (math.hypot(row[V0], row[V0 + 1]) > edge):
@@ -462,18 +465,24 @@ def near(places, tangent, normal, numbers, rows, f, u, change, end, h, nv):
 def sweep(places, tangent, answer, motion, normal, numbers, response, rows, f, u, change, end, h, nv):
     """Let each contact in turn find its force at the others' last ones; return the velocity that friction can change."""
     scale = 0.0
+    for q in range(len(places)):  # all from the same velocities, so that contacts alike share alike
+        address = places[q, 2]
+        if n.load(places[q, 3] + 8 * s.NEEDS_HOLD) != 0.0:
+            vx, vy = contact_motion(address, numbers[q], tangent, normal, rows, u, change, q, nv)
+            part = share(places, rows, q)
+            hold(address, response[q], h, part * vx, part * vy)
+            n.store(address + 8 * s.HOLD_X, n.load(address + 8 * s.HOLD_X) + f[q, 0])
+            n.store(address + 8 * s.HOLD_Y, n.load(address + 8 * s.HOLD_Y) + f[q, 1])
     for q in range(len(places)):
         address, state = places[q, 2], places[q, 3]
         row, w = numbers[q], response[q]
         vx, vy = contact_motion(address, row, tangent, normal, rows, u, change, q, nv)
         row[FREE] = vx + h * (w[0] * f[q, 0] + w[1] * f[q, 1])
         row[FREE + 1] = vy + h * (w[2] * f[q, 0] + w[3] * f[q, 1])
-        if n.load(state + 8 * s.NEEDS_HOLD) != 0.0:
-            part = share(places, rows, q)
-            hold(address, w, h, part * vx, part * vy)
-            n.store(address + 8 * s.HOLD_X, n.load(address + 8 * s.HOLD_X) + f[q, 0])
-            n.store(address + 8 * s.HOLD_Y, n.load(address + 8 * s.HOLD_Y) + f[q, 1])
         fx, fy = local_force(state, address, force_function(state), end, h, row, w, f[q, 0], f[q, 1])
+        if slides(state, address):
+            part = brake(row, w, h, fx, fy)
+            fx, fy = part * fx, part * fy
         add_force(f, answer, motion, u, change, q, fx - f[q, 0], fy - f[q, 1], h, nv)
         scale = max(scale, h * max(w[0], w[3]) * row[MU] * n.load(address + 8 * s.NORMAL))
     return scale
@@ -487,6 +496,23 @@ def share(places, rows, q):
         if places[k, 3] == places[q, 3]:
             total += rows[k, 0]
     return rows[q, 0] / total if total > 0.0 else 1.0
+
+
+@compiled
+def slides(state, address):
+    """Return whether the contact is one of a law with modes that slides."""
+    return n.load(state + 8 * s.HAS_MODE) != 0.0 and n.load(address + 8 * s.STICK) == 0.0
+
+
+@compiled
+def brake(row, w, h, fx, fy):
+    """Return the part of a sliding contact's force that brings it to rest, at most 1.
+
+    Sliding friction does not turn a velocity over: the law switches there, which `switch_ahead` then sees.
+    """
+    free = fx * row[FREE] + fy * row[FREE + 1]
+    felt = h * (fx * (w[0] * fx + w[1] * fy) + fy * (w[2] * fx + w[3] * fy))
+    return min(1.0, max(free, 0.0) * (1.0 + TURNED) / felt) if felt > free else 1.0
 
 
 @compiled
@@ -528,6 +554,8 @@ def residual(places, tangent, normal, numbers, rows, f, u, change, r, end, h, nv
         row = numbers[q]
         vx, vy = contact_motion(address, row, tangent, normal, rows, u, change, q, nv)
         gx, gy = law_at(state, address, end, h, row, vx, vy)
+        if slides(state, address) and gx * vx + gy * vy < 0.0:
+            return math.inf
         r[2 * q], r[2 * q + 1] = f[q, 0] - gx, f[q, 1] - gy
         size, cap = math.hypot(r[2 * q], r[2 * q + 1]), row[MU] * n.load(address + 8 * s.NORMAL)
         worst = max(worst, size / cap if cap > 0.0 else (0.0 if size == 0.0 else 1.0))
@@ -542,7 +570,7 @@ def law_at(state, address, end, h, row, vx, vy):
 
 
 @compiled
-def newton_all(places, tangent, answer, motion, normal, numbers, rows, f, u, change, end, h, nv):
+def newton_all(places, tangent, answer, motion, normal, numbers, rows, f, u, change, end, h, nv):  # noqa: PLR0912
     """Improve all forces by Newton's method with difference quotients of the laws; return whether it converged."""
     m = len(places)
     for q in range(m):
@@ -670,7 +698,7 @@ def start_guards(places, numbers, rows, t):
 
 
 @compiled
-def switch_ahead(places, tangent, numbers, response, u, f, t, end, h, nv):
+def switch_ahead(places, tangent, numbers, response, rows, u, t, end, h, nv):
     """Let the laws with modes switch where they would within the step; return whether any did."""
     switched = False
     for q in range(len(places)):
@@ -684,7 +712,8 @@ def switch_ahead(places, tangent, numbers, response, u, f, t, end, h, nv):
             vy -= tangent[2 * q + 1, j] * u[j]
         if n.load(state + 8 * s.NEEDS_HOLD) != 0.0 and n.load(address + 8 * s.STICK) == 0.0:  # what holds it once at rest
             fx, fy = n.load(address + 8 * s.HOLD_X), n.load(address + 8 * s.HOLD_Y)
-            hold(address, response[q], h, row[V0], row[V0 + 1])
+            part = share(places, rows, q)
+            hold(address, response[q], h, part * row[V0], part * row[V0 + 1])
             n.store(address + 8 * s.HOLD_X, fx - n.load(address + 8 * s.HOLD_X))
             n.store(address + 8 * s.HOLD_Y, fy - n.load(address + 8 * s.HOLD_Y))
         switched = switch_slot(state, address, row, t, end, h, vx, vy) or switched

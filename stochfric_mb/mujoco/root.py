@@ -93,7 +93,7 @@ def excess(state, address, function, end, h, row, w, ex, ey, part):
 
 
 @compiled
-def along(state, address, function, end, h, row, w, ex, ey, cap, guess):
+def along(state, address, function, end, h, row, w, ex, ey, cap, guess):  # noqa: PLR0912
     """Return the size [N] of the force along the direction (ex, ey)."""
     felt = h * (ex * (w[0] * ex + w[1] * ey) + ey * (w[2] * ex + w[3] * ey))
     high = cap

@@ -1,0 +1,245 @@
+"""MuJoCo: the implicit mode and the choice between the modes, on mechanics with known answers."""
+
+import math
+
+import numpy as np
+import pytest
+
+mujoco = pytest.importorskip("mujoco")
+
+import stochfric_mb.mujoco as engine  # noqa: E402
+from stochfric_mb.errors import InputError  # noqa: E402
+from stochfric_mb.laws import make_law  # noqa: E402
+from stochfric_mb.laws.coulomb import Coulomb  # noqa: E402
+from stochfric_mb.laws.elastic_stick import ElasticStick  # noqa: E402
+from stochfric_mb.laws.havsin import Havsin  # noqa: E402
+from stochfric_mb.mujoco import slots  # noqa: E402
+from stochfric_mb.mujoco.attach import header  # noqa: E402
+
+G = 9.81
+FREE = "<freejoint/>"
+SLIDES = '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 1 0"/><joint type="slide" axis="0 0 1"/>'
+
+
+def spec_of(geom, joints, *, dt=2e-3, height=0.05, options=""):
+    return mujoco.MjSpec.from_string(
+        f"""<mujoco><option timestep="{dt}" {options}/><worldbody><geom name="floor" type="plane" size="50 50 1"/>
+        <body pos="0 0 {height}">{joints}<geom name="body" mass="1" {geom}/></body></worldbody></mujoco>"""
+    )
+
+
+def box(law, joints=FREE, *, mode="auto", **options):
+    spec = spec_of('type="box" size=".05 .05 .05"', joints, **options)
+    engine.add_friction(spec, ("body", "floor"), law, mode=mode)
+    model = spec.compile()
+    return model, mujoco.MjData(model)
+
+
+def tilt(model, degrees):
+    angle = math.radians(degrees)
+    model.opt.gravity = [G * math.sin(angle), 0.0, -G * math.cos(angle)]
+
+
+def steps(model, data, seconds):
+    mujoco.mj_step(model, data, nstep=round(seconds / model.opt.timestep))
+
+
+# --- holding --------------------------------------------------------------------------------------------------------
+
+
+def creep(law, seconds, **options):
+    model, data = box(law, **options)
+    tilt(model, 20.0)
+    steps(model, data, 1.0)
+    start = data.qpos[0]
+    steps(model, data, seconds)
+    assert data.qvel[0] == pytest.approx(0.0, abs=1e-8)
+    return abs(data.qpos[0] - start)
+
+
+@pytest.mark.parametrize("law", [ElasticStick(0.8, 0.6, e_lim=e) for e in (1e-4, 1e-5, 1e-6, 1e-7)] + [Coulomb(0.8, 0.6)])
+def test_a_box_on_an_incline_does_not_creep(law):
+    assert creep(law, 2.0) < 1e-11  # [m]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("law", [ElasticStick(0.8, 0.6, e_lim=e) for e in (1e-4, 1e-5, 1e-6, 1e-7)] + [Coulomb(0.8, 0.6)])
+def test_a_box_on_an_incline_does_not_creep_in_ten_seconds(law):
+    assert creep(law, 10.0) < 1e-11
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("options", ['jacobian="dense"', 'jacobian="sparse"', 'cone="elliptic"', 'solver="PGS"', 'solver="CG"'])
+def test_solver_options(options):
+    # PGS and CG leave more of the normal force undetermined than Newton does.
+    assert creep(ElasticStick(0.8, 0.6), 1.0, options=options) < (1e-8 if "solver" in options else 1e-11)
+
+
+@pytest.mark.parametrize("law", [ElasticStick(0.8, 0.6), ElasticStick(0.8, 0.6, e_lim=1e-7), Coulomb(0.8, 0.6)])
+def test_break_away_angle(law):
+    model, data = box(law, SLIDES)
+    steps(model, data, 0.4)
+    angle = 0.0
+    while data.qvel[0] < 5e-3:  # slipping at 1.5 m/s^2, two steps after break-away
+        angle += 0.02 if angle < 37.0 else 2e-3
+        assert angle < 45.0
+        tilt(model, angle)
+        mujoco.mj_step(model, data)
+    assert angle == pytest.approx(math.degrees(math.atan(0.8)), abs=0.05)
+
+
+# --- sliding and rolling --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("law", [ElasticStick(0.8, 0.6), Coulomb(0.8, 0.6), Havsin(0.8, 0.6)])
+@pytest.mark.parametrize("heading", [0.0, 37.0])
+def test_sliding_in_the_plane(law, heading):
+    model, data = box(law, SLIDES, mode="implicit", dt=1e-3)
+    steps(model, data, 2.0)
+    direction = np.array([math.cos(math.radians(heading)), math.sin(math.radians(heading))])
+    data.qvel[:2] = 3.0 * direction
+    mujoco.mj_step(model, data)
+    start = float(np.hypot(*data.qvel[:2]))
+    steps(model, data, 0.3)
+    assert data.qvel[:2] == pytest.approx((start - 0.6 * G * 0.3) * direction, rel=1e-6, abs=1e-9)
+    steps(model, data, 0.3)
+    assert np.hypot(*data.qvel[:2]) < 1e-6  # at rest
+
+
+@pytest.mark.parametrize("law", [ElasticStick(0.5, 0.5), Coulomb(0.5, 0.5)])
+def test_a_sphere_goes_from_sliding_to_rolling(law):
+    spec = spec_of('type="sphere" size=".1"', FREE, dt=1e-3, height=0.0999)
+    engine.add_friction(spec, ("body", "floor"), law, mode="implicit")
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    steps(model, data, 1.0)
+    data.qvel[:] = 0.0
+    data.qvel[0] = 2.0
+    rolling = 2.0 * 2.0 / (7.0 * 0.5 * G)  # a uniform sphere rolls after 2 v0/(7 mu g), at 5/7 v0
+    steps(model, data, rolling - 0.02)
+    assert data.qvel[0] - 0.1 * data.qvel[4] > 0.1
+    steps(model, data, 0.04)
+    assert data.qvel[0] == pytest.approx(2.0 * 5.0 / 7.0, rel=2e-3)  # the contact point lies a little below the radius
+    mujoco.mj_forward(model, data)
+    lever = data.qpos[2] - data.contact[0].pos[2]  # the soft contact's point lies within the sphere
+    assert data.qvel[0] - lever * data.qvel[4] == pytest.approx(0.0, abs=2e-4)  # the elastic contact still rings
+
+
+@pytest.mark.parametrize("dt", [2e-3, 1e-3, 1e-4])
+def test_bouncing_sphere_feels_the_right_normal_force(dt):
+    joints = '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>'
+    spec = spec_of('type="sphere" size=".1" solref="-20000 -10"', joints, dt=dt, height=0.5)
+    engine.add_friction(spec, ("body", "floor"), ElasticStick(0.5, 0.5), mode="implicit")
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.qvel[0] = 100.0
+    steps(model, data, 2.0)
+    assert (100.0 - data.qvel[0]) / (data.qvel[1] + G * 2.0) == pytest.approx(0.5, abs=5e-4)
+
+
+def test_a_box_rides_an_accelerating_belt():
+    spec = spec_of('type="box" size=".05 .05 .05"', SLIDES)
+    spec.geom("floor").surfacevel = [1e-9, 0.0, 0.0, 0.0, 0.0, 0.0]
+    engine.add_friction(spec, ("body", "floor"), ElasticStick(0.8, 0.6), mode="implicit")
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    belt = model.geom("floor").id
+    steps(model, data, 0.5)
+    for acceleration, follows in ((0.5 * 0.8 * G, True), (1.5 * 0.8 * G, False)):
+        start, before = float(data.qvel[0]), float(model.geom_surfacevel[belt, 0])
+        for _ in range(250):
+            model.geom_surfacevel[belt, 0] += acceleration * model.opt.timestep
+            mujoco.mj_step(model, data)
+        gained = (data.qvel[0] - start) / 0.5
+        if follows:
+            assert data.qvel[0] == pytest.approx(model.geom_surfacevel[belt, 0] - before + start, rel=1e-2)
+        else:
+            assert gained == pytest.approx(0.6 * G, rel=2e-2)  # it slips after its first millimetres
+
+
+# --- manners --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("law", [ElasticStick(0.8, 0.6), Coulomb(0.8, 0.6), Havsin(0.8, 0.6)])
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast"])
+def test_extra_evaluations_change_nothing(law, integrator):
+    ends = []
+    for nosy in (False, True):
+        model, data = box(law, mode="implicit", options=f'integrator="{integrator}"')
+        tilt(model, 20.0)
+        data.qvel[1] = 0.5
+        for i in range(300):
+            mujoco.mj_step(model, data)
+            if nosy and i % 5 == 0:
+                mujoco.mj_forward(model, data)
+                mujoco.mj_inverse(model, data)
+                mujoco.mj_forward(model, data)
+        ends.append(np.concatenate([data.qpos, data.qvel]))
+    assert np.array_equal(*ends)
+
+
+def test_modes_choose_themselves():
+    used: dict[float, bool] = {}
+    for e_lim in (1e-3, 1e-7):
+        model, data = box(ElasticStick(0.8, 0.6, e_lim=e_lim), SLIDES)
+        steps(model, data, 0.5)
+        used[e_lim] = bool(header(model, data, 0)[slots.SOLVED])
+    # Limits at N/m = g: 2 (sqrt(1 + 0.09) - 0.3) sqrt(e_lim/(0.8 g)) = 17 ms and 0.17 ms; the step is 2 ms.
+    assert used == {1e-3: False, 1e-7: True}
+
+
+@pytest.mark.parametrize("kind", ["coulomb", "karnopp", "stribeck", "lugre", "dahl", "tanh", "smooth", "piecewise_linear"])
+def test_every_law_runs_in_the_implicit_mode(kind):
+    model, data = box(make_law(kind, mu_s=0.8, mu_k=0.6), SLIDES, mode="implicit")
+    steps(model, data, 0.5)
+    data.qvel[0] = 1.0
+    steps(model, data, 0.1)
+    assert 0.3 < data.qvel[0] < 0.55  # 1 - (0.6 to 0.8) g 0.1
+    steps(model, data, 0.4)
+    assert abs(data.qvel[0]) < 1e-6
+
+
+def test_any_geom():
+    spec = mujoco.MjSpec.from_string(
+        """<mujoco><worldbody><geom name="floor" type="plane" size="5 5 1"/><geom type="box" size="1 1 1" pos="9 0 0"/>
+        <body pos="0 0 .05"><freejoint/><geom type="box" size=".05 .05 .05"/></body>
+        <body pos="1 0 .05"><freejoint/><geom name="b" type="sphere" size=".05"/></body>
+        <body pos="2 0 .05"><freejoint/><geom name="ghost" type="sphere" size=".05" contype="0" conaffinity="0"/></body>
+        </worldbody></mujoco>"""
+    )
+    name = engine.add_friction(spec, ("*", "floor"), ElasticStick(0.8, 0.6))
+    model = spec.compile()
+    assert name == "friction_any_floor"
+    paired = {frozenset((int(i), int(j))) for i, j in zip(model.pair_geom1, model.pair_geom2, strict=True)}
+    assert paired == {frozenset((model.geom("floor").id, model.geom(other).id)) for other in ("geom_2", "b")}
+    assert set(model.pair_dim) == {1}
+    with pytest.raises(InputError, match="have friction already"):
+        engine.add_friction(spec, ("b", "floor"), ElasticStick(0.8, 0.6))
+    again = mujoco.MjModel.from_xml_string(spec.to_xml())
+    data = mujoco.MjData(again)
+    mujoco.mj_step(again, data, nstep=50)
+    assert len(engine.readings(again, data)[name]) == 5
+    with pytest.raises(InputError, match="names no geom"):
+        engine.add_friction(spec, ("*", "*"), ElasticStick(0.8, 0.6))
+    with pytest.raises(InputError, match="can collide with no other"):
+        engine.add_friction(spec, ("ghost", "*"), ElasticStick(0.8, 0.6))
+
+
+def test_two_instances_hold_one_body_together():
+    spec = mujoco.MjSpec.from_string(
+        """<mujoco><option timestep="2e-3" gravity="3 0 -9.2"/><worldbody><geom name="floor" type="plane" size="5 5 1"/>
+        <body pos="0 0 .05"><joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>
+        <geom name="a" type="sphere" size=".05" pos="-.1 0 0" mass=".5"/>
+        <geom name="b" type="sphere" size=".05" pos=".1 0 0" mass=".5"/></body></worldbody></mujoco>"""
+    )
+    for geom in "ab":
+        engine.add_friction(spec, (geom, "floor"), ElasticStick(0.8, 0.6, e_lim=1e-6))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    steps(model, data, 1.0)
+    start = data.qpos[0]
+    steps(model, data, 1.0)
+    assert abs(data.qpos[0] - start) < 1e-11
+    forces = [c[0].force[0] for c in engine.readings(model, data).values()]
+    assert sum(forces) == pytest.approx(-3.0, rel=1e-6)
+    assert forces[0] == pytest.approx(forces[1], rel=1e-2)
