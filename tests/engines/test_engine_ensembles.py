@@ -15,6 +15,9 @@ from stochfric_mb.scenario import load_scenario
 from stochfric_mb.statistics import ks_test
 
 TABLE_1, TABLE_2 = "kang2015_table1", "kang2015_table2_13_8"
+# SciPy takes the asymptotic p-value where the exact one cannot be computed, and says so
+pytestmark = pytest.mark.filterwarnings("ignore:ks_2samp. Exact calculation unsuccessful:RuntimeWarning")
+
 RESOLUTION = 1.0e-6
 """Velocities are compared to this [m/s]: runs that stick have one velocity to 1e-16 m/s, and ranks would see rounding."""
 
