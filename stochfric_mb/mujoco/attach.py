@@ -186,8 +186,8 @@ def _require_geoms(spec: mujoco.MjSpec, geoms: tuple[str, str]) -> tuple[str, st
         raise InputError("geoms = ('*', '*') names no geom; name one of the two, e.g. ('*', 'floor')")
     if body == surface:
         raise InputError(f"geoms = {geoms!r} names one geom twice; friction needs two")
-    if "*" not in geoms and _carrier(spec.geom(body)) == _carrier(spec.geom(surface)):
-        raise InputError(f"geoms = {geoms!r} belong to one rigid body, so they never slide on each other; choose geoms that move")
+    if "*" not in geoms and _carrier(spec, spec.geom(body)) == _carrier(spec, spec.geom(surface)):
+        raise InputError(f"geoms = {geoms!r} belong to one rigid body and never slide on each other; choose others")
     return body, surface
 
 
@@ -248,12 +248,12 @@ def _require_free(spec: mujoco.MjSpec, pairs: list[tuple[str, str]]) -> None:
                 )
 
 
-def _carrier(geom: Any) -> int:
-    """Return the number of the body that carries a geom: the nearest one with joints, or the world."""
+def _carrier(spec: mujoco.MjSpec, geom: Any) -> Any:
+    """Return the body that carries a geom: the nearest one with joints, or the world."""
     body = geom.parent
-    while body.parent is not None and body.parent.id != body.id and not body.joints and body.id != 0:
+    while body != spec.worldbody and not body.joints:
         body = body.parent
-    return int(body.id)
+    return body
 
 
 def _require_passive_forces(spec: mujoco.MjSpec) -> None:
