@@ -170,7 +170,7 @@ def gaps(
             f"{swing['elastic_stick', 'decay_velocity']}, {tenth}"),
         Gap("eq. 5 lost its root", "c_stick = 2 zeta sqrt(k_stick m)", swing["elastic_stick", "zeta"] + " (zeta)"),
         Gap("v_r < 0", "odd extension",
-            "least v_r in Table 1: " + ", ".join(f"{k} {1e3 * v:.3g} mm/s" for k, v in backward.items())),
+            "least v_r in Table 1 from rest: " + ", ".join(f"{k} {1e3 * v:.3g} mm/s" for k, v in backward.items())),
         Gap("v_s, v_d of the modified Coulomb law", f"{speeds} mm/s",
             f"v_s: {swing['havsin', 'v_s']}; v_d: {swing['havsin', 'v_d']}"),
         Gap("v_s of the elastic stick law", f"{1e3 * law.v_s:g} mm/s", swing["elastic_stick", "v_s"]),

@@ -113,7 +113,8 @@ def claims(study: StepStudy, mends: tuple[Mend, ...], settings: Settings) -> lis
                 id=f"step_independence_{word}",
                 claim=f"The distribution of {word} does not depend on the output time step",
                 verdict=verdict,
-                reason=f"Largest distance {most.value:.3f} ({most.low:.3f} to {most.high:.3f}): {most.label}",
+                reason=f"Largest distance {most.value:.3f} ({most.low:.3f} to {most.high:.3f}): {most.label}. "
+                f"Law by law: {_by_law(distances, study)}",
                 numbers=tuple(numbers),
                 mends=mends if quantity == "position" else (),
                 remark=_remark(quantity, distances),
@@ -121,6 +122,12 @@ def claims(study: StepStudy, mends: tuple[Mend, ...], settings: Settings) -> lis
             )
         )
     return found
+
+
+def _by_law(distances: list[Number], study: StepStudy) -> str:
+    """Return the verdict of the same rule for each law alone."""
+    alone = {law: [d for d in distances if d.name.startswith(f"ks_{law}_")] for law in study.ensembles}
+    return ", ".join(f"{law} {same_distribution(found)}" for law, found in alone.items())
 
 
 def _remark(quantity: str, distances: list[Number]) -> str:
