@@ -203,7 +203,9 @@ def colliding_pairs(spec: mujoco.MjSpec, body: str, surface: str) -> list[tuple[
         if not geom.name:
             geom.name = f"geom_{i}"
     copy = spec.copy()
-    model = copy.compile()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the user's own compilation gives them
+        model = copy.compile()
     named = model.geom(surface if body == ANY else body).id
     others = [model.geom(i).name for i in range(model.ngeom) if _can_collide(model, named, i)]
     if not others:

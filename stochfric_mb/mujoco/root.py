@@ -96,7 +96,7 @@ def excess(state, address, function, end, h, row, w, ex, ey, part):
 def along(state, address, function, end, h, row, w, ex, ey, cap, guess):  # noqa: PLR0912
     """Return the size [N] of the force along the direction (ex, ey)."""
     felt = h * (ex * (w[0] * ex + w[1] * ey) + ey * (w[2] * ex + w[3] * ey))
-    high = cap
+    high, top = cap, 0.0
     for _ in range(EXPANSIONS):
         top = excess(state, address, function, end, h, row, w, ex, ey, high)
         if top >= 0.0:

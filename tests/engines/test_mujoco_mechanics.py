@@ -53,7 +53,7 @@ def creep(law, seconds, **options):
     steps(model, data, 1.0)
     start = data.qpos[0]
     steps(model, data, seconds)
-    assert data.qvel[0] == pytest.approx(0.0, abs=1e-8)
+    assert data.qvel[0] == pytest.approx(0.0, abs=1e-6)  # what the solver leaves of the normal force shakes the box
     return abs(data.qpos[0] - start)
 
 
