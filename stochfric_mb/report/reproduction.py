@@ -29,8 +29,6 @@ STEP_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")
 """Colours of output steps, coarse to fine (Okabe and Ito's)."""
 SHOWN_LAW = "elastic_stick"
 """Law of the portraits drawn."""
-MAX_POINTS = 40_000
-"""Points of a portrait that are drawn."""
 MAX_RUNS = 20
 """Runs of a stochastic portrait that are drawn."""
 BINS = 60
@@ -225,11 +223,10 @@ def _portrait(p: Portrait) -> Figure:
         for axes, runs, word in zip(row, (p.deterministic, p.stochastic), ("deterministic", "stochastic"), strict=True):
             inside = (p.time >= low) & (p.time <= high)
             x, v = (part[:MAX_RUNS, inside] for part in runs)
-            most = max(MAX_POINTS // len(x), 1)
             for one_x, one_v in zip(x, v, strict=True):
                 axes.plot(
-                    1.0e3 * one_x[:most],
-                    1.0e3 * one_v[:most],
+                    1.0e3 * one_x,
+                    1.0e3 * one_v,
                     color="#0072b2",
                     linewidth=0.6,
                     alpha=0.8 if len(x) == 1 else 0.35,
