@@ -77,7 +77,7 @@ def require_name(what: str, name: str, known: Iterable[str]) -> str:
     if name in names:
         return name
     near = difflib.get_close_matches(str(name), names, n=1)
-    hint = f"; did you mean {near[0]!r}?" if near else ""
+    hint = f"; did you mean {near[0]!r}?" if near else "."
     raise InputError(f"unknown {what} {name!r}{hint} Known: {', '.join(names)}")
 
 
