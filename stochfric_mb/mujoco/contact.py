@@ -687,7 +687,8 @@ def call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k):
     """Call one of the law's functions on a slot; the result goes to the work space."""
     call_law(
         function, t, ux, uy, vx, vy, n.load(address + 8 * s.NORMAL), mu_s, mu_k, n.load(address + 8 * s.MASS),
-        n.load(address + 8 * s.HOLD_X), n.load(address + 8 * s.HOLD_Y), address + 8 * s.STATE, state + 8 * s.PARAMETERS, state + 8 * s.OUTPUT,
+        n.load(address + 8 * s.HOLD_X), n.load(address + 8 * s.HOLD_Y),
+        address + 8 * s.STATE, state + 8 * s.PARAMETERS, state + 8 * s.OUTPUT,
     )  # fmt: skip
 
 
