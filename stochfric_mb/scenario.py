@@ -186,8 +186,8 @@ def scenario_from_dict(tables: Mapping[str, Any], *, folder: Path = Path()) -> S
     return Scenario(
         title=str(tables.get("title", "")),
         mechanism=_mechanism(_table(tables, "mechanism")),
-        law=_law(_table(tables, "law")),
-        process=_process(_table(tables, "coefficients"), numbers["output_step"], folder)
+        law=law_from_dict(_table(tables, "law")),
+        process=process_from_dict(_table(tables, "coefficients"), numbers["output_step"], folder)
         if tables.get("coefficients")
         else None,
         uncertainty=_uncertainty(tables.get("uncertainty", {})),
@@ -254,7 +254,12 @@ def _mechanism(table: Mapping[str, Any]) -> BeltBox:
     return cls(**{k: require_number(k, v) for k, v in values.items()})
 
 
-def _law(table: Mapping[str, Any]) -> Law:
+def law_from_dict(table: Mapping[str, Any]) -> Law:
+    """Return the law of a ``[law]`` table.
+
+    Raises:
+        InputError: unknown kind or key, wrong type or value out of range.
+    """
     cls = law_class(str(_need(table, "law", "kind")))
     fields = {f.name: f for f in dataclasses.fields(cls)}
     values = {k: v for k, v in table.items() if k != "kind"}
@@ -265,7 +270,17 @@ def _law(table: Mapping[str, Any]) -> Law:
     )
 
 
-def _process(table: Mapping[str, Any], output_step: float, folder: Path) -> Process:
+def process_from_dict(table: Mapping[str, Any], output_step: float, folder: Path) -> Process:
+    """Return the process of a ``[coefficients]`` table.
+
+    Args:
+        table: the table.
+        output_step: spacing of the process ``output_step`` [s].
+        folder: where data files are looked for.
+
+    Raises:
+        InputError: unknown kind or key, wrong type or value out of range.
+    """
     cls = PROCESSES[require_name("process", str(_need(table, "coefficients", "process")), PROCESSES)]
     fields = {f.name: f for f in dataclasses.fields(cls)}
     values: dict[str, Any] = {}

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
-from stochfric_mb.errors import InputError, SimulationError, StabilityError
+from stochfric_mb.errors import InputError, SimulationError
 from stochfric_mb.friction import Friction
 from stochfric_mb.laws.substitute import elastic_substitute
 from stochfric_mb.mechanisms import BeltBox
@@ -23,7 +23,7 @@ from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.attach import add_friction, friction_instances, header
 from stochfric_mb.mujoco.config import friction_of
 from stochfric_mb.mujoco.march import COLUMNS, march
-from stochfric_mb.scenario import Scenario, fitting_step, scenario_folders
+from stochfric_mb.scenario import Scenario, scenario_folders
 from stochfric_mb.trajectory import Trajectory
 
 HOOK = "engine plugin (passive), RK4"
@@ -70,7 +70,7 @@ def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, dt: float | Non
         StabilityError: ``dt`` is beyond the law's stability limit.
         InputError: ``dt`` does not divide the output step, or a seed is out of range.
     """
-    step = checked_step(scenario, dt)
+    step = scenario.checked_step(dt)
     mechanism = scenario.mechanism
     spec = scene(mechanism)
     spec.option.timestep = step
@@ -171,28 +171,6 @@ def _resting_height(model: mujoco.MjModel, data: mujoco.MjData, coordinate: int,
         )
     root: Any = brentq(acceleration, DEEPEST, 1.0e-6, xtol=1.0e-16)
     return root
-
-
-def checked_step(scenario: Scenario, dt: float | None) -> float:
-    """Return the step [s] to use once it divides the output step and is within the law's stability limit.
-
-    Raises:
-        StabilityError: it is beyond the limit.
-        InputError: it is not positive or does not divide the output step.
-    """
-    if dt is None:
-        return scenario.default_dt()
-    limit = scenario.step_limit()
-    if dt > limit:
-        raise StabilityError(
-            f"dt = {dt:g} s is beyond the stability limit {limit:.3g} s of the law {scenario.law.kind!r} "
-            f"({scenario.law.step_limit_formula}); use dt <= {fitting_step(0.5 * limit, scenario.output_step):.3g} s"
-        )
-    n = scenario.output_step / dt if dt > 0.0 else 0.0
-    if n < 0.5 or abs(n - round(n)) > 1.0e-6 * n:
-        near = fitting_step(dt, scenario.output_step) if dt > 0.0 else scenario.default_dt()
-        raise InputError(f"dt = {dt:g} s does not divide simulation.output_step = {scenario.output_step:g} s; try {near:g} s")
-    return scenario.output_step / round(n)
 
 
 def _require_sane(data: mujoco.MjData, rows: Array, done: int, scenario: Scenario, t: float, dt: float) -> None:

@@ -29,7 +29,7 @@ from stochfric_mb.laws.contract import Law
 from stochfric_mb.mujoco import native
 from stochfric_mb.mujoco.native import call_python, entry, load, load_byte
 from stochfric_mb.mujoco.slots import MAX_PARAMETERS, N_LIMITS
-from stochfric_mb.scenario import _law, _process
+from stochfric_mb.scenario import law_from_dict, process_from_dict
 
 ATTRIBUTES = ("law", "coefficients", "geom1", "geom2", "seed", "sample", "contact", "slots", "mode")
 MODES = ("auto", "explicit", "implicit")
@@ -85,8 +85,8 @@ def friction_of(law: str, coefficients: str) -> Friction:
         InputError: unknown or missing key or value, with the same message as for a scenario file.
     """
     table = _parse("law", law)
-    made = _law(table)
-    process = _process(_parse("coefficients", coefficients), 0.0, Path()) if coefficients.strip() else None
+    made = law_from_dict(table)
+    process = process_from_dict(_parse("coefficients", coefficients), 0.0, Path()) if coefficients.strip() else None
     return Friction(made, process)
 
 

@@ -12,12 +12,12 @@ import numpy.typing as npt
 import pymunk
 from pymunk.constraints import DampedSpring
 
-from stochfric_mb.errors import InputError, SimulationError, StabilityError
+from stochfric_mb.errors import InputError, SimulationError
 from stochfric_mb.friction import Friction
 from stochfric_mb.pymunk import records as r
 from stochfric_mb.pymunk import stepping
 from stochfric_mb.pymunk.attach import ContactFriction, add_friction
-from stochfric_mb.scenario import Scenario, fitting_step
+from stochfric_mb.scenario import Scenario
 from stochfric_mb.trajectory import Trajectory
 
 HOOK_FORCE = "compiled pre_solve callback: the law's force, pymunk's own friction off"
@@ -72,35 +72,13 @@ def simulate(
         InputError: ``dt`` does not divide the output step.
         SimulationError: a state that is not finite or beyond reason.
     """
-    dt = checked_step(scenario, dt)
+    dt = scenario.checked_step(dt)
     model = build(scenario, seed=seed, sample=sample)
     try:
         return integrate(model, dt=dt, progress=progress)
     finally:
         assert model.friction is not None
         model.friction.remove()
-
-
-def checked_step(scenario: Scenario, dt: float | None) -> float:
-    """Return the step [s] to use once it divides the output step and is within the law's stability limit.
-
-    Raises:
-        StabilityError: it is beyond the limit.
-        InputError: it is not positive or does not divide the output step.
-    """
-    if dt is None:
-        return scenario.default_dt()
-    limit = scenario.step_limit()
-    if dt > limit:
-        raise StabilityError(
-            f"dt = {dt:g} s is beyond the stability limit {limit:.3g} s of the law {scenario.law.kind!r} "
-            f"({scenario.law.step_limit_formula}); use dt <= {fitting_step(0.5 * limit, scenario.output_step):.3g} s"
-        )
-    n = scenario.output_step / dt if dt > 0.0 else 0.0
-    if n < 0.5 or abs(n - round(n)) > 1.0e-6 * n:
-        near = fitting_step(dt, scenario.output_step) if dt > 0.0 else scenario.default_dt()
-        raise InputError(f"dt = {dt:g} s does not divide simulation.output_step = {scenario.output_step:g} s; try {near:g} s")
-    return scenario.output_step / round(n)
 
 
 def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, with_friction: bool = True) -> Model:
