@@ -16,6 +16,8 @@ KINDS = list(LAWS)
 
 speeds = st.floats(1.0e-7, 10.0)
 angles = st.floats(0.0, 2.0 * math.pi)
+# zero, or far from the subnormal numbers, in which a direction has no digits left
+velocities = st.one_of(st.just(0.0), st.floats(1.0e-9, 2.0e-3), st.floats(-2.0e-3, -1.0e-9))
 
 
 def law(kind: str) -> Law:
@@ -88,7 +90,7 @@ def test_bounded_by_mu_s_normal_force(kind, speed, angle, deflection, hold):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@given(angle=angles, path=st.lists(st.floats(-2.0e-3, 2.0e-3), min_size=1, max_size=12))
+@given(angle=angles, path=st.lists(velocities, min_size=1, max_size=12))
 @settings(max_examples=40, deadline=None)
 def test_odd(kind, angle, path):
     e = np.array([math.cos(angle), math.sin(angle)])
@@ -100,7 +102,7 @@ def test_odd(kind, angle, path):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@given(angle=angles, path=st.lists(st.floats(-2.0e-3, 2.0e-3), min_size=1, max_size=12))
+@given(angle=angles, path=st.lists(velocities, min_size=1, max_size=12))
 @settings(max_examples=40, deadline=None)
 def test_isotropic_sliding_does_not_depend_on_the_axes(kind, angle, path):
     e = np.array([math.cos(angle), math.sin(angle)])
