@@ -193,6 +193,7 @@ def _attributes(trajectory: Trajectory, scenario: Scenario | None) -> Attributes
     values |= {"notes": notes, "versions": json.dumps(versions())}
     if scenario is not None:
         values["scenario"] = tomli_w.dumps(scenario.to_dict())
+    values = {k: int(v) if isinstance(v, bool) else v for k, v in values.items()}  # NetCDF has no truth values
     return {k: v if isinstance(v, str | int | float) else json.dumps(v) for k, v in values.items()}
 
 

@@ -190,3 +190,9 @@ def test_targets_of_the_wrong_kind(tmp_path):
 def test_trajectory_without_attributes_can_be_written(tmp_path, trajectory):
     bare = dataclasses.replace(trajectory, attributes={})
     assert read_trajectory(write_trajectory(bare, tmp_path / "run.nc")).attributes["notes"] == []
+
+
+def test_truth_values_are_stored_as_numbers(tmp_path):
+    columns = {name: np.zeros(3) for name in COLUMNS} | {"time": np.arange(3.0)}
+    write_trajectory(Trajectory(**columns, attributes={"located": True}), tmp_path / "run.nc")
+    assert read_trajectory(tmp_path / "run.nc").attributes["located"] == 1
