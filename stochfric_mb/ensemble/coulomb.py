@@ -399,7 +399,7 @@ def _root(g, dg, n, positive, negative, here, there):
             positive = t
         else:
             negative = t
-        new = t - value / slope if slope < 0.0 else negative
+        new = t - value / slope if slope < 0.0 else math.inf  # at the bottom of a grazing dip the slope tells nothing
         if not positive <= new <= negative:
             new = 0.5 * (positive + negative)
         elif abs(new - t) <= enough:

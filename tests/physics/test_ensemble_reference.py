@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from stochfric_mb import Knots, Matern, OrnsteinUhlenbeck, OutputStep, ensemble, make_law
@@ -72,6 +72,7 @@ def test_coulomb_is_the_reference_for_every_process_in_time(process):
     x=st.floats(-5e-3, 5e-3),
     v=st.floats(-0.1, 0.1),
 )
+@example(2.0, 0.1484375, 19905.0, 0.009143624419330993, 0.0, 1.0, 0.0, 0.0).via("a slip that grazes rest within a leg")
 @settings(max_examples=30, deadline=None)
 def test_coulomb_is_the_reference_for_any_belt_box(mass, ratio, stiffness, v_b, u_0, w, x, v):
     s = load_scenario("kang2015_table1", law="coulomb")
