@@ -1,0 +1,47 @@
+"""Stick and slip, told apart by the smoothed velocity relative to the belt, with hysteresis."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.signal import savgol_filter
+
+from stochfric_mb.discovery.record import Array, Record
+
+SMOOTHING_ANGLE = 0.55
+"""Width of the smoothing window as an angle of the natural oscillation [rad]."""
+ENTER, LEAVE = 1.2, 0.5
+"""Relative velocities over the belt velocity at which a slip is seen and to which it is followed [-]."""
+ENTER_NOISE, LEAVE_NOISE = 8.0, 4.0
+"""The same, at least, as multiples of the velocity's noise [-]."""
+
+
+def relative_velocity(record: Record) -> tuple[Array, float]:
+    """Return the smoothed relative velocity v_b - x' [m/s], shape (n,), and the standard deviation of its noise."""
+    width = max(record.samples(SMOOTHING_ANGLE) | 1, 5)
+    velocity = savgol_filter(record.position, width, 2, deriv=1, delta=1.0 / record.rate)
+    return record.mechanism.belt_velocity - velocity, record.noise * np.sqrt(12.0 / width**3) * record.rate
+
+
+def slips_of(record: Record) -> list[tuple[int, int]]:
+    """Return the slips of a record as pairs of sample numbers (break-away, re-stick), rough to a few samples."""
+    relative, deviation = relative_velocity(record)
+    belt = record.mechanism.belt_velocity
+    enter = max(ENTER_NOISE * deviation, ENTER * belt)
+    leave = max(LEAVE_NOISE * deviation, LEAVE * belt)
+    inside = np.flatnonzero(relative > enter)
+    if len(inside) == 0:
+        return []
+    cuts = np.flatnonzero(np.diff(inside) > 1)
+    shortest, apart = record.samples(0.64), record.samples(0.3)
+    slips: list[list[int]] = []
+    for first, last in zip(np.r_[inside[0], inside[cuts + 1]], np.r_[inside[cuts], inside[-1]], strict=True):
+        begin, end = int(first), int(last)
+        while begin > 0 and relative[begin - 1] > leave:
+            begin -= 1
+        while end < len(relative) - 1 and relative[end + 1] > leave:
+            end += 1
+        if slips and begin - slips[-1][1] < apart:
+            slips[-1][1] = end
+        else:
+            slips.append([begin, end])
+    return [(a, b) for a, b in slips if b - a > shortest]

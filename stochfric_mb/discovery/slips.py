@@ -1,0 +1,242 @@
+"""What every slip tells: onset force, and the friction force of the slip as Legendre coefficients, in weak form.
+
+With u in [-1, 1] over the slip and P_q the Legendre polynomials, the coefficient of order q is
+
+    F_q = (2 q + 1)/T * integral over the slip of (m x'' + c x' + k x - k u_0 cos W t) P_q(u) dt
+
+where two integrations by parts leave the position alone under the integral and, at the ends, the located edges
+(x_o, v_b) and (x_r, v_b): nothing is differentiated. The onset force is k x_o + c v_b - k u_0 cos W t_o.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.polynomial import chebyshev, legendre
+
+from stochfric_mb.discovery.edges import locate_edge
+from stochfric_mb.discovery.record import Array, Noise, Record, noise_of
+from stochfric_mb.discovery.segmentation import slips_of
+
+N_MOMENTS = 7
+"""Legendre coefficients of the friction force in a slip."""
+N_FEATURES = 1 + N_MOMENTS
+"""Onset force and coefficients."""
+N_NODES = 32
+"""Gauss nodes on a slip at which its trajectory is given."""
+NODES, WEIGHTS = legendre.leggauss(N_NODES)
+_DEGREE = 9
+_STIFF, _SOFT = 0.06, 3.0
+"""Standard deviation of an edge's cubic term over half the record's range: constant force believed, or a changing one."""
+_MISFIT_ALLOWED = 1.6
+"""Median squared misfit over noise variance above which the force at break-away is taken to change."""
+_ORDERS = np.arange(N_MOMENTS)
+_P = [np.eye(N_MOMENTS)[q] for q in range(N_MOMENTS)]
+_DP = [legendre.legder(p) if q else np.zeros(1) for q, p in enumerate(_P)]
+_DDP = [legendre.legder(p, 2) if q > 1 else np.zeros(1) for q, p in enumerate(_P)]
+
+
+@dataclasses.dataclass(frozen=True)
+class StickSamples:
+    """Means over short bins of the stick phases; arrays have shape (n,)."""
+
+    segment: np.ndarray
+    """Number of the stick phase, int64."""
+    time: Array
+    """Time [s]."""
+    residual: Array
+    """Position less the belt's motion since the phase's first sample [m]."""
+    since_restick: Array
+    """Time since the re-stick [s]."""
+    to_onset: Array
+    """Time to the next break-away [s]."""
+    position: Array
+    """Position [m]."""
+    bin_size: int
+    """Samples in a bin."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Slips:
+    """The slips of one record; arrays have shape (n,) unless said otherwise."""
+
+    record: Record
+    """Where they come from."""
+    noise: Noise
+    """Noise in the stick phases."""
+    ridge: float
+    """Ridge of the break-aways' cubic term, see `edges` [-]."""
+    onset_time: Array
+    """Break-away [s]."""
+    onset_position: Array
+    """Position there [m]."""
+    restick_time: Array
+    """Re-stick [s]."""
+    restick_position: Array
+    """Position there [m]."""
+    onset_force: Array
+    """Force at break-away [N]."""
+    moments: Array
+    """Legendre coefficients of the friction force [N], shape (n, N_MOMENTS)."""
+    node_time: Array
+    """Time at the Gauss nodes [s], shape (n, N_NODES)."""
+    node_position: Array
+    """Position there [m], shape (n, N_NODES)."""
+    node_velocity: Array
+    """Velocity there [m/s], shape (n, N_NODES)."""
+    node_acceleration: Array
+    """Acceleration there [m/s^2], shape (n, N_NODES)."""
+    stick: StickSamples
+    """The stick phases."""
+
+    def __len__(self) -> int:
+        return len(self.onset_time)
+
+    @property
+    def features(self) -> Array:
+        """Onset force and coefficients [N], shape (n, N_FEATURES)."""
+        return np.c_[self.onset_force, self.moments]
+
+
+def legendre_coefficients(values: Array) -> Array:
+    """Return the Legendre coefficients, shape (n, N_MOMENTS), of functions given at the Gauss nodes, shape (n, N_NODES)."""
+    table = np.stack([legendre.legval(NODES, p) for p in _P], axis=1)
+    return (values * WEIGHTS) @ table * (2 * _ORDERS + 1) / 2.0
+
+
+def extract(record: Record, *, ridge: float | None = None) -> Slips:
+    """Return the slips of a record.
+
+    Args:
+        record: the record.
+        ridge: how firmly the force at break-away is believed to be constant; chosen from the data if not given.
+    """
+    rough = list(_inside(record, slips_of(record)))
+    noise = noise_of(_quiet(record, rough), record.noise)
+    firm = noise.deviation / (_STIFF * np.ptp(record.position) / 2.0)
+    if ridge is None:
+        misfits = [_edge(record, begin, 1, firm)[3] / noise.deviation**2 for begin, _ in rough[:24]]
+        constant = not misfits or np.median(misfits) < _MISFIT_ALLOWED
+        ridge = firm if constant else noise.deviation / (_SOFT * np.ptp(record.position) / 2.0)
+    edges = [e for e in (_locate(record, a, b, ridge, firm) for a, b in rough) if e[2] - e[0] > 0.5 / record.angular_frequency]
+    # two slips may not overlap: a rough slip cut in two can be located twice
+    edges = [e for i, e in enumerate(edges) if i == 0 or e[0] > edges[i - 1][2]]
+    table = np.array(edges).reshape(-1, 4)
+    onset_time, onset_position, restick_time, restick_position = table.T
+    moments = np.empty((len(table), N_MOMENTS))
+    nodes = np.empty((4, len(table), N_NODES))
+    for i, edge in enumerate(table):
+        nodes[:, i], moments[i] = _slip(record, edge)
+    box = record.mechanism
+    force = box.stiffness * onset_position + box.damping * box.belt_velocity - record.excitation(onset_time)
+    return Slips(
+        record, noise, ridge,
+        onset_time, onset_position, restick_time, restick_position, force, moments, *nodes, _stick(record, table),
+    )  # fmt: skip
+
+
+def _inside(record: Record, slips: list[tuple[int, int]]) -> Iterator[tuple[int, int]]:
+    """Yield the slips whose surroundings lie within the record."""
+    margin = record.samples(3.06)
+    for begin, end in slips:
+        if begin >= margin and end <= len(record.time) - margin:
+            yield begin, end
+
+
+def _edge(record: Record, index: int, side: int, ridge: float) -> tuple[float, float, float, float]:
+    return locate_edge(
+        record.position, record.time, record.mechanism.belt_velocity, index, side, record.angular_frequency,
+        record.samples(3.06), record.samples(1.07), ridge,
+    )  # fmt: skip
+
+
+def _locate(record: Record, begin: int, end: int, ridge: float, firm: float) -> tuple[float, float, float, float]:
+    """Return (onset time, position, re-stick time, position)."""
+    onset = _edge(record, begin, 1, ridge)
+    restick = _edge(record, end, -1, firm)
+    return onset[0], onset[1], restick[0], restick[1]
+
+
+def _quiet(record: Record, rough: list[tuple[int, int]]) -> list[Array]:
+    """Return the stick phases between rough slips less their lines [m], sample by sample."""
+    margin = record.samples(0.8)
+    phases: list[Array] = []
+    for (_, restick), (onset, _) in zip(rough[:-1], rough[1:], strict=True):
+        position = record.position[restick + margin : onset - margin]
+        if len(position) > 40:
+            place = np.linspace(-1.0, 1.0, len(position))
+            phases.append(position - position.mean() - place * (place @ position) / (place @ place))
+    return phases
+
+
+def _slip(record: Record, edge: Array) -> tuple[Array, Array]:
+    """Return the trajectory at the Gauss nodes, shape (4, N_NODES), and the coefficients of the friction force."""
+    box = record.mechanism
+    begin, x_begin, end, x_end = edge
+    first, last = np.searchsorted(record.time, (begin, end))
+    time = np.r_[begin, record.time[first:last], end]
+    position = np.r_[x_begin, record.position[first:last], x_end]
+    duration = end - begin
+    u = 2.0 * (time - begin) / duration - 1.0
+    trajectory = _smooth(u, position, duration, box.belt_velocity, begin)
+    rate = 2.0 / duration
+    forcing = record.excitation(trajectory[0])
+    moments = np.empty(N_MOMENTS)
+    for q in range(N_MOMENTS):
+        sign = (-1.0) ** q
+        ends = (
+            box.mass * box.belt_velocity * (1.0 - sign)
+            - box.mass * rate * (legendre.legval(1.0, _DP[q]) * x_end - legendre.legval(-1.0, _DP[q]) * x_begin)
+            + box.damping * (x_end - sign * x_begin)
+        )
+        kernel = (
+            box.mass * rate**2 * legendre.legval(u, _DDP[q])
+            - box.damping * rate * legendre.legval(u, _DP[q])
+            + box.stiffness * legendre.legval(u, _P[q])
+        )
+        known = np.sum(WEIGHTS * legendre.legval(NODES, _P[q]) * forcing) * duration / 2.0
+        moments[q] = (ends + np.trapezoid(kernel * position, time) - known) * (2 * q + 1) / duration
+    return trajectory, moments
+
+
+def _smooth(u: Array, position: Array, duration: float, belt: float, begin: float) -> Array:
+    """Return time, position, velocity and acceleration at the nodes by a polynomial that leaves and meets the belt."""
+    weight = np.ones(len(u))
+    weight[0] = weight[-1] = 20.0
+    scale = duration / 20.0
+    slopes = np.stack([[chebyshev.chebval(s, chebyshev.chebder(row)) for row in np.eye(_DEGREE + 1)] for s in (-1.0, 1.0)])
+    matrix = np.r_[chebyshev.chebvander(u, _DEGREE) * weight[:, None], slopes * (2.0 / duration) * scale * 20.0]
+    right = np.r_[position * weight, np.full(2, belt) * scale * 20.0]
+    series = np.linalg.lstsq(matrix, right, rcond=None)[0]
+    first, second = chebyshev.chebder(series), chebyshev.chebder(series, 2)
+    return np.stack(
+        [
+            begin + (NODES + 1.0) * duration / 2.0,
+            chebyshev.chebval(NODES, series),
+            chebyshev.chebval(NODES, first) * 2.0 / duration,
+            chebyshev.chebval(NODES, second) * (2.0 / duration) ** 2,
+        ]
+    )
+
+
+def _stick(record: Record, edges: Array) -> StickSamples:
+    """Return the binned stick phases."""
+    size = record.samples(0.255)
+    guard_after, guard_before = 0.1 / record.angular_frequency, 0.05 / record.angular_frequency
+    rows: list[Array] = []
+    for i in range(len(edges) - 1):
+        restick, onset = edges[i, 2], edges[i + 1, 0]
+        first, last = np.searchsorted(record.time, (restick + guard_after, onset - guard_before))
+        count = (last - first) // size
+        if count < 6:
+            continue
+        time = record.time[first : first + count * size]
+        position = record.position[first : first + count * size]
+        residual = position - record.mechanism.belt_velocity * (time - time[0])
+        t, r, x = (a.reshape(count, size).mean(axis=1) for a in (time, residual, position))
+        rows.append(np.c_[np.full(count, i), t, r, t - restick, onset - t, x])
+    table = np.concatenate(rows) if rows else np.zeros((0, 6))
+    segment, *columns = table.T
+    return StickSamples(segment.astype(np.int64), *columns, size)
