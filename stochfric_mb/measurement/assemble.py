@@ -1,0 +1,212 @@
+"""From the columns of a file to a run: names, units, signs, time range, checks, uniform grid."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.errors import InputError, require_name
+from stochfric_mb.measurement.quantities import KNOWN, known_name, split_header
+from stochfric_mb.measurement.readers import read_table
+from stochfric_mb.measurement.run import Role, Run
+from stochfric_mb.measurement.sampling import Places, require_growing, uniform_grid
+from stochfric_mb.measurement.table import Table
+from stochfric_mb.measurement.units import to_si
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class RunEntry:
+    """One ``[[runs]]`` entry of a dataset: a file and how to read it."""
+
+    file: Path
+    """The measured file."""
+    name: str
+    """Name of the run."""
+    role: Role = "fit"
+    """What the run is for."""
+    settings: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
+    """The ``set`` table."""
+    columns: Mapping[str, str | int] = dataclasses.field(default_factory=dict[str, str | int])
+    """Quantity -> name of its column in the file, or its number from 0."""
+    units: Mapping[str, str] = dataclasses.field(default_factory=dict[str, str])
+    """Quantity -> unit, where the file does not say it or says it wrongly."""
+    sign: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
+    """Quantity -> 1 or -1, by which it is multiplied."""
+    skip_rows: int = 0
+    """Lines (samples, in other than text files) left out at the start."""
+    time_range: tuple[float, float] | None = None
+    """First and last time [s] of the run, in the time of the file; None: all of it."""
+    max_gap: float | None = None
+    """Longest distance between samples [s] that is bridged by interpolation; None: four median distances."""
+
+
+def assemble(entry: RunEntry, *, rotational: bool) -> Run:
+    """Return the run that an entry of a dataset describes, read from its file and checked.
+
+    Args:
+        entry: the file and how to read it.
+        rotational: whether the scenario's friction acts about an axis: positions in rad, friction in N m.
+
+    Raises:
+        InputError: the file or the entry cannot be used; names the file, the key or line, and the remedy.
+        MissingEngineError: a library that reads the file is not installed.
+    """
+    table = read_table(entry.file, skip_rows=entry.skip_rows)
+    columns, units, notes = _named(entry, table)
+    _require_keys("units", entry.units, columns, entry)
+    _require_keys("sign", entry.sign, columns, entry)
+    columns, units = _in_si(entry, columns, units, rotational=rotational)
+    time = columns.pop("time")
+    rows = np.arange(1, time.size + 1, dtype=np.int64) + entry.skip_rows if table.rows is None else table.rows
+    kept = _within(time, entry)
+    places = Places(str(entry.file), rows[kept], table.row_word)
+    time = time[kept]
+    require_growing(time, places)
+    channels = {k: v[kept] * entry.sign.get(k, 1.0) for k, v in columns.items() if k in KNOWN}
+    covariates = {k: v[kept] * entry.sign.get(k, 1.0) for k, v in columns.items() if k not in KNOWN}
+    for name, values in channels.items():
+        _require_finite(name, values, places)
+    for name in [k for k, v in covariates.items() if not np.isfinite(v).all()]:
+        del covariates[name]
+        notes.append(f"covariate {name!r} has missing values and is left out")
+    grid = uniform_grid(time, places, max_gap=entry.max_gap)
+    if grid.note:
+        notes.append(grid.note)
+        channels = {k: np.interp(grid.time, time, v) for k, v in channels.items()}
+        covariates = {k: np.interp(grid.time, time, v) for k, v in covariates.items()}
+    notes += [f"{k} is constant ({v[0]:g} {units[k]})" for k, v in channels.items() if v.size and np.ptp(v) == 0.0]
+    return Run(
+        name=entry.name,
+        role=entry.role,
+        time=grid.time,
+        channels=channels,
+        settings=dict(entry.settings),
+        covariates=covariates,
+        units={k: units.get(k, "") for k in (*channels, *covariates)},
+        constants=dict(table.constants),
+        sample_interval=grid.interval,
+        notes=tuple(notes),
+    )
+
+
+def _named(entry: RunEntry, table: Table) -> tuple[dict[str, Array], dict[str, str], list[str]]:
+    """Return the columns under the names of their quantities, their units, and notes about those left out."""
+    sources = {quantity: _column(entry, table, quantity, column) for quantity, column in entry.columns.items()}
+    taken = set(sources.values())
+    if table.has_header:
+        for name in table.columns:
+            if name not in taken:
+                quantity = known_name(name) or name
+                if quantity in sources:
+                    quantity = name  # the entry gives that quantity another column: this one stays beside it
+                if quantity in sources or (quantity in KNOWN and quantity in entry.columns):
+                    continue
+                sources[quantity] = name
+    if "time" not in sources:
+        raise InputError(
+            f"{entry.file}: no column is time; its columns are {_listed(table)}: name one "
+            f"time [s], or say which it is with columns = {{ time = ... }}"
+        )
+    length = table.columns[sources["time"]].size
+    short = [q for q, name in sources.items() if table.columns[name].size != length]
+    for quantity in short:
+        if quantity in KNOWN:
+            raise InputError(
+                f"{entry.file}: {quantity} has {table.columns[sources[quantity]].size} samples but time has {length}; "
+                "give each quantity a value at each time"
+            )
+        del sources[quantity]
+    notes = [f"columns {', '.join(map(repr, short))} are not as long as time and are left out"] if short else []
+    if not any(q in KNOWN for q in sources if q != "time"):
+        raise InputError(
+            f"{entry.file}: no column is a known quantity; its columns are {_listed(table)}: name them after "
+            f"{', '.join(k for k in KNOWN if k != 'time')}, or with columns = {{ position = ... }}"
+        )
+    units = {q: table.units[name] for q, name in sources.items() if name in table.units} | dict(entry.units)
+    return {q: table.columns[name] for q, name in sources.items()}, units, notes
+
+
+def _column(entry: RunEntry, table: Table, quantity: str, column: str | int) -> str:
+    """Return the table's name of the column that the entry gives a quantity."""
+    names = list(table.columns)
+    if isinstance(column, int):
+        wanted = names[column] if table.has_header and 0 <= column < len(names) else str(column)
+        if wanted in names:
+            return wanted
+        raise InputError(
+            f"{entry.file}: columns.{quantity} = {column}, but the file has {_listed(table)}; columns are counted from 0"
+        )
+    if column in names:
+        return column
+    if (name := split_header(column)[0]) in names:
+        return name
+    if not table.has_header:
+        raise InputError(
+            f"{entry.file}: columns.{quantity} = {column!r}, but the file has no header; give the number of the column, "
+            "counted from 0"
+        )
+    try:
+        return require_name(f"column for columns.{quantity}", column, names)
+    except InputError as error:
+        raise InputError(f"{entry.file}: {error}") from None
+
+
+def _listed(table: Table) -> str:
+    return ", ".join(map(repr, table.columns)) if table.has_header else f"no header, numbers {', '.join(table.columns)}"
+
+
+def _require_keys(key: str, given: Mapping[str, object], columns: Mapping[str, Array], entry: RunEntry) -> None:
+    for name in given:
+        try:
+            require_name(f"quantity in {key} (a quantity of this run)", name, columns)
+        except InputError as error:
+            raise InputError(f"{entry.file}: {error}") from None
+
+
+def _in_si(
+    entry: RunEntry, columns: Mapping[str, Array], units: Mapping[str, str], *, rotational: bool
+) -> tuple[dict[str, Array], dict[str, str]]:
+    """Return the columns with known quantities in SI units, and the units."""
+    values, found = dict(columns), dict(units)
+    for name in (k for k in columns if k in KNOWN):
+        quantity = KNOWN[name]
+        if name not in units:
+            si = quantity.unit(rotational)
+            raise InputError(
+                f"{entry.file}: {name} has no unit; write the header as '{name} [{si}]', or give "
+                f'units = {{ {name} = "{si}" }}'
+            )
+        try:
+            values[name], found[name] = to_si(columns[name], units[name], quantity, rotational=rotational)
+        except InputError as error:
+            raise InputError(f"{entry.file}: {error}") from None
+    return values, found
+
+
+def _within(time: Array, entry: RunEntry) -> npt.NDArray[np.bool_]:
+    if entry.time_range is None:
+        return np.ones(time.size, dtype=np.bool_)
+    start, end = entry.time_range
+    kept = (time >= start) & (time <= end)
+    if not kept.any():
+        raise InputError(
+            f"{entry.file}: time_range = [{start:g}, {end:g}] s holds no sample; the file goes from {np.nanmin(time):g} to "
+            f"{np.nanmax(time):g} s"
+        )
+    return kept
+
+
+def _require_finite(name: str, values: Array, places: Places) -> None:
+    bad = np.flatnonzero(~np.isfinite(values))
+    if bad.size:
+        n = f" ({bad.size} such rows)" if bad.size > 1 else ""
+        raise InputError(
+            f"{places.at(int(bad[0]))}: {name} is missing or not finite{n}; remove or mend the row, or cut it away with "
+            "time_range"
+        )

@@ -1,0 +1,138 @@
+"""Datasets: what was measured, and the model believed so far; read from TOML (`stochfric.dataset/1`)."""
+
+from __future__ import annotations
+
+import dataclasses
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.assemble import RunEntry, assemble
+from stochfric_mb.measurement.entries import SCHEMA, run_entries
+from stochfric_mb.measurement.run import Run, apply_settings
+from stochfric_mb.measurement.sampling import MIN_SAMPLES
+from stochfric_mb.scenario import Scenario, load_scenario
+
+FILE = "dataset.toml"
+"""Name of the file that describes a dataset, in its folder."""
+HELD_OUT = 1.0 / 3.0
+"""Part of the time that is held out where one file alone is given."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Dataset:
+    """Runs of one rig, and the scenario that is believed of it."""
+
+    title: str
+    """A line for people."""
+    scenario_path: Path | None
+    """File of the scenario; None if it was given as an object."""
+    scenario: Scenario
+    """The model believed so far."""
+    runs: tuple[Run, ...]
+    """All runs, in the order of the file."""
+
+    @property
+    def fit(self) -> tuple[Run, ...]:
+        """Runs that are learned from."""
+        return tuple(run for run in self.runs if run.role == "fit")
+
+    @property
+    def test(self) -> tuple[Run, ...]:
+        """Runs that are held out and only scored."""
+        return tuple(run for run in self.runs if run.role == "test")
+
+
+def load_dataset(path: str | Path, scenario: str | Path | Scenario | None = None) -> Dataset:
+    """Return a dataset, read and checked.
+
+    Args:
+        path: a folder with ``dataset.toml``, that file, or one measured file alone: its last third is then held out.
+        scenario: the model believed so far, as a file, the name of a bundled scenario, or an object; it replaces the
+            dataset's own, and is needed with a measured file.
+
+    Raises:
+        InputError: something in it cannot be used; names the file, the key or line, the rule and the remedy.
+        MissingEngineError: a library that reads one of its files is not installed.
+    """
+    path = Path(path)
+    if path.is_dir():
+        path = path / FILE
+        if not path.is_file():
+            raise InputError(f"{path.parent} is a folder without {FILE}; write one, or give a measured file and --scenario")
+    if not path.exists():
+        raise InputError(f"{path}: no such file; give a folder with {FILE}, or a measured file and --scenario")
+    return _described(path, scenario) if path.suffix.lower() == ".toml" else _alone(path, scenario)
+
+
+def _described(path: Path, scenario: str | Path | Scenario | None) -> Dataset:
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: not a TOML file: {error}") from None
+    try:
+        entries = run_entries(tables, path.parent)
+        model, source = _scenario(_named(tables, path.parent) if scenario is None else scenario)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    for entry in entries:
+        apply_settings(model, entry.settings, f"{path}: run {entry.name!r}")
+    runs = tuple(assemble(entry, rotational=rotates(model)) for entry in entries)
+    dataset = Dataset(title=str(tables.get("title", "")), scenario_path=source, scenario=model, runs=runs)
+    _require_roles(path, dataset)
+    return dataset
+
+
+def _alone(path: Path, scenario: str | Path | Scenario | None) -> Dataset:
+    """Return the dataset of one measured file: its last third is held out."""
+    if scenario is None:
+        raise InputError(f"{path}: a measured file alone says nothing about the rig; give --scenario SCENARIO")
+    model, source = _scenario(scenario)
+    whole = assemble(RunEntry(file=path, name=path.stem), rotational=rotates(model))
+    start, end = float(whole.time[0]), float(whole.time[-1])
+    cut = end - HELD_OUT * (end - start)
+    first = whole.between(start, cut, name=f"{path.stem} (first two thirds)", role="fit")
+    last = whole.between(cut, float("inf"), name=f"{path.stem} (last third)", role="test")
+    if last.time.size < MIN_SAMPLES:
+        raise InputError(
+            f"{path}: {last.time.size} samples in its last third, which is held out; at least {MIN_SAMPLES} are needed, record "
+            "longer"
+        )
+    return Dataset(title=path.name, scenario_path=source, scenario=model, runs=(first, last))
+
+
+def rotates(scenario: Scenario) -> bool:
+    """Return whether the mechanism's friction acts about an axis: positions are then angles."""
+    return bool(getattr(scenario.mechanism, "rotational", False))
+
+
+def _scenario(source: str | Path | Scenario) -> tuple[Scenario, Path | None]:
+    if isinstance(source, Scenario):
+        return source, None
+    return load_scenario(source), Path(source)
+
+
+def _named(tables: Mapping[str, Any], folder: Path) -> Path | str:
+    """Return the scenario that a dataset names: a file beside it, or a bundled scenario."""
+    name = tables.get("scenario")
+    if not isinstance(name, str):
+        raise InputError(
+            f'scenario = {name!r}: a dataset names the file of the model believed so far; write scenario = "scenario.toml"'
+        )
+    return folder / name if (folder / name).exists() or Path(name).suffix else name
+
+
+def _require_roles(path: Path, dataset: Dataset) -> None:
+    roles = ", ".join(f"{run.name}: {run.role}" for run in dataset.runs)
+    if not dataset.fit:
+        raise InputError(f'{path}: no run to learn from ({roles}); give at least one run role = "fit"')
+    if not dataset.test:
+        raise InputError(
+            f'{path}: no run is held out ({roles}), so that nothing could be scored; give a run role = "test", or cut one file '
+            "into two runs with time_range"
+        )
+
+
+__all__ = ["FILE", "SCHEMA", "Dataset", "Run", "load_dataset", "rotates"]

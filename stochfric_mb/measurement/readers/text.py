@@ -1,0 +1,163 @@
+"""Columns of text files: CSV, TSV and tables aligned by spaces; delimiter and decimal sign are found, not asked for."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.quantities import split_header
+from stochfric_mb.measurement.table import Table
+
+Array = npt.NDArray[np.float64]
+Dialect = tuple[str | None, str]
+"""Delimiter (None: any white space) and decimal sign."""
+
+DIALECTS: tuple[Dialect, ...] = ((",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ","), (None, "."), (None, ","))
+"""Those that are tried, the likelier first."""
+COMMENT = "#"
+MISSING = ("", "nan", "na", "n/a", "null", "none", "-")
+"""Fields that stand for a missing value."""
+_LOOK = 40
+"""Lines that decide the dialect."""
+
+
+def read(path: Path, *, skip_rows: int = 0) -> Table:
+    """Return the numeric columns of a text file.
+
+    Lines that begin with ``#`` are left out; the last of them before the numbers is the header if it has as many names
+    as there are columns and no other line is one. Columns without any number are left out.
+
+    Raises:
+        InputError: no table of numbers can be seen in it, or a row is broken; names the line.
+    """
+    lines = _text(path).splitlines()
+    kept = [(number, line) for number, line in enumerate(lines, start=1) if number > skip_rows and line.strip()]
+    comments = [line.lstrip().lstrip(COMMENT) for _, line in kept if line.lstrip().startswith(COMMENT)]
+    rows = [(number, line) for number, line in kept if not line.lstrip().startswith(COMMENT)]
+    if not rows:
+        raise InputError(f"{path}: no rows after skip_rows = {skip_rows}; lower it or mend the file")
+    dialect = _dialect(path, [line for _, line in rows])
+    first = _fields(rows[0][1], dialect)
+    is_header = all(_number(field, dialect) is None for field in first)
+    header = first if is_header else _commented_header(comments, len(first), dialect)
+    body = rows[1:] if is_header else rows
+    if not body:
+        raise InputError(f"{path}: a header without any row under it; record some samples")
+    width = len(_fields(body[0][1], dialect))
+    if header and len(header) != width:
+        raise InputError(f"{path}: {len(header)} names in the header but {width} columns in line {body[0][0]}; mend the header")
+    values = _values(path, body, width, dialect)
+    names, units = _names(path, header, width)
+    filled = [i for i in range(width) if np.isfinite(values[:, i]).any() or names[i] in units]
+    return Table(
+        columns={names[i]: values[:, i].copy() for i in filled},
+        units=units,
+        has_header=bool(header),
+        rows=np.array([number for number, _ in body], dtype=np.int64),
+        row_word="line",
+    )
+
+
+def _text(path: Path) -> str:
+    """Return the text of a file: UTF-8, or the Latin alphabet of old loggers where it is not."""
+    content = path.read_bytes()
+    if b"\0" in content[:4096] and not content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise InputError(f"{path}: not a text file; give it the ending of its format")
+    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return content.decode("utf-16")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return content.decode("latin-1")
+
+
+def _dialect(path: Path, lines: list[str]) -> Dialect:
+    """Return the first dialect in which the lines under the first have equally many columns, and numbers in them."""
+    look = lines[1 : 1 + _LOOK] or lines
+    best: tuple[int, Dialect] | None = None
+    for dialect in DIALECTS:
+        table = [_fields(line, dialect) for line in look]
+        widths = {len(fields) for fields in table}
+        numbers = sum(_number(field, dialect) is not None for fields in table for field in fields)
+        if len(widths) == 1 and widths != {1} and numbers and (best is None or numbers > best[0]):
+            best = (numbers, dialect)
+    if best is None:
+        raise InputError(
+            f"{path}: no table of at least two columns of numbers, divided by comma, semicolon, tab or spaces; "
+            "leave out lines before it with skip_rows"
+        )
+    return best[1]
+
+
+def _fields(line: str, dialect: Dialect) -> list[str]:
+    delimiter = dialect[0]
+    fields = line.split() if delimiter is None else line.rstrip("\r\n").split(delimiter)
+    return [field.strip().strip('"').strip() for field in fields]
+
+
+def _number(field: str, dialect: Dialect) -> float | None:
+    """Return the number in a field, or None."""
+    if dialect[1] == ",":
+        if "." in field:
+            return None
+        field = field.replace(",", ".")
+    try:
+        return float(field)
+    except ValueError:
+        return None
+
+
+def _commented_header(comments: list[str], width: int, dialect: Dialect) -> list[str]:
+    """Return the names in the last comment, if it has one for each column; none otherwise."""
+    if not comments:
+        return []
+    names = _fields(comments[-1], dialect)
+    return names if len(names) == width and all(_number(n, dialect) is None for n in names) else []
+
+
+def _names(path: Path, header: list[str], width: int) -> tuple[list[str], dict[str, str]]:
+    if not header:
+        return [str(i) for i in range(width)], {}
+    pairs = [split_header(text) for text in header]
+    names = [name or str(i) for i, (name, _) in enumerate(pairs)]
+    for name in names:
+        if names.count(name) > 1:
+            raise InputError(f"{path}: column {name!r} is there {names.count(name)} times; give each its own name")
+    return names, {name: unit for name, (_, unit) in zip(names, pairs, strict=True) if unit is not None}
+
+
+def _values(path: Path, body: list[tuple[int, str]], width: int, dialect: Dialect) -> Array:
+    delimiter, decimal = dialect
+    text = "\n".join(line for _, line in body)
+    try:
+        fast = io.StringIO(text.replace(",", ".") if decimal == "," else text)
+        values = np.loadtxt(fast, delimiter=delimiter, ndmin=2, comments=None, dtype=np.float64)
+        if values.shape == (len(body), width):
+            return values
+    except ValueError:
+        pass  # a field is empty, quoted or no number: one row after the other, to say where
+    return _slow_values(path, body, width, dialect)
+
+
+def _slow_values(path: Path, body: list[tuple[int, str]], width: int, dialect: Dialect) -> Array:
+    """Return float64[n, width]: NaN for missing values and throughout columns that hold words."""
+    values = np.full((len(body), width), np.nan)
+    words: dict[int, tuple[int, str]] = {}
+    for i, (number, line) in enumerate(body):
+        fields = _fields(line, dialect)
+        if len(fields) != width:
+            raise InputError(f"{path}, line {number}: {len(fields)} columns instead of {width}; remove or mend the line")
+        for j, field in enumerate(fields):
+            found = _number(field, dialect)
+            if found is not None:
+                values[i, j] = found
+            elif field.lower() not in MISSING:
+                words.setdefault(j, (number, field))
+    for j, (number, field) in words.items():
+        if np.isfinite(values[:, j]).any():
+            raise InputError(f"{path}, line {number}, column {j + 1}: {field!r} is not a number; remove or mend the line")
+    return values

@@ -1,0 +1,134 @@
+"""Time stamps: that they grow, that nothing is missing, and a uniform grid where the clock jittered."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.errors import InputError
+
+Array = npt.NDArray[np.float64]
+
+UNIFORM = 0.01
+"""Time stamps this close to a uniform grid are on it [sample intervals]: interpolation would change less than noise does."""
+GAP = 4.0
+"""Distance between two samples from which samples are missing, not late [median distances]."""
+MIN_SAMPLES = 50
+"""Fewest samples of a run: fewer hold neither a noise level nor one cycle."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Places:
+    """Where the samples of a record are in its file, for messages."""
+
+    file: str
+    """The file."""
+    rows: npt.NDArray[np.int64]
+    """Number of the line or sample, int64[n]."""
+    word: str
+    """What the number counts."""
+
+    def at(self, sample: int) -> str:
+        """Return the place of a sample, such as ``run.csv, line 12``."""
+        return f"{self.file}, {self.word} {self.rows[sample]}"
+
+
+def require_growing(time: Array, places: Places) -> None:
+    """Return if the time stamps [s], float64[n], are finite and grow.
+
+    Raises:
+        InputError: they do not; names the line.
+    """
+    bad = np.flatnonzero(~np.isfinite(time))
+    if bad.size:
+        raise InputError(f"{places.at(bad[0])}: time is {time[bad[0]]}, a missing value; remove the row or mend it")
+    steps = np.diff(time)
+    bad = np.flatnonzero(steps <= 0.0)
+    if not bad.size:
+        return
+    i = int(bad[0])
+    n = f" ({bad.size} such rows)" if bad.size > 1 else ""
+    if steps[i] == 0.0:
+        raise InputError(
+            f"{places.at(i + 1)}: time stamp {time[i + 1]:g} s is there twice{n}; remove repeated samples, or write the time "
+            "with more digits"
+        )
+    raise InputError(
+        f"{places.at(i + 1)}: time falls from {time[i]:g} s to {time[i + 1]:g} s{n}; sort the rows, or cut the file there "
+        "with time_range or into two files"
+    )
+
+
+@dataclasses.dataclass(frozen=True)
+class Grid:
+    """The uniform grid of a record."""
+
+    time: Array
+    """Time [s], float64[m]."""
+    interval: float
+    """Distance between samples [s]."""
+    note: str
+    """What was done about the clock; empty: nothing."""
+
+
+def uniform_grid(time: Array, places: Places, *, max_gap: float | None = None) -> Grid:
+    """Return the uniform grid that the time stamps are on, or onto which they are to be interpolated.
+
+    Time stamps within `UNIFORM` intervals of a uniform grid, or within the digits in which they are written, are on it.
+    Others are to be interpolated onto a grid with the median of their distances. Aliasing is none where the median is
+    what the recorder aimed at.
+
+    Args:
+        time: growing time stamps [s], float64[n].
+        places: where they are, for messages.
+        max_gap: longest distance between samples [s] that is bridged; None: `GAP` median distances.
+
+    Raises:
+        InputError: too few samples, or a gap; names the line.
+    """
+    if time.size < MIN_SAMPLES:
+        raise InputError(
+            f"{places.file}: {time.size} samples; at least {MIN_SAMPLES} are needed, record longer or widen time_range"
+        )
+    steps = np.diff(time)
+    mean, median = float((time[-1] - time[0]) / (time.size - 1)), float(np.median(steps))
+    exact = time[0] + mean * np.arange(time.size)
+    away = float(np.max(np.abs(time - exact)))
+    if away <= max(UNIFORM * mean, _rounding(time, mean)):
+        return Grid(exact, mean, "")
+    longest = int(np.argmax(steps))
+    limit = GAP * median if max_gap is None else max_gap
+    if steps[longest] > limit:
+        n = int(np.count_nonzero(steps > limit))
+        raise InputError(
+            f"{places.at(longest + 1)}: {steps[longest]:.4g} s without a sample, where {median:.4g} s is usual ({n} gaps "
+            f"longer than {limit:.4g} s); cut the run there with time_range, or allow interpolation across with "
+            f"max_gap = {_rounded_up(float(steps[longest])):g}"
+        )
+    count = int(np.floor((time[-1] - time[0]) / median * (1.0 + 1.0e-12))) + 1
+    note = (
+        f"the clock jittered ({steps.min():.4g} to {steps.max():.4g} s between samples): interpolated linearly onto a "
+        f"uniform grid of {median:.4g} s"
+    )
+    return Grid(time[0] + median * np.arange(count), median, note)
+
+
+def _rounding(time: Array, interval: float) -> float:
+    """Return how far rounding to the digits in the file can move a time stamp [s]; 0 if they are not rounded.
+
+    Time stamps on a uniform grid that were rounded to d decimals differ from the grid through two of them by at most
+    10^-d. With decimals coarser than half an interval the clock cannot be told from jitter, and 0 is returned.
+    """
+    for decimals in range(10):
+        unit = 10.0**-decimals
+        if unit <= 0.5 * interval and np.all(np.abs(time / unit - np.round(time / unit)) < 1.0e-4):
+            return unit
+    return 0.0
+
+
+def _rounded_up(value: float) -> float:
+    """Return ``value`` to two digits, not below it."""
+    unit = 10.0 ** (np.floor(np.log10(value)) - 1)
+    return float(np.ceil(value / unit - 1.0e-9) * unit)

@@ -1,0 +1,89 @@
+"""Conversion of measured channels to SI units.
+
+Values that are in their SI unit already need no library; every other unit goes through pint.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import re
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.errors import InputError, MissingEngineError
+from stochfric_mb.measurement.quantities import Quantity
+
+Array = npt.NDArray[np.float64]
+
+
+def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool) -> tuple[Array, str]:
+    """Return ``values`` in the SI unit of ``quantity``, and that unit; a temperature in K stays in K.
+
+    Args:
+        values: float64[n] in ``unit``.
+        unit: as written in a file: ``mm``, ``N m``, ``m/s^2``, ``m s-1``, ``°C``.
+        quantity: what the values are.
+        rotational: whether friction acts about an axis.
+
+    Raises:
+        InputError: ``unit`` is unknown, or is a unit of something else.
+        MissingEngineError: pint is needed and is not installed.
+    """
+    target = quantity.unit(rotational)
+    if unit == target:
+        return values, target
+    if quantity.name == "temperature" and unit == "K":
+        return values, "K"
+    units = _registry()
+    wanted = units.Unit(_spelled(target))
+    given = _parsed(units, unit, quantity, target)
+    if given.dimensionality != wanted.dimensionality or _turns(units, given) != _turns(units, wanted):
+        raise InputError(
+            f"unit {unit!r} is not one of {quantity.name}, which is kept in {target}"
+            f"{_motion(quantity, rotational)}; give {_choices(quantity, target)}"
+        )
+    return np.asarray(units.Quantity(values, given).to(wanted).magnitude, dtype=np.float64), target
+
+
+def _parsed(units: Any, unit: str, quantity: Quantity, target: str) -> Any:
+    try:
+        return units.Unit(_spelled(unit))
+    except Exception:  # pint raises errors of many kinds for text that is no unit, AssertionError among them
+        raise InputError(f"unit {unit!r} of {quantity.name} is unknown; give {_choices(quantity, target)}") from None
+
+
+def _spelled(unit: str) -> str:
+    """Return a unit as pint writes it: ``m s-1`` is ``m s**-1``, ``Nm`` is ``N*m``, ``°C`` is ``degC``."""
+    text = unit.strip().replace("°C", "degC").replace("℃", "degC").replace("²", "^2").replace("⁻¹", "^-1")
+    text = re.sub(r"\b([munkM]?N)m\b", r"\1*m", text)
+    return re.sub(r"([A-Za-z])(-?\d)", r"\1**\2", text).replace("^", "**")
+
+
+def _turns(units: Any, unit: Any) -> bool:
+    """Return whether an angle is in the unit: to pint a radian, a count and a per cent are all plain numbers."""
+    return "radian" in str(units.get_root_units(unit)[1])
+
+
+def _motion(quantity: Quantity, rotational: bool) -> str:
+    if quantity.translation == quantity.rotation:
+        return ""
+    return " (this mechanism rotates)" if rotational else " (this mechanism moves along a line)"
+
+
+def _choices(quantity: Quantity, target: str) -> str:
+    return ", ".join((target, *quantity.also))
+
+
+@functools.cache
+def _registry() -> Any:
+    try:
+        pint: Any = importlib.import_module("pint")
+    except ImportError:
+        raise MissingEngineError(
+            "units other than SI are converted by pint, which is not installed; run: pip install 'stochfric_mb[measured]', "
+            "or write the file in SI units"
+        ) from None
+    return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
