@@ -3,10 +3,20 @@
 ``error_model="numpy"`` lets loops vectorise; ``fastmath`` is never used, so that the same source gives the same
 bits wherever it is inlined. The cache lives beside the sources, or in the user's cache folder when the package
 folder is read-only; where neither can be written, compilation still works and is repeated in each process.
+
+numba itself takes a cached function as valid while its own file is unchanged. Here it is valid while that file and
+all those it imports from this package are (`sources`); code of other versions is removed when new code is written.
 """
+
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false
+# (numba is not typed)
 
 from __future__ import annotations
 
+import contextlib
+import glob
+import inspect
 import os
 import tempfile
 from collections.abc import Callable
@@ -14,38 +24,84 @@ from pathlib import Path
 from typing import Any
 
 import numba
+from numba import types
+from numba.core import sigutils
+from numba.core.caching import FunctionCache, IndexDataCacheFile
+from numba.core.ccallback import CFunc
+
+from stochfric_mb.sources import source_stamp
 
 
 def compiled(function: Callable[..., Any]) -> Any:
     """Return ``function`` as a cached numba dispatcher (compiled at its first call, never at import)."""
-    return numba.njit(cache=True, error_model="numpy", nogil=True)(_with_cache_folder(function))
+    return _cached(numba.njit(error_model="numpy", nogil=True)(function))
 
 
 def compiled_inline(function: Callable[..., Any]) -> Any:
     """Return ``function`` as `compiled` does, but merged into its compiled callers, so that their loops can vectorise."""
-    return numba.njit(cache=True, error_model="numpy", nogil=True, forceinline=True)(_with_cache_folder(function))
+    return _cached(numba.njit(error_model="numpy", nogil=True, forceinline=True)(function))
 
 
-def inlined(function: Callable[..., Any]) -> Any:
-    """Return ``function`` as a numba dispatcher that is pasted into the functions that call it."""
-    return numba.njit(inline="always", error_model="numpy", nogil=True)(function)
+def native(function: Callable[..., Any], signature: Any, *, template: str = "") -> Any:
+    """Return ``function`` compiled now as a C function; ``.address`` is its pointer.
+
+    Args:
+        function: what to compile.
+        signature: its numba signature.
+        template: file that the function's text stands in, where that is not the file of its module.
+    """
+    made = CFunc(function, sigutils.normalize_signature(signature), locals={}, options={"error_model": "numpy"})
+    made._cache = _cache(function, template)  # pyright: ignore[reportAttributeAccessIssue]
+    made.compile()
+    return made
 
 
-def native(function: Callable[..., Any], signature: Any) -> Any:
-    """Return ``function`` compiled now as a C function; ``.address`` is its pointer."""
-    return numba.cfunc(signature, cache=True, error_model="numpy")(_with_cache_folder(function))
+def _cached(dispatcher: Any) -> Any:
+    """Give a dispatcher its cache, and one compiled version for all the constants that compiled callers pass."""
+    dispatcher._cache = _cache(dispatcher.py_func)
+    find = dispatcher.get_call_template
+
+    def find_general(args: Any, kws: Any) -> Any:
+        return find([types.unliteral(a) for a in args], {k: types.unliteral(v) for k, v in kws.items()})
+
+    dispatcher.get_call_template = find_general
+    return dispatcher
 
 
-def _with_cache_folder(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Point numba at a temporary folder when neither the package nor the user's cache folder can be written."""
-    if numba.config.CACHE_DIR:  # type: ignore[attr-defined]
-        return function
-    from numba.core.caching import FunctionCache
-
+def _cache(function: Callable[..., Any], template: str = "") -> _SourceCache:
+    """Return the function's cache, in a temporary folder if neither the package nor the user's folder can be written."""
     try:
-        FunctionCache(function)
+        return _SourceCache(function, template)
     except RuntimeError:
         user = os.getuid() if hasattr(os, "getuid") else "cache"
-        folder = Path(tempfile.gettempdir()) / f"stochfric_mb-{user}"
-        numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]
-    return function
+        numba.config.CACHE_DIR = str(Path(tempfile.gettempdir()) / f"stochfric_mb-{user}")  # type: ignore[attr-defined]
+        return _SourceCache(function, template)
+
+
+class _SourceCache(FunctionCache):
+    """numba's cache of one function, in files whose names carry the stamp of all sources that it is made of."""
+
+    def __init__(self, function: Callable[..., Any], template: str) -> None:
+        super().__init__(function)
+        files = [inspect.getfile(function), template] if template else [inspect.getfile(function)]
+        self._stamp = source_stamp(*files)
+        self._base = self._impl.filename_base
+        self._cache_file = IndexDataCacheFile(self._cache_path, f"{self._base}.{self._stamp[:16]}", self._stamp)
+        self._tidy = False
+
+    def _save_overload(self, sig: Any, data: Any) -> None:
+        super()._save_overload(sig, data)
+        if not self._tidy:
+            self._tidy = True
+            _remove_others(Path(self._cache_path), self._base, self._stamp[:16])
+
+
+def _remove_others(folder: Path, base: str, stamp: str) -> None:
+    """Remove the compiled code of other versions of a function, wherever it stood in its file (``name-LINE.pyXY``)."""
+    name, _, rest = base.rpartition("-")
+    python = rest.partition(".")[2]
+    for path in folder.glob(f"{glob.escape(name)}-*.{python}*.nb[ic]"):
+        line, _, tail = path.name[len(name) + 1 :].partition(".")
+        if line.isdecimal() and not tail.startswith(f"{python}.{stamp}."):
+            with contextlib.suppress(OSError):
+                path.unlink()

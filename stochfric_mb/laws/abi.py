@@ -79,7 +79,7 @@ def _bind(template: FunctionType, module: ModuleType, signature: Any) -> int:
     function = FunctionType(code, vars(module), name)
     function.__module__ = module.__name__
     function.__qualname__ = name
-    compiled = native(function, signature)
+    compiled = native(function, signature, template=__file__)
     _alive.append(compiled)
     return compiled.address
 
