@@ -1,0 +1,67 @@
+"""What a hidden effect is: a change of the machine, of the measurement, or of what is believed."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tests.discovery.generator.curve import Array
+from tests.discovery.generator.machine import Machine
+from tests.discovery.generator.rig import Rig
+
+Generator = np.random.Generator
+Record = dict[str, Array]
+"""Columns of a run by their header, `time [s]` and `position [m]` at least."""
+
+
+def _same_machine(machine: Machine, rng: Generator) -> Machine:
+    del rng
+    return machine
+
+
+def _same_record(record: Record, rng: Generator) -> Record:
+    del rng
+    return record
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One effect as drawn for a case. What differs from run to run is drawn from the generator handed to its functions."""
+
+    parameters: dict[str, float]
+    alter: Callable[[Machine, Generator], Machine] = _same_machine
+    measure: Callable[[Record, Generator], Record] = _same_record
+    believed: dict[str, object] = field(default_factory=dict)
+    """What the scenario declares under [coefficients]."""
+    channels: tuple[str, ...] = ()
+    """Further columns that the experiment records."""
+    noise: float = 5e-6
+    """Standard deviation of the white position noise [m]."""
+
+
+@dataclass(frozen=True)
+class Form:
+    """A functional form of an effect, and how to draw one of a given strength."""
+
+    name: str
+    """`kind.form`."""
+    kind: str
+    draw: Callable[[Generator, float, Rig], Effect]
+    rig: dict[str, float]
+    """Changes of the believed rig, for effects that its usual motion cannot show."""
+
+
+FORMS: dict[str, Form] = {}
+
+
+def form(
+    kind: str, **rig: float
+) -> Callable[[Callable[[Generator, float, Rig], Effect]], Callable[[Generator, float, Rig], Effect]]:
+    """Register a function (rng, strength, rig) -> Effect as `kind.function_name`."""
+
+    def register(draw: Callable[[Generator, float, Rig], Effect]) -> Callable[[Generator, float, Rig], Effect]:
+        name = f"{kind}.{draw.__name__}"
+        FORMS[name] = Form(name, kind, draw, rig)
+        return draw
+
+    return register
