@@ -1,0 +1,121 @@
+"""Effects: what a model may lack, one file each; `EFFECTS` is the registry: a new effect is a new file and one line here.
+
+Effects of other packages join by an entry point in the group `GROUP`, name = kind, value = "module:Class".
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import importlib
+import importlib.metadata
+from collections.abc import Mapping
+from typing import Any
+
+from stochfric_mb.effects.contract import GROUPS, Effect
+from stochfric_mb.errors import InputError, require_name
+
+GROUP = "stochfric_mb.effects"
+"""Group of the entry points by which other packages bring effects."""
+
+EFFECTS: dict[str, tuple[str, str] | type[Effect]] = {
+    "random_coefficients": ("stochfric_mb.effects.random_coefficients", "RandomCoefficients"),
+    "correlated_coefficients": ("stochfric_mb.effects.correlated_coefficients", "CorrelatedCoefficients"),
+    "velocity_weakening": ("stochfric_mb.effects.velocity_weakening", "VelocityWeakening"),
+    "viscous_friction": ("stochfric_mb.effects.viscous_friction", "ViscousFriction"),
+    "dwell_ageing": ("stochfric_mb.effects.dwell_ageing", "DwellAgeing"),
+    "frictional_lag": ("stochfric_mb.effects.frictional_lag", "FrictionalLag"),
+    "direction_asymmetry": ("stochfric_mb.effects.direction_asymmetry", "DirectionAsymmetry"),
+    "load_dependence": ("stochfric_mb.effects.load_dependence", "LoadDependence"),
+    "presliding_compliance": ("stochfric_mb.effects.presliding_compliance", "PreslidingCompliance"),
+    "position_dependent_friction": ("stochfric_mb.effects.position_dependent_friction", "PositionDependentFriction"),
+    "friction_drift": ("stochfric_mb.effects.friction_drift", "FrictionDrift"),
+    "normal_load_ripple": ("stochfric_mb.effects.normal_load_ripple", "NormalLoadRipple"),
+    "belt_speed_ripple": ("stochfric_mb.effects.belt_speed_ripple", "BeltSpeedRipple"),
+    "nonlinear_stiffness": ("stochfric_mb.effects.nonlinear_stiffness", "NonlinearStiffness"),
+    "quadratic_damping": ("stochfric_mb.effects.quadratic_damping", "QuadraticDamping"),
+    "backlash": ("stochfric_mb.effects.backlash", "Backlash"),
+    "second_mode": ("stochfric_mb.effects.second_mode", "SecondMode"),
+    "harmonic_force": ("stochfric_mb.effects.harmonic_force", "HarmonicForce"),
+    "impacts": ("stochfric_mb.effects.impacts", "Impacts"),
+    "sensor_drift": ("stochfric_mb.effects.sensor_drift", "SensorDrift"),
+    "sensor_step": ("stochfric_mb.effects.sensor_step", "SensorStep"),
+    "sensor_clipping": ("stochfric_mb.effects.sensor_clipping", "SensorClipping"),
+    "sensor_outliers": ("stochfric_mb.effects.sensor_outliers", "SensorOutliers"),
+    "sensor_delay": ("stochfric_mb.effects.sensor_delay", "SensorDelay"),
+}
+"""Kind of an effect -> its module and class name, or the class itself if a user registered it."""
+
+__all__ = [
+    "EFFECTS",
+    "GROUP",
+    "GROUPS",
+    "Effect",
+    "effect_class",
+    "effect_from_dict",
+    "effect_kinds",
+    "make_effect",
+    "register_effect",
+]
+
+
+def effect_kinds() -> list[str]:
+    """Return the kinds of all effects, those of installed packages included."""
+    return list(dict.fromkeys([*EFFECTS, *_entry_points()]))
+
+
+def effect_class(kind: str) -> type[Effect]:
+    """Return the class of an effect by its kind.
+
+    Raises:
+        InputError: the kind is unknown; the message lists the known ones.
+    """
+    if kind in EFFECTS:
+        entry = EFFECTS[kind]
+        if isinstance(entry, tuple):
+            module, name = entry
+            return getattr(importlib.import_module(module), name)
+        return entry
+    require_name("effect", kind, effect_kinds())
+    cls = _entry_points()[kind].load()
+    if not (isinstance(cls, type) and issubclass(cls, Effect) and cls.kind == kind):
+        raise InputError(f"the entry point {kind!r} of {GROUP} is {cls!r}; it must be a class derived from Effect of that kind")
+    return register_effect(cls)
+
+
+def make_effect(kind: str, **values: Any) -> Effect:
+    """Return an effect from its kind and the parameters of its class.
+
+    Raises:
+        InputError: unknown kind, unknown or missing parameter, or a value out of range.
+    """
+    cls = effect_class(kind)
+    fields = {f.name: f for f in dataclasses.fields(cls)}
+    for name in values:
+        require_name(f"parameter of effect {kind}", name, fields)
+    missing = [n for n, f in fields.items() if f.default is dataclasses.MISSING and n not in values]
+    if missing:
+        raise InputError(f"effect {kind} lacks {', '.join(missing)}; give a number for each")
+    return cls(**values)
+
+
+def effect_from_dict(table: Mapping[str, Any]) -> Effect:
+    """Return the effect of an ``[[effects]]`` table.
+
+    Raises:
+        InputError: no kind, or what `make_effect` raises.
+    """
+    if "kind" not in table:
+        raise InputError("an [[effects]] table has no kind; add one, such as kind = 'dwell_ageing'")
+    return make_effect(str(table["kind"]), **{str(k): v for k, v in table.items() if k != "kind"})
+
+
+def register_effect(cls: type[Effect]) -> type[Effect]:
+    """Add a user's own effect class to the registry (usable as a class decorator); its module holds its functions."""
+    EFFECTS[cls.kind] = cls
+    return cls
+
+
+@functools.cache
+def _entry_points() -> dict[str, importlib.metadata.EntryPoint]:
+    return {point.name: point for point in importlib.metadata.entry_points(group=GROUP)}

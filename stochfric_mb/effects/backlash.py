@@ -1,0 +1,35 @@
+"""Backlash: a gap in the spring's line of force."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import dataclasses
+from typing import ClassVar
+
+from stochfric_mb.effects.contract import LOAD, POSITION, STIFFNESS, Effect, parameter
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Backlash(Effect):
+    """Spring force k x - k min(max(x - position, 0), gap): it stays at k position while x passes the gap.
+
+    Reference: M. Nordin, P.-O. Gutman, Automatica 38, 2002, 1633-1649, doi 10.1016/S0005-1098(02)00047-X.
+    """
+
+    gap: float = parameter("m", "width of the gap", scale=1.0e-4, low=0.0)
+    """Width of the gap [m]."""
+    position: float = parameter("m", "position at which the gap opens", scale=1.0e-3)
+    """Position at which the gap opens [m]."""
+
+    kind: ClassVar[str] = "backlash"
+    equation: ClassVar[str] = "spring force k x - k min(max(x - position, 0), gap)"
+    source: ClassVar[str] = "Nordin and Gutman 2002"
+    group: ClassVar[str] = "mechanism"
+
+
+def surroundings(world, memory, rates, p):
+    """Take the force that the gap does not pass on."""
+    world[LOAD] += world[STIFFNESS] * min(max(world[POSITION] - p[1], 0.0), p[0])

@@ -1,0 +1,202 @@
+"""The contract of an effect: something that a model may lack, as frozen parameters and small pure functions.
+
+An effect is a module with one class derived from `Effect` and, where it acts on the motion, one or both of::
+
+    surroundings(world, memory, rates, p)   changes what is around the contact: belt, normal force, loads
+    friction(world, memory, rates, p)       changes the coefficients and the viscous part of friction
+
+written in plain Python with `math` alone, so that the same source is compiled once (`stochfric_mb.effects.abi`) and
+called from compiled and from interpreted solvers. All four arguments are arrays of floats:
+
+- ``world``: the numbers below. ``surroundings`` of all effects come first, then the ``friction`` of all, in rising
+  `Effect.order`; each reads what stands there and adds to it or multiplies it.
+- ``memory``, ``rates``: the effect's own `Effect.n_memory` unknowns of a differential equation, and where it writes
+  their derivatives.
+- ``p``: its parameters in the order of the class's fields (a choice as its index).
+
+Signs as everywhere: friction acts on the body along v_rel, counter-surface minus body. The belt-box reads
+m x'' + c x' + k x = F + k u_0 cos(W t) + load.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib
+import math
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.errors import InputError, require_name, require_number
+
+if TYPE_CHECKING:
+    from stochfric_mb.coefficients import Process
+
+Array = npt.NDArray[np.float64]
+
+GROUPS = ("randomness", "friction law", "friction varies", "mechanism", "sensor")
+"""What effects are grouped by."""
+
+# Entries of ``world``.
+TIME = 0
+"""Time since the start of the record [s]."""
+POSITION = 1
+"""Position x of the body [m]."""
+VELOCITY = 2
+"""Its velocity x' [m/s]."""
+MASS = 3
+"""Its mass [kg]."""
+STIFFNESS = 4
+"""Stiffness of its spring [N/m]."""
+MEAN_BELT_VELOCITY = 5
+"""Belt velocity of the mechanism [m/s]."""
+SEED = 6
+"""First part of the address of random numbers."""
+SAMPLE = 7
+"""Second part."""
+BELT_VELOCITY = 8
+"""Belt velocity [m/s]; changed by ``surroundings``."""
+BELT_ACCELERATION = 9
+"""Its derivative [m/s^2]; changed by ``surroundings``."""
+BELT_TRAVEL = 10
+"""Integral of the belt velocity from t = 0 [m]; changed by ``surroundings``."""
+NORMAL_FORCE = 11
+"""Normal force [N]; changed by ``surroundings``."""
+LOAD = 12
+"""Further force on the body along x [N]; changed by ``surroundings``."""
+DIRECTION = 13
+"""Sign of v_rel, or in stick of the friction force needed: 1 or -1. From here on known to ``friction`` alone."""
+SPEED = 14
+"""abs(v_rel) [m/s], 0 in stick."""
+BELT_POSITION = 15
+"""Belt coordinate under the body, belt travel - x [m]."""
+DWELL = 16
+"""Duration of the present or, in slip, of the last stick [s]."""
+SLIP = 17
+"""Distance slid since break-away [m], 0 in stick."""
+MU_S = 18
+"""Static coefficient [-]; changed by ``friction``."""
+MU_K = 19
+"""Kinetic coefficient [-]; changed by ``friction``."""
+VISCOUS_FORCE = 20
+"""Friction force beside mu_k N, along v_rel [N]; changed by ``friction``."""
+WORLD = 21
+"""Number of entries."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Effect:
+    """Something that a model may lack, with valid parameters; the base of `DwellAgeing`, `Backlash`, ..."""
+
+    kind: ClassVar[str]
+    """Name of the effect in scenario files."""
+    equation: ClassVar[str]
+    """The effect in one line."""
+    source: ClassVar[str]
+    """Where it was published."""
+    group: ClassVar[str]
+    """One of `GROUPS`."""
+    order: ClassVar[int] = 0
+    """Place of ``friction`` among effects: 1 adds to mu_s or mu_k, 2 mixes them, 3 multiplies both."""
+    n_memory: ClassVar[int] = 0
+    """Number of unknowns of the effect's own differential equation."""
+
+    def __post_init__(self) -> None:
+        for field in dataclasses.fields(self):
+            _check(f"{self.kind}.{field.name}", getattr(self, field.name), field)
+
+    def parameters(self) -> Array:
+        """Return the parameter vector ``p``, shape (n_fields,), in the order of the fields."""
+        return np.array([_as_float(getattr(self, f.name), f) for f in dataclasses.fields(self)], dtype=np.float64)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the effect as an ``[[effects]]`` table of a scenario."""
+        return {"kind": self.kind} | {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+
+    def coefficient_process(self) -> Process | None:
+        """Return the coefficient process that the effect sets; None if it sets none."""
+        return None
+
+    def measure(self, time: Array, position: Array, rng: np.random.Generator) -> Array:
+        """Return what the sensor shows [m], shape (n,).
+
+        Args:
+            time: time since the start of the record [s], shape (n,), increasing.
+            position: true position [m], shape (n,).
+            rng: where random errors come from.
+        """
+        return position
+
+    def rest(self, position: Array, velocity: Array) -> Array:
+        """Return the memory of an effect that moves along with the body, shape (n, n_memory).
+
+        Args:
+            position: position of the body [m], shape (n,).
+            velocity: its velocity [m/s], shape (n,).
+        """
+        return np.zeros((len(position), self.n_memory))
+
+    def shortest_time(self, speed: float) -> float:
+        """Return the shortest period [s] that the effect brings in while the contact moves at ``speed`` [m/s]."""
+        return math.inf
+
+    @classmethod
+    def functions(cls) -> ModuleType:
+        """Return the module that holds ``surroundings`` and ``friction``."""
+        return importlib.import_module(cls.__module__)
+
+
+def parameter(
+    unit: str,
+    meaning: str,
+    *,
+    scale: float,
+    low: float = -math.inf,
+    high: float = math.inf,
+    strict: bool = False,
+    infinite: bool = False,
+    default: Any = dataclasses.MISSING,
+) -> Any:
+    """Return a dataclass field of an effect.
+
+    Args:
+        unit: SI unit, "-" if there is none.
+        meaning: what it is, for people.
+        scale: a typical size, in that unit.
+        low: lower bound.
+        high: upper bound.
+        strict: whether the bounds themselves are forbidden.
+        infinite: whether infinity may be given.
+        default: default value; none if not given.
+    """
+    metadata: dict[str, Any] = {"unit": unit, "meaning": meaning, "scale": scale, "low": low, "high": high}
+    metadata |= {"strict": strict, "infinite": infinite}
+    return dataclasses.field(metadata=metadata, default=default)
+
+
+def choice(meaning: str, choices: tuple[str, ...]) -> Any:
+    """Return a dataclass field that is one of ``choices``, the first by default."""
+    return dataclasses.field(metadata={"unit": "-", "meaning": meaning, "choices": choices}, default=choices[0])
+
+
+def _check(name: str, value: Any, field: dataclasses.Field[Any]) -> None:
+    about = field.metadata
+    if "choices" in about:
+        require_name(name, value, about["choices"])
+        return
+    if about["infinite"] and isinstance(value, float) and math.isinf(value):
+        if not about["low"] <= value <= about["high"]:
+            raise InputError(f"{name} = {value} is out of range; give a value between {about['low']:g} and {about['high']:g}")
+        return
+    bounds = (
+        {"above": about["low"], "below": about["high"]} if about["strict"] else {"low": about["low"], "high": about["high"]}
+    )
+    require_number(name, value, unit=about["unit"], **bounds)
+
+
+def _as_float(value: Any, field: dataclasses.Field[Any]) -> float:
+    if isinstance(value, str):
+        return float(tuple(field.metadata["choices"]).index(value))
+    return float(value)

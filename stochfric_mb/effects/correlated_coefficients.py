@@ -1,0 +1,35 @@
+"""Correlated coefficients: mu_s and mu_k that wander slowly."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import ClassVar
+
+from stochfric_mb.coefficients import OrnsteinUhlenbeck, Process
+from stochfric_mb.effects.contract import Effect, parameter
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class CorrelatedCoefficients(Effect):
+    """Two independent stationary Ornstein-Uhlenbeck processes around mu_s and mu_k.
+
+    The effect is the scenario's coefficient process; it is not evaluated with the other effects.
+
+    Reference: G. E. Uhlenbeck, L. S. Ornstein, Phys. Rev. 36, 1930, 823-841, doi 10.1103/PhysRev.36.823.
+    """
+
+    sigma_s: float = parameter("-", "standard deviation of mu_s", scale=0.015, low=0.0)
+    """Standard deviation of mu_s [-]."""
+    sigma_k: float = parameter("-", "standard deviation of mu_k", scale=0.02, low=0.0)
+    """Standard deviation of mu_k [-]."""
+    correlation_time: float = parameter("s", "time in which the correlation falls to 1/e", scale=3.0, low=0.0, strict=True)
+    """Time in which the correlation falls to 1/e [s]."""
+
+    kind: ClassVar[str] = "correlated_coefficients"
+    equation: ClassVar[str] = "mu_s, mu_k with correlation exp(-abs(dt)/correlation_time)"
+    source: ClassVar[str] = "Uhlenbeck and Ornstein 1930"
+    group: ClassVar[str] = "randomness"
+
+    def coefficient_process(self) -> Process:
+        """Return the coefficient process that the effect sets."""
+        return OrnsteinUhlenbeck(sigma_s=self.sigma_s, sigma_k=self.sigma_k, correlation_time=self.correlation_time)

@@ -1,0 +1,37 @@
+"""Dwell ageing: static friction that grows with the time in stick."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import ClassVar
+
+from stochfric_mb.effects.contract import DWELL, MU_S, Effect, parameter
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class DwellAgeing(Effect):
+    """mu_s = mu_s + rate ln(1 + dwell/time_constant).
+
+    Reference: J. H. Dieterich, J. Geophys. Res. 77, 1972, 3690-3697, doi 10.1029/JB077i020p03690.
+    """
+
+    rate: float = parameter("-", "growth per e-fold of dwell", scale=0.02)
+    """Growth per e-fold of dwell [-]."""
+    time_constant: float = parameter("s", "dwell at which growth sets in", scale=0.1, low=0.0, strict=True, default=0.1)
+    """Dwell at which growth sets in [s]."""
+
+    kind: ClassVar[str] = "dwell_ageing"
+    equation: ClassVar[str] = "mu_s = mu_s + rate ln(1 + dwell/time_constant)"
+    source: ClassVar[str] = "Dieterich 1972; Ruina 1983"
+    group: ClassVar[str] = "friction law"
+    order: ClassVar[int] = 1
+
+
+def friction(world, memory, rates, p):
+    """Raise mu_s with the dwell."""
+    world[MU_S] += p[0] * math.log(1.0 + world[DWELL] / p[1])

@@ -1,0 +1,43 @@
+"""Friction drift: coefficients that change in the course of a record (temperature, wear, run-in)."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import ClassVar
+
+from stochfric_mb.effects.contract import MU_K, MU_S, TIME, Effect, parameter
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class FrictionDrift(Effect):
+    """mu_s and mu_k times 1 + rate tau (1 - exp(-t/tau)), tau = time_constant; 1 + rate t for an infinite one.
+
+    Reference: P. J. Blau, Tribology International 38, 2005, 1007-1012, doi 10.1016/j.triboint.2005.07.020.
+    """
+
+    rate: float = parameter("1/s", "relative rate of change at t = 0", scale=1.0e-3)
+    """Relative rate of change at t = 0 [1/s]."""
+    time_constant: float = parameter(
+        "s", "time in which the change settles", scale=30.0, low=0.0, strict=True, infinite=True, default=math.inf
+    )
+    """Time in which the change settles [s]."""
+
+    kind: ClassVar[str] = "friction_drift"
+    equation: ClassVar[str] = (
+        "both mu times 1 + rate tau (1 - exp(-t/tau)), tau = time_constant; 1 + rate t where it is infinite"
+    )
+    source: ClassVar[str] = "Blau 2005 (running-in of frictional contacts)"
+    group: ClassVar[str] = "friction varies"
+    order: ClassVar[int] = 3
+
+
+def friction(world, memory, rates, p):
+    """Multiply both coefficients by the drift."""
+    grown = world[TIME] if p[1] > 1.0e300 else -p[1] * math.expm1(-world[TIME] / p[1])
+    world[MU_S] *= 1.0 + p[0] * grown
+    world[MU_K] *= 1.0 + p[0] * grown

@@ -1,0 +1,35 @@
+"""Frictional lag: friction falls from static to kinetic over a sliding distance."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import ClassVar
+
+from stochfric_mb.effects.contract import MU_K, MU_S, SLIP, Effect, parameter
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class FrictionalLag(Effect):
+    """mu = mu_k + (mu_s - mu_k) exp(-slip/distance), slip being the distance slid since break-away.
+
+    Reference: E. Rabinowicz, Proc. Phys. Soc. 71, 1958, 668-675, doi 10.1088/0370-1328/71/4/316.
+    """
+
+    distance: float = parameter("m", "sliding distance over which friction falls to 1/e", scale=1.0e-4, low=0.0, strict=True)
+    """Sliding distance over which friction falls to 1/e [m]."""
+
+    kind: ClassVar[str] = "frictional_lag"
+    equation: ClassVar[str] = "mu = mu_k + (mu_s - mu_k) exp(-slip/distance)"
+    source: ClassVar[str] = "Rabinowicz 1951, 1958; Dieterich 1979"
+    group: ClassVar[str] = "friction law"
+    order: ClassVar[int] = 2
+
+
+def friction(world, memory, rates, p):
+    """Let mu_k start at mu_s."""
+    world[MU_K] += (world[MU_S] - world[MU_K]) * math.exp(-world[SLIP] / p[0])

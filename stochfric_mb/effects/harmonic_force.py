@@ -1,0 +1,42 @@
+"""Harmonic force: a force on the body that nobody modelled."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import ClassVar
+
+from stochfric_mb.effects.contract import LOAD, TIME, Effect, parameter
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class HarmonicForce(Effect):
+    """Further force amplitude cos(2 pi frequency t + phase).
+
+    Reference: J. P. Den Hartog, Mechanical Vibrations, 4th ed., McGraw-Hill 1956, section 2.9.
+    """
+
+    amplitude: float = parameter("N", "amplitude of the force", scale=0.3)
+    """Amplitude of the force [N]."""
+    frequency: float = parameter("Hz", "frequency", scale=5.0, low=0.0, strict=True)
+    """Frequency [Hz]."""
+    phase: float = parameter("rad", "phase at t = 0", scale=1.0, default=0.0)
+    """Phase at t = 0 [rad]."""
+
+    kind: ClassVar[str] = "harmonic_force"
+    equation: ClassVar[str] = "further force amplitude cos(2 pi frequency t + phase)"
+    source: ClassVar[str] = "Den Hartog 1956, chapter 2 (unbalance)"
+    group: ClassVar[str] = "mechanism"
+
+    def shortest_time(self, speed: float) -> float:
+        """Return the period [s]."""
+        return 1.0 / self.frequency
+
+
+def surroundings(world, memory, rates, p):
+    """Add the force."""
+    world[LOAD] += p[0] * math.cos(2.0 * math.pi * p[1] * world[TIME] + p[2])

@@ -1,0 +1,38 @@
+"""Load dependence: coefficients that change with the normal force."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import dataclasses
+from typing import ClassVar
+
+from stochfric_mb.effects.contract import MU_K, MU_S, NORMAL_FORCE, Effect, parameter
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class LoadDependence(Effect):
+    """mu_s and mu_k times (N/reference_load)^exponent; elastic contact of a sphere has exponent -1/3.
+
+    Reference: J. F. Archard, Proc. R. Soc. A 243, 1957, 190-205, doi 10.1098/rspa.1957.0214.
+    """
+
+    exponent: float = parameter("-", "exponent of the normal force", scale=0.2, low=-2.0, high=2.0)
+    """Exponent of the normal force [-]."""
+    reference_load: float = parameter("N", "normal force at which nothing changes", scale=10.0, low=0.0, strict=True)
+    """Normal force at which nothing changes [N]."""
+
+    kind: ClassVar[str] = "load_dependence"
+    equation: ClassVar[str] = "both mu times (N/reference_load)^exponent"
+    source: ClassVar[str] = "Bowden and Tabor 1950; Archard 1957"
+    group: ClassVar[str] = "friction law"
+    order: ClassVar[int] = 3
+
+
+def friction(world, memory, rates, p):
+    """Multiply both coefficients by the power of the load."""
+    factor = (world[NORMAL_FORCE] / p[1]) ** p[0] if world[NORMAL_FORCE] > 0.0 else 1.0
+    world[MU_S] *= factor
+    world[MU_K] *= factor

@@ -1,0 +1,40 @@
+"""Random coefficients: mu_s and mu_k that are drawn anew, independently."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import ClassVar
+
+from stochfric_mb.coefficients import Knots, PerEvent, Process
+from stochfric_mb.effects.contract import Effect, choice, parameter
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class RandomCoefficients(Effect):
+    """Independent normal pairs (mu_s, mu_k), one per knot in time or one per stick phase.
+
+    The effect is the scenario's coefficient process; it is not evaluated with the other effects.
+
+    Reference: W. S. Kang, C. K. Choi, H. H. Yoo, J. Mech. Sci. Tech. 29, 2015, 3645-3652,
+    doi 10.1007/s12206-015-0808-4, section 2.2.
+    """
+
+    process: str = choice("when a new pair is drawn", ("knots", "per_event"))
+    """When a new pair is drawn: "knots" (every ``spacing`` seconds, linear between) or "per_event" (every stick)."""
+    sigma_s: float = parameter("-", "standard deviation of mu_s", scale=0.015, low=0.0)
+    """Standard deviation of mu_s [-]."""
+    sigma_k: float = parameter("-", "standard deviation of mu_k", scale=0.02, low=0.0)
+    """Standard deviation of mu_k [-]."""
+    spacing: float = parameter("s", "distance between knots", scale=0.01, low=0.0, strict=True, default=0.01)
+    """Distance between knots [s]; not used by "per_event"."""
+
+    kind: ClassVar[str] = "random_coefficients"
+    equation: ClassVar[str] = "(mu_s, mu_k) normal, a new pair every `spacing` seconds (knots) or every stick (per_event)"
+    source: ClassVar[str] = "Kang, Choi and Yoo 2015, section 2.2"
+    group: ClassVar[str] = "randomness"
+
+    def coefficient_process(self) -> Process:
+        """Return the coefficient process that the effect sets."""
+        if self.process == "knots":
+            return Knots(sigma_s=self.sigma_s, sigma_k=self.sigma_k, spacing=self.spacing)
+        return PerEvent(sigma_s=self.sigma_s, sigma_k=self.sigma_k)

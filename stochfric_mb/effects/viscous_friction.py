@@ -1,0 +1,33 @@
+"""Viscous friction: a part of the friction force in proportion to the relative speed."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import dataclasses
+from typing import ClassVar
+
+from stochfric_mb.effects.contract import SPEED, VISCOUS_FORCE, Effect, parameter
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ViscousFriction(Effect):
+    """F = mu N + coefficient abs(v_rel), along v_rel.
+
+    Reference: O. Reynolds, Phil. Trans. R. Soc. 177, 1886, 157-234, doi 10.1098/rstl.1886.0005.
+    """
+
+    coefficient: float = parameter("N s/m", "force per relative speed", scale=5.0, low=0.0)
+    """Force per relative speed [N s/m]."""
+
+    kind: ClassVar[str] = "viscous_friction"
+    equation: ClassVar[str] = "F = (mu N + coefficient abs(v_rel)) sign(v_rel)"
+    source: ClassVar[str] = "Reynolds 1886; Armstrong-Helouvry, Dupont and Canudas de Wit 1994, eq. 6"
+    group: ClassVar[str] = "friction law"
+
+
+def friction(world, memory, rates, p):
+    """Add the viscous force."""
+    world[VISCOUS_FORCE] += p[0] * world[SPEED]
