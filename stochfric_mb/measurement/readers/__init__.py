@@ -30,12 +30,22 @@ class Reader(Protocol):
         ...
 
 
-_TEXT = "stochfric_mb.measurement.readers.text"
+_HERE = "stochfric_mb.measurement.readers"
 _BUILT_IN: dict[str, str | Reader] = {
-    ".csv": _TEXT,
-    ".tsv": _TEXT,
-    ".txt": _TEXT,
-    ".dat": _TEXT,
+    ".csv": f"{_HERE}.text",
+    ".tsv": f"{_HERE}.text",
+    ".txt": f"{_HERE}.text",
+    ".dat": f"{_HERE}.text",
+    ".parquet": f"{_HERE}.parquet",
+    ".mat": f"{_HERE}.matlab",
+    ".tdms": f"{_HERE}.tdms",
+    ".uff": f"{_HERE}.uff58",
+    ".unv": f"{_HERE}.uff58",
+    ".h5": f"{_HERE}.hdf5",
+    ".hdf5": f"{_HERE}.hdf5",
+    ".nc": f"{_HERE}.netcdf",
+    ".json": f"{_HERE}.json_log",
+    ".jsonl": f"{_HERE}.json_log",
 }
 
 

@@ -76,15 +76,16 @@ def _text(path: Path) -> str:
 
 
 def _dialect(path: Path, lines: list[str]) -> Dialect:
-    """Return the first dialect in which the lines under the first have equally many columns, and numbers in them."""
+    """Return the dialect in which the lines under the first have equally many columns, most numbers and fewest words."""
     look = lines[1 : 1 + _LOOK] or lines
     best: tuple[int, Dialect] | None = None
     for dialect in DIALECTS:
         table = [_fields(line, dialect) for line in look]
         widths = {len(fields) for fields in table}
-        numbers = sum(_number(field, dialect) is not None for fields in table for field in fields)
-        if len(widths) == 1 and widths != {1} and numbers and (best is None or numbers > best[0]):
-            best = (numbers, dialect)
+        read = [_number(field, dialect) is not None for fields in table for field in fields if field.lower() not in MISSING]
+        score = 2 * sum(read) - len(read)
+        if len(widths) == 1 and widths != {1} and any(read) and (best is None or score > best[0]):
+            best = (score, dialect)
     if best is None:
         raise InputError(
             f"{path}: no table of at least two columns of numbers, divided by comma, semicolon, tab or spaces; "
