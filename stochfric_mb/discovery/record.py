@@ -63,6 +63,8 @@ class Record:
     """Standard deviation of the white part of the noise [m], from third differences."""
     mechanism: BeltBox
     """The mechanism under the run's operating conditions, mirrored alike: its belt velocity is positive."""
+    stated: BeltBox
+    """The mechanism as stated, not mirrored."""
     direction: int
     """-1 where the run was mirrored, otherwise 1."""
 
@@ -96,6 +98,7 @@ def make_record(name: str, time: Array, position: Array, mechanism: BeltBox) -> 
         mechanism: the mechanism under the run's operating conditions.
     """
     direction = -1 if mechanism.belt_velocity < 0.0 else 1
+    stated = mechanism
     raw = direction * position
     if direction < 0:
         mechanism = dataclasses.replace(
@@ -106,7 +109,7 @@ def make_record(name: str, time: Array, position: Array, mechanism: BeltBox) -> 
     noise = white_noise(raw)
     median = median_filter(raw, MEDIAN_WIDTH, mode="nearest")
     outlier = np.abs(raw - median) > OUTLIER_DEVIATIONS * noise
-    return Record(name, time, np.where(outlier, median, raw), raw, outlier, noise, mechanism, direction)
+    return Record(name, time, np.where(outlier, median, raw), raw, outlier, noise, mechanism, stated, direction)
 
 
 def white_noise(position: Array) -> float:

@@ -1,0 +1,199 @@
+"""Confirmation by indirect inference: simulate a candidate, take the same features from it, compare with the data's.
+
+Each operating point contributes the median features of its slips, or, where the slips differ by a known excitation,
+those of a few typical slips. A candidate is simulated from the middle of a stick through one slip, and the features are
+extracted as from data; the same extraction of the believed model is taken out again, so that its numerical bias
+cancels. mu_s, mu_k, mass, stiffness and damping are refitted with every candidate, within their uncertainty.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from stochfric_mb.discovery.model import Knob, Model, adjusted, knobs_of
+from stochfric_mb.discovery.pool import Pool
+from stochfric_mb.discovery.record import Array, Record
+from stochfric_mb.discovery.slips import N_FEATURES, Slips, extract
+from stochfric_mb.reference.augmented import Start
+
+FLOOR = 1.0e-3
+"""Error of the features that is always allowed, over the normal force [-]: numerics are never discovered."""
+TYPICAL_SLIPS = 6
+"""Slips compared at an operating point with a known excitation."""
+MISSED = 50.0
+"""Deviation that counts for every feature where the candidate does not slip as the data do."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    """One slip to be predicted."""
+
+    record: Record
+    """A run at the operating point."""
+    onset: tuple[float, float, float]
+    """Break-away of the data: time [s], position [m], dwell before it [s]."""
+    length: float
+    """Duration of the slip [s]."""
+    features: Array
+    """Features of the data [N], shape (N_FEATURES,)."""
+    whitening: Array
+    """Inverse Cholesky factor of their covariance [1/N], shape (N_FEATURES, N_FEATURES)."""
+    ridge: float
+    """Ridge of the extraction."""
+    offset: Array
+    """What the extraction adds to the truth in the believed model [N], shape (N_FEATURES,)."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Confirmed:
+    """A candidate, fitted to the features."""
+
+    kinds: tuple[str, ...]
+    """Effects in it."""
+    model: Model
+    """With its numbers fitted."""
+    chi2: float
+    """Misfit, priors included [-]."""
+    n_parameters: int
+    """Parameters of the effects."""
+    freedom: int
+    """Features less parameters."""
+
+    @property
+    def criterion(self) -> float:
+        """chi^2 + p ln 60: lower is better, whatever the record's length."""
+        return self.chi2 + self.n_parameters * np.log(60.0)
+
+
+def cases_of(pool: Pool, model: Model) -> list[Case]:
+    """Return the slips to be predicted: one an operating point, a few where an excitation makes them differ."""
+    points: dict[tuple[float, ...], list[int]] = {}
+    for r, slips in enumerate(pool.slips):
+        box = slips.record.mechanism
+        key = (round(box.belt_velocity, 9), round(box.normal_force, 6), box.excitation_amplitude, float(slips.record.direction))
+        points.setdefault(key, []).append(r)
+    cases: list[Case] = []
+    for key, runs in points.items():
+        rows = np.flatnonzero(pool.kept & np.isin(pool.run, runs))
+        if len(rows) < 3:
+            continue
+        cases += _forced(pool, model, rows) if key[2] else [_free(pool, model, rows, runs)]
+    return cases
+
+
+def _free(pool: Pool, model: Model, rows: np.ndarray, runs: Sequence[int]) -> Case:
+    features = pool.features[rows]
+    slips = pool.slips[runs[0]]
+    centre = np.median(features, axis=0)
+    # the variance of a median is pi/2 that of a mean
+    covariance = pool.calibrations[runs[0]].covariance * 1.57 / len(rows)
+    scatter = np.var(features, axis=0) * 1.57 / len(rows)
+    covariance = covariance + np.diag(np.maximum(scatter - np.diag(covariance), 0.0))
+    onset = (float(slips.onset_time[0]), float(np.median(slips.onset_position)), float(np.median(pool.dwell[rows])))
+    return _case(model, slips, onset, float(np.median(pool.restick_time[rows] - pool.onset_time[rows])), centre, covariance)
+
+
+def _forced(pool: Pool, model: Model, rows: np.ndarray) -> list[Case]:
+    chosen = rows[np.unique(np.linspace(0, len(rows) - 1, TYPICAL_SLIPS).round().astype(int))]
+    cases: list[Case] = []
+    for i in chosen:
+        slips = pool.slips[pool.run[i]]
+        k = i - int(np.flatnonzero(pool.run == pool.run[i])[0])
+        onset = (float(slips.onset_time[k]), float(slips.onset_position[k]), float(pool.dwell[i]))
+        length = float(slips.restick_time[k] - slips.onset_time[k])
+        cases.append(_case(model, slips, onset, length, pool.features[i], pool.calibrations[pool.run[i]].covariance))
+    return cases
+
+
+def _case(
+    model: Model, slips: Slips, onset: tuple[float, float, float], length: float, features: Array, covariance: Array
+) -> Case:
+    load = slips.record.mechanism.normal_force
+    floor = (FLOOR * 0.5 * load * np.r_[0.2, 0.5, np.ones(N_FEATURES - 2)]) ** 2
+    whitening = np.linalg.inv(np.linalg.cholesky(covariance + np.diag(floor)))
+    case = Case(slips.record, onset, length, features, whitening, slips.ridge, np.zeros(N_FEATURES))
+    plain = model.with_law(features[0] / load, min(features[1], 0.99 * features[0]) / load)
+    plain = dataclasses.replace(plain, corrections={}, effects=(), process=None, own={})
+    predicted = _predict(plain, case)
+    if predicted is None:
+        return case
+    truth = np.zeros(N_FEATURES)
+    truth[0], truth[1] = plain.law.mu_s * load, plain.law.mu_k * load
+    return dataclasses.replace(case, offset=predicted - truth)
+
+
+def _predict(model: Model, case: Case) -> Array | None:
+    """Return the features that the model predicts for a case [N]; None where it does not slip so."""
+    record = case.record
+    box = record.mechanism
+    margin = 3.3 / record.angular_frequency
+    ahead = min(margin + 0.03, max(case.onset[2] * 0.95, margin + 0.01))
+    start = Start(
+        case.onset[0] - ahead,
+        record.direction * (case.onset[1] - box.belt_velocity * ahead),
+        record.stated.belt_velocity,
+        True,
+        max(case.onset[2] - ahead, 0.0),
+    )
+    # room for a break-away that comes later by a tenth of the static deflection
+    late = 0.1 * abs(case.onset[1]) / box.belt_velocity
+    count = round((ahead + late + 1.6 * case.length + margin) * record.rate)
+    motion = model.system(record).march(start, 1.0 / record.rate, count)
+    position = record.direction * motion.position
+    if not np.isfinite(position).all():
+        return None
+    time = start.time + np.arange(1, count + 1) / record.rate
+    simulated = dataclasses.replace(
+        record, time=time, position=position, raw=position, outlier=np.zeros(count, dtype=bool)
+    )
+    slips = extract(simulated, ridge=case.ridge)
+    if len(slips) < 1:
+        return None
+    return np.r_[slips.onset_force[0], slips.moments[0]]
+
+
+def confirm(
+    cases: Sequence[Case], candidate: Model, uncertainty: Mapping[str, float], *, evaluations: int = 12
+) -> Confirmed:
+    """Return the candidate with its numbers fitted to the features of ``cases``."""
+    knobs = [k for k in knobs_of(candidate, uncertainty) if not k.run]
+    load = cases[0].record.mechanism.normal_force
+    start = np.array([k.value for k in knobs])
+    scale = np.array([_step(k, load) for k in knobs])
+    priors = np.array([k.prior for k in knobs])
+    believed = np.where(np.isfinite(priors), 0.0, start)
+    low = np.array([(k.low - v) / s for k, v, s in zip(knobs, start, scale, strict=True)]) - 1.0e-9
+    high = np.array([(k.high - v) / s for k, v, s in zip(knobs, start, scale, strict=True)]) + 1.0e-9
+
+    def errors(step: Array) -> Array:
+        values = start + scale * step
+        trial = adjusted(candidate, knobs, values)
+        parts = [_error(trial, case) for case in cases]
+        return np.concatenate([*parts, (values - believed) / priors])
+
+    found = least_squares(
+        errors, np.zeros(len(knobs)), bounds=(low, high), diff_step=0.05, max_nfev=evaluations, xtol=1.0e-3, ftol=1.0e-3
+    )
+    n_parameters = sum(k.effect >= 0 for k in knobs)
+    return Confirmed(
+        tuple(e.kind for e in candidate.effects),
+        adjusted(candidate, knobs, start + scale * found.x),
+        float(2.0 * found.cost),
+        n_parameters,
+        N_FEATURES * len(cases) - 2 - n_parameters,
+    )
+
+
+def _step(knob: Knob, load: float) -> float:
+    return knob.scale if knob.effect >= 0 or knob.name not in ("mu_s", "mu_k") else 0.2 / load
+
+
+def _error(model: Model, case: Case) -> Array:
+    predicted = _predict(model, case)
+    if predicted is None:
+        return np.full(N_FEATURES, MISSED)
+    return np.clip(case.whitening @ (case.features - (predicted - case.offset)), -1.0e3, 1.0e3)

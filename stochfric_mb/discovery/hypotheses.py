@@ -1,0 +1,364 @@
+"""What each effect would leave in the slips: regressors for the screening, one or more hypotheses an effect.
+
+A hypothesis is a small set of columns (see `Pool.column`); parameters that enter nonlinearly are laid out on a grid,
+one hypothesis a grid point. The columns are the first-order change of the onset force and of the friction force in the
+slip when the effect is switched on.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.pool import Pool
+from stochfric_mb.discovery.record import Array
+
+Columns = list[Array]
+
+
+@dataclasses.dataclass(frozen=True)
+class Hypothesis:
+    """One way in which an effect may be present."""
+
+    kind: str
+    """The effect."""
+    columns: Columns
+    """Its regressors, each of shape (n, N_FEATURES)."""
+    setting: tuple[float, ...] = ()
+    """Values of the parameters that enter nonlinearly."""
+    start: Callable[[Array], dict[str, float]] = lambda _: {}
+    """From the fitted coefficients to values of the effect's parameters, where a fit may start."""
+
+
+def velocity_weakening(pool: Pool) -> list[Hypothesis]:
+    """Return N exp(-v/v_w) in the slip, for decay velocities v_w about the belt's and the slips'."""
+    speed = pool.relative_velocity
+    load = pool.normal_force[:, None]
+    fastest = float(np.median(speed.max(axis=1)))
+    return [
+        Hypothesis(
+            "velocity_weakening",
+            [pool.column(None, load * np.exp(-speed / decay))],
+            (decay,),
+            lambda b, d=decay: {"amplitude": float(b[0]), "decay_velocity": float(d)},
+        )
+        for decay in fastest * np.array([0.05, 0.1, 0.2, 0.4, 0.8])
+    ]
+
+
+def viscous_friction(pool: Pool) -> list[Hypothesis]:
+    """Return the relative velocity in the slip."""
+    return [
+        Hypothesis("viscous_friction", [pool.column(None, pool.relative_velocity)], (), lambda b: {"coefficient": float(b[0])})
+    ]
+
+
+def frictional_lag(pool: Pool) -> list[Hypothesis]:
+    """Return friction that falls with the distance slipped since the break-away."""
+    distance = pool.slip_distance
+    whole = float(np.median(distance.max(axis=1)))
+    gap = np.maximum(pool.static - pool.kinetic, 0.02 * pool.static)[:, None]
+    return [
+        Hypothesis(
+            "frictional_lag",
+            [pool.column(None, gap * np.exp(-distance / d))],
+            (d,),
+            lambda b, d=d: {"distance": float(d * np.clip(b[0], 0.2, 3.0))},
+        )
+        for d in whole * np.array([0.007, 0.014, 0.028, 0.056, 0.11])
+    ]
+
+
+def dwell_ageing(pool: Pool) -> list[Hypothesis]:
+    """Return N ln(1 + dwell/tau) at the onset, where the dwell differs enough between slips to show it."""
+    if np.std(np.log(pool.dwell)) < 0.08:
+        return []
+    return [
+        Hypothesis(
+            "dwell_ageing",
+            [pool.column(pool.normal_force * np.log1p(pool.dwell / tau), None)],
+            (tau,),
+            lambda b, tau=tau: {"rate": float(b[0]), "time_constant": float(tau)},
+        )
+        for tau in (0.03, 0.1, 0.3, 1.0)
+    ]
+
+
+def direction_asymmetry(pool: Pool) -> list[Hypothesis]:
+    """Return the share of the runs with a reversed belt."""
+    if len(set(pool.direction)) < 2:
+        return []
+    back = pool.direction < 0
+    return [
+        Hypothesis(
+            "direction_asymmetry",
+            [pool.column(pool.static * back, pool.kinetic * back)],
+            (),
+            lambda b: {"asymmetry": float(b[0])},
+        )
+    ]
+
+
+def load_dependence(pool: Pool) -> list[Hypothesis]:
+    """Return ln(N/N_0) times the friction, where the load differs between runs."""
+    if np.ptp(pool.normal_force) < 0.05 * pool.normal_force.mean():
+        return []
+    reference = float(pool.normal_force[0])
+    change = np.log(pool.normal_force / reference)
+    return [
+        Hypothesis(
+            "load_dependence",
+            [pool.column(pool.static * change, pool.kinetic * change)],
+            (),
+            lambda b: {"exponent": float(b[0]), "reference_load": reference},
+        )
+    ]
+
+
+def nonlinear_stiffness(pool: Pool) -> list[Hypothesis]:
+    """Return -x^3 in stick and slip, along the typical slip."""
+    onset, position = pool.typical_onset, pool.typical_position
+    scale = float(np.median(np.abs(onset))) ** 3
+    columns = [pool.column(-(onset**3) / scale, -(position**3) / scale)]
+    return [Hypothesis("nonlinear_stiffness", columns, (), lambda b: {"cubic": float(b[0] / scale)})]
+
+
+def quadratic_damping(pool: Pool) -> list[Hypothesis]:
+    """Return -x'|x'|."""
+    velocity = pool.node_velocity
+    columns = [pool.column(-(pool.belt_velocity**2), -velocity * np.abs(velocity))]
+    return [Hypothesis("quadratic_damping", columns, (), lambda b: {"coefficient": float(b[0])})]
+
+
+def backlash(pool: Pool) -> list[Hypothesis]:
+    """Return the spring force that a narrow dead zone takes away, for places of the zone along the slip."""
+    width = 0.02 * float(np.median(pool.typical_onset))
+    if width <= 0.0:
+        return []
+    stiffness = pool.per_run(lambda s: s.record.mechanism.stiffness)
+    low, high = np.quantile(pool.typical_position, (0.08, 0.92))
+    return [
+        Hypothesis(
+            "backlash",
+            [
+                pool.column(
+                    stiffness * np.clip(pool.typical_onset - place, 0.0, width),
+                    stiffness[:, None] * np.clip(pool.typical_position - place, 0.0, width),
+                )
+            ],
+            (place,),
+            lambda b, place=place: {"gap": float(abs(b[0]) * width), "position": float(place)},
+        )
+        for place in np.linspace(low, high, 16)
+    ]
+
+
+def second_mode(pool: Pool) -> list[Hypothesis]:
+    """Return the force of a light oscillator on the box, driven by the slip's acceleration from rest."""
+    slowest, fastest = 1.5 * _natural_frequency(pool), 7.0 * _natural_frequency(pool)
+    mass = pool.per_run(lambda s: s.record.mechanism.mass)[:, None]
+    return [
+        Hypothesis(
+            "second_mode",
+            [pool.column(None, mass * _oscillator(pool, frequency))],
+            (frequency,),
+            lambda b, f=frequency: {"mass_ratio": float(np.clip(b[0], 0.005, 0.9)), "frequency": float(f)},
+        )
+        for frequency in np.geomspace(slowest, fastest, 36)
+    ]
+
+
+def _natural_frequency(pool: Pool) -> float:
+    return pool.slips[0].record.angular_frequency / (2.0 * np.pi)
+
+
+def _oscillator(pool: Pool, frequency: float) -> Array:
+    """Return w^2 q at the nodes, where q'' + 0.02 w q' + w^2 q = -x'' from rest at the break-away [m/s^2], shape (n, N_NODES)."""
+    w = 2.0 * np.pi * frequency
+    tau = pool.node_time - pool.onset_time[:, None]
+    count = 120
+    length = pool.restick_time - pool.onset_time
+    grid = np.linspace(0.0, 1.0, count)[None] * length[:, None]
+    step = grid[:, 1]
+    drive = np.stack([np.interp(g, t, a) for g, t, a in zip(grid, tau, pool.node_acceleration, strict=True)])
+    q, rate = np.zeros(len(tau)), np.zeros(len(tau))
+    path = np.zeros((len(tau), count))
+    for j in range(count):
+        rate = rate + step * (-drive[:, j] - w * w * q - 0.02 * w * rate)
+        q = q + step * rate
+        path[:, j] = w * w * q
+    return np.stack([np.interp(t, g, p) for t, g, p in zip(tau, grid, path, strict=True)])
+
+
+def friction_drift(pool: Pool) -> list[Hypothesis]:
+    """Return friction that drifts in each run: linearly, or towards a limit."""
+    last = pool.duration
+    middle = pool.mean_time
+    found = [
+        Hypothesis(
+            "friction_drift",
+            [pool.column(pool.static * pool.onset_time / last, pool.kinetic * middle / last)],
+            (np.inf,),
+            lambda b: {"rate": float(b[0] / last)},
+        )
+    ]
+    for share in (0.05, 0.1, 0.15, 0.2, 0.3, 0.5):
+        tau = share * last
+        columns = [
+            pool.column(pool.static * -np.expm1(-pool.onset_time / tau), pool.kinetic * -np.expm1(-middle / tau)),
+        ]
+        start: Callable[[Array], dict[str, float]] = lambda b, tau=tau: {"rate": float(b[0] / tau), "time_constant": tau}  # noqa: E731
+        found.append(Hypothesis("friction_drift", columns, (tau,), start))
+    return found
+
+
+def sensor_drift(pool: Pool) -> list[Hypothesis]:
+    """Return k times a drift of the position, the same in stick and slip."""
+    last = pool.duration
+    stiffness = pool.per_run(lambda s: s.record.mechanism.stiffness)
+    columns = [
+        pool.column(
+            pool.direction * stiffness * pool.onset_time / last, pool.direction * stiffness * pool.mean_time / last
+        )
+    ]
+    return [Hypothesis("sensor_drift", columns, (), lambda b: {"rate": float(b[0] / last)})]
+
+
+def frequencies(pool: Pool) -> Array:
+    """Return the frequencies at which periodic effects are looked for [Hz]."""
+    slip_rate = np.median([1.0 / np.median(np.diff(s.onset_time)) for s in pool.slips])
+    return np.arange(3.0 / pool.duration, 1.6 * slip_rate, 1.0 / (5.0 * pool.duration))
+
+
+def periodic(
+    pool: Pool, kind: str, phases: tuple[Array, Array], weights: tuple[Array, Array], harmonics: int, setting: tuple[float, ...]
+) -> Hypothesis:
+    """Return cosine and sine of every harmonic and run: the phase is each run's own.
+
+    Args:
+        pool: the slips.
+        kind: the effect.
+        phases: phase of the fundamental at the onset, shape (n,), and at the nodes, shape (n, N_NODES) [rad].
+        weights: force at the onset and in the slip that is modulated [N], shape (n,).
+        harmonics: number of harmonics.
+        setting: what the phases were made from.
+    """
+    columns: Columns = []
+    for run in range(pool.n_runs):
+        mine = pool.run == run
+        for h in range(1, harmonics + 1):
+            for wave in (np.cos, np.sin):
+                columns.append(
+                    pool.column(
+                        weights[0] * wave(h * phases[0]) * mine, weights[1][:, None] * wave(h * phases[1]) * mine[:, None]
+                    )
+                )
+    return Hypothesis(kind, columns, (*setting, float(harmonics)))
+
+
+def normal_load_ripple(pool: Pool) -> list[Hypothesis]:
+    """Return friction that is modulated in time, in stick and slip by the same share."""
+    return [
+        periodic(pool, "normal_load_ripple", _in_time(pool, f), (pool.static, pool.kinetic), h, (f,))
+        for h in (1, 3)
+        for f in frequencies(pool)
+    ]
+
+
+def harmonic_force(pool: Pool) -> list[Hypothesis]:
+    """Return a force that is added in time, the same in stick and slip."""
+    one = pool.direction.astype(np.float64)
+    return [
+        periodic(pool, "harmonic_force", _in_time(pool, f), (one, one), h, (f,)) for h in (1, 3) for f in frequencies(pool)
+    ]
+
+
+def position_dependent_friction(pool: Pool) -> list[Hypothesis]:
+    """Return friction that is modulated along the belt, in stick and slip by the same share."""
+    slowest = pool.belt_velocity.min()
+    onset = pool.belt_velocity * pool.onset_time - pool.typical_onset
+    nodes = pool.belt_velocity[:, None] * pool.node_time - pool.typical_position
+    return [
+        periodic(
+            pool, "position_dependent_friction", (2 * np.pi * f / slowest * onset, 2 * np.pi * f / slowest * nodes),
+            (pool.static, pool.kinetic), h, (slowest / f,),
+        )
+        for h in (1, 3) for f in frequencies(pool)
+    ]  # fmt: skip
+
+
+def _in_time(pool: Pool, frequency: float) -> tuple[Array, Array]:
+    return 2.0 * np.pi * frequency * pool.onset_time, 2.0 * np.pi * frequency * pool.node_time
+
+
+SCREENS: dict[str, Callable[[Pool], list[Hypothesis]]] = {
+    screen.__name__: screen
+    for screen in (
+        velocity_weakening, viscous_friction, frictional_lag, dwell_ageing, direction_asymmetry, load_dependence,
+        nonlinear_stiffness, quadratic_damping, backlash, second_mode, friction_drift, sensor_drift,
+        normal_load_ripple, harmonic_force, position_dependent_friction,
+    )
+}  # fmt: skip
+"""Kind of effect -> its hypotheses for a pool."""
+
+
+def step_times(pool: Pool) -> Array:
+    """Return the times at which a step is looked for [s]."""
+    return np.arange(0.08 * pool.duration, 0.94 * pool.duration, max(1.0, pool.duration / 80.0))
+
+
+def steps(pool: Pool, run: int, *, multiplied: bool) -> list[Array]:
+    """Return columns of a step of one run's friction (``multiplied``) or of its position sensor, one a time of `step_times`."""
+    mine = pool.run == run
+    stiffness = pool.per_run(lambda s: s.record.mechanism.stiffness)
+    static, kinetic = (pool.static, pool.kinetic) if multiplied else (stiffness * pool.direction,) * 2
+    return [
+        pool.column(static * (pool.onset_time > t) * mine, kinetic * (pool.mean_time > t) * mine) for t in step_times(pool)
+    ]
+
+
+def competitors(pool: Pool) -> dict[str, tuple[str, Sequence[Array]]]:
+    """Return regressors that name no physics: if one of them wins, the answer is "unknown".
+
+    Returns:
+        Name -> (axis on which the disagreement lives, columns).
+    """
+    n = len(pool.run)
+    load = pool.normal_force
+    found: dict[str, tuple[str, Sequence[Array]]] = {}
+    shape: Columns = []
+    for q in range(1, pool.features.shape[1] - 1):
+        column = np.zeros_like(pool.features)
+        column[:, 1 + q] = load
+        shape.append(column)
+    found["slip_shape"] = ("shape of the friction force within a slip", shape)
+    alternating = np.concatenate([(-1.0) ** np.arange(len(s)) for s in pool.slips])
+    runs = [pool.run == r for r in range(pool.n_runs)]
+    found["parity"] = (
+        "alternates from slip to slip",
+        [pool.column(pool.static * alternating * r, None) for r in runs]
+        + [pool.column(None, pool.kinetic * alternating * r) for r in runs],
+    )
+    knots = np.linspace(0.0, pool.duration, 8)
+    hats = [np.clip(1.0 - np.abs(t - k) / knots[1], 0.0, 1.0) for k in knots[1:] for t in (pool.onset_time, pool.mean_time)]
+    found["time"] = (
+        "time within the run",
+        [pool.column(h * r, None) for h in hats[0::2] for r in runs] + [pool.column(None, h * r) for h in hats[1::2] for r in runs],
+    )
+    low, high = np.quantile(pool.typical_position, (0.02, 0.98))
+    places = np.linspace(low, high, 10)
+    width = places[1] - places[0]
+    found["position"] = (
+        "position of the box",
+        [
+            pool.column(
+                np.clip(1.0 - np.abs(pool.typical_onset - p) / width, 0.0, 1.0),
+                np.clip(1.0 - np.abs(pool.typical_position - p) / width, 0.0, 1.0),
+            )
+            for p in places[1:-1]
+        ],
+    )
+    assert all(c.shape[0] == n for _, columns in found.values() for c in columns)
+    return found

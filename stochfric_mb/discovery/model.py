@@ -1,0 +1,145 @@
+"""A model in the making: the believed one, its parameters corrected within their uncertainty, and the effects found so far."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from stochfric_mb.coefficients import Process
+from stochfric_mb.discovery.record import Array, Record
+from stochfric_mb.effects import Effect
+from stochfric_mb.laws import Law
+from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.reference.augmented import AugmentedSystem, augmented_system
+
+CORRECTED = ("stiffness", "mass", "damping")
+"""Parameters of the mechanism that recalibration may correct."""
+OWN_TO_RUN = ("phase", "phase_2", "phase_3")
+"""Parameters of effects that each run has its own value of: records start anywhere."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Model:
+    """What is believed of the rig."""
+
+    law: Law
+    """The friction law with its mean coefficients."""
+    corrections: Mapping[str, float]
+    """Relative corrections of the mechanism's parameters [-], by name."""
+    effects: tuple[Effect, ...] = ()
+    """Effects added to it."""
+    process: Process | None = None
+    """Process of the coefficients, where the scenario declares one."""
+    own: Mapping[str, tuple[Mapping[str, float], ...]] = dataclasses.field(default_factory=dict[str, Any])
+    """Run -> values of `OWN_TO_RUN` parameters, one mapping an effect."""
+
+    def mechanism(self, stated: BeltBox) -> BeltBox:
+        """Return a run's mechanism with the corrections applied."""
+        return dataclasses.replace(
+            stated, **{name: getattr(stated, name) * (1.0 + value) for name, value in self.corrections.items()}
+        )
+
+    def effects_in(self, run: str) -> tuple[Effect, ...]:
+        """Return the effects with the run's own parameters."""
+        if run not in self.own:
+            return self.effects
+        return tuple(dataclasses.replace(e, **dict(v)) for e, v in zip(self.effects, self.own[run], strict=True))
+
+    def system(self, record: Record, *, seed: int = 0, sample: int = 0) -> AugmentedSystem:
+        """Return the simulator of a run; it moves as stated, not mirrored."""
+        return augmented_system(
+            self.mechanism(record.stated), self.law, self.effects_in(record.name), self.process, seed=seed, sample=sample
+        )
+
+    def with_law(self, mu_s: float, mu_k: float) -> Model:
+        """Return the model with other mean coefficients."""
+        return dataclasses.replace(self, law=dataclasses.replace(self.law, mu_s=mu_s, mu_k=min(mu_k, mu_s)))
+
+    def plus(self, *effects: Effect) -> Model:
+        """Return the model with further effects."""
+        own = {run: (*values, *({} for _ in effects)) for run, values in self.own.items()}
+        return dataclasses.replace(self, effects=(*self.effects, *effects), own=own)
+
+    @property
+    def random(self) -> bool:
+        """Whether its friction is random."""
+        return self.process is not None or any(e.coefficient_process() is not None or e.kind == "impacts" for e in self.effects)
+
+
+@dataclasses.dataclass(frozen=True)
+class Knob:
+    """One adjustable number of a model."""
+
+    name: str
+    """``mu_s``, ``mu_k``, a name of `CORRECTED`, or a parameter of an effect."""
+    value: float
+    """Where a fit starts."""
+    scale: float
+    """A natural step."""
+    prior: float
+    """Standard deviation of what is believed about it, inf where nothing is."""
+    low: float
+    """Smallest value allowed."""
+    high: float
+    """Largest value allowed."""
+    effect: int = -1
+    """Number of the effect it belongs to, -1 for the believed model."""
+    run: str = ""
+    """Run it belongs to, empty for all."""
+
+
+def knobs_of(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str] = ()) -> list[Knob]:
+    """Return what may be adjusted in a model.
+
+    Args:
+        model: the model; its present values are the start.
+        uncertainty: relative standard deviations of what is believed about the mechanism.
+        runs: runs that have own parameters.
+    """
+    law = model.law
+    knobs = [
+        Knob("mu_s", law.mu_s, 0.02 * law.mu_s, np.inf, 1.0e-4, 10.0),
+        Knob("mu_k", law.mu_k, 0.02 * law.mu_s, np.inf, 1.0e-5, 10.0),
+    ]
+    for name in CORRECTED:
+        prior = uncertainty.get(name, 0.0)
+        if prior > 0.0:
+            knobs.append(Knob(name, model.corrections.get(name, 0.0), prior, prior, max(-0.95, -6 * prior), 6 * prior))
+    for i, effect in enumerate(model.effects):
+        for field in dataclasses.fields(effect):
+            meta = field.metadata
+            value = getattr(effect, field.name)
+            if "choices" in meta or not isinstance(value, (int, float)) or not np.isfinite(value) or meta.get("fixed"):
+                continue
+            if field.name in OWN_TO_RUN:
+                if field.name != "phase" and not getattr(effect, field.name.replace("phase", "amplitude")):
+                    continue
+                for run in runs:
+                    own = model.own.get(run, ({},) * len(model.effects))[i].get(field.name, value)
+                    knobs.append(Knob(field.name, own, 0.3, np.inf, -np.inf, np.inf, i, run))
+            elif not (field.name in ("amplitude_2", "amplitude_3") and value == 0.0):
+                scale = max(abs(value), 0.05 * meta["scale"])
+                knobs.append(Knob(field.name, value, scale, np.inf, meta["low"], meta["high"], i))
+    return knobs
+
+
+def adjusted(model: Model, knobs: Sequence[Knob], values: Array) -> Model:
+    """Return the model with its knobs at ``values``, each kept within its bounds."""
+    corrections = dict(model.corrections)
+    law = {"mu_s": model.law.mu_s, "mu_k": model.law.mu_k}
+    changes: list[dict[str, float]] = [{} for _ in model.effects]
+    own = {run: tuple(dict(v) for v in values_) for run, values_ in model.own.items()}
+    for knob, raw in zip(knobs, values, strict=True):
+        value = float(min(max(raw, knob.low), knob.high))
+        if knob.effect < 0:
+            (law if knob.name in law else corrections)[knob.name] = value
+        elif knob.run:
+            own.setdefault(knob.run, tuple({} for _ in model.effects))[knob.effect][knob.name] = value
+        else:
+            changes[knob.effect][knob.name] = value
+    effects = tuple(dataclasses.replace(e, **c) for e, c in zip(model.effects, changes, strict=True))
+    law["mu_k"] = min(law["mu_k"], law["mu_s"])
+    return dataclasses.replace(model, law=dataclasses.replace(model.law, **law), corrections=corrections, effects=effects, own=own)

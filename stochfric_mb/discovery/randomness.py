@@ -1,0 +1,134 @@
+"""Is friction random: variance components, their correlation in time, and whether the scatter has two levels."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from stochfric_mb.discovery.record import Array
+from stochfric_mb.discovery.regression import LOWEST, Regression, Solution, Terms
+
+
+@dataclasses.dataclass(frozen=True)
+class Randomness:
+    """What the scatter of the slips tells."""
+
+    static: float
+    """Likelihood ratio of scatter in the onset force: 2 delta log L [-]."""
+    kinetic: float
+    """The same of the mean force in slip."""
+    within: float
+    """The same of white scatter within the slip."""
+    correlation: float
+    """Correlation of the scatter from one slip to the next over its standard error [-]."""
+    wander: float
+    """Score of a slow common wander of both forces [-]."""
+    wander_share: float
+    """Standard deviation of the wander over the mean friction [-]."""
+    wander_time: float
+    """Its correlation time [s]."""
+    two_levels: float
+    """Score of two levels against one, for the onset force or the force in slip [-]."""
+
+
+def randomness(regression: Regression, terms: Terms, solution: Solution) -> Randomness:
+    """Return what the scatter about a fitted model tells."""
+    ratios: list[float] = []
+    for j in range(3):
+        without = solution.scatter.copy()
+        without[j] = LOWEST
+        ratios.append(2.0 * (regression.solve(terms, without).cost - solution.cost))
+    rest = regression.residuals(terms, solution)[:, :2]
+    wander, share, duration = _wander(regression, rest, solution)
+    return Randomness(*ratios, _correlation(regression, rest), wander, share, duration, _two_levels(regression, rest, solution))
+
+
+def _correlation(regression: Regression, rest: Array) -> float:
+    pool = regression.pool
+    total, weight = 0.0, 0
+    for r in range(pool.n_runs):
+        mine = rest[(pool.run == r) & pool.kept].mean(axis=1)
+        if len(mine) < 4:
+            continue
+        mine = mine - mine.mean()
+        total += len(mine) * float(mine[1:] @ mine[:-1]) / max(float(mine @ mine), 1e-30)
+        weight += len(mine)
+    return total / max(weight, 1) * np.sqrt(max(weight, 1))
+
+
+SHARES = (0.003, 0.006, 0.012, 0.02, 0.03, 0.05)
+"""Strengths of wander that are tried, over the mean friction [-]."""
+TIMES = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
+"""Correlation times that are tried, in cycles [-]."""
+REMAINING = (1.0, 0.3, 0.1, 0.01, 0.0)
+"""Shares of the independent scatter that may remain [-]."""
+
+
+def _wander(regression: Regression, rest: Array, solution: Solution) -> tuple[float, float, float]:
+    """Return (score, strength, correlation time) of an Ornstein-Uhlenbeck factor on both forces."""
+    pool = regression.pool
+    static, kinetic = np.exp(2.0 * solution.scatter[:2])
+    cycle = float(np.median([np.median(np.diff(s.onset_time)) for s in pool.slips]))
+    runs: list[tuple[Array, Array, Array, Array]] = []
+    for r in range(pool.n_runs):
+        rows = np.flatnonzero((pool.run == r) & pool.kept)
+        if len(rows) < 4:
+            continue
+        n = len(rows)
+        covariance = pool.calibrations[r].covariance
+        measured = np.r_[np.full(n, covariance[0, 0]), np.full(n, covariance[1, 1])]
+        own = np.r_[np.full(n, static), np.full(n, kinetic)]
+        time = np.r_[pool.onset_time[rows], pool.mean_time[rows]]
+        level = np.r_[pool.static[rows], pool.kinetic[rows]]
+        value = np.r_[rest[rows, 0], rest[rows, 1]]
+        runs.append((np.stack([measured, own]), level[:, None] * level[None], np.abs(time[:, None] - time[None]), value))
+
+    def cost(remaining: float, share: float, duration: float) -> float:
+        total = 0.0
+        for diagonal, levels, apart, value in runs:
+            matrix = np.diag(diagonal[0] + remaining * diagonal[1])
+            if share > 0.0:
+                matrix = matrix + share**2 * levels * np.exp(-apart / duration)
+            factor = np.linalg.cholesky(matrix)
+            white = np.linalg.solve(factor, value)
+            total += 0.5 * float(white @ white) + float(np.log(np.diag(factor)).sum())
+        return total
+
+    plain = min(cost(a, 0.0, 1.0) for a in (1.3, 1.0, 0.7))
+    best = (plain, 0.0, cycle)
+    for share in SHARES:
+        for count in TIMES:
+            for remaining in REMAINING:
+                trial = cost(remaining, share, count * cycle)
+                if trial < best[0]:
+                    best = (trial, share, count * cycle)
+    n = len(rest)
+    return 2.0 * (plain - best[0]) - 2.0 * np.log(max(n, 2)) - 2.0 * np.log(len(SHARES) * len(TIMES)), best[1], best[2]
+
+
+def _two_levels(regression: Regression, rest: Array, solution: Solution) -> float:
+    """Return the best score of a mixture of two normal distributions with one width against one, over both forces."""
+    pool = regression.pool
+    best = -np.inf
+    for column in (0, 1):
+        values = np.concatenate([
+            (lambda v: v - np.median(v))(rest[(pool.run == r) & pool.kept, column]) for r in range(pool.n_runs)
+        ])  # fmt: skip
+        n = len(values)
+        if n < 20:
+            continue
+        one = n * np.log(values.std() + 1.0e-12)
+        low, high = np.quantile(values, (0.2, 0.8))
+        share, width = 0.5, max((high - low) / 4.0, 1.0e-12)
+        for _ in range(60):
+            a = share * np.exp(-0.5 * ((values - low) / width) ** 2)
+            b = (1.0 - share) * np.exp(-0.5 * ((values - high) / width) ** 2)
+            p = a / np.maximum(a + b, 1.0e-300)
+            share = float(np.clip(p.mean(), 0.05, 0.95))
+            low, high = float((p * values).sum() / p.sum()), float(((1 - p) * values).sum() / (1 - p).sum())
+            width = max(float(np.sqrt((p * (values - low) ** 2 + (1 - p) * (values - high) ** 2).mean())), 1.0e-12)
+        density = share * np.exp(-0.5 * ((values - low) / width) ** 2) + (1 - share) * np.exp(-0.5 * ((values - high) / width) ** 2)
+        two = n * np.log(width) - float(np.log(np.maximum(density, 1.0e-300)).sum()) - n / 2.0
+        best = max(best, 2.0 * (one - two) - 2.0 * np.log(n))
+    return float(best)

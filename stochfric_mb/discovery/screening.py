@@ -1,0 +1,101 @@
+"""Screening: which effects would explain what the believed model leaves in the slips, and how much better than chance.
+
+Score = 2 delta log L - p ln n - 2 ln(grid size); found one after the other, each with its own evidence.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.hypotheses import SCREENS, Hypothesis, competitors, step_times, steps
+from stochfric_mb.discovery.pool import Pool
+from stochfric_mb.discovery.record import Array
+from stochfric_mb.discovery.regression import Regression, Solution, Terms
+
+REFITTED = 12
+"""Candidates, best first at fixed variance components, whose variance components are fitted anew."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Candidate:
+    """The best hypothesis of one kind."""
+
+    name: str
+    """Kind of effect, or name of a competitor that names no physics."""
+    axis: str
+    """Axis on which a competitor's disagreement lives; empty for an effect."""
+    score: float
+    """Score [-]."""
+    hypothesis: Hypothesis
+    """Its regressors."""
+    solution: Solution
+    """The fit with it."""
+
+    @property
+    def is_effect(self) -> bool:
+        """Whether it names physics."""
+        return not self.axis
+
+    def start(self, terms: int) -> dict[str, float]:
+        """Return parameter values where a fit of the effect may start; ``terms``: number of coefficients before its own."""
+        return self.hypothesis.start(self.solution.coefficients[terms:])
+
+
+def screen(
+    pool: Pool, regression: Regression, terms: Terms, solution: Solution, *, without: Sequence[str] = ()
+) -> list[Candidate]:
+    """Return the best hypothesis of each kind, best first.
+
+    Args:
+        pool: the slips.
+        regression: fits to them.
+        terms: what the model holds so far.
+        solution: its fit.
+        without: kinds that the model holds already.
+    """
+    log_n = float(np.log(regression.n))
+    families: dict[str, tuple[str, list[Hypothesis]]] = {
+        kind: ("", make(pool)) for kind, make in SCREENS.items() if kind not in without
+    }
+    families |= {name: (axis, [Hypothesis(name, list(columns))]) for name, (axis, columns) in competitors(pool).items()}
+    for kind, axis, multiplied in (("friction_step", "abrupt change of the friction", True), ("sensor_step", "", False)):
+        if kind not in without:
+            families[kind] = (axis, [_step(pool, regression, terms, solution, kind, multiplied=multiplied)])
+    rough: list[tuple[float, str, str, Hypothesis, float]] = []
+    for kind, (axis, hypotheses) in families.items():
+        if not hypotheses:
+            continue
+        gains = regression.gains(terms, solution.scatter, [h.columns for h in hypotheses])
+        cost = np.array([len(h.columns) * log_n for h in hypotheses])
+        best = int(np.argmax(2.0 * gains - cost))
+        grid = len(hypotheses) if "_step" not in kind else len(step_times(pool)) ** pool.n_runs
+        penalty = float(cost[best]) + 2.0 * np.log(grid)
+        rough.append((2.0 * float(gains[best]) - penalty, kind, axis, hypotheses[best], penalty))
+    rough.sort(key=lambda r: -r[0])
+    found: list[Candidate] = []
+    for i, (score, kind, axis, hypothesis, penalty) in enumerate(rough):
+        wider = terms.plus(hypothesis.columns)
+        if i < REFITTED:
+            fitted = regression.fit(wider, solution.scatter)
+            score = 2.0 * (solution.cost - fitted.cost) - penalty
+        else:
+            fitted = regression.solve(wider, solution.scatter)
+        found.append(Candidate(kind, axis, score, hypothesis, fitted))
+    return sorted(found, key=lambda c: -c.score)
+
+
+def _step(
+    pool: Pool, regression: Regression, terms: Terms, solution: Solution, kind: str, *, multiplied: bool
+) -> Hypothesis:
+    """Return one step a run, each where it explains most."""
+    columns: list[Array] = []
+    when: list[float] = []
+    for run in range(pool.n_runs):
+        trials = steps(pool, run, multiplied=multiplied)
+        best = int(np.argmax(regression.gains(terms, solution.scatter, [[t] for t in trials])))
+        columns.append(trials[best])
+        when.append(float(step_times(pool)[best]))
+    return Hypothesis(kind, columns, tuple(when))

@@ -1,0 +1,179 @@
+"""The kinematic channel: in stick a rigid contact follows the belt, and whatever else the box does then is seen directly.
+
+The binned stick phases, less each phase's mean and each run's belt velocity, are regressed on what a ripple of the
+belt's speed, ringing after the re-stick, a step of the sensor, a clipped sensor and creep before the break-away would
+leave. Gains are falls of chi^2 with the noise that the data show; scores subtract p ln n and twice ln(grid size).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.record import Array, Noise
+from stochfric_mb.discovery.slips import Slips, StickSamples
+
+
+@dataclasses.dataclass(frozen=True)
+class Sticking:
+    """What the stick phases tell; scores are falls of chi^2 less what chance and choice give."""
+
+    scores: dict[str, float]
+    """Score of: belt_speed_ripple, presliding_compliance, sensor_step, sensor_clipping, creep_before, creep_after."""
+    settings: dict[str, dict[str, float]]
+    """Parameters at the best score."""
+    belt_velocity_error: Array
+    """Measured over stated belt velocity, less 1, run by run [-]."""
+    belt_velocity_deviation: Array
+    """Standard deviation of it [-]."""
+    excess: float
+    """chi^2 of the belt's line less its degrees of freedom [-]."""
+    excess_ratio: float
+    """chi^2 over its degrees of freedom [-]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class _Phases:
+    """The stick phases of one run, in units of their noise."""
+
+    slips: Slips
+    samples: StickSamples
+    values: Array
+    line: Array
+    deviation: float
+
+    def centred(self, column: Array) -> Array:
+        """Return a column less its mean in each phase."""
+        total = np.bincount(self.samples.segment, column)
+        count = np.bincount(self.samples.segment)
+        return column - (total / np.maximum(count, 1))[self.samples.segment]
+
+    def rest(self, columns: Sequence[Array]) -> Array:
+        """Return the values less the belt's line and the columns."""
+        design = np.stack([self.line, *(self.centred(c) for c in columns)], axis=1)
+        return self.values - design @ np.linalg.lstsq(design, self.values, rcond=1.0e-9)[0]
+
+
+def bin_deviation(noise: Noise, size: int) -> float:
+    """Return the standard deviation of a bin's mean [m], with the coloured part at its long-run strength."""
+    slow = noise.coloured**2 * (1.0 + noise.memory) / (1.0 - noise.memory)
+    return float(np.sqrt((noise.white**2 + slow) / size))
+
+
+def analyse(slips: Sequence[Slips]) -> Sticking | None:
+    """Return what the stick phases of all runs tell; None where there are too few to tell anything."""
+    runs = [_phases(s) for s in slips if len(s.stick.time) >= 50]
+    if not runs:
+        return None
+    rests = [run.rest([]) for run in runs]
+    chi2 = sum(float(r @ r) for r in rests)
+    freedom = sum(len(run.values) - len(np.unique(run.samples.segment)) - 1 for run in runs)
+    log_n = float(np.log(max(freedom, 2)))
+    scores: dict[str, float] = {}
+    settings: dict[str, dict[str, float]] = {}
+
+    def gain(columns: Callable[[_Phases], Sequence[Array]]) -> float:
+        return sum(float(r @ r) - float(np.sum(run.rest(columns(run)) ** 2)) for run, r in zip(runs, rests, strict=True))
+
+    n = len(runs)
+    duration = max(float(run.slips.record.time[-1] - run.slips.record.time[0]) for run in runs)
+    grid = np.arange(2.0 / duration, 3.0, 1.0 / (4.0 * duration))
+    gains = _ripple_gains(runs, rests, grid)
+    best = int(np.argmax(gains))
+    scores["belt_speed_ripple"] = float(gains[best]) - 2 * n * log_n - 2.0 * np.log(len(grid))
+    settings["belt_speed_ripple"] = {"frequency": float(grid[best])}
+
+    ringing = [(f, z) for f in np.geomspace(1.5, 15.0, 40) * runs[0].slips.record.angular_frequency for z in (0.03, 0.08, 0.2)]
+    gains = np.array([gain(lambda run, w=w, z=z: _ringing(run, w, z)) for w, z in ringing])
+    best = int(np.argmax(gains))
+    scores["presliding_compliance"] = float(gains[best]) - 2 * n * log_n - 2.0 * np.log(len(ringing))
+    settings["presliding_compliance"] = {"angular_frequency": float(ringing[best][0]), "damping_ratio": ringing[best][1]}
+
+    def hats(column: Array, places: Sequence[float]) -> list[Array]:
+        return [np.clip(1.0 - np.abs(column - p) / 0.05, 0.0, 1.0) for p in places]
+
+    scores["creep_before"] = gain(lambda run: hats(run.samples.to_onset, (0.0, 0.05, 0.1, 0.15))) - 4 * n * log_n
+    scores["creep_after"] = gain(lambda run: hats(run.samples.since_restick, (0.0, 0.05, 0.1))) - 3 * n * log_n
+    step, times = _step(runs, rests)
+    scores["sensor_step"] = step - n * (log_n + 2.0 * np.log(max(freedom, 2)))
+    settings["sensor_step"] = {f"time_{i}": t for i, t in enumerate(times)}
+    errors = np.array([_belt_error(run) for run in runs]).T
+    return Sticking(scores, settings, errors[0], errors[1], chi2 - freedom, chi2 / max(freedom, 1))
+
+
+def _phases(slips: Slips) -> _Phases:
+    samples = slips.stick
+    deviation = bin_deviation(slips.noise, samples.bin_size)
+    empty = _Phases(slips, samples, samples.residual, samples.time, deviation)
+    return dataclasses.replace(empty, values=empty.centred(samples.residual / deviation), line=empty.centred(samples.time))
+
+
+def _ripple_gains(runs: Sequence[_Phases], rests: Sequence[Array], grid: Array) -> Array:
+    """Return the fall of chi^2 by a cosine and a sine of each frequency, with each run's own phase."""
+    gains = np.zeros(len(grid))
+    for run, rest in zip(runs, rests, strict=True):
+        line = run.line / np.sqrt(run.line @ run.line)
+        for i, frequency in enumerate(grid):
+            angle = 2.0 * np.pi * frequency * run.samples.time
+            a, b = run.centred(np.cos(angle)), run.centred(np.sin(angle))
+            a, b = a - line * (line @ a), b - line * (line @ b)
+            aa, bb, ab, ar, br = a @ a, b @ b, a @ b, a @ rest, b @ rest
+            determinant = aa * bb - ab * ab
+            if determinant > 1.0e-9 * aa * bb:
+                gains[i] += (bb * ar * ar - 2.0 * ab * ar * br + aa * br * br) / determinant
+    return gains
+
+
+def _ringing(run: _Phases, frequency: float, ratio: float) -> list[Array]:
+    since = run.samples.since_restick
+    envelope = np.exp(-ratio * frequency * since)
+    return [envelope * np.cos(frequency * since), envelope * np.sin(frequency * since)]
+
+
+def _step(runs: Sequence[_Phases], rests: Sequence[Array]) -> tuple[float, list[float]]:
+    """Return the fall of chi^2 by one step within a stick phase of each run, and its times [s]."""
+    total, times = 0.0, list[float]()
+    for run, rest in zip(runs, rests, strict=True):
+        best, when = 0.0, 0.0
+        for segment in np.unique(run.samples.segment):
+            rows = np.flatnonzero(run.samples.segment == segment)
+            n = len(rows)
+            if n < 10:
+                continue
+            k = np.arange(1, n)
+            sums = np.cumsum(rest[rows])
+            gains = (sums[:-1] - sums[-1] * k / n) ** 2 / (k * (n - k) / n)
+            if gains.max() > best:
+                best, when = float(gains.max()), float(run.samples.time[rows[int(np.argmax(gains))]])
+        total += best
+        times.append(when)
+    return total, times
+
+
+def _belt_error(run: _Phases) -> tuple[float, float]:
+    """Return the relative error of the stated belt velocity, and its standard deviation."""
+    norm = run.line @ run.line
+    slope, deviation = (run.line @ run.values) / norm, 1.0 / np.sqrt(norm)
+    belt = run.slips.record.mechanism.belt_velocity
+    return float(slope * run.deviation / belt), float(deviation * run.deviation / belt)
+
+
+def ceiling(slips: Sequence[Slips]) -> tuple[float, float]:
+    """Return how many more samples lie at a record's ceiling than a rising box would leave there, and the ceiling [m].
+
+    A clipped record dwells at one level once a cycle; a box that is carried through it by the belt does not.
+    """
+    best, level = 0.0, np.inf
+    for one in slips:
+        record = one.record
+        noise = one.noise.deviation
+        top = float(np.quantile(record.raw, 0.9995))
+        for place in np.arange(top - 12.0 * noise, top + noise, noise):
+            near = int(np.count_nonzero(np.abs(record.raw - place) < 3.5 * noise))
+            visits = int(np.count_nonzero(one.onset_position > place - 3.0 * noise)) + 1
+            expected = visits * 7.0 * noise / record.mechanism.belt_velocity * record.rate + 20.0
+            if near / expected > best:
+                best, level = near / expected, place
+    return best, level
