@@ -198,13 +198,13 @@ def _advance_filter(descriptor, cursor, seed, sample, contact, knot):
         cursor[8] = a * cursor[8] + b * z_k
     else:
         y_s, y_k = normals(seed, sample, contact, knot, 1)
-        cursor[6], cursor[7] = _matern_step(cursor[6], cursor[7], descriptor[3], descriptor[14], z_s, y_s)
-        cursor[8], cursor[9] = _matern_step(cursor[8], cursor[9], descriptor[3], descriptor[14], z_k, y_k)
+        cursor[6], cursor[7] = matern_step(cursor[6], cursor[7], descriptor[3], descriptor[14], z_s, y_s)
+        cursor[8], cursor[9] = matern_step(cursor[8], cursor[9], descriptor[3], descriptor[14], z_k, y_k)
     cursor[4], cursor[5] = _clipped_pair(descriptor, cursor[6], cursor[8])
 
 
 @compiled
-def _matern_step(f, g, h, correlation, z, y):
+def matern_step(f, g, h, correlation, z, y):
     """Return value and derivative of a unit Matern-3/2 process after h: exact transition and exact noise covariance."""
     rate = math.sqrt(3.0) / correlation
     e = math.exp(-rate * h)

@@ -73,7 +73,9 @@ def normals(seed, sample, contact, knot, attempt):
 
 
 @intrinsic
-def _bits(typingctx, x):
+def bits_of(typingctx, x):
+    """Return the 64 bits of a double as an unsigned integer."""
+
     def generate(context, builder, signature, args):
         return builder.bitcast(args[0], ir.IntType(64))
 
@@ -81,7 +83,9 @@ def _bits(typingctx, x):
 
 
 @intrinsic
-def _from_bits(typingctx, x):
+def double_of(typingctx, x):
+    """Return the double with the given 64 bits."""
+
     def generate(context, builder, signature, args):
         return builder.bitcast(args[0], ir.DoubleType())
 
@@ -91,9 +95,9 @@ def _from_bits(typingctx, x):
 @compiled_inline
 def _log(x):
     """Return the natural logarithm of a normal positive double."""
-    bits = _bits(x)  # pyright: ignore[reportCallIssue]
+    bits = bits_of(x)  # pyright: ignore[reportCallIssue]
     exponent = float64(int64(bits >> _52) - 1023)
-    mantissa = _from_bits((bits & _MANTISSA) | _ONE)  # pyright: ignore[reportCallIssue]
+    mantissa = double_of((bits & _MANTISSA) | _ONE)  # pyright: ignore[reportCallIssue]
     if mantissa > 1.4142135623730951:
         mantissa *= 0.5
         exponent += 1.0

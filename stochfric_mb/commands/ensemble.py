@@ -63,8 +63,8 @@ def ensemble(
     from stochfric_mb.commands.progress import display
     from stochfric_mb.ensemble.dataset import check_ensemble_target, read_ensemble
     from stochfric_mb.ensemble.job import job
+    from stochfric_mb.ensemble.planning import MAX_BYTES
     from stochfric_mb.ensemble.produce import check_memory, checked_workers, produce
-    from stochfric_mb.ensemble.runner import MAX_BYTES
     from stochfric_mb.scenario import load_scenario
     from stochfric_mb.storage import check_target
 

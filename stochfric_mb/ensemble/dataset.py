@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.ensemble.collect import QUANTITIES
 from stochfric_mb.ensemble.lanes import BREAK_AWAYS, FIRST, LAST, MU_S_SUM, STICK_TIME, TALLIES
 from stochfric_mb.ensemble.result import Block, EnsembleResult
-from stochfric_mb.ensemble.runner import QUANTITIES
 from stochfric_mb.ensemble.sketch import Sketch
 from stochfric_mb.errors import InputError, MissingEngineError
 from stochfric_mb.scenario import Scenario, scenario_from_dict

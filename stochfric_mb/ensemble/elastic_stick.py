@@ -18,6 +18,27 @@ import numpy as np
 
 from stochfric_mb.coefficients.path import CURSOR
 from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.ensemble.fixed_step import (
+    A_K,
+    A_S,
+    B_K,
+    B_S,
+    D_K,
+    D_S,
+    OLD_V,
+    SHARED_ROWS,
+    STAGE_V,
+    STAGE_X,
+    V,
+    X,
+    begin_step,
+    changes_to_next_knot,
+    drives,
+    end_of_step,
+    finish_stage,
+    note_step,
+    passed,
+)
 from stochfric_mb.ensemble.lanes import (
     LANES,
     OPEN,
@@ -29,18 +50,14 @@ from stochfric_mb.ensemble.lanes import (
     first_pairs,
     fma,
     next_pairs,
-    note_crossings,
 )
 from stochfric_mb.laws import elastic_stick as law
 from stochfric_mb.laws.elastic_stick import SLIP, SLIP_PEAK, STICK
 
-# Rows of the flat array: position and velocity, the same one step before, of a stage; sum of the first three
-# accelerations, sum of the second and third; pair at the knot, its change to the next knot, pair there; mu_s; mode,
-# direction of sliding, deflection + position, whether the lane has passed a switch
-X, V, OLD_X, OLD_V, STAGE_X, STAGE_V, SUM, MIDDLE, A_S, A_K, D_S, D_K, B_S, B_K, MU, MODE, SIGN, ZX, SWITCHED = (
-    LANES * i for i in range(19)
-)
-ROWS = 19
+# Rows beside the shared ones: position one step before, mode, direction of sliding, deflection + position, whether the
+# lane has passed a switch
+OLD_X, MODE, SIGN, ZX, SWITCHED = (LANES * (SHARED_ROWS + i) for i in range(5))
+ROWS = SHARED_ROWS + 5
 MAX_SWITCHES = 20
 """Most switches located within one step; after them the rest of it is made in one go."""
 MAX_HALVINGS = 60
@@ -85,7 +102,7 @@ def _group(q, seed, first, n, position, velocity, stick, tallies):
     tally, pending = np.empty((TALLIES, LANES)), np.empty((OPEN, LANES))
     cursors = np.zeros((LANES, CURSOR))
     first_pairs(q.descriptor, cursors, seed, first, a_s, a_k, b_s, b_k)
-    _slopes(m)
+    changes_to_next_knot(m)
     _start(q, m, tally, pending)
     knot = 0
     if q.legs.output_at_start:
@@ -96,7 +113,7 @@ def _group(q, seed, first, n, position, velocity, stick, tallies):
         if q.legs.knot[i] > knot:
             knot += 1
             next_pairs(q.descriptor, cursors, seed, first, knot, a_s, a_k, b_s, b_k)
-            _slopes(m)
+            changes_to_next_knot(m)
         n_steps = int(q.n_steps[q.legs.kind[i]])
         h = q.legs.length[i] / n_steps
         part = (q.legs.to_knot[i] - q.legs.from_knot[i]) / n_steps
@@ -109,7 +126,7 @@ def _group(q, seed, first, n, position, velocity, stick, tallies):
                     if m[SWITCHED + j] == 1.0:
                         _switching_step(body, q.parameters, j, t, h, w, part, m)
             if switched + crossed > 0:
-                _note(q, t, h, w, m, tally, pending)
+                note_step(q, t, h, w, m, tally, pending)
         if q.legs.output[i] >= 0:
             _record(q.legs.output[i], n, m, position, velocity, stick)
     end = q.legs.start[-1] + q.legs.length[-1]
@@ -128,14 +145,6 @@ def _start(q, m, tally, pending):
         )  # fmt: skip
         m[MODE + j], m[SIGN + j], m[ZX + j] = s[0], s[3], q.position - s[1]
         begin(tally, pending, j, abs(v_rel) <= q.stick_speed)
-
-
-@compiled
-def _slopes(m):
-    """Write the change of each pair to the next knot."""
-    for j in range(LANES):
-        m[D_S + j] = m[B_S + j] - m[A_S + j]
-        m[D_K + j] = m[B_K + j] - m[A_K + j]
 
 
 @compiled
@@ -165,11 +174,7 @@ def _numbers(q):
 @compiled
 def _step(amplitude, frequency, t, h, w, part, numbers, m):
     """Make one step of every lane; return how many have passed a switch, and how many have passed v_s or turned over."""
-    f0 = f1 = f2 = 0.0
-    if amplitude != 0.0:
-        f0 = amplitude * math.cos(frequency * t)
-        f1 = amplitude * math.cos(frequency * (t + 0.5 * h))
-        f2 = amplitude * math.cos(frequency * (t + h))
+    f0, f1, f2 = drives(amplitude, frequency, t, h)
     _stage(w, 0.0, 0.5 * h, 0.0, f0, numbers, m)
     _stage(w + 0.5 * part, 0.5 * h, 0.5 * h, 1.0, f1, numbers, m)
     _stage(w + 0.5 * part, 0.5 * h, h, 1.0, f1, numbers, m)
@@ -192,17 +197,9 @@ def _acceleration(j, w, tau, drive, numbers, m):
 
 @compiled
 def _stage(w, tau, ahead, middle, drive, numbers, m):
-    """Evaluate an acceleration and go ``ahead`` [s] from the start of the step with it.
-
-    ``middle`` is 0 for the first stage and 1 for the second and third.
-    """
+    """Evaluate an acceleration of every lane, ``tau`` after the start of the step, and go ``ahead`` [s] with it."""
     for j in range(LANES):
-        a = _acceleration(j, w, tau, drive, numbers, m)
-        v = m[STAGE_V + j]
-        m[SUM + j] += a
-        m[MIDDLE + j] += middle * a
-        m[STAGE_X + j] = fma(ahead, v, m[X + j])
-        m[STAGE_V + j] = fma(ahead, a, m[V + j])
+        finish_stage(j, _acceleration(j, w, tau, drive, numbers, m), ahead, middle, m)
 
 
 @compiled
@@ -212,12 +209,9 @@ def _last_stage(w_old, w, h, drive, numbers, m):
     switched = 0
     crossed = 0
     for j in range(LANES):
-        a = _acceleration(j, w, h, drive, numbers, m)
-        x, v = m[X + j], m[V + j]
-        three = m[SUM + j]
-        x_new = fma(h * h / 6.0, three, fma(h, v, x))
-        v_new = fma(h / 6.0, three + m[MIDDLE + j] + a, v)
-        was, now = v_b - v, v_b - v_new
+        x = m[X + j]
+        x_new, v_new = end_of_step(j, _acceleration(j, w, h, drive, numbers, m), h, m)
+        was, now = v_b - m[V + j], v_b - v_new
         z_old = m[ZX + j] - x
         zx = fma(v_b, h, m[ZX + j])
         z = zx - x_new
@@ -230,14 +224,11 @@ def _last_stage(w_old, w, h, drive, numbers, m):
         slip = peak if m[MODE + j] == SLIP_PEAK else ahead <= v_s
         switch = ((abs(z) >= reach * mu_s) | (capped != capped_old)) if m[MODE + j] == STICK else slip
         switched += 1 if switch else 0
-        crossed += 1 if ((abs(was) <= v_s) != (abs(now) <= v_s)) | (was * now < 0.0) else 0
+        crossed += 1 if passed(was, now, v_s) else 0
         m[SWITCHED + j] = 1.0 if switch else 0.0
         m[OLD_X + j] = x
-        m[OLD_V + j] = v
-        m[X + j] = m[STAGE_X + j] = x_new
-        m[V + j] = m[STAGE_V + j] = v_new
         m[ZX + j] = zx
-        m[SUM + j] = m[MIDDLE + j] = 0.0
+        begin_step(j, x_new, v_new, m)
     return switched, crossed
 
 
@@ -356,16 +347,6 @@ def _branch(mu_s, mu_k, state, p):
     if state[0] == SLIP and p[5] <= 0.0:
         return mu_k, mu_k
     return mu_s, mu_k
-
-
-@compiled
-def _note(q, t, h, w, m, tally, pending):
-    """Note what happened within the step before now."""
-    for j in range(LANES):
-        m[MU + j] = m[A_S + j] + w * m[D_S + j]
-    rows = m.reshape(ROWS, LANES)
-    x, v, before, mu_s = rows[X // LANES], rows[V // LANES], rows[OLD_V // LANES], rows[MU // LANES]
-    note_crossings(t, h, q.belt_velocity, q.stick_speed, x, v, before, mu_s, tally, pending, q.least_slip)
 
 
 @compiled

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import dataclasses
 import importlib
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from stochfric_mb.engines import adapter
-from stochfric_mb.ensemble.lanes import TALLIES
 from stochfric_mb.ensemble.result import Block
 from stochfric_mb.ensemble.schedule import Array
-from stochfric_mb.ensemble.single import _cut, _tallies
+from stochfric_mb.ensemble.single import Sampling
 from stochfric_mb.scenario import Scenario
 
 MANY: dict[str, str] = {"mujoco": "stochfric_mb.mujoco.batch:simulate_many"}
@@ -38,17 +34,9 @@ def many(engine: str) -> Callable[..., Any] | None:
 
 def all_at_once(scenario: Scenario, simulate_many: Callable[..., Any], dt: float | None, times: Array) -> Prepared:
     """Return the function that computes runs with an engine's ``simulate_many``; times are multiples of the output step."""
-    shorter = dataclasses.replace(scenario, duration=_cut(scenario, times))
-    index = np.round(times / scenario.output_step).astype(np.int64)
+    samples = Sampling.of(scenario, times)
 
     def compute(seed: int, first: int, n: int, threads: int) -> Block:
-        shape = (n, len(times))
-        block = Block(np.empty(shape), np.empty(shape), np.empty(shape, dtype=np.bool_), np.empty((n, TALLIES)))
-        runs = simulate_many(shorter, seed=seed, first_sample=first, n=n, dt=dt, threads=threads)
-        for j, run in enumerate(runs):
-            block.position[j], block.velocity[j] = run.position[index], run.velocity[index]
-            block.stick[j] = run.stick[index] == 1.0
-            block.tallies[j] = _tallies(run, scenario)
-        return block
+        return samples.block(n, simulate_many(samples.scenario, seed=seed, first_sample=first, n=n, dt=dt, threads=threads))
 
     return compute

@@ -1,4 +1,14 @@
-"""What the fixed-step kernels share: the legs, the step that fits them, and the problem's numbers."""
+"""What the fixed-step kernels share: the problem's numbers, the rows of a group, and what a step is made of.
+
+For x'' = a(x, x') the formula of Runge and Kutta needs two sums of its four accelerations a_0 .. a_3::
+
+    x + h x' + h^2/6 (a_0 + a_1 + a_2)
+    x' + h/6 ((a_0 + a_1 + a_2) + (a_1 + a_2) + a_3)
+"""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# (compiled functions are typed by numba)
 
 from __future__ import annotations
 
@@ -7,9 +17,17 @@ from typing import NamedTuple
 
 import numpy as np
 
+from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.ensemble.lanes import LANES, fma, note_crossings
 from stochfric_mb.ensemble.schedule import Array, Schedule, schedule
 from stochfric_mb.errors import StabilityError
 from stochfric_mb.scenario import Scenario
+
+# Rows of the flat array: position, velocity, velocity one step before, position and velocity of a stage, sum of the
+# first three accelerations, sum of the second and third, pair at the knot, its change to the next knot, pair there, mu_s
+X, V, OLD_V, STAGE_X, STAGE_V, SUM, MIDDLE, A_S, A_K, D_S, D_K, B_S, B_K, MU = (LANES * i for i in range(14))
+SHARED_ROWS = 14
+"""Rows above; a kernel's own rows follow them."""
 
 
 class Problem(NamedTuple):
@@ -50,12 +68,7 @@ def problem(scenario: Scenario, output_times: Array, least_slip: float, dt: floa
     Raises:
         StabilityError: dt is beyond the law's stability limit.
     """
-    limit = scenario.step_limit()
-    if dt > limit:
-        raise StabilityError(
-            f"dt = {dt:g} s is beyond the stability limit of {scenario.law.kind}, {scenario.law.step_limit_formula} = "
-            f"{limit:g} s; give dt <= {0.5 * limit:g} s"
-        )
+    check_step(scenario, dt)
     legs = schedule(scenario, output_times)
     b = scenario.mechanism
     return Problem(
@@ -75,3 +88,81 @@ def problem(scenario: Scenario, output_times: Array, least_slip: float, dt: floa
         velocity=b.initial_velocity,
         least_slip=least_slip,
     )
+
+
+def check_step(scenario: Scenario, dt: float) -> None:
+    """Check that the law is stable at a step dt [s].
+
+    Raises:
+        StabilityError: it is not.
+    """
+    limit = scenario.step_limit()
+    if dt > limit:
+        raise StabilityError(
+            f"dt = {dt:g} s is beyond the stability limit of {scenario.law.kind}, {scenario.law.step_limit_formula} = "
+            f"{limit:.3g} s; give dt <= {0.5 * limit:.3g} s"
+        )
+
+
+@compiled
+def changes_to_next_knot(m):
+    """Write the change of each pair to the next knot."""
+    for j in range(LANES):
+        m[D_S + j] = m[B_S + j] - m[A_S + j]
+        m[D_K + j] = m[B_K + j] - m[A_K + j]
+
+
+@compiled_inline
+def drives(amplitude, frequency, t, h):
+    """Return amplitude cos(frequency t) at the start, the middle and the end of a step."""
+    if amplitude == 0.0:
+        return 0.0, 0.0, 0.0
+    return (
+        amplitude * math.cos(frequency * t),
+        amplitude * math.cos(frequency * (t + 0.5 * h)),
+        amplitude * math.cos(frequency * (t + h)),
+    )
+
+
+@compiled_inline
+def finish_stage(j, a, ahead, middle, m):
+    """Take the acceleration a of lane j, and go ``ahead`` [s] from the start of the step with it.
+
+    ``middle`` is 0 for the first stage and 1 for the second and third.
+    """
+    v = m[STAGE_V + j]
+    m[SUM + j] += a
+    m[MIDDLE + j] += middle * a
+    m[STAGE_X + j] = fma(ahead, v, m[X + j])
+    m[STAGE_V + j] = fma(ahead, a, m[V + j])
+
+
+@compiled_inline
+def end_of_step(j, a, h, m):
+    """Return x and x' of lane j at the end of the step from the fourth acceleration a."""
+    v, three = m[V + j], m[SUM + j]
+    return fma(h * h / 6.0, three, fma(h, v, m[X + j])), fma(h / 6.0, three + m[MIDDLE + j] + a, v)
+
+
+@compiled_inline
+def begin_step(j, x, v, m):
+    """Make x and x' the state of lane j that the next step starts from."""
+    m[OLD_V + j] = m[V + j]
+    m[X + j] = m[STAGE_X + j] = x
+    m[V + j] = m[STAGE_V + j] = v
+    m[SUM + j] = m[MIDDLE + j] = 0.0
+
+
+@compiled_inline
+def passed(was, now, v_s):
+    """Return whether the relative velocity [m/s] passed v_s, either way, or turned over within a step."""
+    return ((abs(was) <= v_s) != (abs(now) <= v_s)) | (was * now < 0.0)
+
+
+@compiled
+def note_step(q, t, h, w, m, tally, pending):
+    """Note what happened within the step from t to t + h; ``w`` is the part of the way between knots at its start."""
+    for j in range(LANES):
+        m[MU + j] = m[A_S + j] + w * m[D_S + j]
+    x, v, before, mu_s = m[X : X + LANES], m[V : V + LANES], m[OLD_V : OLD_V + LANES], m[MU : MU + LANES]
+    note_crossings(t, h, q.belt_velocity, q.stick_speed, x, v, before, mu_s, tally, pending, q.least_slip)

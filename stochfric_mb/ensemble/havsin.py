@@ -20,24 +20,27 @@ import numpy as np
 
 from stochfric_mb.coefficients.path import CURSOR
 from stochfric_mb.compile import compiled, compiled_inline
-from stochfric_mb.ensemble.lanes import (
-    LANES,
-    OPEN,
-    TALLIES,
-    aligned,
-    begin,
-    close,
-    first_pairs,
-    fma,
-    next_pairs,
-    note_crossings,
-    sine,
+from stochfric_mb.ensemble.fixed_step import (
+    A_K,
+    A_S,
+    B_K,
+    B_S,
+    D_K,
+    D_S,
+    SHARED_ROWS,
+    STAGE_V,
+    STAGE_X,
+    V,
+    X,
+    begin_step,
+    changes_to_next_knot,
+    drives,
+    end_of_step,
+    finish_stage,
+    note_step,
+    passed,
 )
-
-# Rows of the flat array: position, velocity, velocity one step before, position and velocity of a stage, sum of the
-# first three accelerations, sum of the second and third, pair at the knot, its change to the next knot, pair there, mu_s
-X, V, BEFORE, STAGE_X, STAGE_V, SUM, MIDDLE, A_S, A_K, D_S, D_K, B_S, B_K, MU = (LANES * i for i in range(14))
-ROWS = 14
+from stochfric_mb.ensemble.lanes import LANES, OPEN, TALLIES, aligned, begin, close, first_pairs, fma, next_pairs, sine
 
 
 @compiled_inline
@@ -64,14 +67,14 @@ def simulate(q: Any, seed: int, first: int, n: int, position: Any, velocity: Any
 @compiled
 def _group(q, seed, first, n, position, velocity, stick, tallies):
     """Run one group of lanes."""
-    m = aligned(ROWS * LANES)
+    m = aligned(SHARED_ROWS * LANES)
     m[X : X + LANES] = m[STAGE_X : STAGE_X + LANES] = q.position
     m[V : V + LANES] = m[STAGE_V : STAGE_V + LANES] = q.velocity
     a_s, a_k, b_s, b_k = (m[A_S : A_S + LANES], m[A_K : A_K + LANES], m[B_S : B_S + LANES], m[B_K : B_K + LANES])
     tally, pending = np.empty((TALLIES, LANES)), np.empty((OPEN, LANES))
     cursors = np.zeros((LANES, CURSOR))
     first_pairs(q.descriptor, cursors, seed, first, a_s, a_k, b_s, b_k)
-    _slopes(m)
+    changes_to_next_knot(m)
     knot = 0
     for j in range(LANES):
         begin(tally, pending, j, abs(q.belt_velocity - q.velocity) <= q.stick_speed)
@@ -82,7 +85,7 @@ def _group(q, seed, first, n, position, velocity, stick, tallies):
         if q.legs.knot[i] > knot:
             knot += 1
             next_pairs(q.descriptor, cursors, seed, first, knot, a_s, a_k, b_s, b_k)
-            _slopes(m)
+            changes_to_next_knot(m)
         n_steps = int(q.n_steps[q.legs.kind[i]])
         h = q.legs.length[i] / n_steps
         part = (q.legs.to_knot[i] - q.legs.from_knot[i]) / n_steps
@@ -90,7 +93,7 @@ def _group(q, seed, first, n, position, velocity, stick, tallies):
             t = q.legs.start[i] + step * h
             w = q.legs.from_knot[i] + step * part
             if _step(q.amplitude / q.mass, q.frequency, t, h, w, part, numbers, m) > 0:
-                _note(q, t, h, w, m, tally, pending)
+                note_step(q, t, h, w, m, tally, pending)
         if q.legs.output[i] >= 0:
             _record(q, q.legs.output[i], n, m, position, velocity, stick)
     end = q.legs.start[-1] + q.legs.length[-1]
@@ -107,21 +110,9 @@ def _numbers(q):
 
 
 @compiled
-def _slopes(m):
-    """Write the change of each pair to the next knot."""
-    for j in range(LANES):
-        m[D_S + j] = m[B_S + j] - m[A_S + j]
-        m[D_K + j] = m[B_K + j] - m[A_K + j]
-
-
-@compiled
 def _step(amplitude, frequency, t, h, w, part, numbers, m):
     """Make one step of every lane; return how many entered or left stick or turned over."""
-    f0 = f1 = f2 = 0.0
-    if amplitude != 0.0:
-        f0 = amplitude * math.cos(frequency * t)
-        f1 = amplitude * math.cos(frequency * (t + 0.5 * h))
-        f2 = amplitude * math.cos(frequency * (t + h))
+    f0, f1, f2 = drives(amplitude, frequency, t, h)
     _stage(w, 0.5 * h, 0.0, f0, numbers, m)
     _stage(w + 0.5 * part, 0.5 * h, 1.0, f1, numbers, m)
     _stage(w + 0.5 * part, h, 1.0, f1, numbers, m)
@@ -141,47 +132,21 @@ def _acceleration(j, w, drive, numbers, m):
 
 @compiled
 def _stage(w, ahead, middle, drive, numbers, m):
-    """Evaluate an acceleration and go ``ahead`` [s] from the start of the step with it.
-
-    ``middle`` is 0 for the first stage and 1 for the second and third.
-    """
+    """Evaluate an acceleration of every lane and go ``ahead`` [s] with it."""
     for j in range(LANES):
-        a = _acceleration(j, w, drive, numbers, m)
-        v = m[STAGE_V + j]
-        m[SUM + j] += a
-        m[MIDDLE + j] += middle * a
-        m[STAGE_X + j] = fma(ahead, v, m[X + j])
-        m[STAGE_V + j] = fma(ahead, a, m[V + j])
+        finish_stage(j, _acceleration(j, w, drive, numbers, m), ahead, middle, m)
 
 
 @compiled
 def _last_stage(w, h, drive, numbers, m):
-    """Evaluate the fourth acceleration and finish the step: for x'' = a(x, x') the sums of Runge-Kutta's formula are these."""
+    """Evaluate the fourth acceleration, finish the step, and count the lanes that passed v_s or turned over."""
     v_b, v_s = numbers[0], numbers[1]
     changes = 0
     for j in range(LANES):
-        a = _acceleration(j, w, drive, numbers, m)
-        v = m[V + j]
-        three = m[SUM + j]
-        x_new = fma(h * h / 6.0, three, fma(h, v, m[X + j]))
-        v_new = fma(h / 6.0, three + m[MIDDLE + j] + a, v)
-        was, now = v_b - v, v_b - v_new
-        changes += 1 if ((abs(was) <= v_s) != (abs(now) <= v_s)) | (was * now < 0.0) else 0
-        m[BEFORE + j] = v
-        m[X + j] = m[STAGE_X + j] = x_new
-        m[V + j] = m[STAGE_V + j] = v_new
-        m[SUM + j] = m[MIDDLE + j] = 0.0
+        x, v = end_of_step(j, _acceleration(j, w, drive, numbers, m), h, m)
+        changes += 1 if passed(v_b - m[V + j], v_b - v, v_s) else 0
+        begin_step(j, x, v, m)
     return changes
-
-
-@compiled
-def _note(q, t, h, w, m, tally, pending):
-    """Note what happened within the step before now."""
-    for j in range(LANES):
-        m[MU + j] = m[A_S + j] + w * m[D_S + j]
-    rows = m.reshape(ROWS, LANES)
-    x, v, before, mu_s = rows[X // LANES], rows[V // LANES], rows[BEFORE // LANES], rows[MU // LANES]
-    note_crossings(t, h, q.belt_velocity, q.stick_speed, x, v, before, mu_s, tally, pending, q.least_slip)
 
 
 @compiled

@@ -14,12 +14,14 @@ import numpy.typing as npt
 from stochfric_mb import __version__
 from stochfric_mb.engines import ENGINES, adapter
 from stochfric_mb.ensemble import methods
+from stochfric_mb.ensemble.collect import checked_block
 from stochfric_mb.ensemble.engines import Prepared, all_at_once, many
+from stochfric_mb.ensemble.fixed_step import check_step
+from stochfric_mb.ensemble.planning import MAX_SAMPLES, Plan, check_address, plan
 from stochfric_mb.ensemble.result import Block
-from stochfric_mb.ensemble.runner import MAX_SAMPLES, Plan, _check_address, _checked, plan
 from stochfric_mb.ensemble.schedule import checked_times
 from stochfric_mb.ensemble.sketch import BINS
-from stochfric_mb.errors import SimulationError, StabilityError
+from stochfric_mb.errors import SimulationError
 from stochfric_mb.scenario import Scenario
 
 THREADS, BATCH, PROCESSES = "threads", "batch", "processes"
@@ -126,7 +128,7 @@ def job(
         InputError: arguments that cannot be used.
     """
     times = checked_times(scenario, output_times)
-    _check_address(seed, first_sample, n_runs)
+    check_address(seed, first_sample, n_runs)
     options = {"output_times": times, "statistics_only": statistics_only, "engine": engine, "dt": dt, "bins": bins}
     known = plan(scenario, n_runs, block=block, **options)
     if block is None:
@@ -165,12 +167,8 @@ def describe(given: Job) -> Description:
     """
     known = methods.method(given.scenario, given.engine, given.dt)
     if known.side_by_side:
-        limit = given.scenario.step_limit()
-        if known.dt > limit:
-            raise StabilityError(
-                f"dt = {known.dt:g} s is beyond the stability limit {limit:.3g} s of the law {given.scenario.law.kind!r} "
-                f"({given.scenario.law.step_limit_formula}); use dt <= {0.5 * limit:.3g} s"
-            )
+        if known.dt > 0.0:
+            check_step(given.scenario, known.dt)
         return Description(given.scenario.law.kind, (), known.dt)
     short = dataclasses.replace(given.scenario, duration=given.scenario.output_step)
     about = adapter(given.engine).simulate(short, seed=given.seed, sample=given.first_sample, dt=given.dt).attributes
@@ -193,7 +191,7 @@ def compute(given: Job, number: int, threads: int = 1) -> Block:
     first, n = given.span(number)
     low = given.first_sample + first
     try:
-        return _checked(_prepared(_Key(given))(given.seed, low, n, threads), given.scenario, low)
+        return checked_block(_prepared(_Key(given))(given.seed, low, n, threads), given.scenario, low)
     except SimulationError as error:
         raise SimulationError(f"samples {low} .. {low + n - 1} of seed {given.seed}: {error}") from error
 

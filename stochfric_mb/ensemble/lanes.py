@@ -20,11 +20,8 @@ import numpy as np
 from numba import types
 from numba.extending import intrinsic
 
-from stochfric_mb.coefficients.path import _matern_step as matern_step
-from stochfric_mb.coefficients.path import independent_pair, seek
-from stochfric_mb.coefficients.philox import _bits as bits
-from stochfric_mb.coefficients.philox import _from_bits as from_bits
-from stochfric_mb.coefficients.philox import normals
+from stochfric_mb.coefficients.path import independent_pair, matern_step, seek
+from stochfric_mb.coefficients.philox import bits_of, double_of, normals
 from stochfric_mb.coefficients.processes import ORNSTEIN_UHLENBECK
 from stochfric_mb.compile import compiled, compiled_inline
 
@@ -96,7 +93,7 @@ def exponential(y):
     s = fma(r, s, 1.0)
     s = fma(r, s, 1.0)
     # adding 1.5 2^52 leaves n in the low bits, where it can be moved into the exponent without a conversion
-    return s * from_bits((bits(n + 6755399441055744.0) + _BIAS) << _MANTISSA_BITS)
+    return s * double_of((bits_of(n + 6755399441055744.0) + _BIAS) << _MANTISSA_BITS)
 
 
 @compiled

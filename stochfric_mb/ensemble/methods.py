@@ -7,13 +7,10 @@ from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
-import numpy as np
-
 from stochfric_mb.coefficients.processes import TIME
 from stochfric_mb.engines import adapter
 from stochfric_mb.ensemble import coulomb, elastic_stick, fixed_step, havsin
-from stochfric_mb.ensemble.lanes import TALLIES
-from stochfric_mb.ensemble.result import Block
+from stochfric_mb.ensemble.result import Block, empty_block
 from stochfric_mb.ensemble.schedule import Array
 from stochfric_mb.ensemble.single import one_at_a_time
 from stochfric_mb.errors import SimulationError, require_number
@@ -80,7 +77,7 @@ def _fixed_step(kernel: ModuleType, scenario: Scenario, times: Array, dt: float)
 
 def _kernel(kernel: ModuleType, problem: Any, n_times: int) -> Compute:
     def compute(seed: int, first: int, n: int) -> Block:
-        block = Block(np.empty((n, n_times)), np.empty((n, n_times)), np.empty((n, n_times), np.bool_), np.empty((n, TALLIES)))
+        block = empty_block(n, n_times)
         failed = kernel.simulate(problem, seed, first, n, *block)
         if failed > 0:
             t = float(problem.legs.start[failed - 1])

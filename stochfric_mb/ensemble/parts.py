@@ -18,9 +18,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.ensemble.collect import QUANTITIES, Runs, Statistics
 from stochfric_mb.ensemble.job import Job
 from stochfric_mb.ensemble.result import Block, EnsembleResult
-from stochfric_mb.ensemble.runner import QUANTITIES, _Runs, _Statistics
 from stochfric_mb.ensemble.sketch import Sketch
 from stochfric_mb.errors import InputError
 from stochfric_mb.storage import whole_file, whole_folder
@@ -71,7 +71,7 @@ class Parts:
 
     def result(self, attributes: dict[str, Any]) -> EnsembleResult:
         """Return the whole ensemble once all blocks are finished."""
-        collect = _Runs(np.array(self.job.times), self.job.plan())
+        collect = Runs(np.array(self.job.times), self.job.n_runs)
         for number in range(self.job.n_blocks):
             collect.add(self.load(number), self.job.span(number)[0])
         return collect.result(attributes)
@@ -110,7 +110,7 @@ class StatisticsParts(Parts):
     def __init__(self, folder: Path, job: Job) -> None:
         """Take a folder that `open_parts` has checked."""
         super().__init__(folder, job)
-        self._collect = _Statistics(np.array(job.times), job.plan(), job.bins)
+        self._collect = Statistics(np.array(job.times), job.n_runs, job.bins)
         self._folded = 0
         self._saved = 0
         self._kept_bytes = 0

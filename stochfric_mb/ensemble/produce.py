@@ -23,8 +23,8 @@ from stochfric_mb.ensemble.dataset import (
 )
 from stochfric_mb.ensemble.job import Description, Job, describe, versions
 from stochfric_mb.ensemble.parts import Parts, open_parts
+from stochfric_mb.ensemble.planning import MAX_BYTES
 from stochfric_mb.ensemble.result import Block
-from stochfric_mb.ensemble.runner import MAX_BYTES
 from stochfric_mb.ensemble.workers import cores, on_this_machine
 from stochfric_mb.errors import InputError
 from stochfric_mb.storage import versions as all_versions

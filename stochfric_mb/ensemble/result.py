@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.ensemble.lanes import BREAK_AWAYS, FIRST, LAST, MU_S_SUM, STICK_TIME
+from stochfric_mb.ensemble.lanes import BREAK_AWAYS, FIRST, LAST, MU_S_SUM, STICK_TIME, TALLIES
 from stochfric_mb.ensemble.sketch import Array, Sketch, checked_levels
 from stochfric_mb.errors import InputError, require_name
 
@@ -24,6 +24,12 @@ class Block(NamedTuple):
     """Whether the contact sticks, shape (n, n_times)."""
     tallies: Array
     """Break-aways, times of the first and the last [s], sum of mu_s at them, time stuck [s], shape (n, 5)."""
+
+
+def empty_block(n: int, n_times: int) -> Block:
+    """Return room for n runs at ``n_times`` times, to be filled."""
+    shape = (n, n_times)
+    return Block(np.empty(shape), np.empty(shape), np.empty(shape, dtype=np.bool_), np.empty((n, TALLIES)))
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

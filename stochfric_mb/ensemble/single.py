@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import numpy as np
+import numpy.typing as npt
 
 from stochfric_mb import metrics
 from stochfric_mb.engines import adapter
-from stochfric_mb.ensemble.lanes import TALLIES
-from stochfric_mb.ensemble.result import Block
+from stochfric_mb.ensemble.result import Block, empty_block
 from stochfric_mb.ensemble.schedule import SAME_TIME, Array
 from stochfric_mb.errors import InputError
 from stochfric_mb.scenario import Scenario
@@ -25,9 +25,8 @@ def one_at_a_time(scenario: Scenario, engine: str, dt: float | None, times: Arra
         InputError: output times that are no multiples of the scenario's output step.
     """
     simulate = adapter(engine).simulate
-    shorter = dataclasses.replace(scenario, duration=_cut(scenario, times))
-    index = np.round(times / scenario.output_step).astype(np.int64)
-    off = np.abs(index * scenario.output_step - times) > 1.0e-9 * scenario.output_step + SAME_TIME
+    samples = Sampling.of(scenario, times)
+    off = np.abs(samples.index * scenario.output_step - times) > 1.0e-9 * scenario.output_step + SAME_TIME
     if off.any():
         raise InputError(
             f"output time {times[np.argmax(off)]:g} s is no multiple of simulation.output_step = {scenario.output_step:g} s, "
@@ -35,21 +34,35 @@ def one_at_a_time(scenario: Scenario, engine: str, dt: float | None, times: Arra
         )
 
     def compute(seed: int, first: int, n: int) -> Block:
-        shape = (n, len(times))
-        block = Block(np.empty(shape), np.empty(shape), np.empty(shape, dtype=np.bool_), np.empty((n, TALLIES)))
-        for j in range(n):
-            trajectory = simulate(shorter, seed=seed, sample=first + j, dt=dt)
-            block.position[j], block.velocity[j] = trajectory.position[index], trajectory.velocity[index]
-            block.stick[j] = trajectory.stick[index] == 1.0
-            block.tallies[j] = _tallies(trajectory, scenario)
-        return block
+        return samples.block(n, (simulate(samples.scenario, seed=seed, sample=first + j, dt=dt) for j in range(n)))
 
     return compute
 
 
-def _cut(scenario: Scenario, times: Array) -> float:
-    """Return the duration [s] that reaches the last output time."""
-    return max(math.ceil(times[-1] / scenario.output_step - 1.0e-6), 1) * scenario.output_step
+@dataclasses.dataclass(frozen=True)
+class Sampling:
+    """What an ensemble keeps of an engine's trajectories."""
+
+    scenario: Scenario
+    """The scenario, as long as the last output time needs."""
+    index: npt.NDArray[np.int64]
+    """Numbers of the samples at the output times, shape (n_times,)."""
+
+    @classmethod
+    def of(cls, scenario: Scenario, times: Array) -> Sampling:
+        """Return what ``times`` [s] need of a scenario's output steps."""
+        step = scenario.output_step
+        duration = max(math.ceil(times[-1] / step - 1.0e-6), 1) * step
+        return cls(dataclasses.replace(scenario, duration=duration), np.round(times / step).astype(np.int64))
+
+    def block(self, n: int, trajectories: Iterable[Trajectory]) -> Block:
+        """Return n trajectories as a block."""
+        block = empty_block(n, len(self.index))
+        for j, trajectory in enumerate(trajectories):
+            block.position[j], block.velocity[j] = trajectory.position[self.index], trajectory.velocity[self.index]
+            block.stick[j] = trajectory.stick[self.index] == 1.0
+            block.tallies[j] = _tallies(trajectory, self.scenario)
+        return block
 
 
 def _tallies(trajectory: Trajectory, scenario: Scenario) -> Array:
