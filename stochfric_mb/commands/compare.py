@@ -64,17 +64,12 @@ def compare(
 
 def write(comparison: Comparison, folder: Path, command: str) -> None:
     """Write compare.json, report.html and plots/ of a comparison into an existing folder."""
-    import json
-
+    from stochfric_mb.commands.report_folder import write_report
     from stochfric_mb.report.comparison import figures, page
 
     drawn = figures(comparison)
-    (folder / "plots").mkdir()
-    for name, png in drawn.items():
-        (folder / "plots" / f"{name}.png").write_bytes(png)
     content = comparison.to_dict() | {"command": command}
-    (folder / MARKER).write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    (folder / "report.html").write_text(page(comparison, drawn, command), encoding="utf-8")
+    write_report(folder, numbers=MARKER, content=content, plots=drawn, page=page(comparison, drawn, command))
 
 
 def _show(comparison: Comparison) -> None:

@@ -50,17 +50,12 @@ def reproduce(study: str, quick: bool, seed: int, out: str, force: bool) -> None
 
 def write(result: Reproduction, folder: Path, command: str) -> None:
     """Write reproduce.json, report.html and plots/ of a reproduction into an existing folder."""
-    import json
-
+    from stochfric_mb.commands.report_folder import write_report
     from stochfric_mb.report.reproduction import figures, page
 
     drawn = figures(result)
-    (folder / "plots").mkdir()
-    for name, png in drawn.items():
-        (folder / "plots" / f"{name}.png").write_bytes(png)
     content = result.to_dict() | {"command": command}
-    (folder / MARKER).write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    (folder / "report.html").write_text(page(result, drawn, command), encoding="utf-8")
+    write_report(folder, numbers=MARKER, content=content, plots=drawn, page=page(result, drawn, command))
 
 
 def _show(result: Reproduction) -> None:
