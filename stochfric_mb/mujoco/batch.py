@@ -17,7 +17,7 @@ from mujoco.batch import Batch
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.attach import friction_instances
-from stochfric_mb.mujoco.belt_box import _trajectory, build, start
+from stochfric_mb.mujoco.belt_box import build, start, trajectory_of
 from stochfric_mb.mujoco.march import COLUMNS
 from stochfric_mb.scenario import Scenario
 from stochfric_mb.trajectory import Trajectory
@@ -50,7 +50,7 @@ def simulate_many(
     rows = _march(batch, scenario)
     seconds = (time.perf_counter() - began) / n
     _require_sane(batch, rows, scenario)
-    return [_trajectory(batch.model, state, row, scenario, seconds) for state, row in zip(own_state(batch), rows, strict=True)]
+    return [trajectory_of(batch.model, state, row, scenario, seconds) for state, row in zip(own_state(batch), rows, strict=True)]
 
 
 def own_state(batch: Batch) -> Array:

@@ -137,7 +137,7 @@ def integrate(model: mujoco.MjModel, scenario: Scenario, *, progress: Callable[[
         if progress is not None:
             progress((first + len(part) - 1) * scenario.output_step)
     seconds = time.perf_counter() - began
-    return _trajectory(model, state, rows, scenario, seconds)
+    return trajectory_of(model, state, rows, scenario, seconds)
 
 
 def start(model: mujoco.MjModel, mechanism: BeltBox) -> mujoco.MjData:
@@ -190,7 +190,8 @@ def _require_sane(data: mujoco.MjData, rows: Array, done: int, scenario: Scenari
     )
 
 
-def _trajectory(model: mujoco.MjModel, state: Array, rows: Array, scenario: Scenario, seconds: float) -> Trajectory:
+def trajectory_of(model: mujoco.MjModel, state: Array, rows: Array, scenario: Scenario, seconds: float) -> Trajectory:
+    """Return the rows (one an output time, columns as `march.COLUMNS`) of a run of the given engine state as a trajectory."""
     instance = friction_instances(model)[0]
     law = friction_of(_config(model, instance, "law"), "").law
     dt = float(model.opt.timestep)
