@@ -1,0 +1,153 @@
+"""The outcome of discovery, as ``result.json`` holds it (schema ``stochfric.discovery/1``)."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from typing import Any, Literal
+
+SCHEMA = "stochfric.discovery/1"
+
+Verdict = Literal["effect", "none", "unknown"]
+
+
+@dataclasses.dataclass(frozen=True)
+class Interval:
+    """A fitted number with its 95 % interval."""
+
+    value: float
+    low: float
+    high: float
+    unit: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Where:
+    """Where a disagreement lives."""
+
+    axis: str
+    """Axis, such as "belt position", "time within a slip", "relative velocity"."""
+    text: str
+    """One sentence for a reader."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Found:
+    """One effect that was found."""
+
+    kind: str
+    """Its name in the vocabulary."""
+    equivalent_to: tuple[str, ...]
+    """Effects that these data cannot tell from it."""
+    where: Where
+    """Where it shows."""
+    parameters: dict[str, Interval]
+    """Its fitted parameters."""
+    score: float
+    """Evidence: 2 delta log L - p ln n - 2 ln(grid size) [-]."""
+    p_value: float
+    """Chance of that much evidence without the effect [-]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Gap:
+    """Distance of models from data, before and after."""
+
+    metric: str
+    """"crps_one_cycle" for stick-slip, otherwise the forward simulation or inverse dynamics error, named."""
+    unit: str
+    """Its unit."""
+    held_out: bool
+    """Whether it was measured on runs that no fit has seen."""
+    baseline: float
+    """The model as believed."""
+    recalibrated: float
+    """The same with its parameters fitted within their uncertainty."""
+    augmented: float
+    """With the effects found."""
+    floor: float
+    """What the final model scores on data simulated from itself with the noise of the record, or as ``floor_from`` says."""
+    floor_from: str = "simulated from the final model with the record's noise"
+    """Where the floor comes from."""
+
+    @property
+    def closed(self) -> float | None:
+        """Share of the reducible gap that the effects close; None where there is none."""
+        reducible = self.recalibrated - self.floor
+        # below a fiftieth of the score itself the quotient would be noise over noise
+        return (self.recalibrated - self.augmented) / reducible if reducible > 0.02 * self.recalibrated else None
+
+
+@dataclasses.dataclass(frozen=True)
+class Result:
+    """Everything that discovery says; every sentence of the report is backed by a number in here."""
+
+    verdict: Verdict
+    """"effect", "none" or "unknown"."""
+    effects: tuple[Found, ...]
+    """What was found, in the order in which it was; empty for "none" and "unknown"."""
+    where: Where | None
+    """For "unknown": when and where the disagreement lives."""
+    ranking: tuple[tuple[str, float], ...]
+    """Every candidate with its score, best first."""
+    gap: Gap | None
+    """Before and after; None where no forecast was possible."""
+    not_identifiable: tuple[str, ...]
+    """Effects that this experiment cannot see."""
+    next_experiment: str
+    """The experiment that would decide what is open."""
+    believed: dict[str, Interval]
+    """Recalibrated parameters of the believed model."""
+    notes: tuple[str, ...] = ()
+    """What a reader should know: outliers removed, belt speed off, data lost, ..."""
+    power: dict[str, float] = dataclasses.field(default_factory=dict[str, float])
+    """Smallest strength of an effect that would have been named, by kind."""
+    details: dict[str, Any] = dataclasses.field(default_factory=dict[str, Any])
+    """Numbers behind the report: noise, slips, calibration, confirmation, scores of the channels."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the content of ``result.json``."""
+        gap = None
+        if self.gap is not None:
+            gap = dataclasses.asdict(self.gap) | {"closed": self.gap.closed}
+        return {
+            "schema": SCHEMA,
+            "verdict": self.verdict,
+            "effects": [
+                {
+                    "kind": e.kind,
+                    "equivalent_to": list(e.equivalent_to),
+                    "where": dataclasses.asdict(e.where),
+                    "parameters": {k: dataclasses.asdict(v) for k, v in e.parameters.items()},
+                    "evidence": {"score": e.score, "p_value": e.p_value},
+                }
+                for e in self.effects
+            ],
+            "where": dataclasses.asdict(self.where) if self.where is not None else None,
+            "ranking": [{"kind": kind, "score": score} for kind, score in self.ranking],
+            "gap": gap,
+            "not_identifiable": list(self.not_identifiable),
+            "next_experiment": self.next_experiment,
+            "believed": {k: dataclasses.asdict(v) for k, v in self.believed.items()},
+            "notes": list(self.notes),
+            "power": self.power,
+            "details": self.details,
+        }
+
+    def to_json(self) -> str:
+        """Return the text of ``result.json``; numbers that are not finite become null, digits are those that matter."""
+        return json.dumps(_plain(self.to_dict()), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {str(k): _plain(v) for k, v in value.items()}  # pyright: ignore[reportUnknownVariableType, reportUnknownArgumentType]
+    if isinstance(value, (list, tuple)):
+        return [_plain(v) for v in value]  # pyright: ignore[reportUnknownVariableType]
+    if isinstance(value, (bool, str)) or value is None:
+        return value
+    if isinstance(value, int):
+        return value
+    number = float(value)
+    return float(f"{number:.8g}") if math.isfinite(number) else None
