@@ -50,7 +50,8 @@ def simulate_many(
     rows = _march(batch, scenario)
     seconds = (time.perf_counter() - began) / n
     _require_sane(batch, rows, scenario)
-    return [trajectory_of(batch.model, state, row, scenario, seconds) for state, row in zip(own_state(batch), rows, strict=True)]
+    pairs = zip(own_state(batch), rows, strict=True)
+    return [trajectory_of(batch.model, state, row, scenario, seconds) for state, row in pairs]
 
 
 def own_state(batch: Batch) -> Array:

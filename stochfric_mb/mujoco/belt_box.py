@@ -191,7 +191,7 @@ def _require_sane(data: mujoco.MjData, rows: Array, done: int, scenario: Scenari
 
 
 def trajectory_of(model: mujoco.MjModel, state: Array, rows: Array, scenario: Scenario, seconds: float) -> Trajectory:
-    """Return the rows (one an output time, columns as `march.COLUMNS`) of a run of the given engine state as a trajectory."""
+    """Return the rows of `march` and the law instance's own state as a trajectory."""
     instance = friction_instances(model)[0]
     law = friction_of(_config(model, instance, "law"), "").law
     dt = float(model.opt.timestep)
