@@ -116,7 +116,7 @@ def truth(made: Made) -> dict[str, object]:
         "case": asdict(made.case),
         "forms": [part.name for part in made.case.parts],
         "kinds": kinds,
-        "acceptable": [sorted(expectation.acceptable(kind, made.design)) for kind in kinds],
+        "acceptable": [sorted(expectation.acceptable(part, made.design)) for part in made.case.parts],
         "visible": [expectation.visible(kind, made.design) for kind in kinds],
         "several_points": made.design.several_points,
         "effect_parameters": [effect.parameters for effect in made.effects],

@@ -38,3 +38,8 @@ def tabulate_period(function: Callable[[Array], Array], length: float, n: int = 
     """The function over one period of the given length, repeated for ever."""
     points = np.arange(n) * (length / n)
     return Curve(0.0, length / n, True, np.ascontiguousarray(function(points), dtype=np.float64))
+
+
+def slope(curve: Curve) -> float:
+    """Slope of a straight curve."""
+    return float((curve.values[-1] - curve.values[0]) / (curve.spacing * (curve.values.size - 1)))

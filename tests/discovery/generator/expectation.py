@@ -1,37 +1,41 @@
 """What a perfect analyst could answer: which effects an experiment can see, and which names its data cannot tell apart."""
 
 from .design import Design
+from .forms import Form
 
 UNKNOWN = "unknown"
 NONE = "none"
+
+
+_SPEEDS, _LOADS, _DIRECTION = "belt_velocity", "normal_force", "direction"
 
 
 def visible(kind: str, design: Design) -> bool:
     """Whether the experiment can show the effect at all."""
     varied = design.varied
     if kind == "load_dependence":
-        return "normal_force" in varied
+        return _LOADS in varied
     if kind == "direction_asymmetry":
-        return "direction" in varied
+        return _DIRECTION in varied
     if kind == "dwell_ageing":  # dwell is constant otherwise
-        return design.forced or "belt_velocity" in varied or "normal_force" in varied
+        return design.forced or _SPEEDS in varied or _LOADS in varied
     return True
 
 
-def acceptable(kind: str, design: Design) -> frozenset[str]:
-    """Names that are right for the effect in this experiment: the table of what cannot be told apart."""
+def acceptable(form: Form, design: Design) -> frozenset[str]:
+    """Names that are right for the form in this experiment: the table of what cannot be told apart."""
+    kind = form.kind
     if kind in (UNKNOWN, NONE):
-        return frozenset({kind})
+        return frozenset({kind}) | form.also
     if not visible(kind, design):
         return frozenset({NONE, kind})
-    names = {kind}
+    names = {kind} | form.also
     varied = design.varied
-    several_speeds = "belt_velocity" in varied
     for group, told_apart in (
-        ({"position_dependent_friction", "normal_load_ripple"}, several_speeds),
-        ({"viscous_friction", "quadratic_damping", "velocity_weakening"}, several_speeds and "normal_force" in varied),
+        ({"position_dependent_friction", "normal_load_ripple"}, _SPEEDS in varied),
+        ({"viscous_friction", "quadratic_damping", "velocity_weakening"}, _SPEEDS in varied and _LOADS in varied),
         ({"backlash", "second_mode"}, False),
-        ({"sensor_drift", "friction_drift"}, False),
+        ({"sensor_drift", "harmonic_force"}, False),
     ):
         if kind in group and not told_apart:
             names |= group

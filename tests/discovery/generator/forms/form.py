@@ -49,19 +49,28 @@ class Form:
     draw: Callable[[Generator, float, Rig], Effect]
     rig: dict[str, float]
     """Changes of the believed rig, for effects that its usual motion cannot show."""
+    also: frozenset[str]
+    """Further kinds that describe this form as well."""
 
 
 FORMS: dict[str, Form] = {}
 
 
 def form(
-    kind: str, **rig: float
+    kind: str, *, also: tuple[str, ...] = (), **rig: float
 ) -> Callable[[Callable[[Generator, float, Rig], Effect]], Callable[[Generator, float, Rig], Effect]]:
     """Register a function (rng, strength, rig) -> Effect as `kind.function_name`."""
 
     def register(draw: Callable[[Generator, float, Rig], Effect]) -> Callable[[Generator, float, Rig], Effect]:
         name = f"{kind}.{draw.__name__}"
-        FORMS[name] = Form(name, kind, draw, rig)
+        if name in FORMS:
+            raise ValueError(f"form {name!r} is defined twice")
+        FORMS[name] = Form(name, kind, draw, rig, frozenset(also))
         return draw
 
     return register
+
+
+def either_sign(rng: Generator) -> float:
+    """1 or -1."""
+    return float(rng.choice([-1.0, 1.0]))
