@@ -99,15 +99,15 @@ def _named(entry: RunEntry, table: Table) -> tuple[dict[str, Array], dict[str, s
     """Return the columns under the names of their quantities, their units, and notes about those left out."""
     sources = {quantity: _column(entry, table, quantity, column) for quantity, column in entry.columns.items()}
     taken = set(sources.values())
+    notes: list[str] = []
     if table.has_header:
         for name in table.columns:
             if name not in taken:
                 quantity = known_name(name) or name
                 if quantity in sources:
-                    quantity = name  # the entry gives that quantity another column: this one stays beside it
-                if quantity in sources or (quantity in KNOWN and quantity in entry.columns):
-                    continue
-                sources[quantity] = name
+                    notes.append(f"column {name!r} is left out: {quantity} is column {sources[quantity]!r}")
+                else:
+                    sources[quantity] = name
     if "time" not in sources:
         raise InputError(
             f"{entry.file}: no column is time; its columns are {_listed(table)}: name one "
@@ -122,7 +122,8 @@ def _named(entry: RunEntry, table: Table) -> tuple[dict[str, Array], dict[str, s
                 "give each quantity a value at each time"
             )
         del sources[quantity]
-    notes = [f"columns {', '.join(map(repr, short))} are not as long as time and are left out"] if short else []
+    if short:
+        notes.append(f"columns {', '.join(map(repr, short))} are not as long as time and are left out")
     if not any(q in KNOWN for q in sources if q != "time"):
         raise InputError(
             f"{entry.file}: no column is a known quantity; its columns are {_listed(table)}: name them after "

@@ -99,7 +99,7 @@ def uniform_grid(time: Array, places: Places, *, max_gap: float | None = None) -
     if away <= max(UNIFORM * mean, _rounding(time, mean)):
         return Grid(exact, mean, "")
     longest = int(np.argmax(steps))
-    limit = GAP * median if max_gap is None else max_gap
+    limit = (GAP * median if max_gap is None else max_gap) * (1.0 + 1.0e-9)  # time stamps are rounded
     if steps[longest] > limit:
         n = int(np.count_nonzero(steps > limit))
         raise InputError(
