@@ -19,7 +19,8 @@ from stochfric_mb.effects.contract import LOAD, MASS, POSITION, VELOCITY, Array,
 class SecondMode(Effect):
     """r'' + 2 damping_ratio w r' + w^2 r = -x'', w = 2 pi frequency.
 
-    The force on the body is mass_ratio m (w^2 r + 2 damping_ratio w r'). r is the oscillator's position relative to the body; memory = (q, q') with q = x + r, so that no acceleration is needed.
+    The force on the body is mass_ratio m (w^2 r + 2 damping_ratio w r'). r is the oscillator's position relative to the
+    body; memory = (q, q') with q = x + r, so that no acceleration is needed.
 
     Reference: J. P. Den Hartog, Mechanical Vibrations, 4th ed., McGraw-Hill 1956, section 3.2.
     """

@@ -1,0 +1,371 @@
+"""Marching the augmented belt-box: Dormand-Prince steps with dense output, and switches located within the step."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from stochfric_mb.compile import compiled
+from stochfric_mb.effects import contract as e
+from stochfric_mb.reference import augmented_model as m
+from stochfric_mb.reference.augmented_model import friction_force, hold, margin, motion, ride, rub, spring_constants, surround
+from stochfric_mb.reference.events import BREAK_AWAY, STICK, note
+
+OK, ENDLESS, NOT_FINITE = 0.0, 1.0, 2.0
+ENDLESS_SWITCHES = 5
+"""Switches per output, on average, beyond which a contact chatters without end."""
+RESTART = 2.0e-4
+"""First step after a switch [s]."""
+MEMORY_TOLERANCE = 1.0e-7
+"""Local error of an effect's memory, relative to its size."""
+SHORTEST = 1.0e-12
+"""Step [s] that is taken whatever its error: only a jump asks for it."""
+COLUMNS = 7
+"""x, x', F, stick, N, and the path's mu_s, mu_k."""
+
+# Dormand and Prince 1980: the pair 5(4) with its weights for dense output (Shampine 1986), first-same-as-last.
+A = np.array(
+    [
+        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [1 / 5, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [3 / 40, 9 / 40, 0.0, 0.0, 0.0, 0.0],
+        [44 / 45, -56 / 15, 32 / 9, 0.0, 0.0, 0.0],
+        [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729, 0.0, 0.0],
+        [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0.0],
+        [35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],
+    ]
+)
+B_TIMES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
+ERROR = np.array([-71 / 57600, 0.0, 71 / 16695, -71 / 1920, 17253 / 339200, -22 / 525, 1 / 40])
+DENSE = np.array(
+    [
+        [1.0, -8048581381 / 2820520608, 8663915743 / 2820520608, -12715105075 / 11282082432],
+        [0.0, 0.0, 0.0, 0.0],
+        [0.0, 131558114200 / 32700410799, -68118460800 / 10900136933, 87487479700 / 32700410799],
+        [0.0, -1754552775 / 470086768, 14199869525 / 1410260304, -10690763975 / 1880347072],
+        [0.0, 127303824393 / 49829197408, -318862633887 / 49829197408, 701980252875 / 199316789632],
+        [0.0, -282668133 / 205662961, 2019193451 / 616988883, -1453857185 / 822651844],
+        [0.0, 40617522 / 29380423, -110615467 / 29380423, 69997945 / 29380423],
+    ]
+)
+
+
+@compiled
+def begin(r, d, t, position, velocity, stuck, dwell, slip, draws, deflection):
+    """Set up a run at time t [s]; the memories are in ``r.y`` already. A deflection that is not a number: at rest."""
+    clock, y = r.clock, r.y
+    clock[m.NOW], clock[m.DWELL], clock[m.DRAWS], clock[m.SWITCHES], clock[m.STATUS] = t, dwell, draws, 0.0, OK
+    clock[m.SINCE] = t - dwell
+    clock[m.STEP], clock[m.MARGIN] = RESTART, math.nan
+    y[0], y[1] = position, velocity
+    surround(r, t, y, r.unused)
+    travel, belt = r.world[e.BELT_TRAVEL], r.world[e.BELT_VELOCITY]
+    if stuck and r.constants[m.LIMIT] == 0.0:
+        _ride_from(r, position, travel)
+        ride(r, t, y, r.unused)
+    elif stuck:
+        clock[m.MODE] = m.SPRING
+        if math.isnan(deflection):
+            deflection = hold(r, t) / spring_constants(r)[0]
+        clock[m.ANCHOR] = travel - position - deflection
+    else:
+        side = 1.0 if belt > velocity or (belt == velocity and hold(r, t) >= 0.0) else -1.0
+        _slide_from(r, side, travel - position, slip)
+        clock[m.ARMED] = 1.0 if abs(belt - velocity) > r.constants[m.RESTICK] else 0.0
+    for j in range(r.counts[2] + 2):
+        r.end[j] = y[j]
+
+
+@compiled
+def _ride_from(r, position, travel):
+    r.clock[m.MODE] = m.STUCK
+    r.clock[m.X_STUCK], r.clock[m.TRAVEL_STUCK] = position, travel
+
+
+@compiled
+def _slide_from(r, side, u, slip):
+    r.clock[m.MODE], r.clock[m.SIDE], r.clock[m.ARMED] = m.SLIDING, side, 0.0
+    r.clock[m.BROKE_AT], r.clock[m.SLID] = u, slip
+
+
+@compiled
+def march(r, d, step, count, rows, only_position):
+    """Integrate from now to ``count`` outputs every ``step`` [s]; fill ``rows``; return the log of switches.
+
+    ``rows`` is (count, COLUMNS), or (count, 1) where only positions are asked for. The number of switches is
+    ``r.clock[SWITCHES]``.
+    """
+    clock = r.clock
+    start = clock[m.NOW]
+    last = start + step * count
+    log = np.empty((64, 2))
+    i = 0
+    fresh = False
+    while i < count and clock[m.STATUS] == OK:
+        t = clock[m.NOW]
+        h, t_end = _length(r, t, last)
+        free = not (clock[m.MODE] == m.STUCK and r.counts[2] == 0)
+        error = _try_step(r, d, t, h, fresh) if free else 0.0
+        fresh = free
+        if not error <= 1.0 and h > SHORTEST:
+            clock[m.STEP] = h * (max(0.2, 0.9 * error**-0.2) if error < math.inf else 0.1)
+            continue
+        part, ahead = _first_crossing(r, d, t, h)
+        t_new = t_end if part >= 1.0 else t + part * h
+        while i < count and start + step * (i + 1) <= t_new + 1.0e-12:
+            at = start + step * (i + 1)
+            _within(r, min((at - t) / h, 1.0), h)
+            _record(r, d, at, rows[i], only_position)
+            i += 1
+        if part >= 1.0:
+            fresh = _accept(r, d, t_new, h, error, ahead) and fresh
+            continue
+        _within(r, part, h)
+        _copy(r, r.probe, r.y)
+        clock[m.NOW] = t_new
+        log = _switch(r, d, log)
+        fresh = False
+        if clock[m.SWITCHES] > ENDLESS_SWITCHES * (count + 1000.0):
+            clock[m.STATUS] = ENDLESS
+    return log
+
+
+@compiled
+def _accept(r, d, t, h, error, ahead):
+    """Take the step tried last, of h [s] up to t; return whether the rates at its end hold for the next one."""
+    clock = r.clock
+    clock[m.NOW], clock[m.MARGIN] = t, ahead
+    _copy(r, r.end, r.y)
+    clock[m.STEP] = h * min(5.0, 0.9 * error**-0.2) if error > 0.0 else 5.0 * h
+    if clock[m.MODE] == m.STUCK:
+        ride(r, t, r.y, r.unused)
+    elif not math.isfinite(r.y[0] + r.y[1]):
+        clock[m.STATUS] = NOT_FINITE
+    for j in range(r.counts[2] + 2):
+        r.stages[0, j] = r.stages[m.STAGES - 1, j]
+    return _keep(r, d)
+
+
+@compiled
+def _length(r, t, last):
+    """Return the next step [s] and where it ends: within the longest of the mode, not beyond a knot or the last output."""
+    clock, c = r.clock, r.constants
+    longest = c[m.LONGEST_SLIDE] if clock[m.MODE] != m.STUCK else c[m.LONGEST_STICK]
+    h = min(clock[m.STEP] if clock[m.MODE] != m.STUCK or r.counts[2] > 0 else longest, longest)
+    end = last
+    if c[m.KNOTS] > 0.0:
+        end = min(end, (math.floor(t / c[m.KNOTS] + 1.0e-9) + 1.0) * c[m.KNOTS])
+    if end - t <= 1.0000001 * h:
+        return end - t, end
+    return h, t + h
+
+
+@compiled
+def _copy(r, source, target):
+    for j in range(r.counts[2] + 2):
+        target[j] = source[j]
+
+
+@compiled
+def _try_step(r, d, t, h, fresh):
+    """Write the solution after a step h into ``r.end``; return its local error over the one allowed.
+
+    ``fresh``: the first stage is known already.
+    """
+    n = r.counts[2] + 2
+    k = r.stages
+    if not fresh:
+        _copy(r, r.y, r.probe)
+        motion(r, d, t, r.probe, k[0])
+    for i in range(1, m.STAGES):
+        for j in range(n):
+            total = 0.0
+            for s in range(i):
+                total += A[i, s] * k[s, j]
+            r.probe[j] = r.y[j] + h * total
+        if i == m.STAGES - 1:
+            _copy(r, r.probe, r.end)
+        motion(r, d, t + B_TIMES[i] * h, r.probe, k[i])
+    worst = 0.0
+    c = r.constants
+    for j in range(n):
+        if j < 2 and r.clock[m.MODE] == m.STUCK:
+            continue
+        difference = 0.0
+        for s in range(m.STAGES):
+            difference += ERROR[s] * k[s, j]
+        scale = c[m.TOLERANCE]
+        if j == 1:
+            scale *= math.sqrt(c[m.K] / c[m.M])
+        elif j >= 2:
+            scale = MEMORY_TOLERANCE * (abs(r.y[j]) + abs(h * k[0, j])) + 1.0e-12
+        worst = max(worst, abs(h * difference) / scale)
+        if math.isnan(difference):
+            return math.inf
+    return worst
+
+
+@compiled
+def _within(r, part, h):
+    """Write the unknowns at the given part of the step tried last into ``r.probe`` (not x, x' of a stuck box)."""
+    n = r.counts[2] + 2
+    stuck = r.clock[m.MODE] == m.STUCK
+    if not stuck or n > 2:
+        for j in range(2 if stuck else 0, n):
+            total = 0.0
+            for s in range(m.STAGES):
+                weight = DENSE[s, 0] + part * (DENSE[s, 1] + part * (DENSE[s, 2] + part * DENSE[s, 3]))
+                total += weight * r.stages[s, j]
+            r.probe[j] = r.y[j] + h * part * total
+
+
+@compiled
+def _margin_within(r, d, t, part, h):
+    _within(r, part, h)
+    return margin(r, d, t + part * h, r.probe)
+
+
+@compiled
+def _first_crossing(r, d, t, h):
+    """Return the part of the step at which the margin turns negative, 2 if it does not, and the margin at its end.
+
+    It is looked at in the middle, at the end, and where a parabola through both and the start has its bottom.
+    """
+    first = r.clock[m.MARGIN]
+    if math.isnan(first):
+        _copy(r, r.y, r.probe)
+        first = margin(r, d, t, r.probe)
+    middle = _margin_within(r, d, t, 0.5, h)
+    if middle < 0.0:
+        return _bisect(r, d, t, h, 0.0, 0.5), middle
+    end = _margin_within(r, d, t, 1.0, h)
+    rise, bend = 4.0 * middle - 3.0 * first - end, 2.0 * (first + end) - 4.0 * middle
+    if bend > 0.0 and -2.0 * bend < rise < 0.0:
+        bottom = -0.5 * rise / bend
+        if first - 0.25 * rise * rise / bend < 0.1 * first and _margin_within(r, d, t, bottom, h) < 0.0:
+            return _bisect(r, d, t, h, 0.0, bottom), middle
+    if end < 0.0:
+        return _bisect(r, d, t, h, 0.5, 1.0), end
+    return 2.0, end
+
+
+@compiled
+def _bisect(r, d, t, h, low, high):
+    """Return the part of the step at which the margin has turned negative, to 1e-13 s."""
+    while (high - low) * h > 1.0e-13:
+        middle = 0.5 * (low + high)
+        if middle in (low, high):
+            break
+        if _margin_within(r, d, t, middle, h) < 0.0:
+            high = middle
+        else:
+            low = middle
+    return min(high, 0.9999999999999999)
+
+
+@compiled
+def _switch(r, d, log):
+    """Go to the next mode; return the log of switches."""
+    clock, y, w = r.clock, r.y, r.world
+    t = clock[m.NOW]
+    clock[m.STEP], clock[m.MARGIN] = RESTART, math.nan
+    if clock[m.MODE] == m.SLIDING:
+        return _come_to_rest(r, d, log)
+    if clock[m.MODE] == m.STUCK:
+        ride(r, t, y, r.unused)
+        side = 1.0 if hold(r, t) >= 0.0 else -1.0
+    else:
+        surround(r, t, y, r.unused)
+        side = 1.0 if w[e.BELT_TRAVEL] - y[0] > clock[m.ANCHOR] else -1.0
+    clock[m.DWELL] = t - clock[m.SINCE]
+    _slide_from(r, side, w[e.BELT_TRAVEL] - y[0], 0.0)
+    clock[m.SWITCHES] += 1.0
+    return note(log, int(clock[m.SWITCHES]) - 1, t, BREAK_AWAY)
+
+
+@compiled
+def _come_to_rest(r, d, log):
+    """Stick where friction can hold the box, otherwise slide on to the side that the loads push it to."""
+    clock, y, w = r.clock, r.y, r.world
+    t = clock[m.NOW]
+    surround(r, t, y, r.unused)
+    travel = w[e.BELT_TRAVEL]
+    if r.constants[m.LIMIT] > 0.0:
+        force = m.slide(r, d, t, y, r.unused)
+        stiffness, damping = spring_constants(r)
+        z = (force - damping * (w[e.BELT_VELOCITY] - y[1])) / stiffness
+        limit = m.holding_limit(r) * w[e.NORMAL_FORCE] / stiffness
+        clock[m.MODE] = m.SPRING
+        clock[m.ANCHOR] = travel - y[0] - min(max(z, -limit), limit)
+    else:
+        y[1] = w[e.BELT_VELOCITY]
+        surround(r, t, y, r.unused)
+        needed = hold(r, t)
+        side = 1.0 if needed >= 0.0 else -1.0
+        rub(r, d, t, side, 0.0, 0.0, 0.0)
+        if abs(needed) > m.holding_limit(r) * w[e.NORMAL_FORCE]:
+            _slide_from(r, side, travel - y[0], clock[m.SLID] + abs(travel - y[0] - clock[m.BROKE_AT]))
+            clock[m.SWITCHES] += 1.0
+            return note(log, int(clock[m.SWITCHES]) - 1, t, BREAK_AWAY)
+        _ride_from(r, y[0], travel)
+    clock[m.SINCE] = t
+    clock[m.DWELL] = 0.0
+    clock[m.DRAWS] += 1.0
+    clock[m.SWITCHES] += 1.0
+    return note(log, int(clock[m.SWITCHES]) - 1, t, STICK)
+
+
+@compiled
+def _keep(r, d):
+    """Update what changes within a mode after an accepted step; return whether the rates at its end still hold."""
+    clock, y = r.clock, r.y
+    if clock[m.MODE] == m.SLIDING and clock[m.ARMED] == 0.0 and r.constants[m.RESTICK] > 0.0:
+        surround(r, clock[m.NOW], y, r.unused)
+        if clock[m.SIDE] * (r.world[e.BELT_VELOCITY] - y[1]) > r.constants[m.RESTICK]:
+            clock[m.ARMED], clock[m.MARGIN] = 1.0, math.nan
+    elif clock[m.MODE] == m.SPRING:
+        _, z, limit = m.spring(r, d, clock[m.NOW], y, r.unused)
+        if abs(z) > limit:
+            clock[m.ANCHOR] += z - math.copysign(limit, z)
+            clock[m.MARGIN] = math.nan
+            return False
+    return True
+
+
+@compiled
+def _record(r, d, t, row, only_position):
+    if only_position:
+        if r.clock[m.MODE] == m.STUCK:
+            ride(r, t, r.probe, r.unused)
+        row[0] = r.probe[0]
+        return
+    row[2] = friction_force(r, d, t, r.probe)
+    row[0], row[1] = r.probe[0], r.probe[1]
+    row[3] = 1.0 if r.clock[m.MODE] != m.SLIDING else 0.0
+    row[4] = r.world[e.NORMAL_FORCE]
+    c = r.constants
+    row[5], row[6] = m.evaluate(
+        d, r.cursor, int(c[m.SEED]), int(c[m.SAMPLE]), int(c[m.CONTACT]), t, r.world[e.BELT_POSITION], r.clock[m.DRAWS]
+    )  # fmt: skip
+
+
+@compiled
+def forecasts(r, d, starts, memories, step, count, out):
+    """Fill ``out`` (k, count) with positions from each start; return the worst status."""
+    worst = OK
+    row = np.empty((count, 1))
+    for k in range(len(starts)):
+        for j in range(r.counts[2]):
+            r.y[2 + j] = memories[k, j]
+        s = starts[k]
+        begin(r, d, s[0], s[1], s[2], s[3] != 0.0, s[4], s[5], 0.0, math.nan)
+        march(r, d, step, count, row, True)
+        worst = max(worst, r.clock[m.STATUS])
+        for i in range(count):
+            out[k, i] = row[i, 0]
+    return worst
