@@ -18,9 +18,10 @@ from stochfric_mb.report.figures import new_figure, png
 from stochfric_mb.report.page import render
 from stochfric_mb.reproduction import Number, Reproduction
 from stochfric_mb.reproduction.coefficients import Rejection
-from stochfric_mb.reproduction.kang2015 import SOURCE, TITLE
+from stochfric_mb.reproduction.kang2015 import LAWS, SOURCE, TITLE
 from stochfric_mb.reproduction.output_step import values
 from stochfric_mb.reproduction.portraits import PAPER_DURATION, Portrait
+from stochfric_mb.reproduction.scaling import SAMPLES
 from stochfric_mb.storage import versions
 
 Array = npt.NDArray[np.float64]
@@ -45,6 +46,7 @@ def figures(result: Reproduction) -> dict[str, bytes]:
         "infeasible": functools.partial(_infeasible, result),
         "interpolation": functools.partial(_interpolation, result),
         "sensitivity": functools.partial(_sensitivity, result),
+        "growth": functools.partial(_growth, result),
     }
     for number, p in enumerate(p for p in result.portraits if p.law == SHOWN_LAW):
         wanted[f"portrait_{number + 1}"] = functools.partial(_portrait, p)
@@ -87,6 +89,7 @@ def _pictures(result: Reproduction) -> dict[str, list[str]]:
         "rejection_keeps_distributions": ["rejection", "infeasible"],
         "interpolation_keeps_distribution": ["interpolation"],
         "laws_alike": ["sensitivity"],
+        "cost_of_a_run": ["growth"],
     }
     wider = [claim.id for claim in result.claims if claim.id.startswith("portrait_wider")]
     return found | {name: [f"portrait_{i + 1}"] for i, name in enumerate(wider)}
@@ -105,6 +108,8 @@ def _captions(result: Reproduction) -> dict[str, str]:
         "Right: shift of the mean of mu_s by rejection.",
         "interpolation": "Standard deviation of mu_s between two knots over sigma (figure 9), measured and exact.",
         "sensitivity": "Change of the period of Table 1 when a default that the paper leaves open is halved or doubled.",
+        "growth": "Processor time of ensembles of Table 1 on one core against the number of samples (left) and the time "
+        "simulated (right). Lines: proportional to either, through the largest ensemble.",
     }
     pictures = [p for p in result.portraits if p.law == SHOWN_LAW]
     for i, p in enumerate(pictures):
@@ -212,6 +217,20 @@ def _sensitivity(result: Reproduction) -> Figure:
     axes.axvline(0.0, color="#52606d", linewidth=0.8)
     axes.set(xlabel="change of the period [%]")
     axes.legend(loc="best")
+    return figure
+
+
+def _growth(result: Reproduction) -> Figure:
+    figure, panels = new_figure(9.2, 3.6, columns=2)
+    for s in result.growth:
+        axes = panels[0 if s.along == SAMPLES else 1]
+        shade = STEP_COLOURS[LAWS.index(s.law)]
+        rest = f"{s.fixed:g} s" if s.along == SAMPLES else f"{s.fixed:g} samples"
+        axes.plot(s.size, s.seconds[-1] * s.size / s.size[-1], color=shade, linewidth=1.0)
+        axes.plot(s.size, s.seconds, "o", color=shade, markersize=5, label=f"{s.law}, {rest}")
+    for axes, label in zip(panels, ("samples", "time simulated [s]"), strict=True):
+        axes.set(xscale="log", yscale="log", xlabel=label, ylabel="processor time [s]")
+        axes.legend(loc="upper left")
     return figure
 
 

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from stochfric_mb import ensemble, statistics
+from stochfric_mb.reproduction import scaling
 from stochfric_mb.reproduction.claims import FAILS, HOLDS, UNDECIDABLE, Claim, Number, of_estimate
 from stochfric_mb.reproduction.output_step import paper_process
 from stochfric_mb.reproduction.settings import Settings
@@ -20,7 +21,9 @@ STEPPED = ("havsin", "elastic_stick")
 """Laws whose kernel steps, as the paper's integration must have."""
 
 
-def cost_claim(scenarios: Mapping[str, Scenario], settings: Settings, seed: int, tick: Callable[[int], None]) -> Claim:
+def cost_claim(
+    scenarios: Mapping[str, Scenario], growth: list[scaling.Scaling], settings: Settings, seed: int, tick: Callable[[int], None]
+) -> Claim:
     """Return the claim on the cost of a run; the only one whose numbers are not the same in each repetition."""
     numbers: list[Number] = []
     ratios: dict[str, statistics.Estimate] = {}
@@ -54,9 +57,9 @@ def cost_claim(scenarios: Mapping[str, Scenario], settings: Settings, seed: int,
         "undecidable otherwise",
         verdict=verdict,
         reason="Ratio " + ", ".join(f"{ratios[law].value:.2f} ({law})" for law in STEPPED if law in ratios),
-        numbers=tuple(numbers),
+        numbers=(*numbers, *scaling.numbers(growth)),
         remark=f"Wording and limit are ours. A distribution needs an ensemble: {settings.n_paper} runs cost {settings.n_paper} "
-        "times as much whatever a run costs. These numbers depend on the machine and its load.",
+        "times as much: the cost is linear in samples and in time. These numbers depend on the machine and its load.",
     )
 
 

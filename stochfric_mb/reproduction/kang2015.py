@@ -9,7 +9,7 @@ import dataclasses
 from collections.abc import Callable
 from typing import Any
 
-from stochfric_mb.reproduction import coefficients, cost, defaults, output_step, portraits
+from stochfric_mb.reproduction import coefficients, cost, defaults, output_step, portraits, scaling
 from stochfric_mb.reproduction.claims import Claim
 from stochfric_mb.reproduction.settings import FULL, Settings
 from stochfric_mb.scenario import Scenario, load_scenario
@@ -50,6 +50,8 @@ class Reproduction:
     """Standard deviation between knots."""
     portraits: tuple[portraits.Portrait, ...]
     """Phase portraits."""
+    growth: tuple[scaling.Scaling, ...]
+    """Cost along samples and time."""
 
     def claim(self, name: str) -> Claim:
         """Return a claim by its id."""
@@ -92,7 +94,8 @@ def reproduce(*, settings: Settings = FULL, seed: int = 0, stage: Stage = no_sta
     drawn = stage("portraits", len(LAWS) * len(scenarios))
     pictures = portraits.make_portraits(scenarios, settings, seed, drawn)
     varied = defaults.vary(table_1, settings, seed, stage("values of defaults", defaults.n_responses()))
-    price = cost.cost_claim(table_1, settings, seed, stage("laws timed", len(LAWS)))
+    growth = scaling.measure(table_1, settings, seed, stage("costs measured", 2 * len(LAWS)))
+    price = cost.cost_claim(table_1, growth, settings, seed, stage("laws timed", len(LAWS)))
     tick = stage("claims judged", 5)
     rejections = coefficients.draw_rejections(tables, settings, seed)
     interpolation = coefficients.measure_interpolation(tables["Table 1"], settings, seed)
@@ -119,4 +122,5 @@ def reproduce(*, settings: Settings = FULL, seed: int = 0, stage: Stage = no_sta
         rejections=tuple(rejections),
         interpolation=interpolation,
         portraits=tuple(pictures),
+        growth=tuple(growth),
     )

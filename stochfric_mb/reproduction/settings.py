@@ -40,11 +40,13 @@ class Settings:
     """Runs timed."""
     cost_repeats: int = 7
     """Timings of each kind."""
+    cost_multiples: tuple[int, ...] = (1, 3, 10, 30, 100, 300, 1000)
+    """Sizes of the ensembles whose cost is compared, over the smallest (three or more)."""
 
 
 FULL = Settings()
 QUICK = Settings(
     n_paper=100, n_many=1000, times=(2.0,), resamples=99, n_grid=2, n_pairs=200_000, n_paths=400, n_portrait=10,
     discarded={"Table 1": 10.0, "Table 2, 13.8 rad/s": 30.0, "Table 2, 18.7 rad/s": 30.0}, portrait_time=10.0,
-    n_sensitivity=20, n_cost=64, cost_repeats=3,
+    n_sensitivity=20, n_cost=64, cost_repeats=3, cost_multiples=(1, 3, 10, 30),
 )  # fmt: skip

@@ -63,7 +63,16 @@ def test_page_is_one_file_with_everything(folder, content):
         for mend in claim["mended_by"]:
             assert mend["process"] in page
     plots = {p.stem for p in (folder / "plots").iterdir()}
-    assert {"step_position", "step_velocity", "rejection", "infeasible", "interpolation", "portrait_1", "portrait_3"} <= plots
+    assert {
+        "step_position",
+        "step_velocity",
+        "rejection",
+        "infeasible",
+        "interpolation",
+        "growth",
+        "portrait_1",
+        "portrait_3",
+    } <= plots
     assert page.count("data:image/png") == len(plots)
 
 
@@ -132,6 +141,14 @@ def test_portraits(claims):
 def test_sigma_k(claims):
     assert claims["sigma_k_table_1"]["verdict"] == HOLDS
     assert claims["sigma_k_table_2"]["verdict"] == FAILS
+
+
+def test_cost_grows_in_proportion(claims):
+    figures = claims["cost_of_a_run"]["figures"]
+    for law in ("coulomb", "havsin", "elastic_stick"):
+        for along in ("samples", "time"):
+            # Thirty-fold ensembles: 1.2 would be twice the work for nothing (30^0.2), 0.8 a cost that is not the runs'.
+            assert figures[f"exponent_{along}_{law}"]["value"] == pytest.approx(1.0, abs=0.2), (along, law)
 
 
 def test_a_process_that_does_not_know_the_step_turns_the_verdict(monkeypatch):
