@@ -112,7 +112,7 @@ def knobs_of(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str]
         for field in dataclasses.fields(effect):
             meta = field.metadata
             value = getattr(effect, field.name)
-            if "choices" in meta or not isinstance(value, (int, float)) or not np.isfinite(value) or meta.get("fixed"):
+            if "choices" in meta or not np.isfinite(value):
                 continue
             if field.name in OWN_TO_RUN:
                 if field.name != "phase" and not getattr(effect, field.name.replace("phase", "amplitude")):
@@ -122,7 +122,8 @@ def knobs_of(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str]
                     knobs.append(Knob(field.name, own, 0.3, np.inf, -np.inf, np.inf, i, run))
             elif not (field.name in ("amplitude_2", "amplitude_3") and value == 0.0):
                 scale = max(abs(value), 0.05 * meta["scale"])
-                knobs.append(Knob(field.name, value, scale, np.inf, meta["low"], meta["high"], i))
+                inside = 1.0e-6 * meta["scale"] if meta["strict"] else 0.0
+                knobs.append(Knob(field.name, value, scale, np.inf, meta["low"] + inside, meta["high"] - inside, i))
     return knobs
 
 

@@ -1,0 +1,71 @@
+"""From a candidate of the screening to effects with numbers, where a fit or a simulation may start."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.pool import Pool
+from stochfric_mb.discovery.record import Array
+from stochfric_mb.discovery.screening import Candidate
+from stochfric_mb.effects import Effect, effect_class, make_effect
+
+PERIODIC = ("normal_load_ripple", "harmonic_force", "position_dependent_friction")
+"""Effects whose phase each run has its own value of."""
+
+
+def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int) -> Model:
+    """Return the model with the candidate's effect added, at the numbers that the screening fitted.
+
+    Args:
+        model: the model so far.
+        candidate: an effect of the screening.
+        pool: the slips.
+        n_terms: coefficients of the regression before the candidate's own.
+    """
+    coefficients = candidate.solution.coefficients[n_terms:]
+    if candidate.name in PERIODIC:
+        return _periodic(model, candidate, pool, coefficients)
+    if candidate.name == "sensor_step":
+        size = float(np.mean(coefficients))
+        return model.plus(make_effect("sensor_step", size=size, time=float(candidate.hypothesis.setting[0])))
+    return model.plus(_bounded(candidate.name, candidate.hypothesis.start(coefficients)))
+
+
+def _bounded(kind: str, values: dict[str, float]) -> Effect:
+    """Return the effect with its values moved into their bounds."""
+    cls = effect_class(kind)
+    about = {f.name: f.metadata for f in dataclasses.fields(cls)}
+    kept = {}
+    for name, value in values.items():
+        inside = 1.0e-3 * about[name]["scale"] if about[name]["strict"] else 0.0
+        kept[name] = float(np.clip(value, about[name]["low"] + inside, about[name]["high"] - inside))
+    return make_effect(kind, **kept)
+
+
+def _periodic(model: Model, candidate: Candidate, pool: Pool, coefficients: Array) -> Model:
+    harmonics = int(candidate.hypothesis.setting[-1])
+    main = candidate.hypothesis.setting[0]
+    pairs = coefficients.reshape(pool.n_runs, harmonics, 2)
+    amplitudes = np.hypot(pairs[..., 0], pairs[..., 1]).mean(axis=0)
+    # a cos + b sin = A cos(theta + phase)
+    phases = np.arctan2(-pairs[..., 1], pairs[..., 0])
+    directions = [s.record.direction for s in pool.slips]
+    names = [s.record.name for s in pool.slips]
+    if candidate.name == "position_dependent_friction":
+        # a mirrored run sees the belt coordinate with the opposite sign
+        phases = phases * np.array(directions)[:, None]
+        values = {"amplitude": amplitudes[0], "wavelength": main}
+        values |= {f"amplitude_{h + 1}": amplitudes[h] for h in range(1, harmonics)}
+        effects: list[Effect] = [_bounded(candidate.name, values)]
+        own = [{("phase" if h == 0 else f"phase_{h + 1}"): float(phases[r, h]) for h in range(harmonics)} for r in range(len(names))]
+        added = [(values_,) for values_ in own]
+    else:
+        large = [h for h in range(harmonics) if h == 0 or amplitudes[h] > 0.1 * amplitudes[0]]
+        effects = [_bounded(candidate.name, {"amplitude": amplitudes[h], "frequency": main * (h + 1)}) for h in large]
+        added = [tuple({"phase": float(phases[r, h])} for h in large) for r in range(len(names))]
+    before = {name: model.own.get(name, ({},) * len(model.effects)) for name in names}
+    own_all = {name: (*before[name], *added[r]) for r, name in enumerate(names)}
+    return dataclasses.replace(model, effects=(*model.effects, *effects), own=own_all)

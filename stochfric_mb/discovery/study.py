@@ -1,0 +1,101 @@
+"""What a data set of belt-box runs tells before anything is decided: slips, calibration, regression, stick phases."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from stochfric_mb.discovery.believed import believed_model
+from stochfric_mb.discovery.calibration import calibrate
+from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.pool import Pool, make_pool
+from stochfric_mb.discovery.record import Record, make_record
+from stochfric_mb.discovery.regression import Regression, Solution, Terms, believed
+from stochfric_mb.discovery.slips import Slips, extract
+from stochfric_mb.discovery.sticking import Sticking, analyse, ceiling
+from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.dataset import Dataset, Run
+
+FEWEST_SLIPS = 12
+"""Slips of a run below which it says too little to be used."""
+
+Progress = Callable[[str], None]
+
+
+@dataclasses.dataclass(frozen=True)
+class Study:
+    """Everything measured from the fit runs, before a decision."""
+
+    dataset: Dataset
+    """The data set."""
+    model: Model
+    """The model as believed, with mu_s and mu_k as stated."""
+    uncertainty: Mapping[str, float]
+    """Relative standard deviations of what is believed."""
+    records: tuple[Record, ...]
+    """Fit runs, cleaned."""
+    pool: Pool
+    """Their slips."""
+    regression: Regression
+    """Fits to them."""
+    terms: Terms
+    """The believed model in the regression."""
+    solution: Solution
+    """Its fit."""
+    sticking: Sticking | None
+    """The kinematic channel."""
+    ceiling: tuple[float, float]
+    """How much longer records dwell at their ceiling than they should [-], and the ceiling [m]."""
+    outliers: float
+    """Share of samples that were outliers [-]."""
+
+
+def record_of(run: Run, dataset: Dataset) -> Record:
+    """Return a run as a record.
+
+    Raises:
+        InputError: the run has no position.
+    """
+    if "position" not in run.channels:
+        raise InputError(
+            f"run {run.name}: no column 'position'; discovery on a belt-box needs the position of the box, "
+            "such as a column 'position [m]'"
+        )
+    mechanism = run.mechanism(dataset.scenario)
+    return make_record(run.name, run.time, run.channels["position"], mechanism)
+
+
+def study(dataset: Dataset, *, progress: Progress = lambda _: None) -> Study | None:
+    """Return what the fit runs tell; None where no run has slips enough to tell anything."""
+    model = believed_model(dataset.scenario)
+    progress("slips")
+    records = tuple(record_of(run, dataset) for run in dataset.fit)
+    slips = [extract(r) for r in records]
+    usable = [s for s in slips if len(s) >= FEWEST_SLIPS]
+    if not usable:
+        return None
+    progress("calibration")
+    calibrations = [calibrate(s, seed=11 + i) for i, s in enumerate(usable)]
+    pool = make_pool(usable, calibrations)
+    regression = Regression(pool)
+    terms = believed(pool, dict(dataset.scenario.uncertainty))
+    return Study(
+        dataset=dataset,
+        model=model,
+        uncertainty=dataset.scenario.uncertainty,
+        records=records,
+        pool=pool,
+        regression=regression,
+        terms=terms,
+        solution=regression.fit(terms),
+        sticking=analyse(usable),
+        ceiling=ceiling(usable),
+        outliers=float(np.mean(np.concatenate([r.outlier for r in records]))),
+    )
+
+
+def slips_of_run(run: Run, dataset: Dataset) -> Slips:
+    """Return the slips of a run."""
+    return extract(record_of(run, dataset))
