@@ -15,14 +15,14 @@ from typing import Any
 import mujoco
 from numba import types
 
-from stochfric_mb.compile import compiled, native
+from stochfric_mb.compile import compiled
 from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import config, dof
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.layout import Plugin
 from stochfric_mb.mujoco.plugin import UNSET, register
+from stochfric_mb.mujoco.registration import register_plugin
 
 NAME = "stochfric.dof"
 """Name of the plugin in MJCF."""
@@ -33,7 +33,6 @@ _KEYS, _NUMBER_READER, _EXPLAINER = n.FURTHER + 40, n.FURTHER + 37, n.FURTHER + 
 _JOINT_OBJECT, _TENDON_OBJECT = int(mujoco.mjtObj.mjOBJ_JOINT), int(mujoco.mjtObj.mjOBJ_TENDON)
 _SLIDE = int(mujoco.mjtJoint.mjJNT_SLIDE)
 _POINTER, _INT = types.intp, types.int32
-_alive: list[Any] = []
 _numbers: dict[int, Any] = {}
 
 
@@ -47,31 +46,10 @@ def register_joints() -> int:
     register()
     n.TABLE[_NUMBER_READER] = ctypes.cast(_READER, ctypes.c_void_p).value or 0
     n.TABLE[_EXPLAINER] = ctypes.cast(_EXPLAIN, ctypes.c_void_p).value or 0
-    slot = register_plugin(NAME, ATTRIBUTES, _KEYS, mujoco.mjtPluginCapabilityBit.mjPLUGIN_PASSIVE, _CALLBACKS)
+    passive = int(mujoco.mjtPluginCapabilityBit.mjPLUGIN_PASSIVE)
+    slot = register_plugin(NAME, ATTRIBUTES, keys=_KEYS, capability=passive, callbacks=_CALLBACKS)
     n.TABLE[n.JOINTS_SLOT] = slot
     return slot
-
-
-def register_plugin(name: str, attributes: tuple[str, ...], keys: int, capability: Any, callbacks: Any, stage: int = 0) -> int:
-    """Return MuJoCo's slot number of a plugin made of compiled callbacks, its keys' addresses in the table."""
-    for i, key in enumerate(attributes):
-        _alive.append(ctypes.create_string_buffer(key.encode()))
-        n.TABLE[keys + i] = ctypes.addressof(_alive[-1])
-    plugin = Plugin()
-    library = n.library()
-    library.mjp_defaultPlugin(ctypes.byref(plugin))
-    plugin.name = name.encode()
-    plugin.nattribute = len(attributes)
-    plugin.attributes = (ctypes.c_char_p * len(attributes))(*[a.encode() for a in attributes])
-    plugin.capabilityflags = int(capability)
-    plugin.needstage = stage
-    for callback, (function, signature) in callbacks.items():
-        made = native(function, signature)
-        _alive.append(made)
-        setattr(plugin, callback, made.address)
-    _alive.append(plugin)
-    library.mjp_registerPlugin.argtypes = [ctypes.c_void_p]
-    return library.mjp_registerPlugin(ctypes.byref(plugin))
 
 
 def require_no_hold(law: Law) -> None:

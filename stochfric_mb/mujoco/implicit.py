@@ -105,6 +105,17 @@ def keep_warm_start(model, data, state):
 
 
 @compiled
+def any_solved(model, data, instance):
+    """Return whether an instance of the same plugin, up to this one, is in implicit mode in this step."""
+    plugins = n.pointer_field(model, n.M_PLUGIN)
+    mine = n.load_int(plugins + 4 * instance)
+    for i in range(instance + 1):
+        if n.load_int(plugins + 4 * i) == mine and n.load(state_of(model, data, i) + 8 * s.SOLVED) != 0.0:
+            return True
+    return False
+
+
+@compiled
 def solve_instances(model, data, instance):
     """Solve all instances in implicit mode together and add their forces; ``instance`` is the plugin's last one."""
     plugins = n.pointer_field(model, n.M_PLUGIN)

@@ -131,6 +131,8 @@ KEYS, N_KEYS = FURTHER + 64, 16
 (
     M_SOLVER, M_NOSLIP, M_DISABLE, M_DAMPING, D_EFC_TYPE, D_EFC_STATE, D_EFC_AREF, D_EFC_AR,
 ) = range(KEYS + N_KEYS, KEYS + N_KEYS + 8)  # fmt: skip
+SOLVER, PREPARER = KEYS + N_KEYS + 8, KEYS + N_KEYS + 9
+"""Places of the addresses of the implicit mode's solution, once it is compiled, and of the Python function that does so."""
 TABLE: Any = (ctypes.c_int64 * (KEYS + 64))()
 """What compiled code must look up in this process."""
 
@@ -296,8 +298,8 @@ def _pointer(typingctx, address):
 
 
 @intrinsic
-def call_python(typingctx, function, a, b, c):
-    """Call a Python function of three words at an address; return its answer, 0 if it raised (and printed) an error."""
+def call_function(typingctx, function, a, b, c):
+    """Call a function of three words at an address; return its answer."""
 
     def generate(context, builder, signature, args):
         word = ir.IntType(64)
@@ -305,6 +307,12 @@ def call_python(typingctx, function, a, b, c):
         return builder.call(builder.inttoptr(args[0], kind.as_pointer()), list(args[1:]))
 
     return types.intp(types.intp, types.intp, types.intp, types.intp), generate
+
+
+@compiled
+def call_python(function, a, b, c):
+    """Call a Python function of three words at an address; return its answer, 0 if it raised (and printed) an error."""
+    return call_function(function, a, b, c)
 
 
 @compiled

@@ -9,19 +9,19 @@ from __future__ import annotations
 
 import ctypes
 import functools
+import math
 from typing import Any
 
 import mujoco
 from numba import types
 
 from stochfric_mb.compile import compiled, native
-from stochfric_mb.errors import MissingEngineError
 from stochfric_mb.mujoco import config
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.contact import apply, begin, finish
-from stochfric_mb.mujoco.implicit import is_last, keep_warm_start, solve_instances
-from stochfric_mb.mujoco.layout import Plugin
+from stochfric_mb.mujoco.implicit import any_solved, is_last, keep_warm_start, solve_instances
+from stochfric_mb.mujoco.registration import register_plugin
 
 NAME = "stochfric.pair"
 """Name of the plugin in MJCF."""
@@ -45,49 +45,33 @@ def register() -> int:
     n.fill_table()
     n.TABLE[n.READER] = ctypes.cast(config.READER, ctypes.c_void_p).value or 0
     n.TABLE[n.EXPLAINER] = ctypes.cast(config.EXPLAINER, ctypes.c_void_p).value or 0
-    for i, key in enumerate(config.ATTRIBUTES):
-        _alive.append(ctypes.create_string_buffer(key.encode()))
-        n.TABLE[n.KEYS + i] = ctypes.addressof(_alive[-1])
-    attributes = (ctypes.c_char_p * len(config.ATTRIBUTES))(*[a.encode() for a in config.ATTRIBUTES])
-    plugin = Plugin()
-    library = n.library()
-    library.mjp_defaultPlugin(ctypes.byref(plugin))
-    plugin.name = NAME.encode()
-    plugin.nattribute = len(config.ATTRIBUTES)
-    plugin.attributes = attributes
-    plugin.capabilityflags = int(mujoco.mjtPluginCapabilityBit.mjPLUGIN_PASSIVE)
-    for name, (function, signature) in _CALLBACKS.items():
-        callback = native(function, signature)
-        _alive.append(callback)
-        setattr(plugin, name, callback.address)
-    _alive.extend([plugin, attributes])
-    library.mjp_registerPlugin.argtypes = [ctypes.c_void_p]
-    slot = library.mjp_registerPlugin(ctypes.byref(plugin))
-    _check_registered(slot, plugin)
-    return slot
+    n.TABLE[n.PREPARER] = ctypes.cast(_PREPARE_SOLVER, ctypes.c_void_p).value or 0
+    passive = int(mujoco.mjtPluginCapabilityBit.mjPLUGIN_PASSIVE)
+    return register_plugin(NAME, config.ATTRIBUTES, keys=n.KEYS, capability=passive, callbacks=_CALLBACKS)
 
 
-def _check_registered(slot: int, mine: Plugin) -> None:
-    """Read plugins back from MuJoCo: `Plugin` is written by hand, and must be what the library has."""
-    library = n.library()
-    library.mjp_getPluginAtSlot.restype = ctypes.POINTER(Plugin)
-    library.mjp_getPluginAtSlot.argtypes = [ctypes.c_int]
-    other = library.mjp_getPlugin
-    other.restype = ctypes.POINTER(Plugin)
-    other.argtypes = [ctypes.c_char_p, ctypes.POINTER(ctypes.c_int)]
-    found = library.mjp_getPluginAtSlot(slot)
-    same = bool(found) and all(
-        getattr(found.contents, field[0]) == getattr(mine, field[0]) for field in Plugin._fields_ if field[0] != "attributes"
-    )
-    bundled = other(b"mujoco.elasticity.cable", None) or other(b"mujoco.pid", None)
-    if bundled:
-        texts = [bundled.contents.attributes[i] for i in range(bundled.contents.nattribute)]
-        same = same and all(isinstance(t, bytes) and t.isascii() for t in texts)
-    if not same:
-        raise MissingEngineError(
-            f"MuJoCo {mujoco.__version__} does not return its plugins as this package knows them (mjpPlugin changed); "
-            "install mujoco 4.0, or a newer release of this package"
-        )
+def _prepare_solver(model: int, data: int, instance: int) -> int:
+    """Compile the solution of the implicit mode, and enter it where compiled code looks for it."""
+    solver = native(_solve, _POINTER(_POINTER, _POINTER, _POINTER))
+    _alive.append(solver)
+    n.TABLE[n.SOLVER] = solver.address
+    return 1
+
+
+_PREPARE_SOLVER = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64)(_prepare_solver)
+
+
+def _solve(model, data, instance):
+    solve_instances(model, data, instance)
+    return 1
+
+
+@compiled
+def solver(model, data, instance):
+    """Return the address of the implicit mode's solution, 0 if it cannot be compiled."""
+    if n.entry(n.SOLVER) == 0:
+        n.call_python(n.entry(n.PREPARER), model, data, instance)
+    return n.entry(n.SOLVER)
 
 
 @compiled
@@ -168,7 +152,8 @@ def _init(model, data, instance):
     if bad:
         n.call_python(n.entry(n.EXPLAINER), model, instance, 0)
         return _INT(-1)
-    return _INT(0)
+    implicit = mode == s.IMPLICIT or n.load(record_of(model, instance) + 8 * config.R_NEEDS_HOLD) != 0.0
+    return _INT(-1) if implicit and solver(model, data, instance) == 0 else _INT(0)
 
 
 def _reset(model, state, plugin_data, instance):
@@ -213,8 +198,12 @@ def _compute(model, data, instance, capability):
         begin(model, data, state)
     if n.load(state + 8 * s.SOLVED) == 0.0:
         apply(model, data, state)
-    if is_last(model, instance):
-        solve_instances(model, data, instance)
+    if is_last(model, instance) and any_solved(model, data, instance):
+        function = solver(model, data, instance)
+        if function == 0:
+            n.store(n.pointer_field(data, n.D_QFRC_PASSIVE), math.nan)
+        else:
+            n.call_function(function, model, data, instance)
 
 
 def _advance(model, data, instance):

@@ -31,9 +31,10 @@ from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.contact import slot
 from stochfric_mb.mujoco.dof import state_of
 from stochfric_mb.mujoco.dof_plugin import NAME as JOINTS
-from stochfric_mb.mujoco.dof_plugin import register_joints, register_plugin
+from stochfric_mb.mujoco.dof_plugin import register_joints
 from stochfric_mb.mujoco.plugin import NAME as PAIRS
 from stochfric_mb.mujoco.plugin import register
+from stochfric_mb.mujoco.registration import register_plugin
 
 NAME = "stochfric.sensor"
 """Name of the plugin in MJCF."""
@@ -58,7 +59,8 @@ def register_sensors() -> int:
     n.TABLE[_FRICTION_SLOT] = register()
     n.TABLE[_EXPLAINER] = ctypes.cast(_EXPLAIN, ctypes.c_void_p).value or 0
     stage = int(mujoco.mjtStage.mjSTAGE_ACC)
-    return register_plugin(NAME, ATTRIBUTES, _KEYS, mujoco.mjtPluginCapabilityBit.mjPLUGIN_SENSOR, _CALLBACKS, stage)
+    sensor = int(mujoco.mjtPluginCapabilityBit.mjPLUGIN_SENSOR)
+    return register_plugin(NAME, ATTRIBUTES, keys=_KEYS, capability=sensor, callbacks=_CALLBACKS, stage=stage)
 
 
 def add_sensor(spec: mujoco.MjSpec, friction: str, *, name: str = "", contacts: int = 0) -> str:
