@@ -31,6 +31,8 @@ from stochfric_mb.trajectory import Array
 
 TOLERANCE = 1.0e-8
 """Local error of a step over the static deflection [-]."""
+TOLERANCE_SPRING = 1.0e-9
+"""The same where a spring sticks: break-away from it is slow, so that small errors grow."""
 LAWS = ("coulomb", "elastic_stick", "stribeck")
 """Laws that the fast simulator knows."""
 
@@ -368,7 +370,7 @@ def _set_numerics(run: Any, mechanism: BeltBox, law: Law, effects: Sequence[Effe
     shortest = min((effect.shortest_time(abs(mechanism.belt_velocity)) for effect in effects), default=math.inf)
     in_slip = min((effect.shortest_time(speed) for effect in effects), default=math.inf)
     c[m.SEED], c[m.SAMPLE], c[m.CONTACT] = path.seed, path.sample, path.contact
-    c[m.TOLERANCE] = TOLERANCE * static
+    c[m.TOLERANCE] = (TOLERANCE_SPRING if c[m.LIMIT] > 0.0 else TOLERANCE) * static
     c[m.LONGEST_SLIDE] = min(0.25 / fastest, 0.1 * in_slip)
     c[m.LONGEST_STICK] = min(0.1 / fastest, 0.05 * shortest)
     descriptor = path.descriptor
