@@ -8,27 +8,43 @@ import math
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, Generic, cast
 
 from stochfric_mb.coefficients import DISTRIBUTIONS, PROCESSES, CoefficientPath, Distribution, OutputStep, Process
+from stochfric_mb.effects import Effect, effect_from_dict
 from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_name, require_number
 from stochfric_mb.laws import Law, law_class, make_law
-from stochfric_mb.mechanisms import MECHANISMS, BeltBox
+from stochfric_mb.mechanisms import MECHANISMS, BeltBox, Cascade, Mechanism, Mjcf, controller_from_dict
+
+if TYPE_CHECKING:
+    from typing_extensions import TypeVar
+
+    M = TypeVar("M", bound=Mechanism, default=BeltBox)
+else:
+    from typing import TypeVar
+
+    M = TypeVar("M")
 
 SCHEMA = "stochfric.scenario/1"
-_TABLES = ("schema", "title", "mechanism", "law", "coefficients", "effects", "uncertainty", "simulation")
+_TABLES = (
+    "schema", "title", "mechanism", "controller", "law", "coefficients", "effects", "uncertainty", "simulation",
+)  # fmt: skip
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class Scenario:
-    """A mechanism, its friction law and coefficients, and how long to simulate."""
+class Scenario(Generic[M]):
+    """A mechanism, its friction law and coefficients, and how long to simulate; ``Scenario`` alone is one of a belt-box."""
 
-    mechanism: BeltBox
+    mechanism: M
     """What moves."""
     law: Law
     """The friction law."""
     process: Process | None = None
     """How the coefficients vary; None: they are constant."""
+    effects: tuple[Effect, ...] = ()
+    """What has been added to mechanism and law."""
+    controller: Cascade | None = None
+    """The controller that was in the loop; None: there was none."""
     duration: float
     """Time to simulate [s], > 0."""
     output_step: float
@@ -64,15 +80,15 @@ class Scenario:
         """Return the coefficient path of this scenario's contact for (seed, sample, contact)."""
         return CoefficientPath(self.process, self.law, seed=seed, sample=sample, contact=contact)
 
-    def step_limit(self) -> float:
+    def step_limit(self: Scenario[BeltBox]) -> float:
         """Return the law's explicit stability limit for this mechanism [s]."""
         return self.law.step_limit(self.mechanism.normal_force, self.mechanism.mass)
 
-    def default_dt(self) -> float:
+    def default_dt(self: Scenario[BeltBox]) -> float:
         """Return 1e-4 s or half the law's explicit stability limit, whichever is smaller, dividing the output step."""
         return fitting_step(min(1.0e-4, 0.5 * self.step_limit()), self.output_step)
 
-    def checked_step(self, dt: float | None) -> float:
+    def checked_step(self: Scenario[BeltBox], dt: float | None) -> float:
         """Return the step [s] to use: ``dt`` once it can be, `default_dt` if it is None.
 
         Raises:
@@ -94,7 +110,7 @@ class Scenario:
             raise InputError(f"dt = {dt:g} s does not divide simulation.output_step = {self.output_step:g} s; try {near:g} s")
         return self.output_step / round(n)
 
-    def require_sane(self, engine: str, t: float, position: float, dt: float) -> None:
+    def require_sane(self: Scenario[BeltBox], engine: str, t: float, position: float, dt: float) -> None:
         """Return if ``position`` [m] is finite and within 1000 static deflections (with what the motion adds).
 
         Raises:
@@ -118,8 +134,12 @@ class Scenario:
             "mechanism": self.mechanism.to_dict(),
             "law": self.law.to_dict(),
         }
+        if self.controller is not None:
+            tables["controller"] = self.controller.to_dict()
         if self.process is not None:
             tables["coefficients"] = self.process.to_dict()
+        if self.effects:
+            tables["effects"] = [effect.to_dict() for effect in self.effects]
         if self.uncertainty:
             tables["uncertainty"] = dict(self.uncertainty)
         return tables | {"simulation": {"duration": self.duration, "output_step": self.output_step}}
@@ -138,11 +158,12 @@ def scenario_folders() -> list[Path]:
 
 def bundled_scenarios() -> dict[str, Path]:
     """Return the scenarios that come with the package: name -> file."""
-    return {p.stem: p for folder in reversed(scenario_folders()) for p in sorted(folder.glob("*/*.toml"))}
+    files = [p for folder in reversed(scenario_folders()) for p in sorted(folder.glob("*/*.toml"))]
+    return {p.parent.name if p.stem == "scenario" else p.stem: p for p in files if p.stem != "dataset"}
 
 
 def load_scenario(source: str | Path, *, law: str | None = None, overrides: Sequence[str] = ()) -> Scenario:
-    """Read a scenario from a file, or by name from those that come with the package.
+    """Read a belt-box's scenario from a file, or by name from those that come with the package.
 
     Args:
         source: path of a TOML file, or a name such as ``kang2015_table1``.
@@ -150,8 +171,23 @@ def load_scenario(source: str | Path, *, law: str | None = None, overrides: Sequ
         overrides: ``table.key=value`` settings that replace the file's, such as ``law.mu_s=0.7``.
 
     Raises:
-        InputError: no such file or name, or a content that is not a valid scenario; names the file and the key.
+        InputError: no such file or name, a content that is not a valid scenario, or another mechanism than a belt-box;
+            names the file and the key.
     """
+    scenario = load_any_scenario(source, law=law, overrides=overrides)
+    if not isinstance(scenario.mechanism, BeltBox):
+        raise InputError(
+            f"{source}: the engines simulate the belt_box by itself; mechanism {scenario.mechanism.kind!r} is for measured "
+            "data: use it as the scenario of a dataset, with stochfric discover"
+        )
+    if scenario.effects:
+        kinds = ", ".join(e.kind for e in scenario.effects)
+        raise InputError(f"{source}: effects = {kinds}: this command knows no effects; remove the [[effects]] tables")
+    return cast("Scenario[BeltBox]", scenario)
+
+
+def load_any_scenario(source: str | Path, *, law: str | None = None, overrides: Sequence[str] = ()) -> Scenario[Mechanism]:
+    """Read a scenario of any mechanism; arguments and errors as for `load_scenario`."""
     path = _locate(source)
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -162,13 +198,25 @@ def load_scenario(source: str | Path, *, law: str | None = None, overrides: Sequ
     for setting in overrides:
         _override(tables, setting)
     try:
-        return scenario_from_dict(tables, folder=path.parent)
+        return any_scenario_from_dict(tables, folder=path.parent)
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 
 
 def scenario_from_dict(tables: Mapping[str, Any], *, folder: Path = Path()) -> Scenario:
-    """Return the scenario that the content of a TOML file describes.
+    """Return the belt-box's scenario that the content of a TOML file describes.
+
+    Raises:
+        InputError: unknown or missing key, wrong type or value out of range, or another mechanism.
+    """
+    scenario = any_scenario_from_dict(tables, folder=folder)
+    if not isinstance(scenario.mechanism, BeltBox):
+        raise InputError(f"mechanism.kind = {scenario.mechanism.kind!r}; only 'belt_box' can be simulated by itself")
+    return cast("Scenario[BeltBox]", scenario)
+
+
+def any_scenario_from_dict(tables: Mapping[str, Any], *, folder: Path = Path()) -> Scenario[Mechanism]:
+    """Return the scenario, of any mechanism, that the content of a TOML file describes.
 
     Raises:
         InputError: unknown or missing key, wrong type or value out of range.
@@ -180,16 +228,16 @@ def scenario_from_dict(tables: Mapping[str, Any], *, folder: Path = Path()) -> S
     simulation = _table(tables, "simulation")
     for key in simulation:
         require_name("key simulation.", key, ("duration", "output_step"))
-    if tables.get("effects"):
-        raise InputError(f"effects = {tables['effects']!r}: this version knows no effects; remove the [[effects]] tables")
     numbers = {k: require_number(f"simulation.{k}", _need(simulation, "simulation", k)) for k in ("duration", "output_step")}
     return Scenario(
         title=str(tables.get("title", "")),
-        mechanism=_mechanism(_table(tables, "mechanism")),
+        mechanism=_mechanism(_table(tables, "mechanism"), folder),
         law=law_from_dict(_table(tables, "law")),
         process=process_from_dict(_table(tables, "coefficients"), numbers["output_step"], folder)
         if tables.get("coefficients")
         else None,
+        effects=_effects(tables.get("effects", [])),
+        controller=controller_from_dict(_table(tables, "controller")) if "controller" in tables else None,
         uncertainty=_uncertainty(tables.get("uncertainty", {})),
         **numbers,
     )
@@ -241,9 +289,17 @@ def _need(table: Mapping[str, Any], name: str, key: str) -> Any:
     return table[key]
 
 
-def _mechanism(table: Mapping[str, Any]) -> BeltBox:
+def _effects(tables: Any) -> tuple[Effect, ...]:
+    if not isinstance(tables, list) or not all(isinstance(t, Mapping) for t in cast(list[Any], tables)):
+        raise InputError(f"effects = {tables!r} is not a list of tables; write [[effects]]")
+    return tuple(effect_from_dict(table) for table in cast(list[Mapping[str, Any]], tables))
+
+
+def _mechanism(table: Mapping[str, Any], folder: Path) -> Mechanism:
     kind = require_name("mechanism", _need(table, "mechanism", "kind"), MECHANISMS)
     cls = MECHANISMS[kind]
+    if cls is Mjcf:
+        return Mjcf.from_table(table, folder)
     fields = {f.name: f for f in dataclasses.fields(cls)}
     values = {k: v for k, v in table.items() if k != "kind"}
     for key in values:
@@ -251,7 +307,8 @@ def _mechanism(table: Mapping[str, Any]) -> BeltBox:
     for key, field in fields.items():
         if field.default is dataclasses.MISSING:
             _need(values, "mechanism", key)
-    return cls(**{k: require_number(k, v) for k, v in values.items()})
+    numbers: dict[str, Any] = {k: require_number(k, v) for k, v in values.items()}
+    return cls(**numbers)
 
 
 def law_from_dict(table: Mapping[str, Any]) -> Law:

@@ -73,7 +73,7 @@ def tables(**changes):
         ({"schema": "stochfric.scenario/2"}, "this version reads"),
         ({"law": None}, r"write \[law\]"),
         ({"extra": {}}, "unknown key"),
-        ({"effects": [{"kind": "x"}]}, "knows no effects"),
+        ({"effects": [{"kind": "x"}]}, "unknown effect 'x'"),
     ],
 )
 def test_bad_content(changes, words):

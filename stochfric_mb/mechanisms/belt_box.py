@@ -1,4 +1,4 @@
-"""Mechanisms: what moves, apart from friction. One frozen class each."""
+"""A box on a moving belt: the mechanism of Kang, Choi and Yoo 2015."""
 
 from __future__ import annotations
 
@@ -57,7 +57,3 @@ class BeltBox:
     def to_dict(self) -> dict[str, Any]:
         """Return the mechanism as the ``[mechanism]`` table of a scenario."""
         return {"kind": self.kind} | dataclasses.asdict(self)
-
-
-MECHANISMS: dict[str, type[BeltBox]] = {BeltBox.kind: BeltBox}
-"""Kind of a mechanism -> its class."""
