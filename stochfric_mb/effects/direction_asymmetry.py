@@ -9,12 +9,12 @@ from __future__ import annotations
 import dataclasses
 from typing import ClassVar
 
-from stochfric_mb.effects.contract import DIRECTION, MU_K, MU_S, Effect, parameter
+from stochfric_mb.effects.contract import DIRECTION, MU_K, MU_S, VISCOUS_FORCE, Effect, parameter
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class DirectionAsymmetry(Effect):
-    """mu_s and mu_k times (1 + asymmetry) where v_rel (in stick: the friction force needed) is negative.
+    """mu_s, mu_k and viscous friction times (1 + asymmetry) where v_rel (in stick: the force needed) is negative.
 
     Reference: B. Armstrong-Helouvry, Control of Machines with Friction, Kluwer 1991.
     """
@@ -23,14 +23,17 @@ class DirectionAsymmetry(Effect):
     """Relative change in the negative direction [-]."""
 
     kind: ClassVar[str] = "direction_asymmetry"
-    equation: ClassVar[str] = "both mu times 1 + asymmetry where v_rel < 0 (in stick: where the force needed is negative)"
+    equation: ClassVar[str] = (
+        "both mu and viscous friction times 1 + asymmetry where v_rel < 0 (in stick: where the force needed is negative)"
+    )
     source: ClassVar[str] = "Armstrong-Helouvry 1991 (robot joints)"
     group: ClassVar[str] = "friction law"
     order: ClassVar[int] = 3
 
 
 def friction(world, memory, rates, p):
-    """Multiply both coefficients in the negative direction."""
+    """Multiply friction in the negative direction."""
     if world[DIRECTION] < 0.0:
         world[MU_S] *= 1.0 + p[0]
         world[MU_K] *= 1.0 + p[0]
+        world[VISCOUS_FORCE] *= 1.0 + p[0]
