@@ -28,18 +28,19 @@ from numba import types
 from numba.core import sigutils
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 from numba.core.ccallback import CFunc
+from numba.core.registry import CPUDispatcher
 
 from stochfric_mb.sources import source_stamp
 
 
 def compiled(function: Callable[..., Any]) -> Any:
     """Return ``function`` as a cached numba dispatcher (compiled at its first call, never at import)."""
-    return _cached(numba.njit(error_model="numpy", nogil=True)(function))
+    return _Function(function, targetoptions=_OPTIONS)
 
 
 def compiled_inline(function: Callable[..., Any]) -> Any:
     """Return ``function`` as `compiled` does, but merged into its compiled callers, so that their loops can vectorise."""
-    return _cached(numba.njit(error_model="numpy", nogil=True, forceinline=True)(function))
+    return _Function(function, targetoptions={**_OPTIONS, "forceinline": True})
 
 
 def native(function: Callable[..., Any], signature: Any, *, template: str = "") -> Any:
@@ -51,49 +52,78 @@ def native(function: Callable[..., Any], signature: Any, *, template: str = "") 
         template: file that the function's text stands in, where that is not the file of its module.
     """
     made = CFunc(function, sigutils.normalize_signature(signature), locals={}, options={"error_model": "numpy"})
-    made._cache = _cache(function, template)  # pyright: ignore[reportAttributeAccessIssue]
+    made._cache = _cache(function, template=template)  # pyright: ignore[reportAttributeAccessIssue]
     made.compile()
     return made
 
 
-def _cached(dispatcher: Any) -> Any:
-    """Give a dispatcher its cache, and one compiled version for all the constants that compiled callers pass."""
-    dispatcher._cache = _cache(dispatcher.py_func)
-    find = dispatcher.get_call_template
-
-    def find_general(args: Any, kws: Any) -> Any:
-        return find([types.unliteral(a) for a in args], {k: types.unliteral(v) for k, v in kws.items()})
-
-    dispatcher.get_call_template = find_general
-    return dispatcher
+_OPTIONS = {"nopython": True, "error_model": "numpy", "nogil": True}
 
 
-def _cache(function: Callable[..., Any], template: str = "") -> _SourceCache:
+class _Called(CPUDispatcher):
+    """A function as compiled callers see it.
+
+    It has no wrappers for Python and C, and one version serves all the constants that are passed: both save much
+    compilation.
+    """
+
+    def __init__(self, function: Callable[..., Any], options: dict[str, Any]) -> None:
+        super().__init__(function, targetoptions={**options, "no_cpython_wrapper": True, "no_cfunc_wrapper": True})
+        self._cache = _cache(function, variant="called")
+
+    def get_call_template(self, args: Any, kws: Any) -> Any:
+        """Return numba's template of the call, with constants taken as any values of their types."""
+        return super().get_call_template([types.unliteral(a) for a in args], {k: types.unliteral(v) for k, v in kws.items()})
+
+
+class _Function(CPUDispatcher):
+    """A function as Python sees it; compiled callers get it as `_Called`."""
+
+    def __init__(self, py_func: Callable[..., Any], locals: Any = None, targetoptions: Any = None) -> None:  # noqa: A002
+        self._called = _Called(py_func, targetoptions)
+        super().__init__(py_func, locals, targetoptions)
+        self._cache = _cache(py_func)
+
+    @property
+    def _numba_type_(self) -> Any:
+        return self._called._numba_type_
+
+    @property
+    def _type(self) -> Any:
+        """What numba enters as the type of this global name; the type that it would write here is never used."""
+        return self._called._numba_type_
+
+    @_type.setter
+    def _type(self, value: Any) -> None:
+        pass
+
+
+def _cache(function: Callable[..., Any], *, template: str = "", variant: str = "") -> _SourceCache:
     """Return the function's cache, in a temporary folder if neither the package nor the user's folder can be written."""
     try:
-        return _SourceCache(function, template)
+        return _SourceCache(function, template, variant)
     except RuntimeError:
         user = os.getuid() if hasattr(os, "getuid") else "cache"
         numba.config.CACHE_DIR = str(Path(tempfile.gettempdir()) / f"stochfric_mb-{user}")  # type: ignore[attr-defined]
-        return _SourceCache(function, template)
+        return _SourceCache(function, template, variant)
 
 
 class _SourceCache(FunctionCache):
     """numba's cache of one function, in files whose names carry the stamp of all sources that it is made of."""
 
-    def __init__(self, function: Callable[..., Any], template: str) -> None:
+    def __init__(self, function: Callable[..., Any], template: str, variant: str) -> None:
         super().__init__(function)
         files = [inspect.getfile(function), template] if template else [inspect.getfile(function)]
-        self._stamp = source_stamp(*files)
-        self._base = self._impl.filename_base
-        self._cache_file = IndexDataCacheFile(self._cache_path, f"{self._base}.{self._stamp[:16]}", self._stamp)
+        stamp = source_stamp(*files)
+        self._base, self._short = self._impl.filename_base, stamp[:16]
+        self._cache_file = IndexDataCacheFile(self._cache_path, f"{self._base}.{self._short}{variant}", stamp)
         self._tidy = False
 
     def _save_overload(self, sig: Any, data: Any) -> None:
         super()._save_overload(sig, data)
         if not self._tidy:
             self._tidy = True
-            _remove_others(Path(self._cache_path), self._base, self._stamp[:16])
+            _remove_others(Path(self._cache_path), self._base, self._short)
 
 
 def _remove_others(folder: Path, base: str, stamp: str) -> None:
@@ -102,6 +132,6 @@ def _remove_others(folder: Path, base: str, stamp: str) -> None:
     python = rest.partition(".")[2]
     for path in folder.glob(f"{glob.escape(name)}-*.{python}*.nb[ic]"):
         line, _, tail = path.name[len(name) + 1 :].partition(".")
-        if line.isdecimal() and not tail.startswith(f"{python}.{stamp}."):
+        if line.isdecimal() and not tail.startswith(f"{python}.{stamp}"):
             with contextlib.suppress(OSError):
                 path.unlink()
