@@ -13,6 +13,7 @@ from stochfric_mb.measurement.assemble import RunEntry, assemble
 from stochfric_mb.measurement.entries import SCHEMA, run_entries
 from stochfric_mb.measurement.run import Run, apply_settings
 from stochfric_mb.measurement.sampling import MIN_SAMPLES
+from stochfric_mb.measurement.signs import run_sign_error
 from stochfric_mb.scenario import Scenario, load_scenario
 
 FILE = "dataset.toml"
@@ -79,7 +80,7 @@ def _described(path: Path, scenario: str | Path | Scenario | None) -> Dataset:
         raise InputError(f"{path}: {error}") from None
     for entry in entries:
         apply_settings(model, entry.settings, f"{path}: run {entry.name!r}")
-    runs = tuple(assemble(entry, rotational=rotates(model)) for entry in entries)
+    runs = tuple(_with_sign_note(assemble(entry, rotational=rotates(model)), model) for entry in entries)
     dataset = Dataset(title=str(tables.get("title", "")), scenario_path=source, scenario=model, runs=runs)
     _require_roles(path, dataset)
     return dataset
@@ -90,7 +91,7 @@ def _alone(path: Path, scenario: str | Path | Scenario | None) -> Dataset:
     if scenario is None:
         raise InputError(f"{path}: a measured file alone says nothing about the rig; give --scenario SCENARIO")
     model, source = _scenario(scenario)
-    whole = assemble(RunEntry(file=path, name=path.stem), rotational=rotates(model))
+    whole = _with_sign_note(assemble(RunEntry(file=path, name=path.stem), rotational=rotates(model)), model)
     start, end = float(whole.time[0]), float(whole.time[-1])
     cut = end - HELD_OUT * (end - start)
     first = whole.between(start, cut, name=f"{path.stem} (first two thirds)", role="fit")
@@ -106,6 +107,12 @@ def _alone(path: Path, scenario: str | Path | Scenario | None) -> Dataset:
 def rotates(scenario: Scenario) -> bool:
     """Return whether the mechanism's friction acts about an axis: positions are then angles."""
     return bool(getattr(scenario.mechanism, "rotational", False))
+
+
+def _with_sign_note(run: Run, scenario: Scenario) -> Run:
+    """Return the run, with a note if its friction force seems to have the wrong sign."""
+    found = run_sign_error(run, scenario)
+    return run if found is None else dataclasses.replace(run, notes=(*run.notes, str(found)))
 
 
 def _scenario(source: str | Path | Scenario) -> tuple[Scenario, Path | None]:
