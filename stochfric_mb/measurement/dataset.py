@@ -14,7 +14,7 @@ from stochfric_mb.measurement.entries import SCHEMA, run_entries
 from stochfric_mb.measurement.run import Run, apply_settings
 from stochfric_mb.measurement.sampling import MIN_SAMPLES
 from stochfric_mb.measurement.signs import run_sign_error
-from stochfric_mb.scenario import Scenario, load_scenario
+from stochfric_mb.scenario import Scenario, load_any_scenario
 
 FILE = "dataset.toml"
 """Name of the file that describes a dataset, in its folder."""
@@ -30,7 +30,7 @@ class Dataset:
     """A line for people."""
     scenario_path: Path | None
     """File of the scenario; None if it was given as an object."""
-    scenario: Scenario
+    scenario: Scenario[Any]
     """The model believed so far."""
     runs: tuple[Run, ...]
     """All runs, in the order of the file."""
@@ -46,7 +46,7 @@ class Dataset:
         return tuple(run for run in self.runs if run.role == "test")
 
 
-def load_dataset(path: str | Path, scenario: str | Path | Scenario | None = None) -> Dataset:
+def load_dataset(path: str | Path, scenario: str | Path | Scenario[Any] | None = None) -> Dataset:
     """Return a dataset, read and checked.
 
     Args:
@@ -68,7 +68,7 @@ def load_dataset(path: str | Path, scenario: str | Path | Scenario | None = None
     return _described(path, scenario) if path.suffix.lower() == ".toml" else _alone(path, scenario)
 
 
-def _described(path: Path, scenario: str | Path | Scenario | None) -> Dataset:
+def _described(path: Path, scenario: str | Path | Scenario[Any] | None) -> Dataset:
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
@@ -86,7 +86,7 @@ def _described(path: Path, scenario: str | Path | Scenario | None) -> Dataset:
     return dataset
 
 
-def _alone(path: Path, scenario: str | Path | Scenario | None) -> Dataset:
+def _alone(path: Path, scenario: str | Path | Scenario[Any] | None) -> Dataset:
     """Return the dataset of one measured file: its last third is held out."""
     if scenario is None:
         raise InputError(f"{path}: a measured file alone says nothing about the rig; give --scenario SCENARIO")
@@ -104,21 +104,21 @@ def _alone(path: Path, scenario: str | Path | Scenario | None) -> Dataset:
     return Dataset(title=path.name, scenario_path=source, scenario=model, runs=(first, last))
 
 
-def rotates(scenario: Scenario) -> bool:
+def rotates(scenario: Scenario[Any]) -> bool:
     """Return whether the mechanism's friction acts about an axis: positions are then angles."""
     return bool(getattr(scenario.mechanism, "rotational", False))
 
 
-def _with_sign_note(run: Run, scenario: Scenario) -> Run:
+def _with_sign_note(run: Run, scenario: Scenario[Any]) -> Run:
     """Return the run, with a note if its friction force seems to have the wrong sign."""
     found = run_sign_error(run, scenario)
     return run if found is None else dataclasses.replace(run, notes=(*run.notes, str(found)))
 
 
-def _scenario(source: str | Path | Scenario) -> tuple[Scenario, Path | None]:
+def _scenario(source: str | Path | Scenario[Any]) -> tuple[Scenario[Any], Path | None]:
     if isinstance(source, Scenario):
         return source, None
-    return load_scenario(source), Path(source)
+    return load_any_scenario(source), Path(source)
 
 
 def _named(tables: Mapping[str, Any], folder: Path) -> Path | str:

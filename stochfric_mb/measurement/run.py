@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,6 @@ import numpy.typing as npt
 from stochfric_mb.errors import InputError, require_name, require_number
 
 if TYPE_CHECKING:
-    from stochfric_mb.mechanisms import BeltBox
     from stochfric_mb.scenario import Scenario
 
 Array = npt.NDArray[np.float64]
@@ -44,7 +43,7 @@ class Run:
     notes: tuple[str, ...] = ()
     """What a reader of results should know: interpolation, constant channels, columns left out."""
 
-    def mechanism(self, scenario: Scenario) -> BeltBox:
+    def mechanism(self, scenario: Scenario[Any]) -> Any:
         """Return the scenario's mechanism with the settings of this run.
 
         Raises:
@@ -65,7 +64,7 @@ class Run:
         )
 
 
-def apply_settings(scenario: Scenario, settings: Mapping[str, float], where: str) -> BeltBox:
+def apply_settings(scenario: Scenario[Any], settings: Mapping[str, float], where: str) -> Any:
     """Return the scenario's mechanism with ``settings`` in the place of its own numbers.
 
     Raises:

@@ -67,8 +67,9 @@ def probable_sign_error(friction_force: Array, sliding_velocity: Array) -> SignE
             f"at least {2 * SEGMENTS}"
         )
     power = friction_force * sliding_velocity
-    moved = np.cumsum(sliding_velocity**2)
-    starts = np.unique(np.searchsorted(moved, moved[-1] * np.arange(SEGMENTS) / SEGMENTS))
+    moved: Array = np.cumsum(sliding_velocity**2)
+    shares: Array = moved[-1] * np.linspace(0.0, 1.0, SEGMENTS, endpoint=False)
+    starts: npt.NDArray[np.intp] = np.unique(np.searchsorted(moved, shares))
     if starts.size < SEGMENTS // 2:
         return None  # all the motion is in a few samples
     works = np.add.reduceat(power, starts)
@@ -81,7 +82,7 @@ def probable_sign_error(friction_force: Array, sliding_velocity: Array) -> SignE
     return SignError(float(power.mean()), low, created)
 
 
-def run_sign_error(run: Run, scenario: Scenario) -> SignError | None:
+def run_sign_error(run: Run, scenario: Scenario[Any]) -> SignError | None:
     """Return the finding for a run with ``friction_force``; None where it has none, or no motion to compare it with.
 
     The friction force is the one on the body, which moves relative to the belt: v = x' - v_b.
