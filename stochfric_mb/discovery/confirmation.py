@@ -118,7 +118,7 @@ def _case(
     case = Case(slips.record, onset, length, features, whitening, slips.ridge, np.zeros(N_FEATURES))
     plain = model.with_law(features[0] / load, min(features[1], 0.99 * features[0]) / load)
     plain = dataclasses.replace(plain, corrections={}, effects=(), process=None, own={})
-    predicted = _predict(plain, case)
+    predicted = predict(plain, case)
     if predicted is None:
         return case
     truth = np.zeros(N_FEATURES)
@@ -126,12 +126,13 @@ def _case(
     return dataclasses.replace(case, offset=predicted - truth)
 
 
-def _predict(model: Model, case: Case) -> Array | None:
-    """Return the features that the model predicts for a case [N]; None where it does not slip so."""
+def predict(model: Model, case: Case) -> Array | None:
+    """Return the features that the model predicts for a case [N], shape (N_FEATURES,); None where it does not slip so."""
     record = case.record
     box = record.mechanism
     margin = 3.3 / record.angular_frequency
-    ahead = min(margin + 0.03, max(case.onset[2] * 0.95, margin + 0.01))
+    # from the middle of the stick, so that a break-away that comes early is not missed
+    ahead = max(margin * 1.2, 0.55 * case.onset[2])
     start = Start(
         case.onset[0] - ahead,
         record.direction * (case.onset[1] - box.belt_velocity * ahead),
@@ -139,8 +140,8 @@ def _predict(model: Model, case: Case) -> Array | None:
         True,
         max(case.onset[2] - ahead, 0.0),
     )
-    # room for a break-away that comes later by a tenth of the static deflection
-    late = 0.1 * abs(case.onset[1]) / box.belt_velocity
+    # room for a break-away that comes late by a fifth of the static deflection
+    late = 0.2 * abs(case.onset[1]) / box.belt_velocity
     count = round((ahead + late + 1.6 * case.length + margin) * record.rate)
     motion = model.system(record).march(start, 1.0 / record.rate, count)
     position = record.direction * motion.position
@@ -193,7 +194,7 @@ def _step(knob: Knob, load: float) -> float:
 
 
 def _error(model: Model, case: Case) -> Array:
-    predicted = _predict(model, case)
+    predicted = predict(model, case)
     if predicted is None:
         return np.full(N_FEATURES, MISSED)
     return np.clip(case.whitening @ (case.features - (predicted - case.offset)), -1.0e3, 1.0e3)

@@ -9,10 +9,11 @@ import numpy as np
 
 from stochfric_mb.discovery.confirmation import Case, Confirmed, cases_of, confirm
 from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.innovations import left_over
 from stochfric_mb.discovery.naming import PERIODIC, with_candidate
-from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.randomness import Randomness, randomness
-from stochfric_mb.discovery.regression import Regression, Solution, Terms
+from stochfric_mb.discovery.refit import refit
+from stochfric_mb.discovery.regression import Regression, Solution, Terms, believed
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.screening import Candidate, screen
 from stochfric_mb.discovery.study import Progress, Study
@@ -38,6 +39,8 @@ IN_SLIP = (
     "second_mode",
 )  # fmt: skip
 """Effects that shape every slip alike: told apart by simulating them."""
+IN_TIME = ("friction_drift", "sensor_drift", "sensor_step")
+"""Effects that change in the course of a run; like periodic ones they are fitted to forecasts."""
 BETWEEN_POINTS = ("dwell_ageing", "direction_asymmetry", "load_dependence")
 """Effects that differ between operating points: simulated too where there are several."""
 
@@ -204,7 +207,12 @@ def _dynamics(
         chosen, class_, score, model, confirmed = outcome
         named.append(Named(chosen.name, class_, score, where_of(chosen.name)))
         held.append(chosen.name)
-        terms = terms.plus(chosen.hypothesis.columns)
+        progress("what is left")
+        if chosen.name in PERIODIC or chosen.name in IN_TIME:
+            model = refit(model, study.windows, study.uncertainty, most=12, evaluations=20).model
+        pool = left_over(study.pool, model)
+        regression = Regression(pool)
+        terms = believed(pool, dict(study.uncertainty))
         solution = regression.fit(terms, solution.scatter)
     scatter = randomness(regression, terms, solution)
     details["randomness"] = dataclasses.asdict(scatter)

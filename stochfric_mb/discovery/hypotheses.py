@@ -14,6 +14,7 @@ import numpy as np
 
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.record import Array
+from stochfric_mb.discovery.slips import legendre_coefficients
 
 Columns = list[Array]
 
@@ -245,16 +246,14 @@ def periodic(
         harmonics: number of harmonics.
         setting: what the phases were made from.
     """
-    columns: Columns = []
-    for run in range(pool.n_runs):
-        mine = pool.run == run
-        for h in range(1, harmonics + 1):
-            for wave in (np.cos, np.sin):
-                columns.append(
-                    pool.column(
-                        weights[0] * wave(h * phases[0]) * mine, weights[1][:, None] * wave(h * phases[1]) * mine[:, None]
-                    )
-                )
+    angle = np.stack([h * np.concatenate([phases[0][:, None], phases[1]], axis=1) for h in range(1, harmonics + 1)])
+    waves = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    onset = weights[0] * waves[..., 0]
+    in_slip = legendre_coefficients(weights[1][:, None] * waves[..., 1:])
+    all_runs = np.concatenate([onset[..., None], in_slip], axis=-1)
+    columns = [
+        all_runs[h, wave] * (pool.run == run)[:, None] for run in range(pool.n_runs) for h in range(harmonics) for wave in (0, 1)
+    ]
     return Hypothesis(kind, columns, (*setting, float(harmonics)))
 
 

@@ -40,8 +40,9 @@ def randomness(regression: Regression, terms: Terms, solution: Solution) -> Rand
         without[j] = LOWEST
         ratios.append(2.0 * (regression.solve(terms, without).cost - solution.cost))
     rest = regression.residuals(terms, solution)[:, :2]
-    wander, share, duration = _wander(regression, rest, solution)
-    return Randomness(*ratios, _correlation(regression, rest), wander, share, duration, _two_levels(regression, rest, solution))
+    correlation = _correlation(regression, rest)
+    wander = _wander(regression, rest, solution) if correlation > WORTH_A_LOOK else (0.0, 0.0, 1.0)
+    return Randomness(*ratios, correlation, *wander, _two_levels(regression, rest, solution))
 
 
 def _correlation(regression: Regression, rest: Array) -> float:
@@ -57,6 +58,8 @@ def _correlation(regression: Regression, rest: Array) -> float:
     return total / max(weight, 1) * np.sqrt(max(weight, 1))
 
 
+WORTH_A_LOOK = 2.0
+"""Correlation over its standard error below which no wander is looked for [-]."""
 SHARES = (0.003, 0.006, 0.012, 0.02, 0.03, 0.05)
 """Strengths of wander that are tried, over the mean friction [-]."""
 TIMES = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)

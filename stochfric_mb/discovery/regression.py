@@ -104,18 +104,21 @@ class Regression:
         basis, _ = np.linalg.qr(np.r_[design, weights])
         rest = np.r_[target, np.zeros(len(weights))]
         rest = rest - basis @ (basis.T @ rest)
+        top = basis[: len(target)]
         gains = np.zeros(len(trials))
         for i, columns in enumerate(trials):
             more, _, _ = self._whitened(np.stack(columns, axis=2), scatter)
-            more = np.r_[more, np.zeros((len(weights), more.shape[1]))]
-            more = more - basis @ (basis.T @ more)
-            norm = np.sqrt((more**2).sum(axis=0))
-            usable = norm > 1.0e-9
+            # what of the columns the believed model cannot imitate, by its Gram matrix: small and quick
+            shared = top.T @ more
+            gram = more.T @ more - shared.T @ shared
+            size = np.sqrt(np.maximum(np.diag(gram), 0.0))
+            usable = size > 1.0e-6 * np.sqrt(np.maximum((more**2).sum(axis=0), 1.0e-300))
             if not usable.any():
                 continue
-            q, r = np.linalg.qr(more[:, usable] / norm[usable])
-            q = q[:, np.abs(np.diag(r)) > 1.0e-6]
-            gains[i] = 0.5 * float(((q.T @ rest) ** 2).sum())
+            size = size[usable]
+            along = (more.T @ rest[: len(target)])[usable] / size
+            gram = gram[np.ix_(usable, usable)] / np.outer(size, size) + 1.0e-9 * np.eye(len(size))
+            gains[i] = 0.5 * float(along @ np.linalg.solve(gram, along))
         return gains
 
     def residuals(self, terms: Terms, solution: Solution) -> Array:

@@ -100,10 +100,12 @@ class Slips:
         return np.c_[self.onset_force, self.moments]
 
 
+_PROJECTION = WEIGHTS[:, None] * np.stack([legendre.legval(NODES, p) for p in _P], axis=1) * (2 * _ORDERS + 1) / 2.0
+
+
 def legendre_coefficients(values: Array) -> Array:
-    """Return the Legendre coefficients, shape (n, N_MOMENTS), of functions given at the Gauss nodes, shape (n, N_NODES)."""
-    table = np.stack([legendre.legval(NODES, p) for p in _P], axis=1)
-    return (values * WEIGHTS) @ table * (2 * _ORDERS + 1) / 2.0
+    """Return the Legendre coefficients, shape (..., N_MOMENTS), of functions given at the Gauss nodes, shape (..., N_NODES)."""
+    return values @ _PROJECTION
 
 
 def extract(record: Record, *, ridge: float | None = None) -> Slips:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from stochfric_mb.discovery.believed import believed_model
 from stochfric_mb.discovery.calibration import calibrate
+from stochfric_mb.discovery.forecast import Windows, windows_of
 from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.pool import Pool, make_pool
 from stochfric_mb.discovery.record import Record, make_record
@@ -50,6 +52,11 @@ class Study:
     """How much longer records dwell at their ceiling than they should [-], and the ceiling [m]."""
     outliers: float
     """Share of samples that were outliers [-]."""
+
+    @functools.cached_property
+    def windows(self) -> tuple[Windows, ...]:
+        """One-cycle-ahead forecasts of the fit runs."""
+        return tuple(windows_of(s) for s in self.pool.slips)
 
 
 def record_of(run: Run, dataset: Dataset) -> Record:

@@ -1,0 +1,63 @@
+"""What a model leaves of every slip: each one predicted by simulation from the stick before it.
+
+For models with effects the regressors are only first-order; a simulated slip is exact. Features of the data, less what
+the model's effects add to those of plain Coulomb friction, are again features of a Coulomb contact if the model is right.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from stochfric_mb.discovery.confirmation import Case, predict
+from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.pool import Pool
+from stochfric_mb.discovery.record import Array
+from stochfric_mb.discovery.slips import N_FEATURES, Slips
+
+ANY = np.eye(N_FEATURES)
+
+
+def left_over(pool: Pool, model: Model) -> Pool:
+    """Return the pool with the effects of ``model`` taken out of its features; slips that it misses are set aside.
+
+    Args:
+        pool: the slips with their features as measured.
+        model: a deterministic model with effects, its numbers fitted.
+    """
+    plain = dataclasses.replace(model, effects=(), own={})
+    features = pool.features.copy()
+    kept = pool.kept.copy()
+    for r, slips in enumerate(pool.slips):
+        rows = np.flatnonzero(pool.run == r)
+        with_effects = _predicted(slips, model, pool.dwell[rows])
+        forced = slips.record.mechanism.excitation_amplitude != 0.0
+        one = rows if forced else rows[:1]
+        without = _predicted(slips, plain, pool.dwell[rows], len(one))
+        features[rows] -= with_effects - without
+        missed = ~np.isfinite(features[rows]).all(axis=1)
+        features[rows[missed]] = pool.features[rows[missed]]
+        kept[rows[missed]] = False
+    return dataclasses.replace(pool, features=features, kept=kept)
+
+
+def _predicted(slips: Slips, model: Model, dwell: Array, count: int | None = None) -> Array:
+    """Return the features of the slips as the model predicts them [N], shape (count, N_FEATURES); nan where it does not slip."""
+    rows: list[Array] = []
+    previous = np.r_[np.median(slips.restick_position), slips.restick_position[:-1]]
+    belt = slips.record.mechanism.belt_velocity
+    for i in range(len(slips) if count is None else count):
+        # predicted from the last re-stick alone: the place of this break-away is what is to be predicted
+        typical = float(np.median(slips.onset_position))
+        expected = slips.onset_time[i] + (typical - slips.onset_position[i]) / belt
+        stuck = (typical - previous[i]) / belt if i else float(dwell[i])
+        case = Case(
+            slips.record, (float(expected), typical, max(stuck, 0.02)),
+            float(np.median(slips.restick_time - slips.onset_time)), slips.features[i], ANY, slips.ridge, np.zeros(N_FEATURES),
+        )  # fmt: skip
+        found = predict(model, case)
+        rows.append(np.full(N_FEATURES, np.nan) if found is None else found)
+    return np.array(rows)
+
+

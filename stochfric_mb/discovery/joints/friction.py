@@ -1,0 +1,97 @@
+"""The friction of a joint along a measured motion, from the law and the effects' own functions.
+
+Friction is mu N along the motion's opposite, N being the believed load of the joint. Where an effect depends on load, the
+contact carries that effect's reference load plus the load that the joint transmits; the reference load is fitted.
+"""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.compile import compiled
+from stochfric_mb.discovery.joints.sheet import Sheet
+from stochfric_mb.effects import Effect
+from stochfric_mb.effects import contract as e
+from stochfric_mb.effects.abi import call_effect, native_effect
+from stochfric_mb.laws import Law
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclasses.dataclass(frozen=True)
+class Chain:
+    """Law and effects in the form that compiled code takes."""
+
+    numbers: Array
+    """mu_s, mu_k, believed load, reference load or 0, shape (4,)."""
+    calls: npt.NDArray[np.int64]
+    """Address of ``surroundings`` and of ``friction`` (0: none) and offset of the parameters, shape (n_effects, 3)."""
+    parameters: Array
+    """Parameters of all effects, one after the other."""
+
+
+def chain(law: Law, effects: Sequence[Effect], load: float) -> Chain:
+    """Return law and effects, in the order in which effects act, for a joint with the believed ``load`` [N or N m]."""
+    ordered = sorted((x for x in effects if x.group != "sensor"), key=lambda x: x.order)
+    calls = np.zeros((len(ordered), 3), dtype=np.int64)
+    parameters: list[float] = []
+    for row, effect in zip(calls, ordered, strict=True):
+        native = native_effect(type(effect))
+        row[:] = native.surroundings, native.friction, len(parameters)
+        parameters += list(effect.parameters())
+    reference = next((x.reference_load for x in ordered if x.kind == "load_dependence"), 0.0)  # type: ignore[attr-defined]
+    return Chain(np.array([law.mu_s, law.mu_k, load, reference]), calls, np.array([*parameters, 0.0]))
+
+
+def friction_along(sheet: Sheet, law: Law, effects: Sequence[Effect], load: float) -> Array:
+    """Return the friction against the motion, seen through the windows of a sheet [N or N m], shape (n_centres,).
+
+    Args:
+        sheet: the motion.
+        law: its mu_k holds while the joint slides.
+        effects: what is added to it.
+        load: believed load [N or N m].
+    """
+    links = chain(law, effects, load)
+    force = np.empty(len(sheet.time))
+    along(links.numbers, links.calls, links.parameters, sheet.time, sheet.position, sheet.velocity, sheet.load, sheet.slip, force)
+    return sheet.window.at_centres(force)
+
+
+@compiled
+def along(numbers, calls, parameters, time, position, velocity, load, slip, force):
+    """Fill ``force`` with the friction against the motion at each sample."""
+    world = np.zeros(e.WORLD)
+    memory = np.zeros(8)
+    for i in range(len(time)):
+        force[i] = resistance(
+            numbers, calls, parameters, world, memory, time[i], position[i], velocity[i], load[i], slip[i], np.sign(velocity[i])
+        )
+
+
+@compiled
+def resistance(numbers, calls, parameters, world, memory, time, position, velocity, load, slip, side):
+    """Return the force against the motion at one instant; ``side`` is the direction of the motion: 1, -1 or 0."""
+    world[:] = 0.0
+    world[e.TIME], world[e.POSITION], world[e.VELOCITY] = time, position, velocity
+    around = numbers[3] + load if numbers[3] > 0.0 else numbers[2]
+    world[e.NORMAL_FORCE] = around
+    p = parameters.ctypes.data
+    for k in range(len(calls)):
+        if calls[k, 0] != 0:
+            call_effect(calls[k, 0], world.ctypes.data, memory.ctypes.data, memory.ctypes.data, p + 8 * calls[k, 2])
+    ripple = world[e.NORMAL_FORCE] / around
+    # v_rel is counter-surface minus body: the counter-surface rests
+    world[e.DIRECTION], world[e.SPEED], world[e.BELT_POSITION] = -side, abs(velocity), -position
+    world[e.SLIP] = slip
+    world[e.MU_S], world[e.MU_K] = numbers[0], numbers[1]
+    for k in range(len(calls)):
+        if calls[k, 1] != 0:
+            call_effect(calls[k, 1], world.ctypes.data, memory.ctypes.data, memory.ctypes.data, p + 8 * calls[k, 2])
+    return side * (world[e.MU_K] * numbers[2] * ripple + world[e.VISCOUS_FORCE]) - world[e.LOAD]

@@ -1,0 +1,90 @@
+"""Weak form: every term of the equation of motion seen through the same smooth window, at centres along a run.
+
+The window is differentiated, not the record (`stochfric_mb.measurement.smoothing`). Inertia, drive and friction pass the same
+window, so that what it takes away is taken away on both sides of the balance.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+
+import numpy as np
+import numpy.typing as npt
+from numpy.lib.stride_tricks import sliding_window_view
+
+from stochfric_mb.measurement.smoothing import smooth, window
+
+Array = npt.NDArray[np.float64]
+
+HALF_WIDTHS = (8, 12, 16, 24, 32, 48, 64)
+"""Half widths of the window that are tried [sample intervals]."""
+QUIET = 0.05
+"""Noise of the balance that is allowed, over the believed friction [-]: below it, wider windows only blur."""
+OVERLAP = 2.0
+"""Centres of windows in one half width."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Window:
+    """A window and where it is put along a run."""
+
+    half_width: float
+    """Half its length [s]."""
+    interval: float
+    """Distance between samples [s]."""
+    count: int
+    """Samples of the run."""
+
+    @functools.cached_property
+    def taps(self) -> Array:
+        """Its samples, shape (2 m + 1,), of sum 1."""
+        return window(self.half_width, self.interval)
+
+    @functools.cached_property
+    def centres(self) -> npt.NDArray[np.int64]:
+        """Samples at which it is put; the outermost leave room for it twice, since motion is smoothed by it too."""
+        margin = len(self.taps)
+        stride = max(1, round(self.half_width / self.interval / OVERLAP))
+        return np.arange(margin, self.count - margin, stride, dtype=np.int64)
+
+    def through(self, signal: Array, derivative: int = 0, shift: float = 0.0) -> Array:
+        """Return a signal, shape (count,), or a derivative of it through the window, delayed by ``shift`` [s]."""
+        return smooth(signal, self.half_width, self.interval, derivative=derivative, shift=shift)
+
+    def at_centres(self, signal: Array) -> Array:
+        """Return the mean of a signal, shape (count,), over each window, shape (n_centres,)."""
+        return self.views(signal) @ self.taps
+
+    def views(self, signal: Array) -> Array:
+        """Return the samples of a signal in each window, shape (n_centres, 2 m + 1)."""
+        m = len(self.taps) // 2
+        return sliding_window_view(signal, len(self.taps))[self.centres - m]
+
+    def gain(self, derivative: int) -> float:
+        """Return by how much white noise is multiplied on its way through [1/s^derivative]."""
+        return float(np.linalg.norm(window(self.half_width, self.interval, derivative=derivative)))
+
+
+def noise_level(signal: Array) -> float:
+    """Return the standard deviation of white noise on a smooth signal, from third differences (robust: median)."""
+    return float(1.4826 * np.median(np.abs(np.diff(signal, 3))) / np.sqrt(20.0))
+
+
+def chosen_window(interval: float, count: int, noise: dict[int, float], friction: float) -> Window:
+    """Return the narrowest window through which noise is quiet against friction.
+
+    Args:
+        interval: distance between samples [s].
+        count: samples of the run.
+        noise: derivative -> noise of what enters the balance with that derivative (coefficients included).
+        friction: believed size of the friction [N or N m].
+    """
+    widest = Window(HALF_WIDTHS[0] * interval, interval, count)
+    for half in HALF_WIDTHS:
+        if 8 * half > count:
+            break
+        widest = Window(half * interval, interval, count)
+        if np.sqrt(sum((widest.gain(d) * s) ** 2 for d, s in noise.items())) <= QUIET * friction:
+            return widest
+    return widest
