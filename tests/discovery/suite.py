@@ -29,7 +29,7 @@ def by_command(dataset: Path, out: Path) -> None:
     from stochfric_mb.__main__ import main as command
 
     before = sys.argv
-    sys.argv = ["stochfric", "discover", str(dataset), "--out", str(out), "--force"]
+    sys.argv = ["stochfric", "discover", str(dataset), "--out", str(out)]
     try:
         command()
     except SystemExit as end:
@@ -43,6 +43,7 @@ def run_case(case: Case, out: Path, discover: Discover, limit: float, *, keep: b
     """Generate, discover, and store what came; a failure is stored as an answer, too."""
     dataset, answer = out / "datasets" / case.name, out / "answers" / case.name
     truth = write(case, dataset, out / "truth" / f"{case.name}.json")
+    shutil.rmtree(answer, ignore_errors=True)  # left by a run that was cut off
     result, error = None, None
     begin = time.perf_counter()
     try:

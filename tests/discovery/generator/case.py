@@ -2,6 +2,7 @@
 
 import json
 import zlib
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
@@ -181,6 +182,6 @@ def _dataset(runs: tuple[Run, ...]) -> str:
     return text
 
 
-def _table(name: str, entries: dict[str, object]) -> str:
+def _table(name: str, entries: Mapping[str, object]) -> str:
     lines = [f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value!r}" for key, value in entries.items()]
     return f"\n[{name}]\n" + "\n".join(lines) + "\n"

@@ -30,8 +30,8 @@ def line(slope: float) -> Curve:
 
 def tabulate(function: Callable[[Array], Array], low: float, high: float, n: int = 4001) -> Curve:
     """The function at n points from low to high."""
-    points = np.linspace(low, high, n)
-    return Curve(float(low), float(points[1] - points[0]), False, np.ascontiguousarray(function(points), dtype=np.float64))
+    points = np.asarray(np.linspace(low, high, n), dtype=np.float64)
+    return Curve(float(low), (high - low) / (n - 1), False, np.ascontiguousarray(function(points), dtype=np.float64))
 
 
 def tabulate_period(function: Callable[[Array], Array], length: float, n: int = 2000) -> Curve:

@@ -34,11 +34,6 @@ class Design:
         return frozenset(keys)
 
     @property
-    def forced(self) -> bool:
-        """Whether the rig is shaken."""
-        return self.rig.excitation_amplitude > 0.0
-
-    @property
     def several_points(self) -> bool:
         """Whether the experiment has several operating points."""
         return bool(self.varied)

@@ -17,8 +17,8 @@ def visible(kind: str, design: Design) -> bool:
         return _LOADS in varied
     if kind == "direction_asymmetry":
         return _DIRECTION in varied
-    if kind == "dwell_ageing":  # dwell is constant otherwise
-        return design.forced or _SPEEDS in varied or _LOADS in varied
+    if kind == "dwell_ageing":  # dwell is constant otherwise: forced motion locks to the forcing within the burn-in
+        return _SPEEDS in varied or _LOADS in varied
     return True
 
 

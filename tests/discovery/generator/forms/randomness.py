@@ -59,6 +59,11 @@ def per_slip(rng: Generator, strength: float, rig: Rig) -> Effect:
     return Effect({"relative_sigma_s": sigma_s, "relative_sigma_k": sigma_k}, alter)
 
 
+def windowed(shocks: Array, window: Array) -> Array:
+    """White noise of unit variance under a window, unit variance again."""
+    return np.asarray(np.convolve(shocks, window / np.sqrt(np.sum(window**2)), mode="same"), dtype=np.float64)
+
+
 def _wander(machine: Machine, path: Array) -> Machine:
     return machine.scaled(STATIC, 1.0 + path).scaled(KINETIC, 1.0 + path)
 
@@ -76,7 +81,7 @@ def first_order(rng: Generator, strength: float, rig: Rig) -> Effect:
         path[0] = rng.standard_normal()
         for i, shock in enumerate(np.sqrt(1.0 - kept**2) * rng.standard_normal(coarse.size - 1)):
             path[i + 1] = kept * path[i] + shock
-        return _wander(machine, sigma * np.interp(machine.time, coarse, path))
+        return _wander(machine, sigma * np.asarray(np.interp(machine.time, coarse, path), dtype=np.float64))
 
     return Effect({"relative_sigma": sigma, "correlation_time": time}, alter)
 
@@ -90,8 +95,8 @@ def smooth(rng: Generator, strength: float, rig: Rig) -> Effect:
     def alter(machine: Machine, rng: Generator) -> Machine:
         coarse = np.arange(machine.start - 4.0 * time, machine.time[-1] + 4.0 * time, 0.05)
         window = np.exp(-0.5 * (np.arange(-4.0 * time, 4.0 * time, 0.05) / time) ** 2)
-        path = np.convolve(rng.standard_normal(coarse.size), window / np.sqrt(np.sum(window**2)), mode="same")
-        return _wander(machine, sigma * np.interp(machine.time, coarse, path))
+        path = windowed(rng.standard_normal(coarse.size), window)
+        return _wander(machine, sigma * np.asarray(np.interp(machine.time, coarse, path), dtype=np.float64))
 
     return Effect({"relative_sigma": sigma, "window": time}, alter)
 
@@ -105,7 +110,7 @@ def belt_field(rng: Generator, strength: float, rig: Rig) -> Effect:
         spacing = length / 20.0
         window = np.exp(-0.5 * (np.arange(-80, 81) / 20.0) ** 2)
         n = int(0.8 / spacing)  # 0.8 m: longer than any run travels either way
-        field = np.convolve(rng.standard_normal(n), window / np.sqrt(np.sum(window**2)), mode="same")
+        field = windowed(rng.standard_normal(n), window)
         return machine._replace(belt_surface=Curve(-0.4, spacing, False, 1.0 + sigma * field))
 
     return Effect({"relative_sigma": sigma, "length": length}, alter)

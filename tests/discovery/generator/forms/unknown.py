@@ -41,7 +41,7 @@ def telegraph(rng: Generator, strength: float, rig: Rig) -> Effect:
     half, rate = 0.05 * strength, rng.uniform(0.3, 0.6)
 
     def alter(machine: Machine, rng: Generator) -> Machine:
-        switched = np.cumsum(rng.random(machine.time.size) < rate * 1e-3) % 2
+        switched = (np.cumsum(rng.random(machine.time.size) < rate * 1e-3) % 2).astype(np.float64)
         return machine.scaled(STATIC, 1.0 + half * (2.0 * switched - 1.0))
 
     return Effect({"half_difference": half, "rate": rate}, alter)
