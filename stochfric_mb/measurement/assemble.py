@@ -159,7 +159,7 @@ def _column(entry: RunEntry, table: Table, quantity: str, column: str | int) -> 
 
 
 def _listed(table: Table) -> str:
-    return ", ".join(map(repr, table.columns)) if table.has_header else f"no header, numbers {', '.join(table.columns)}"
+    return ", ".join(map(repr, table.columns)) if table.has_header else f"{', '.join(table.columns)} (there is no header)"
 
 
 def _require_keys(key: str, given: Mapping[str, object], columns: Mapping[str, Array], entry: RunEntry) -> None:

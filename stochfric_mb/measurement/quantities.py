@@ -51,7 +51,7 @@ KNOWN: dict[str, Quantity] = {
 def split_header(header: str) -> tuple[str, str | None]:
     """Return the name and the unit in a header such as ``position [mm]`` or ``position (mm)``; None: it has no unit."""
     match = re.fullmatch(r"\s*(.*?)\s*[\[(]\s*([^\])]*?)\s*[\])]\s*", header)
-    return (match.group(1), match.group(2)) if match and match.group(1) else (header.strip(), None)
+    return (match.group(1), match.group(2) or None) if match and match.group(1) else (header.strip(), None)
 
 
 def known_name(name: str) -> str | None:

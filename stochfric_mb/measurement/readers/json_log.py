@@ -30,6 +30,8 @@ def read(path: Path, *, skip_rows: int = 0) -> Table:
     if isinstance(content, Mapping):
         about = cast(Mapping[str, Any], content)
         content = _records(about) or _lists(about)
+    if not isinstance(content, list | Mapping):
+        raise InputError(f"{path}: a single value, no log; store a list of records")
     columns = _columns(cast(list[Any], content)) if isinstance(content, list) else cast(Mapping[str, Any], content)
     units: dict[str, str] = {}
     items: list[tuple[str, Any]] = []

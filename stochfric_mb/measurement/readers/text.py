@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -23,13 +24,15 @@ MISSING = ("", "nan", "na", "n/a", "null", "none", "-")
 """Fields that stand for a missing value."""
 _LOOK = 40
 """Lines that decide the dialect."""
+_ALIKE = 0.8
+"""Part of them that has equally many columns: a few may be broken, which is said later, with their number."""
 
 
 def read(path: Path, *, skip_rows: int = 0) -> Table:
     """Return the numeric columns of a text file.
 
-    Lines that begin with ``#`` are left out; the last of them before the numbers is the header if it has as many names
-    as there are columns and no other line is one. Columns without any number are left out.
+    Lines that begin with ``#`` are left out; the last of them is the header if it has as many names as there are columns
+    and no other line is one. A line of words under the header holds the units. Columns without any number are left out.
 
     Raises:
         InputError: no table of numbers can be seen in it, or a row is broken; names the line.
@@ -45,13 +48,23 @@ def read(path: Path, *, skip_rows: int = 0) -> Table:
     is_header = all(_number(field, dialect) is None for field in first)
     header = first if is_header else _commented_header(comments, len(first), dialect)
     body = rows[1:] if is_header else rows
+    second = _fields(body[0][1], dialect) if is_header and body else []
+    has_units = len(second) == len(header) > 0 and all(f and _number(f, dialect) is None for f in second)
+    body = body[1:] if has_units else body
     if not body:
         raise InputError(f"{path}: a header without any row under it; record some samples")
-    width = len(_fields(body[0][1], dialect))
+    width = _usual_width([line for _, line in body[:_LOOK]], dialect)
+    if len(header) == width - 1 and all(not _fields(line, dialect)[-1] for _, line in body[:_LOOK]):
+        header = [*header, ""]  # rows end with a delimiter, the header does not
     if header and len(header) != width:
-        raise InputError(f"{path}: {len(header)} names in the header but {width} columns in line {body[0][0]}; mend the header")
+        raise InputError(
+            f"{path}: {len(header)} names in the header, line {rows[0][0]}, but {width} columns in line {body[0][0]}; mend the "
+            "header, or leave out the lines before it with skip_rows"
+        )
     values = _values(path, body, width, dialect)
     names, units = _names(path, header, width)
+    if has_units:
+        units = {name: text.strip("[]()") for name, text in zip(names, second, strict=True)} | units
     filled = [i for i in range(width) if np.isfinite(values[:, i]).any() or names[i] in units]
     return Table(
         columns={names[i]: values[:, i].copy() for i in filled},
@@ -76,15 +89,16 @@ def _text(path: Path) -> str:
 
 
 def _dialect(path: Path, lines: list[str]) -> Dialect:
-    """Return the dialect in which the lines under the first have equally many columns, most numbers and fewest words."""
+    """Return the dialect in which most lines under the first have equally many columns, most numbers and fewest words."""
     look = lines[1 : 1 + _LOOK] or lines
     best: tuple[int, Dialect] | None = None
     for dialect in DIALECTS:
         table = [_fields(line, dialect) for line in look]
-        widths = {len(fields) for fields in table}
+        width = _usual_width(look, dialect)
+        alike = sum(len(fields) == width for fields in table) >= _ALIKE * len(table)
         read = [_number(field, dialect) is not None for fields in table for field in fields if field.lower() not in MISSING]
         score = 2 * sum(read) - len(read)
-        if len(widths) == 1 and widths != {1} and any(read) and (best is None or score > best[0]):
+        if alike and width > 1 and any(read) and (best is None or score > best[0]):
             best = (score, dialect)
     if best is None:
         raise InputError(
@@ -92,6 +106,11 @@ def _dialect(path: Path, lines: list[str]) -> Dialect:
             "leave out lines before it with skip_rows"
         )
     return best[1]
+
+
+def _usual_width(lines: list[str], dialect: Dialect) -> int:
+    """Return the number of columns that most lines have."""
+    return Counter(len(_fields(line, dialect)) for line in lines).most_common(1)[0][0]
 
 
 def _fields(line: str, dialect: Dialect) -> list[str]:

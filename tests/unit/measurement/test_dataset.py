@@ -227,6 +227,7 @@ def broken(sample, value):
     ("columns", "message"),
     [
         ({"time": TIME, "position__m": POSITION}, r"time has no unit; write the header as 'time \[s\]', or give units"),
+        ({"time__s": TIME, "position__": POSITION}, r"position has no unit"),
         ({"time__s": TIME, "position": POSITION}, r"position has no unit; write the header as 'position \[m\]'"),
         ({"t__s": TIME, "position__m": POSITION}, r"no column is time; its columns are 't', 'position'"),
         ({"time__s": TIME, "x__m": POSITION}, r"no column is a known quantity; its columns are 'time', 'x'"),

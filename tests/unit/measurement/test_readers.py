@@ -65,6 +65,20 @@ def test_text_without_header_is_numbered(tmp_path):
     assert table.rows[0] == 21
 
 
+def test_text_units_in_a_line_of_their_own(tmp_path):
+    (tmp_path / "run.csv").write_text("t,x,y [N]\ns,[mm],-\n0.0,1,2\n0.1,2,3\n")
+    table = read_table(tmp_path / "run.csv")
+    assert table.units == {"t": "s", "x": "mm", "y": "N"}
+    np.testing.assert_array_equal(table.columns["x"], [1.0, 2.0])
+    assert list(table.rows) == [3, 4]
+
+
+@pytest.mark.parametrize("end", ["", ";"])
+def test_text_rows_that_end_with_a_delimiter(tmp_path, end):
+    (tmp_path / "run.csv").write_text(f"t;x{end}\n0,5;1;\n0,6;2;\n")
+    assert list(read_table(tmp_path / "run.csv").columns) == ["t", "x"]
+
+
 def test_text_missing_values_are_nan(tmp_path):
     (tmp_path / "run.csv").write_text("t,x\n0.0,1\n0.1,\n0.2,NaN\n0.3,4\n")
     np.testing.assert_array_equal(read_table(tmp_path / "run.csv").columns["x"], [1.0, np.nan, np.nan, 4.0])
@@ -75,7 +89,9 @@ def test_text_missing_values_are_nan(tmp_path):
     [
         ("t,x\n0.0,1\n0.1,1.2.3\n0.2,3\n", r"run\.csv, line 3, column 2: '1\.2\.3' is not a number"),
         ("t,x\n" + "0,1\n" * 50 + "0.1\n", r"run\.csv, line 52: 1 columns instead of 2"),
-        ("t,x,y\n0,1\n1,2\n", r"3 names in the header but 2 columns in line 2"),
+        ("t,x\n0.1\n" + "0,1\n" * 50, r"run\.csv, line 2: 1 columns instead of 2"),
+        ("t,x,y\n0,1\n1,2\n", r"3 names in the header, line 1, but 2 columns in line 2; mend .* skip_rows"),
+        ("Logger\nserial,7\nt,x\n" + "0,1\n" * 50, r"1 names in the header, line 1, but 2 columns .* skip_rows"),
         ("x,x\n0,1\n1,2\n", r"column 'x' is there 2 times"),
         ("hello\nworld\n", r"no table of at least two columns"),
         ("# nothing\n", r"no rows after skip_rows = 0"),
@@ -229,6 +245,13 @@ def test_json(tmp_path, shape):
     np.testing.assert_array_equal(table.columns["on"], 1.0)
     assert table.units == {"time": "s"}
     assert table.constants == ({"mass": 0.5} if shape in ("entries", "inner") else {})
+
+
+@pytest.mark.parametrize("content", ["3", "null", "{}", "[]", "[1, 2]", '{"a": "b"}', '{"a": []}'])
+def test_json_without_a_table(tmp_path, content):
+    (tmp_path / "run.json").write_text(content)
+    with pytest.raises(InputError, match=r"run\.json: (no columns of numbers|a single value)"):
+        read_table(tmp_path / "run.json")
 
 
 def test_json_key_that_a_record_lacks_is_missing(tmp_path):
