@@ -1,0 +1,176 @@
+"""What a joint's friction may lack, and from where its fit starts; and smooth competitors that no effect explains."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.joints.fitting import JointModel
+from stochfric_mb.discovery.joints.sheet import Sheet
+from stochfric_mb.effects import Effect, make_effect
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclasses.dataclass(frozen=True)
+class Span:
+    """What the motion covers, over the sheets of a joint."""
+
+    speed: float
+    """High speed: its 95 % quantile [m/s or rad/s]."""
+    stroke: float
+    """Distance between the outermost positions [m or rad]."""
+    duration: float
+    """Longest record [s]."""
+    load: float
+    """Median load that the joint transmits [N or N m]; 0: not known, or it does not vary."""
+    both_ways: bool
+    """Whether it slides in both directions."""
+    friction: float
+    """Believed friction [N or N m]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Candidate:
+    """An effect with its starting points."""
+
+    kind: str
+    """Its kind."""
+    starts: tuple[Effect, ...]
+    """Where fits begin: the grid over numbers that enter nonlinearly."""
+    where: str
+    """Axis along which it shows."""
+    parameters: int
+    """Numbers it adds to a fit."""
+
+
+def span_of(sheets: Sequence[Sheet], friction: float) -> Span:
+    """Return what the motion of ``sheets`` covers."""
+    at = [s.window.centres[s.sliding] for s in sheets]
+    speed = np.concatenate([np.abs(s.velocity[c]) for s, c in zip(sheets, at, strict=True)])
+    position = np.concatenate([s.position[c] for s, c in zip(sheets, at, strict=True)])
+    load = np.concatenate([s.load[c] for s, c in zip(sheets, at, strict=True)])
+    direction = np.concatenate([np.sign(s.velocity[c]) for s, c in zip(sheets, at, strict=True)])
+    varies = load.std() > 0.05 * max(float(np.mean(load)), 1.0e-12)
+    return Span(
+        speed=float(np.quantile(speed, 0.95)),
+        stroke=float(np.ptp(position)),
+        duration=max(float(s.time[-1] - s.time[0]) for s in sheets),
+        load=float(np.median(load)) if varies else 0.0,
+        both_ways=0.05 < float(np.mean(direction > 0.0)) < 0.95,
+        friction=friction,
+    )
+
+
+def candidates(span: Span, believed: Sequence[Effect], load: float) -> list[Candidate]:
+    """Return the effects that this motion can show and that the model does not have yet.
+
+    Args:
+        span: what the motion covers.
+        believed: effects in the model.
+        load: believed load of the joint [N or N m].
+    """
+    found = [of(span, load) for of in _STARTS]
+    have = {e.kind for e in believed}
+    return [c for c in found if c is not None and c.kind not in have]
+
+
+def _viscous(span: Span, load: float) -> Candidate:
+    size = 0.5 * span.friction / span.speed
+    return Candidate("viscous_friction", (make_effect("viscous_friction", coefficient=size),), "speed", 1)
+
+
+def _weakening(span: Span, load: float) -> Candidate:
+    starts = tuple(
+        make_effect("velocity_weakening", amplitude=sign * 0.1 * span.friction / load, decay_velocity=part * span.speed)
+        for part in (0.05, 0.2, 0.6)
+        for sign in (1.0, -1.0)
+    )
+    return Candidate("velocity_weakening", starts, "speed", 2)
+
+
+def _quadratic(span: Span, load: float) -> Candidate:
+    size = 0.2 * span.friction / span.speed**2
+    return Candidate("quadratic_damping", (make_effect("quadratic_damping", coefficient=size),), "speed", 1)
+
+
+def _load(span: Span, load: float) -> Candidate | None:
+    if not span.load:
+        return None
+    starts = tuple(
+        make_effect("load_dependence", exponent=1.0, reference_load=part * span.load) for part in (0.3, 1.0, 4.0)
+    )
+    return Candidate("load_dependence", starts, "load", 1)
+
+
+def _asymmetry(span: Span, load: float) -> Candidate | None:
+    if not span.both_ways:
+        return None
+    return Candidate("direction_asymmetry", (make_effect("direction_asymmetry", asymmetry=0.0),), "direction", 1)
+
+
+def _position(span: Span, load: float) -> Candidate:
+    starts = tuple(
+        make_effect(
+            "position_dependent_friction", amplitude=0.05, wavelength=span.stroke * part, phase=phase, axis="position"
+        )
+        for part in (2.0, 1.0, 0.5, 0.33, 0.2, 0.1)
+        for phase in (0.0, 2.1, 4.2)
+    )
+    return Candidate("position_dependent_friction", starts, "position", 3)
+
+
+def _lag(span: Span, load: float) -> Candidate:
+    starts = tuple(make_effect("frictional_lag", distance=span.stroke * part) for part in (0.003, 0.02, 0.1))
+    return Candidate("frictional_lag", starts, "distance since reversal", 2)
+
+
+def _drift(span: Span, load: float) -> Candidate:
+    return Candidate("friction_drift", (make_effect("friction_drift", rate=0.01 / span.duration),), "time", 1)
+
+
+def _cubic(span: Span, load: float) -> Candidate:
+    size = 0.1 * span.friction / span.stroke**3
+    return Candidate("nonlinear_stiffness", (make_effect("nonlinear_stiffness", cubic=size),), "position", 1)
+
+
+_STARTS: tuple[Callable[[Span, float], Candidate | None], ...] = (
+    _viscous, _weakening, _quadratic, _load, _asymmetry, _position, _lag, _drift, _cubic,
+)  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class Competitor:
+    """A smooth dependence that belongs to no effect: where it wins, something is missing that has no name."""
+
+    axis: str
+    """What it depends on."""
+    columns: Callable[[Sheet], Array]
+    """Sheet -> columns, shape (n_centres, k)."""
+
+
+COMPETITORS = (
+    Competitor("position", lambda s: _legendre(s.position[s.window.centres])),
+    Competitor("position and direction", lambda s: _signed(s, _legendre(s.position[s.window.centres]))),
+    Competitor("speed and direction", lambda s: _signed(s, _legendre(np.abs(s.velocity[s.window.centres])))),
+    Competitor("speed", lambda s: _legendre(np.abs(s.velocity[s.window.centres]))),
+    Competitor("time", lambda s: _legendre(s.time[s.window.centres])),
+    Competitor("time and direction", lambda s: _signed(s, _legendre(s.time[s.window.centres]))),
+    Competitor("load and direction", lambda s: _signed(s, _legendre(s.load[s.window.centres]))),
+)
+
+
+def _legendre(values: Array) -> Array:
+    """Return Legendre polynomials of order 1 to 3 of values scaled to -1...1, shape (n, 3); empty for a constant."""
+    width = float(np.ptp(values))
+    if width <= 1.0e-12 * max(float(np.max(np.abs(values))), 1.0e-300):
+        return np.zeros((len(values), 0))
+    scaled = 2.0 * (values - values.min()) / width - 1.0
+    return np.polynomial.legendre.legvander(scaled, 3)[:, 1:]
+
+
+def _signed(sheet: Sheet, columns: Array) -> Array:
+    return np.sign(sheet.velocity[sheet.window.centres])[:, None] * columns
