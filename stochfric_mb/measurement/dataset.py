@@ -14,7 +14,7 @@ from stochfric_mb.measurement.entries import SCHEMA, run_entries
 from stochfric_mb.measurement.run import Run, apply_settings
 from stochfric_mb.measurement.sampling import MIN_SAMPLES
 from stochfric_mb.measurement.signs import run_sign_error
-from stochfric_mb.scenario import Scenario, load_any_scenario
+from stochfric_mb.scenario import Scenario, bundled_scenarios, load_any_scenario
 
 FILE = "dataset.toml"
 """Name of the file that describes a dataset, in its folder."""
@@ -118,7 +118,8 @@ def _with_sign_note(run: Run, scenario: Scenario[Any]) -> Run:
 def _scenario(source: str | Path | Scenario[Any]) -> tuple[Scenario[Any], Path | None]:
     if isinstance(source, Scenario):
         return source, None
-    return load_any_scenario(source), Path(source)
+    model = load_any_scenario(source)
+    return model, Path(source) if Path(source).is_file() else bundled_scenarios()[str(source)]
 
 
 def _named(tables: Mapping[str, Any], folder: Path) -> Path | str:

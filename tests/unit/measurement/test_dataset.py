@@ -47,6 +47,10 @@ def test_a_dataset(rig):
     assert test.mechanism(found.scenario) == dataclasses.replace(found.scenario.mechanism, belt_velocity=1e-3)
 
 
+def test_a_bundled_scenario_is_named_by_its_file(rig):
+    assert load_dataset(dataset(rig, FIT, TEST)).scenario_path == bundled_scenarios()["kang2015_table1"]
+
+
 def test_the_file_itself_and_a_scenario_as_an_object(rig):
     scenario = dataclasses.replace(load_scenario("kang2015_table1"), title="mine")
     found = load_dataset(dataset(rig, FIT, TEST) / "dataset.toml", scenario)
