@@ -3,3 +3,38 @@
 One direction: record -> slips (events and friction forces) -> calibration -> regression and kinematics (screening) ->
 confirmation by simulating -> decision -> refit -> gap on held-out data -> result.
 """
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from stochfric_mb.discovery.workflow import Outcome
+    from stochfric_mb.measurement.dataset import Dataset
+    from stochfric_mb.scenario import Scenario
+
+
+def discover(
+    dataset: str | Path | Dataset,
+    *,
+    scenario: str | Path | Scenario | None = None,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Outcome:
+    """Return what measured data say about a model: which effect it lacks, none, or something unknown.
+
+    Args:
+        dataset: a folder with ``dataset.toml``, that file, one measured file (then ``scenario`` is needed), or a
+            `Dataset`.
+        scenario: the model believed so far; replaces the data set's own.
+        progress: called with the name of each stage as it begins.
+
+    Raises:
+        InputError: data or scenario that cannot be used; names file, key or row, rule and remedy.
+    """
+    from stochfric_mb.discovery.workflow import discover_belt_box
+    from stochfric_mb.measurement.dataset import Dataset, load_dataset
+
+    data = dataset if isinstance(dataset, Dataset) else load_dataset(dataset, scenario)
+    return discover_belt_box(data, progress=progress)

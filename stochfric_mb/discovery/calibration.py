@@ -78,9 +78,7 @@ def calibrate(slips: Slips, *, seed: int = 11) -> Calibration:
     return Calibration(fitted[0], fitted[1:].T, (static, kinetic), covariance)
 
 
-def _simulated(
-    slips: Slips, static: float, kinetic: float, repeat: int, generator: np.random.Generator
-) -> tuple[Array, Array]:
+def _simulated(slips: Slips, static: float, kinetic: float, repeat: int, generator: np.random.Generator) -> tuple[Array, Array]:
     """Return features and true (onset force, mean force in slip) [N] of the slips of one simulated record."""
     record = slips.record
     box = record.mechanism

@@ -148,18 +148,14 @@ def predict(model: Model, case: Case) -> Array | None:
     if not np.isfinite(position).all():
         return None
     time = start.time + np.arange(1, count + 1) / record.rate
-    simulated = dataclasses.replace(
-        record, time=time, position=position, raw=position, outlier=np.zeros(count, dtype=bool)
-    )
+    simulated = dataclasses.replace(record, time=time, position=position, raw=position, outlier=np.zeros(count, dtype=bool))
     slips = extract(simulated, ridge=case.ridge)
     if len(slips) < 1:
         return None
     return np.r_[slips.onset_force[0], slips.moments[0]]
 
 
-def confirm(
-    cases: Sequence[Case], candidate: Model, uncertainty: Mapping[str, float], *, evaluations: int = 12
-) -> Confirmed:
+def confirm(cases: Sequence[Case], candidate: Model, uncertainty: Mapping[str, float], *, evaluations: int = 12) -> Confirmed:
     """Return the candidate with its numbers fitted to the features of ``cases``."""
     knobs = [k for k in knobs_of(candidate, uncertainty) if not k.run]
     load = cases[0].record.mechanism.normal_force

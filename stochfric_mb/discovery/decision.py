@@ -143,7 +143,9 @@ def _kinematics(study: Study, details: dict[str, object]) -> list[tuple[str, flo
     details["outlier_share"] = outliers
     if outliers > 5.0e-5 and outliers * n >= 5:
         size = np.concatenate([np.abs(r.raw - r.position)[r.outlier] for r in study.records])
-        found.append(("sensor_outliers", float(outliers * n * 10.0), {"fraction": outliers, "size": float(np.sqrt(np.mean(size**2)))}))
+        found.append(
+            ("sensor_outliers", float(outliers * n * 10.0), {"fraction": outliers, "size": float(np.sqrt(np.mean(size**2)))})
+        )
     details["ceiling"] = study.ceiling[0]
     if study.ceiling[0] > 30.0:
         found.append(("sensor_clipping", float(study.ceiling[0]), {"high": float(study.ceiling[1])}))
@@ -175,9 +177,7 @@ def _kinematics(study: Study, details: dict[str, object]) -> list[tuple[str, flo
     return found
 
 
-def _dynamics(
-    study: Study, model: Model, named: list[Named], details: dict[str, object], progress: Progress
-) -> Decision:
+def _dynamics(study: Study, model: Model, named: list[Named], details: dict[str, object], progress: Progress) -> Decision:
     """Return the decision after looking for effects in the forces of the slips, one after the other."""
     pool, regression = study.pool, study.regression
     terms, solution = study.terms, study.solution
@@ -245,7 +245,9 @@ def _choose(
     effects = [c for c in candidates if c.is_effect]
     others = [c for c in candidates if not c.is_effect]
     shape = max((c.score for c in candidates if c.name in simulated or c.name in ("slip_shape", "position")), default=-np.inf)
-    rest = max((c.score for c in candidates if c.name not in simulated and c.name not in ("slip_shape", "position")), default=-np.inf)
+    rest = max(
+        (c.score for c in candidates if c.name not in simulated and c.name not in ("slip_shape", "position")), default=-np.inf
+    )
     if before is not None and shape >= NAME and shape >= rest:
         trials = [c for c in effects if c.name in simulated and c.score > 0.2 * shape]
         tried: list[tuple[Candidate, Confirmed]] = [
@@ -309,5 +311,3 @@ def _random(
     knots = scatter.within > 0.05 * strongest and scatter.within > 30.0
     values = {"process": "knots" if knots else "per_event", "sigma_s": float(sigma_s), "sigma_k": float(sigma_k)}
     return "random_coefficients", strongest, values, ()
-
-

@@ -220,9 +220,7 @@ def sensor_drift(pool: Pool) -> list[Hypothesis]:
     last = pool.duration
     stiffness = pool.per_run(lambda s: s.record.mechanism.stiffness)
     columns = [
-        pool.column(
-            pool.direction * stiffness * pool.onset_time / last, pool.direction * stiffness * pool.mean_time / last
-        )
+        pool.column(pool.direction * stiffness * pool.onset_time / last, pool.direction * stiffness * pool.mean_time / last)
     ]
     return [Hypothesis("sensor_drift", columns, (), lambda b: {"rate": float(b[0] / last)})]
 
@@ -252,7 +250,10 @@ def periodic(
     in_slip = legendre_coefficients(weights[1][:, None] * waves[..., 1:])
     all_runs = np.concatenate([onset[..., None], in_slip], axis=-1)
     columns = [
-        all_runs[h, wave] * (pool.run == run)[:, None] for run in range(pool.n_runs) for h in range(harmonics) for wave in (0, 1)
+        all_runs[h, wave] * (pool.run == run)[:, None]
+        for run in range(pool.n_runs)
+        for h in range(harmonics)
+        for wave in (0, 1)
     ]
     return Hypothesis(kind, columns, (*setting, float(harmonics)))
 
@@ -269,9 +270,7 @@ def normal_load_ripple(pool: Pool) -> list[Hypothesis]:
 def harmonic_force(pool: Pool) -> list[Hypothesis]:
     """Return a force that is added in time, the same in stick and slip."""
     one = pool.direction.astype(np.float64)
-    return [
-        periodic(pool, "harmonic_force", _in_time(pool, f), (one, one), h, (f,)) for h in (1, 3) for f in frequencies(pool)
-    ]
+    return [periodic(pool, "harmonic_force", _in_time(pool, f), (one, one), h, (f,)) for h in (1, 3) for f in frequencies(pool)]
 
 
 def position_dependent_friction(pool: Pool) -> list[Hypothesis]:
@@ -313,9 +312,7 @@ def steps(pool: Pool, run: int, *, multiplied: bool) -> list[Array]:
     mine = pool.run == run
     stiffness = pool.per_run(lambda s: s.record.mechanism.stiffness)
     static, kinetic = (pool.static, pool.kinetic) if multiplied else (stiffness * pool.direction,) * 2
-    return [
-        pool.column(static * (pool.onset_time > t) * mine, kinetic * (pool.mean_time > t) * mine) for t in step_times(pool)
-    ]
+    return [pool.column(static * (pool.onset_time > t) * mine, kinetic * (pool.mean_time > t) * mine) for t in step_times(pool)]
 
 
 def competitors(pool: Pool) -> dict[str, tuple[str, Sequence[Array]]]:
@@ -344,7 +341,8 @@ def competitors(pool: Pool) -> dict[str, tuple[str, Sequence[Array]]]:
     hats = [np.clip(1.0 - np.abs(t - k) / knots[1], 0.0, 1.0) for k in knots[1:] for t in (pool.onset_time, pool.mean_time)]
     found["time"] = (
         "time within the run",
-        [pool.column(h * r, None) for h in hats[0::2] for r in runs] + [pool.column(None, h * r) for h in hats[1::2] for r in runs],
+        [pool.column(h * r, None) for h in hats[0::2] for r in runs]
+        + [pool.column(None, h * r) for h in hats[1::2] for r in runs],
     )
     low, high = np.quantile(pool.typical_position, (0.02, 0.98))
     places = np.linspace(low, high, 10)

@@ -59,5 +59,3 @@ def _predicted(slips: Slips, model: Model, dwell: Array, count: int | None = Non
         found = predict(model, case)
         rows.append(np.full(N_FEATURES, np.nan) if found is None else found)
     return np.array(rows)
-
-

@@ -143,4 +143,6 @@ def adjusted(model: Model, knobs: Sequence[Knob], values: Array) -> Model:
             changes[knob.effect][knob.name] = value
     effects = tuple(dataclasses.replace(e, **c) for e, c in zip(model.effects, changes, strict=True))
     law["mu_k"] = min(law["mu_k"], law["mu_s"])
-    return dataclasses.replace(model, law=dataclasses.replace(model.law, **law), corrections=corrections, effects=effects, own=own)
+    return dataclasses.replace(
+        model, law=dataclasses.replace(model.law, **law), corrections=corrections, effects=effects, own=own
+    )

@@ -60,7 +60,10 @@ def _periodic(model: Model, candidate: Candidate, pool: Pool, coefficients: Arra
         values = {"amplitude": amplitudes[0], "wavelength": main}
         values |= {f"amplitude_{h + 1}": amplitudes[h] for h in range(1, harmonics)}
         effects: list[Effect] = [_bounded(candidate.name, values)]
-        own = [{("phase" if h == 0 else f"phase_{h + 1}"): float(phases[r, h]) for h in range(harmonics)} for r in range(len(names))]
+        own = [
+            {("phase" if h == 0 else f"phase_{h + 1}"): float(phases[r, h]) for h in range(harmonics)}
+            for r in range(len(names))
+        ]
         added = [(values_,) for values_ in own]
     else:
         large = [h for h in range(harmonics) if h == 0 or amplitudes[h] > 0.1 * amplitudes[0]]

@@ -131,7 +131,9 @@ def _two_levels(regression: Regression, rest: Array, solution: Solution) -> floa
             share = float(np.clip(p.mean(), 0.05, 0.95))
             low, high = float((p * values).sum() / p.sum()), float(((1 - p) * values).sum() / (1 - p).sum())
             width = max(float(np.sqrt((p * (values - low) ** 2 + (1 - p) * (values - high) ** 2).mean())), 1.0e-12)
-        density = share * np.exp(-0.5 * ((values - low) / width) ** 2) + (1 - share) * np.exp(-0.5 * ((values - high) / width) ** 2)
+        density = share * np.exp(-0.5 * ((values - low) / width) ** 2) + (1 - share) * np.exp(
+            -0.5 * ((values - high) / width) ** 2
+        )
         two = n * np.log(width) - float(np.log(np.maximum(density, 1.0e-300)).sum()) - n / 2.0
         best = max(best, 2.0 * (one - two) - 2.0 * np.log(n))
     return float(best)

@@ -63,9 +63,7 @@ def refit(
         most: forecasts used in each run.
     """
     used = [thinned(w, most) for w in windows if len(w)]
-    knobs = [
-        k for k in knobs_of(model, uncertainty, [w.record.name for w in used]) if only is None or k.name in only
-    ]
+    knobs = [k for k in knobs_of(model, uncertainty, [w.record.name for w in used]) if only is None or k.name in only]
     start = np.array([k.value for k in knobs])
     scale = np.array([k.scale for k in knobs])
     priors = np.array([k.prior for k in knobs])

@@ -87,9 +87,7 @@ def screen(
     return sorted(found, key=lambda c: -c.score)
 
 
-def _step(
-    pool: Pool, regression: Regression, terms: Terms, solution: Solution, kind: str, *, multiplied: bool
-) -> Hypothesis:
+def _step(pool: Pool, regression: Regression, terms: Terms, solution: Solution, kind: str, *, multiplied: bool) -> Hypothesis:
     """Return one step a run, each where it explains most."""
     columns: list[Array] = []
     when: list[float] = []

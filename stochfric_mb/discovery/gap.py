@@ -1,0 +1,112 @@
+"""The gap on held-out runs: one-cycle-ahead forecasts before and after, and the noise floor.
+
+A phase that each run has its own value of cannot be known before a run begins: it is found in the first half of a
+held-out run, and every model is then scored on the second half alone.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.forecast import Windows, score, windows_of
+from stochfric_mb.discovery.model import OWN_TO_RUN, Model
+from stochfric_mb.discovery.refit import refit
+from stochfric_mb.discovery.result import Gap
+from stochfric_mb.discovery.scatter import simulated_slips
+from stochfric_mb.discovery.slips import Slips
+
+PHASES = 4
+"""Starts of the search for a phase."""
+
+
+@dataclasses.dataclass(frozen=True)
+class HeldOut:
+    """Held-out runs, split where phases must be found first."""
+
+    slips: tuple[Slips, ...]
+    """Slips of the held-out runs."""
+    first: tuple[Windows, ...]
+    """Forecasts in which phases are found."""
+    second: tuple[Windows, ...]
+    """Forecasts that are scored."""
+
+
+def held_out(slips: Sequence[Slips], *, phased: bool) -> HeldOut:
+    """Return the forecasts of held-out runs; ``phased``: some model has phases of its own in each run."""
+    windows = [windows_of(s) for s in slips]
+    halves = [len(w) // 2 if phased else 0 for w in windows]
+    return HeldOut(
+        tuple(slips),
+        tuple(w.part(slice(0, h)) for w, h in zip(windows, halves, strict=True)),
+        tuple(w.part(slice(h, None)) for w, h in zip(windows, halves, strict=True)),
+    )
+
+
+def phased(model: Model) -> bool:
+    """Return whether the model has phases that each run has its own value of."""
+    return any(hasattr(e, "phase") for e in model.effects)
+
+
+def settled(model: Model, runs: HeldOut) -> Model:
+    """Return the model with its phases found in the first halves of the held-out runs."""
+    if not phased(model):
+        return model
+    calm = deterministic(model)
+    kept = [i for i, e in enumerate(model.effects) if e in calm.effects]
+    own = dict(model.own)
+    for windows in runs.first:
+        if len(windows) == 0:
+            continue
+        best, cost = None, np.inf
+        for start in np.arange(PHASES) * 2.0 * np.pi / PHASES:
+            values = tuple({"phase": float(start)} if hasattr(e, "phase") else {} for e in calm.effects)
+            trial = dataclasses.replace(calm, own=dict(calm.own) | {windows.record.name: values})
+            fit = refit(trial, [windows], {}, only=OWN_TO_RUN, evaluations=12, most=10)
+            if fit.cost < cost:
+                best, cost = fit.model.own[windows.record.name], fit.cost
+        assert best is not None
+        full: list[dict[str, float]] = [{} for _ in model.effects]
+        for place, values in zip(kept, best, strict=True):
+            full[place] = dict(values)
+        own[windows.record.name] = tuple(full)
+    return dataclasses.replace(model, own=own)
+
+
+def deterministic(model: Model) -> Model:
+    """Return the model without what is random in it: its mean."""
+    kept = [
+        i
+        for i, e in enumerate(model.effects)
+        if e.coefficient_process() is None and e.kind not in ("impacts", "sensor_outliers")
+    ]
+    own = {run: tuple(values[i] for i in kept) for run, values in model.own.items()}
+    return dataclasses.replace(model, process=None, effects=tuple(model.effects[i] for i in kept), own=own)
+
+
+def mean_score(model: Model, runs: HeldOut) -> float:
+    """Return the mean CRPS of the scored forecasts [m]; nan where there is none."""
+    scores = np.concatenate([score(model, w) for w in runs.second])
+    return float(scores.mean()) if len(scores) else float("nan")
+
+
+def floor_of(model: Model, runs: HeldOut) -> float:
+    """Return what the model scores on runs simulated from itself with the noise of the records [m]."""
+    scores = [score(model, windows_of(simulated_slips(model, s, sample=7 + i))) for i, s in enumerate(runs.slips)]
+    joined = np.concatenate(scores) if scores else np.zeros(0)
+    return float(joined.mean()) if len(joined) else float("nan")
+
+
+def gap_of(believed: Model, recalibrated: Model, augmented: Model, runs: HeldOut) -> Gap:
+    """Return the gap of three models, phases found already."""
+    return Gap(
+        metric="crps_one_cycle",
+        unit="m",
+        held_out=True,
+        baseline=mean_score(believed, runs),
+        recalibrated=mean_score(recalibrated, runs),
+        augmented=mean_score(augmented, runs) if augmented is not recalibrated else mean_score(recalibrated, runs),
+        floor=floor_of(augmented, runs),
+    )

@@ -1,0 +1,77 @@
+"""How strong random coefficients must be for the simulated slips to scatter as the measured ones do."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from stochfric_mb.discovery.calibration import robust_deviation
+from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.pool import Pool
+from stochfric_mb.discovery.record import Array, make_record
+from stochfric_mb.discovery.slips import Slips, extract
+from stochfric_mb.reference.augmented import Start
+
+SETTLING = 4.0
+"""Simulated time before the record that is not looked at [s]."""
+
+
+def matched(model: Model, pool: Pool, *, rounds: int = 3) -> Model:
+    """Return the model with the strength of its random coefficients, and its means, matched to the scatter of the slips.
+
+    What is matched: medians and robust deviations of the onset force and of the mean force in slip, run by run, by
+    simulating each run with its noise. A break-away happens where a random limit first falls below the load, so that
+    the limit's own mean and deviation are not those of the onset force.
+    """
+    place = next((i for i, e in enumerate(model.effects) if e.coefficient_process() is not None), None)
+    if place is None:
+        return model
+    target = _statistics(pool.slips)
+    for round_ in range(rounds):
+        simulated = _statistics([simulated_slips(model, s, sample=round_) for s in pool.slips])
+        load = float(np.median(pool.normal_force))
+        values = {}
+        for name, column in (("sigma_s", 1), ("sigma_k", 3)):
+            now = getattr(model.effects[place], name)
+            ratio = target[column] / simulated[column] if simulated[column] > 0.0 else 1.0
+            values[name] = float(max(now, 1.0e-5) * np.clip(ratio, 0.4, 2.5))
+        effects = list(model.effects)
+        effects[place] = dataclasses.replace(effects[place], **values)
+        shift = (target[[0, 2]] - simulated[[0, 2]]) / load
+        model = dataclasses.replace(model, effects=tuple(effects)).with_law(
+            max(model.law.mu_s + float(shift[0]), 1.0e-3), max(model.law.mu_k + float(shift[1]), 1.0e-5)
+        )
+    return model
+
+
+def simulated_slips(model: Model, like: Slips, *, sample: int = 0, seed: int = 5) -> Slips:
+    """Return the slips of a run simulated from the model, as long as ``like`` and with its noise."""
+    record = like.record
+    step = 1.0 / record.rate
+    system = model.system(record, seed=seed, sample=sample)
+    first = Start(record.time[0] - SETTLING, 0.0, record.stated.belt_velocity, stick=True)
+    start = system.march(first, step, round(SETTLING * record.rate)).end
+    motion = system.march(start, step, len(record.time))
+    generator = np.random.default_rng([seed, sample])
+    position = motion.position
+    for effect in model.effects_in(record.name):
+        if effect.group == "sensor":
+            position = effect.measure(record.time, position, generator)
+    measured = position + like.noise.draw(len(position), generator)
+    return extract(make_record(record.name, record.time, measured, record.stated), ridge=like.ridge)
+
+
+def _statistics(slips: list[Slips] | tuple[Slips, ...]) -> Array:
+    """Return median and deviation of the onset force, and of the mean force in slip, averaged over the runs [N], shape (4,)."""
+    rows = [
+        (
+            np.median(s.onset_force),
+            robust_deviation(s.onset_force),
+            np.median(s.moments[:, 0]),
+            robust_deviation(s.moments[:, 0]),
+        )
+        for s in slips
+        if len(s) >= 4
+    ]
+    return np.mean(rows, axis=0) if rows else np.array([0.0, 0.0, 0.0, 0.0])

@@ -1,0 +1,192 @@
+"""The whole workflow on a belt-box: study, decide, refit, score on held-out runs, recommend."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from scipy.stats import chi2 as chi2_distribution
+
+from stochfric_mb.discovery.advice import next_experiment, not_identifiable
+from stochfric_mb.discovery.decision import Decision, Named, decide
+from stochfric_mb.discovery.gap import HeldOut, deterministic, gap_of, held_out, phased, settled
+from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.refit import Fit, refit
+from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
+from stochfric_mb.discovery.scatter import matched
+from stochfric_mb.discovery.study import Progress, Study, slips_of_run, study
+from stochfric_mb.measurement.dataset import Dataset
+from stochfric_mb.scenario import Scenario
+
+UNITS = {"mu_s": "-", "mu_k": "-", "mass": "kg", "stiffness": "N/m", "damping": "N s/m"}
+"""Units of the believed model's fitted parameters."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Outcome:
+    """A result with what a report and an export need beside it."""
+
+    result: Result
+    """What is said."""
+    scenario: Scenario
+    """The augmented scenario: what ``augmented.toml`` holds."""
+    dataset: Dataset
+    """What was studied."""
+    study: Study | None = None
+    """What the fit runs told; None where they had too few slips."""
+    decision: Decision | None = None
+    """The decision on them."""
+    models: tuple[Model, Model, Model] | None = None
+    """Believed, recalibrated and augmented model."""
+    runs: HeldOut | None = None
+    """The held-out runs."""
+
+
+def discover_belt_box(dataset: Dataset, *, progress: Progress = lambda _: None) -> Outcome:
+    """Return what a data set of belt-box runs says about its model.
+
+    Args:
+        dataset: the runs.
+        progress: called with the name of each stage as it begins.
+
+    Raises:
+        InputError: a run without a position, or a law that cannot be believed here.
+    """
+    found = study(dataset, progress=progress)
+    if found is None:
+        return _too_few(dataset)
+    decision = decide(found, progress=progress)
+    progress("recalibration")
+    believed = found.model
+    recalibrated = _fitted(believed, found)
+    progress("refit")
+    fit = _augmented(decision, found, recalibrated)
+    augmented = fit.model if fit is not None else recalibrated.model
+    progress("held-out runs")
+    runs = held_out([s for s in (slips_of_run(r, dataset) for r in dataset.test) if len(s) >= 2], phased=phased(augmented))
+    augmented = settled(augmented, runs)
+    gap = gap_of(believed, recalibrated.model, augmented, runs) if sum(map(len, runs.second)) else None
+    notes = _notes(found, gap)
+    result = Result(
+        verdict=decision.verdict,  # pyright: ignore[reportArgumentType]  # one of three words
+        effects=tuple(_found(n, fit, augmented, found) for n in decision.named),
+        where=decision.where,
+        ranking=tuple((k, float(s)) for k, s in decision.ranking),
+        gap=gap,
+        not_identifiable=not_identifiable(found),
+        next_experiment=next_experiment(decision, found),
+        believed=_intervals(recalibrated, found),
+        notes=notes,
+        details=decision.details,
+    )
+    scenario = augmented_scenario(dataset, augmented)
+    return Outcome(result, scenario, dataset, found, decision, (believed, recalibrated.model, augmented), runs)
+
+
+def augmented_scenario(dataset: Dataset, model: Model) -> Scenario:
+    """Return the scenario with the model's corrections and effects; phases are those of the first held-out run."""
+    scenario = dataset.scenario
+    names = [r.name for r in (*dataset.test, *dataset.fit) if r.name in model.own]
+    effects = model.effects_in(names[0]) if names else model.effects
+    random = any(e.coefficient_process() is not None for e in effects)
+    return dataclasses.replace(
+        scenario,
+        title=f"{scenario.title}, augmented".lstrip(", "),
+        mechanism=model.mechanism(scenario.mechanism),
+        law=model.law,
+        process=None if random else model.process,
+        effects=effects,
+    )
+
+
+def _fitted(model: Model, found: Study) -> Fit:
+    """Return the model as believed, fitted within its uncertainty; its scatter, if any is declared, stays as declared."""
+    start = dataclasses.replace(deterministic(model), corrections=dict.fromkeys(("stiffness", "mass", "damping"), 0.0))
+    mu_s, mu_k = found.solution.coefficients[:2]
+    fit = refit(start.with_law(float(mu_s), float(max(mu_k, 1e-5))), found.windows, found.uncertainty)
+    return dataclasses.replace(fit, model=dataclasses.replace(model, law=fit.model.law, corrections=fit.model.corrections))
+
+
+def _augmented(decision: Decision, found: Study, recalibrated: Fit) -> Fit | None:
+    """Return the model with the effects, fitted; None where there are none."""
+    if decision.verdict != "effect":
+        return None
+    model = decision.model
+    calm = deterministic(model)
+    fit = refit(calm, found.windows, found.uncertainty, evaluations=25) if calm.effects else recalibrated
+    places = [i for i, e in enumerate(model.effects) if e in calm.effects]
+    effects = list(model.effects)
+    for place, effect in zip(places, fit.model.effects, strict=False):
+        effects[place] = effect
+    own = {}
+    for run, values in fit.model.own.items():
+        full: list[dict[str, float]] = [{} for _ in effects]
+        for place, value in zip(places, values, strict=True):
+            full[place] = dict(value)
+        own[run] = tuple(full)
+    joined = Model(fit.model.law, fit.model.corrections, tuple(effects), model.process, own)
+    return dataclasses.replace(fit, model=matched(joined, found.pool))
+
+
+def _found(named: Named, fit: Fit | None, model: Model, found: Study) -> Found:
+    parameters: dict[str, Interval] = {}
+    place = next(i for i, e in enumerate(model.effects) if e.kind == named.kind)
+    effect = model.effects_in(next(iter(model.own)))[place] if model.own else model.effects[place]
+    n_slips = max(found.regression.n, 2)
+    for field in dataclasses.fields(effect):
+        value = getattr(effect, field.name)
+        if isinstance(value, str) or not np.isfinite(value):
+            continue
+        deviation = 0.0
+        if fit is not None:
+            deviations = [d for k, d in zip(fit.knobs, fit.deviations, strict=True) if k.name == field.name and k.effect >= 0]
+            deviation = float(deviations[0]) if deviations else 0.0
+        if field.name.startswith("sigma"):
+            deviation = value / np.sqrt(2.0 * n_slips)
+        parameters[field.name] = Interval(
+            float(value), value - 1.96 * deviation, value + 1.96 * deviation, field.metadata["unit"]
+        )
+    p_value = float(chi2_distribution.sf(max(named.score, 0.0), max(len(parameters), 1)))
+    return Found(named.kind, named.class_, named.where, parameters, float(named.score), p_value)
+
+
+def _intervals(fit: Fit, found: Study) -> dict[str, Interval]:
+    box = found.dataset.scenario.mechanism
+    rows: dict[str, Interval] = {}
+    for knob, value, deviation in zip(fit.knobs, fit.values, fit.deviations, strict=True):
+        low, high = value - 1.96 * deviation, value + 1.96 * deviation
+        if knob.name in ("mass", "stiffness", "damping"):
+            value, low, high = (getattr(box, knob.name) * (1.0 + v) for v in (value, low, high))  # noqa: PLW2901
+        rows[knob.name] = Interval(float(value), float(low), float(high), UNITS.get(knob.name, "-"))
+    return rows
+
+
+def _notes(found: Study, gap: Gap | None) -> tuple[str, ...]:
+    notes: list[str] = []
+    if found.outliers > 0.0:
+        notes.append(f"{found.outliers:.2e} of the samples were outliers and were replaced by a running median")
+    colour = max((s.noise for s in found.pool.slips), key=lambda n: n.coloured)
+    if colour.coloured > 0.0:
+        notes.append(f"the sensor's noise is coloured: {colour.coloured:.2g} m with a memory of {colour.memory:.2f} a sample")
+    if found.sticking is not None:
+        worst = int(np.argmax(np.abs(found.sticking.belt_velocity_error)))
+        error = float(found.sticking.belt_velocity_error[worst])
+        if abs(error) > max(0.01, 5.0 * float(found.sticking.belt_velocity_deviation[worst])):
+            notes.append(f"in stick the box moves at {1.0 + error:.3f} times the stated belt velocity: check the belt velocity")
+    if gap is not None and gap.augmented > gap.recalibrated:
+        notes.append(
+            f"on the held-out runs the augmented model forecasts worse ({gap.augmented:.3g} m) than the recalibrated one "
+            f"({gap.recalibrated:.3g} m)"
+        )
+    return tuple(notes)
+
+
+def _too_few(dataset: Dataset) -> Outcome:
+    """Return the answer for runs that hardly slip: nothing can be said, and what is needed to say something."""
+    where = Where("record", "the runs hold too few slips to judge friction by: each needs at least 12 stick-slip cycles")
+    result = Result(
+        verdict="unknown", effects=(), where=where, ranking=(), gap=None, not_identifiable=(),
+        next_experiment="record at least 12 stick-slip cycles a run: a longer record, a slower belt or a softer spring",
+        believed={}, notes=(where.text,),
+    )  # fmt: skip
+    return Outcome(result, dataset.scenario, dataset)
