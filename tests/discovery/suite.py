@@ -63,10 +63,17 @@ def run_case(case: Case, out: Path, discover: Discover, limit: float, *, keep: b
 
 
 def run(
-    cases: list[Case], out: Path, discover: Discover = by_command, *, jobs: int = 1, limit: float = 300.0, keep: bool = False
+    cases: list[Case],
+    out: Path,
+    discover: Discover = by_command,
+    *,
+    jobs: int = 1,
+    limit: float = 300.0,
+    keep: bool = False,
+    retry: bool = False,
 ) -> list[judge.Verdict]:
-    """Run the cases that are not yet stored and judge all of them; writes the summaries."""
-    open_cases = [case for case in cases if not _file(case, out).exists()]
+    """Run the cases that are not yet stored (with `retry` also those that failed) and judge all; writes the summaries."""
+    open_cases = [case for case in cases if not _finished(_file(case, out), retry=retry)]
     if jobs == 1:
         for i, case in enumerate(open_cases):
             _say(i, len(open_cases), case, run_case(case, out, discover, limit, keep=keep))
@@ -117,6 +124,10 @@ def _file(case: Case, out: Path) -> Path:
     return out / "cases" / f"{case.name}.json"
 
 
+def _finished(file: Path, *, retry: bool) -> bool:
+    return file.exists() and not (retry and json.loads(file.read_text())["error"])
+
+
 def _seeds(text: str) -> range:
     first, _, last = text.partition("..")
     seeds = range(int(first), int(last or first) + 1)
@@ -138,6 +149,7 @@ def main() -> None:
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--limit", type=float, default=300.0, help="seconds for one case")
     parser.add_argument("--keep", action="store_true", help="keep datasets and answers")
+    parser.add_argument("--retry", action="store_true", help="run cases again that failed before")
     parser.add_argument("--list", action="store_true", help="print the cases and end")
     chosen = parser.parse_args()
     cases = plan.selected(plan.cases(chosen.seeds), set(chosen.kind), set(chosen.design), set(chosen.strength))
@@ -149,7 +161,7 @@ def main() -> None:
         return
     if chosen.out is None:
         parser.error("--out DIR is needed")
-    run(cases, chosen.out, jobs=chosen.jobs, limit=chosen.limit, keep=chosen.keep)
+    run(cases, chosen.out, jobs=chosen.jobs, limit=chosen.limit, keep=chosen.keep, retry=chosen.retry)
     print((chosen.out / "summary.md").read_text())
 
 

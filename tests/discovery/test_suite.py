@@ -72,6 +72,8 @@ def test_finished_cases_are_not_run_again(tmp_path):
     verdicts = suite.run([NULL, RIPPLE], tmp_path, fails)
     assert [verdict.answer for verdict in verdicts] == ["none", "failed"]
     assert not list((tmp_path / "datasets").iterdir())
+    verdicts = suite.run([NULL, RIPPLE], tmp_path, says("unknown"), retry=True)
+    assert [verdict.answer for verdict in verdicts] == ["none", "unknown"]
 
 
 def test_slow_case_is_given_up(tmp_path):

@@ -31,12 +31,12 @@ def line(slope: float) -> Curve:
 def tabulate(function: Callable[[Array], Array], low: float, high: float, n: int = 4001) -> Curve:
     """The function at n points from low to high."""
     points = np.asarray(np.linspace(low, high, n), dtype=np.float64)
-    return Curve(float(low), (high - low) / (n - 1), False, np.ascontiguousarray(function(points), dtype=np.float64))
+    return Curve(float(low), (high - low) / (n - 1), False, np.asarray(function(points), dtype=np.float64))
 
 
 def tabulate_period(function: Callable[[Array], Array], length: float, n: int = 2000) -> Curve:
     """The function over one period of the given length, repeated for ever."""
-    points = np.arange(n) * (length / n)
+    points = np.asarray(np.arange(n) * (length / n), dtype=np.float64)
     return Curve(0.0, length / n, True, np.ascontiguousarray(function(points), dtype=np.float64))
 
 

@@ -8,7 +8,7 @@ ensemble formula for a random one. Gneiting & Raftery, J. Am. Stat. Assoc. 102 (
 from dataclasses import asdict, dataclass, replace
 
 import numpy as np
-from scipy.optimize import minimize
+from scipy.optimize import least_squares
 
 from .case import Made
 from .curve import Array
@@ -19,7 +19,7 @@ from .rig import UNCERTAINTY
 _STARTS = 12  # forecasts a run
 _AROUND = 21  # samples whose median is the position at a start
 _MEMBERS = 12  # of an ensemble, for random effects
-_FREE = ("mu_s", "mu_k", "stiffness", "damping")
+_FREE = ("mu_s", "mu_k", "stiffness", "mass", "damping")
 _RANDOM = frozenset({"random_coefficients", "correlated_coefficients"})
 
 
@@ -59,13 +59,12 @@ def held_out_gap(made: Made) -> Gap:
     fit = [_forecasts(made, i) for i, role in enumerate(roles) if role == "fit"]
     test = [_forecasts(made, i) for i, role in enumerate(roles) if role == "test"]
 
-    def cost(deviations: Array) -> float:
+    def residuals(deviations: Array) -> Array:
         errors = np.concatenate([_baseline_errors(made, deviations, of) for of in fit])
-        return float(np.mean(errors)) * (1.0 + 1e-3 * float(np.sum(deviations**2)))
+        return np.append(errors / made.effects[0].noise, deviations)
 
-    start = np.vstack([np.zeros(len(_FREE)), np.eye(len(_FREE))])
-    best = minimize(cost, start[0], method="Nelder-Mead", options={"maxfev": 120, "initial_simplex": start})
-    recalibrated = float(np.mean(np.concatenate([_baseline_errors(made, best.x, of) for of in test])))
+    best = least_squares(residuals, np.zeros(len(_FREE)), diff_step=1e-3, x_scale=1.0, max_nfev=8)
+    recalibrated = float(np.mean(np.abs(np.concatenate([_baseline_errors(made, best.x, of) for of in test]))))
     return Gap(recalibrated, float(np.mean(np.concatenate([_true_errors(made, of) for of in test]))))
 
 
@@ -84,7 +83,7 @@ def _forecasts(made: Made, run: int) -> _Forecasts:
 
 
 def _baseline_errors(made: Made, deviations: Array, of: _Forecasts) -> Array:
-    """Absolute errors of the believed model with its parameters off by these standard deviations."""
+    """Errors of the believed model with its parameters off by these standard deviations."""
     factors = {name: 1.0 + UNCERTAINTY[name] * float(d) for name, d in zip(_FREE, deviations, strict=True)}
     wrong = {name: getattr(made.believed, name) * factor for name, factor in factors.items()}
     parameters = asdict(replace(made.believed, **wrong)) | made.design.runs[of.run].conditions
@@ -94,7 +93,7 @@ def _baseline_errors(made: Made, deviations: Array, of: _Forecasts) -> Array:
         state = np.zeros(N_STATES)
         state[X], state[V] = position, machine.signals[int(start), BELT]
         forecast, _ = simulate(machine, measured.size, state=state, start=float(start) * SIGNAL_SPACING)
-        errors.append(np.abs(forecast[:, X] - measured))
+        errors.append(forecast[:, X] - measured)
     return np.concatenate(errors)
 
 
