@@ -25,6 +25,8 @@ BANDS = ((0.005, 0.995, 0.15), (0.05, 0.95, 0.35), (0.25, 0.75, 0.65))
 """Lower and upper level of a band of the fan chart, and its opacity."""
 MAX_TIMES = 1000
 """The fan chart is drawn at no more than so many times, evenly chosen."""
+ONE_VALUE = 1.0e-7
+"""Spread, over the value, below which runs have one value: a histogram would show roundings and the step's errors."""
 FEW_TIMES = 8
 """Up to so many times are drawn one by one: nothing is known between them."""
 CHUNK = 100
@@ -109,7 +111,7 @@ def _distributions(result: EnsembleResult, shown: Sequence[int]) -> Figure:
     for row, i in zip(panels, shown, strict=True):
         for axes, (name, (unit, label)) in zip(row, QUANTITIES.items(), strict=True):
             low, high = at_times(result, [i]).quantiles(name, [0.0, 1.0])[:, 0]
-            if high - low <= 1.0e-12 * abs(high):
+            if high - low <= ONE_VALUE * abs(high):
                 _one_value(axes, float(high), unit)
             else:
                 _histogram_of(axes, *_coarse(*result.histogram(name, i, bins=60)))
@@ -195,5 +197,6 @@ def _values(axes: Axes, values: Array, label: str) -> None:
         axes.text(0.5, 0.5, "no run has one", transform=axes.transAxes, ha="center", color="#52606d")
         return
     axes.set_axisbelow(True)
+    axes.xaxis.set_major_locator(MaxNLocator(4))
     counts, edges = np.histogram(seen, bins=min(60, max(10, round(np.sqrt(seen.size)))))
     axes.stairs(counts / len(values), edges, fill=True, color="#0072b2", alpha=0.75)

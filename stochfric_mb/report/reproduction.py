@@ -230,7 +230,7 @@ def _growth(result: Reproduction) -> Figure:
         axes.plot(s.size, s.seconds, "o", color=shade, markersize=5, label=f"{s.law}, {rest}")
     for axes, label in zip(panels, ("samples", "time simulated [s]"), strict=True):
         axes.set(xscale="log", yscale="log", xlabel=label, ylabel="processor time [s]")
-        axes.legend(loc="upper left")
+        axes.legend(loc="lower right")
     return figure
 
 
