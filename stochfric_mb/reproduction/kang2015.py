@@ -67,6 +67,7 @@ class Reproduction:
             "claims": [claim.to_dict() for claim in self.claims],
             "left_open": [dataclasses.asdict(gap) for gap in self.gaps],
             "sensitivity": [s.to_dict() for s in self.sensitivities],
+            "cost_growth": [s.to_dict() for s in self.growth],
         }
 
 

@@ -50,6 +50,16 @@ class Scaling:
         half = float(fit.stderr) * float(stats.t.ppf(0.975, len(self.size) - 2))
         return Estimate(float(fit.slope), float(fit.slope) - half, float(fit.slope) + half, 0.95)
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as JSON."""
+        return {
+            "law": self.law,
+            "along": self.along,
+            "size": self.size.tolist(),
+            "fixed": self.fixed,
+            "seconds": self.seconds.tolist(),
+        }
+
 
 def measure(scenarios: Mapping[str, Scenario], settings: Settings, seed: int, tick: Callable[[int], None]) -> list[Scaling]:
     """Return the cost of each law's ensembles of Table 1, along samples and along time."""

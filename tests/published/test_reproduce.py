@@ -143,7 +143,8 @@ def test_sigma_k(claims):
     assert claims["sigma_k_table_2"]["verdict"] == FAILS
 
 
-def test_cost_grows_in_proportion(claims):
+def test_cost_grows_in_proportion(claims, content):
+    assert all(len(s["size"]) == len(s["seconds"]) == len(QUICK.cost_multiples) for s in content["cost_growth"])
     figures = claims["cost_of_a_run"]["figures"]
     for law in ("coulomb", "havsin", "elastic_stick"):
         for along in ("samples", "time"):
