@@ -123,6 +123,6 @@ def linear_slip_weakening(rng: Generator, strength: float, rig: Rig) -> Effect:
 @form("frictional_lag")
 def relaxation(rng: Generator, strength: float, rig: Rig) -> Effect:
     """mu falls from mu_s to mu_k over a time."""
-    time = 0.02 * strength * rng.uniform(0.8, 1.2) * np.sqrt(rig.mass / rig.stiffness) / 0.0392
+    time = 0.03 * strength * rng.uniform(0.8, 1.2) * np.sqrt(rig.mass / rig.stiffness) / 0.0392
     curve = tabulate(lambda t: np.exp(-np.maximum(t, 0.0) / time), 0.0, 5.0, 50001)
     return _with({"time": float(time)}, memory_of_time=curve)

@@ -67,13 +67,13 @@ def _damper(parameters: dict[str, float], exponent: float, share: float, rig: Ri
 
 @form("quadratic_damping")
 def drag(rng: Generator, strength: float, rig: Rig) -> Effect:
-    return _damper({}, 2.0, strength * rng.uniform(0.3, 0.45), rig)
+    return _damper({}, 2.0, strength * rng.uniform(0.5, 0.65), rig)
 
 
 @form("quadratic_damping")
 def steeper(rng: Generator, strength: float, rig: Rig) -> Effect:
     """An orifice with a little more than the square."""
-    return _damper({}, rng.uniform(2.2, 2.6), 0.4 * strength, rig)
+    return _damper({}, rng.uniform(2.2, 2.6), 0.6 * strength, rig)
 
 
 _DEEP = 0.32
@@ -111,7 +111,7 @@ def _second_body(parameters: dict[str, float], change: Callable[[Machine], Machi
 @form("second_mode")
 def attached(rng: Generator, strength: float, rig: Rig) -> Effect:
     """A part of the mass hangs on a spring."""
-    mass = rig.mass * 0.12 * strength
+    mass = rig.mass * 0.16 * strength
     omega = 2.0 * np.pi * rng.uniform(6.0, 13.0)
     damping = 2.0 * 0.02 * omega * mass
 
