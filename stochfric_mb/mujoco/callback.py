@@ -400,9 +400,9 @@ def renew_normal_forces(model, data, state):
     n.mj_fwdAcceleration(model, data)
     n.mj_fwdConstraint(model, data)
     write_normal_forces(model, data, state)
-    passive[:] = kept_passive
-    qacc[:] = kept_qacc
-    actuator[:] = kept_actuator
+    n.move(kept_passive, passive)
+    n.move(kept_qacc, qacc)
+    n.move(kept_actuator, actuator)
 
 
 @compiled

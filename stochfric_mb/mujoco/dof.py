@@ -283,7 +283,7 @@ def apply_implicit(model, data, states):
     n.mj_referenceConstraint(model, data)
     n.mj_fwdActuation(model, data)
     for _ in range(SOLUTIONS):
-        passive[:] = others
+        n.move(others, passive)
         for k in range(count):
             add_row(model, data, states[k], forces[k], target)
         n.mj_fwdAcceleration(model, data)
@@ -296,13 +296,13 @@ def apply_implicit(model, data, states):
         change = settle(states, awake, mobility, h, end, forces, memory)
         if n.int_field(data, n.D_NEFC) == 0 or change < 10.0 * SETTLED:
             break
-    passive[:] = others
+    n.move(others, passive)
     for k in range(count):
         if awake[k]:
             add_row(model, data, states[k], forces[k], target)
             keep_force(states[k], forces[k], memory[k, STOPPED] != 0.0)
-    qacc[:] = kept_qacc
-    actuator[:] = kept_actuator
+    n.move(kept_qacc, qacc)
+    n.move(kept_actuator, actuator)
 
 
 @compiled

@@ -187,9 +187,9 @@ def solve(model, data, places, warm):  # noqa: PLR0915
     answer = block[3 + 2 * m : 3 + 4 * m]
     motion = block[3 + 4 * m : 3 + 6 * m]
     change, work = block[3 + 6 * m], block[4 + 6 * m :]
-    kept[:] = qacc
-    base[:] = passive
-    guess[:] = warm
+    n.move(qacc, kept)
+    n.move(passive, base)
+    n.move(warm, guess)
     normal = np.empty((m, nv))
     f, numbers, response, rows = np.empty((m, 2)), np.empty((m, 10)), np.empty((m, 4)), np.empty((m, 3))
     prepare(model, data, places, tangent, normal, numbers, f, work, starting, t, end, h, qvel)
@@ -199,11 +199,11 @@ def solve(model, data, places, warm):  # noqa: PLR0915
     states = np.zeros(n.int_field(data, n.D_NEFC), np.int32)
     started(model, data)
     for outer in range(OUTER):
-        passive[:] = base
+        n.move(base, passive)
         add_passive(tangent, f, passive)
         n.mj_fwdAcceleration(model, data)
         n.mj_fwdConstraint(model, data)
-        guess[:] = qacc
+        n.move(qacc, guess)
         if states_changed(data, states) or outer == 0:
             responses(model, data, tangent, normal, hessian, mass, answer, motion, response, damped, nv, h)
         velocities(model, data, mass, qvel, qacc, u, work, damped, nv, h)
@@ -219,10 +219,10 @@ def solve(model, data, places, warm):  # noqa: PLR0915
                 settle(places, tangent, answer, motion, normal, numbers, response, rows, f, u, change, end, h, nv)
         if consistent(model, data, states, change, qacc, nv):
             break
-    passive[:] = base
+    n.move(base, passive)
     for j in range(nv):
         guess[j] += change[j]
-    qacc[:] = kept
+    n.move(kept, qacc)
     add_passive(tangent, f, passive)
     if starting:
         for q in range(m):
@@ -253,7 +253,8 @@ def prepare(model, data, places, tangent, normal, numbers, f, work, starting, t,
         put(state + 8 * s.POINT, x, y, z)
         add_rows(model, data, state, address, body, 1.0, nv, work.ctypes.data)
         add_rows(model, data, state, address, surface, -1.0, nv, work.ctypes.data)
-        tangent[2 * q : 2 * q + 2] = work[:2]
+        n.move(work[0], tangent[2 * q])
+        n.move(work[1], tangent[2 * q + 1])
         efc_row(model, data, n.int_field(contact, n.C_EFC), normal[q])
         row = numbers[q]
         row[U0], row[U0 + 1] = n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
@@ -321,7 +322,7 @@ def responses(model, data, tangent, normal, hessian, mass, answer, motion, respo
     if nv <= MAX_DENSE:
         n.mj_fullM(model, data, hessian.ctypes.data)
         if damped:
-            mass[:] = hessian
+            n.mj_fullM(model, data, mass.ctypes.data)
             coefficients = n.pointer_field(model, n.M_DAMPING)
             for j in range(nv):
                 mass[j, j] += h * n.load(coefficients + 8 * j)
@@ -329,7 +330,7 @@ def responses(model, data, tangent, normal, hessian, mass, answer, motion, respo
         add_active(model, data, hessian, nv)
         factor(hessian)
         for i in range(len(tangent)):
-            answer[i] = tangent[i]
+            n.move(tangent[i], answer[i])
             substitute(hessian, answer[i])
     else:
         n.mj_solveM(model, data, answer.ctypes.data, tangent.ctypes.data, np.int32(len(tangent)))
@@ -338,7 +339,7 @@ def responses(model, data, tangent, normal, hessian, mass, answer, motion, respo
             n.mj_mulM(model, data, motion[i].ctypes.data, answer[i].ctypes.data)
             substitute(mass, motion[i])
         else:
-            motion[i] = answer[i]
+            n.move(answer[i], motion[i])
     for q in range(len(response)):
         for a in range(2):
             for b in range(2):
@@ -441,7 +442,7 @@ def settle(places, tangent, answer, motion, normal, numbers, response, rows, f, 
         return
     old = np.empty(nv)
     for i in range(SWEEPS):
-        old[:] = u
+        n.move(u, old)
         scale = sweep(places, tangent, answer, motion, normal, numbers, response, rows, f, u, change, end, h, nv)
         moved = 0.0
         for j in range(nv):
@@ -604,7 +605,7 @@ def newton_all(places, tangent, answer, motion, normal, numbers, rows, f, u, cha
                     total += v * tangent[2 * q, c] * z + w * tangent[2 * q + 1, c] * z + k * normal[q, c] * answer[j, c]
                 a[i, j] = total
             a[i, i] += 1.0
-        x[:] = r
+        n.move(r, x)
         if not eliminate(a, x):
             return False
         part, better = 1.0, False

@@ -322,6 +322,13 @@ def vector(address, n):
 
 
 @compiled
+def move(source, target):
+    """Copy a vector (numba's slice assignment takes seconds to compile, for the text of its errors)."""
+    for j in range(len(target)):
+        target[j] = source[j]
+
+
+@compiled
 def entry(place):
     """Return one word of the table."""
     return load_word(_table() + 8 * place)
