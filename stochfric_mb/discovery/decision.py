@@ -8,8 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from stochfric_mb.discovery.confirmation import Case, Confirmed, cases_of, confirm
-from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.innovations import left_over
+from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.naming import PERIODIC, with_candidate
 from stochfric_mb.discovery.randomness import Randomness, randomness
 from stochfric_mb.discovery.refit import refit
@@ -31,6 +31,10 @@ LACK, LACK_SHARE_ONE, LACK_SHARE_SEVERAL = 25.0, 0.15, 0.35
 """A simulated candidate is refused if chi^2 stays this far above its freedom and above this share of the believed model's."""
 SECOND = 0.1
 """A further effect needs at least this share of the first one's score [-]."""
+YIELDS = 0.5
+"""Share of the evidence for creep that a yielding or ringing contact must reach to be named in its place [-]."""
+REMAINING_SCATTER = 0.1
+"""Share of the believed model's scatter that must remain with the effects in for it to be called random [-]."""
 MOST_EFFECTS = 3
 """Effects that are looked for."""
 
@@ -124,9 +128,50 @@ def decide(study: Study, *, progress: Progress = lambda _: None) -> Decision:
         return Decision("unknown", (), blamed, model, (), None, details)
     for kind, score, values in blamed:
         named.append(Named(kind, (), score, where_of(kind)))
-        model = model.plus(make_effect(kind, **values))
+        model = _with_kinematic(study, model, kind, values)
     progress("screening")
     return _dynamics(study, model, named, details, progress)
+
+
+def _with_kinematic(study: Study, model: Model, kind: str, values: dict[str, float]) -> Model:
+    """Return the model with an effect that the stick phases showed; a ripple's phases and amplitude are fitted at once."""
+    if kind == "belt_speed_ripple":
+        names = [s.record.name for s in study.pool.slips]
+        best: tuple[float, Model] | None = None
+        for amplitude in (0.01, 0.05):
+            own = {
+                name: (*({} for _ in model.effects), {"phase": phase})
+                for name, phase in _ripple_phases(study, values["frequency"])
+            }
+            assert set(own) == set(names)
+            trial = model.plus(make_effect(kind, **(values | {"amplitude": amplitude})))
+            fit = refit(dataclasses.replace(trial, own=own), study.windows, study.uncertainty, most=12, evaluations=20)
+            if best is None or fit.cost < best[0]:
+                best = (fit.cost, fit.model)
+        assert best is not None
+        return best[1]
+    model = model.plus(make_effect(kind, **values))
+    if kind == "presliding_compliance":
+        return refit(model, study.windows, study.uncertainty, most=12, evaluations=20).model
+    return model
+
+
+def _ripple_phases(study: Study, frequency: float) -> list[tuple[str, float]]:
+    """Return run and phase of a ripple of the belt's speed, from what its integral leaves in the stick phases."""
+    found: list[tuple[str, float]] = []
+    for slips in study.pool.slips:
+        samples = slips.stick
+        angle = 2.0 * np.pi * frequency * samples.time
+        count = np.maximum(np.bincount(samples.segment), 1)
+        centred = [
+            c - (np.bincount(samples.segment, c) / count)[samples.segment]
+            for c in (np.cos(angle), np.sin(angle), samples.time, samples.residual)
+        ]
+        a, b, _ = np.linalg.lstsq(np.stack(centred[:3], axis=1), centred[3], rcond=None)[0]
+        # the position is the integral, v_b A/w sin(w t + phase) = v_b A/w (cos w t sin phase + sin w t cos phase)
+        phase = float(np.arctan2(a, b))
+        found.append((slips.record.name, phase))
+    return found
 
 
 def _levels(model: Model, study: Study) -> Model:
@@ -158,6 +203,10 @@ def _kinematics(study: Study, details: dict[str, object]) -> list[tuple[str, flo
     score = sticking.scores[best]
     if score <= NAME:
         return found
+    if best in ("creep_before", "creep_after", "yielding"):
+        gradual = max(sticking.scores["yielding"], sticking.scores["presliding_compliance"])
+        if gradual > YIELDS * score:
+            best = "presliding_compliance"
     if best == "creep_before":
         return Where("stick, before the break-away", "the box leaves the belt's motion before it breaks away")
     if best == "creep_after":
@@ -181,6 +230,11 @@ def _dynamics(study: Study, model: Model, named: list[Named], details: dict[str,
     """Return the decision after looking for effects in the forces of the slips, one after the other."""
     pool, regression = study.pool, study.regression
     terms, solution = study.terms, study.solution
+    if any(n.kind in ("belt_speed_ripple", "presliding_compliance") for n in named):
+        pool = left_over(study.pool, model)
+        regression = Regression(pool)
+        terms = believed(pool, dict(study.uncertainty))
+        solution = regression.fit(terms, solution.scatter)
     ranking: tuple[tuple[str, float], ...] = ()
     cases = cases_of(pool, model)
     confirmed = confirm(cases, model, study.uncertainty) if cases else None
@@ -293,6 +347,9 @@ def _random(
     """Return (kind, score, parameters, class) of random friction, or where its scatter is of no known kind."""
     strongest = max(scatter.static, scatter.kinetic)
     if strongest <= 30.0 and scatter.wander <= NAME:
+        return None
+    remaining = np.exp(2.0 * solution.scatter[:2]).sum() / np.exp(2.0 * study.solution.scatter[:2]).sum()
+    if named and remaining < REMAINING_SCATTER:
         return None
     load = float(np.median(study.pool.normal_force))
     sigma_s, sigma_k, _ = np.exp(solution.scatter) / load

@@ -87,19 +87,40 @@ def dwell_ageing(pool: Pool) -> list[Hypothesis]:
     ]
 
 
+def _apart(
+    kind: str, static: Array, kinetic: Array, pool: Pool, name: str, more: dict[str, float], unit: float = 1.0
+) -> list[Hypothesis]:
+    """Return a change of both coefficients by the same share, and one of each by its own.
+
+    Args:
+        kind: the effect.
+        static: change of the onset force for a unit of the parameter [N], shape (n,).
+        kinetic: change of the force in slip [N], shape (n,).
+        pool: the slips.
+        name: the parameter.
+        more: further parameters.
+        unit: parameter for a coefficient of one.
+    """
+
+    def alike(b: Array) -> dict[str, float]:
+        return more | {name: float(b[0] * unit)}
+
+    def each(b: Array) -> dict[str, float]:
+        kinetic_share = b[1] if abs(b[1]) > 0.01 * abs(b[0]) else 0.01 * abs(b[0]) + 1.0e-9
+        return more | {name: float(kinetic_share * unit), "static_share": float(b[0] / kinetic_share)}
+
+    return [
+        Hypothesis(kind, [pool.column(static, kinetic)], (), alike),
+        Hypothesis(kind, [pool.column(static, None), pool.column(None, kinetic)], (), each),
+    ]
+
+
 def direction_asymmetry(pool: Pool) -> list[Hypothesis]:
     """Return the share of the runs with a reversed belt."""
     if len(set(pool.direction)) < 2:
         return []
-    back = pool.direction < 0
-    return [
-        Hypothesis(
-            "direction_asymmetry",
-            [pool.column(pool.static * back, pool.kinetic * back)],
-            (),
-            lambda b: {"asymmetry": float(b[0])},
-        )
-    ]
+    back = (pool.direction < 0).astype(np.float64)
+    return _apart("direction_asymmetry", pool.static * back, pool.kinetic * back, pool, "asymmetry", {})
 
 
 def load_dependence(pool: Pool) -> list[Hypothesis]:
@@ -108,14 +129,8 @@ def load_dependence(pool: Pool) -> list[Hypothesis]:
         return []
     reference = float(pool.normal_force[0])
     change = np.log(pool.normal_force / reference)
-    return [
-        Hypothesis(
-            "load_dependence",
-            [pool.column(pool.static * change, pool.kinetic * change)],
-            (),
-            lambda b: {"exponent": float(b[0]), "reference_load": reference},
-        )
-    ]
+    more = {"reference_load": reference}
+    return _apart("load_dependence", pool.static * change, pool.kinetic * change, pool, "exponent", more)
 
 
 def nonlinear_stiffness(pool: Pool) -> list[Hypothesis]:
@@ -195,23 +210,14 @@ def _oscillator(pool: Pool, frequency: float) -> Array:
 
 def friction_drift(pool: Pool) -> list[Hypothesis]:
     """Return friction that drifts in each run: linearly, or towards a limit."""
-    last = pool.duration
-    middle = pool.mean_time
-    found = [
-        Hypothesis(
-            "friction_drift",
-            [pool.column(pool.static * pool.onset_time / last, pool.kinetic * middle / last)],
-            (np.inf,),
-            lambda b: {"rate": float(b[0] / last)},
-        )
-    ]
-    for share in (0.05, 0.1, 0.15, 0.2, 0.3, 0.5):
+    last, middle = pool.duration, pool.mean_time
+    found = _apart(
+        "friction_drift", pool.static * pool.onset_time / last, pool.kinetic * middle / last, pool, "rate", {}, 1.0 / last
+    )
+    for share in (0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.5):
         tau = share * last
-        columns = [
-            pool.column(pool.static * -np.expm1(-pool.onset_time / tau), pool.kinetic * -np.expm1(-middle / tau)),
-        ]
-        start: Callable[[Array], dict[str, float]] = lambda b, tau=tau: {"rate": float(b[0] / tau), "time_constant": tau}  # noqa: E731
-        found.append(Hypothesis("friction_drift", columns, (tau,), start))
+        static, kinetic = (level * -np.expm1(-t / tau) for level, t in ((pool.static, pool.onset_time), (pool.kinetic, middle)))
+        found += _apart("friction_drift", static, kinetic, pool, "rate", {"time_constant": tau}, 1.0 / tau)
     return found
 
 

@@ -17,6 +17,8 @@ from stochfric_mb.reference.augmented import AugmentedSystem, augmented_system
 
 CORRECTED = ("stiffness", "mass", "damping")
 """Parameters of the mechanism that recalibration may correct."""
+NOT_FITTED = ("reference_load", "spacing", "fraction", "size", "time", "duration", "high", "low", "static_share")
+"""Parameters of effects that forecasts cannot fit, or that are fixed by what they mean."""
 OWN_TO_RUN = ("phase", "phase_2", "phase_3")
 """Parameters of effects that each run has its own value of: records start anywhere."""
 
@@ -112,7 +114,7 @@ def knobs_of(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str]
         for field in dataclasses.fields(effect):
             meta = field.metadata
             value = getattr(effect, field.name)
-            if "choices" in meta or not np.isfinite(value):
+            if "choices" in meta or not np.isfinite(value) or (field.name in NOT_FITTED and not _shared(field.name, value)):
                 continue
             if field.name in OWN_TO_RUN:
                 if field.name != "phase" and not getattr(effect, field.name.replace("phase", "amplitude")):
@@ -125,6 +127,11 @@ def knobs_of(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str]
                 inside = 1.0e-6 * meta["scale"] if meta["strict"] else 0.0
                 knobs.append(Knob(field.name, value, scale, np.inf, meta["low"] + inside, meta["high"] - inside, i))
     return knobs
+
+
+def _shared(name: str, value: float) -> bool:
+    """Return whether a share that mu_s takes is to be fitted: where it is neither none nor all."""
+    return name == "static_share" and value not in (0.0, 1.0)
 
 
 def adjusted(model: Model, knobs: Sequence[Knob], values: Array) -> Model:

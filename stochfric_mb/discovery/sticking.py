@@ -21,7 +21,7 @@ class Sticking:
     """What the stick phases tell; scores are falls of chi^2 less what chance and choice give."""
 
     scores: dict[str, float]
-    """Score of: belt_speed_ripple, presliding_compliance, sensor_step, sensor_clipping, creep_before, creep_after."""
+    """Score of: belt_speed_ripple, presliding_compliance, sensor_step, sensor_clipping, creep_before, creep_after, yielding."""
     settings: dict[str, dict[str, float]]
     """Parameters at the best score."""
     belt_velocity_error: Array
@@ -95,6 +95,7 @@ def analyse(slips: Sequence[Slips]) -> Sticking | None:
         return [np.clip(1.0 - np.abs(column - p) / 0.05, 0.0, 1.0) for p in places]
 
     scores["creep_before"] = gain(lambda run: hats(run.samples.to_onset, (0.0, 0.05, 0.1, 0.15))) - 4 * n * log_n
+    scores["yielding"] = gain(_yielding) - 3 * n * log_n
     scores["creep_after"] = gain(lambda run: hats(run.samples.since_restick, (0.0, 0.05, 0.1))) - 3 * n * log_n
     step, times = _step(runs, rests)
     scores["sensor_step"] = step - n * (log_n + 2.0 * np.log(max(freedom, 2)))
@@ -130,6 +131,13 @@ def _ringing(run: _Phases, frequency: float, ratio: float) -> list[Array]:
     since = run.samples.since_restick
     envelope = np.exp(-ratio * frequency * since)
     return [envelope * np.cos(frequency * since), envelope * np.sin(frequency * since)]
+
+
+def _yielding(run: _Phases) -> list[Array]:
+    """Return powers of how far the spring has been loaded in the stick phase: a contact that yields lags more and more."""
+    dwell = run.samples.since_restick + run.samples.to_onset
+    loaded = run.samples.since_restick / np.maximum(dwell, 1.0e-9)
+    return [loaded * dwell, loaded**2 * dwell, loaded**4 * dwell]
 
 
 def _step(runs: Sequence[_Phases], rests: Sequence[Array]) -> tuple[float, list[float]]:

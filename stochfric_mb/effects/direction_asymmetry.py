@@ -14,17 +14,20 @@ from stochfric_mb.effects.contract import DIRECTION, MU_K, MU_S, VISCOUS_FORCE, 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class DirectionAsymmetry(Effect):
-    """mu_s, mu_k and viscous friction times (1 + asymmetry) where v_rel (in stick: the force needed) is negative.
+    """mu_k and viscous friction times 1 + asymmetry where v_rel (in stick: the force needed) is negative, mu_s by its share.
 
     Reference: B. Armstrong-Helouvry, Control of Machines with Friction, Kluwer 1991.
     """
 
     asymmetry: float = parameter("-", "relative change in the negative direction", scale=0.1, low=-1.0, strict=True)
     """Relative change in the negative direction [-]."""
+    static_share: float = parameter("-", "share of the change that mu_s takes", scale=1.0, default=1.0)
+    """Share of the change that mu_s takes [-]: 1, both coefficients alike; 0, mu_k alone."""
 
     kind: ClassVar[str] = "direction_asymmetry"
     equation: ClassVar[str] = (
-        "both mu and viscous friction times 1 + asymmetry where v_rel < 0 (in stick: where the force needed is negative)"
+        "mu_k and viscous friction times 1 + asymmetry, mu_s times 1 + static_share asymmetry, where v_rel < 0 (in stick: where "
+        "the force needed is negative)"
     )
     source: ClassVar[str] = "Armstrong-Helouvry 1991 (robot joints)"
     group: ClassVar[str] = "friction law"
@@ -34,6 +37,6 @@ class DirectionAsymmetry(Effect):
 def friction(world, memory, rates, p):
     """Multiply friction in the negative direction."""
     if world[DIRECTION] < 0.0:
-        world[MU_S] *= 1.0 + p[0]
+        world[MU_S] *= 1.0 + p[0] * p[1]
         world[MU_K] *= 1.0 + p[0]
         world[VISCOUS_FORCE] *= 1.0 + p[0]

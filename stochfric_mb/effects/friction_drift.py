@@ -15,7 +15,7 @@ from stochfric_mb.effects.contract import MU_K, MU_S, TIME, Effect, parameter
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class FrictionDrift(Effect):
-    """mu_s and mu_k times 1 + rate tau (1 - exp(-t/tau)), tau = time_constant; 1 + rate t for an infinite one.
+    """mu_k (and mu_s, by its share) times 1 + rate tau (1 - exp(-t/tau)), tau = time_constant; 1 + rate t for an infinite one.
 
     Reference: P. J. Blau, Tribology International 38, 2005, 1007-1012, doi 10.1016/j.triboint.2005.07.020.
     """
@@ -26,10 +26,12 @@ class FrictionDrift(Effect):
         "s", "time in which the change settles", scale=30.0, low=0.0, strict=True, infinite=True, default=math.inf
     )
     """Time in which the change settles [s]."""
+    static_share: float = parameter("-", "share of the change that mu_s takes", scale=1.0, default=1.0)
+    """Share of the change that mu_s takes [-]: 1, both coefficients alike; 0, mu_k alone."""
 
     kind: ClassVar[str] = "friction_drift"
     equation: ClassVar[str] = (
-        "both mu times 1 + rate tau (1 - exp(-t/tau)), tau = time_constant; 1 + rate t where it is infinite"
+        "mu_k times 1 + rate tau (1 - exp(-t/tau)), tau = time_constant; 1 + rate t where it is infinite; mu_s by its share"
     )
     source: ClassVar[str] = "Blau 2005 (running-in of frictional contacts)"
     group: ClassVar[str] = "friction varies"
@@ -39,5 +41,5 @@ class FrictionDrift(Effect):
 def friction(world, memory, rates, p):
     """Multiply both coefficients by the drift."""
     grown = world[TIME] if p[1] > 1.0e300 else -p[1] * math.expm1(-world[TIME] / p[1])
-    world[MU_S] *= 1.0 + p[0] * grown
+    world[MU_S] *= 1.0 + p[0] * p[2] * grown
     world[MU_K] *= 1.0 + p[0] * grown

@@ -23,9 +23,11 @@ class LoadDependence(Effect):
     """Exponent of the normal force [-]."""
     reference_load: float = parameter("N", "normal force at which nothing changes", scale=10.0, low=0.0, strict=True)
     """Normal force at which nothing changes [N]."""
+    static_share: float = parameter("-", "exponent of mu_s over that of mu_k", scale=1.0, default=1.0)
+    """Exponent of mu_s over that of mu_k [-]: 1, both coefficients alike; 0, mu_k alone."""
 
     kind: ClassVar[str] = "load_dependence"
-    equation: ClassVar[str] = "both mu times (N/reference_load)^exponent"
+    equation: ClassVar[str] = "mu_k times (N/reference_load)^exponent, mu_s times (N/reference_load)^(static_share exponent)"
     source: ClassVar[str] = "Bowden and Tabor 1950; Archard 1957"
     group: ClassVar[str] = "friction law"
     order: ClassVar[int] = 3
@@ -33,6 +35,6 @@ class LoadDependence(Effect):
 
 def friction(world, memory, rates, p):
     """Multiply both coefficients by the power of the load."""
-    factor = (world[NORMAL_FORCE] / p[1]) ** p[0] if world[NORMAL_FORCE] > 0.0 else 1.0
-    world[MU_S] *= factor
-    world[MU_K] *= factor
+    if world[NORMAL_FORCE] > 0.0:
+        world[MU_S] *= (world[NORMAL_FORCE] / p[1]) ** (p[0] * p[2])
+        world[MU_K] *= (world[NORMAL_FORCE] / p[1]) ** p[0]

@@ -13,7 +13,8 @@ class PreslidingCompliance(Effect):
     """Stuck: F = k_stick z + c_stick v_rel within mu_s N.
 
     k_stick = mu_s N/elastic_limit, c_stick = 2 damping_ratio sqrt(k_stick m).
-    At re-stick the force is continuous. Elastic limit and damping are those of the mean mu_s and N, as in law elastic_stick.
+    Stiffness and damping are those of the mean mu_s; a contact that comes to rest has the deflection of mu_s N, as in
+    law elastic_stick, which a scenario's coulomb law becomes in engines.
 
     Reference: W. S. Kang, C. K. Choi, H. H. Yoo, J. Mech. Sci. Tech. 29, 2015, 3645-3652,
     doi 10.1007/s12206-015-0808-4, eqs. 3-5 (eq. 5 lost its root).
