@@ -243,7 +243,7 @@ def _compared(name: str, run: Trajectory, reference: Trajectory, scenario: Scena
 
 def _event_notes(run: Trajectory, reference: Trajectory, scenario: Scenario, seed: int) -> list[str]:
     """Return a note if the run ends with another draw than the reference: one of them saw a stick phase more."""
-    if scenario.process is None or scenario.process.clock != EVENT:
+    if scenario.coefficient_process is None or scenario.coefficient_process.clock != EVENT:
         return []
     mine, theirs = (int(metrics.draws_used(t, scenario, seed=seed)[-1]) for t in (run, reference))
     if mine == theirs:

@@ -91,7 +91,7 @@ def coefficient_path_difference(trajectory: Trajectory, reference: Trajectory, s
     are equal as such, not as functions of time: for ``spatial`` each pair is compared with the field at the run's own
     belt position, for ``per_event`` the pairs used, in order, with the draws they are (see `draws_used`).
     """
-    process = scenario.process
+    process = scenario.coefficient_process
     if process is not None and process.clock == POSITION:
         return max_abs_difference(_pairs(trajectory), _field(trajectory, scenario, seed))
     if process is not None and process.clock == EVENT:

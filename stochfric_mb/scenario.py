@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Generic, cast
 
 from stochfric_mb.coefficients import DISTRIBUTIONS, PROCESSES, CoefficientPath, Distribution, OutputStep, Process
 from stochfric_mb.effects import Effect, effect_from_dict
+from stochfric_mb.effects.combine import combined_process, with_compliance
 from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_name, require_number
 from stochfric_mb.laws import Law, law_class, make_law
 from stochfric_mb.mechanisms import MECHANISMS, BeltBox, Cascade, Mechanism, Mjcf, controller_from_dict
@@ -40,7 +41,7 @@ class Scenario(Generic[M]):
     law: Law
     """The friction law."""
     process: Process | None = None
-    """How the coefficients vary; None: they are constant."""
+    """How the coefficients are declared to vary; see `coefficient_process`."""
     effects: tuple[Effect, ...] = ()
     """What has been added to mechanism and law."""
     controller: Cascade | None = None
@@ -57,12 +58,18 @@ class Scenario(Generic[M]):
     def __post_init__(self) -> None:
         require_number("simulation.duration", self.duration, above=0.0, unit="s")
         require_number("simulation.output_step", self.output_step, above=0.0, unit="s")
+        combined_process(self.effects, self.process)
         n = self.duration / self.output_step
         if abs(n - round(n)) > 1.0e-6 * n or round(n) < 1:
             raise InputError(
                 f"simulation.output_step = {self.output_step:g} s does not divide duration = {self.duration:g} s; "
                 f"try {self.duration / max(round(n), 1):g} s"
             )
+
+    @property
+    def coefficient_process(self) -> Process | None:
+        """How the coefficients vary, as declared or as an effect of randomness sets it; None: they are constant."""
+        return combined_process(self.effects, self.process)
 
     @property
     def n_outputs(self) -> int:
@@ -78,11 +85,11 @@ class Scenario(Generic[M]):
 
     def path(self, seed: int, sample: int = 0, contact: int = 0) -> CoefficientPath:
         """Return the coefficient path of this scenario's contact for (seed, sample, contact)."""
-        return CoefficientPath(self.process, self.law, seed=seed, sample=sample, contact=contact)
+        return CoefficientPath(self.coefficient_process, self.law, seed=seed, sample=sample, contact=contact)
 
     def step_limit(self: Scenario[BeltBox]) -> float:
         """Return the law's explicit stability limit for this mechanism [s]."""
-        return self.law.step_limit(self.mechanism.normal_force, self.mechanism.mass)
+        return with_compliance(self.law, self.effects).step_limit(self.mechanism.normal_force, self.mechanism.mass)
 
     def default_dt(self: Scenario[BeltBox]) -> float:
         """Return 1e-4 s or half the law's explicit stability limit, whichever is smaller, dividing the output step."""
@@ -180,9 +187,6 @@ def load_scenario(source: str | Path, *, law: str | None = None, overrides: Sequ
             f"{source}: the engines simulate the belt_box by itself; mechanism {scenario.mechanism.kind!r} is for measured "
             "data: use it as the scenario of a dataset, with stochfric discover"
         )
-    if scenario.effects:
-        kinds = ", ".join(e.kind for e in scenario.effects)
-        raise InputError(f"{source}: effects = {kinds}: this command knows no effects; remove the [[effects]] tables")
     return cast("Scenario[BeltBox]", scenario)
 
 
@@ -265,14 +269,21 @@ def _replace_law(table: Mapping[str, Any], kind: str) -> dict[str, Any]:
 def _override(tables: dict[str, Any], setting: str) -> None:
     name, equals, text = setting.partition("=")
     keys = name.strip().split(".")
-    if not equals or len(keys) != 2:
-        raise InputError(f"--set {setting!r} is not of the form table.key=value, such as law.mu_s=0.7")
+    of_effect = keys[0] == "effects"
+    if not equals or len(keys) != (3 if of_effect else 2):
+        raise InputError(f"--set {setting!r} is not of the form table.key=value, such as law.mu_s=0.7 (or effects.0.rate=0.02)")
     value: Any
     try:
         value = float(text)
     except ValueError:
         value = text.strip().strip("\"'")
-    tables.setdefault(keys[0], {})[keys[1]] = value
+    if not of_effect:
+        tables.setdefault(keys[0], {})[keys[1]] = value
+        return
+    effects: list[dict[str, Any]] = tables.get("effects", [])
+    if not (keys[1].isdecimal() and int(keys[1]) < len(effects)):
+        raise InputError(f"--set {setting!r}: the scenario has {len(effects)} effects, numbered from 0; give one of them")
+    effects[int(keys[1])][keys[2]] = value
 
 
 def _table(tables: Mapping[str, Any], name: str) -> Mapping[str, Any]:

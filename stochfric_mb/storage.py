@@ -10,7 +10,7 @@ import os
 import re
 import shutil
 import tempfile
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -19,9 +19,11 @@ import numpy.typing as npt
 
 from stochfric_mb.errors import InputError, MissingEngineError
 from stochfric_mb.scenario import Scenario
-from stochfric_mb.trajectory import COLUMNS, Trajectory
+from stochfric_mb.trajectory import COLUMNS, MORE_COLUMNS, Trajectory
 
 SCHEMA = "stochfric.trajectory/1"
+KNOWN = COLUMNS | MORE_COLUMNS
+"""Every column that a file may have."""
 
 Array = npt.NDArray[np.float64]
 Attributes = dict[str, Any]
@@ -169,7 +171,8 @@ def read_trajectory(path: str | Path) -> Trajectory:
             raise InputError(f"{path}, sample {bad[0] + 1}: {name} is not finite; remove or mend the sample")
     if (bad := np.flatnonzero(np.diff(columns["time"]) <= 0.0)).size:
         raise InputError(f"{path}, sample {bad[0] + 2}: time does not grow; sort the samples and remove repeated ones")
-    return Trajectory(**{name: columns[name] for name in COLUMNS}, attributes=attributes)
+    more = {name: columns[name] for name in MORE_COLUMNS if name in columns}
+    return Trajectory(**{name: columns[name] for name in COLUMNS}, **more, attributes=attributes)
 
 
 def versions(*packages: str) -> dict[str, str]:
@@ -208,7 +211,7 @@ def _write_netcdf(columns: Mapping[str, Array], attributes: Attributes, path: Pa
     import xarray
 
     variables = {
-        name: ("time", column, {"units": _cf_unit(COLUMNS[name][0]), "long_name": COLUMNS[name][1]})
+        name: ("time", column, {"units": _cf_unit(KNOWN[name][0]), "long_name": KNOWN[name][1]})
         for name, column in columns.items()
     }
     time = variables.pop("time")
@@ -226,7 +229,7 @@ def _read_netcdf(path: Path) -> tuple[dict[str, Array], Attributes]:
     library: Any = xarray
     try:
         with library.open_dataset(path, engine="h5netcdf", decode_times=False) as dataset:
-            columns = {str(n): np.asarray(dataset[n].values, dtype=np.float64) for n in COLUMNS if n in dataset}
+            columns = {str(n): np.asarray(dataset[n].values, dtype=np.float64) for n in KNOWN if n in dataset}
             attributes = _restored({str(k): v for k, v in dataset.attrs.items()})
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: not a NetCDF 4 file: {error}") from None
@@ -235,14 +238,14 @@ def _read_netcdf(path: Path) -> tuple[dict[str, Array], Attributes]:
     return columns, attributes
 
 
-def _headers() -> list[str]:
-    return [f"{name} [{unit}]" for name, (unit, _) in COLUMNS.items()]
+def _headers(names: Iterable[str] = COLUMNS) -> list[str]:
+    return [f"{name} [{KNOWN[name][0]}]" for name in names]
 
 
 def _write_csv(columns: Mapping[str, Array], _attributes: Attributes, path: Path) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(_headers())
+        writer.writerow(_headers(columns))
         writer.writerows(zip(*(column.tolist() for column in columns.values()), strict=True))
 
 
@@ -261,7 +264,7 @@ def _read_csv(path: Path) -> tuple[dict[str, Array], Attributes]:
 
 def _write_parquet(columns: Mapping[str, Array], attributes: Attributes, path: Path) -> None:
     arrow = _pyarrow()
-    table = arrow.table(dict(zip(_headers(), columns.values(), strict=True)))
+    table = arrow.table(dict(zip(_headers(columns), columns.values(), strict=True)))
     arrow.parquet.write_table(table.replace_schema_metadata({"stochfric": json.dumps(attributes)}), path)
 
 
@@ -282,7 +285,7 @@ def _name_of(path: Path, header: str) -> str:
     """Return the quantity of a header such as ``position [m]``."""
     match = re.fullmatch(r"\s*(\w+) \[(.+)\]\s*", header)
     name, unit = match.groups() if match else (header, "")
-    if name not in COLUMNS or unit != COLUMNS[name][0]:
+    if name not in KNOWN or unit != KNOWN[name][0]:
         raise InputError(f"{path}: column {header!r} is unknown; a trajectory has {', '.join(_headers())}")
     return name
 

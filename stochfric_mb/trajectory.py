@@ -21,6 +21,10 @@ COLUMNS: dict[str, tuple[str, str]] = {
     "stick": ("-", "1 where the contact sticks, otherwise 0"),
 }
 """Name of a column -> unit and meaning."""
+MORE_COLUMNS: dict[str, tuple[str, str]] = {
+    "true_position": ("m", "true position of the body, where position is what a sensor shows"),
+}
+"""The same for columns that only some trajectories have."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -47,7 +51,10 @@ class Trajectory:
     """What made it: engine, version, hook, dt, seed, notes, seconds_per_step, ..."""
     events: Array = dataclasses.field(default_factory=lambda: np.empty((0, 2)))
     """Located switches, shape (n_events, 2): time [s] and 1 (break-away) or 0 (stick); empty if not located."""
+    true_position: Array | None = None
+    """True position [m], where ``position`` is what a sensor with errors of its own shows."""
 
     def columns(self) -> dict[str, Array]:
-        """Return the arrays by name, in the order of `COLUMNS`."""
-        return {name: getattr(self, name) for name in COLUMNS}
+        """Return the arrays by name, in the order of `COLUMNS` and `MORE_COLUMNS`."""
+        more = {name: getattr(self, name) for name in MORE_COLUMNS if getattr(self, name) is not None}
+        return {name: getattr(self, name) for name in COLUMNS} | more

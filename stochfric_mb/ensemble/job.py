@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb import __version__
+from stochfric_mb.effects.combine import any_but_random
 from stochfric_mb.engines import ENGINES, adapter
 from stochfric_mb.ensemble import methods
 from stochfric_mb.ensemble.collect import checked_block
@@ -215,7 +216,7 @@ def _prepared(key: _Key) -> Prepared:
     given = key.job
     times = np.array(given.times)
     simulate_many = many(given.engine)
-    if simulate_many is not None:
+    if simulate_many is not None and not any_but_random(given.scenario.effects):
         return all_at_once(given.scenario, simulate_many, given.dt, times)
     known = methods.method(given.scenario, given.engine, given.dt)
     simulate = known.prepare(times)

@@ -8,6 +8,7 @@ from types import ModuleType
 from typing import Any
 
 from stochfric_mb.coefficients.processes import TIME
+from stochfric_mb.effects.combine import any_but_random
 from stochfric_mb.engines import adapter
 from stochfric_mb.ensemble import coulomb, elastic_stick, fixed_step, havsin
 from stochfric_mb.ensemble.result import Block, empty_block
@@ -49,13 +50,15 @@ def method(scenario: Scenario, engine: str, dt: float | None) -> Method:
         InputError: the engine or the step cannot be used.
     """
     kind = scenario.law.kind
-    along_time = scenario.process is None or (scenario.process.clock == TIME and scenario.process.linear)
-    if engine == "reference" and along_time and kind in EVENT_DRIVEN:
+    process = scenario.coefficient_process
+    along_time = process is None or (process.clock == TIME and process.linear)
+    plain = not any_but_random(scenario.effects)
+    if engine == "reference" and plain and along_time and kind in EVENT_DRIVEN:
         return Method(
             "event-driven, samples side by side", True, 0.0, 256,
             lambda times: _event_driven(EVENT_DRIVEN[kind], scenario, times),
         )  # fmt: skip
-    if engine == "reference" and along_time and kind in FIXED_STEP:
+    if engine == "reference" and plain and along_time and kind in FIXED_STEP:
         step = min(1.0e-4, 0.5 * scenario.step_limit()) if dt is None else require_number("dt", dt, above=0.0, unit="s")
         return Method(
             f"Runge-Kutta 4, steps of at most {step:.4g} s, samples side by side", True, step, 256,

@@ -49,8 +49,8 @@ def schedule(scenario: Scenario, output_times: Array, *, longest: float = math.i
         longest: longest leg [s]; longer ones are cut into equal parts.
     """
     end = float(output_times[-1])
-    spacing = math.inf if scenario.process is None else scenario.process.knot_spacing
-    n_knots = 0 if scenario.process is None else math.floor((end + SAME_TIME) / spacing)
+    spacing = math.inf if scenario.coefficient_process is None else scenario.coefficient_process.knot_spacing
+    n_knots = 0 if scenario.coefficient_process is None else math.floor((end + SAME_TIME) / spacing)
     knots: Array = np.arange(1, n_knots + 1, dtype=np.float64) * spacing
     ends = _merged(np.concatenate([knots, output_times[output_times > SAME_TIME]]))
     ends = _refined(ends, longest)
@@ -61,7 +61,7 @@ def schedule(scenario: Scenario, output_times: Array, *, longest: float = math.i
     is_output = np.abs(output_times[np.minimum(index, len(output_times) - 1)] - ends) <= SAME_TIME
     knot = np.zeros(len(ends), dtype=np.int64)
     parts = np.zeros((2, len(ends)))
-    if scenario.process is not None:
+    if scenario.coefficient_process is not None:
         knot = np.floor(0.5 * (starts + ends) / spacing).astype(np.int64)
         parts = np.clip(np.stack([starts, ends]) / spacing - knot, 0.0, 1.0)
         parts[np.abs(parts - np.round(parts)) < SAME_TIME] = np.round(parts[np.abs(parts - np.round(parts)) < SAME_TIME])

@@ -101,12 +101,15 @@ class CoordinateContact(FrictionContact):
         self._markers = markers
         self._own = np.zeros(4)
         self._numbers[at.SURFACE_VELOCITY] = require_number("surface_velocity", surface_velocity, unit="m/s")
-        expression = line_expression(self)
-        self._make_symbols(expression.names)
-        self.object = mbs.AddObject(
-            CoordinateSpringDamper(markerNumbers=list(markers), springForceUserFunction=self._function(expression.force))
-        )
-        self._begin(expression.names)
+        names: tuple[str, ...] = ()
+        function: Any = self._called
+        if self.friction.law.traceable:
+            expression = line_expression(self)
+            names = expression.names
+            self._make_symbols(names)
+            function = self._function(expression.force)
+        self.object = mbs.AddObject(CoordinateSpringDamper(markerNumbers=list(markers), springForceUserFunction=function))
+        self._begin(names)
 
     def _forces(self) -> tuple[float, float]:
         return -float(self._mbs.GetObjectOutput(self.object, OUTPUT.Force)), 0.0
@@ -137,6 +140,11 @@ class CoordinateContact(FrictionContact):
 
     def _bind_own(self) -> None:
         bind_own(self._words, self._own)
+
+    def _called(self, mbs: Any, t: float, item: Any, displacement: float, velocity: float, *_: Any) -> float:
+        """Return minus the friction [N]: the user function of a law that calls others by their addresses."""
+        surface = float(self._numbers[at.SURFACE_VELOCITY])
+        return -at.force_at(t, surface * t - displacement, surface - velocity, self.where)
 
     def _function(self, force: Any) -> Any:
         """Return the symbolic user function: the connector's force is what pulls marker 1 back, minus the friction."""

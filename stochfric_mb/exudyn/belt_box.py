@@ -12,6 +12,7 @@ import numpy as np
 from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from exudyn.itemInterface import CoordinateSpringDamper, LoadCoordinate, MarkerNodeCoordinate, Mass1D, Node1D, NodePointGround
 
+from stochfric_mb.effects.carry import reported, running_law
 from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_number
 from stochfric_mb.exudyn.attach import add_friction
 from stochfric_mb.exudyn.contact import FrictionContact
@@ -25,6 +26,7 @@ from stochfric_mb.scenario import Scenario
 from stochfric_mb.trajectory import Trajectory
 
 HOOK = "symbolic user function, PostStep commit"
+HOOK_CALLED = "Python user function, PostStep commit"
 
 
 @dataclasses.dataclass
@@ -94,14 +96,17 @@ def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, dt: float, solv
         InputError, StabilityError: as `simulate`.
     """
     box = scenario.mechanism
-    law, notes = _law_that_runs(scenario, dt)
+    dt = require_number("dt", dt, above=0.0, unit="s")
+    law, notes = running_law(scenario.law, box, scenario.effects, dt, substitute=True, seed=seed, sample=sample)
+    if not law.traceable:
+        notes.append("effects: Exudyn calls the law through Python at each evaluation, which is slower than a symbolic law")
     _check_step(scenario, law, dt, explicit=solver in EXPLICIT)
     mbs, mass, ground, slide = without_friction(box)
     contact = add_friction(
         mbs,
         ground,
         slide,
-        Friction(law, scenario.process),
+        Friction(law, scenario.coefficient_process),
         normal_force=box.normal_force,
         effective_mass=box.mass,
         surface_velocity=box.belt_velocity,
@@ -136,18 +141,20 @@ def integrate(
     attributes = {
         "engine": "exudyn",
         "version": exudyn.__version__,
-        "hook": HOOK,
+        "hook": HOOK if built.law.traceable else HOOK_CALLED,
         "solver": solver,
         "located": locate,
         "dt": built.dt,
         "seed": int(built.contact.address[0]),
         "sample": int(built.contact.address[1]),
-        "law": built.law.kind,
+        "law": getattr(built.law, "inner", built.law).kind,
         "notes": built.notes,
         "seconds_per_step": seconds / max(n_steps, 1),
         "n_steps": n_steps,
     }
-    return _trajectory(scenario, times, rows, attributes)
+    trajectory = _trajectory(scenario, times, rows, attributes)
+    address = {"seed": attributes["seed"], "sample": attributes["sample"]}
+    return reported(trajectory, scenario.mechanism, scenario.effects, **address)
 
 
 def without_friction(box: BeltBox) -> tuple[Any, Any, Any, Any]:
@@ -176,18 +183,7 @@ def _new_system() -> Any:
     return exudyn.SystemContainer().AddSystem()
 
 
-def _law_that_runs(scenario: Scenario, dt: float) -> tuple[Law, list[str]]:
-    """Return the scenario's law, or its elastic substitute where it needs the holding force, and the note about it."""
-    if not scenario.law.needs_holding_force:
-        return scenario.law, []
-    from stochfric_mb.laws.substitute import elastic_substitute
-
-    law, note = elastic_substitute(scenario.law, dt, scenario.mechanism.normal_force, scenario.mechanism.mass)
-    return law, [note]
-
-
 def _check_step(scenario: Scenario, law: Law, dt: float, *, explicit: bool) -> None:
-    dt = require_number("dt", dt, above=0.0, unit="s")
     n = scenario.output_step / dt
     if abs(n - round(n)) > 1.0e-6 * n or round(n) < 1:
         raise InputError(
@@ -200,7 +196,7 @@ def _check_step(scenario: Scenario, law: Law, dt: float, *, explicit: bool) -> N
             f"dt = {dt:g} s is beyond the stability limit {limit:.3g} s of law {law.kind} ({law.step_limit_formula}) for an "
             f"explicit solver; use dt <= {0.5 * limit:.2g} s or solver='generalized_alpha'"
         )
-    process = scenario.process
+    process = scenario.coefficient_process
     if process is None:
         return
     if process.clock == 0.0 and dt > process.knot_spacing:

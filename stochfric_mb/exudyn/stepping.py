@@ -52,7 +52,7 @@ LARGEST_NORMAL = 43
 """Largest normal force [N] of this simulation."""
 NEW = 44
 """Scratch for a law's output."""
-GUARDS_BEFORE = NEW + 8
+GUARDS_BEFORE = NEW + MAX_STATE
 """The law's guards at the last accepted step."""
 CURSOR_AT = GUARDS_BEFORE + 8
 WINDOW_CURSOR_AT = CURSOR_AT + CURSOR
@@ -178,6 +178,16 @@ def ask(address, t, motion, n, pair, numbers, into):
     ux, uy, vx, vy = motion
     m = numbers[MASS]
     call_law(address, t, ux, uy, vx, vy, n, pair[0], pair[1], m, 0.0, 0.0, state, p, out)  # pyright: ignore[reportCallIssue]
+
+
+@compiled
+def force_at(t, u, v, address):
+    """Return the friction force [N] at time t [s], displacement u [m] and velocity v [m/s]; nothing is committed."""
+    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    n = normal_force_at(t, numbers, words)
+    ask(words[FORCE], t, (u, 0.0, v, 0.0), n, pair_at(t, u, numbers, words), numbers, NEW)
+    return numbers[NEW]
 
 
 @compiled

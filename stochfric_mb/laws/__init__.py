@@ -23,6 +23,9 @@ LAWS: dict[str, tuple[str, str] | type[Law]] = {
 }
 """Kind of a law -> its module and class name, or the class itself if a user registered it."""
 
+_WRAPPERS: dict[str, tuple[str, str]] = {"augmented": ("stochfric_mb.effects.augmented_law", "Augmented")}
+"""Kinds that no scenario names: made from another law."""
+
 __all__ = ["AXIOMS", "GUARDS", "LAWS", "Law", "law_class", "make_law", "register_law"]
 
 
@@ -32,7 +35,7 @@ def law_class(kind: str) -> type[Law]:
     Raises:
         InputError: the kind is unknown; the message lists the known ones.
     """
-    entry = LAWS[require_name("law", kind, LAWS)]
+    entry = _WRAPPERS[kind] if kind in _WRAPPERS else LAWS[require_name("law", kind, LAWS)]
     if isinstance(entry, tuple):
         module, name = entry
         return getattr(importlib.import_module(module), name)

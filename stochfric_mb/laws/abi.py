@@ -32,7 +32,7 @@ _DOUBLE = types.float64
 _POINTER = types.CPointer(types.float64)
 LAW_SIGNATURE = types.void(*[_DOUBLE] * 11, _POINTER, _POINTER, _POINTER)
 FLOW_SIGNATURE = types.void(*[_DOUBLE] * 7, _POINTER, _POINTER)
-MAX_STATE = 8
+MAX_STATE = 16
 """Most state entries a law may have."""
 
 

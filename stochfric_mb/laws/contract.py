@@ -77,6 +77,8 @@ class Law:
     """Whether ``force`` uses the holding force; stuck contacts of such a law have zero relative velocity."""
     has_flow: ClassVar[bool] = False
     """Whether the memory is a differential equation, given by ``flow``."""
+    traceable: ClassVar[bool] = True
+    """Whether the functions can be turned into expressions: they call nothing by its address."""
     exceptions: ClassVar[Mapping[str, str]] = {}
     """Axioms that do not hold, each with its reason."""
 

@@ -14,7 +14,8 @@ import numpy as np
 import numpy.typing as npt
 from mujoco.batch import Batch
 
-from stochfric_mb.errors import SimulationError
+from stochfric_mb.effects.combine import any_but_random
+from stochfric_mb.errors import InputError, SimulationError
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.attach import friction_instances
 from stochfric_mb.mujoco.belt_box import build, start, trajectory_of
@@ -42,9 +43,13 @@ def simulate_many(
 
     Raises:
         StabilityError: ``dt`` is beyond the law's stability limit.
-        InputError: ``dt`` does not divide the output step.
+        InputError: ``dt`` does not divide the output step, or the scenario has effects.
         SimulationError: MuJoCo met a state that is not finite or beyond reason.
     """
+    if any_but_random(scenario.effects):
+        raise InputError(
+            "samples with effects run one by one, since a law with effects has its own random numbers: use simulate"
+        )
     batch = _started(scenario, dt, seed, range(first_sample, first_sample + n), threads)
     began = time.perf_counter()
     rows = _march(batch, scenario)

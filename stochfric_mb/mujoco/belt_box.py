@@ -15,9 +15,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
+from stochfric_mb.effects.carry import reported, running_law
 from stochfric_mb.errors import InputError, SimulationError
 from stochfric_mb.friction import Friction
-from stochfric_mb.laws.substitute import elastic_substitute
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.attach import add_friction, friction_instances, header
@@ -74,8 +74,8 @@ def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, dt: float | Non
     mechanism = scenario.mechanism
     spec = scene(mechanism)
     spec.option.timestep = step
-    law, _ = elastic_substitute(scenario.law, step, mechanism.normal_force, mechanism.mass)
-    add_friction(spec, ("box", "belt"), Friction(law, scenario.process), seed=seed, sample=sample, mode="explicit")
+    law, _ = running_law(scenario.law, mechanism, scenario.effects, step, substitute=True, seed=seed, sample=sample)
+    add_friction(spec, ("box", "belt"), Friction(law, scenario.coefficient_process), seed=seed, sample=sample, mode="explicit")
     return spec.compile()
 
 
@@ -195,19 +195,20 @@ def trajectory_of(model: mujoco.MjModel, state: Array, rows: Array, scenario: Sc
     instance = friction_instances(model)[0]
     law = friction_of(_config(model, instance, "law"), "").law
     dt = float(model.opt.timestep)
-    m = scenario.mechanism
-    _, note = elastic_substitute(scenario.law, dt, m.normal_force, m.mass)
+    address: dict[str, int] = {"seed": int(state[s.SEED]), "sample": int(state[s.SAMPLE])}
+    _, notes = running_law(scenario.law, scenario.mechanism, scenario.effects, dt, substitute=True, **address)
     n_steps = (scenario.n_outputs - 1) * round(scenario.output_step / dt)
-    return Trajectory(
+    trajectory = Trajectory(
         time=np.array(scenario.output_times()),
         **{name: rows[:, i].copy() for i, name in enumerate(
             ("position", "velocity", "friction_force", "normal_force", "mu_s", "mu_k", "stick"))},
         attributes={
-            "engine": "mujoco", "version": mujoco.__version__, "hook": HOOK, "dt": dt, "seed": int(state[s.SEED]),
-            "sample": int(state[s.SAMPLE]), "law": law.kind, "notes": [note] if note else [],
+            "engine": "mujoco", "version": mujoco.__version__, "hook": HOOK, "dt": dt, **address,
+            "law": getattr(law, "inner", law).kind, "notes": notes,
             "seconds_per_step": seconds / n_steps, "n_steps": n_steps,
         },
     )  # fmt: skip
+    return reported(trajectory, scenario.mechanism, scenario.effects, **address)
 
 
 def _config(model: mujoco.MjModel, instance: int, key: str) -> str:

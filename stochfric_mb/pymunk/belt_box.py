@@ -12,6 +12,7 @@ import numpy.typing as npt
 import pymunk
 from pymunk.constraints import DampedSpring
 
+from stochfric_mb.effects.carry import reported, running_law
 from stochfric_mb.errors import InputError, SimulationError
 from stochfric_mb.friction import Friction
 from stochfric_mb.pymunk import records as r
@@ -48,6 +49,8 @@ class Model:
     """The friction between box and belt; None: none, for comparison."""
     scenario: Scenario
     """What was built."""
+    notes: list[str] = dataclasses.field(default_factory=list[str])
+    """What stands in for what."""
 
 
 def simulate(
@@ -73,7 +76,7 @@ def simulate(
         SimulationError: a state that is not finite or beyond reason.
     """
     dt = scenario.checked_step(dt)
-    model = build(scenario, seed=seed, sample=sample)
+    model = build(scenario, seed=seed, sample=sample, dt=dt)
     try:
         return integrate(model, dt=dt, progress=progress)
     finally:
@@ -81,8 +84,11 @@ def simulate(
         model.friction.remove()
 
 
-def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, with_friction: bool = True) -> Model:
-    """Return the scenario as a pymunk space with the friction added, at rest in contact, before its first step."""
+def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, dt: float | None = None, with_friction: bool = True) -> Model:
+    """Return the scenario as a pymunk space with the friction added, at rest in contact, before its first step.
+
+    ``dt`` is the step that will be taken [s], `Scenario.default_dt` if not given; only effects depend on it.
+    """
     mechanism = scenario.mechanism
     space = pymunk.Space()
     space.gravity = (0.0, -mechanism.normal_force / mechanism.mass)
@@ -98,11 +104,14 @@ def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, with_friction: 
     frame = (-SPRING_LENGTH, height)
     spring = DampedSpring(space.static_body, box, frame, (0.0, 0.0), SPRING_LENGTH, mechanism.stiffness, mechanism.damping)
     space.add(belt, box, shape, spring)
-    friction = None
+    friction, notes = None, list[str]()
     if with_friction:
-        friction = add_friction(space, shape, belt, Friction(scenario.law, scenario.process), seed=seed, sample=sample)
+        address: dict[str, int] = {"seed": seed, "sample": sample}
+        step = scenario.checked_step(dt)
+        law, notes = running_law(scenario.law, mechanism, scenario.effects, step, substitute=False, **address)
+        friction = add_friction(space, shape, belt, Friction(law, scenario.coefficient_process), **address)
         friction.initial_displacement = -mechanism.initial_position
-    return Model(space, box, spring, belt, friction, scenario)
+    return Model(space, box, spring, belt, friction, scenario, notes)
 
 
 def _reach(scenario: Scenario) -> float:
@@ -149,16 +158,18 @@ def integrate(model: Model, *, dt: float, progress: Callable[[float], None] | No
     attributes = {
         "engine": "pymunk",
         "version": pymunk.version,
-        "hook": HOOK_CAP if scenario.law.needs_holding_force else HOOK_FORCE,
+        "hook": HOOK_CAP if friction.friction.law.needs_holding_force else HOOK_FORCE,
         "dt": dt,
         "seed": friction.path.seed,
         "sample": friction.path.sample,
         "law": scenario.law.kind,
-        "notes": [],
+        "notes": list(model.notes),
         "seconds_per_step": seconds,
         "n_steps": n_steps,
     }
-    return Trajectory(*np.ascontiguousarray(rows.T), attributes=attributes)
+    trajectory = Trajectory(*np.ascontiguousarray(rows.T), attributes=attributes)
+    path = friction.path
+    return reported(trajectory, mechanism, scenario.effects, seed=path.seed, sample=path.sample)
 
 
 def start(model: Model, dt: float) -> None:

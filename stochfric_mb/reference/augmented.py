@@ -23,6 +23,7 @@ from stochfric_mb.coefficients import CoefficientPath, Process
 from stochfric_mb.coefficients.processes import TIME
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects.abi import native_effect
+from stochfric_mb.effects.combine import combined_process
 from stochfric_mb.errors import InputError, SimulationError, require_name, require_number
 from stochfric_mb.laws import Law
 from stochfric_mb.mechanisms import BeltBox
@@ -120,21 +121,6 @@ def augmented_system(
     return AugmentedSystem(mechanism, law, tuple(effects), process, run, path.descriptor, places)
 
 
-def combined_process(effects: Sequence[Effect], process: Process | None) -> Process | None:
-    """Return the coefficient process of a model: its own, or the one that an effect sets.
-
-    Raises:
-        InputError: both, or two effects, set it.
-    """
-    setting = [(effect.kind, own) for effect in effects if (own := effect.coefficient_process()) is not None]
-    if not setting:
-        return process
-    if len(setting) > 1 or process is not None:
-        others = " and ".join([kind for kind, _ in setting] + ([f"[coefficients] process {process.kind}"] if process else []))
-        raise InputError(f"{others} each set the coefficient process, of which there is one; keep one of them")
-    return setting[0][1]
-
-
 class AugmentedSystem:
     """A belt-box with effects; made by `augmented_system`, never changed."""
 
@@ -194,22 +180,28 @@ class AugmentedSystem:
             SimulationError: the contact switches without end, or the motion is not finite.
         """
         require_number("step", step, above=0.0, unit="s")
+        run = self._begun(start)
+        rows = np.empty((count, augmented_march.COLUMNS))
+        log = augmented_march.march(run, self._descriptor, float(step), count, rows, False)
+        self._require_sane(run.clock[augmented_model.STATUS], run.clock[augmented_model.NOW])
+        times = start.time + step * np.arange(1, count + 1, dtype=np.float64)
+        return _motion(times, rows, log[: int(run.clock[augmented_model.SWITCHES])].copy(), _end(run))
+
+    def at(self, start: Start) -> Motion:
+        """Return the one sample that ``start`` is, with the forces there."""
+        run = self._begun(start)
+        rows = np.empty((1, augmented_march.COLUMNS))
+        augmented_march.record(run, self._descriptor, float(start.time), rows[0], False)
+        return _motion(np.array([start.time]), rows, np.empty((0, 2)), _end(run))
+
+    def _begun(self, start: Start) -> Any:
         run = _copied(self._run)
         run.y[2 : 2 + run.counts[2]] = self._memories([start])[0]
         augmented_march.begin(
             run, self._descriptor, float(start.time), float(start.position), float(start.velocity), bool(start.stick),
             float(start.dwell), float(start.slip), float(start.draws), float(start.deflection),
         )  # fmt: skip
-        rows = np.empty((count, augmented_march.COLUMNS))
-        log = augmented_march.march(run, self._descriptor, float(step), count, rows, False)
-        self._require_sane(run.clock[augmented_model.STATUS], run.clock[augmented_model.NOW])
-        return Motion(
-            time=start.time + step * np.arange(1, count + 1, dtype=np.float64),
-            **{name: rows[:, i].copy() for i, name in enumerate(
-                ("position", "velocity", "friction_force", "stick", "normal_force", "mu_s", "mu_k"))},
-            events=log[: int(run.clock[augmented_model.SWITCHES])].copy(),
-            end=_end(run),
-        )  # fmt: skip
+        return run
 
     def forecasts(self, starts: npt.ArrayLike, step: float, count: int) -> npt.NDArray[np.float64]:
         """Return positions [m] at step (1, ..., count) after each start, shape (k, count), in one compiled call.
@@ -255,6 +247,11 @@ class AugmentedSystem:
         what = "switches without end" if status == augmented_march.ENDLESS else "is not finite"
         kinds = ", ".join(effect.kind for effect in self.effects) or "none"
         raise SimulationError(f"the motion {what} at t = {t:g} s (effects: {kinds}); check the parameters")
+
+
+def _motion(times: Array, rows: Array, events: Array, end: Start) -> Motion:
+    names = ("position", "velocity", "friction_force", "stick", "normal_force", "mu_s", "mu_k")
+    return Motion(time=times, **{name: rows[:, i].copy() for i, name in enumerate(names)}, events=events, end=end)
 
 
 def _copied(run: Any) -> Any:

@@ -77,8 +77,7 @@ def begin(r, d, t, position, velocity, stuck, dwell, slip, draws, deflection):
         side = 1.0 if belt > velocity or (belt == velocity and hold(r, t) >= 0.0) else -1.0
         _slide_from(r, side, travel - position, slip)
         clock[m.ARMED] = 1.0 if abs(belt - velocity) > r.constants[m.RESTICK] else 0.0
-    for j in range(r.counts[2] + 2):
-        r.end[j] = y[j]
+    _copy(r, y, r.probe)
 
 
 @compiled
@@ -120,7 +119,7 @@ def march(r, d, step, count, rows, only_position):
         while i < count and start + step * (i + 1) <= t_new + 1.0e-12:
             at = start + step * (i + 1)
             _within(r, min((at - t) / h, 1.0), h)
-            _record(r, d, at, rows[i], only_position)
+            record(r, d, at, rows[i], only_position)
             i += 1
         if part >= 1.0:
             fresh = _accept(r, d, t_new, h, error, ahead) and fresh
@@ -296,10 +295,10 @@ def _come_to_rest(r, d, log):
     surround(r, t, y, r.unused)
     travel = w[e.BELT_TRAVEL]
     if r.constants[m.LIMIT] > 0.0:
-        force = m.slide(r, d, t, y, r.unused)
+        rub(r, d, t, clock[m.SIDE], 0.0, 0.0, 0.0)
         stiffness, damping = spring_constants(r)
-        z = (force - damping * (w[e.BELT_VELOCITY] - y[1])) / stiffness
         limit = m.holding_limit(r) * w[e.NORMAL_FORCE] / stiffness
+        z = clock[m.SIDE] * limit - damping * (w[e.BELT_VELOCITY] - y[1]) / stiffness
         clock[m.MODE] = m.SPRING
         clock[m.ANCHOR] = travel - y[0] - min(max(z, -limit), limit)
     else:
@@ -338,7 +337,8 @@ def _keep(r, d):
 
 
 @compiled
-def _record(r, d, t, row, only_position):
+def record(r, d, t, row, only_position):
+    """Fill an output row from the unknowns in ``r.probe``."""
     if only_position:
         if r.clock[m.MODE] == m.STUCK:
             ride(r, t, r.probe, r.unused)

@@ -45,6 +45,10 @@ def simulate(
     Raises:
         SimulationError: the integration broke down; says where.
     """
+    if scenario.effects:
+        from stochfric_mb.reference.with_effects import simulate_with_effects
+
+        return simulate_with_effects(scenario, seed=seed, sample=sample, progress=progress)
     path = scenario.path(seed, sample)
     return solve(scenario.mechanism, scenario.law, path, scenario.output_times(), progress=progress)
 

@@ -80,7 +80,9 @@ CAPTIONS: dict[str, str] = {
 
 def _scenario_tables(comparison: Comparison) -> list[tuple[str, list[tuple[str, str, str]]]]:
     """Return the scenario's tables: title, and rows of key, value and unit."""
-    spacing = {"spatial": "m"}.get(comparison.scenario.process.kind if comparison.scenario.process else "", "s")
+    spacing = {"spatial": "m"}.get(
+        comparison.scenario.coefficient_process.kind if comparison.scenario.coefficient_process else "", "s"
+    )
     tables: list[tuple[str, list[tuple[str, str, str]]]] = []
     for name, table in comparison.scenario.to_dict().items():
         if isinstance(table, dict):
