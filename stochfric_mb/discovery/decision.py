@@ -206,7 +206,7 @@ def _kinematics(study: Study, details: dict[str, object]) -> list[tuple[str, flo
     if best in ("creep_before", "creep_after", "yielding"):
         gradual = max(sticking.scores["yielding"], sticking.scores["presliding_compliance"])
         if gradual > YIELDS * score:
-            best = "presliding_compliance"
+            best, score = "presliding_compliance", max(score, 0.0) + max(sticking.scores["presliding_compliance"], 0.0)
     if best == "creep_before":
         return Where("stick, before the break-away", "the box leaves the belt's motion before it breaks away")
     if best == "creep_after":
@@ -251,7 +251,7 @@ def _dynamics(study: Study, model: Model, named: list[Named], details: dict[str,
         progress("confirmation")
         outcome = _choose(study, model, terms, candidates, cases, confirmed, details, round_)
         if isinstance(outcome, Where):
-            if named and not (round_ == 0):
+            if named:
                 # what was found stands; the rest is noted, not named
                 details["left_over"] = dataclasses.asdict(outcome)
                 break
