@@ -119,7 +119,9 @@ def sheet_of(run: Run, scenario: Scenario, *, delay: float = 0.0, window: Window
     if window is None:
         window = chosen_window(h, len(q), noise, believed_friction(scenario, joint.normal_force))
     if len(window.centres) < 8:
-        raise InputError(f"run {run.name!r}: {len(q)} samples are too few for windows of {window.half_width:.3g} s; record longer")
+        raise InputError(
+            f"run {run.name!r}: {len(q)} samples are too few for windows of {window.half_width:.3g} s; record longer"
+        )
     drives = ("drive", "force_gain", "torque_gain")
     columns: dict[str, Array] = {}
     total = np.zeros(len(window.centres))
@@ -150,7 +152,9 @@ def sheet_of(run: Run, scenario: Scenario, *, delay: float = 0.0, window: Window
     )
 
 
-def _noise(terms: Mapping[str, Callable[[float], list[tuple[float, Term]]]], values: Mapping[str, float], q: Array) -> dict[int, float]:
+def _noise(
+    terms: Mapping[str, Callable[[float], list[tuple[float, Term]]]], values: Mapping[str, float], q: Array
+) -> dict[int, float]:
     """Return the noise that enters with each derivative: position noise counts once, however many terms it enters."""
     factors: dict[int, float] = {}
     other = 0.0
@@ -177,7 +181,9 @@ def transmitted_load(run: Run, joint: Joint, window: Window) -> Array:
             return joint.piston_area * np.abs(window.through(run.channels["pressure"]))
         return np.zeros(len(run.time))
     if joint.torque_gain:
-        return np.abs(joint.torque_gain * window.through(run.channels["voltage"]) - joint.damping * window.through(position_of(run), 1))
+        return np.abs(
+            joint.torque_gain * window.through(run.channels["voltage"]) - joint.damping * window.through(position_of(run), 1)
+        )
     return np.abs(window.through(run.channels["torque"]))
 
 

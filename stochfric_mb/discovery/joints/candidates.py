@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.joints.fitting import JointModel
 from stochfric_mb.discovery.joints.sheet import Sheet
 from stochfric_mb.effects import Effect, make_effect
 
@@ -85,9 +84,8 @@ def _viscous(span: Span, load: float) -> Candidate:
 
 def _weakening(span: Span, load: float) -> Candidate:
     starts = tuple(
-        make_effect("velocity_weakening", amplitude=sign * 0.1 * span.friction / load, decay_velocity=part * span.speed)
+        make_effect("velocity_weakening", amplitude=0.1 * span.friction / load, decay_velocity=part * span.speed)
         for part in (0.05, 0.2, 0.6)
-        for sign in (1.0, -1.0)
     )
     return Candidate("velocity_weakening", starts, "speed", 2)
 
@@ -100,9 +98,7 @@ def _quadratic(span: Span, load: float) -> Candidate:
 def _load(span: Span, load: float) -> Candidate | None:
     if not span.load:
         return None
-    starts = tuple(
-        make_effect("load_dependence", exponent=1.0, reference_load=part * span.load) for part in (0.3, 1.0, 4.0)
-    )
+    starts = tuple(make_effect("load_dependence", exponent=1.0, reference_load=part * span.load) for part in (0.3, 1.0, 4.0))
     return Candidate("load_dependence", starts, "load", 1)
 
 
@@ -114,11 +110,8 @@ def _asymmetry(span: Span, load: float) -> Candidate | None:
 
 def _position(span: Span, load: float) -> Candidate:
     starts = tuple(
-        make_effect(
-            "position_dependent_friction", amplitude=0.05, wavelength=span.stroke * part, phase=phase, axis="position"
-        )
-        for part in (2.0, 1.0, 0.5, 0.33, 0.2, 0.1)
-        for phase in (0.0, 2.1, 4.2)
+        make_effect("position_dependent_friction", amplitude=0.05, wavelength=span.stroke * part, phase=0.7, axis="position")
+        for part in (2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08)
     )
     return Candidate("position_dependent_friction", starts, "position", 3)
 
@@ -148,29 +141,37 @@ class Competitor:
 
     axis: str
     """What it depends on."""
-    columns: Callable[[Sheet], Array]
-    """Sheet -> columns, shape (n_centres, k)."""
+    values: Callable[[Sheet], Array]
+    """Sheet -> what it depends on, shape (count,)."""
+    signed: bool
+    """Whether it turns with the direction of the motion, as friction does."""
+
+    def columns(self, sheet: Sheet) -> Array:
+        """Return its columns at the centres of windows, shape (n_centres, k), k = 0 if what it depends on is constant."""
+        rows = _legendre(self.values(sheet))
+        if self.signed:
+            rows = np.sign(sheet.velocity) * rows
+        return (
+            np.column_stack([sheet.window.at_centres(row) for row in rows]) if len(rows) else np.zeros((len(sheet.driven), 0))
+        )
 
 
 COMPETITORS = (
-    Competitor("position", lambda s: _legendre(s.position[s.window.centres])),
-    Competitor("position and direction", lambda s: _signed(s, _legendre(s.position[s.window.centres]))),
-    Competitor("speed and direction", lambda s: _signed(s, _legendre(np.abs(s.velocity[s.window.centres])))),
-    Competitor("speed", lambda s: _legendre(np.abs(s.velocity[s.window.centres]))),
-    Competitor("time", lambda s: _legendre(s.time[s.window.centres])),
-    Competitor("time and direction", lambda s: _signed(s, _legendre(s.time[s.window.centres]))),
-    Competitor("load and direction", lambda s: _signed(s, _legendre(s.load[s.window.centres]))),
+    Competitor("position", lambda s: s.position, False),
+    Competitor("position and direction", lambda s: s.position, True),
+    Competitor("speed", lambda s: np.abs(s.velocity), False),
+    Competitor("speed and direction", lambda s: np.abs(s.velocity), True),
+    Competitor("time", lambda s: s.time, False),
+    Competitor("time and direction", lambda s: s.time, True),
+    Competitor("load", lambda s: s.load, False),
+    Competitor("load and direction", lambda s: s.load, True),
 )
 
 
 def _legendre(values: Array) -> Array:
-    """Return Legendre polynomials of order 1 to 3 of values scaled to -1...1, shape (n, 3); empty for a constant."""
+    """Return Legendre polynomials of order 1 to 3 of values scaled to -1...1, shape (3, n); empty for a constant."""
     width = float(np.ptp(values))
     if width <= 1.0e-12 * max(float(np.max(np.abs(values))), 1.0e-300):
-        return np.zeros((len(values), 0))
+        return np.zeros((0, len(values)))
     scaled = 2.0 * (values - values.min()) / width - 1.0
-    return np.polynomial.legendre.legvander(scaled, 3)[:, 1:]
-
-
-def _signed(sheet: Sheet, columns: Array) -> Array:
-    return np.sign(sheet.velocity[sheet.window.centres])[:, None] * columns
+    return np.polynomial.legendre.legvander(scaled, 3)[:, 1:].T

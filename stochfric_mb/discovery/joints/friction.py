@@ -60,7 +60,9 @@ def friction_along(sheet: Sheet, law: Law, effects: Sequence[Effect], load: floa
     """
     links = chain(law, effects, load)
     force = np.empty(len(sheet.time))
-    along(links.numbers, links.calls, links.parameters, sheet.time, sheet.position, sheet.velocity, sheet.load, sheet.slip, force)
+    along(
+        links.numbers, links.calls, links.parameters, sheet.time, sheet.position, sheet.velocity, sheet.load, sheet.slip, force
+    )
     return sheet.window.at_centres(force)
 
 

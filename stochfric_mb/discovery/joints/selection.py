@@ -1,0 +1,263 @@
+"""Selection: one effect at a time, by evidence, by what it is worth on blocks left out, and against smooth competitors."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import numpy.typing as npt
+from scipy.stats import f as fisher
+
+from stochfric_mb.discovery.joints.candidates import COMPETITORS, Candidate, Competitor, candidates, span_of
+from stochfric_mb.discovery.joints.fitting import JointFit, JointModel, fit, independent_count, predicted_rms
+from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
+
+Array = npt.NDArray[np.float64]
+
+NAMED = 20.0
+"""Score above which an effect is named."""
+MATERIAL = 0.02
+"""Least share of the error on left-out blocks that an effect must take away: less is real, perhaps, but no explanation."""
+BLOCKS = 8
+"""Blocks of the record that are left out in turn."""
+BETTER = 0.5
+"""Least share of the blocks that must get better: an effect that shows in one place only is one that was fitted to it."""
+TIE = 10.0
+"""Difference of scores within which effects cannot be told apart."""
+MOST = 4
+"""Most effects in one joint: beyond, errors of the first ones would be explained."""
+WIN = (15.0, 0.03)
+"""A competitor wins by that score, or that part of the best named effect's score, whichever is more."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Trial:
+    """A candidate, fitted."""
+
+    candidate: Candidate
+    """The candidate."""
+    fit: JointFit
+    """Model with it."""
+    score: float
+    """2 delta log L - p ln n - 2 ln(grid size), n counting independent windows."""
+    p_value: float
+    """Chance of that gain without the effect, by Fisher's F on independent windows, times the size of the grid."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Stage:
+    """One step of the selection."""
+
+    before: JointFit
+    """Model before it."""
+    trials: tuple[Trial, ...]
+    """Every candidate, best first."""
+    competitors: tuple[tuple[str, float], ...]
+    """Axis of each smooth competitor, with its score."""
+    gain: float
+    """Part of the error on left-out blocks that the best candidate takes away [-]."""
+    better: float
+    """Share of blocks that it makes better [-]."""
+    accepted: bool
+    """Whether it was taken into the model."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Selected:
+    """What was found at one joint."""
+
+    recalibrated: JointFit
+    """The believed model with its numbers fitted."""
+    final: JointFit
+    """With the effects found."""
+    found: tuple[Trial, ...]
+    """Effects, as they were when accepted."""
+    equivalents: tuple[tuple[str, ...], ...]
+    """Effects that could stand in the place of each."""
+    stages: tuple[Stage, ...]
+    """The steps."""
+    unknown: str
+    """Axis of what is missing without a name; empty: nothing is."""
+
+
+class Selector:
+    """Selection at one joint."""
+
+    def __init__(
+        self,
+        sheets: Sequence[Sheet],
+        nuisances: Sequence[Nuisance],
+        start: JointModel,
+        progress: Callable[[str], None] | None = None,
+    ) -> None:
+        self._sheets, self._nuisances = list(sheets), list(nuisances)
+        self._tell = progress or (lambda _: None)
+        first = fit(start, sheets, nuisances, noise=_typical(sheets))
+        self._noise = _weight(first)
+        self.recalibrated = self._fit(start)
+
+    def _fit(self, model: JointModel, evaluations: int = 12) -> JointFit:
+        return fit(model, self._sheets, self._nuisances, noise=self._noise, evaluations=evaluations)
+
+    def run(self) -> Selected:
+        """Return what was selected."""
+        current = self.recalibrated
+        found: list[Trial] = []
+        stages: list[Stage] = []
+        while len(found) < MOST:
+            self._tell(f"effect {len(found) + 1}")
+            stage = self._stage(current)
+            stages.append(stage)
+            if not stage.accepted:
+                break
+            found.append(stage.trials[0])
+            current = stage.trials[0].fit
+            self._noise = _weight(current)
+            current, found = self._re_examined(current, found)
+        final = self._fit(current.model)
+        unknown = self._unknown(stages[-1]) if not stages[-1].accepted else ""
+        return Selected(
+            self.recalibrated, final, tuple(found), tuple(self._equivalents(final, i) for i in range(len(found))),
+            tuple(stages), unknown,
+        )  # fmt: skip
+
+    def _stage(self, current: JointFit) -> Stage:
+        span = span_of(self._sheets, current.model.law.mu_k * current.model.load)
+        fits: list[tuple[Candidate, JointFit]] = []
+        for candidate in candidates(span, current.model.effects, current.model.load):
+            self._tell(candidate.kind)
+            fits.append((candidate, self._best(current, candidate)))
+        trials = self._scored(current, fits)
+        rivals = self._competitors(current, trials[0].fit)
+        gain, better = self.cross_validated(current.model, trials[0].fit.model)
+        enough = trials[0].score > NAMED and gain > MATERIAL and better >= BETTER
+        return Stage(current, tuple(trials), tuple(rivals), gain, better, enough)
+
+    def _best(self, current: JointFit, candidate: Candidate) -> JointFit:
+        starts = sorted(candidate.starts, key=lambda e: predicted_rms(current.model, e, self._sheets, current))
+        fits = [self._fit(current.model.plus(e)) for e in starts[:2]]
+        return min(fits, key=lambda f: f.rms)
+
+    def _scored(self, current: JointFit, fits: Sequence[tuple[Candidate, JointFit]]) -> list[Trial]:
+        # all are judged by the same count of independent windows: that of the best fit
+        n = max(min((f for _, f in fits), key=lambda f: f.rms).independent, 4.0)
+        trials = [self._trial(current, c, f, n) for c, f in fits]
+        return sorted(trials, key=lambda t: -t.score)
+
+    def _trial(self, current: JointFit, candidate: Candidate, fitted: JointFit, n: float) -> Trial:
+        p, grid = candidate.parameters, len(candidate.starts)
+        ratio = max((current.rms / fitted.rms) ** 2, 1.0)
+        score = n * np.log(ratio) - p * np.log(n) - 2.0 * np.log(grid)
+        spare = max(n - len(fitted.knobs), 1.0)
+        chance = float(fisher.sf((ratio - 1.0) * spare / p, p, spare))
+        return Trial(candidate, fitted, float(score), min(1.0, chance * grid))
+
+    def _competitors(self, current: JointFit, best: JointFit) -> list[tuple[str, float]]:
+        n = max(best.independent, 4.0)
+        rest = np.concatenate(current.remainders)
+        found: list[tuple[str, float]] = []
+        for rival in COMPETITORS:
+            parts = [rival.columns(s)[s.sliding] for s in self._sheets]
+            width = min(p.shape[1] for p in parts)
+            if width == 0:
+                continue
+            columns = np.concatenate([p[:, :width] for p in parts])
+            design = np.column_stack([current.jacobian, columns])
+            design = design / np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
+            left = rest - design @ np.linalg.lstsq(design, rest, rcond=1.0e-10)[0]
+            score = n * np.log(np.mean(rest**2) / np.mean(left**2)) - width * np.log(n)
+            found.append((rival.axis, float(score)))
+        return sorted(found, key=lambda r: -r[1])
+
+    def cross_validated(self, plain: JointModel, richer: JointModel) -> tuple[float, float]:
+        """Return by what part ``richer`` lowers the error on blocks left out of the fits, and in what share of them."""
+        errors: list[tuple[float, float, int]] = []
+        for left_out in self._blocks():
+            kept = [s.sliding & ~out for s, out in zip(self._sheets, left_out, strict=True)]
+            both: list[float] = []
+            for model in (plain, richer):
+                fitted = fit(model, self._sheets, self._nuisances, noise=self._noise, masks=kept, evaluations=4).model
+                rest = [
+                    fitted.remainder(s, self._nuisances)[s.sliding & out] for s, out in zip(self._sheets, left_out, strict=True)
+                ]
+                both.append(float(np.sum(np.concatenate(rest) ** 2)))
+            errors.append((both[0], both[1], 1))
+        before, after = (sum(e[i] for e in errors) for i in (0, 1))
+        return 1.0 - float(np.sqrt(after / before)), float(np.mean([e[1] < e[0] for e in errors]))
+
+    def _blocks(self) -> list[list[npt.NDArray[np.bool_]]]:
+        """Return the blocks to leave out: stretches of the runs, one after the other, of equally many sliding windows."""
+        sliding = np.concatenate([s.sliding for s in self._sheets])
+        number = np.cumsum(sliding) * BLOCKS // (int(sliding.sum()) + 1)
+        ends = np.cumsum([len(s.sliding) for s in self._sheets])[:-1]
+        return [np.split((number == k) & sliding, ends) for k in range(BLOCKS)]
+
+    def _re_examined(self, current: JointFit, found: list[Trial]) -> tuple[JointFit, list[Trial]]:
+        """Drop effects that later ones have made superfluous."""
+        for trial in found[:-1]:
+            kind = trial.candidate.kind
+            without = dataclasses.replace(current.model, effects=tuple(e for e in current.model.effects if e.kind != kind))
+            fitted = self._fit(without)
+            n = max(current.independent, 4.0)
+            score = n * np.log((fitted.rms / current.rms) ** 2) - trial.candidate.parameters * np.log(n)
+            if score < NAMED:
+                current, found = fitted, [t for t in found if t.candidate.kind != kind]
+        return current, found
+
+    def _equivalents(self, final: JointFit, number: int) -> tuple[str, ...]:
+        """Return the kinds that could stand in the place of an effect of the final model, within `TIE`."""
+        added = len(final.model.effects) - len(self.recalibrated.model.effects)
+        own = final.model.effects[len(final.model.effects) - added + number]
+        others = tuple(e for e in final.model.effects if e is not own)
+        without = self._fit(dataclasses.replace(final.model, effects=others))
+        span = span_of(self._sheets, without.model.law.mu_k * without.model.load)
+        choices = [c for c in candidates(span, others, without.model.load) if c.kind != own.kind]
+        fits = [(c, self._best(without, c)) for c in choices]
+        n = max(final.independent, 4.0)
+        size = {c.kind: c.parameters for c in candidates(span, others, without.model.load)}[own.kind]
+        mine = n * np.log((without.rms / final.rms) ** 2) - size * np.log(n)
+        theirs = [(c.kind, n * np.log((without.rms / f.rms) ** 2) - c.parameters * np.log(n)) for c, f in fits]
+        return tuple(kind for kind, score in theirs if score > mine - TIE)
+
+    def _unknown(self, last: Stage) -> str:
+        """Return the axis along which something is missing that no effect explains; empty if nothing is."""
+        if not last.competitors:
+            return ""
+        axis, score = last.competitors[0]
+        named = last.trials[0].score
+        if score < NAMED or score < named + max(WIN[0], WIN[1] * abs(named)):
+            return ""
+        rival = next(c for c in COMPETITORS if c.axis == axis)
+        return axis if self._rival_gain(last.before, rival) > MATERIAL else ""
+
+    def _rival_gain(self, current: JointFit, rival: Competitor) -> float:
+        """Return by what part a competitor lowers the error on blocks left out."""
+        parts = [rival.columns(s) for s in self._sheets]
+        width = min(p.shape[1] for p in parts)
+        inside = [s.sliding for s in self._sheets]
+        x = np.concatenate([p[m, :width] for p, m in zip(parts, inside, strict=True)])
+        x = np.column_stack([current.jacobian, x])
+        y = np.concatenate(current.remainders)
+        before = after = 0.0
+        for block in self._blocks():
+            out = np.concatenate([b[m] for b, m in zip(block, inside, strict=True)])
+            for design, plain in ((current.jacobian, True), (x, False)):
+                scale = np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
+                b = np.linalg.lstsq(design[~out] / scale, y[~out], rcond=1.0e-10)[0]
+                error = float(np.sum((y[out] - design[out] / scale @ b) ** 2))
+                before, after = (before + error, after) if plain else (before, after + error)
+        return 1.0 - float(np.sqrt(after / before))
+
+
+def _typical(sheets: Sequence[Sheet]) -> float:
+    return float(np.std(np.concatenate([s.driven[s.sliding] for s in sheets])))
+
+
+def _weight(fitted: JointFit) -> float:
+    """Return the deviation per window for which a prior counts as one independent window."""
+    n = sum(map(len, fitted.remainders))
+    return fitted.rms * float(np.sqrt(n / max(fitted.independent, 1.0)))
+
+
+__all__ = ["Selected", "Selector", "Stage", "Trial", "independent_count"]
