@@ -297,7 +297,7 @@ def _come_to_rest(r, d, log):
     if r.constants[m.LIMIT] > 0.0:
         rub(r, d, t, clock[m.SIDE], 0.0, 0.0, 0.0)
         stiffness, damping = spring_constants(r)
-        limit = m.holding_limit(r) * w[e.NORMAL_FORCE] / stiffness
+        limit = w[e.MU_S] * w[e.NORMAL_FORCE] / stiffness
         z = clock[m.SIDE] * limit - damping * (w[e.BELT_VELOCITY] - y[1]) / stiffness
         clock[m.MODE] = m.SPRING
         clock[m.ANCHOR] = travel - y[0] - min(max(z, -limit), limit)
@@ -307,7 +307,7 @@ def _come_to_rest(r, d, log):
         needed = hold(r, t)
         side = 1.0 if needed >= 0.0 else -1.0
         rub(r, d, t, side, 0.0, 0.0, 0.0)
-        if abs(needed) > m.holding_limit(r) * w[e.NORMAL_FORCE]:
+        if abs(needed) > w[e.MU_S] * w[e.NORMAL_FORCE]:
             _slide_from(r, side, travel - y[0], clock[m.SLID] + abs(travel - y[0] - clock[m.BROKE_AT]))
             clock[m.SWITCHES] += 1.0
             return note(log, int(clock[m.SWITCHES]) - 1, t, BREAK_AWAY)

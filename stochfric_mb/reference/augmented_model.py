@@ -112,7 +112,10 @@ def hold(r, t):
 
 @compiled
 def rub(r, d, t, direction, speed, dwell, slip):
-    """Find the coefficients, after `surround`: path, law's curve, effects."""
+    """Find the coefficients, after `surround`: path, effects, law's curve between the two.
+
+    Where friction at the lowest sliding speed exceeds mu_s the contact cannot slide away, so it holds up to there.
+    """
     c, w = r.constants, r.world
     w[e.DIRECTION], w[e.SPEED], w[e.DWELL], w[e.SLIP] = direction, speed, dwell, slip
     w[e.BELT_POSITION] = w[e.BELT_TRAVEL] - w[e.POSITION]
@@ -120,12 +123,13 @@ def rub(r, d, t, direction, speed, dwell, slip):
         d, r.cursor, int(c[SEED]), int(c[SAMPLE]), int(c[CONTACT]), t, w[e.BELT_POSITION], r.clock[DRAWS]
     )  # fmt: skip
     w[e.MU_S], w[e.MU_K], w[e.VISCOUS_FORCE] = mu_s, mu_k, 0.0
-    if c[CURVE] == ELASTIC:
-        w[e.MU_K] = elastic_stick.slip_coefficient(speed, mu_s, mu_k, c[RESTICK], c[DECAY])
-    elif c[CURVE] == STRIBECK:
-        w[e.MU_K] = stribeck.slip_coefficient(speed, mu_s, mu_k, c[DECAY], c[FORM])
     for i in range(r.counts[1]):
         call_effect(r.friction[i, 0], w.ctypes.data, 0, 0, r.p.ctypes.data + 8 * r.friction[i, 1])
+    w[e.MU_S] = max(w[e.MU_S], w[e.MU_K])
+    if c[CURVE] == ELASTIC:
+        w[e.MU_K] = elastic_stick.slip_coefficient(speed, w[e.MU_S], w[e.MU_K], c[RESTICK], c[DECAY])
+    elif c[CURVE] == STRIBECK:
+        w[e.MU_K] = stribeck.slip_coefficient(speed, w[e.MU_S], w[e.MU_K], c[DECAY], c[FORM])
 
 
 @compiled
@@ -140,21 +144,12 @@ def slide(r, d, t, y, rates):
 
 
 @compiled
-def holding_limit(r):
-    """Return the coefficient up to which a stuck contact holds, after `rub` at no speed.
-
-    Where friction at the lowest sliding speed exceeds mu_s the contact cannot slide away, so it holds up to there.
-    """
-    return max(r.world[e.MU_S], r.world[e.MU_K])
-
-
-@compiled
 def stick(r, d, t, y, rates):
     """Find everything for a contact that rides on the belt; return (holding force, its limit) [N]."""
     ride(r, t, y, rates)
     needed = hold(r, t)
     rub(r, d, t, 1.0 if needed >= 0.0 else -1.0, 0.0, t - r.clock[SINCE], 0.0)
-    return needed, holding_limit(r) * r.world[e.NORMAL_FORCE]
+    return needed, r.world[e.MU_S] * r.world[e.NORMAL_FORCE]
 
 
 @compiled
@@ -168,7 +163,7 @@ def spring(r, d, t, y, rates):
     if w[e.NORMAL_FORCE] <= 0.0:
         return 0.0, z, 0.0
     stiffness, damping = spring_constants(r)
-    cap = holding_limit(r) * w[e.NORMAL_FORCE]
+    cap = w[e.MU_S] * w[e.NORMAL_FORCE]
     limit = cap / stiffness
     force = stiffness * min(max(z, -limit), limit) + damping * v
     return min(max(force, -cap), cap), z, limit
