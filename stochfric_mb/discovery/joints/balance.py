@@ -138,6 +138,7 @@ def sheet_of(run: Run, scenario: Scenario, *, delay: float = 0.0, window: Window
         run=run.name,
         role=run.role,
         place="",
+        unit="N m" if joint.rotational else "N",
         window=window,
         time=run.time,
         position=position,

@@ -174,8 +174,8 @@ def adjusted(model: JointModel, knobs: Sequence[Knob], values: Array) -> JointMo
             law[knob.name] = value
         else:
             changes[knob.owner][knob.name] = value
-    # a law wants mu_s >= mu_k; while a joint slides mu_s plays no part, and a lag may rise as well as fall
-    law["mu_s"] = max(law.get("mu_s", model.law.mu_s), law["mu_k"])
+    # while a joint slides mu_s plays no part: it keeps its ratio to mu_k
+    law["mu_s"] = max(law.get("mu_s", law["mu_k"] * model.law.mu_s / model.law.mu_k), law["mu_k"])
     effects = tuple(dataclasses.replace(e, **c) if c else e for e, c in zip(model.effects, changes, strict=True))
     return dataclasses.replace(model, law=dataclasses.replace(model.law, **law), effects=effects, nuisances=nuisances)
 

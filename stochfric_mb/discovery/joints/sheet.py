@@ -45,6 +45,8 @@ class Sheet:
     """``fit`` or ``test``."""
     place: str
     """Joint or tendon; empty where there is one only."""
+    unit: str
+    """Unit of forces: N, or N m."""
     window: Window
     """The window and its centres."""
     time: Array

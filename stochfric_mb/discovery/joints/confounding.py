@@ -1,0 +1,84 @@
+"""Confounding: conditions that went together in an experiment, so that no analysis can say which of them mattered."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.joints.sheet import Sheet
+
+Array = npt.NDArray[np.float64]
+
+TOGETHER = 0.8
+"""Part of one condition's variance that another explains, from which they are called confounded [-]."""
+PARTLY = 0.5
+"""The same, from which they are called partly confounded."""
+EFFECTS = {
+    "direction": ("direction_asymmetry",),
+    "speed": ("viscous_friction", "velocity_weakening", "quadratic_damping"),
+    "load": ("load_dependence",),
+    "position": ("position_dependent_friction", "nonlinear_stiffness"),
+    "time": ("friction_drift",),
+    "temperature": ("friction_drift",),
+}
+"""Condition -> effects that answer to it."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Confounded:
+    """Two conditions that went together."""
+
+    first: str
+    """One of them."""
+    second: str
+    """The other."""
+    explained: float
+    """Part of the variance of one that the other explains [-]."""
+
+    def __str__(self) -> str:
+        """Return the finding as a sentence."""
+        word = "are" if self.explained >= TOGETHER else "are partly"
+        return (
+            f"{self.first} and {self.second} {word} confounded here: one explains {100 * self.explained:.0f} % of the other's "
+            "variance"
+        )
+
+
+def confounded(sheets: Sequence[Sheet]) -> list[Confounded]:
+    """Return the pairs of conditions that went together over the sliding windows of ``sheets``, the worst first."""
+    names = list(dict.fromkeys(name for s in sheets for name in s.factors))
+    whole = [n for n in names if all(n in s.factors for s in sheets)]
+    values = {n: np.concatenate([s.factors[n][s.sliding] for s in sheets]) for n in whole}
+    varying = {n: v for n, v in values.items() if np.ptp(v) > 1.0e-9 * max(float(np.max(np.abs(v))), 1.0e-300)}
+    found: list[Confounded] = []
+    for i, first in enumerate(varying):
+        for second in list(varying)[i + 1 :]:
+            share = max(_explained(varying[first], varying[second]), _explained(varying[second], varying[first]))
+            if share >= PARTLY:
+                found.append(Confounded(first, second, share))
+    return sorted(found, key=lambda c: -c.explained)
+
+
+def _explained(cause: Array, result: Array) -> float:
+    """Return the part of the variance of ``result`` that is between the levels of ``cause``, at most eight of them."""
+    levels = np.unique(cause)
+    if len(levels) > 8:
+        return float(np.corrcoef(cause, result)[0, 1] ** 2)
+    between = sum(np.mean(cause == x) * (result[cause == x].mean() - result.mean()) ** 2 for x in levels)
+    return (
+        float(between / result.var()) if len(levels) < len(np.unique(result)) else float(len(np.unique(result)) <= len(levels))
+    )
+
+
+def stand_ins(kind: str, pairs: Sequence[Confounded]) -> tuple[str, ...]:
+    """Return the effects that could pass for ``kind`` because its condition went together with theirs."""
+    own = [c for c, kinds in EFFECTS.items() if kind in kinds]
+    others = [
+        p.second if p.first in own else p.first
+        for p in pairs
+        if p.explained >= TOGETHER and own and {p.first, p.second} & set(own)
+    ]
+    return tuple(dict.fromkeys(k for o in others for k in EFFECTS.get(o, ()) if k != kind))

@@ -1,0 +1,152 @@
+"""Discovery at driven joints: timing, then friction effects one by one, then the score on held-out runs."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from stochfric_mb.discovery.joints.balance import nuisances_of, sheet_of
+from stochfric_mb.discovery.joints.fitting import JointModel
+from stochfric_mb.discovery.joints.outcome import JointOutcome, PlaceOutcome
+from stochfric_mb.discovery.joints.scores import loop_floor, noise_floor, score
+from stochfric_mb.discovery.joints.selection import Selected, Selector
+from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
+from stochfric_mb.discovery.joints.timing import Timing, timing
+from stochfric_mb.discovery.joints.verdict import verdict
+from stochfric_mb.discovery.result import Result
+from stochfric_mb.effects import make_effect
+from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.dataset import Dataset
+from stochfric_mb.measurement.signs import SEGMENTS, probable_sign_error
+from stochfric_mb.mechanisms import HingePendulum, Mjcf, PrismaticJoint, SpringSlider
+from stochfric_mb.scenario import Scenario
+
+Progress = Callable[[str], None]
+
+
+def discover_joint(dataset: Dataset, *, progress: Progress | None = None) -> Result:
+    """Return what the data of a driven joint say that its model lacks; see `joint_outcome`."""
+    return joint_outcome(dataset, progress=progress).result
+
+
+def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> JointOutcome:
+    """Return the result of a dataset together with what reports and exports need.
+
+    Args:
+        dataset: runs of a prismatic joint, hinge pendulum, spring slider or MJCF model, some of them held out.
+        progress: called with what is being done, now and then.
+
+    Raises:
+        InputError: another mechanism, or a channel is missing.
+    """
+    tell = progress or (lambda _: None)
+    mechanism: Any = dataset.scenario.mechanism
+    if isinstance(mechanism, SpringSlider):
+        from stochfric_mb.discovery.joints.spring_slider import spring_slider_outcome
+
+        return spring_slider_outcome(dataset, tell)
+    if isinstance(mechanism, Mjcf):
+        from stochfric_mb.discovery.joints.mjcf import mjcf_sheets
+
+        return _outcome(dataset, tell, mjcf_sheets(dataset))
+    if isinstance(mechanism, PrismaticJoint | HingePendulum):
+        return _outcome(dataset, tell, _Plain(dataset))
+    raise InputError(
+        f"mechanism {mechanism.kind!r} is no driven joint; use prismatic_joint, hinge_pendulum, spring_slider or mjcf"
+    )
+
+
+@dataclasses.dataclass(frozen=True)
+class _Plain:
+    """Sheets of the mechanisms that are one joint."""
+
+    dataset: Dataset
+
+    @property
+    def places(self) -> list[tuple[str, float]]:
+        return [("", float(self.dataset.scenario.mechanism.normal_force))]
+
+    def nuisances(self, place: str) -> list[Nuisance]:
+        return nuisances_of(self.dataset.scenario, self.dataset.scenario.mechanism)
+
+    def sheets(self, place: str, role: str, delay: float) -> list[Sheet]:
+        runs = self.dataset.fit if role == "fit" else self.dataset.test
+        return [sheet_of(r, self.dataset.scenario, delay=delay) for r in runs]
+
+
+def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
+    tell("timing")
+    first = source.places[0][0]
+    found = timing(lambda d: source.sheets(first, "fit", d), source.nuisances(first), dataset.fit[0].sample_interval)
+    delay = found.seconds if found.named else 0.0
+    notes: list[str] = []
+    places = [_place(dataset, tell, source, name, load, delay, notes) for name, load in source.places]
+    places.sort(key=lambda p: -sum(t.score for t in p.selected.found))
+    notes += [f"run {r.name}: {note}" for r in dataset.runs for note in r.notes]
+    floor = loop_floor(dataset.test) if dataset.scenario.controller is not None else None
+    result = verdict(dataset, places, found, notes, floor)
+    return JointOutcome(result, augmented(dataset.scenario, places, found), tuple(places), found)
+
+
+def _place(
+    dataset: Dataset, tell: Progress, source: Any, name: str, load: float, delay: float, notes: list[str]
+) -> PlaceOutcome:
+    scenario = dataset.scenario
+    fit_sheets, test_sheets = source.sheets(name, "fit", delay), source.sheets(name, "test", delay)
+    notes += _sign_notes(fit_sheets)
+    nuisances = source.nuisances(name)
+    own = tuple(e for e in scenario.effects if e.group != "sensor")
+    believed = JointModel(scenario.law, own, {n.name: n.value for n in nuisances}, load)
+    where = f"{name}: " if name else ""
+    selected = Selector(fit_sheets, nuisances, believed, lambda text: tell(where + text)).run()
+    tell(f"{where}held-out runs")
+    scores = {
+        label: score(model, test_sheets, nuisances, dataset.test, scenario)
+        for label, model in _models(believed, selected).items()
+    }
+    floor = noise_floor(selected.final.model, test_sheets, nuisances)
+    return PlaceOutcome(name, selected, tuple(nuisances), believed, tuple(fit_sheets), tuple(test_sheets), scores, floor)
+
+
+def _models(believed: JointModel, selected: Selected) -> dict[str, JointModel]:
+    models = {"baseline": believed, "recalibrated": selected.recalibrated.model}
+    models |= {f"with {t.candidate.kind}": t.fit.model for t in selected.found}
+    return models | {"augmented": selected.final.model}
+
+
+def _sign_notes(sheets: Sequence[Sheet]) -> list[str]:
+    """Return a note for each run whose friction, as inverse dynamics has it, feeds the motion."""
+    notes: list[str] = []
+    for sheet in sheets:
+        resistance, velocity = sheet.driven[sheet.sliding], sheet.velocity[sheet.window.centres][sheet.sliding]
+        if len(resistance) < 2 * SEGMENTS:
+            continue
+        wrong = probable_sign_error(-(resistance - np.median(resistance)), velocity)
+        if wrong is not None:
+            notes.append(
+                f"run {sheet.run}: friction brings in energy ({100 * wrong.created:.0f} % of what it exchanges): the sign of "
+                "the driving force, or of the position, is probably wrong; give sign = { force = -1 }"
+            )
+    return notes
+
+
+def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], found: Timing | None) -> Scenario[Any]:
+    """Return the scenario with what was found; of several joints, the first one's law and effects."""
+    model = places[0].selected.final.model
+    fields = {f.name for f in dataclasses.fields(scenario.mechanism)}
+    corrections = {k: v for k, v in model.nuisances.items() if k in fields}
+    effects = list(model.effects)
+    if found is not None and found.named and found.seconds > 0.0:
+        effects.append(make_effect("sensor_delay", delay=found.seconds))
+    elif any(e.kind == "sensor_delay" for e in scenario.effects):
+        effects += [e for e in scenario.effects if e.kind == "sensor_delay"]
+    return dataclasses.replace(
+        scenario,
+        mechanism=dataclasses.replace(scenario.mechanism, **corrections),
+        law=model.law,
+        effects=tuple(effects),
+        title=f"{scenario.title}, augmented by discovery",
+    )

@@ -1,0 +1,50 @@
+"""What discovery at joints hands on to reports and exports, beside the result itself."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+from stochfric_mb.discovery.joints.fitting import JointModel
+from stochfric_mb.discovery.joints.scores import Score
+from stochfric_mb.discovery.joints.selection import Selected
+from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
+from stochfric_mb.discovery.joints.timing import Timing
+from stochfric_mb.discovery.result import Result
+from stochfric_mb.scenario import Scenario
+
+
+@dataclasses.dataclass(frozen=True)
+class PlaceOutcome:
+    """What was found at one joint."""
+
+    place: str
+    """Name of the joint; empty where there is one only."""
+    selected: Selected
+    """The selection, step by step."""
+    nuisances: tuple[Nuisance, ...]
+    """Numbers of the mechanism that were corrected."""
+    believed: JointModel
+    """The model as believed."""
+    fit: tuple[Sheet, ...]
+    """Runs that were learned from."""
+    test: tuple[Sheet, ...]
+    """Runs that were held out."""
+    scores: dict[str, Score]
+    """``baseline``, ``recalibrated``, ``augmented``, and ``with KIND`` after each effect -> errors on the held-out runs."""
+    floor: float
+    """Noise of the balance on the held-out runs [N or N m]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class JointOutcome:
+    """Everything about one dataset."""
+
+    result: Result
+    """The result, as ``result.json`` has it."""
+    scenario: Scenario[Any]
+    """The augmented model: corrections, effects and all."""
+    places: tuple[PlaceOutcome, ...]
+    """The joints, those with effects first."""
+    timing: Timing | None
+    """Delay between drive and motion; None where none could be looked for."""

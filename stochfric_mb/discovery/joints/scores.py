@@ -1,0 +1,102 @@
+"""How far a joint's model is from data: inverse dynamics, the closed loop simulated again, and the noise floors of both."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.joints.closed_loop import closed_loop
+from stochfric_mb.discovery.joints.fitting import JointModel
+from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
+from stochfric_mb.discovery.joints.windows import noise_level
+from stochfric_mb.measurement.run import Run
+from stochfric_mb.mechanisms import PrismaticJoint
+from stochfric_mb.scenario import Scenario
+
+Array = npt.NDArray[np.float64]
+
+APART = 4
+"""Centres between windows that share no samples that matter."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Score:
+    """Errors of one model on some runs."""
+
+    sliding: float
+    """Inverse dynamics, rms over the windows in which the joint slides one way [N or N m]."""
+    whole: float
+    """Inverse dynamics, rms over all windows, reversals and rest included [N or N m]."""
+    loop: float | None
+    """Voltage of the simulated closed loop against the measured one, relative rms [-]; None without a controller."""
+
+
+def score(
+    model: JointModel, sheets: Sequence[Sheet], nuisances: Sequence[Nuisance], runs: Sequence[Run], scenario: Scenario
+) -> Score:
+    """Return the errors of ``model`` on ``sheets``, which belong to ``runs``."""
+    rest = [model.remainder(s, nuisances) for s in sheets]
+    sliding = np.concatenate([r[s.sliding] for r, s in zip(rest, sheets, strict=True)])
+    return Score(_rms(sliding), _rms(np.concatenate(rest)), loop_error(model, runs, scenario))
+
+
+def loop_error(model: JointModel, runs: Sequence[Run], scenario: Scenario) -> float | None:
+    """Return the relative error of the simulated controller's voltage [-]; None where there is no controller."""
+    controller = scenario.controller
+    if controller is None:
+        return None
+    wrong = right = 0.0
+    for run in runs:
+        joint = run.mechanism(scenario)
+        if not isinstance(joint, PrismaticJoint):
+            return None
+        voltage, _ = closed_loop(run, joint, model, controller)
+        measured = run.channels["voltage"]
+        wrong += float(np.sum((voltage - measured) ** 2))
+        right += float(np.sum(measured**2))
+    return float(np.sqrt(wrong / right))
+
+
+def loop_floor(runs: Sequence[Run]) -> float:
+    """Return the noise of the measured voltage over its size [-], from third differences."""
+    noise = sum(noise_level(r.channels["voltage"]) ** 2 * len(r.time) for r in runs)
+    size = sum(float(np.sum(r.channels["voltage"] ** 2)) for r in runs)
+    return float(np.sqrt(noise / size))
+
+
+def noise_floor(model: JointModel, sheets: Sequence[Sheet], nuisances: Sequence[Nuisance]) -> float:
+    """Return the noise of the balance [N or N m]: second differences between windows that do not overlap.
+
+    What friction leaves changes slowly from one window to the next, noise does not (von Neumann 1941).
+    """
+    parts: list[Array] = []
+    for s in sheets:
+        r = model.remainder(s, nuisances)
+        inside = s.sliding[: -2 * APART] & s.sliding[APART:-APART] & s.sliding[2 * APART :]
+        parts.append(((r[: -2 * APART] - 2.0 * r[APART:-APART] + r[2 * APART :]) / np.sqrt(6.0))[inside])
+    return _rms(np.concatenate(parts))
+
+
+def stroke_scatter(
+    model: JointModel, sheets: Sequence[Sheet], nuisances: Sequence[Nuisance], noise: float
+) -> tuple[float, int]:
+    """Return by how much friction differs from stroke to stroke beyond noise [N or N m], and the number of strokes."""
+    means: list[float] = []
+    variances: list[float] = []
+    for s in sheets:
+        rest = model.remainder(s, nuisances) * np.sign(s.velocity[s.window.centres])
+        edges = np.flatnonzero(np.diff(np.r_[0, s.sliding.astype(np.int8), 0]))
+        for start, end in zip(edges[::2], edges[1::2], strict=True):
+            if end - start >= 2 * APART:
+                means.append(float(rest[start:end].mean()))
+                variances.append(noise**2 * APART / (end - start))
+    if len(means) < 4:
+        return 0.0, len(means)
+    return float(np.sqrt(max(np.var(means, ddof=1) - np.mean(variances), 0.0))), len(means)
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(values**2))) if len(values) else float("nan")

@@ -1,0 +1,209 @@
+"""From what was selected at each joint to the result: names, numbers with intervals, gap, what cannot be told."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from stochfric_mb.discovery.joints.confounding import Confounded, confounded, stand_ins
+from stochfric_mb.discovery.joints.fitting import JointFit
+from stochfric_mb.discovery.joints.outcome import PlaceOutcome
+from stochfric_mb.discovery.joints.scores import stroke_scatter
+from stochfric_mb.discovery.joints.timing import Timing
+from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
+from stochfric_mb.effects import effect_kinds
+from stochfric_mb.effects.contract import Effect
+from stochfric_mb.measurement.dataset import Dataset
+
+NO_BELT = ("belt_speed_ripple",)
+"""Effects of a mechanism that a joint does not have."""
+NOT_SOUGHT = (
+    "dwell_ageing", "presliding_compliance", "backlash", "second_mode", "impacts", "harmonic_force", "normal_load_ripple",
+    "random_coefficients", "correlated_coefficients", "sensor_drift", "sensor_step", "sensor_clipping", "sensor_outliers",
+)  # fmt: skip
+"""Effects that windows of steady sliding cannot show: they live at rest, at reversals, or in what is averaged away."""
+
+
+def verdict(
+    dataset: Dataset, places: Sequence[PlaceOutcome], timing: Timing | None, notes: Sequence[str], loop_floor: float | None
+) -> Result:
+    """Return the result of a dataset."""
+    pairs = confounded(places[0].fit)
+    effects = [_delay(timing)] if timing is not None and timing.named else []
+    for place in places:
+        effects += _found(place, pairs)
+    unknown = next((p for p in places if p.selected.unknown and not effects), None)
+    kind = "effect" if effects else "unknown" if unknown is not None else "none"
+    where = None
+    if unknown is not None:
+XX
+    return Result(
+        verdict=kind,
+        effects=tuple(effects),
+        where=where,
+        ranking=_ranking(places, timing),
+        gap=_gap(places, loop_floor),
+        not_identifiable=_unseen(places),
+        next_experiment=_advice(pairs, places),
+        believed={f"{p.place}.{k}" if p.place else k: v for p in places for k, v in _believed(p).items()},
+        notes=(*_timing_notes(timing), *map(str, pairs), *notes, *_remarks(places)),
+        details=_details(places, timing, pairs),
+    )
+
+
+def _delay(timing: Timing) -> Found:
+    size = Interval(abs(timing.seconds), min(abs(timing.low), abs(timing.high)), max(abs(timing.low), abs(timing.high)), "s")
+    first = "position" if timing.seconds > 0.0 else "driving force"
+    text = f"The {first} comes {1e3 * size.value:.1f} ms late in the record; this is compensated before friction is judged."
+    chance = float(np.exp(-0.5 * max(timing.score, 0.0)))
+    return Found("sensor_delay", (), Where("time", text), {"delay": size}, timing.score, chance)
+
+
+def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
+    fit = place.selected.final
+    first = len(place.believed.effects)
+    found: list[Found] = []
+    for i, (trial, same) in enumerate(zip(place.selected.found, place.selected.equivalents, strict=True)):
+        effect = fit.model.effects[first + i]
+        others = tuple(dict.fromkeys([*same, *stand_ins(effect.kind, pairs)]))
+        axis = trial.candidate.where
+        text = (
+            f"Friction depends on {axis}{_at(place)}: the error falls from {_rms_before(place, i):.4g} to {trial.fit.rms:.4g} "
+            f"{place.fit[0].unit} on the runs that were learned from."
+        )
+        numbers = _parameters(fit, first + i, effect)
+        found.append(Found(effect.kind, others, Where(axis, text), numbers, trial.score, trial.p_value))
+    return found
+
+
+def _rms_before(place: PlaceOutcome, i: int) -> float:
+    return place.selected.stages[i].before.rms
+
+
+def _at(place: PlaceOutcome) -> str:
+    return f" in joint {place.place}" if place.place else ""
+
+
+def _parameters(fit: JointFit, owner: int, effect: Effect) -> dict[str, Interval]:
+    found: dict[str, Interval] = {}
+    for field in dataclasses.fields(effect):
+        value = getattr(effect, field.name)
+        if not isinstance(value, int | float) or not np.isfinite(value):
+            continue
+        deviation = fit.deviation(owner, field.name)
+        if deviation == 0.0:  # nothing in these data depends on it
+            continue
+        if np.isfinite(deviation):
+            found[field.name] = Interval(value, value - 1.96 * deviation, value + 1.96 * deviation, field.metadata["unit"])
+        elif not (field.name[-2:] in ("_2", "_3") and value == 0.0):
+            found[field.name] = Interval(value, value, value, field.metadata["unit"])
+    return found
+
+
+def _believed(place: PlaceOutcome) -> dict[str, Interval]:
+    fit = place.selected.final
+    found: dict[str, Interval] = {}
+    for knob, value in zip(fit.knobs, fit.values, strict=True):
+        if knob.owner < 0:
+            spread = 1.96 * fit.deviation(knob.owner, knob.name)
+            found[knob.name] = Interval(float(value), float(value - spread), float(value + spread), knob.unit)
+                float(value), float(value - 1.96 * deviation), float(value + 1.96 * deviation), knob.unit
+            )
+    return found
+
+
+def _ranking(places: Sequence[PlaceOutcome], timing: Timing | None) -> tuple[tuple[str, float], ...]:
+    best: dict[str, float] = {}
+    for place in places:
+        for stage in place.selected.stages:
+            for trial in stage.trials:
+                name = f"{trial.candidate.kind} ({place.place})" if len(places) > 1 else trial.candidate.kind
+                best[name] = max(best.get(name, -np.inf), trial.score)
+    if timing is not None:
+        best["sensor_delay"] = timing.score if timing.named else min(timing.score, 0.0)
+    return tuple(sorted(best.items(), key=lambda item: -item[1]))
+
+
+def _gap(places: Sequence[PlaceOutcome], loop_floor: float | None) -> Gap:
+    place = places[0]
+    before, middle, after = (place.scores[k] for k in ("baseline", "recalibrated", "augmented"))
+    if before.loop is not None and middle.loop is not None and after.loop is not None and loop_floor is not None:
+        return Gap(
+            "closed_loop_voltage", "-", True, before.loop, middle.loop, after.loop, loop_floor,
+            "high-frequency content of the measured voltage (third differences)",
+        )  # fmt: skip
+    return Gap(
+        "inverse_dynamics_sliding", place.fit[0].unit, True, before.sliding, middle.sliding, after.sliding, place.floor,
+        "differences between neighbouring windows that do not overlap",
+    )  # fmt: skip
+
+
+def _unseen(places: Sequence[PlaceOutcome]) -> tuple[str, ...]:
+    seen = {t.candidate.kind for p in places for s in p.selected.stages for t in s.trials}
+    seen |= {e.kind for p in places for e in p.believed.effects} | {"sensor_delay"}
+    return tuple(k for k in effect_kinds() if k not in seen and k not in NO_BELT)
+
+
+def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
+    worst = [p for p in pairs if "position" not in (p.first, p.second) and "time" not in (p.first, p.second)]
+    if worst:
+        first, second = worst[0].first, worst[0].second
+        return f"Vary {first} and {second} apart: repeat the experiment with the {second} that each {first} has not had yet."
+    same = [(t.candidate.kind, e) for p in places for t, e in zip(p.selected.found, p.selected.equivalents, strict=True) if e]
+    if same:
+        kind, others = same[0]
+        return f"To tell {kind} from {', '.join(others)}: more speeds, both directions at each, and a second load."
+    return "Rest before break-away, for what rest does to friction; slow reversals, for presliding; a second load."
+
+
+def _timing_notes(timing: Timing | None) -> list[str]:
+    if timing is None or timing.named or timing.gain < 0.03:
+        return []
+    return [
+        f"drive and motion are {1e3 * timing.seconds:.2g} ms apart, no more than sampling or a compliant drive "
+        "explains: not compensated"
+    ]
+
+
+def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
+    remarks: list[str] = []
+    for place in places:
+        scatter, strokes = stroke_scatter(place.selected.final.model, place.fit, place.nuisances, place.floor)
+        level = place.selected.final.model.law.mu_k * place.believed.load
+        if scatter > 0.0:
+            share = 100.0 * scatter / level
+            remarks.append(f"friction scatters by {share:.1f} % from stroke to stroke ({strokes} strokes){_at(place)}")
+        if place.selected.found and place.selected.unknown:
+            remarks.append(f"what remains depends on {place.selected.unknown}{_at(place)}; no known effect explains it")
+    return remarks
+
+
+def _details(places: Sequence[PlaceOutcome], timing: Timing | None, pairs: Sequence[Confounded]) -> dict[str, Any]:
+    return {
+        "timing": dataclasses.asdict(timing) if timing is not None else None,
+        "confounded": [dataclasses.asdict(p) for p in pairs],
+        "places": [
+            {
+                "place": p.place,
+                "held_out": {k: dataclasses.asdict(v) for k, v in p.scores.items()},
+                "floor": p.floor,
+                "half_width": [s.window.half_width for s in p.fit],
+                "independent_windows": p.selected.final.independent,
+                "stages": [
+                    {
+                        "before": s.before.rms,
+                        "trials": [[t.candidate.kind, t.score, t.fit.rms] for t in s.trials],
+                        "competitors": [list(c) for c in s.competitors],
+                        "gain_on_blocks_left_out": s.gain,
+                        "blocks_better": s.better,
+                        "accepted": s.accepted,
+                    }
+                    for s in p.selected.stages
+                ],
+            }
+            for p in places
+        ],
+    }
