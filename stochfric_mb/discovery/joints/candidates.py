@@ -125,13 +125,8 @@ def _drift(span: Span, load: float) -> Candidate:
     return Candidate("friction_drift", (make_effect("friction_drift", rate=0.01 / span.duration),), "time", 1)
 
 
-def _cubic(span: Span, load: float) -> Candidate:
-    size = 0.1 * span.friction / span.stroke**3
-    return Candidate("nonlinear_stiffness", (make_effect("nonlinear_stiffness", cubic=size),), "position", 1)
-
-
 _STARTS: tuple[Callable[[Span, float], Candidate | None], ...] = (
-    _viscous, _weakening, _quadratic, _load, _asymmetry, _position, _lag, _drift, _cubic,
+    _viscous, _weakening, _quadratic, _load, _asymmetry, _position, _lag, _drift,
 )  # fmt: skip
 
 

@@ -51,15 +51,31 @@ def confounded(sheets: Sequence[Sheet]) -> list[Confounded]:
     """Return the pairs of conditions that went together over the sliding windows of ``sheets``, the worst first."""
     names = list(dict.fromkeys(name for s in sheets for name in s.factors))
     whole = [n for n in names if all(n in s.factors for s in sheets)]
-    values = {n: np.concatenate([s.factors[n][s.sliding] for s in sheets]) for n in whole}
-    varying = {n: v for n, v in values.items() if np.ptp(v) > 1.0e-9 * max(float(np.max(np.abs(v))), 1.0e-300)}
+    runs = [{n: s.factors[n][s.sliding] for n in whole} for s in sheets if s.sliding.any()]
     found: list[Confounded] = []
-    for i, first in enumerate(varying):
-        for second in list(varying)[i + 1 :]:
-            share = max(_explained(varying[first], varying[second]), _explained(varying[second], varying[first]))
+    for i, first in enumerate(whole):
+        for second in whole[i + 1 :]:
+            share = _together([(r[first], r[second]) for r in runs])
             if share >= PARTLY:
                 found.append(Confounded(first, second, share))
     return sorted(found, key=lambda c: -c.explained)
+
+
+def _together(runs: Sequence[tuple[Array, Array]]) -> float:
+    """Return how far two conditions went together: over all runs, or within each run (then the mean over runs)."""
+    whole = tuple(np.concatenate([r[k] for r in runs]) for k in (0, 1))
+    within = [_share(*r) for r in runs]
+    return max(_share(*whole), float(np.mean(within)))
+
+
+def _share(first: Array, second: Array) -> float:
+    if min(_spread(first), _spread(second)) < 1.0e-9:
+        return 0.0
+    return max(_explained(first, second), _explained(second, first))
+
+
+def _spread(values: Array) -> float:
+    return float(np.ptp(values) / max(float(np.max(np.abs(values))), 1.0e-300))
 
 
 def _explained(cause: Array, result: Array) -> float:

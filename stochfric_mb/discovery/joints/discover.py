@@ -78,14 +78,16 @@ class _Plain:
 
 
 def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
-    tell("timing")
-    first = source.places[0][0]
-    found = timing(lambda d: source.sheets(first, "fit", d), source.nuisances(first), dataset.fit[0].sample_interval)
-    delay = found.seconds if found.named else 0.0
+    found: Timing | None = None
+    if not isinstance(dataset.scenario.mechanism, PrismaticJoint) or dataset.scenario.mechanism.mass > 0.0:
+        tell("timing")  # a slow prescribed motion has no inertia by which it could be late
+        first = source.places[0][0]
+        found = timing(lambda d: source.sheets(first, "fit", d), source.nuisances(first), dataset.fit[0].sample_interval)
+    delay = found.seconds if found is not None and found.named else 0.0
     notes: list[str] = []
     places = [_place(dataset, tell, source, name, load, delay, notes) for name, load in source.places]
     places.sort(key=lambda p: -sum(t.score for t in p.selected.found))
-    notes += [f"run {r.name}: {note}" for r in dataset.runs for note in r.notes]
+    notes += _run_notes(dataset)
     floor = loop_floor(dataset.test) if dataset.scenario.controller is not None else None
     result = verdict(dataset, places, found, notes, floor)
     return JointOutcome(result, augmented(dataset.scenario, places, found), tuple(places), found)
@@ -131,6 +133,17 @@ def _sign_notes(sheets: Sequence[Sheet]) -> list[str]:
                 "the driving force, or of the position, is probably wrong; give sign = { force = -1 }"
             )
     return notes
+
+
+def _run_notes(dataset: Dataset) -> list[str]:
+    """Return what the reader of results should know about the runs; what several runs share is said once."""
+    groups: dict[str, list[str]] = {}
+    for run in dataset.runs:
+        for note in run.notes:
+            groups.setdefault(note.partition(" (")[0], []).append(f"{run.name}: {note}")
+    return [
+        notes[0] if len(notes) == 1 else f"{len(notes)} runs: {kind} (such as {notes[0]})" for kind, notes in groups.items()
+    ]
 
 
 def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], found: Timing | None) -> Scenario[Any]:

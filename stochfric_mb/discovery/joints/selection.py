@@ -17,7 +17,7 @@ Array = npt.NDArray[np.float64]
 
 NAMED = 20.0
 """Score above which an effect is named."""
-MATERIAL = 0.02
+MATERIAL = 0.03
 """Least share of the error on left-out blocks that an effect must take away: less is real, perhaps, but no explanation."""
 BLOCKS = 8
 """Blocks of the record that are left out in turn."""

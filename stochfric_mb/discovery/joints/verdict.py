@@ -39,7 +39,8 @@ def verdict(
     kind = "effect" if effects else "unknown" if unknown is not None else "none"
     where = None
     if unknown is not None:
-XX
+        axis = unknown.selected.unknown
+        where = Where(axis, f"What is missing depends on {axis}{_at(unknown)}; no known effect explains it.")
     return Result(
         verdict=kind,
         effects=tuple(effects),
@@ -110,8 +111,6 @@ def _believed(place: PlaceOutcome) -> dict[str, Interval]:
         if knob.owner < 0:
             spread = 1.96 * fit.deviation(knob.owner, knob.name)
             found[knob.name] = Interval(float(value), float(value - spread), float(value + spread), knob.unit)
-                float(value), float(value - 1.96 * deviation), float(value + 1.96 * deviation), knob.unit
-            )
     return found
 
 
