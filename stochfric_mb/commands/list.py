@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import click
 
@@ -52,7 +53,36 @@ def _processes() -> None:
 
 
 def _effects() -> None:
-    click.echo("No effects: this version knows none, and scenarios cannot have [[effects]] yet.")
+    import dataclasses
+
+    from stochfric_mb.commands.tables import print_cards
+    from stochfric_mb.effects import GROUPS, effect_class, effect_kinds
+
+    classes = sorted(map(effect_class, effect_kinds()), key=lambda cls: GROUPS.index(cls.group))
+    cards = [
+        (
+            cls.kind,
+            [
+                ("group", cls.group),
+                ("equation", cls.equation),
+                ("parameters", ", ".join(_effect_parameter(f) for f in dataclasses.fields(cls))),
+                ("source", cls.source),
+            ],
+        )
+        for cls in classes
+    ]
+    print_cards(cards, title="Effects: what may be added to a model")
+
+
+def _effect_parameter(field: Any) -> str:
+    """Return the name of an effect's parameter with its unit, choices and default."""
+    import dataclasses
+
+    choices = field.metadata.get("choices")
+    text = f"{field.name} ({' or '.join(choices)})" if choices else f"{field.name} [{field.metadata['unit']}]"
+    if field.default is dataclasses.MISSING or choices:
+        return text
+    return f"{text} = {field.default:g}"
 
 
 def _engines() -> None:

@@ -326,7 +326,10 @@ def test_list_processes_and_engines_and_effects():
     assert all(kind in processes for kind in PROCESSES)
     shown = invoke("list", "engines").output
     assert all(name in shown for name in engines.ENGINES)
-    assert "No effects" in invoke("list", "effects").output
+    effects = invoke("list", "effects").output
+    assert "dwell_ageing" in effects
+    assert "rate [-], time_constant [s] = 0.1" in effects
+    assert "axis (belt or position)" in " ".join(effects.split())
     failing(invoke("list", "colours"), "laws")
 
 

@@ -1,0 +1,218 @@
+"""What effects must and must not do to the motion, on the fast simulator and on the law with effects."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stochfric_mb.contact import Contact
+from stochfric_mb.effects import EFFECTS, Effect, effect_class
+from stochfric_mb.effects.augmented_law import augmented_law
+from stochfric_mb.laws import make_law
+from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.reference.augmented import Motion, Start, augmented_system
+from tests.unit.effects.examples import NOTHING, example
+
+BOX = BeltBox(mass=6.08, damping=0.768, stiffness=3956.0, normal_force=13.0, belt_velocity=2.5e-3)
+COULOMB = make_law("coulomb", mu_s=0.8, mu_k=0.46)
+MOVING = [k for k in EFFECTS if effect_class(k).group not in ("sensor", "randomness")]
+
+
+def _motion(*effects: Effect, box: BeltBox = BOX, count: int = 5000, start: Start | None = None) -> Motion:
+    return augmented_system(box, COULOMB, effects).march(start or Start(), 1.0e-3, count)
+
+
+def _break_aways(motion: Motion) -> np.ndarray:
+    times = motion.events[motion.events[:, 1] == 1.0, 0]
+    return times
+
+
+def _at(motion: Motion, times: np.ndarray, values: np.ndarray) -> np.ndarray:
+    return np.interp(times, motion.time, values)
+
+
+@pytest.mark.parametrize("kind", MOVING)
+def test_nothing_changes_nothing(kind: str) -> None:
+    plain = _motion()
+    same = _motion(example(kind, **NOTHING[kind]))
+    # steps differ where an effect brings in a time scale, so the two agree to the simulator's own error, 0.02 um
+    assert np.abs(same.position - plain.position).max() < 2.0e-8
+
+
+@pytest.mark.parametrize("kind", [k for k in MOVING if k not in ("direction_asymmetry",)])
+def test_something_changes_the_motion(kind: str) -> None:
+    assert np.abs(_motion(example(kind)).position - _motion().position).max() > 1.0e-6
+
+
+def _last_onset(*effects: Effect, box: BeltBox = BOX) -> float:
+    """Return the position at the last break-away [m]."""
+    motion = _motion(*effects, box=box)
+    return float(_at(motion, _break_aways(motion), motion.position)[-1])
+
+
+def test_documented_senses() -> None:
+    plain = _last_onset()
+    assert _last_onset(example("dwell_ageing")) > plain  # stronger after a stick
+    assert _last_onset(example("load_dependence")) < plain  # 13 N is above the reference load, exponent negative
+    assert _last_onset(example("nonlinear_stiffness")) < plain  # a stiffer spring gives the same force earlier
+    assert _last_onset(example("backlash")) > plain  # the gap adds to the stretch
+    assert _last_onset(example("friction_drift")) > plain
+    assert _last_onset(example("direction_asymmetry")) == plain  # the belt runs forwards
+    backwards = dataclasses.replace(BOX, belt_velocity=-2.5e-3)
+    assert _last_onset(example("direction_asymmetry"), box=backwards) < -plain  # 10 % more, negative
+
+
+def _travel_of_slips(*effects: Effect) -> float:
+    """Return the mean distance on which the box slides back [m]."""
+    motion = _motion(*effects)
+    x = motion.position
+    return float(
+        np.median([x[i - 400 : i].max() - x[i : i + 200].min() for i in (motion.events[3::2, 0] * 1.0e3).astype(int)[1:]])
+    )
+
+
+def test_friction_while_sliding_shortens_the_slip() -> None:
+    plain = _travel_of_slips()
+    for kind in ("viscous_friction", "velocity_weakening", "frictional_lag", "quadratic_damping"):
+        assert _travel_of_slips(example(kind)) < plain, kind
+
+
+def test_ripple_of_the_belt_shows_in_stick() -> None:
+    motion = _motion(example("belt_speed_ripple"))
+    stuck = motion.stick == 1.0
+    v_b = 2.5e-3 * (1.0 + 0.03 * np.cos(2.0 * math.pi * 5.0 * motion.time + 1.0))
+    np.testing.assert_allclose(motion.velocity[stuck], v_b[stuck], rtol=1.0e-12)
+
+
+def test_ripple_of_the_load_shows_in_the_normal_force() -> None:
+    motion = _motion(example("normal_load_ripple"))
+    expected = 13.0 * (1.0 + 0.03 * np.cos(2.0 * math.pi * 5.0 * motion.time + 1.0))
+    np.testing.assert_allclose(motion.normal_force, expected, rtol=1.0e-12)
+
+
+def test_second_mode_rings_at_its_frequency_when_nothing_else_moves() -> None:
+    """A box held by friction on a belt at rest; the oscillator's memory starts displaced, its damping is as stated."""
+    box = dataclasses.replace(BOX, belt_velocity=0.0)
+    system = augmented_system(box, COULOMB, [example("second_mode", damping_ratio=0.05)])
+    start = Start(stick=True, memory=(1.0e-4, 0.0))
+    motion = system.march(start, 1.0e-4, 5000)
+    assert np.all(motion.stick == 1.0)
+    w, zeta = 2.0 * math.pi * 20.0, 0.05
+    wd = w * math.sqrt(1.0 - zeta**2)
+    q = 1.0e-4 * np.exp(-zeta * w * motion.time) * (np.cos(wd * motion.time) + zeta * w / wd * np.sin(wd * motion.time))
+    dq = np.gradient(q, motion.time)
+    held = -0.05 * 6.08 * (w * w * q + 2.0 * zeta * w * dq)  # friction holds the box against the oscillator
+    # central differences: (w dt)^2/6 of a small part of the force
+    assert np.abs(motion.friction_force - held)[1:-1].max() < 1.0e-5 * np.abs(held).max()
+
+
+DISSIPATIVE = [
+    "viscous_friction", "velocity_weakening", "dwell_ageing", "frictional_lag", "direction_asymmetry", "load_dependence",
+    "presliding_compliance", "position_dependent_friction", "friction_drift", "normal_load_ripple",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", DISSIPATIVE)
+@given(
+    speed=st.floats(1.0e-6, 1.0).flatmap(lambda v: st.sampled_from([v, -v])),
+    position=st.floats(-0.1, 0.1),
+    time=st.floats(0.0, 10.0),
+)
+@settings(max_examples=30, deadline=None)
+def test_friction_with_an_effect_never_drives(kind: str, speed: float, position: float, time: float) -> None:
+    """While sliding, the friction force is along v_rel: F v_rel > 0."""
+    system = augmented_system(BOX, COULOMB, [example(kind)])
+    start = Start(time=time, position=position, velocity=BOX.belt_velocity - speed)
+    force = system.at(start).friction_force[0]
+    assert force * speed > 0.0
+
+
+@pytest.mark.parametrize("kind", ["quadratic_damping", "backlash", "second_mode", "nonlinear_stiffness", "viscous_friction"])
+def test_free_motion_gains_no_energy(kind: str) -> None:
+    """On a belt at rest, next to no friction: spring and kinetic energy (with the oscillator's) never rises."""
+    box = dataclasses.replace(BOX, belt_velocity=0.0)
+    weak = make_law("coulomb", mu_s=1.0e-3, mu_k=1.0e-3)
+    effect = example(kind)
+    system = augmented_system(box, weak, [effect])
+    energies = []
+    state = Start(position=3.0e-3)
+    for _ in range(100):
+        motion = system.march(state, 1.0e-3, 10)
+        state = motion.end
+        energies.append(_energy(box, effect, state))
+    assert np.all(np.diff(energies) < 1.0e-9 * energies[0])
+
+
+def _energy(box: BeltBox, effect: Effect, state: Start) -> float:
+    x, v = state.position, state.velocity
+    energy = 0.5 * box.mass * v * v + 0.5 * box.stiffness * x * x
+    values = effect.to_dict()
+    if effect.kind == "nonlinear_stiffness":
+        energy += 0.25 * values["cubic"] * x**4
+    if effect.kind == "backlash":
+        over, gap = x - values["position"], values["gap"]
+        energy -= box.stiffness * (0.0 if over < 0.0 else 0.5 * over**2 if over < gap else gap * over - 0.5 * gap**2)
+    if effect.kind == "second_mode":
+        q, w = state.memory or (0.0, 0.0)
+        mass = values["mass_ratio"] * box.mass
+        energy += 0.5 * mass * w * w + 0.5 * mass * (2.0 * math.pi * values["frequency"]) ** 2 * (q - x) ** 2
+    return energy
+
+
+@pytest.mark.parametrize("kind", MOVING)
+def test_restart_goes_on_as_before(kind: str) -> None:
+    system = augmented_system(BOX, COULOMB, [example(kind)])
+    whole = system.march(Start(), 1.0e-3, 3000)
+    first = system.march(Start(), 1.0e-3, 1500)
+    second = system.march(first.end, 1.0e-3, 1500)
+    both = np.concatenate([first.position, second.position])
+    assert np.abs(both - whole.position).max() < 1.0e-7  # the steps differ after the restart
+
+
+def test_forecasts_are_marches() -> None:
+    system = augmented_system(BOX, COULOMB, [example("dwell_ageing"), example("friction_drift")])
+    motion = system.march(Start(), 1.0e-3, 4000)
+    states = [system.march(Start(), 1.0e-3, n).end for n in (1500, 2700)]
+    starts = [(s.time, s.position, s.velocity, float(s.stick), s.dwell) for s in states]
+    paths = system.forecasts(starts, 1.0e-3, 1000)
+    for path, n in zip(paths, (1500, 2700), strict=True):
+        np.testing.assert_allclose(path, motion.position[n : n + 1000], atol=1.0e-9)
+
+
+def test_with_parameters_is_a_new_system_of_those_numbers() -> None:
+    effects = [example("dwell_ageing"), example("random_coefficients")]
+    system = augmented_system(BOX, COULOMB, effects, seed=3)
+    changed = system.with_parameters(
+        {"mass": 6.2, "mu_s": 0.82, "mu_k": 0.45, "effects.0.rate": 0.03, "effects.1.sigma_k": 0.01, "stiffness": 4000.0}
+    )
+    effects = [example("dwell_ageing", rate=0.03), example("random_coefficients", sigma_k=0.01)]
+    box = dataclasses.replace(BOX, mass=6.2, stiffness=4000.0)
+    direct = augmented_system(box, make_law("coulomb", mu_s=0.82, mu_k=0.45), effects, seed=3)
+    paths = [s.march(Start(), 1.0e-3, 3000).position for s in (changed, direct)]
+    assert np.abs(paths[0] - paths[1]).max() < 2.0e-8  # step limits and tolerances are those of the first
+    before = system.march(Start(), 1.0e-3, 100).position
+    np.testing.assert_array_equal(
+        augmented_system(BOX, COULOMB, system.effects, seed=3).march(Start(), 1.0e-3, 100).position, before
+    )
+
+
+@pytest.mark.parametrize("inner", ["elastic_stick", "havsin"])
+def test_law_with_nothing_is_the_law_inside(inner: str) -> None:
+    law = make_law(inner, mu_s=0.8, mu_k=0.46)
+    nothing = [example(k, **NOTHING[k]) for k in MOVING if k not in ("frictional_lag", "presliding_compliance")]
+    with_nothing = augmented_law(law, BOX, nothing)
+    contacts = [Contact(each, effective_mass=6.08, dt=1.0e-3) for each in (law, with_nothing)]
+    for contact in contacts:
+        contact.start(0.0, 0.0, 2.5e-3, 13.0)
+    for i in range(1, 200):
+        t, u, v = i * 1.0e-3, 1.0e-5 * math.sin(0.1 * i), 1.0e-3 * math.cos(0.1 * i)
+        forces = [contact.force(t, u, v, 13.0) for contact in contacts]
+        # x and x' are found from u and v and back, which costs rounding on the stiff spring
+        assert forces[1] == pytest.approx(forces[0], abs=1.0e-8)
+        for contact in contacts:
+            contact.commit(t, u, v, 13.0)
