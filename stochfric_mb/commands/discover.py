@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import click
+
+from stochfric_mb.commands.options import command_line
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -13,7 +16,8 @@ if TYPE_CHECKING:
 
 EXAMPLE = """\b
 Example:
-  stochfric discover models/discovery_example --out discovery
+  python examples/discover_random_coefficients.py --out rig
+  stochfric discover rig --out discovery
 """
 MARKER = "result.json"
 """File that shows that a folder holds the result of a discovery."""
@@ -37,20 +41,65 @@ def discover(dataset: str, scenario: str | None, out: str, force: bool) -> None:
         outcome = library.discover(dataset, scenario=scenario, progress=shown.note)
         shown.note("drawing the report")
         with whole_folder(target) as folder:
-            write(outcome, folder)
-    _show(outcome)
-    click.echo(f"{target}")
+            content = write(outcome, folder, command_line())
+    _show(content)
+    click.echo(f"{target / 'report.html'}")
 
 
-def write(outcome: Outcome, folder: Path) -> None:
-    """Write result.json and augmented.toml of a discovery into an existing folder."""
+def write(outcome: Outcome, folder: Path, command: str) -> dict[str, Any]:
+    """Write result.json, augmented.toml, report.html and plots/ of a discovery into an existing folder.
+
+    Returns:
+        The content of ``result.json``.
+    """
+    import json
+
     import tomli_w
 
-    (folder / MARKER).write_text(outcome.result.to_json(), encoding="utf-8")
+    from stochfric_mb.commands.report_folder import write_report
+    from stochfric_mb.report.discovery import further, page
+    from stochfric_mb.report.discovery_evidence import gather
+    from stochfric_mb.report.discovery_facts import complete
+    from stochfric_mb.report.discovery_pictures import figures
+
+    evidence = gather(outcome)
+    content = json.loads(complete(outcome, evidence, command).to_json())
+    drawn = figures(content, evidence)
+    more = further(outcome)
+    plots = drawn | {f"{number}_{title.lower().replace(' ', '_')}": png for number, (title, _, png) in enumerate(more, 1)}
+    write_report(folder, numbers=MARKER, content=content, plots=plots, page=page(content, drawn, more))
     (folder / "augmented.toml").write_text(tomli_w.dumps(outcome.scenario.to_dict()), encoding="utf-8")
+    return content
 
 
-def _show(outcome: Outcome) -> None:
-    result = outcome.result
-    names = ", ".join(e.kind for e in result.effects)
-    click.echo(f"verdict: {result.verdict}" + (f" ({names})" if names else ""))
+def _show(content: Mapping[str, Any]) -> None:
+    from stochfric_mb.commands.tables import print_table
+
+    names = ", ".join(e["kind"] for e in content["effects"])
+    click.echo(f"Verdict: {content['verdict']}" + (f" ({names})" if names else ""))
+    if content["where"] is not None:
+        click.echo(content["where"]["text"])
+    rows = [
+        [effect["kind"], name, f"{p['value']:.4g}", _interval(p), p["unit"]]
+        for effect in content["effects"]
+        for name, p in effect["parameters"].items()
+        if p["value"] or p["low"] != p["high"]
+    ]
+    if rows:
+        print_table(("effect", "parameter", "value", "95 % interval", "unit"), rows)
+    for effect in content["effects"]:
+        if effect["equivalent_to"]:
+            click.echo(f"These data cannot tell {effect['kind']} from {', '.join(effect['equivalent_to'])}")
+    if (gap := content["gap"]) is not None:
+        stages = ("baseline", "recalibrated", "augmented", "floor")
+        rows = [[f"{gap[stage]:.3g}" if gap[stage] is not None else "-" for stage in stages]]
+        rows[0].append("-" if gap["closed"] is None else f"{100.0 * gap['closed']:.3g} %")
+        print_table(("as stated", *stages[1:], "closed"), rows, title=f"{gap['metric']} on held-out runs [{gap['unit']}]")
+    for note in content["notes"]:
+        click.echo(f"Note: {note}")
+    click.echo(f"Next experiment: {content['next_experiment']}")
+
+
+def _interval(parameter: Mapping[str, Any]) -> str:
+    low, high = parameter["low"], parameter["high"]
+    return f"{low:.4g} .. {high:.4g}" if low != high else "not fitted"

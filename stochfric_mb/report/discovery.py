@@ -1,0 +1,158 @@
+"""The page of a discovery: every number in it stands in ``result.json``, and is marked with the value it shows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from markupsafe import Markup
+
+from stochfric_mb.discovery.workflow import Outcome
+from stochfric_mb.report.discovery_pictures import COLOURS, given
+from stochfric_mb.report.page import digits, render
+
+CAPTIONS = {
+    "cycles": "Left: held-out cycles from the middle of a stick phase on, measured and forecast. Right: what the forecasts "
+    "miss; line: median, area: the middle of all cycles. Dotted: how far a random model expects to miss.",
+    "map": "Friction force measured less what the model says, one column a slip. Level stripes: wrong in every slip alike. "
+    "Upright stripes: slips differ. Pale: explained.",
+    "left_over": "The same slip by slip, against time and against the place on the belt: what has a pattern is missing from "
+    "the model.",
+    "friction": "Friction force in the slips of the first run against sliding velocity, as smooth as the slips allow; area: "
+    "the middle of all slips.",
+    "events": "Events in the held-out runs, measured and simulated; bar: the middle of all values, tick: median.",
+    "ranking": "How well each candidate explains what the recalibrated model leaves. Blue: named. Grey: other effects. Sand: "
+    "patterns that name no physics.",
+    "gap": "Forecast error on held-out runs.",
+}
+"""What each picture shows."""
+
+METRICS = {"crps_one_cycle": "error of forecasts one cycle ahead (CRPS; without scatter, the mean absolute error)"}
+"""Metric -> what it is, in words; other metrics are told by their names."""
+
+DISPLAYED = {"m": ((1.0e-3, 1.0e6, "µm"), (1.0, 1.0e3, "mm")), "m/s": ((1.0, 1.0e3, "mm/s"),), "-": ()}
+"""Unit -> (below this, multiplied by that, shown as)."""
+
+
+AFTERWARDS = 3
+"""Candidates shown of a search after the first."""
+
+Picture = tuple[str, str, bytes]
+"""Title, caption and PNG."""
+
+
+def further(outcome: Outcome) -> list[Picture]:
+    """Return the pictures that an outcome brings along as data, ``outcome.pictures``, if it does; see `given`."""
+    return [(title, caption, given(data)) for title, caption, data in getattr(outcome, "pictures", ())]
+
+
+def page(content: Mapping[str, Any], drawn: Mapping[str, bytes], pictures: Sequence[Picture] = ()) -> str:
+    """Return the report as one HTML text that needs no other file.
+
+    Args:
+        content: what ``result.json`` holds; all that the page tells comes from it.
+        drawn: pictures of a belt-box, from `discovery_pictures.figures`.
+        pictures: further pictures.
+    """
+    details = content["details"]
+    return render(
+        "discovery.html",
+        result=content,
+        details=details,
+        drawn=drawn,
+        captions=CAPTIONS,
+        further=pictures,
+        colours=COLOURS,
+        metrics=METRICS,
+        beliefs=_beliefs(content),
+        rounds=_rounds(details),
+        number=number,
+        interval=interval,
+        percent=percent,
+        said=said,
+        words=words,
+    )
+
+
+def number(value: float | None, unit: str = "-", n: int = 3) -> Markup:
+    """Return a number of ``result.json`` as the page shows it, with its exact value in the markup.
+
+    Args:
+        value: the number, in ``unit``.
+        unit: its unit; small lengths are shown in µm or mm.
+        n: significant digits.
+    """
+    return _numbers([value], unit, n)[0] + _unit(value, unit)
+
+
+def interval(value: Mapping[str, Any], n: int = 3) -> Markup:
+    """Return "value (low to high) unit" of an interval; one that was not fitted is shown without."""
+    if value["low"] == value["high"]:
+        return number(value["value"], value["unit"], n)
+    middle, low, high = _numbers([value["value"], value["low"], value["high"]], value["unit"], n)
+    return Markup("{} <small>({} to {})</small>{}").format(middle, low, high, _unit(value["value"], value["unit"]))
+
+
+def percent(value: float | None, n: int = 2) -> Markup:
+    """Return a share as a percentage, with its exact value in the markup."""
+    if value is None:
+        return Markup("–")
+    return Markup('<data value="{}">{}</data>&nbsp;%').format(repr(value), digits(100.0 * value, n))
+
+
+def said(text: str) -> Markup:
+    """Return a text of ``result.json``, marked as such: its numbers stand in it already."""
+    return Markup('<span class="said">{}</span>').format(text)
+
+
+def words(kind: str) -> str:
+    """Return the name of an effect as words."""
+    return kind.replace("_", " ")
+
+
+def _scale(value: float | None, unit: str) -> tuple[float, str]:
+    for below, factor, shown in DISPLAYED.get(unit, ()):
+        if value is not None and abs(value) < below:
+            return factor, shown
+    return 1.0, "" if unit == "-" else unit
+
+
+def _unit(value: float | None, unit: str) -> Markup:
+    shown = _scale(value, unit)[1]
+    return Markup('&nbsp;<span class="unit">{}</span>').format(shown) if shown and value is not None else Markup("")
+
+
+def _numbers(values: Sequence[float | None], unit: str, n: int) -> list[Markup]:
+    """Return numbers shown in the unit that suits the first."""
+    factor = _scale(values[0], unit)[0]
+    shown = [str(v) if isinstance(v, int) else digits(None if v is None else factor * v, n) for v in values]
+    return [
+        Markup("–") if v is None else Markup('<data value="{}">{}</data>').format(repr(v), text)
+        for v, text in zip(values, shown, strict=True)
+    ]
+
+
+def _beliefs(content: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return the parameters of the believed model: as stated, how sure, and recalibrated where that was done."""
+    stated = content["details"]["stated"]
+    sure = stated.get("uncertainty", {})
+    rows: list[dict[str, Any]] = []
+    for name, fitted in content["believed"].items():
+        value = stated["law"].get(name, stated["mechanism"].get(name)) if isinstance(stated.get("law"), Mapping) else None
+        rows.append({"name": name, "stated": value, "sure": sure.get(name), "fitted": fitted})
+    return rows
+
+
+def _rounds(details: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return, for each round of the search, its best candidates with their misfit when simulated, if they were."""
+    found: list[dict[str, Any]] = []
+    number_ = 1
+    while f"round_{number_}" in details:
+        simulated = details.get(f"confirmation_{number_}", {})
+        rows = [
+            {"kind": kind, "score": score, "misfit": simulated[kind][0] if kind in simulated else None}
+            for kind, score in details[f"round_{number_}"].items()
+        ][: None if number_ == 1 else AFTERWARDS]
+        found.append({"rows": rows, "believed": simulated["believed"][0] if "believed" in simulated else None})
+        number_ += 1
+    return found

@@ -1,0 +1,163 @@
+"""What the pictures of a discovery show: forecasts of held-out cycles, forces that a model leaves, statistics of events."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import numpy.typing as npt
+from numpy.polynomial import legendre
+
+from stochfric_mb.discovery.forecast import MEMBERS, N_OUTPUTS, Windows, forecasts
+from stochfric_mb.discovery.gap import HeldOut, deterministic
+from stochfric_mb.discovery.innovations import left_over
+from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.pool import Pool
+from stochfric_mb.discovery.regression import Regression, believed
+from stochfric_mb.discovery.scatter import simulated_slips
+from stochfric_mb.discovery.slips import NODES, Slips
+from stochfric_mb.discovery.study import Study
+from stochfric_mb.discovery.workflow import Outcome
+
+Array = npt.NDArray[np.float64]
+
+BAND = 0.9
+"""Share of the values that a band or a bar holds [-]."""
+PLACES = np.linspace(-0.94, 0.94, 48)
+"""Where along a slip, from -1 to 1, the force that a model leaves is drawn: its polynomial is loose at the very ends."""
+EVENTS = {"period": "s", "break_away_force": "N", "slip_travel": "m"}
+"""Statistics of events and their units."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Cycles:
+    """Forecasts of the held-out cycles by one model; arrays have shape (n, N_OUTPUTS)."""
+
+    error: Array
+    """Measured position less the mean forecast [m]."""
+    spread: Array
+    """Members of the ensemble less their mean [m]; zeros for a model that is not random."""
+    runs: tuple[Array, ...]
+    """Mean forecasts run by run [m]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class LeftOver:
+    """The friction force of each slip less what a model says [N]; n slips."""
+
+    time: Array
+    """Break-away [s], shape (n,)."""
+    belt_position: Array
+    """Place on the belt under the box at break-away [m], shape (n,)."""
+    run: npt.NDArray[np.int64]
+    """Number of the run, shape (n,)."""
+    onset: Array
+    """At break-away, shape (n,)."""
+    mean: Array
+    """Mean over the slip, shape (n,)."""
+    along: Array
+    """Along the slip, shape (n, len(PLACES))."""
+    at_nodes: Array
+    """The same at the nodes at which the relative velocity is known, shape (n, N_NODES)."""
+    relative_velocity: Array
+    """Relative velocity there [m/s], shape (n, N_NODES)."""
+
+    @property
+    def rms(self) -> dict[str, float]:
+        """Root mean square of what is left at break-away, and of the mean over the slip [N]."""
+        return {"break_away": float(np.sqrt(np.mean(self.onset**2))), "slip": float(np.sqrt(np.mean(self.mean**2)))}
+
+
+@dataclasses.dataclass(frozen=True)
+class Evidence:
+    """All that is drawn of a belt-box."""
+
+    windows: tuple[Windows, ...]
+    """Held-out cycles, run by run."""
+    cycles: Mapping[str, Cycles]
+    """Name of a model -> its forecasts; empty without held-out cycles."""
+    before: LeftOver
+    """What the recalibrated model leaves in the runs that were fitted."""
+    after: LeftOver | None
+    """What the augmented model leaves; None where it differs by its scatter alone, or not at all."""
+    events: Mapping[str, Mapping[str, Array]]
+    """"data" or name of a model -> statistic -> values in the held-out runs."""
+    kinetic: float
+    """Mean friction force in slip of the recalibrated model, at the first operating point [N]."""
+
+
+def gather(outcome: Outcome) -> Evidence | None:
+    """Return what can be drawn of a discovery on a belt-box; None where its slips were too few, and on other mechanisms."""
+    if outcome.study is None or outcome.models is None or outcome.runs is None:
+        return None
+    believed_, recalibrated, augmented = outcome.models
+    models = {"believed": believed_, "recalibrated": recalibrated}
+    if outcome.result.verdict == "effect":
+        models["augmented"] = augmented
+    windows = tuple(w for w in outcome.runs.second if len(w))
+    calm = deterministic(augmented)
+    found = outcome.study
+    added = len(calm.effects) > len(found.model.effects)
+    return Evidence(
+        windows=windows,
+        cycles={name: _cycles(model, windows) for name, model in models.items()} if windows else {},
+        before=_left_over(found.pool, found),
+        after=_left_over(left_over(found.pool, calm), found) if added and outcome.result.verdict == "effect" else None,
+        events=_events(models, outcome.runs),
+        kinetic=float(found.solution.coefficients[1] * found.pool.normal_force[0]),
+    )
+
+
+def _cycles(model: Model, windows: Sequence[Windows]) -> Cycles:
+    errors: list[Array] = []
+    spreads: list[Array] = []
+    means: list[Array] = []
+    for window in windows:
+        samples = range(1, MEMBERS + 1) if model.random else range(1)
+        members = np.stack([forecasts(model, window, sample=s) for s in samples])
+        mean = members.mean(axis=0)
+        means.append(mean)
+        errors.append(window.targets - mean)
+        spreads.append((members - mean).reshape(-1, N_OUTPUTS))
+    return Cycles(np.concatenate(errors), np.concatenate(spreads), tuple(means))
+
+
+def _left_over(pool: Pool, found: Study) -> LeftOver:
+    """Return what remains of the features in ``pool`` once the believed model's parameters are fitted to them."""
+    regression = Regression(pool)
+    terms = believed(pool, dict(found.uncertainty))
+    rest = regression.residuals(terms, regression.fit(terms, found.solution.scatter))[pool.kept]
+    series = rest[:, 1:].T
+    return LeftOver(
+        time=pool.onset_time[pool.kept],
+        belt_position=(pool.belt_velocity * pool.onset_time - pool.typical_onset)[pool.kept],
+        run=pool.run[pool.kept],
+        onset=rest[:, 0],
+        mean=rest[:, 1],
+        along=np.asarray(legendre.legval(PLACES, series), dtype=np.float64),
+        at_nodes=np.asarray(legendre.legval(NODES, series), dtype=np.float64),
+        relative_velocity=pool.relative_velocity[pool.kept],
+    )
+
+
+def _events(models: Mapping[str, Model], runs: HeldOut) -> dict[str, dict[str, Array]]:
+    """Return the events of the held-out runs and of the same runs simulated with each model."""
+    seen = {"data": _statistics(runs.slips)}
+    for name, model in models.items():
+        seen[name] = _statistics([simulated_slips(model, s, sample=i) for i, s in enumerate(runs.slips)])
+    return seen
+
+
+def _statistics(slips: Sequence[Slips]) -> dict[str, Array]:
+    return {
+        "period": np.concatenate([np.diff(s.onset_time) for s in slips] or [np.zeros(0)]),
+        "break_away_force": np.concatenate([s.onset_force for s in slips] or [np.zeros(0)]),
+        "slip_travel": np.concatenate([s.onset_position - s.restick_position for s in slips] or [np.zeros(0)]),
+    }
+
+
+def band(values: Array, axis: int | None = None) -> tuple[Array, Array, Array]:
+    """Return median, lower and upper end of the middle `BAND` of ``values`` along ``axis``."""
+    low, middle, high = np.quantile(values, (0.5 - BAND / 2.0, 0.5, 0.5 + BAND / 2.0), axis=axis)
+    return middle, low, high

@@ -1,0 +1,249 @@
+"""The pictures of a discovery: cycles forecast, forces left over, events, ranking, gap; and pictures given as data."""
+
+# pyright: reportUnknownMemberType=false, reportUnknownVariableType=false
+# (matplotlib leaves keyword arguments untyped)
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
+
+from stochfric_mb.discovery.forecast import N_OUTPUTS, REACH
+from stochfric_mb.effects import effect_kinds
+from stochfric_mb.report.discovery_evidence import PLACES, Evidence, LeftOver, band
+from stochfric_mb.report.figures import legend, new_figure, png
+
+COLOURS = {
+    "data": "#1f2933", "believed": "#9aa5b1", "recalibrated": "#d55e00", "augmented": "#0072b2", "floor": "#009e73",
+}  # fmt: skip
+"""Colour of the data and of each model."""
+LABELS = {
+    "data": "measured", "believed": "model as stated", "recalibrated": "recalibrated", "augmented": "with the effects found",
+    "floor": "noise floor",
+}  # fmt: skip
+"""What they are called in a legend."""
+MOST_CYCLES = 60
+"""Measured cycles that are drawn over each other."""
+EVENT_LABELS = {"period": "cycle period [s]", "break_away_force": "force at break-away [N]", "slip_travel": "slip travel [mm]"}
+"""Axis of each statistic of events."""
+
+
+def figures(content: Mapping[str, Any], evidence: Evidence | None) -> dict[str, bytes]:
+    """Return the pictures of a discovery as PNG: name -> content.
+
+    Args:
+        content: what ``result.json`` holds.
+        evidence: what is drawn of a belt-box; None on other mechanisms.
+    """
+    wanted: dict[str, Callable[[], Figure]] = {}
+    if evidence is not None:
+        if evidence.cycles:
+            wanted["cycles"] = functools.partial(_cycles, evidence)
+        wanted["map"] = functools.partial(_map, evidence)
+        wanted["left_over"] = functools.partial(_left_over, evidence)
+        wanted["friction"] = functools.partial(_friction, evidence)
+        wanted["events"] = functools.partial(_events, evidence)
+    if content["ranking"]:
+        wanted["ranking"] = functools.partial(_ranking, content)
+    if content["gap"] is not None:
+        wanted["gap"] = functools.partial(_gap, content["gap"])
+    return {name: png(draw) for name, draw in wanted.items()}
+
+
+def given(data: Mapping[str, Any]) -> bytes:
+    """Return a picture that came as data, as PNG.
+
+    Args:
+        data: ``{"panels": [{"x": label, "y": label, "title": ..., "series": [{"name", "x", "y", "draw"}]}]}``, where
+            ``draw`` is "line" (if not given) or "points", and a series' name may be one of `COLOURS`.
+    """
+    return png(functools.partial(_given, data))
+
+
+def _given(data: Mapping[str, Any]) -> Figure:
+    panels = list(data["panels"])
+    figure, axes_list = new_figure(9.2 if len(panels) > 1 else 6.4, 3.4, columns=len(panels))
+    for axes, panel in zip(axes_list, panels, strict=True):
+        for series in panel["series"]:
+            style: dict[str, Any] = (
+                {"marker": ".", "linestyle": "none", "markersize": 2.5} if series.get("draw") == "points" else {}
+            )
+            if (name := series.get("name", "")) in COLOURS:
+                style["color"] = COLOURS[name]
+            axes.plot(series["x"], series["y"], label=LABELS.get(name, name), **style)
+        axes.set(xlabel=panel["x"], ylabel=panel["y"], title=panel.get("title", ""))
+    legend(figure, axes_list[0])
+    return figure
+
+
+def _models(evidence: Evidence) -> list[str]:
+    """Return the models that are compared in close-ups: the best without and with the effects."""
+    return [name for name in ("recalibrated", "augmented") if name in evidence.cycles]
+
+
+def _cycles(evidence: Evidence) -> Figure:
+    figure, (cycle, error) = new_figure(9.2, 3.7, columns=2)
+    run = int(np.argmax([len(w) for w in evidence.windows]))
+    window = evidence.windows[run]
+    chosen = np.unique(np.linspace(0, len(window) - 1, min(MOST_CYCLES, len(window))).round().astype(int))
+    time = window.stride / window.record.rate * np.arange(1, N_OUTPUTS + 1)
+    start = window.starts[:, 1:2]
+    for number, i in enumerate(chosen):
+        label = LABELS["data"] if number == 0 else None
+        cycle.plot(time, 1.0e3 * (window.targets - start)[i], color=COLOURS["data"], linewidth=0.6, alpha=0.35, label=label)
+    styles: dict[str, Any] = {"believed": "--", "recalibrated": "-", "augmented": (0.0, (4.0, 2.0))}
+    for name in ("believed", *_models(evidence)):
+        middle, low, high = band(1.0e3 * (evidence.cycles[name].runs[run] - start), axis=0)
+        cycle.plot(time, middle, color=COLOURS[name], linestyle=styles[name], linewidth=1.8, label=LABELS[name])
+        if name != "believed":
+            cycle.fill_between(time, low, high, color=COLOURS[name], alpha=0.18, linewidth=0.0)
+    cycle.set(title="one cycle ahead", xlabel="time since the forecast began [s]", ylabel="displacement [mm]")
+    share = REACH * np.arange(1, N_OUTPUTS + 1) / N_OUTPUTS
+    for name in _models(evidence):
+        middle, low, high = band(1.0e6 * evidence.cycles[name].error, axis=0)
+        error.fill_between(share, low, high, color=COLOURS[name], alpha=0.3, linewidth=0.0)
+        error.plot(share, middle, color=COLOURS[name], linewidth=1.6)
+        if evidence.cycles[name].spread.any():
+            _, low, high = band(1.0e6 * evidence.cycles[name].spread, axis=0)
+            for edge in (low, high):
+                error.plot(share, edge, color=COLOURS[name], linewidth=1.0, linestyle=":")
+    error.axhline(0.0, color=COLOURS["data"], linewidth=0.7)
+    error.set(title="measured less forecast", xlabel="time since the forecast began [cycles]", ylabel="error [µm]")
+    legend(figure, cycle)
+    return figure
+
+
+def _map(evidence: Evidence) -> Figure:
+    states = {"recalibrated": evidence.before} | ({"augmented": evidence.after} if evidence.after is not None else {})
+    limit = 1.0e3 * float(np.quantile(np.abs(evidence.before.along), 0.97))
+    figure, axes_list = new_figure(9.2, 3.4, columns=len(states))
+    for axes, (name, left) in zip(axes_list, states.items(), strict=True):
+        order = np.lexsort((left.time, left.run))
+        shown = 1.0e3 * left.along[order].T
+        mesh = axes.imshow(
+            shown, origin="lower", aspect="auto", cmap="RdBu_r", vmin=-limit, vmax=limit, interpolation="nearest",
+            extent=(0.5, len(left.time) + 0.5, 50.0 * (1.0 + PLACES[0]), 50.0 * (1.0 + PLACES[-1])),
+        )  # fmt: skip
+        for edge in np.flatnonzero(np.diff(left.run[order])) + 1.5:
+            axes.axvline(edge, color=COLOURS["data"], linewidth=0.8)
+        axes.grid(visible=False)
+        axes.set(title=LABELS[name], xlabel="slip number, runs side by side", ylabel="course of the slip [%]")
+        if axes is axes_list[-1]:
+            figure.colorbar(mesh, ax=axes_list, label="measured less model [mN]", shrink=0.9)
+    return figure
+
+
+def _left_over(evidence: Evidence) -> Figure:
+    figure = Figure(figsize=(9.2, 4.9), layout="constrained")
+    grid = figure.subplots(2, 2, sharex="col", sharey="row", squeeze=False)
+    states: list[tuple[str, LeftOver]] = [("recalibrated", evidence.before)]
+    if evidence.after is not None:
+        states.append(("augmented", evidence.after))
+    for name, left in states:
+        for row, values in enumerate((left.onset, left.mean)):
+            for axes, along in zip(grid[row], (left.time, 1.0e3 * left.belt_position), strict=True):
+                axes.plot(
+                    along, 1.0e3 * values, ".", color=COLOURS[name], markersize=4.5, markeredgewidth=0.0, label=LABELS[name]
+                )
+    grid[0, 0].set(ylabel="at break-away [mN]")
+    grid[1, 0].set(ylabel="mean over the slip [mN]", xlabel="time in the run [s]")
+    grid[1, 1].set(xlabel="position on the belt [mm]")
+    legend(figure, grid[0, 0])
+    return figure
+
+
+def _friction(evidence: Evidence) -> Figure:
+    """Draw friction in the slip against relative velocity: as measured, and as each model has it."""
+    figure, (axes,) = new_figure(4.8, 3.9)
+    left = evidence.before
+    mine = left.run == left.run[0]
+    speed = 1.0e3 * np.median(left.relative_velocity[mine], axis=0)
+    middle, low, high = band(evidence.kinetic + left.at_nodes[mine], axis=0)
+    # forces that turn on the box's motion differ on the way up and down in speed: both branches are drawn, joined at the top
+    axes.fill_between(speed[:16], low[:16], high[:16], color=COLOURS["data"], alpha=0.12, linewidth=0.0)
+    axes.fill_between(speed[16:], low[16:], high[16:], color=COLOURS["data"], alpha=0.12, linewidth=0.0)
+    axes.plot(speed, middle, "o-", color=COLOURS["data"], markersize=3.0, linewidth=0.8, label=LABELS["data"])
+    axes.axhline(evidence.kinetic, color=COLOURS["recalibrated"], linewidth=1.6, label=LABELS["recalibrated"])
+    if evidence.after is not None and len(evidence.after.run) == len(left.run):
+        model = middle - np.median(evidence.after.at_nodes[mine], axis=0)
+        axes.plot(speed, model, color=COLOURS["augmented"], linewidth=1.6, label=LABELS["augmented"])
+    axes.set(xlabel="relative velocity [mm/s]", ylabel="friction force in the slip [N]")
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    return figure
+
+
+def _events(evidence: Evidence) -> Figure:
+    figure, axes_list = new_figure(9.2, 2.9, columns=len(EVENT_LABELS))
+    names = [name for name in ("data", "recalibrated", "augmented") if name in evidence.events]
+    scatter = np.random.default_rng(0)
+    for axes, (statistic, label) in zip(axes_list, EVENT_LABELS.items(), strict=True):
+        for row, name in enumerate(reversed(names)):
+            values = evidence.events[name][statistic] * (1.0e3 if statistic == "slip_travel" else 1.0)
+            if not len(values):
+                continue
+            middle, low, high = band(values)
+            heights = row + scatter.uniform(-0.22, 0.22, len(values))
+            axes.plot(values, heights, ".", color=COLOURS[name], markersize=3.5, markeredgewidth=0.0, alpha=0.45)
+            axes.plot([low, high], [row, row], color=COLOURS[name], linewidth=3.0, solid_capstyle="butt")
+            axes.plot([middle] * 2, [row - 0.32, row + 0.32], color=COLOURS[name], linewidth=2.0)
+        first = axes is axes_list[0]
+        axes.set_yticks(range(len(names)), [LABELS[n].replace(" the ", "\nthe ") if first else "" for n in reversed(names)])
+        axes.set(xlabel=label, ylim=(-0.5, len(names) - 0.5))
+        axes.locator_params(axis="x", nbins=5)
+    return figure
+
+
+def _ranking(content: Mapping[str, Any]) -> Figure:
+    screened = {entry["kind"] for entry in content["ranking"]}
+    # what is found in the stick phases, in the sensor or in the scatter is not screened in the slips: it stands first
+    elsewhere = [{"kind": e["kind"], "score": e["evidence"]["score"]} for e in content["effects"] if e["kind"] not in screened]
+    ranking: list[dict[str, Any]] = (elsewhere + content["ranking"])[:12]
+    found = {e["kind"] for e in content["effects"]} | {k for e in content["effects"] for k in e["equivalent_to"]}
+    known = set(effect_kinds())
+    named = content["details"]["thresholds"]["named"]
+    figure, (axes,) = new_figure(4.8, 3.9)
+    for row, entry in enumerate(reversed(ranking)):
+        kind = entry["kind"]
+        colour = COLOURS["augmented"] if kind in found else COLOURS["believed"] if kind in known else "#e4c590"
+        axes.barh(row, max(entry["score"], 0.0), color=colour)
+    axes.set_yticks(range(len(ranking)), [str(e["kind"]).replace("_", " ") for e in reversed(ranking)], fontsize=8)
+    top = max(*(float(e["score"]) for e in ranking), 2.0 * named)
+    if top > 20.0 * named:
+        axes.set_xscale("symlog", linthresh=named, linscale=0.5)
+        axes.xaxis.set_minor_locator(NullLocator())
+    axes.set_xlim(0.0, 1.15 * top)
+    axes.axvline(named, color=COLOURS["data"], linewidth=1.0, linestyle="--")
+    axes.text(named, len(ranking) - 0.35, " named from here", fontsize=8, color="#52606d")
+    axes.set(xlabel="evidence [-]")
+    axes.grid(visible=False, axis="y")
+    return figure
+
+
+def _gap(gap: Mapping[str, Any]) -> Figure:
+    names = ["baseline", "recalibrated", "augmented"]
+    scale, unit = (1.0e6, "µm") if gap["unit"] == "m" else (1.0, gap["unit"])
+    figure, (axes,) = new_figure(4.8, 2.5)
+    colours = {"baseline": COLOURS["believed"]} | COLOURS
+    labels = {"baseline": LABELS["believed"]} | LABELS
+    values = [scale * float(gap[n] or np.nan) for n in names]
+    floor = scale * float(gap["floor"] or np.nan)
+    for row, (name, value) in enumerate(zip(reversed(names), reversed(values), strict=True)):
+        axes.barh(row, value, color=colours[name], height=0.6)
+        axes.text(value, row, f" {value:.3g}", va="center", fontsize=9)
+    finite = np.array([v for v in (*values, floor) if np.isfinite(v) and v > 0.0])
+    axes.set_xscale("log")
+    axes.set_xlim(0.5 * finite.min(), 3.0 * finite.max())
+    axes.axvline(floor, color=COLOURS["floor"], linewidth=1.6, linestyle="--", label=LABELS["floor"])
+    axes.set_yticks(range(3), [labels[n].replace(" the ", "\nthe ") for n in reversed(names)])
+    axes.set(xlabel=f"error of the forecast [{unit}]")
+    axes.grid(visible=False, axis="y")
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper right")
+    return figure
+
+
+__all__ = ["COLOURS", "LABELS", "figures", "given"]
