@@ -248,11 +248,12 @@ def _see(t, ux, vx, state, mu_s, mu_k, p, begins, w, memory):
     if stuck:
         drive = q[K] * q[FOOT] * math.cos(q[W] * t) if q[FOOT] != 0.0 else 0.0
         needed = q[C] * v + q[K] * x + q[M] * w[e.BELT_ACCELERATION] - drive - w[e.LOAD]
-        w[e.DIRECTION], w[e.SPEED], w[e.SLIP] = 1.0 if needed >= 0.0 else -1.0, 0.0, 0.0
-        w[e.DWELL] = t - state[SINCE] if not begins and state[DWELL] < 0.0 else 0.0
+        w[e.DIRECTION], w[e.SPEED] = 1.0 if needed >= 0.0 else -1.0, 0.0
     else:
         w[e.DIRECTION], w[e.SPEED] = 1.0 if speed >= 0.0 else -1.0, abs(speed)
-        w[e.DWELL], w[e.SLIP] = 0.0 if begins else max(state[DWELL], 0.0), 0.0 if begins else abs(u - state[BROKE_AT])
+    stuck_before = state[DWELL] < 0.0  # dwell and slip follow commits, so that the force has no jump within a step
+    w[e.DWELL] = 0.0 if begins else t - state[SINCE] if stuck_before else state[DWELL]
+    w[e.SLIP] = 0.0 if begins or stuck_before else abs(u - state[BROKE_AT])
     w[e.BELT_POSITION], w[e.MU_S], w[e.MU_K], w[e.VISCOUS_FORCE] = u, mu_s, mu_k, 0.0
     for i in range(int(q[N_AROUND]), int(q[N_AROUND] + q[N_FRICTION])):
         row = TABLE + 3 * i
