@@ -25,6 +25,8 @@ UNITS = {
 """Numbers of the mechanisms that may be corrected, and their units."""
 ABSOLUTE = ("offset",)
 """Numbers whose uncertainty is given in their own unit, since they may be believed to be 0."""
+POSITIVE = ("mass", "inertia", "damping", "piston_area")
+"""Numbers that cannot be negative."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -90,7 +92,7 @@ def nuisances_of(scenario: Scenario, joint: Joint) -> list[Nuisance]:
         spread = scenario.uncertainty.get(name, 0.0)
         deviation = spread if name in ABSOLUTE else spread * abs(value)
         if deviation > 0.0:
-            found.append(Nuisance(name, value, deviation, unit))
+            found.append(Nuisance(name, value, deviation, unit, 0.0 if name in POSITIVE else -np.inf))
     return found
 
 
@@ -99,14 +101,14 @@ def believed_friction(scenario: Scenario, load: float) -> float:
     return scenario.law.mu_k * load
 
 
-def sheet_of(run: Run, scenario: Scenario, *, delay: float = 0.0, window: Window | None = None) -> Sheet:
+def sheet_of(run: Run, scenario: Scenario, *, delay: float = 0.0, samples: int | None = None) -> Sheet:
     """Return a run of a prismatic joint or hinge pendulum as a sheet.
 
     Args:
         run: the run.
         scenario: the model believed so far.
         delay: by how much the position comes after the driving force in the record [s]; compensated here.
-        window: the window; None: chosen from the noise.
+        samples: half width of the window [samples]; None: chosen from the noise.
 
     Raises:
         InputError: a channel is missing, or the run is too short.
@@ -116,8 +118,11 @@ def sheet_of(run: Run, scenario: Scenario, *, delay: float = 0.0, window: Window
     q, h = position_of(run), run.sample_interval
     values = {name: float(getattr(joint, name, 1.0)) for name in terms}
     noise = _noise(terms, values, q)
-    if window is None:
-        window = chosen_window(h, len(q), noise, believed_friction(scenario, joint.normal_force))
+    window = (
+        chosen_window(h, len(q), noise, believed_friction(scenario, joint.normal_force))
+        if samples is None
+        else Window(samples * h, h, len(q))
+    )
     if len(window.centres) < 8:
         raise InputError(
             f"run {run.name!r}: {len(q)} samples are too few for windows of {window.half_width:.3g} s; record longer"

@@ -16,6 +16,8 @@ TOGETHER = 0.8
 """Part of one condition's variance that another explains, from which they are called confounded [-]."""
 PARTLY = 0.5
 """The same, from which they are called partly confounded."""
+INSIDE = 0.5
+"""Least part of a condition's standard deviation that is within runs, for what it does there to count [-]."""
 EFFECTS = {
     "direction": ("direction_asymmetry",),
     "speed": ("viscous_friction", "velocity_weakening", "quadratic_damping"),
@@ -62,10 +64,14 @@ def confounded(sheets: Sequence[Sheet]) -> list[Confounded]:
 
 
 def _together(runs: Sequence[tuple[Array, Array]]) -> float:
-    """Return how far two conditions went together: over all runs, or within each run (then the mean over runs)."""
+    """Return how far two conditions went together: over all runs, or within each run (then the mean over runs).
+
+    The latter says something only where both vary within runs about as much as they do at all.
+    """
     whole = tuple(np.concatenate([r[k] for r in runs]) for k in (0, 1))
-    within = [_share(*r) for r in runs]
-    return max(_share(*whole), float(np.mean(within)))
+    inside = [np.concatenate([r[k] - r[k].mean() for r in runs]).std() / max(float(whole[k].std()), 1.0e-300) for k in (0, 1)]
+    within = float(np.mean([_share(*r) for r in runs])) if min(inside) > INSIDE else 0.0
+    return max(_share(*whole), within)
 
 
 def _share(first: Array, second: Array) -> float:

@@ -72,9 +72,9 @@ class _Plain:
     def nuisances(self, place: str) -> list[Nuisance]:
         return nuisances_of(self.dataset.scenario, self.dataset.scenario.mechanism)
 
-    def sheets(self, place: str, role: str, delay: float) -> list[Sheet]:
+    def sheets(self, place: str, role: str, delay: float, samples: int | None = None) -> list[Sheet]:
         runs = self.dataset.fit if role == "fit" else self.dataset.test
-        return [sheet_of(r, self.dataset.scenario, delay=delay) for r in runs]
+        return [sheet_of(r, self.dataset.scenario, delay=delay, samples=samples) for r in runs]
 
 
 def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
@@ -82,7 +82,9 @@ def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
     if not isinstance(dataset.scenario.mechanism, PrismaticJoint) or dataset.scenario.mechanism.mass > 0.0:
         tell("timing")  # a slow prescribed motion has no inertia by which it could be late
         first = source.places[0][0]
-        found = timing(lambda d: source.sheets(first, "fit", d), source.nuisances(first), dataset.fit[0].sample_interval)
+        found = timing(lambda d, w: source.sheets(first, "fit", d, w), source.nuisances(first), dataset.fit[0].sample_interval)
+        if found is not None and not found.named and found.material:
+            found = found.against(_best_friction(source, dataset.scenario))
     delay = found.seconds if found is not None and found.named else 0.0
     notes: list[str] = []
     places = [_place(dataset, tell, source, name, load, delay, notes) for name, load in source.places]
@@ -100,8 +102,7 @@ def _place(
     fit_sheets, test_sheets = source.sheets(name, "fit", delay), source.sheets(name, "test", delay)
     notes += _sign_notes(fit_sheets)
     nuisances = source.nuisances(name)
-    own = tuple(e for e in scenario.effects if e.group != "sensor")
-    believed = JointModel(scenario.law, own, {n.name: n.value for n in nuisances}, load)
+    believed = _believed(scenario, nuisances, load)
     where = f"{name}: " if name else ""
     selected = Selector(fit_sheets, nuisances, believed, lambda text: tell(where + text)).run()
     tell(f"{where}held-out runs")
@@ -109,8 +110,26 @@ def _place(
         label: score(model, test_sheets, nuisances, dataset.test, scenario)
         for label, model in _models(believed, selected).items()
     }
+    if delay:  # what was believed knows nothing of the delay
+        early = source.sheets(name, "test", 0.0)
+        plain = Selector(source.sheets(name, "fit", 0.0), nuisances, believed).recalibrated.model
+        scores["baseline"] = score(believed, early, nuisances, dataset.test, scenario)
+        scores["recalibrated"] = score(plain, early, nuisances, dataset.test, scenario)
     floor = noise_floor(selected.final.model, test_sheets, nuisances)
     return PlaceOutcome(name, selected, tuple(nuisances), believed, tuple(fit_sheets), tuple(test_sheets), scores, floor)
+
+
+def _best_friction(source: Any, scenario: Scenario[Any]) -> float:
+    """Return the best score of a friction effect at the first joint, with no delay compensated."""
+    name, load = source.places[0]
+    nuisances = source.nuisances(name)
+    stage = Selector(source.sheets(name, "fit", 0.0), nuisances, _believed(scenario, nuisances, load)).first()
+    return stage.trials[0].score if stage.trials else 0.0
+
+
+def _believed(scenario: Scenario[Any], nuisances: Sequence[Nuisance], load: float) -> JointModel:
+    own = tuple(e for e in scenario.effects if e.group != "sensor")
+    return JointModel(scenario.law, own, {n.name: n.value for n in nuisances}, load)
 
 
 def _models(believed: JointModel, selected: Selected) -> dict[str, JointModel]:

@@ -150,7 +150,7 @@ def knobs_of(model: JointModel, nuisances: Sequence[Nuisance], fixed: Sequence[s
             # a rise of friction with speed is viscous, not a weakening of the other sign
             low = 0.0 if (effect.kind, name) == ("velocity_weakening", "amplitude") else meta["low"]
             knobs.append(Knob(i, name, scale, low + margin, meta["high"] - margin, meta["unit"]))
-    knobs += [Knob(-2, n.name, n.deviation, -np.inf, np.inf, n.unit, n.value, n.deviation) for n in nuisances]
+    knobs += [Knob(-2, n.name, n.deviation, n.low, np.inf, n.unit, n.value, n.deviation) for n in nuisances]
     return knobs
 
 

@@ -122,6 +122,10 @@ class Selector:
             tuple(stages), unknown,
         )  # fmt: skip
 
+    def first(self) -> Stage:
+        """Return the first step alone."""
+        return self._stage(self.recalibrated)
+
     def _stage(self, current: JointFit) -> Stage:
         span = span_of(self._sheets, current.model.law.mu_k * current.model.load)
         fits: list[tuple[Candidate, JointFit]] = []

@@ -30,6 +30,8 @@ class Nuisance:
     """Standard deviation of that belief, > 0; inf: nothing is believed."""
     unit: str
     """Its unit."""
+    low: float = -np.inf
+    """Smallest value that it can have."""
 
 
 @dataclasses.dataclass(frozen=True)

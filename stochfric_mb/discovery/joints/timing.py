@@ -1,7 +1,8 @@
 """Timing: whether the motion comes later in the record than the force that drives it; asked before friction is judged.
 
-A delay looks like friction: m q''(t - T) has a part along q', and so has the rest of the balance. It is therefore judged
-with a generous friction law in the balance, so that what is left for it is timing.
+A delay looks like friction: m q''(t - T) has a part along q'. And friction looks like a delay. So a delay is asked for twice:
+beside a generous friction law, where what it explains is surely timing; and beside the believed law alone, where it has to
+do better than every friction effect does without it.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.joints.fitting import independent_count
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
+from stochfric_mb.errors import InputError
 
 Array = npt.NDArray[np.float64]
 
@@ -21,10 +23,14 @@ LONGEST = 0.05
 """Longest delay that is looked for, either way [s]."""
 GRID = 41
 """Delays on the first grid."""
+HALF_WIDTHS = (16, 32, 64)
+"""Half widths of the windows through which delays are sought [samples]: against noise wide, for quick motion narrow."""
 LEAST_SAMPLES = 1.5
 """A delay of fewer samples is how signals are sampled and held, and is not called one."""
-NAMED = 20.0
-"""Score above which a delay is named."""
+NAMED = 14.0
+"""Score above which a delay is named: it is one question, not one of many."""
+AHEAD = 10.0
+"""Score by which it must be ahead of friction effects where these could stand in for it."""
 MATERIAL = 0.03
 """Least part of the error that a delay must take away."""
 
@@ -44,52 +50,102 @@ class Timing:
     gain: float
     """Part of the error (rms) that it takes away [-]."""
     named: bool
-    """Whether it is a finding, and compensated."""
+    """Whether it is a finding whatever friction is, and compensated."""
+    plain_score: float
+    """Evidence beside the believed friction law alone."""
+    plain_seconds: float
+    """The delay in that case [s]."""
+
+    def against(self, friction: float) -> Timing:
+        """Return the timing once the best score of a friction effect without it is known."""
+        better = self.plain_score > NAMED and self.plain_score > friction + AHEAD and self.material
+        if self.named or not better:
+            return self
+        shift = self.plain_seconds - self.seconds
+        return dataclasses.replace(
+            self, seconds=self.plain_seconds, low=self.low + shift, high=self.high + shift, score=self.plain_score, named=True
+        )
+
+    material: bool = False
+    """Whether the delay beside the believed law takes away enough error and is longer than sampling explains."""
 
 
-def timing(make: Callable[[float], Sequence[Sheet]], nuisances: Sequence[Nuisance], interval: float) -> Timing:
-    """Return the delay between drive and motion.
+def timing(make: Callable[[float, int], Sequence[Sheet]], nuisances: Sequence[Nuisance], interval: float) -> Timing | None:
+    """Return the delay between drive and motion; None if the runs are too short to tell.
 
     Args:
-        make: delay [s] -> the sheets to learn from, that delay compensated.
+        make: delay [s] and half width of the window [samples] -> the sheets to learn from, that delay compensated.
         nuisances: numbers of the mechanism with their priors; they are free here.
         interval: distance between samples [s].
     """
+    names = [n.name for n in nuisances]
+    best: dict[bool, _Seen] = {}
+    for width in HALF_WIDTHS:
+        for generous in (True, False):
+            try:
+                seen = _through(lambda d, w=width: make(d, w), names, interval, generous)
+            except InputError:  # a run is too short for this window
+                continue
+            if generous not in best or seen.score > best[generous].score:
+                best[generous] = seen
+    if not best:
+        return None
+    sure, plain = best[True], best[False]
+    return Timing(
+        sure.seconds, sure.seconds - 1.96 * sure.deviation, sure.seconds + 1.96 * sure.deviation, sure.score, sure.gain,
+        sure.material and sure.score > NAMED, plain.score, plain.seconds, plain.material,
+    )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class _Seen:
+    """A delay as seen through one window beside one friction law."""
+
+    seconds: float
+    deviation: float
+    score: float
+    gain: float
+    material: bool
+
+
+def _through(make: Callable[[float], Sequence[Sheet]], names: Sequence[str], interval: float, generous: bool) -> _Seen:
     span = min(LONGEST, 40.0 * interval)
     grid = np.linspace(-span, span, GRID)
-    names = [n.name for n in nuisances]
-    errors = np.array([_left(make(d), names)[0] for d in grid])
+    errors = np.array([_left(make(d), names, generous)[0] for d in grid])
     best = int(np.argmin(errors))
     step = grid[1] - grid[0]
     fine = np.linspace(grid[best] - step, grid[best] + step, 9)
-    finer = np.array([_left(make(d), names)[0] for d in fine])
-    delay = float(fine[int(np.argmin(finer))])
-    rest, n = _left(make(delay), names)
-    still, _ = _left(make(0.0), names)
-    score = n * np.log(still / rest) - np.log(n) - 2.0 * np.log(GRID)
+    delay = float(fine[int(np.argmin([_left(make(d), names, generous)[0] for d in fine]))])
+    rest, n = _left(make(delay), names, generous)
+    still, _ = _left(make(0.0), names, generous)
     # S(T) = S (1 + (T - T0)^2 curvature): one standard deviation raises n S by S
-    curvature = max((errors[best - 1 : best + 2].max() / rest - 1.0) / step**2, 1.0e-12) if 0 < best < GRID - 1 else 1.0e-12
-    deviation = float(1.0 / np.sqrt(n * curvature))
-    gain = 1.0 - float(np.sqrt(rest / still))
     inside = 0 < best < GRID - 1
-    named = bool(inside and score > NAMED and gain > MATERIAL and abs(delay) > LEAST_SAMPLES * interval)
-    return Timing(delay, delay - 1.96 * deviation, delay + 1.96 * deviation, float(score), gain, named)
+    rise = max(errors[best - 1], errors[best + 1]) / rest - 1.0 if inside else 0.0
+    deviation = float(step / np.sqrt(n * max(rise, 1.0e-12)))
+    # as many delays were tried as can be told apart
+    tried = len(HALF_WIDTHS) * max(2.0 * span / (4.0 * deviation), 1.0)
+    score = n * np.log(still / rest) - np.log(n) - 2.0 * np.log(tried)
+    gain = 1.0 - float(np.sqrt(rest / still))
+    material = bool(inside and gain > MATERIAL and abs(delay) > LEAST_SAMPLES * interval)
+    return _Seen(delay, deviation, float(score), gain, material)
 
 
-def _left(sheets: Sequence[Sheet], names: Sequence[str]) -> tuple[float, float]:
-    """Return the mean square that a generous friction law leaves, and the number of independent windows."""
-    columns = np.concatenate([_generous(s, names)[s.sliding] for s in sheets])
-    driven = np.concatenate([s.driven[s.sliding] for s in sheets])
+def _left(sheets: Sequence[Sheet], names: Sequence[str], generous: bool) -> tuple[float, float]:
+    """Return the mean square that a friction law leaves, and the number of independent windows."""
+    columns = np.concatenate([_columns(s, names, generous) for s in sheets])
+    driven = np.concatenate([s.driven for s in sheets])
     scaled = columns / np.maximum(np.linalg.norm(columns, axis=0), 1.0e-300)
     rest = driven - scaled @ np.linalg.lstsq(scaled, driven, rcond=1.0e-10)[0]
-    ends = np.cumsum([int(s.sliding.sum()) for s in sheets])[:-1]
+    ends = np.cumsum([len(s.driven) for s in sheets])[:-1]
     return float(np.mean(rest**2)), max(sum(independent_count(r) for r in np.split(rest, ends)), 4.0)
 
 
-def _generous(sheet: Sheet, names: Sequence[str]) -> Array:
+def _columns(sheet: Sheet, names: Sequence[str], generous: bool) -> Array:
     v, side = sheet.velocity, np.sign(sheet.velocity)
     top = max(float(np.quantile(np.abs(v), 0.95)), 1.0e-12)
-    friction = (side, side * np.exp(-np.abs(v) / (0.1 * top)), v, v * np.abs(v), np.abs(v), side * sheet.load)
+    friction = [side]
+    if generous:
+        friction += [side * np.exp(-np.abs(v) / (0.1 * top)), v, v * np.abs(v), np.abs(v)]
     known = [sheet.columns[n] for n in names if n in sheet.columns]
     one = np.ones(len(sheet.driven))
     return np.column_stack([one, *known, *(sheet.window.at_centres(x) for x in friction)])

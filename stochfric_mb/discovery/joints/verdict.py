@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from stochfric_mb.discovery.joints.confounding import Confounded, confounded, stand_ins
+from stochfric_mb.discovery.joints.confounding import TOGETHER, Confounded, confounded, stand_ins
 from stochfric_mb.discovery.joints.fitting import JointFit
 from stochfric_mb.discovery.joints.outcome import PlaceOutcome
 from stochfric_mb.discovery.joints.scores import stroke_scatter
@@ -50,7 +50,7 @@ def verdict(
         not_identifiable=_unseen(places),
         next_experiment=_advice(pairs, places),
         believed={f"{p.place}.{k}" if p.place else k: v for p in places for k, v in _believed(p).items()},
-        notes=(*_timing_notes(timing), *map(str, pairs), *notes, *_remarks(places)),
+        notes=(*_timing_notes(timing), *(str(p) for p in pairs if p.explained >= TOGETHER), *notes, *_remarks(places)),
         details=_details(places, timing, pairs),
     )
 

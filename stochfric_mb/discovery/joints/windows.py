@@ -19,8 +19,8 @@ Array = npt.NDArray[np.float64]
 
 HALF_WIDTHS = (8, 12, 16, 24, 32, 48, 64)
 """Half widths of the window that are tried [sample intervals]."""
-QUIET = 0.05
-"""Noise of the balance that is allowed, over the believed friction [-]: below it, wider windows only blur."""
+QUIET = 0.3
+"""Noise of the balance that is allowed, over the believed friction [-]: the fit averages over many windows."""
 OVERLAP = 2.0
 """Centres of windows in one half width."""
 
