@@ -1,4 +1,4 @@
-"""Friction with random coefficients, a model without: discovery names what is missing, and the phase portrait spreads as measured.
+"""Friction with random coefficients, a model without: discovery names what is missing, and the phase portrait spreads.
 
 ::
 
@@ -6,9 +6,10 @@
     stochfric discover rig --out discovery                             # what is missing from the model?
     python examples/discover_random_coefficients.py --out rig --discover --plot portrait.png   # both, and the portrait
 
-Kang et al. (Shock and Vibration 2015, 423169) modelled the coefficients of friction of a belt-box as random and saw its phase
-portrait spread. Here the box of their Table 1 moves in a multibody engine, with their coefficients; its position is recorded with
-a sensor's noise. The model believed has constant coefficients. Data and analysis share no solver, unless no engine is installed.
+Kang et al. (Shock and Vibration 2015, 423169) modelled the coefficients of friction of a belt-box as random and saw its
+phase portrait spread. Here the box of their Table 1 moves in a multibody engine, with their coefficients; its position is
+recorded with a sensor's noise. The model believed has constant coefficients. Data and analysis share no solver, unless no
+engine is installed.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ role = "test"
 def write_dataset(folder: Path, *, duration: float = 60.0, engine: str | None = None) -> str:
     """Write two runs of a box with random coefficients, and a model without them; return the engine that made the runs."""
     engine = engine or next(name for name in ENGINES if name in installed_engines())
-    truth = load_scenario(SCENARIO, overrides=(f"simulation.duration={duration}",))
+    truth = load_scenario(SCENARIO, law="coulomb", overrides=(f"simulation.duration={duration}",))
     folder.mkdir(parents=True)
     for run in (1, 2):
         motion = adapter(engine).simulate(truth, seed=SEED, sample=run)
@@ -62,15 +63,15 @@ def portrait(scenario: Scenario, samples: int = 1) -> list[tuple[np.ndarray, np.
 
 
 def measured_portrait(time: np.ndarray, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return position [m] and velocity [m/s] of a record, both through a window of 10 ms, the first second left out."""
+    """Return position [m] and velocity [m/s] of a record, both through a window of 20 ms, the first second left out."""
     step = float(time[1] - time[0])
-    return tuple(smooth(position, 5.0e-3, step, derivative=d)[1000:-20] for d in (0, 1))
+    return tuple(smooth(position, 1.0e-2, step, derivative=d)[1000:-20] for d in (0, 1))
 
 
-def loop_spread(position: np.ndarray, velocity: np.ndarray) -> float:
-    """Return how much the turning points of the slips, where the velocity passes zero downwards, differ [m]."""
-    turns = np.flatnonzero((velocity[:-1] > 0.0) & (velocity[1:] <= 0.0))
-    return float(np.std(position[turns]))
+def loop_spread(position: np.ndarray, velocity: np.ndarray, speed: float = -5.0e-3) -> float:
+    """Return the standard deviation of where slips begin, where the velocity falls below ``speed`` [m/s], in m."""
+    begins = np.flatnonzero((velocity[:-1] > speed) & (velocity[1:] <= speed))
+    return float(np.std(position[begins]))
 
 
 def plot(panels: dict[str, list[tuple[np.ndarray, np.ndarray]]], path: str) -> None:
@@ -105,7 +106,7 @@ def discover(folder: Path, plot_to: str | None) -> None:
         "with what was found": portrait(dataclasses.replace(outcome.scenario, **short), samples=3),
     }
     for title, loops in panels.items():
-        print(f"{title}: turning points of the slips scatter by {1e6 * np.mean([loop_spread(*x) for x in loops]):.3g} um")
+        print(f"{title}: places where slips begin scatter by {1e6 * np.mean([loop_spread(*x) for x in loops]):.3g} um")
     if plot_to:
         plot(panels, plot_to)
 

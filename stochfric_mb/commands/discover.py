@@ -94,7 +94,7 @@ def _show(content: Mapping[str, Any]) -> None:
         stages = ("baseline", "recalibrated", "augmented", "floor")
         rows = [[f"{gap[stage]:.3g}" if gap[stage] is not None else "-" for stage in stages]]
         rows[0].append("-" if gap["closed"] is None else f"{100.0 * gap['closed']:.3g} %")
-        print_table(("as stated", *stages[1:], "closed"), rows, title=f"{gap['metric']} on held-out runs [{gap['unit']}]")
+        print_table(("as stated", *stages[1:], "closed"), rows, title=f"{gap['metric']} on held-out runs, in {gap['unit']}")
     for note in content["notes"]:
         click.echo(f"Note: {note}")
     click.echo(f"Next experiment: {content['next_experiment']}")

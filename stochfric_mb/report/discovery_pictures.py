@@ -236,8 +236,11 @@ def _gap(gap: Mapping[str, Any]) -> Figure:
         axes.barh(row, value, color=colours[name], height=0.6)
         axes.text(value, row, f" {value:.3g}", va="center", fontsize=9)
     finite = np.array([v for v in (*values, floor) if np.isfinite(v) and v > 0.0])
-    axes.set_xscale("log")
-    axes.set_xlim(0.5 * finite.min(), 3.0 * finite.max())
+    if finite.max() > 8.0 * finite.min():
+        axes.set_xscale("log")
+        axes.set_xlim(0.5 * finite.min(), 3.0 * finite.max())
+    else:
+        axes.set_xlim(0.0, 1.2 * finite.max())
     axes.axvline(floor, color=COLOURS["floor"], linewidth=1.6, linestyle="--", label=LABELS["floor"])
     axes.set_yticks(range(3), [labels[n].replace(" the ", "\nthe ") for n in reversed(names)])
     axes.set(xlabel=f"error of the forecast [{unit}]")

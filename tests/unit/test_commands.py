@@ -3,10 +3,12 @@
 import dataclasses
 import json
 import re
+import runpy
 import subprocess
 import sys
 import types
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -50,7 +52,8 @@ def fake(monkeypatch):
 
         def simulate(scenario, *, seed=0, sample=0, dt=None, progress=None):
             asked.append((name, scenario.law.kind, scenario.duration, seed, dt))
-            progress(scenario.duration)
+            if progress is not None:
+                progress(scenario.duration)
             return made_up(scenario, name, shift=0.0 if name == "reference" else 1e-6, dt=dt)
 
         return types.SimpleNamespace(simulate=simulate)
@@ -82,8 +85,9 @@ def test_python_m_runs_the_command_line():
 @pytest.mark.parametrize("name", COMMANDS)
 def test_help_ends_with_an_example(name):
     lines = invoke(name, "--help").output.rstrip().splitlines()
-    assert lines[-2].strip() == "Example:"
-    assert lines[-1].strip().startswith(f"stochfric {name} ")
+    example = lines[[line.strip() for line in lines].index("Example:") + 1 :]
+    assert 1 <= len(example) <= 2
+    assert example[-1].strip().startswith(f"stochfric {name} ")
 
 
 def test_examples_are_valid_commands(fake, tmp_path, monkeypatch):
@@ -94,7 +98,10 @@ def test_examples_are_valid_commands(fake, tmp_path, monkeypatch):
     )  # fmt: skip
     monkeypatch.setattr(reproduction, "QUICK", few)
     for name in COMMANDS:
-        words = invoke(name, "--help").output.rstrip().splitlines()[-1].split()
+        before, words = (line.split() for line in invoke(name, "--help").output.rstrip().splitlines()[-2:])
+        if before[0] == "python":
+            monkeypatch.setattr(sys, "argv", before[1:])
+            runpy.run_path(str(Path(__file__).parents[2] / before[1]), run_name="__main__")
         result = invoke(*words[1:])
         assert result.exit_code == 0, result.output
 
