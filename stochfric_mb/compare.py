@@ -172,7 +172,7 @@ def compare(
             "or install them: pip install 'stochfric_mb[all]'"
         )
     for name in (*names, "reference"):
-        adapter(name)
+        adapter(name, effects=scenario.effects)
     dt = scenario.default_dt() if dt is None else checked_step(scenario, dt)
     stage = stage or _silent
     reference = _run("reference", scenario, seed, None, stage("reference", scenario.duration))
@@ -289,7 +289,7 @@ def _point(step: float, run: Trajectory, reference: Trajectory, coarser: Sequenc
 def _run(name: str, scenario: Scenario, seed: int, dt: float | None, progress: Advance) -> Trajectory:
     """Return an engine's trajectory; its errors name the engine."""
     try:
-        return adapter(name).simulate(scenario, seed=seed, dt=dt, progress=progress)
+        return adapter(name, effects=scenario.effects).simulate(scenario, seed=seed, dt=dt, progress=progress)
     except StochfricError as error:
         raise type(error)(f"{name}: {error}") from None
 

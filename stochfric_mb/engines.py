@@ -4,7 +4,8 @@ An adapter module has one function::
 
     simulate(scenario, *, seed=0, sample=0, dt=None, progress=None) -> Trajectory
 
-`progress`, if given, is called with the simulated time [s] now and then. Engines of other packages join by an entry
+`progress`, if given, is called with the simulated time [s] now and then. A module that carries a scenario's effects
+(`stochfric_mb.effects.carry`) says ``CARRIES_EFFECTS = True``. Engines of other packages join by an entry
 point in the group `GROUP`, name = module, or by `register_engine`.
 """
 
@@ -14,9 +15,13 @@ import dataclasses
 import importlib
 import importlib.metadata
 import importlib.util
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
-from stochfric_mb.errors import MissingEngineError, require_name
+from stochfric_mb.errors import InputError, MissingEngineError, require_name
+
+if TYPE_CHECKING:
+    from stochfric_mb.effects import Effect
 
 
 @dataclasses.dataclass(frozen=True)
@@ -100,14 +105,29 @@ def installed_engines() -> list[str]:
     return [name for name, engine in ENGINES.items() if engine.installed]
 
 
-def adapter(name: str) -> Any:
+def adapter(name: str, *, effects: Sequence[Effect] = ()) -> Any:
     """Return the adapter module of an engine.
 
+    Args:
+        name: the engine.
+        effects: what it is to carry; a module that can says ``CARRIES_EFFECTS = True``.
+
     Raises:
-        InputError: unknown name.
+        InputError: unknown name, or effects that the engine would leave out.
         MissingEngineError: the engine is not installed; says what to install.
     """
     engine = ENGINES[require_name("engine", name, ENGINES)]
     if not engine.installed:
         raise MissingEngineError(f"engine {name!r} is not installed; run: pip install {engine.remedy}")
-    return importlib.import_module(engine.adapter)
+    module = importlib.import_module(engine.adapter)
+    if not effects:
+        return module
+    from stochfric_mb.effects.combine import any_but_random
+
+    if any_but_random(effects) and not getattr(module, "CARRIES_EFFECTS", False):
+        kinds = ", ".join(effect.kind for effect in effects)
+        raise InputError(
+            f"engine {name!r} knows no effects and would leave out {kinds}; use {', '.join(_BUILT_IN)}, or remove the "
+            "[[effects]] tables"
+        )
+    return module

@@ -36,8 +36,8 @@ def run(
     check_target(out, force=force)
     with display() as shown:
         shown.note(f"loading {engine}")
-        module = adapter(engine)
         problem = _load(scenario, law, overrides)
+        module = adapter(engine, effects=problem.effects)
         if dt is not None:
             from stochfric_mb.compare import checked_step
 

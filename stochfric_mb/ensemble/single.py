@@ -24,7 +24,7 @@ def one_at_a_time(scenario: Scenario, engine: str, dt: float | None, times: Arra
     Raises:
         InputError: output times that are no multiples of the scenario's output step.
     """
-    simulate = adapter(engine).simulate
+    simulate = adapter(engine, effects=scenario.effects).simulate
     samples = Sampling.of(scenario, times)
     off = np.abs(samples.index * scenario.output_step - times) > 1.0e-9 * scenario.output_step + SAME_TIME
     if off.any():

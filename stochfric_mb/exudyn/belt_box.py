@@ -25,6 +25,7 @@ from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.scenario import Scenario
 from stochfric_mb.trajectory import Trajectory
 
+CARRIES_EFFECTS = True
 HOOK = "symbolic user function, PostStep commit"
 HOOK_CALLED = "Python user function, PostStep commit"
 

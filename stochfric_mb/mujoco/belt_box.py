@@ -26,6 +26,7 @@ from stochfric_mb.mujoco.march import COLUMNS, march
 from stochfric_mb.scenario import Scenario, scenario_folders
 from stochfric_mb.trajectory import Trajectory
 
+CARRIES_EFFECTS = True
 HOOK = "engine plugin (passive), RK4"
 REACH = 1.0e3
 """States beyond this many static deflections are nonsense."""

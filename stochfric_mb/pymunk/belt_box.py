@@ -21,6 +21,7 @@ from stochfric_mb.pymunk.attach import ContactFriction, add_friction
 from stochfric_mb.scenario import Scenario
 from stochfric_mb.trajectory import Trajectory
 
+CARRIES_EFFECTS = True
 HOOK_FORCE = "compiled pre_solve callback: the law's force, pymunk's own friction off"
 HOOK_CAP = "compiled pre_solve callback: the law's cap on pymunk's own friction"
 HALF_SIDE = 0.05

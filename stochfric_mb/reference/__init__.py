@@ -2,4 +2,6 @@
 
 from stochfric_mb.reference.solver import simulate, solve
 
-__all__ = ["simulate", "solve"]
+__all__ = ["CARRIES_EFFECTS", "simulate", "solve"]
+
+CARRIES_EFFECTS = True

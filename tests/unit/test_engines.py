@@ -56,3 +56,18 @@ def test_a_missing_engine_says_what_to_install(monkeypatch: pytest.MonkeyPatch) 
         adapter("theirs")
     with pytest.raises(InputError, match=r"unknown engine 'their'.*theirs"):
         adapter("their")
+
+
+def test_an_engine_that_knows_no_effects_refuses_them(monkeypatch):
+    import types
+
+    from stochfric_mb import engines
+    from stochfric_mb.effects import make_effect
+
+    monkeypatch.setitem(engines.ENGINES, "plain", engines.Engine("plain", "plain_adapter", "", "none", "nobody"))
+    monkeypatch.setitem(__import__("sys").modules, "plain_adapter", types.ModuleType("plain_adapter"))
+    ageing, random = make_effect("dwell_ageing", rate=0.02), make_effect("random_coefficients", sigma_s=0.01, sigma_k=0.01)
+    with pytest.raises(InputError, match="would leave out dwell_ageing"):
+        engines.adapter("plain", effects=[ageing])
+    engines.adapter("plain", effects=[random])  # a coefficient process, which every engine knows
+    engines.adapter("reference", effects=[ageing])
