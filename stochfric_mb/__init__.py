@@ -40,6 +40,9 @@ _EXPORTS: dict[str, str] = {
     "Contact": "stochfric_mb.contact",
     "PlaneContact": "stochfric_mb.contact",
     "BeltBox": "stochfric_mb.mechanisms",
+    "Effect": "stochfric_mb.effects",
+    "make_effect": "stochfric_mb.effects",
+    "register_effect": "stochfric_mb.effects",
     "Scenario": "stochfric_mb.scenario",
     "load_scenario": "stochfric_mb.scenario",
     "Trajectory": "stochfric_mb.trajectory",
@@ -56,6 +59,7 @@ __all__ = [
     "Contact",
     "Coulomb",
     "Dahl",
+    "Effect",
     "ElasticStick",
     "Empirical",
     "Friction",
@@ -87,7 +91,9 @@ __all__ = [
     "Uniform",
     "__version__",
     "load_scenario",
+    "make_effect",
     "make_law",
+    "register_effect",
     "register_law",
 ]
 
@@ -107,6 +113,7 @@ if TYPE_CHECKING:
         Uniform,
     )
     from stochfric_mb.contact import Contact, PlaneContact
+    from stochfric_mb.effects import Effect, make_effect, register_effect
     from stochfric_mb.errors import InputError, MissingEngineError, SimulationError, StabilityError, StochfricError
     from stochfric_mb.friction import Friction
     from stochfric_mb.laws import Law, make_law, register_law
