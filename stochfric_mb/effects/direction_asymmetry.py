@@ -26,8 +26,8 @@ class DirectionAsymmetry(Effect):
 
     kind: ClassVar[str] = "direction_asymmetry"
     equation: ClassVar[str] = (
-        "mu_k and viscous friction times 1 + asymmetry, mu_s times 1 + static_share asymmetry, where v_rel < 0 (in stick: where "
-        "the force needed is negative)"
+        "mu_k and viscous friction times 1 + asymmetry, mu_s times 1 + static_share asymmetry, where v_rel < 0 (in stick: "
+        "where the force needed is negative)"
     )
     source: ClassVar[str] = "Armstrong-Helouvry 1991 (robot joints)"
     group: ClassVar[str] = "friction law"
