@@ -38,6 +38,8 @@ class RunEntry:
     """Quantity -> unit, where the file does not say it or says it wrongly."""
     sign: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Quantity -> 1 or -1, by which it is multiplied."""
+    signed_bits: Mapping[str, int] = dataclasses.field(default_factory=dict[str, int])
+    """Column -> word length of signed integers that the file holds as unsigned ones (two's complement)."""
     skip_rows: int = 0
     """Lines (samples, in other than text files) left out at the start."""
     time_range: tuple[float, float] | None = None
@@ -61,6 +63,9 @@ def assemble(entry: RunEntry, *, rotational: bool) -> Run:
     columns, units, notes = _named(entry, table)
     _require_keys("units", entry.units, columns, entry)
     _require_keys("sign", entry.sign, columns, entry)
+    _require_keys("signed_bits", entry.signed_bits, columns, entry)
+    for name, bits in entry.signed_bits.items():  # before interpolation, which would mix the two ends of the range
+        columns[name] = np.where(columns[name] >= 2.0 ** (bits - 1), columns[name] - 2.0**bits, columns[name])
     columns, units = _in_si(entry, columns, units, rotational=rotational)
     time = columns.pop("time")
     rows = np.arange(1, time.size + 1, dtype=np.int64) + entry.skip_rows if table.rows is None else table.rows

@@ -17,7 +17,7 @@ DATA = "STOCHFRIC_DATA"
 """Environment variable of the folder with measured data."""
 
 _TABLES = ("schema", "title", "scenario", "runs")
-_RUN = ("file", "name", "role", "set", "columns", "units", "sign", "skip_rows", "time_range", "max_gap")
+_RUN = ("file", "name", "role", "set", "columns", "units", "sign", "signed_bits", "skip_rows", "time_range", "max_gap")
 
 
 def run_entries(tables: Mapping[str, Any], folder: Path) -> list[RunEntry]:
@@ -89,6 +89,7 @@ def _entry(run: Mapping[str, Any], number: int, folder: Path) -> RunEntry:
         columns={k: _column(v, f"{where}: columns.{k}") for k, v in _table(run, "columns", where).items()},
         units={k: _text(v, f"{where}: units.{k}") for k, v in _table(run, "units", where).items()},
         sign={k: _sign(v, f"{where}: sign.{k}") for k, v in _table(run, "sign", where).items()},
+        signed_bits={k: _count(v, f"{where}: signed_bits.{k}") for k, v in _table(run, "signed_bits", where).items()},
         skip_rows=_count(run.get("skip_rows", 0), f"{where}: skip_rows"),
         time_range=_range(run["time_range"], where) if "time_range" in run else None,
         max_gap=require_number(f"{where}: max_gap", run["max_gap"], above=0.0, unit="s") if "max_gap" in run else None,

@@ -18,12 +18,10 @@ class Drive:
     """Channels or covariates that are multiplied, such as duty cycle and supply voltage."""
     gain: float = 1.0
     """Force or torque per unit of the product."""
-    bits: int = 0
-    """Word length if the first column holds signed integers as unsigned ones (two's complement); 0: it does not."""
 
     def to_dict(self) -> dict[str, Any]:
         """Return the drive as a table."""
-        return {"columns": list(self.columns), "gain": self.gain, "bits": self.bits}
+        return {"columns": list(self.columns), "gain": self.gain}
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -43,6 +41,12 @@ class Mjcf:
     """Joint -> what drives it, as measured; a joint without one is not driven."""
     damping: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Joint -> damping beyond the model's own, such as back-EMF [N s/m or N m s/rad]."""
+    offset: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
+    """Joint -> constant force against its coordinate [N or N m]."""
+    factors: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
+    """``mass``, ``armature`` -> factor on the model's own, as corrected by data [-]."""
+    effects_in: tuple[str, ...] = ()
+    """Joints in which the scenario's effects act; empty: all that have friction."""
 
     kind: ClassVar[str] = "mjcf"
     rotational: ClassVar[bool] = True
@@ -53,7 +57,10 @@ class Mjcf:
         for joint, load in self.friction.items():
             require_number(f"mechanism.friction.{joint}", load, above=0.0, unit="N or N m")
             require_name("joint of mechanism.friction (a joint of mechanism.positions)", joint, self.positions)
-        for joint in (*self.drives, *self.damping):
+        for name, factor in self.factors.items():
+            require_name("key mechanism.factors.", name, ("mass", "armature"))
+            require_number(f"mechanism.factors.{name}", factor, low=0.0)
+        for joint in (*self.drives, *self.damping, *self.offset, *self.effects_in):
             require_name("joint (a joint of mechanism.positions)", joint, self.positions)
 
     @property
@@ -76,10 +83,11 @@ class Mjcf:
                 raise InputError(f"key mechanism.{key} is missing; add it to [mechanism]")
         return cls(
             file=folder / str(table["file"]),
-            friction={k: require_number(f"mechanism.friction.{k}", v) for k, v in _table(table, "friction").items()},
+            friction=_numbers(table, "friction"),
             positions={k: str(v) for k, v in _table(table, "positions").items()},
             drives={k: _drive(k, v) for k, v in _table(table, "drives").items()},
-            damping={k: require_number(f"mechanism.damping.{k}", v) for k, v in _table(table, "damping").items()},
+            effects_in=tuple(str(joint) for joint in table.get("effects_in", ())),
+            **{key: _numbers(table, key) for key in ("damping", "offset", "factors")},
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -91,6 +99,9 @@ class Mjcf:
             "positions": dict(self.positions),
             "drives": {joint: drive.to_dict() for joint, drive in self.drives.items()},
             "damping": dict(self.damping),
+            "offset": dict(self.offset),
+            "factors": dict(self.factors),
+            "effects_in": list(self.effects_in),
         }
 
 
@@ -101,6 +112,10 @@ def _table(table: Mapping[str, Any], key: str) -> Mapping[str, Any]:
     return cast(Mapping[str, Any], value)
 
 
+def _numbers(table: Mapping[str, Any], key: str) -> dict[str, float]:
+    return {k: require_number(f"mechanism.{key}.{k}", v) for k, v in _table(table, key).items()}
+
+
 def _drive(joint: str, value: Any) -> Drive:
     table: Mapping[str, Any] = {"columns": [value]} if isinstance(value, str) else value
     columns = table.get("columns") if isinstance(table, Mapping) else None
@@ -109,9 +124,8 @@ def _drive(joint: str, value: Any) -> Drive:
             f'mechanism.drives.{joint} = {value!r}; give a channel, or {{ columns = ["duty", "voltage"], gain = 0.4 }}'
         )
     for key in table:
-        require_name(f"key mechanism.drives.{joint}.", key, ("columns", "gain", "bits"))
+        require_name(f"key mechanism.drives.{joint}.", key, ("columns", "gain"))
     return Drive(
         columns=tuple(str(c) for c in cast(list[Any], columns)),
         gain=require_number(f"mechanism.drives.{joint}.gain", table.get("gain", 1.0)),
-        bits=int(require_number(f"mechanism.drives.{joint}.bits", table.get("bits", 0), low=0.0, high=64.0)),
     )

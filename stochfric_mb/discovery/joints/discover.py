@@ -102,7 +102,7 @@ def _place(
     fit_sheets, test_sheets = source.sheets(name, "fit", delay), source.sheets(name, "test", delay)
     notes += _sign_notes(fit_sheets)
     nuisances = source.nuisances(name)
-    believed = _believed(scenario, nuisances, load)
+    believed = _believed(scenario, name, nuisances, load)
     where = f"{name}: " if name else ""
     selected = Selector(fit_sheets, nuisances, believed, lambda text: tell(where + text)).run()
     tell(f"{where}held-out runs")
@@ -123,11 +123,14 @@ def _best_friction(source: Any, scenario: Scenario[Any]) -> float:
     """Return the best score of a friction effect at the first joint, with no delay compensated."""
     name, load = source.places[0]
     nuisances = source.nuisances(name)
-    stage = Selector(source.sheets(name, "fit", 0.0), nuisances, _believed(scenario, nuisances, load)).first()
+    stage = Selector(source.sheets(name, "fit", 0.0), nuisances, _believed(scenario, name, nuisances, load)).first()
     return stage.trials[0].score if stage.trials else 0.0
 
 
-def _believed(scenario: Scenario[Any], nuisances: Sequence[Nuisance], load: float) -> JointModel:
+def _believed(scenario: Scenario[Any], place: str, nuisances: Sequence[Nuisance], load: float) -> JointModel:
+    acts_in = getattr(scenario.mechanism, "effects_in", ())
+    if acts_in and place not in acts_in:
+        return JointModel(scenario.law, (), {n.name: n.value for n in nuisances}, load)
     own = tuple(e for e in scenario.effects if e.group != "sensor")
     return JointModel(scenario.law, own, {n.name: n.value for n in nuisances}, load)
 
@@ -166,19 +169,30 @@ def _run_notes(dataset: Dataset) -> list[str]:
 
 
 def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], found: Timing | None) -> Scenario[Any]:
-    """Return the scenario with what was found; of several joints, the first one's law and effects."""
+    """Return the scenario with what was found; of several joints, the first one's effects, in that joint."""
     model = places[0].selected.final.model
-    fields = {f.name for f in dataclasses.fields(scenario.mechanism)}
-    corrections = {k: v for k, v in model.nuisances.items() if k in fields}
     effects = list(model.effects)
     if found is not None and found.named and found.seconds > 0.0:
         effects.append(make_effect("sensor_delay", delay=found.seconds))
-    elif any(e.kind == "sensor_delay" for e in scenario.effects):
+    else:
         effects += [e for e in scenario.effects if e.kind == "sensor_delay"]
     return dataclasses.replace(
         scenario,
-        mechanism=dataclasses.replace(scenario.mechanism, **corrections),
+        mechanism=_corrected(scenario.mechanism, places),
         law=model.law,
         effects=tuple(effects),
         title=f"{scenario.title}, augmented by discovery",
     )
+
+
+def _corrected(mechanism: Any, places: Sequence[PlaceOutcome]) -> Any:
+    models = {p.place: p.selected.final.model for p in places}
+    if not isinstance(mechanism, Mjcf):
+        return dataclasses.replace(mechanism, **models[""].nuisances)
+    from stochfric_mb.discovery.joints.mjcf import corrected
+
+    first = places[0].selected.final.model.law.mu_k
+    # one law serves all joints: where friction differs, the loads do
+    friction = {name: load * models[name].law.mu_k / first for name, load in mechanism.friction.items()}
+    known = corrected(mechanism, {name: model.nuisances for name, model in models.items()})
+    return dataclasses.replace(known, friction=friction, effects_in=(places[0].place,))

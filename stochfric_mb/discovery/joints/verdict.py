@@ -49,7 +49,7 @@ def verdict(
         gap=_gap(places, loop_floor),
         not_identifiable=_unseen(places),
         next_experiment=_advice(pairs, places),
-        believed={f"{p.place}.{k}" if p.place else k: v for p in places for k, v in _believed(p).items()},
+        believed={f"{p.place}.{k}" if len(places) > 1 else k: v for p in places for k, v in _believed(p).items()},
         notes=(*_timing_notes(timing), *(str(p) for p in pairs if p.explained >= TOGETHER), *notes, *_remarks(places)),
         details=_details(places, timing, pairs),
     )
