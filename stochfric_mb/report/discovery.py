@@ -8,6 +8,7 @@ from typing import Any
 from markupsafe import Markup
 
 from stochfric_mb.discovery.workflow import Outcome
+from stochfric_mb.report.comparison import UNITS
 from stochfric_mb.report.discovery_pictures import COLOURS, given
 from stochfric_mb.report.page import digits, render
 
@@ -71,6 +72,7 @@ def page(content: Mapping[str, Any], drawn: Mapping[str, bytes], pictures: Seque
         percent=percent,
         said=said,
         words=words,
+        units=UNITS,
     )
 
 

@@ -22,6 +22,8 @@ from stochfric_mb.discovery.workflow import Outcome
 
 Array = npt.NDArray[np.float64]
 
+SMOOTH = 5
+"""Legendre coefficients of a slip that are drawn along it: the higher ones are mostly noise in a single slip."""
 BAND = 0.9
 """Share of the values that a band or a bar holds [-]."""
 PLACES = np.linspace(-0.94, 0.94, 48)
@@ -62,6 +64,8 @@ class LeftOver:
     """The same at the nodes at which the relative velocity is known, shape (n, N_NODES)."""
     relative_velocity: Array
     """Relative velocity there [m/s], shape (n, N_NODES)."""
+    noise: float
+    """Standard deviation that the sensor's noise brings into ``along`` [N]."""
 
     @property
     def rms(self) -> dict[str, float]:
@@ -135,10 +139,21 @@ def _left_over(pool: Pool, found: Study) -> LeftOver:
         run=pool.run[pool.kept],
         onset=rest[:, 0],
         mean=rest[:, 1],
-        along=np.asarray(legendre.legval(PLACES, series), dtype=np.float64),
+        along=np.asarray(legendre.legval(PLACES, series[:SMOOTH]), dtype=np.float64),
         at_nodes=np.asarray(legendre.legval(NODES, series), dtype=np.float64),
         relative_velocity=pool.relative_velocity[pool.kept],
+        noise=_noise(pool),
     )
+
+
+def _noise(pool: Pool) -> float:
+    """Return the typical deviation of the force along a slip from noise alone [N]: from the covariance of its coefficients."""
+    values = legendre.legvander(PLACES, SMOOTH - 1)
+    deviations = [
+        np.sqrt(np.einsum("ij,jk,ik->i", values, c.covariance[1 : SMOOTH + 1, 1 : SMOOTH + 1], values))
+        for c in pool.calibrations
+    ]
+    return float(np.median(deviations))
 
 
 def _events(models: Mapping[str, Model], runs: HeldOut) -> dict[str, dict[str, Array]]:

@@ -29,6 +29,8 @@ LABELS = {
 """What they are called in a legend."""
 MOST_CYCLES = 60
 """Measured cycles that are drawn over each other."""
+PALE = 5.0
+"""Standard deviations of the noise at which the colours of the map end, or further out [-]."""
 EVENT_LABELS = {"period": "cycle period [s]", "break_away_force": "force at break-away [N]", "slip_travel": "slip travel [mm]"}
 """Axis of each statistic of events."""
 
@@ -120,7 +122,8 @@ def _cycles(evidence: Evidence) -> Figure:
 
 def _map(evidence: Evidence) -> Figure:
     states = {"recalibrated": evidence.before} | ({"augmented": evidence.after} if evidence.after is not None else {})
-    limit = 1.0e3 * float(np.quantile(np.abs(evidence.before.along), 0.97))
+    # where nothing but noise is left, the map is pale
+    limit = 1.0e3 * max(float(np.quantile(np.abs(evidence.before.along), 0.97)), PALE * evidence.before.noise)
     figure, axes_list = new_figure(9.2, 3.4, columns=len(states))
     for axes, (name, left) in zip(axes_list, states.items(), strict=True):
         order = np.lexsort((left.time, left.run))

@@ -1,7 +1,9 @@
 """``stochfric discover``: what it writes, says and refuses."""
 
 import json
+import re
 import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -200,3 +202,20 @@ def test_ctrl_c_leaves_nothing(rig, tmp_path, monkeypatch, where):
     assert result.exit_code == 130
     assert "Interrupted; nothing was written" in result.stderr
     assert [p.name for p in tmp_path.iterdir()] == ["rig"]
+
+
+PAGE = (Path(__file__).parents[3] / "docs" / "discovery.md").read_text(encoding="utf-8")
+
+
+def test_the_documentation_names_every_key(rig, tmp_path):
+    invoke(rig, "--out", tmp_path / "out")
+    content = json.loads((tmp_path / "out" / "result.json").read_text(encoding="utf-8"))
+    table = PAGE.partition("## Reading `result.json`")[2].partition("\n\n`")[0]
+    assert set(re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE)) == set(content) - {"schema"}
+
+
+def test_the_example_in_python(rig, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (code,) = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
+    exec(compile(code, "docs/discovery.md", "exec"), {})
+    assert capsys.readouterr().out == "unknown []\nNone\n"
