@@ -18,12 +18,13 @@ from stochfric_mb.discovery.model import Knob, Model, adjusted, knobs_of
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.record import Array, Record
 from stochfric_mb.discovery.slips import N_FEATURES, Slips, extract
+from stochfric_mb.errors import SimulationError
 from stochfric_mb.reference.augmented import Start
 
 FLOOR = 1.0e-3
 """Error of the features that is always allowed, over the normal force [-]: numerics are never discovered."""
-TYPICAL_SLIPS = 6
-"""Slips compared at an operating point with a known excitation."""
+TYPICAL_SLIPS, LOOKED_AT = 6, 10
+"""Slips compared at an operating point with a known excitation, chosen from this many as those most like each other."""
 MISSED = 50.0
 """Deviation that counts for every feature where the candidate does not slip as the data do."""
 
@@ -98,15 +99,28 @@ def _free(pool: Pool, model: Model, rows: np.ndarray, runs: Sequence[int]) -> Ca
 
 
 def _forced(pool: Pool, model: Model, rows: np.ndarray) -> list[Case]:
-    chosen = rows[np.unique(np.linspace(0, len(rows) - 1, TYPICAL_SLIPS).round().astype(int))]
+    chosen = rows[np.unique(np.linspace(0, len(rows) - 1, LOOKED_AT).round().astype(int))]
     cases: list[Case] = []
+    errors: list[Array] = []
+    plain = dataclasses.replace(model, corrections={}, effects=(), process=None, own={})
     for i in chosen:
         slips = pool.slips[pool.run[i]]
         k = i - int(np.flatnonzero(pool.run == pool.run[i])[0])
         onset = (float(slips.onset_time[k]), float(slips.onset_position[k]), float(pool.dwell[i]))
         length = float(slips.restick_time[k] - slips.onset_time[k])
-        cases.append(_case(model, slips, onset, length, pool.features[i], pool.calibrations[pool.run[i]].covariance))
-    return cases
+        case = _case(model, slips, onset, length, pool.features[i], pool.calibrations[pool.run[i]].covariance)
+        predicted = predict(plain, case)
+        if predicted is not None:
+            cases.append(case)
+            errors.append(case.features - predicted)
+    if len(cases) <= TYPICAL_SLIPS:
+        return cases
+    # a slip that the believed model misses quite differently from the others is an odd one
+    table = np.array(errors)
+    odd = np.linalg.norm(
+        (table - np.median(table, axis=0)) / (1.48 * np.median(np.abs(table - np.median(table, axis=0)), axis=0) + 1e-9), axis=1
+    )
+    return [cases[i] for i in sorted(np.argsort(odd, kind="stable")[:TYPICAL_SLIPS])]
 
 
 def _case(
@@ -143,7 +157,10 @@ def predict(model: Model, case: Case) -> Array | None:
     # room for a break-away that comes late by a fifth of the static deflection
     late = 0.2 * abs(case.onset[1]) / box.belt_velocity
     count = round((ahead + late + 1.6 * case.length + margin) * record.rate)
-    motion = model.system(record).march(start, 1.0 / record.rate, count)
+    try:
+        motion = model.system(record).march(start, 1.0 / record.rate, count)
+    except SimulationError:
+        return None
     position = record.direction * motion.position
     if not np.isfinite(position).all():
         return None

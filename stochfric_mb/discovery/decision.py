@@ -152,8 +152,24 @@ def _with_kinematic(study: Study, model: Model, kind: str, values: dict[str, flo
         return best[1]
     model = model.plus(make_effect(kind, **values))
     if kind == "presliding_compliance":
-        return refit(model, study.windows, study.uncertainty, most=12, evaluations=20).model
+        return _compliant(study, model)
     return model
+
+
+def _compliant(study: Study, model: Model) -> Model:
+    """Return the model with the elastic limit and damping that forecast best; looked for on a grid first."""
+    place = len(model.effects) - 1
+    first = model.effects[place]
+    best: tuple[float, Model] | None = None
+    for limit in (5.0e-6, 1.5e-5, 5.0e-5, 1.5e-4):
+        for ratio in (0.05, 0.3):
+            effects = (*model.effects[:place], dataclasses.replace(first, elastic_limit=limit, damping_ratio=ratio))
+            trial = dataclasses.replace(model, effects=effects)
+            fit = refit(trial, study.windows, study.uncertainty, most=5, evaluations=4)
+            if best is None or fit.cost < best[0]:
+                best = (fit.cost, fit.model)
+    assert best is not None
+    return refit(best[1], study.windows, study.uncertainty, most=12, evaluations=20).model
 
 
 def _ripple_phases(study: Study, frequency: float) -> list[tuple[str, float]]:

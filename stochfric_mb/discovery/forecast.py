@@ -13,6 +13,7 @@ import numpy as np
 from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.record import Array, Record
 from stochfric_mb.discovery.slips import Slips
+from stochfric_mb.errors import SimulationError
 from stochfric_mb.statistics import crps
 
 N_OUTPUTS = 105
@@ -76,7 +77,10 @@ def windows_of(slips: Slips) -> Windows:
 
 
 def forecasts(model: Model, windows: Windows, *, sample: int = 0) -> Array:
-    """Return the positions that the model says the sensor will show [m], shape (n, N_OUTPUTS), in the mirrored frame."""
+    """Return the positions that the model says the sensor will show [m], shape (n, N_OUTPUTS), in the mirrored frame.
+
+    Not numbers where the model cannot be simulated at all.
+    """
     record = windows.record
     system = model.system(record, sample=sample)
     effects = model.effects_in(record.name)
@@ -90,7 +94,10 @@ def forecasts(model: Model, windows: Windows, *, sample: int = 0) -> Array:
     for effect in effects:
         true -= effect.measure(times, shown, generator) - shown if effect.kind in ("sensor_drift", "sensor_step") else 0.0
     starts = np.stack([times, true, np.full(len(times), belt), np.ones(len(times)), dwell], axis=1)
-    paths = system.forecasts(starts, windows.stride / record.rate, N_OUTPUTS)
+    try:
+        paths = system.forecasts(starts, windows.stride / record.rate, N_OUTPUTS)
+    except SimulationError:
+        return np.full(windows.targets.shape, np.nan)
     for effect in effects:
         if effect.group == "sensor" and effect.kind not in ("sensor_outliers", "sensor_delay"):
             paths = np.stack([effect.measure(t, p, generator) for t, p in zip(windows.times(), paths, strict=True)])

@@ -255,12 +255,14 @@ def periodic(
     onset = weights[0] * waves[..., 0]
     in_slip = legendre_coefficients(weights[1][:, None] * waves[..., 1:])
     all_runs = np.concatenate([onset[..., None], in_slip], axis=-1)
-    columns = [
-        all_runs[h, wave] * (pool.run == run)[:, None]
-        for run in range(pool.n_runs)
-        for h in range(harmonics)
-        for wave in (0, 1)
-    ]
+    columns: Columns = []
+    for run in range(pool.n_runs):
+        mine = (pool.run == run)[:, None]
+        for h in range(harmonics):
+            for wave in (0, 1):
+                column = all_runs[h, wave] * mine
+                # less its mean over the run: phases of their own must not stand in for levels that differ from run to run
+                columns.append(column - mine * (column.sum(axis=0) / mine.sum()))
     return Hypothesis(kind, columns, (*setting, float(harmonics)))
 
 

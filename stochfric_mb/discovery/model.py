@@ -19,6 +19,8 @@ CORRECTED = ("stiffness", "mass", "damping")
 """Parameters of the mechanism that recalibration may correct."""
 NOT_FITTED = ("reference_load", "spacing", "fraction", "size", "time", "duration", "high", "low", "static_share")
 """Parameters of effects that forecasts cannot fit, or that are fixed by what they mean."""
+SHORTEST_LIMIT = 1.0e-6
+"""Smallest elastic limit that a fit may reach [m]: a stiffer contact cannot be told from a rigid one and costs time."""
 OWN_TO_RUN = ("phase", "phase_2", "phase_3")
 """Parameters of effects that each run has its own value of: records start anywhere."""
 
@@ -125,6 +127,8 @@ def knobs_of(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str]
             elif not (field.name in ("amplitude_2", "amplitude_3") and value == 0.0):
                 scale = max(abs(value), 0.05 * meta["scale"])
                 inside = 1.0e-6 * meta["scale"] if meta["strict"] else 0.0
+                if field.name == "elastic_limit":
+                    inside = SHORTEST_LIMIT
                 knobs.append(Knob(field.name, value, scale, np.inf, meta["low"] + inside, meta["high"] - inside, i))
     return knobs
 

@@ -74,7 +74,7 @@ def refit(
     def errors(step: Array) -> Array:
         values = start + scale * step
         trial = adjusted(model, knobs, values)
-        parts = [np.clip((forecasts(trial, w) - w.targets) / UNIT, -CLIP, CLIP).ravel() for w in used]
+        parts = [np.nan_to_num(np.clip((forecasts(trial, w) - w.targets) / UNIT, -CLIP, CLIP), nan=CLIP).ravel() for w in used]
         # priors enter as one observation each; its weight is that of a cycle's worth of independent errors
         return np.concatenate([*parts, 3.0 * (values - believed) / priors])
 

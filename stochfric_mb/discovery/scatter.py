@@ -13,6 +13,8 @@ from stochfric_mb.discovery.record import Array, make_record
 from stochfric_mb.discovery.slips import Slips, extract
 from stochfric_mb.reference.augmented import Start
 
+FARTHEST = 0.15
+"""Most by which the matching moves the means, over mu_s [-]."""
 SETTLING = 4.0
 """Simulated time before the record that is not looked at [s]."""
 
@@ -28,20 +30,25 @@ def matched(model: Model, pool: Pool, *, rounds: int = 3) -> Model:
     if place is None:
         return model
     target = _statistics(pool.slips)
+    first = model.law
     for round_ in range(rounds):
         simulated = _statistics([simulated_slips(model, s, sample=round_) for s in pool.slips])
+        if not simulated.all():
+            return model
         load = float(np.median(pool.normal_force))
         values = {}
         for name, column in (("sigma_s", 1), ("sigma_k", 3)):
             now = getattr(model.effects[place], name)
             ratio = target[column] / simulated[column] if simulated[column] > 0.0 else 1.0
-            values[name] = float(max(now, 1.0e-5) * np.clip(ratio, 0.4, 2.5))
+            # beyond a quarter of the distance of the means, pairs with mu_k > mu_s would be common
+            most = 0.25 * max(model.law.mu_s - model.law.mu_k, 0.02 * model.law.mu_s)
+            values[name] = float(min(max(now, 1.0e-5) * np.clip(ratio, 0.4, 2.5), most))
         effects = list(model.effects)
         effects[place] = dataclasses.replace(effects[place], **values)
-        shift = (target[[0, 2]] - simulated[[0, 2]]) / load
-        model = dataclasses.replace(model, effects=tuple(effects)).with_law(
-            max(model.law.mu_s + float(shift[0]), 1.0e-3), max(model.law.mu_k + float(shift[1]), 1.0e-5)
-        )
+        shift = np.clip((target[[0, 2]] - simulated[[0, 2]]) / load, -FARTHEST * first.mu_s, FARTHEST * first.mu_s)
+        mu_s = float(np.clip(model.law.mu_s + shift[0], (1.0 - FARTHEST) * first.mu_s, (1.0 + FARTHEST) * first.mu_s))
+        mu_k = float(np.clip(model.law.mu_k + shift[1], 1.0e-5, 0.98 * mu_s))
+        model = dataclasses.replace(model, effects=tuple(effects)).with_law(mu_s, mu_k)
     return model
 
 
