@@ -65,7 +65,7 @@ class LeftOver:
     relative_velocity: Array
     """Relative velocity there [m/s], shape (n, N_NODES)."""
     noise: float
-    """Standard deviation that the sensor's noise brings into ``along`` [N]."""
+    """Largest standard deviation that the sensor's noise brings into ``along`` [N]."""
 
     @property
     def rms(self) -> dict[str, float]:
@@ -147,13 +147,13 @@ def _left_over(pool: Pool, found: Study) -> LeftOver:
 
 
 def _noise(pool: Pool) -> float:
-    """Return the typical deviation of the force along a slip from noise alone [N]: from the covariance of its coefficients."""
+    """Return the largest deviation of the force along a slip from noise alone [N]: from the covariance of its coefficients."""
     values = legendre.legvander(PLACES, SMOOTH - 1)
     deviations = [
         np.sqrt(np.einsum("ij,jk,ik->i", values, c.covariance[1 : SMOOTH + 1, 1 : SMOOTH + 1], values))
         for c in pool.calibrations
     ]
-    return float(np.median(deviations))
+    return float(np.mean(np.max(deviations, axis=1)))
 
 
 def _events(models: Mapping[str, Model], runs: HeldOut) -> dict[str, dict[str, Array]]:

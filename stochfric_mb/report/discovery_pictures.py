@@ -29,7 +29,7 @@ LABELS = {
 """What they are called in a legend."""
 MOST_CYCLES = 60
 """Measured cycles that are drawn over each other."""
-PALE = 5.0
+PALE = 4.0
 """Standard deviations of the noise at which the colours of the map end, or further out [-]."""
 EVENT_LABELS = {"period": "cycle period [s]", "break_away_force": "force at break-away [N]", "slip_travel": "slip travel [mm]"}
 """Axis of each statistic of events."""
