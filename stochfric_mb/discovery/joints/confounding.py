@@ -90,9 +90,7 @@ def _explained(cause: Array, result: Array) -> float:
     if len(levels) > 8:
         return float(np.corrcoef(cause, result)[0, 1] ** 2)
     between = sum(np.mean(cause == x) * (result[cause == x].mean() - result.mean()) ** 2 for x in levels)
-    return (
-        float(between / result.var()) if len(levels) < len(np.unique(result)) else float(len(np.unique(result)) <= len(levels))
-    )
+    return float(between / result.var())
 
 
 def stand_ins(kind: str, pairs: Sequence[Confounded]) -> tuple[str, ...]:

@@ -2,7 +2,8 @@
 
 A delay looks like friction: m q''(t - T) has a part along q'. And friction looks like a delay. So a delay is asked for twice:
 beside a generous friction law, where what it explains is surely timing; and beside the believed law alone, where it has to
-do better than every friction effect does without it.
+do better than every friction effect does without it. Only windows in which the joint slides one way count: at reversals,
+friction that gives before it slides looks late.
 """
 
 from __future__ import annotations
@@ -132,11 +133,11 @@ def _through(make: Callable[[float], Sequence[Sheet]], names: Sequence[str], int
 
 def _left(sheets: Sequence[Sheet], names: Sequence[str], generous: bool) -> tuple[float, float]:
     """Return the mean square that a friction law leaves, and the number of independent windows."""
-    columns = np.concatenate([_columns(s, names, generous) for s in sheets])
-    driven = np.concatenate([s.driven for s in sheets])
+    columns = np.concatenate([_columns(s, names, generous)[s.sliding] for s in sheets])
+    driven = np.concatenate([s.driven[s.sliding] for s in sheets])
     scaled = columns / np.maximum(np.linalg.norm(columns, axis=0), 1.0e-300)
     rest = driven - scaled @ np.linalg.lstsq(scaled, driven, rcond=1.0e-10)[0]
-    ends = np.cumsum([len(s.driven) for s in sheets])[:-1]
+    ends = np.cumsum([int(s.sliding.sum()) for s in sheets])[:-1]
     return float(np.mean(rest**2)), max(sum(independent_count(r) for r in np.split(rest, ends)), 4.0)
 
 

@@ -12,19 +12,19 @@ from stochfric_mb.discovery.joints.confounding import TOGETHER, Confounded, conf
 from stochfric_mb.discovery.joints.fitting import JointFit
 from stochfric_mb.discovery.joints.outcome import PlaceOutcome
 from stochfric_mb.discovery.joints.scores import stroke_scatter
+from stochfric_mb.discovery.joints.timing import NAMED as SURE
 from stochfric_mb.discovery.joints.timing import Timing
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.effects import effect_kinds
 from stochfric_mb.effects.contract import Effect
 from stochfric_mb.measurement.dataset import Dataset
 
+ROTATIONAL = {
+    "N": "N m", "m": "rad", "m/s": "rad/s", "N s/m": "N m s/rad", "N s^2/m^2": "N m s^2/rad^2",
+}  # fmt: skip
+"""Unit of a parameter where friction acts along a line -> where it acts about an axis."""
 NO_BELT = ("belt_speed_ripple",)
 """Effects of a mechanism that a joint does not have."""
-NOT_SOUGHT = (
-    "dwell_ageing", "presliding_compliance", "backlash", "second_mode", "impacts", "harmonic_force", "normal_load_ripple",
-    "random_coefficients", "correlated_coefficients", "sensor_drift", "sensor_step", "sensor_clipping", "sensor_outliers",
-)  # fmt: skip
-"""Effects that windows of steady sliding cannot show: they live at rest, at reversals, or in what is averaged away."""
 
 
 def verdict(
@@ -75,7 +75,7 @@ def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
             f"Friction depends on {axis}{_at(place)}: the error falls from {_rms_before(place, i):.4g} to {trial.fit.rms:.4g} "
             f"{place.fit[0].unit} on the runs that were learned from."
         )
-        numbers = _parameters(fit, first + i, effect)
+        numbers = _parameters(fit, first + i, effect, rotates=place.fit[0].unit == "N m")
         found.append(Found(effect.kind, others, Where(axis, text), numbers, trial.score, trial.p_value))
     return found
 
@@ -88,9 +88,10 @@ def _at(place: PlaceOutcome) -> str:
     return f" in joint {place.place}" if place.place else ""
 
 
-def _parameters(fit: JointFit, owner: int, effect: Effect) -> dict[str, Interval]:
+def _parameters(fit: JointFit, owner: int, effect: Effect, *, rotates: bool) -> dict[str, Interval]:
     found: dict[str, Interval] = {}
     for field in dataclasses.fields(effect):
+        unit = ROTATIONAL.get(field.metadata["unit"], field.metadata["unit"]) if rotates else field.metadata["unit"]
         value = getattr(effect, field.name)
         if not isinstance(value, int | float) or not np.isfinite(value):
             continue
@@ -98,9 +99,9 @@ def _parameters(fit: JointFit, owner: int, effect: Effect) -> dict[str, Interval
         if deviation == 0.0:  # nothing in these data depends on it
             continue
         if np.isfinite(deviation):
-            found[field.name] = Interval(value, value - 1.96 * deviation, value + 1.96 * deviation, field.metadata["unit"])
+            found[field.name] = Interval(value, value - 1.96 * deviation, value + 1.96 * deviation, unit)
         elif not (field.name[-2:] in ("_2", "_3") and value == 0.0):
-            found[field.name] = Interval(value, value, value, field.metadata["unit"])
+            found[field.name] = Interval(value, value, value, unit)
     return found
 
 
@@ -159,7 +160,7 @@ def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
 
 
 def _timing_notes(timing: Timing | None) -> list[str]:
-    if timing is None or timing.named or timing.gain < 0.03:
+    if timing is None or timing.named or timing.score < SURE:
         return []
     return [
         f"drive and motion are {1e3 * timing.seconds:.2g} ms apart, no more than sampling or a compliant drive "
