@@ -28,7 +28,11 @@ CAPTIONS = {
 }
 """What each picture shows."""
 
-METRICS = {"crps_one_cycle": "error of forecasts one cycle ahead (CRPS; without scatter, the mean absolute error)"}
+METRICS = {
+    "crps_one_cycle": "error of forecasts one cycle ahead (CRPS; without scatter, the mean absolute error)",
+    "closed_loop_voltage": "error of the simulated closed loop: root mean square of the voltage's, over that of the voltage",
+    "inverse_dynamics_sliding": "error of the driving force that the model asks for while the joint slides (root mean square)",
+}
 """Metric -> what it is, in words; other metrics are told by their names."""
 
 DISPLAYED = {"m": ((1.0e-3, 1.0e6, "µm"), (1.0, 1.0e3, "mm")), "m/s": ((1.0, 1.0e3, "mm/s"),), "-": ()}
@@ -68,6 +72,7 @@ def page(content: Mapping[str, Any], drawn: Mapping[str, bytes], pictures: Seque
         beliefs=_beliefs(content),
         rounds=_rounds(details),
         number=number,
+        error=error,
         interval=interval,
         percent=percent,
         said=said,
@@ -93,6 +98,11 @@ def interval(value: Mapping[str, Any], n: int = 3) -> Markup:
         return number(value["value"], value["unit"], n)
     middle, low, high = _numbers([value["value"], value["low"], value["high"]], value["unit"], n)
     return Markup("{} <small>({} to {})</small>{}").format(middle, low, high, _unit(value["value"], value["unit"]))
+
+
+def error(value: float | None, unit: str) -> Markup:
+    """Return a forecast's error; a relative one as a percentage."""
+    return percent(value, 3) if unit == "-" else number(value, unit)
 
 
 def percent(value: float | None, n: int = 2) -> Markup:

@@ -148,12 +148,12 @@ def _left_over(pool: Pool, found: Study) -> LeftOver:
 
 def _noise(pool: Pool) -> float:
     """Return the largest deviation of the force along a slip from noise alone [N]: from the covariance of its coefficients."""
-    values = legendre.legvander(PLACES, SMOOTH - 1)
-    deviations = [
-        np.sqrt(np.einsum("ij,jk,ik->i", values, c.covariance[1 : SMOOTH + 1, 1 : SMOOTH + 1], values))
-        for c in pool.calibrations
-    ]
-    return float(np.mean(np.max(deviations, axis=1)))
+    values = np.asarray(legendre.legvander(PLACES, SMOOTH - 1), dtype=np.float64)
+    largest: list[float] = []
+    for calibration in pool.calibrations:
+        covariance = calibration.covariance[1 : SMOOTH + 1, 1 : SMOOTH + 1]
+        largest.append(float(np.sqrt(((values @ covariance) * values).sum(axis=1).max())))
+    return float(np.mean(largest))
 
 
 def _events(models: Mapping[str, Model], runs: HeldOut) -> dict[str, dict[str, Array]]:

@@ -229,7 +229,7 @@ def _ranking(content: Mapping[str, Any]) -> Figure:
 
 def _gap(gap: Mapping[str, Any]) -> Figure:
     names = ["baseline", "recalibrated", "augmented"]
-    scale, unit = (1.0e6, "µm") if gap["unit"] == "m" else (1.0, gap["unit"])
+    scale, unit = {"m": (1.0e6, "µm"), "-": (100.0, "%")}.get(gap["unit"], (1.0, gap["unit"]))
     figure, (axes,) = new_figure(4.8, 2.5)
     colours = {"baseline": COLOURS["believed"]} | COLOURS
     labels = {"baseline": LABELS["believed"]} | LABELS

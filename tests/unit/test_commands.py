@@ -64,7 +64,7 @@ def fake(monkeypatch):
     return asked
 
 
-@pytest.mark.parametrize("words", [[], ["--help"], ["run", "--help"], ["compare", "--help"], ["list", "--help"]])
+@pytest.mark.parametrize("words", [[], ["--help"], ["run", "--help"], ["compare", "--help"], ["list", "--help"], ["discover", "--help"]])
 def test_help_and_import_load_nothing_heavy(words):
     code = (
         "import sys, stochfric_mb\n"

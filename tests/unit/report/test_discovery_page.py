@@ -52,6 +52,7 @@ RESULTS = {
         "unknown", (), Where("record", "the runs hold too few slips: each needs 12"), (), None, (), "record 12 cycles", {}
     ),
     "floor too high": dataclasses.replace(BASE, gap=dataclasses.replace(GAP, augmented=3.0e-5)),
+    "relative error": dataclasses.replace(BASE, gap=Gap("closed_loop_voltage", "-", True, 0.231, 0.159, 0.038, 0.0021)),
     "another metric": dataclasses.replace(
         BASE, gap=Gap("simulated closed loop, voltage", "V", True, 3.37, 0.446, 0.358, 0.35, "repeated strokes")
     ),
@@ -63,6 +64,7 @@ HEADLINES = {
     "unknown": "Something is missing, and no known effect explains it",
     "too few slips": "These data cannot tell",
     "floor too high": "the floor is an estimate",
+    "relative error": "from 15.9&nbsp;% to 3.80&nbsp;%",
     "another metric": "simulated closed loop, voltage",
 }
 
@@ -248,3 +250,19 @@ def test_without_effect_there_is_no_third_model(found):
     check_backed(content, text)
     assert set(content["details"]["events"]) == {"data", "believed", "recalibrated"}
     assert "with the effects found" not in re.sub(r"<[^>]+>", "", text)
+
+
+def test_a_model_that_never_slips_is_shown_as_such(found):
+    stuck = found.models[0].with_law(40.0, 0.46)
+    content, text, drawn = written(dataclasses.replace(found, models=(stuck, stuck, found.models[2])))
+    check_backed(content, text)
+    assert content["details"]["events"]["recalibrated"]["period"]["median"] is None
+    assert "events" in drawn
+
+
+def test_without_held_out_cycles_the_rest_is_shown(found):
+    result = dataclasses.replace(found.result, gap=None)
+    content, text, drawn = written(dataclasses.replace(found, result=result, runs=dataclasses.replace(found.runs, second=())))
+    check_backed(content, text)
+    assert {"map", "left_over"} <= set(drawn)
+    assert not {"cycles", "gap"} & set(drawn)
