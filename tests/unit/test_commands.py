@@ -46,7 +46,7 @@ def fake(monkeypatch):
     """Replace every adapter by one that computes nothing; return what it was asked for."""
     asked = []
 
-    def adapter(name):
+    def adapter(name, effects=()):
         real = engines.ENGINES[name]
         assert real.name == name
 
@@ -64,7 +64,9 @@ def fake(monkeypatch):
     return asked
 
 
-@pytest.mark.parametrize("words", [[], ["--help"], ["run", "--help"], ["compare", "--help"], ["list", "--help"], ["discover", "--help"]])
+@pytest.mark.parametrize(
+    "words", [[], ["--help"], ["run", "--help"], ["compare", "--help"], ["list", "--help"], ["discover", "--help"]]
+)
 def test_help_and_import_load_nothing_heavy(words):
     code = (
         "import sys, stochfric_mb\n"
@@ -197,7 +199,7 @@ def test_missing_engine_says_what_to_install(monkeypatch, tmp_path):
 
 
 def test_ctrl_c_leaves_nothing_behind(fake, monkeypatch, tmp_path):
-    def interrupted(name):
+    def interrupted(name, effects=()):
         def simulate(scenario, *, progress, **_):
             progress(0.01)
             raise KeyboardInterrupt
@@ -223,7 +225,7 @@ def test_ctrl_c_while_the_report_is_drawn_leaves_nothing_behind(fake, monkeypatc
 
 
 def test_an_engine_that_fails_is_named(fake, monkeypatch, tmp_path):
-    def broken(name):
+    def broken(name, effects=()):
         def simulate(scenario, **_):
             if name == "exudyn":
                 raise SimulationError("x = nan at t = 1 s; lower dt")
