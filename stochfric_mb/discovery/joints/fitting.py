@@ -19,6 +19,8 @@ Mask = npt.NDArray[np.bool_]
 
 EVALUATIONS = 12
 """Most Gauss-Newton steps: the balance is linear in most numbers."""
+PER_STROKE = 6
+"""Independent numbers that one stroke can give: friction's errors repeat along a stroke, and that no autocorrelation shows."""
 INSIDE = 1.0e-6
 """Distance kept from bounds that are themselves forbidden [scales]."""
 
@@ -87,6 +89,8 @@ class JointFit:
     """What is left at the centres that were fitted, sheet by sheet [N or N m]."""
     jacobian: Array
     """Change of the remainder with each number, shape (n, n_knobs)."""
+    strokes: int
+    """Stretches of sliding one way that were fitted."""
 
     @property
     def rms(self) -> float:
@@ -95,8 +99,8 @@ class JointFit:
 
     @property
     def independent(self) -> float:
-        """Number of independent windows, from the autocorrelation of what is left."""
-        return sum(independent_count(r) for r in self.remainders)
+        """Number of independent windows: from the autocorrelation of what is left, `PER_STROKE` a stroke at most."""
+        return min(sum(independent_count(r) for r in self.remainders), float(PER_STROKE * self.strokes))
 
     def deviation(self, owner: int, name: str) -> float:
         """Return the standard deviation of a fitted number; nan if it was not fitted."""
@@ -123,6 +127,11 @@ def independent_count(values: Array) -> float:
     correlation = correlation / correlation[0]
     end = int(np.argmax(correlation < 2.0 / np.sqrt(n))) or len(correlation)
     return float(n / max(1.0 + 2.0 * correlation[1:end].sum(), 1.0))
+
+
+def stroke_count(masks: Sequence[Mask]) -> int:
+    """Return the number of stretches of windows without a gap."""
+    return sum(int(np.count_nonzero(np.diff(np.r_[0, m.astype(np.int8)]) > 0)) for m in masks)
 
 
 def knobs_of(model: JointModel, nuisances: Sequence[Nuisance], fixed: Sequence[str] = ()) -> list[Knob]:
@@ -220,7 +229,9 @@ def fit(
     fitted = adjusted(model, knobs, values)
     parts = tuple(fitted.remainder(s, nuisances)[m] for s, m in zip(sheets, used, strict=True))
     n = sum(map(len, parts))
-    result = JointFit(fitted, tuple(knobs), values, np.zeros((len(knobs), len(knobs))), parts, jacobian[:n] / scale)
+    result = JointFit(
+        fitted, tuple(knobs), values, np.zeros((len(knobs), len(knobs))), parts, jacobian[:n] / scale, stroke_count(used)
+    )
     inflation = n / max(result.independent, 1.0)
     # priors enter the information as they did the fit, with the weight of one window at ``noise``
     information = jacobian[:n].T @ jacobian[:n] / (result.rms**2 * inflation + 1.0e-300)

@@ -4,7 +4,8 @@ Friction is mu N along the motion's opposite, N being the believed load of the j
 contact carries that effect's reference load plus the load that the joint transmits; the reference load is fitted.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportCallIssue=false
+# (compiled functions are typed by numba)
 
 from __future__ import annotations
 

@@ -18,6 +18,8 @@ from stochfric_mb.scenario import Scenario
 
 Array = npt.NDArray[np.float64]
 
+SETTLED = 10.0
+"""Time constants of the position loop after which the state at the start, which is not known, plays no part."""
 APART = 4
 """Centres between windows that share no samples that matter."""
 
@@ -54,8 +56,9 @@ def loop_error(model: JointModel, runs: Sequence[Run], scenario: Scenario) -> fl
         if not isinstance(joint, PrismaticJoint):
             return None
         voltage, _ = closed_loop(run, joint, model, controller)
-        measured = run.channels["voltage"]
-        wrong += float(np.sum((voltage - measured) ** 2))
+        late = round(SETTLED / controller.position_gain / run.sample_interval)
+        measured = run.channels["voltage"][late:]
+        wrong += float(np.sum((voltage[late:] - measured) ** 2))
         right += float(np.sum(measured**2))
     return float(np.sqrt(wrong / right))
 

@@ -17,8 +17,10 @@ Array = npt.NDArray[np.float64]
 
 NAMED = 20.0
 """Score above which an effect is named."""
-MATERIAL = 0.03
+MATERIAL = 0.05
 """Least share of the error on left-out blocks that an effect must take away: less is real, perhaps, but no explanation."""
+PLAIN = 0.1
+"""The same for a competitor without a name: that something is missing is said where it is plain to see."""
 BLOCKS = 8
 """Blocks of the record that are left out in turn."""
 BETTER = 0.5
@@ -230,10 +232,10 @@ class Selector:
             return ""
         axis, score = last.competitors[0]
         named = last.trials[0].score
-        if score < NAMED or score < named + max(WIN[0], WIN[1] * abs(named)):
+        if score < NAMED + 2.0 * np.log(len(COMPETITORS)) or score < named + max(WIN[0], WIN[1] * abs(named)):
             return ""
         rival = next(c for c in COMPETITORS if c.axis == axis)
-        return axis if self._rival_gain(last.before, rival) > MATERIAL else ""
+        return axis if self._rival_gain(last.before, rival) > PLAIN else ""
 
     def _rival_gain(self, current: JointFit, rival: Competitor) -> float:
         """Return by what part a competitor lowers the error on blocks left out."""

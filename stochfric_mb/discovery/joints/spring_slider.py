@@ -280,8 +280,8 @@ def _numbers(fitted: Fitted) -> dict[str, Interval]:
     for name, value, deviation, unit in rows:
         low, high = value - 1.96 * deviation, value + 1.96 * deviation
         if name.startswith("log_"):
-            kept = [float(np.exp(min(x, 700.0))) for x in (value, low, high)]
-            found[name[4:]] = Interval(*kept, {"log_distance": "m", "log_stiffness": "1/m"}[name])
+            middle, least, most = (float(np.exp(min(x, 700.0))) for x in (value, low, high))
+            found[name[4:]] = Interval(middle, least, most, {"log_distance": "m", "log_stiffness": "1/m"}[name])
         else:
             found[name] = Interval(float(value), float(low), float(high), unit)
     return found

@@ -91,7 +91,8 @@ def _at(place: PlaceOutcome) -> str:
 def _parameters(fit: JointFit, owner: int, effect: Effect, *, rotates: bool) -> dict[str, Interval]:
     found: dict[str, Interval] = {}
     for field in dataclasses.fields(effect):
-        unit = ROTATIONAL.get(field.metadata["unit"], field.metadata["unit"]) if rotates else field.metadata["unit"]
+        straight = str(field.metadata.get("unit", "-"))
+        unit = ROTATIONAL.get(straight, straight) if rotates else straight
         value = getattr(effect, field.name)
         if not isinstance(value, int | float) or not np.isfinite(value):
             continue
