@@ -42,7 +42,7 @@ class Trial:
     fit: JointFit
     """Model with it."""
     score: float
-    """2 delta log L - p ln n - 2 ln(grid size), n counting independent windows."""
+    """2 delta log L - p ln n - 2 ln(tried), n counting independent windows, tried: starting points times kinds."""
     p_value: float
     """Chance of that gain without the effect, by Fisher's F on independent windows, times the size of the grid."""
 
@@ -148,11 +148,11 @@ class Selector:
     def _scored(self, current: JointFit, fits: Sequence[tuple[Candidate, JointFit]]) -> list[Trial]:
         # all are judged by the same count of independent windows: that of the best fit
         n = max(min((f for _, f in fits), key=lambda f: f.rms).independent, 4.0)
-        trials = [self._trial(current, c, f, n) for c, f in fits]
+        trials = [self._trial(current, c, f, n, len(fits)) for c, f in fits]
         return sorted(trials, key=lambda t: -t.score)
 
-    def _trial(self, current: JointFit, candidate: Candidate, fitted: JointFit, n: float) -> Trial:
-        p, grid = candidate.parameters, len(candidate.starts)
+    def _trial(self, current: JointFit, candidate: Candidate, fitted: JointFit, n: float, kinds: int) -> Trial:
+        p, grid = candidate.parameters, len(candidate.starts) * kinds
         ratio = max((current.rms / fitted.rms) ** 2, 1.0)
         score = n * np.log(ratio) - p * np.log(n) - 2.0 * np.log(grid)
         spare = max(n - len(fitted.knobs), 1.0)
