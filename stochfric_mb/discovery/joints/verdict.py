@@ -97,7 +97,7 @@ def _parameters(fit: JointFit, owner: int, effect: Effect, *, rotates: bool) -> 
         if not isinstance(value, int | float) or not np.isfinite(value):
             continue
         deviation = fit.deviation(owner, field.name)
-        if deviation == 0.0:  # nothing in these data depends on it
+        if deviation < 1.0e-6 * abs(value):  # not known that well: nothing in these data depends on it
             continue
         if np.isfinite(deviation):
             found[field.name] = Interval(value, value - 1.96 * deviation, value + 1.96 * deviation, unit)

@@ -1,0 +1,140 @@
+"""What was found, taken to where it is used: scenario file, table of parameters, augmented MJCF, Exudyn snippet."""
+
+# pyright: reportAttributeAccessIssue=false
+# (MuJoCo's bindings are not typed)
+
+from __future__ import annotations
+
+import importlib
+from pathlib import Path
+from typing import Any
+
+from stochfric_mb.discovery.result import Interval, Result
+from stochfric_mb.errors import InputError, MissingEngineError
+from stochfric_mb.laws.elastic_stick import ElasticStick
+from stochfric_mb.mechanisms import HingePendulum, Mjcf, PrismaticJoint
+from stochfric_mb.scenario import Scenario
+
+PRESLIDING = 1.0e-5
+"""Presliding displacement of the law that MuJoCo runs [m or rad]: it holds at rest, where Coulomb's law says nothing."""
+CARRIED = ("viscous_friction", "sensor_delay")
+"""Effects that the MJCF carries, or that do not belong into a model."""
+
+
+def parameter_table(result: Result) -> str:
+    """Return the numbers of a result with their 95 % intervals as CSV: effect, parameter, value, low, high, unit."""
+    rows = ["effect,parameter,value,low,high,unit"]
+    for effect in result.effects:
+        rows += [_row(effect.kind, name, number) for name, number in effect.parameters.items()]
+    rows += [_row("", name, number) for name, number in result.believed.items()]
+    return "\n".join(rows) + "\n"
+
+
+def _row(effect: str, name: str, number: Interval) -> str:
+    return f"{effect},{name},{number.value:.6g},{number.low:.6g},{number.high:.6g},{number.unit}"
+
+
+def scenario_toml(scenario: Scenario[Any]) -> str:
+    """Return the text of a scenario file."""
+    return importlib.import_module("tomli_w").dumps(scenario.to_dict())
+
+
+def mjcf(scenario: Scenario[Any]) -> str:
+    """Return an MJCF model with the friction of a scenario in its joints (plugin ``stochfric.dof``).
+
+    Viscous friction becomes the joint's damping. Effects that neither can carry are listed in a comment at the top.
+
+    Raises:
+        InputError: the mechanism is no driven joint.
+        MissingEngineError: MuJoCo is not installed.
+    """
+    try:
+        mujoco: Any = importlib.import_module("mujoco")
+    except ImportError:
+        raise MissingEngineError("an MJCF export needs MuJoCo; run: pip install 'stochfric_mb[mujoco]'") from None
+    attach: Any = importlib.import_module("stochfric_mb.mujoco")
+    mechanism = scenario.mechanism
+    if isinstance(mechanism, Mjcf):
+        spec, loads, acts_in = _corrected(mujoco, mechanism), dict(mechanism.friction), mechanism.effects_in
+    elif isinstance(mechanism, PrismaticJoint | HingePendulum):
+        spec, loads, acts_in = mujoco.MjSpec.from_string(_plain(mechanism)), {"joint": mechanism.normal_force}, ()
+    else:
+        raise InputError(f"mechanism {mechanism.kind!r} has no joint; its augmented.toml can be run by itself")
+    law = ElasticStick(mu_s=scenario.law.mu_s, mu_k=scenario.law.mu_k, e_lim=PRESLIDING)
+    viscous = sum(e.coefficient for e in scenario.effects if e.kind == "viscous_friction")  # type: ignore[attr-defined]
+    for joint, load in loads.items():
+        attach.add_friction(spec, attach.Joint(joint), law, normal_force=load)
+        if not acts_in or joint in acts_in:
+            element = next(j for j in spec.joints if j.name == joint)
+            element.damping = element.damping + viscous
+    spec.compile()
+    left = [e.kind for e in scenario.effects if e.kind not in CARRIED]
+    note = (
+        f"\n<!-- not in this file, since neither damping nor the plugin's laws hold it: {', '.join(left)} -->\n"
+        if left
+        else "\n"
+    )
+    return f"<!-- {scenario.title}; import stochfric_mb.mujoco before loading -->{note}{spec.to_xml()}"
+
+
+def _corrected(mujoco: Any, mechanism: Mjcf) -> Any:
+    """Return the user's model with what data have corrected."""
+    spec = mujoco.MjSpec.from_file(str(mechanism.file))
+    factor = mechanism.factors.get("mass", 1.0)
+    for geom in spec.geoms:
+        geom.mass, geom.density = geom.mass * factor, geom.density * factor
+    for body in spec.bodies:
+        if body.explicitinertial:
+            body.mass, body.inertia = body.mass * factor, body.inertia * factor
+    for joint in spec.joints:
+        joint.armature = joint.armature * mechanism.factors.get("armature", 1.0)
+        joint.damping = joint.damping + mechanism.damping.get(joint.name, 0.0)
+    return spec
+
+
+def _plain(mechanism: PrismaticJoint | HingePendulum) -> str:
+    """Return the mechanism as MJCF."""
+    if isinstance(mechanism, PrismaticJoint):
+        gravity, kind, armature = "0 0 0", 'type="slide" axis="1 0 0"', 0.0
+        place, gain = "0 0 0", mechanism.force_gain or 1.0
+    else:
+        gravity, kind, armature = f"0 0 {-mechanism.gravity!r}", 'type="hinge" axis="0 1 0"', mechanism.inertia
+        place, gain = f"0 0 {-mechanism.length!r}", mechanism.torque_gain or 1.0
+    mass = max(mechanism.mass, 1.0e-3)
+    small = 1.0e-6 * mass
+    return f"""<mujoco>
+  <option gravity="{gravity}" integrator="implicitfast" timestep="0.001"/>
+  <worldbody>
+    <body name="body">
+      <joint name="joint" {kind} damping="{mechanism.damping!r}" armature="{armature!r}"/>
+      <inertial pos="{place}" mass="{mass!r}" diaginertia="{small!r} {small!r} {small!r}"/>
+    </body>
+  </worldbody>
+  <actuator><motor name="drive" joint="joint" gear="{gain!r}"/></actuator>
+</mujoco>"""
+
+
+def exudyn_snippet(file: str | Path = "augmented.toml") -> str:
+    """Return Python that puts the friction of an augmented scenario into an Exudyn model.
+
+    Args:
+        file: where the augmented scenario is.
+    """
+    return f'''"""Friction found by discovery, in Exudyn: a user function on a coordinate."""
+from exudyn.itemInterface import CoordinateSpringDamper
+from stochfric_mb.discovery.joints.force import joint_friction
+from stochfric_mb.scenario import load_any_scenario
+
+friction = joint_friction(load_any_scenario({str(file)!r}), smoothing_velocity=1e-3)
+
+
+def friction_force(mbs, t, item, q, v, stiffness, damping, offset):
+    return -friction(t, q, v)  # Exudyn counts the force of a spring-damper against its coordinate
+
+
+def add_friction(mbs, ground_marker, joint_marker):
+    """Add the friction between two coordinate markers; return the number of the object."""
+    return mbs.AddObject(
+        CoordinateSpringDamper(markerNumbers=[ground_marker, joint_marker], springForceUserFunction=friction_force)
+    )
+'''
