@@ -94,9 +94,12 @@ def test_a_shoe_rides_a_drum_until_its_spring_tears_it_off(law, mode):
     radius, load, stiffness, rate = 0.2, 10.0, 8.0, 0.1
     spec = mujoco.MjSpec.from_string(
         f"""<mujoco><option timestep="5e-4" gravity="0 0 0"/><worldbody>
-        <body><joint name="drum" axis="0 1 0"/><geom name="drum" type="cylinder" size="{radius} .1" euler="90 0 0" mass="1e5"/></body>
-        <body><joint name="arm" axis="0 1 0" stiffness="{stiffness}"/><joint name="press" type="slide" axis="0 0 1"/>
-        <geom name="shoe" type="sphere" pos="0 0 {radius + 0.02}" size=".02" mass=".1" solref="-1e5 -500"/></body></worldbody></mujoco>"""
+        <body><joint name="drum" axis="0 1 0"/><geom name="drum" type="cylinder" size="{radius} .1"
+        euler="90 0 0" mass="1e5"/></body>
+        <body><joint name="arm" axis="0 1 0" stiffness="{stiffness}"/>
+        <joint name="press" type="slide" axis="0 0 1"/>
+        <geom name="shoe" type="sphere" pos="0 0 {radius + 0.02}" size=".02" mass=".1"
+        solref="-1e5 -500"/></body></worldbody></mujoco>"""
     )
     engine.add_friction(spec, ("shoe", "drum"), law, mode=mode)
     model = spec.compile()
@@ -113,8 +116,9 @@ def test_a_shoe_rides_a_drum_until_its_spring_tears_it_off(law, mode):
         farthest = max(farthest, float(arm.qpos[0]))
         if drum.qpos[0] < 0.98 * torn_at:
             assert drum.qpos[0] - arm.qpos[0] - lag == pytest.approx(0.0, abs=6e-5)  # e_lim/r is 5e-5
-    # It turns back at rate^2/(2 (mu_s - mu_k) N r/J) beyond that, less than 1e-4 rad.
-    assert farthest == pytest.approx(torn_at, abs=2e-4)
+    # True stick turns back at once. Elastic stick slips at mu_s up to v_s first, while the spring's force rises by k rate/r:
+    # for sqrt(2 v_s m r/(k rate)) = 2.5 ms, and then needs about a millisecond to reach mu_k; the drum goes on meanwhile.
+    assert farthest == pytest.approx(torn_at, abs=5e-4 if isinstance(law, ElasticStick) else 1e-5)
 
 
 @pytest.mark.parametrize(("law", "mode"), STICKING)
@@ -122,7 +126,8 @@ def test_a_body_held_by_a_spring_on_a_running_drum(law, mode):
     radius, stiffness = 0.2, 400.0
     spec = mujoco.MjSpec.from_string(
         f"""<mujoco><option timestep="2e-4"/><worldbody>
-        <body><joint name="drum" axis="0 1 0"/><geom name="drum" type="cylinder" size="{radius} .1" euler="90 0 0" mass="1e5"/></body>
+        <body><joint name="drum" axis="0 1 0"/><geom name="drum" type="cylinder" size="{radius} .1"
+        euler="90 0 0" mass="1e5"/></body>
         <body pos="0 0 {radius + 0.05}"><joint name="x" type="slide" axis="1 0 0" stiffness="{stiffness}" damping="16"/>
         <joint name="z" type="slide" axis="0 0 1" damping="2"/>
         <geom name="body" type="sphere" size=".05" mass="1" solref=".005 1"/></body></worldbody></mujoco>"""
