@@ -14,7 +14,10 @@ import stochfric_mb.mujoco as engine  # noqa: E402
 from stochfric_mb.coefficients import Knots  # noqa: E402
 from stochfric_mb.errors import InputError  # noqa: E402
 from stochfric_mb.friction import Friction  # noqa: E402
+from stochfric_mb.laws.coulomb import Coulomb  # noqa: E402
 from stochfric_mb.laws.elastic_stick import ElasticStick  # noqa: E402
+from stochfric_mb.mujoco import slots  # noqa: E402
+from stochfric_mb.mujoco.attach import header  # noqa: E402
 
 SCENE = """<mujoco><option timestep="1e-3" integrator="{integrator}"/><worldbody><geom name="floor" type="plane" size="5 5 1"/>
 <body pos="0 0 .05"><freejoint/><geom name="box" type="box" size=".05 .05 .05" mass="1"/></body>
@@ -22,14 +25,19 @@ SCENE = """<mujoco><option timestep="1e-3" integrator="{integrator}"/><worldbody
 contype="0" conaffinity="0"/></body></worldbody></mujoco>"""
 PROCESS = Knots(sigma_s=0.05, sigma_k=0.05, spacing=0.01)
 LAW = Friction(ElasticStick(mu_s=0.8, mu_k=0.5, e_lim=1e-4), PROCESS)
+SOLVED = {  # mode implicit by choice, by a law with true stick, and by a step beyond the limit
+    "chosen": (LAW, "implicit"),
+    "coulomb": (Friction(Coulomb(mu_s=0.8, mu_k=0.5), PROCESS), "auto"),
+    "auto": (Friction(ElasticStick(mu_s=0.8, mu_k=0.5, e_lim=1e-7), PROCESS), "auto"),
+}
 INTEGRATORS = ["Euler", "RK4", "implicit", "implicitfast"]
 BOX, HINGE = "friction_box_floor", "friction_hinge"
 
 
-def model_of(integrator="Euler", seed=0, law=LAW):
+def model_of(integrator="Euler", seed=0, law=LAW, mode="auto", joint_law=LAW):
     spec = mujoco.MjSpec.from_string(SCENE.format(integrator=integrator))
-    engine.add_friction(spec, ("box", "floor"), law, seed=seed)
-    engine.add_friction(spec, engine.Joint("hinge"), law, normal_force=2.0, seed=seed, contact=1)
+    engine.add_friction(spec, ("box", "floor"), law, seed=seed, mode=mode)
+    engine.add_friction(spec, engine.Joint("hinge"), joint_law, normal_force=2.0, seed=seed, contact=1)
     return spec.compile()
 
 
@@ -44,9 +52,23 @@ def after(model, data, count=150):
     return np.concatenate([data.qpos, data.qvel])
 
 
+def solved(choice, integrator="Euler", seed=0):
+    law, mode = SOLVED[choice]
+    return model_of(integrator, seed, law, mode)
+
+
+@pytest.mark.parametrize("choice", SOLVED)
+def test_these_are_solved(choice):
+    model = solved(choice)
+    data = moving(model)
+    after(model, data, 50)
+    assert header(model, data, 0)[slots.SOLVED] == 1.0
+
+
+@pytest.mark.parametrize("choice", [None, *SOLVED])
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_state_travels_with_the_data(integrator):
-    model = model_of(integrator, seed=5)
+def test_state_travels_with_the_data(integrator, choice):
+    model = solved(choice, integrator, 5) if choice else model_of(integrator, seed=5)
     data = moving(model)
     after(model, data)
     copied = copy.copy(data)
@@ -67,10 +89,15 @@ def test_state_travels_with_the_data(integrator):
     assert np.array_equal(after(model, data, 300), expected)
 
 
+@pytest.mark.parametrize("choice", [None, *SOLVED])
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_batches_give_each_simulation_its_own_seed(integrator):
+def test_batches_give_each_simulation_its_own_seed(integrator, choice):
     batch = pytest.importorskip("mujoco.batch")
-    model = model_of(integrator)
+
+    def made(seed):
+        return solved(choice, integrator, seed) if choice else model_of(integrator, seed)
+
+    model = made(0)
     seeds = [0, 1, 2, 1]
     results = []
     for threads in (1, 2):
@@ -83,7 +110,7 @@ def test_batches_give_each_simulation_its_own_seed(integrator):
         results.append(np.concatenate([many.bind("qpos"), many.bind("qvel")], axis=1))
     assert np.array_equal(results[0], results[1])
     for seed, result in zip(seeds, results[0], strict=True):
-        alone = model_of(integrator, seed=seed)
+        alone = made(seed)
         assert np.array_equal(after(alone, moving(alone), 300), result)
     assert len(np.unique(results[0][:, 0])) == len(np.unique(results[0][:, 7])) == 3
 
@@ -91,7 +118,7 @@ def test_batches_give_each_simulation_its_own_seed(integrator):
 def test_parameters_of_each_simulation():
     batch = pytest.importorskip("mujoco.batch")
     constant = ElasticStick(mu_s=0.8, mu_k=0.5, e_lim=1e-4)
-    model = model_of(law=constant)
+    model = model_of(law=constant, joint_law=constant)
     many = batch.Batch(model, 2, 1)
     states = many.bind("plugin_state")
     engine.set_friction(states, model, BOX, mu_k=[0.5, 0.3])
@@ -119,9 +146,10 @@ def test_places_in_the_state():
         engine.set_friction(data.plugin_state, model, BOX, seed=-1)
 
 
-def test_rollouts_are_steps():
+@pytest.mark.parametrize("choice", [None, *SOLVED])
+def test_rollouts_are_steps(choice):
     rollout = pytest.importorskip("mujoco.rollout")
-    model = model_of("RK4", seed=3)
+    model = solved(choice, "Euler", 3) if choice else model_of("RK4", seed=3)
     data = moving(model)
     kind = mujoco.mjtState.mjSTATE_FULLPHYSICS
     first = np.empty(mujoco.mj_stateSize(model, kind))
@@ -186,7 +214,7 @@ def test_forgotten_pairs_are_listed():
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the resident memory is read through the resource module")
-@pytest.mark.parametrize("route", ["compile", "callback"])
+@pytest.mark.parametrize("route", ["compile", "implicit", "callback"])
 def test_a_thousand_cycles_leak_nothing(route):
     import resource
 
@@ -200,8 +228,8 @@ def test_a_thousand_cycles_leak_nothing(route):
     data = mujoco.MjData(plain)
 
     def cycle():
-        if route == "compile":
-            model = model_of()
+        if route != "callback":
+            model = model_of() if route == "compile" else solved("chosen")
             mujoco.mj_step(model, mujoco.MjData(model))
         else:
             with engine.friction(plain, data, {("box", "floor"): LAW}):
