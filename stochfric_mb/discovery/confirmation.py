@@ -25,6 +25,8 @@ FLOOR = 1.0e-3
 """Error of the features that is always allowed, over the normal force [-]: numerics are never discovered."""
 TYPICAL_SLIPS, LOOKED_AT = 6, 10
 """Slips compared at an operating point with a known excitation, chosen from this many as those most like each other."""
+STRENGTHS = ("amplitude", "coefficient", "distance", "cubic", "gap", "mass_ratio", "rate", "exponent", "asymmetry")
+"""Parameters that measure how strong an effect is."""
 MISSED = 50.0
 """Deviation that counts for every feature where the candidate does not slip as the data do."""
 
@@ -45,6 +47,8 @@ class Case:
     """Inverse Cholesky factor of their covariance [1/N], shape (N_FEATURES, N_FEATURES)."""
     ridge: float
     """Ridge of the extraction."""
+    cycle: float
+    """Time since the break-away before, there at the same position [s]; 0 where the slip before was another."""
     offset: Array
     """What the extraction adds to the truth in the believed model [N], shape (N_FEATURES,)."""
 
@@ -95,7 +99,8 @@ def _free(pool: Pool, model: Model, rows: np.ndarray, runs: Sequence[int]) -> Ca
     scatter = np.var(features, axis=0) * 1.57 / len(rows)
     covariance = covariance + np.diag(np.maximum(scatter - np.diag(covariance), 0.0))
     onset = (float(slips.onset_time[0]), float(np.median(slips.onset_position)), float(np.median(pool.dwell[rows])))
-    return _case(model, slips, onset, float(np.median(pool.restick_time[rows] - pool.onset_time[rows])), centre, covariance)
+    length = float(np.median(pool.restick_time[rows] - pool.onset_time[rows]))
+    return _case(model, slips, onset, length, centre, covariance, float(np.median(np.diff(slips.onset_time))))
 
 
 def _forced(pool: Pool, model: Model, rows: np.ndarray) -> list[Case]:
@@ -124,12 +129,18 @@ def _forced(pool: Pool, model: Model, rows: np.ndarray) -> list[Case]:
 
 
 def _case(
-    model: Model, slips: Slips, onset: tuple[float, float, float], length: float, features: Array, covariance: Array
+    model: Model,
+    slips: Slips,
+    onset: tuple[float, float, float],
+    length: float,
+    features: Array,
+    covariance: Array,
+    cycle: float = 0.0,
 ) -> Case:
     load = slips.record.mechanism.normal_force
     floor = (FLOOR * 0.5 * load * np.r_[0.2, 0.5, np.ones(N_FEATURES - 2)]) ** 2
     whitening = np.linalg.inv(np.linalg.cholesky(covariance + np.diag(floor)))
-    case = Case(slips.record, onset, length, features, whitening, slips.ridge, np.zeros(N_FEATURES))
+    case = Case(slips.record, onset, length, features, whitening, slips.ridge, cycle, np.zeros(N_FEATURES))
     plain = model.with_law(features[0] / load, min(features[1], 0.99 * features[0]) / load)
     plain = dataclasses.replace(plain, corrections={}, effects=(), process=None, own={})
     predicted = predict(plain, case)
@@ -147,8 +158,10 @@ def predict(model: Model, case: Case) -> Array | None:
     margin = 3.3 / record.angular_frequency
     # from the middle of the stick, so that a break-away that comes early is not missed
     ahead = max(margin * 1.2, 0.55 * case.onset[2])
+    # an effect with a memory of its own rings on from the slip before
+    before = case.cycle if any(e.n_memory for e in model.effects) else 0.0
     start = Start(
-        case.onset[0] - ahead,
+        case.onset[0] - ahead - before,
         record.direction * (case.onset[1] - box.belt_velocity * ahead),
         record.stated.belt_velocity,
         True,
@@ -156,7 +169,7 @@ def predict(model: Model, case: Case) -> Array | None:
     )
     # room for a break-away that comes late by a fifth of the static deflection
     late = 0.2 * abs(case.onset[1]) / box.belt_velocity
-    count = round((ahead + late + 1.6 * case.length + margin) * record.rate)
+    count = round((before + ahead + late + 1.6 * case.length + margin) * record.rate)
     try:
         motion = model.system(record).march(start, 1.0 / record.rate, count)
     except SimulationError:
@@ -169,7 +182,8 @@ def predict(model: Model, case: Case) -> Array | None:
     slips = extract(simulated, ridge=case.ridge)
     if len(slips) < 1:
         return None
-    return np.r_[slips.onset_force[0], slips.moments[0]]
+    nearest = int(np.argmin(np.abs(slips.onset_time - case.onset[0])))
+    return np.r_[slips.onset_force[nearest], slips.moments[nearest]]
 
 
 def confirm(cases: Sequence[Case], candidate: Model, uncertainty: Mapping[str, float], *, evaluations: int = 12) -> Confirmed:
@@ -189,8 +203,9 @@ def confirm(cases: Sequence[Case], candidate: Model, uncertainty: Mapping[str, f
         parts = [_error(trial, case) for case in cases]
         return np.concatenate([*parts, (values - believed) / priors])
 
+    first = min(_starts(candidate, knobs, scale), key=lambda s: float(np.sum(errors(np.clip(s, low, high)) ** 2)))
     found = least_squares(
-        errors, np.zeros(len(knobs)), bounds=(low, high), diff_step=0.05, max_nfev=evaluations, xtol=1.0e-3, ftol=1.0e-3
+        errors, np.clip(first, low, high), bounds=(low, high), diff_step=0.05, max_nfev=evaluations, xtol=1.0e-3, ftol=1.0e-3
     )
     n_parameters = sum(k.effect >= 0 for k in knobs)
     return Confirmed(
@@ -200,6 +215,21 @@ def confirm(cases: Sequence[Case], candidate: Model, uncertainty: Mapping[str, f
         n_parameters,
         N_FEATURES * len(cases) - 2 - n_parameters,
     )
+
+
+def _starts(candidate: Model, knobs: Sequence[Knob], scale: Array) -> list[Array]:
+    """Return where a fit may start: as screened, and with the last effect several times weaker."""
+    starts = [np.zeros(len(knobs))]
+    if not candidate.effects:
+        return starts
+    last = len(candidate.effects) - 1
+    for i, knob in enumerate(knobs):
+        if knob.effect == last and knob.name in STRENGTHS and knob.value != 0.0:
+            for share in (0.5, 0.2, 0.05):
+                weaker = np.zeros(len(knobs))
+                weaker[i] = (share - 1.0) * knob.value / scale[i]
+                starts.append(weaker)
+    return starts
 
 
 def _step(knob: Knob, load: float) -> float:

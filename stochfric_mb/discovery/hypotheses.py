@@ -50,10 +50,20 @@ def velocity_weakening(pool: Pool) -> list[Hypothesis]:
 
 
 def viscous_friction(pool: Pool) -> list[Hypothesis]:
-    """Return the relative velocity in the slip."""
-    return [
-        Hypothesis("viscous_friction", [pool.column(None, pool.relative_velocity)], (), lambda b: {"coefficient": float(b[0])})
-    ]
+    """Return the relative velocity in the slip, linear or levelling off."""
+    speed = pool.relative_velocity
+    fastest = float(np.median(speed.max(axis=1)))
+    found = [Hypothesis("viscous_friction", [pool.column(None, speed)], (), lambda b: {"coefficient": float(b[0])})]
+    for knee in fastest * np.array([0.15, 0.4]):
+        found.append(
+            Hypothesis(
+                "viscous_friction",
+                [pool.column(None, -knee * np.expm1(-speed / knee))],
+                (knee,),
+                lambda b, v=knee: {"coefficient": float(b[0]), "saturation_velocity": float(v)},
+            )
+        )
+    return found
 
 
 def frictional_lag(pool: Pool) -> list[Hypothesis]:
@@ -130,7 +140,7 @@ def load_dependence(pool: Pool) -> list[Hypothesis]:
     reference = float(pool.normal_force[0])
     change = np.log(pool.normal_force / reference)
     more = {"reference_load": reference}
-    return _apart("load_dependence", pool.static * change, pool.kinetic * change, pool, "exponent", more)
+    return _apart("load_dependence", pool.static * change, pool.kinetic * change, pool, "exponent", more)[:1]
 
 
 def nonlinear_stiffness(pool: Pool) -> list[Hypothesis]:
@@ -299,11 +309,27 @@ def _in_time(pool: Pool, frequency: float) -> tuple[Array, Array]:
     return 2.0 * np.pi * frequency * pool.onset_time, 2.0 * np.pi * frequency * pool.node_time
 
 
+def sensor_delay(pool: Pool) -> list[Hypothesis]:
+    """Return minus the rate of the known force, where there is one: a late record compares with a force that has moved on."""
+    if not any(s.record.mechanism.excitation_amplitude for s in pool.slips):
+        return []
+    onset = np.zeros(len(pool.run))
+    nodes = np.zeros_like(pool.node_time)
+    for run, slips in enumerate(pool.slips):
+        mine = pool.run == run
+        box = slips.record.mechanism
+        w = box.excitation_angular_frequency
+        scale = box.stiffness * box.excitation_amplitude * w
+        onset[mine] = scale * np.sin(w * pool.onset_time[mine])
+        nodes[mine] = scale * np.sin(w * pool.node_time[mine])
+    return [Hypothesis("sensor_delay", [pool.column(onset, nodes)], (), lambda b: {"delay": float(b[0])})]
+
+
 SCREENS: dict[str, Callable[[Pool], list[Hypothesis]]] = {
     screen.__name__: screen
     for screen in (
         velocity_weakening, viscous_friction, frictional_lag, dwell_ageing, direction_asymmetry, load_dependence,
-        nonlinear_stiffness, quadratic_damping, backlash, second_mode, friction_drift, sensor_drift,
+        nonlinear_stiffness, quadratic_damping, backlash, second_mode, friction_drift, sensor_drift, sensor_delay,
         normal_load_ripple, harmonic_force, position_dependent_friction,
     )
 }  # fmt: skip
@@ -355,6 +381,10 @@ def competitors(pool: Pool) -> dict[str, tuple[str, Sequence[Array]]]:
     low, high = np.quantile(pool.typical_position, (0.02, 0.98))
     places = np.linspace(low, high, 10)
     width = places[1] - places[0]
+    found["time_common"] = (
+        "time within the run",
+        [pool.column(h, None) for h in hats[0::2]] + [pool.column(None, h) for h in hats[1::2]],
+    )
     found["position"] = (
         "position of the box",
         [

@@ -47,6 +47,8 @@ def _predicted(slips: Slips, model: Model, dwell: Array, count: int | None = Non
     rows: list[Array] = []
     previous = np.r_[np.median(slips.restick_position), slips.restick_position[:-1]]
     belt = slips.record.mechanism.belt_velocity
+    free = slips.record.mechanism.excitation_amplitude == 0.0 and len(slips) > 1
+    cycle = float(np.median(np.diff(slips.onset_time))) if free else 0.0
     for i in range(len(slips) if count is None else count):
         # predicted from the last re-stick alone: the place of this break-away is what is to be predicted
         typical = float(np.median(slips.onset_position))
@@ -54,7 +56,8 @@ def _predicted(slips: Slips, model: Model, dwell: Array, count: int | None = Non
         stuck = (typical - previous[i]) / belt if i else float(dwell[i])
         case = Case(
             slips.record, (float(expected), typical, max(stuck, 0.02)),
-            float(np.median(slips.restick_time - slips.onset_time)), slips.features[i], ANY, slips.ridge, np.zeros(N_FEATURES),
+            float(np.median(slips.restick_time - slips.onset_time)), slips.features[i], ANY, slips.ridge, cycle,
+            np.zeros(N_FEATURES),
         )  # fmt: skip
         found = predict(model, case)
         rows.append(np.full(N_FEATURES, np.nan) if found is None else found)

@@ -72,3 +72,35 @@ def _periodic(model: Model, candidate: Candidate, pool: Pool, coefficients: Arra
     before = {name: model.own.get(name, ({},) * len(model.effects)) for name in names}
     own_all = {name: (*before[name], *added[r]) for r, name in enumerate(names)}
     return dataclasses.replace(model, effects=(*model.effects, *effects), own=own_all)
+
+
+def as_harmonic(model: Model, candidate: Candidate, pool: Pool, n_terms: int) -> Model | None:
+    """Return the model with the candidate as a harmonic of a ripple that it holds; None where it is none.
+
+    A ripple that is not a sine, such as a square one, leaves multiples of its frequency behind.
+    """
+    if candidate.name not in PERIODIC:
+        return None
+    held = next((e for e in model.effects if e.kind in PERIODIC), None)
+    if held is None:
+        return None
+    belt = float(pool.belt_velocity.min())
+    main, other = _frequency(held, belt), _candidate_frequency(candidate, belt)
+    order = round(other / main)
+    if order < 1 or abs(other - order * main) > 2.0 / pool.duration:
+        return None
+    if held.kind == candidate.name:
+        return with_candidate(model, candidate, pool, n_terms)
+    # told by the kind that is held; amplitude and phases are fitted next
+    setting = {"frequency": order * main} if hasattr(held, "frequency") else {"wavelength": belt / (order * main)}
+    small = dataclasses.replace(held, amplitude=0.2 * held.amplitude, **setting)  # pyright: ignore[reportAttributeAccessIssue, reportCallIssue]
+    return model.plus(small)
+
+
+def _frequency(effect: Effect, belt: float) -> float:
+    return float(effect.frequency if hasattr(effect, "frequency") else belt / effect.wavelength)  # pyright: ignore[reportAttributeAccessIssue]
+
+
+def _candidate_frequency(candidate: Candidate, belt: float) -> float:
+    main = float(candidate.hypothesis.setting[0])
+    return belt / main if candidate.name == "position_dependent_friction" else main

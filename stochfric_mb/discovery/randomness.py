@@ -60,11 +60,13 @@ def _correlation(regression: Regression, rest: Array) -> float:
 
 WORTH_A_LOOK = 2.0
 """Correlation over its standard error below which no wander is looked for [-]."""
-SHARES = (0.003, 0.006, 0.012, 0.02, 0.03, 0.05)
+MODES = ((1.0, 1.0), (1.0, 0.0), (0.0, 1.0))
+"""Wander of both coefficients together, of mu_s alone, of mu_k alone."""
+SHARES = (0.003, 0.008, 0.02, 0.04, 0.08)
 """Strengths of wander that are tried, over the mean friction [-]."""
-TIMES = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
+TIMES = (0.7, 1.5, 3.0, 6.0, 15.0)
 """Correlation times that are tried, in cycles [-]."""
-REMAINING = (1.0, 0.3, 0.1, 0.01, 0.0)
+REMAINING = (1.0, 0.2, 0.02, 0.0)
 """Shares of the independent scatter that may remain [-]."""
 
 
@@ -73,7 +75,7 @@ def _wander(regression: Regression, rest: Array, solution: Solution) -> tuple[fl
     pool = regression.pool
     static, kinetic = np.exp(2.0 * solution.scatter[:2])
     cycle = float(np.median([np.median(np.diff(s.onset_time)) for s in pool.slips]))
-    runs: list[tuple[Array, Array, Array, Array]] = []
+    runs: list[tuple[Array, list[Array], Array, Array]] = []
     for r in range(pool.n_runs):
         rows = np.flatnonzero((pool.run == r) & pool.kept)
         if len(rows) < 4:
@@ -83,16 +85,17 @@ def _wander(regression: Regression, rest: Array, solution: Solution) -> tuple[fl
         measured = np.r_[np.full(n, covariance[0, 0]), np.full(n, covariance[1, 1])]
         own = np.r_[np.full(n, static), np.full(n, kinetic)]
         time = np.r_[pool.onset_time[rows], pool.mean_time[rows]]
-        level = np.r_[pool.static[rows], pool.kinetic[rows]]
         value = np.r_[rest[rows, 0], rest[rows, 1]]
-        runs.append((np.stack([measured, own]), level[:, None] * level[None], np.abs(time[:, None] - time[None]), value))
+        apart = np.abs(time[:, None] - time[None])
+        levels = [np.r_[a * pool.static[rows], b * pool.kinetic[rows]] for a, b in MODES]
+        runs.append((np.stack([measured, own]), [v[:, None] * v[None] for v in levels], apart, value))
 
-    def cost(remaining: float, share: float, duration: float) -> float:
+    def cost(remaining: float, share: float, duration: float, mode: int = 0) -> float:
         total = 0.0
         for diagonal, levels, apart, value in runs:
             matrix = np.diag(diagonal[0] + remaining * diagonal[1])
             if share > 0.0:
-                matrix = matrix + share**2 * levels * np.exp(-apart / duration)
+                matrix = matrix + share**2 * levels[mode] * np.exp(-apart / duration)
             factor = np.linalg.cholesky(matrix)
             white = np.linalg.solve(factor, value)
             total += 0.5 * float(white @ white) + float(np.log(np.diag(factor)).sum())
@@ -103,11 +106,16 @@ def _wander(regression: Regression, rest: Array, solution: Solution) -> tuple[fl
     for share in SHARES:
         for count in TIMES:
             for remaining in REMAINING:
-                trial = cost(remaining, share, count * cycle)
-                if trial < best[0]:
-                    best = (trial, share, count * cycle)
+                for mode in range(len(MODES)):
+                    trial = cost(remaining, share, count * cycle, mode)
+                    if trial < best[0]:
+                        best = (trial, share, count * cycle)
     n = len(rest)
-    return 2.0 * (plain - best[0]) - 2.0 * np.log(max(n, 2)) - 2.0 * np.log(len(SHARES) * len(TIMES)), best[1], best[2]
+    return (
+        2.0 * (plain - best[0]) - 2.0 * np.log(max(n, 2)) - 2.0 * np.log(len(SHARES) * len(TIMES) * len(MODES)),
+        best[1],
+        best[2],
+    )
 
 
 def _two_levels(regression: Regression, rest: Array, solution: Solution) -> float:

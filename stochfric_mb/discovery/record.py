@@ -16,6 +16,8 @@ Array = npt.NDArray[np.float64]
 
 MEDIAN_WIDTH = 7
 """Width of the running median against which outliers are seen [samples]."""
+LINE_WINDOW = 128
+"""Samples of the pieces in which a line of the noise is looked for."""
 OUTLIER_DEVIATIONS = 5.5
 """A sample further from the running median than this many standard deviations is an outlier [-]."""
 
@@ -108,7 +110,12 @@ def make_record(name: str, time: Array, position: Array, mechanism: BeltBox) -> 
         )
     noise = white_noise(raw)
     median = median_filter(raw, MEDIAN_WIDTH, mode="nearest")
-    outlier = np.abs(raw - median) > OUTLIER_DEVIATIONS * noise
+    away = np.abs(raw - median)
+    # a sensor that smooths or holds its samples has smaller third differences than deviations
+    outlier = away > OUTLIER_DEVIATIONS * max(noise, float(np.quantile(away, 0.85)) / 1.44)
+    # single samples alone: what lasts longer is motion
+    crowd = np.convolve(outlier.astype(np.float64), np.ones(MEDIAN_WIDTH), mode="same")
+    outlier &= crowd <= MEDIAN_WIDTH // 2
     return Record(name, time, np.where(outlier, median, raw), raw, outlier, noise, mechanism, stated, direction)
 
 
@@ -116,6 +123,23 @@ def white_noise(position: Array) -> float:
     """Return the standard deviation of white noise from the third differences of a record (their variance is 20 times)."""
     third = np.diff(position, 3)
     return float(max(np.median(np.abs(third)) / 0.6745 / math.sqrt(20.0), 1.0e-12))
+
+
+def line_in(residuals: list[Array], rate: float) -> tuple[float, float, float]:
+    """Return frequency [Hz], amplitude [m] and strength [-] of the strongest line in the noise of the stick phases.
+
+    The strength is the line's power over its neighbours', less 1, over the standard deviation of that without a line.
+    """
+    pieces = [r[i : i + LINE_WINDOW] for r in residuals for i in range(0, len(r) - LINE_WINDOW + 1, LINE_WINDOW)]
+    if len(pieces) < 8:
+        return 0.0, 0.0, 0.0
+    window = np.hanning(LINE_WINDOW)
+    power = np.mean([np.abs(np.fft.rfft(window * (p - p.mean()))) ** 2 for p in pieces], axis=0)
+    ratio = power / np.maximum(median_filter(power, 15, mode="nearest"), 1.0e-300)
+    ratio[:4] = 0.0
+    best = int(np.argmax(ratio))
+    amplitude = 2.0 * math.sqrt(float(power[best])) / window.sum()
+    return best * rate / LINE_WINDOW, amplitude, float((ratio[best] - 1.0) * math.sqrt(len(pieces)))
 
 
 def noise_of(residuals: list[Array], white: float) -> Noise:

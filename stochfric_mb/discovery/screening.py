@@ -15,7 +15,12 @@ from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.record import Array
 from stochfric_mb.discovery.regression import Regression, Solution, Terms
 
-REFITTED = 12
+POSITIVE = (
+    "velocity_weakening", "viscous_friction", "frictional_lag", "dwell_ageing", "quadratic_damping", "backlash", "second_mode",
+    "sensor_delay",
+)  # fmt: skip
+"""Effects whose strength cannot be negative."""
+REFITTED = 14
 """Candidates, best first at fixed variance components, whose variance components are fitted anew."""
 
 
@@ -84,7 +89,15 @@ def screen(
         else:
             fitted = regression.solve(wider, solution.scatter)
         found.append(Candidate(kind, axis, score, hypothesis, fitted))
-    return sorted(found, key=lambda c: -c.score)
+    return sorted((c for c in found if _possible(c, terms)), key=lambda c: -c.score)
+
+
+def _possible(candidate: Candidate, terms: Terms) -> bool:
+    """Return whether the fitted strength has a sign that the effect can have, within two standard deviations."""
+    if candidate.name not in POSITIVE:
+        return True
+    place = terms.columns.shape[2]
+    return bool(candidate.solution.coefficients[place] > -2.0 * candidate.solution.deviations[place])
 
 
 def _step(pool: Pool, regression: Regression, terms: Terms, solution: Solution, kind: str, *, multiplied: bool) -> Hypothesis:

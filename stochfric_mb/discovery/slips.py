@@ -17,7 +17,7 @@ import numpy as np
 from numpy.polynomial import chebyshev, legendre
 
 from stochfric_mb.discovery.edges import locate_edge
-from stochfric_mb.discovery.record import Array, Noise, Record, noise_of
+from stochfric_mb.discovery.record import Array, Noise, Record, line_in, noise_of
 from stochfric_mb.discovery.segmentation import slips_of
 
 N_MOMENTS = 7
@@ -66,6 +66,8 @@ class Slips:
     """Where they come from."""
     noise: Noise
     """Noise in the stick phases."""
+    line: tuple[float, float, float]
+    """Strongest line of the noise: frequency [Hz], amplitude [m], strength [-]."""
     ridge: float
     """Ridge of the break-aways' cubic term, see `edges` [-]."""
     onset_time: Array
@@ -116,7 +118,8 @@ def extract(record: Record, *, ridge: float | None = None) -> Slips:
         ridge: how firmly the force at break-away is believed to be constant; chosen from the data if not given.
     """
     rough = list(_inside(record, slips_of(record)))
-    noise = noise_of(_quiet(record, rough), record.noise)
+    quiet = _quiet(record, rough)
+    noise = noise_of(quiet, record.noise)
     firm = noise.deviation / (_STIFF * np.ptp(record.position) / 2.0)
     if ridge is None:
         misfits = [_edge(record, begin, 1, firm)[3] / noise.deviation**2 for begin, _ in rough[:24]]
@@ -134,7 +137,7 @@ def extract(record: Record, *, ridge: float | None = None) -> Slips:
     box = record.mechanism
     force = box.stiffness * onset_position + box.damping * box.belt_velocity - record.excitation(onset_time)
     return Slips(
-        record, noise, ridge,
+        record, noise, line_in(quiet, record.rate), ridge,
         onset_time, onset_position, restick_time, restick_position, force, moments, *nodes, _stick(record, table),
     )  # fmt: skip
 

@@ -49,7 +49,7 @@ class Study:
     sticking: Sticking | None
     """The kinematic channel."""
     ceiling: tuple[float, float]
-    """How much longer records dwell at their ceiling than they should [-], and the ceiling [m]."""
+    """Share of the visits to a record's ceiling that are level [-], and the ceiling [m]."""
     outliers: float
     """Share of samples that were outliers [-]."""
 

@@ -9,15 +9,23 @@ from scipy.stats import chi2 as chi2_distribution
 
 from stochfric_mb.discovery.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.decision import Decision, Named, decide
-from stochfric_mb.discovery.gap import HeldOut, deterministic, gap_of, held_out, phased, settled
+from stochfric_mb.discovery.gap import HeldOut, deterministic, floor_of, gap_of, held_out, mean_score, phased, settled
 from stochfric_mb.discovery.model import Model
-from stochfric_mb.discovery.refit import Fit, refit
+from stochfric_mb.discovery.refit import Fit, refit, thinned
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.discovery.scatter import matched
 from stochfric_mb.discovery.study import Progress, Study, slips_of_run, study
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
 
+NOT_JUDGED = {"random_coefficients", "correlated_coefficients", "impacts", "sensor_outliers", "sensor_clipping", "sensor_step"}
+"""Effects whose worth one-cycle forecasts do not measure."""
+EXPLAINED, EXPLAINED_RANDOM = 0.65, 0.25
+"""Share of the reducible error of the fit runs' forecasts that named effects must explain, without and with random ones [-]."""
+LEAST_REDUCIBLE = 0.08
+"""Reducible error, over the error itself, below which that share would be noise over noise [-]."""
+JUDGED_WINDOWS = 24
+"""Forecasts of each run that are judged."""
 UNITS = {"mu_s": "-", "mu_k": "-", "mass": "kg", "stiffness": "N/m", "damping": "N s/m"}
 """Units of the believed model's fitted parameters."""
 
@@ -62,6 +70,8 @@ def discover_belt_box(dataset: Dataset, *, progress: Progress = lambda _: None) 
     progress("refit")
     fit = _augmented(decision, found, recalibrated)
     augmented = fit.model if fit is not None else recalibrated.model
+    if fit is not None and (poor := unexplained(found, decision, recalibrated.model, augmented)) is not None:
+        decision, fit, augmented = poor, None, recalibrated.model
     progress("held-out runs")
     runs = held_out([s for s in (slips_of_run(r, dataset) for r in dataset.test) if len(s) >= 2], phased=phased(augmented))
     augmented = settled(augmented, runs)
@@ -126,6 +136,31 @@ def _augmented(decision: Decision, found: Study, recalibrated: Fit) -> Fit | Non
         own[run] = tuple(full)
     joined = Model(fit.model.law, fit.model.corrections, tuple(effects), model.process, own)
     return dataclasses.replace(fit, model=matched(joined, found.pool))
+
+
+def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented: Model) -> Decision | None:
+    """Return the decision "unknown" if the named effects explain too little of what the fit runs show; None if enough.
+
+    A name is worth little if the model with the effect forecasts the very runs that it was fitted to hardly better.
+    """
+    kinds = {n.kind for n in decision.named}
+    if kinds <= NOT_JUDGED:
+        return None
+    windows = [thinned(w, JUDGED_WINDOWS) for w in found.windows if len(w)]
+    runs = HeldOut(found.pool.slips[:2], tuple(windows), tuple(windows))
+    before, after = mean_score(recalibrated, runs), mean_score(augmented, runs)
+    floor = min(floor_of(augmented, runs), after)
+    reducible = before - floor
+    share = (before - after) / reducible if reducible > LEAST_REDUCIBLE * before else 1.0
+    decision.details["explained"] = {"before": before, "after": after, "floor": floor, "share": share}
+    if share >= (EXPLAINED_RANDOM if augmented.random else EXPLAINED):
+        return None
+    best = decision.named[0]
+    where = Where(
+        best.where.axis,
+        f"{best.kind} comes closest, but explains only {max(share, 0.0):.0%} of what the runs show",
+    )
+    return dataclasses.replace(decision, verdict="unknown", named=(), where=where)
 
 
 def _found(named: Named, fit: Fit | None, model: Model, found: Study) -> Found:

@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from typing import ClassVar
 
 from stochfric_mb.effects.contract import SPEED, VISCOUS_FORCE, Effect, parameter
@@ -14,20 +15,26 @@ from stochfric_mb.effects.contract import SPEED, VISCOUS_FORCE, Effect, paramete
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class ViscousFriction(Effect):
-    """F = mu N + coefficient abs(v_rel), along v_rel.
+    """F = mu N + coefficient v_sat (1 - exp(-abs(v_rel)/v_sat)), along v_rel; mu N + coefficient abs(v_rel) for infinite v_sat.
 
     Reference: O. Reynolds, Phil. Trans. R. Soc. 177, 1886, 157-234, doi 10.1098/rstl.1886.0005.
     """
 
     coefficient: float = parameter("N s/m", "force per relative speed", scale=5.0, low=0.0)
     """Force per relative speed [N s/m]."""
+    saturation_velocity: float = parameter(
+        "m/s", "speed at which the film thins and the force levels off", scale=0.01, low=0.0, strict=True, infinite=True,
+        default=math.inf,
+    )  # fmt: skip
+    """Speed at which the film thins and the force levels off [m/s]."""
 
     kind: ClassVar[str] = "viscous_friction"
-    equation: ClassVar[str] = "F = (mu N + coefficient abs(v_rel)) sign(v_rel)"
+    equation: ClassVar[str] = "F = (mu N + coefficient abs(v_rel)) sign(v_rel), levelling off beyond the saturation velocity"
     source: ClassVar[str] = "Reynolds 1886; Armstrong-Helouvry, Dupont and Canudas de Wit 1994, eq. 6"
     group: ClassVar[str] = "friction law"
 
 
 def friction(world, memory, rates, p):
     """Add the viscous force."""
-    world[VISCOUS_FORCE] += p[0] * world[SPEED]
+    speed = world[SPEED] if p[1] > 1.0e300 else -p[1] * math.expm1(-world[SPEED] / p[1])
+    world[VISCOUS_FORCE] += p[0] * speed

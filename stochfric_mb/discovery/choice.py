@@ -1,0 +1,134 @@
+"""One round of the decision: which candidate of the screening is meant, and which cannot be told from it."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.confirmation import Case, Confirmed, confirm
+from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.naming import with_candidate
+from stochfric_mb.discovery.regression import Terms
+from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.screening import Candidate
+from stochfric_mb.discovery.study import Study
+
+SELECT, NAME = 14.0, 20.0
+"""Scores at which a candidate is followed up, and at which it is named [-]."""
+OUTDONE = 0.5
+"""A competitor that names no physics wins at once if the best effect has less than this share of its score [-]."""
+CLASS, CLASS_SHARE = 12.0, 0.03
+"""Effects whose score is within this, or this share, of the best are of one class with it [-]."""
+CONFIRMED_CLASS = 10.0
+"""Effects whose simulated criterion is within this of the best are of one class with it [-]."""
+LACK, LACK_SHARE = 25.0, 0.35
+"""A simulated candidate is refused if chi^2 stays this far above its freedom and above this share of the believed model's."""
+WORTH_SIMULATING = 0.1
+"""Share of the best score from which on a candidate is simulated [-]."""
+
+IN_SLIP = (
+    "velocity_weakening", "viscous_friction", "frictional_lag", "nonlinear_stiffness", "quadratic_damping", "backlash",
+    "second_mode",
+)  # fmt: skip
+"""Effects that shape every slip alike: told apart by simulating them."""
+BETWEEN_POINTS = ("dwell_ageing", "direction_asymmetry", "load_dependence")
+"""Effects that differ between operating points: simulated too where there are several."""
+SHAPES = ("slip_shape", "position")
+"""Competitors on the axes on which those effects act."""
+IN_TIME = ("time", "time_common", "friction_step", "parity")
+"""Competitors on the axis of time: a random wander may be what they see."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Chosen:
+    """The effect of one round."""
+
+    candidate: Candidate
+    """The candidate."""
+    class_: tuple[str, ...]
+    """Effects that cannot be told from it."""
+    model: Model
+    """The model with it, at numbers to start from."""
+    confirmed: Confirmed | None
+    """Its simulation, if it was simulated; what further effects of its family are compared with."""
+    simulated: bool
+    """Whether its numbers come from simulating."""
+
+
+def choose(
+    study: Study,
+    model: Model,
+    terms: Terms,
+    candidates: Sequence[Candidate],
+    cases: Sequence[Case],
+    before: Confirmed | None,
+    details: dict[str, object],
+) -> Chosen | Where | None:
+    """Return the effect of this round, or where the unknown lives, or None for nothing.
+
+    Args:
+        study: what was measured.
+        model: the model so far.
+        terms: its terms in the regression.
+        candidates: the screening's outcome, best first.
+        cases: slips to be predicted in a confirmation.
+        before: the simulated model so far.
+        details: gets the numbers of the confirmation.
+    """
+    n_terms = terms.columns.shape[2]
+    several = len(cases) > 1 and not cases[0].record.mechanism.excitation_amplitude
+    family = IN_SLIP + (BETWEEN_POINTS if several else ())
+    effects = [c for c in candidates if c.is_effect]
+    others = [c for c in candidates if not c.is_effect]
+    shape = max((c.score for c in candidates if c.name in family + SHAPES), default=-np.inf)
+    rest = max((c.score for c in candidates if c.name not in family + SHAPES), default=-np.inf)
+    if before is not None and shape >= NAME and shape >= rest:
+        outcome = _by_simulation(study, model, n_terms, effects, shape, family, cases, before, details)
+        if outcome is not None:
+            return outcome
+        # simulation does not bear the shape out: what remains are effects that change from slip to slip
+        effects = [c for c in effects if c.name not in family]
+        others = [c for c in others if c.name not in SHAPES]
+    best = effects[0] if effects else None
+    other = others[0] if others else None
+    if other is not None and other.score >= NAME and (best is None or best.score < OUTDONE * other.score):
+        return Where(other.axis, f"the disagreement lives on the axis: {other.axis}; no known effect explains it")
+    if best is None or best.score < NAME:
+        return None
+    near = best.score - max(CLASS, CLASS_SHARE * best.score)
+    class_ = tuple(c.name for c in effects[1:] if c.score > near)
+    return Chosen(best, class_, with_candidate(model, best, study.pool, n_terms), before, False)
+
+
+def _by_simulation(
+    study: Study,
+    model: Model,
+    n_terms: int,
+    effects: Sequence[Candidate],
+    shape: float,
+    family: tuple[str, ...],
+    cases: Sequence[Case],
+    before: Confirmed,
+    details: dict[str, object],
+) -> Chosen | Where | None:
+    trials = [c for c in effects if c.name in family and c.score > max(WORTH_SIMULATING * shape, SELECT / 2.0)][:6]
+    tried = [(c, confirm(cases, with_candidate(model, c, study.pool, n_terms), study.uncertainty)) for c in trials]
+    rounds = sum(key.startswith("confirmation") for key in details)
+    details[f"confirmation_{rounds + 1}"] = {c.name: [f.chi2, f.criterion] for c, f in tried} | {
+        "believed": [before.chi2, before.criterion]
+    }
+    if not tried:
+        return None
+    tried.sort(key=lambda t: t[1].criterion)
+    best, fitted = tried[0]
+    if before.criterion - fitted.criterion < SELECT:
+        return None
+    if fitted.chi2 > fitted.freedom + LACK and fitted.chi2 > LACK_SHARE * before.chi2:
+        return Where(
+            "shape of the friction force within a slip",
+            f"no known effect explains the force within the slips; {best.name} comes closest",
+        )
+    class_ = tuple(c.name for c, f in tried[1:] if f.criterion < fitted.criterion + CONFIRMED_CLASS)
+    return Chosen(best, class_, fitted.model, fitted, True)

@@ -1,0 +1,158 @@
+"""What the stick phases and the sensor show by themselves: the first effects to be named, before any force is looked at."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from stochfric_mb.discovery.hypotheses import step_times, steps
+from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.refit import refit
+from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.study import Study
+from stochfric_mb.effects import make_effect
+
+NAME = 20.0
+"""Score at which an effect is named [-]."""
+LEVEL_VISITS = 0.5
+"""Share of the visits to the ceiling that must be level for the sensor to be called clipped [-]."""
+YIELDS = 0.5
+"""Share of the evidence for creep that a yielding or ringing contact must reach to be named in its place [-]."""
+LINE = 60.0
+"""Strength of a line in the noise at which it is no chance [-]; the largest of 64 without a line stays below 10."""
+
+
+def with_kinematic(study: Study, model: Model, kind: str, values: dict[str, float]) -> Model:
+    """Return the model with an effect that the stick phases showed; a ripple's phases and amplitude are fitted at once."""
+    if kind == "belt_speed_ripple":
+        names = [s.record.name for s in study.pool.slips]
+        best: tuple[float, Model] | None = None
+        for amplitude in (0.01, 0.05):
+            own = {
+                name: (*({} for _ in model.effects), {"phase": phase})
+                for name, phase in _ripple_phases(study, values["frequency"])
+            }
+            assert set(own) == set(names)
+            trial = model.plus(make_effect(kind, **(values | {"amplitude": amplitude})))
+            fit = refit(dataclasses.replace(trial, own=own), study.windows, study.uncertainty, most=12, evaluations=20)
+            if best is None or fit.cost < best[0]:
+                best = (fit.cost, fit.model)
+        assert best is not None
+        return best[1]
+    model = model.plus(make_effect(kind, **values))
+    if kind == "presliding_compliance":
+        return _compliant(study, model)
+    return model
+
+
+def _compliant(study: Study, model: Model) -> Model:
+    """Return the model with the elastic limit and damping that forecast best; looked for on a grid first."""
+    place = len(model.effects) - 1
+    first = model.effects[place]
+    best: tuple[float, Model] | None = None
+    for limit in (5.0e-6, 1.5e-5, 5.0e-5, 1.5e-4):
+        for ratio in (0.05, 0.3):
+            effects = (*model.effects[:place], dataclasses.replace(first, elastic_limit=limit, damping_ratio=ratio))
+            trial = dataclasses.replace(model, effects=effects)
+            fit = refit(trial, study.windows, study.uncertainty, most=5, evaluations=4)
+            if best is None or fit.cost < best[0]:
+                best = (fit.cost, fit.model)
+    assert best is not None
+    return refit(best[1], study.windows, study.uncertainty, most=12, evaluations=20).model
+
+
+def _ripple_phases(study: Study, frequency: float) -> list[tuple[str, float]]:
+    """Return run and phase of a ripple of the belt's speed, from what its integral leaves in the stick phases."""
+    found: list[tuple[str, float]] = []
+    for slips in study.pool.slips:
+        samples = slips.stick
+        angle = 2.0 * np.pi * frequency * samples.time
+        count = np.maximum(np.bincount(samples.segment), 1)
+        centred = [
+            c - (np.bincount(samples.segment, c) / count)[samples.segment]
+            for c in (np.cos(angle), np.sin(angle), samples.time, samples.residual)
+        ]
+        a, b, _ = np.linalg.lstsq(np.stack(centred[:3], axis=1), centred[3], rcond=None)[0]
+        # the position is the integral, v_b A/w sin(w t + phase) = v_b A/w (cos w t sin phase + sin w t cos phase)
+        phase = float(np.arctan2(a, b))
+        found.append((slips.record.name, phase))
+    return found
+
+
+def kinematics(study: Study, details: dict[str, object]) -> list[tuple[str, float, dict[str, float]]] | Where:
+    """Return the effects that the stick phases and the sensor show, or where they disagree with no known effect."""
+    found: list[tuple[str, float, dict[str, float]]] = []
+    outliers = study.outliers
+    n = sum(len(r.time) for r in study.records)
+    details["outlier_share"] = outliers
+    if outliers > 5.0e-5 and outliers * n >= 5:
+        size = np.concatenate([np.abs(r.raw - r.position)[r.outlier] for r in study.records])
+        found.append(
+            ("sensor_outliers", float(outliers * n * 10.0), {"fraction": outliers, "size": float(np.sqrt(np.mean(size**2)))})
+        )
+    details["ceiling"] = study.ceiling[0]
+    if study.ceiling[0] > LEVEL_VISITS:
+        found.append(("sensor_clipping", 100.0 * float(study.ceiling[0]), {"high": float(study.ceiling[1])}))
+        return found
+    sticking = study.sticking
+    if sticking is None:
+        return found
+    details["sticking"] = dict(sticking.scores) | {"excess": sticking.excess, "excess_ratio": sticking.excess_ratio}
+    scores = dict(sticking.scores)
+    if not _step_stays(study, sticking.settings["sensor_step"]):
+        scores["sensor_step"] = -np.inf
+    best = max(scores, key=lambda k: scores[k])
+    score = scores[best]
+    if score <= NAME:
+        hum = _line(study, details)
+        if sticking.scores["sensor_step"] > max(NAME, 0.2 * sticking.excess):
+            return Where("stick, single moments", "in stick the box jumps off the belt's line, and is back after the next slip")
+        return hum if hum is not None else found
+    if best in ("creep_before", "creep_after", "yielding"):
+        gradual = max(sticking.scores["yielding"], sticking.scores["presliding_compliance"])
+        if gradual > YIELDS * score:
+            best, score = "presliding_compliance", max(score, 0.0) + max(sticking.scores["presliding_compliance"], 0.0)
+    if best == "creep_before":
+        return Where("stick, before the break-away", "the box leaves the belt's motion before it breaks away")
+    if best == "creep_after":
+        return Where("stick, after the re-stick", "the box does not follow the belt at once when it sticks again")
+    if score < 0.75 * sticking.excess - 60.0:
+        return Where("stick", "in stick the box does not follow the belt, in a way that no known effect explains")
+    settings = sticking.settings[best]
+    if best == "belt_speed_ripple":
+        found.append((best, score, {"amplitude": 0.01, "frequency": settings["frequency"]}))
+    elif best == "presliding_compliance":
+        box = study.records[0].mechanism
+        stiffness = max(settings["angular_frequency"] ** 2 * box.mass - box.stiffness, 0.1 * box.stiffness)
+        limit = float(study.solution.coefficients[0]) * box.normal_force / stiffness
+        found.append((best, score, {"elastic_limit": limit, "damping_ratio": settings["damping_ratio"]}))
+    elif best == "sensor_step":
+        found.append((best, score, {"size": 1.0e-5, "time": settings["time_0"]}))
+    return found
+
+
+def _step_stays(study: Study, setting: dict[str, float]) -> bool:
+    """Return whether a jump seen in stick is still there in the forces of the slips that follow."""
+    pool = study.pool
+    place = step_times(pool)
+    for run in range(pool.n_runs):
+        when = setting.get(f"time_{run}")
+        if when is None:
+            continue
+        trials = steps(pool, run, multiplied=False)
+        near = [trials[i] for i in np.flatnonzero(np.abs(place - when) < 1.5 * (place[1] - place[0]))]
+        if near and max(study.regression.gains(study.terms, study.solution.scatter, [[t] for t in near])) > NAME / 2.0:
+            return True
+    return False
+
+
+def _line(study: Study, details: dict[str, object]) -> Where | None:
+    """Return where the noise has a line; None if it has none."""
+    frequency, amplitude, strength = max((s.line for s in study.pool.slips), key=lambda line: line[2])
+    details["noise_line"] = {"frequency": frequency, "amplitude": amplitude, "strength": strength}
+    if strength < LINE:
+        return None
+    return Where(
+        "frequency, sensor", f"the position holds a vibration of {frequency:.3g} Hz and {amplitude:.2g} m, in stick too"
+    )
