@@ -1,0 +1,34 @@
+"""Measured datasets for tests, discovered once in a session."""
+
+import dataclasses
+import functools
+from pathlib import Path
+
+import pytest
+
+from stochfric_mb.discovery.joints import JointOutcome, joint_outcome
+from stochfric_mb.measurement import Dataset, load_dataset
+from stochfric_mb.measurement.entries import data_folder
+
+MODELS = Path(__file__).parents[3] / "models"
+
+
+def dataset(name: str) -> Dataset:
+    if data_folder() is None:
+        pytest.skip("the measured data are not here: set STOCHFRIC_DATA to their folder")
+    return load_dataset(MODELS / name)
+
+
+@functools.cache
+def outcome(name: str) -> JointOutcome:
+    return joint_outcome(dataset(name))
+
+
+def repeated(data: Dataset, found: JointOutcome) -> Dataset:
+    """The held-out repeats to learn from, and what was found before as the model believed."""
+    swapped = tuple(dataclasses.replace(r, role="test" if r.role == "fit" else "fit") for r in data.runs)
+    return dataclasses.replace(data, scenario=found.scenario, runs=swapped)
+
+
+def kinds(found: JointOutcome) -> list[str]:
+    return [e.kind for e in found.result.effects]

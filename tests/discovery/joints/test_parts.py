@@ -1,0 +1,200 @@
+"""The parts: windows, fits, the memory law, timing, confounding, against what is known in closed form."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from stochfric_mb.discovery.joints import joint_outcome
+from stochfric_mb.discovery.joints.balance import sheet_of
+from stochfric_mb.discovery.joints.fitting import independent_count
+from stochfric_mb.discovery.joints.gauss_newton import least_squares
+from stochfric_mb.discovery.joints.rate_and_state import friction_path
+from stochfric_mb.discovery.joints.sheet import slipped
+from stochfric_mb.discovery.joints.windows import Window, chosen_window, noise_level
+from stochfric_mb.errors import InputError
+from stochfric_mb.laws import make_law
+from stochfric_mb.measurement import Dataset, Run
+from stochfric_mb.mechanisms import BeltBox, HingePendulum, PrismaticJoint
+from stochfric_mb.scenario import Scenario, any_scenario_from_dict
+
+H = 1.0e-3
+
+
+def sine_run(friction, *, mass=2.0, delay=0.0, noise=1.0e-6, seed=0, role="fit", start=0.0):
+    """A mass moved along two sines, with the force that it takes; position and force are exact but for noise."""
+    rng = np.random.default_rng(seed)
+    t = start + H * np.arange(8000)
+
+    def motion(time):
+        q = 0.1 * np.sin(4.0 * time) + 0.03 * np.sin(9.0 * time + 1.0)
+        v = 0.4 * np.cos(4.0 * time) + 0.27 * np.cos(9.0 * time + 1.0)
+        return q, v, -1.6 * np.sin(4.0 * time) - 2.43 * np.sin(9.0 * time + 1.0)
+
+    q, _, _ = motion(t - delay)
+    _, v, a = motion(t)
+    force = mass * a + friction(motion(t)[0], v)
+    channels = {"position": q + noise * rng.standard_normal(len(t)), "force": force + 0.02 * rng.standard_normal(len(t))}
+    return Run(name=f"{role} {seed}", role=role, time=t, channels=channels, sample_interval=H)
+
+
+def scenario(**changes):
+    joint = PrismaticJoint(mass=2.0, normal_force=20.0)
+    law = make_law("coulomb", mu_s=0.1, mu_k=0.1)
+    values = {
+        "mechanism": joint,
+        "law": law,
+        "duration": 8.0,
+        "output_step": 1e-3,
+        "uncertainty": {"mass": 0.05, "offset": 0.1},
+    }
+    return Scenario(**(values | changes))
+
+
+def pair(friction, **keys):
+    runs = (sine_run(friction, seed=1, **keys), sine_run(friction, seed=2, role="test", start=20.0, **keys))
+    return Dataset(title="", scenario_path=None, scenario=scenario(), runs=runs)
+
+
+def coulomb(q, v):
+    return 2.0 * np.sign(v)
+
+
+def test_the_balance_of_a_known_motion_is_its_friction():
+    sheet = sheet_of(sine_run(coulomb), scenario())
+    side = np.sign(sheet.velocity[sheet.window.centres])
+    # through a window of 8 ms the inertia of the fastest sine is off by (9 rad/s w)^2/30 = 2e-4 of 9 N, below the noise
+    np.testing.assert_allclose(sheet.driven[sheet.sliding], 2.0 * side[sheet.sliding], atol=6.0 * sheet.noise)
+
+
+def test_coulomb_friction_alone_names_nothing():
+    assert joint_outcome(pair(coulomb)).result.verdict == "none"
+
+
+def grease(q, v):
+    return coulomb(q, v) + 1.5 * v
+
+
+def stribeck(q, v):
+    return coulomb(q, v) * (1.0 + 0.8 * np.exp(-np.abs(v) / 0.1))
+
+
+def wave(q, v):
+    return coulomb(q, v) * (1.0 + 0.3 * np.cos(2.0 * np.pi * q / 0.08))
+
+
+@pytest.mark.parametrize(
+    ("friction", "kind", "name", "truth"),
+    [
+        (grease, "viscous_friction", "coefficient", 1.5),
+        (stribeck, "velocity_weakening", "decay_velocity", 0.1),
+        (wave, "position_dependent_friction", "wavelength", 0.08),
+    ],
+)
+def test_one_effect_is_named_and_measured(friction, kind, name, truth):
+    result = joint_outcome(pair(friction)).result
+    assert [e.kind for e in result.effects] == [kind]
+    found = result.effects[0].parameters[name]
+    assert found.low - 0.03 * truth <= truth <= found.high + 0.03 * truth
+    assert result.gap is not None
+    assert result.gap.closed is not None
+    assert result.gap.closed > 0.9
+
+
+def test_a_delay_is_named_first_and_is_not_friction():
+    result = joint_outcome(pair(coulomb, delay=0.012)).result
+    assert [e.kind for e in result.effects] == ["sensor_delay"]
+    assert result.effects[0].parameters["delay"].value == pytest.approx(0.012, abs=0.001)
+
+
+def test_the_augmented_scenario_reads_back():
+    found = joint_outcome(pair(grease))
+    assert any_scenario_from_dict(found.scenario.to_dict()) == found.scenario
+
+
+def test_a_missing_channel_is_named():
+    run = sine_run(coulomb)
+    bare = dataclasses.replace(run, channels={"position": run.channels["position"]})
+    with pytest.raises(InputError, match="has no force"):
+        sheet_of(bare, scenario())
+
+
+def test_a_belt_box_is_no_joint():
+    box = BeltBox(mass=1.0, damping=0.0, stiffness=1.0, normal_force=1.0, belt_velocity=0.1)
+    with pytest.raises(InputError, match="no driven joint"):
+        joint_outcome(dataclasses.replace(pair(coulomb), scenario=scenario(mechanism=box)))
+
+
+def test_noise_sets_the_window():
+    assert chosen_window(H, 4000, {0: 0.01, 2: 0.0}, 1.0).half_width == pytest.approx(8 * H)
+    wide = chosen_window(H, 4000, {0: 0.0, 2: 1.0e-3}, 1.0)
+    assert wide.half_width > 8 * H
+    assert wide.gain(2) * 1.0e-3 <= 0.3
+
+
+def test_noise_level_of_white_noise_on_a_slow_signal():
+    rng = np.random.default_rng(3)
+    signal = np.sin(np.arange(20_000) * 1.0e-3) + 0.1 * rng.standard_normal(20_000)
+    assert noise_level(signal) == pytest.approx(0.1, rel=0.03)  # 1/sqrt(2 n) times the inefficiency of a median is 1 %
+
+
+def test_white_noise_counts_fully_and_coloured_noise_less():
+    rng = np.random.default_rng(4)
+    white = rng.standard_normal(20_000)
+    slow = np.convolve(white, np.ones(10) / 10.0, "valid")
+    assert independent_count(white) > 0.8 * len(white)
+    # a moving mean over 10 has the integrated autocorrelation 10
+    assert independent_count(slow) == pytest.approx(len(slow) / 10.0, rel=0.2)
+
+
+def test_least_squares_stays_within_bounds():
+    low, high = np.array([-1.0, -10.0]), np.array([10.0, 0.5])
+    x, _ = least_squares(lambda p: np.array([p[0] - 3.0, 2.0 * (p[1] - 1.0), p[0] * 0.0]), low, high, evaluations=20)
+    np.testing.assert_allclose(x, [3.0, 0.5], atol=1e-6)
+
+
+def test_slip_starts_again_at_reversals():
+    q = np.r_[np.linspace(0.0, 1.0, 11), np.linspace(0.9, 0.0, 10)]
+    v = np.r_[np.ones(11), -np.ones(10)]
+    s = slipped(q, v, 0.1)
+    assert s[10] == pytest.approx(1.0)
+    assert s[11] == 0.0
+    assert s[-1] == pytest.approx(0.9)
+
+
+def test_the_memory_law_settles_at_a_minus_b_times_the_log_of_the_speed():
+    speed = np.r_[np.full(100, 1.0e-6), np.full(3000, 1.0e-5)]
+    mu = np.empty(len(speed))
+    friction_path(speed, 0.01, 0.01, 0.015, 5.0e-6, 1.0e4, 1.0e-6, mu)
+    assert mu[50] == pytest.approx(0.0, abs=1e-12)
+    assert mu[-1] == pytest.approx((0.01 - 0.015) * np.log(10.0), rel=1e-6)
+    # a stiff spring shows the direct effect before the memory has faded
+    stiff = np.empty(len(speed))
+    friction_path(speed, 0.01, 0.01, 0.015, 5.0e-4, 1.0e7, 1.0e-6, stiff)
+    assert stiff.max() == pytest.approx(0.01 * np.log(10.0), rel=0.03)
+
+
+def test_the_memory_law_converges_with_the_step():
+    coarse, fine = (np.r_[np.full(n // 4, 1.0e-6), np.full(3 * n // 4, 1.0e-5)] for n in (400, 1600))
+    a, b = np.empty(len(coarse)), np.empty(len(fine))
+    friction_path(coarse, 0.04, 0.01, 0.012, 2.0e-5, 2.0e3, 1.0e-6, a)
+    friction_path(fine, 0.01, 0.01, 0.012, 2.0e-5, 2.0e3, 1.0e-6, b)
+    # first order in the step of 5 ms against 1.25 ms; the peak is 0.01
+    np.testing.assert_allclose(a, b[::4], atol=3e-4)
+
+
+def test_windows_leave_out_the_ends():
+    w = Window(0.02, H, 1000)
+    assert w.centres[0] >= 2 * (len(w.taps) // 2)
+    assert w.centres[-1] <= 1000 - 2 * (len(w.taps) // 2)
+    np.testing.assert_allclose(w.at_centres(np.full(1000, 3.0)), 3.0, rtol=1e-6)
+
+
+def test_hinge_pendulum_gravity_is_in_the_balance():
+    joint = HingePendulum(mass=1.0, length=0.5, normal_force=1.0)
+    t = H * np.arange(4000)
+    q = 0.8 * np.sin(2.0 * t)
+    torque = 0.25 * (-3.2 * np.sin(2.0 * t)) + 9.81 * 0.5 * np.sin(q)
+    run = Run(name="r", role="fit", time=t, channels={"position": q, "torque": torque}, sample_interval=H)
+    sheet = sheet_of(run, scenario(mechanism=joint))
+    np.testing.assert_allclose(sheet.driven, 0.0, atol=1e-3)  # (2 rad/s 8 ms)^2/30 of 5 N m
