@@ -9,6 +9,8 @@ import importlib
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from stochfric_mb.discovery.result import Interval, Result
 from stochfric_mb.errors import InputError, MissingEngineError
 from stochfric_mb.laws.elastic_stick import ElasticStick
@@ -66,7 +68,7 @@ def mjcf(scenario: Scenario[Any]) -> str:
         attach.add_friction(spec, attach.Joint(joint), law, normal_force=load)
         if not acts_in or joint in acts_in:
             element = next(j for j in spec.joints if j.name == joint)
-            element.damping = element.damping + viscous
+            _damp(element, viscous)
     spec.compile()
     left = [e.kind for e in scenario.effects if e.kind not in CARRIED]
     note = (
@@ -88,8 +90,15 @@ def _corrected(mujoco: Any, mechanism: Mjcf) -> Any:
             body.mass, body.inertia = body.mass * factor, body.inertia * factor
     for joint in spec.joints:
         joint.armature = joint.armature * mechanism.factors.get("armature", 1.0)
-        joint.damping = joint.damping + mechanism.damping.get(joint.name, 0.0)
+        _damp(joint, mechanism.damping.get(joint.name, 0.0))
     return spec
+
+
+def _damp(joint: Any, coefficient: float) -> None:
+    """Add damping to a joint, whose damping is a polynomial in its speed: the first number is the linear one."""
+    damping = np.array(joint.damping, dtype=np.float64)
+    damping.flat[0] += coefficient
+    joint.damping = damping
 
 
 def _plain(mechanism: PrismaticJoint | HingePendulum) -> str:

@@ -127,9 +127,9 @@ def test_a_belt_box_is_no_joint():
 
 def test_noise_sets_the_window():
     assert chosen_window(H, 4000, {0: 0.01, 2: 0.0}, 1.0).half_width == pytest.approx(8 * H)
-    wide = chosen_window(H, 4000, {0: 0.0, 2: 1.0e-3}, 1.0)
+    wide = chosen_window(H, 4000, {0: 0.0, 2: 2.0e-4}, 1.0)
     assert wide.half_width > 8 * H
-    assert wide.gain(2) * 1.0e-3 <= 0.3
+    assert wide.gain(2) * 2.0e-4 <= 0.3
 
 
 def test_noise_level_of_white_noise_on_a_slow_signal():
