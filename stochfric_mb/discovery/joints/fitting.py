@@ -21,6 +21,8 @@ EVALUATIONS = 12
 """Most Gauss-Newton steps: the balance is linear in most numbers."""
 PER_STROKE = 6
 """Independent numbers that one stroke can give: friction's errors repeat along a stroke, and that no autocorrelation shows."""
+LEAST_PRELOAD = 0.01
+"""Smallest reference load of a load-dependent joint, over its believed load [-]."""
 INSIDE = 1.0e-6
 """Distance kept from bounds that are themselves forbidden [scales]."""
 
@@ -158,6 +160,8 @@ def knobs_of(model: JointModel, nuisances: Sequence[Nuisance], fixed: Sequence[s
             margin = INSIDE * scale if meta["strict"] else 0.0
             # a rise of friction with speed is viscous, not a weakening of the other sign
             low = 0.0 if (effect.kind, name) == ("velocity_weakening", "amplitude") else meta["low"]
+            # a smaller preload could not be told from none, and would leave no friction without load
+            low = LEAST_PRELOAD * model.load if name == "reference_load" else low
             knobs.append(Knob(i, name, scale, low + margin, meta["high"] - margin, meta["unit"]))
     knobs += [Knob(-2, n.name, n.deviation, n.low, np.inf, n.unit, n.value, n.deviation) for n in nuisances]
     return knobs

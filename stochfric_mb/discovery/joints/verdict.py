@@ -10,6 +10,7 @@ import numpy as np
 
 from stochfric_mb.discovery.joints.confounding import TOGETHER, Confounded, confounded, stand_ins
 from stochfric_mb.discovery.joints.fitting import JointFit
+from stochfric_mb.discovery.joints.friction import friction_along
 from stochfric_mb.discovery.joints.outcome import PlaceOutcome
 from stochfric_mb.discovery.joints.scores import stroke_scatter
 from stochfric_mb.discovery.joints.timing import NAMED as SURE
@@ -173,7 +174,9 @@ def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
     remarks: list[str] = []
     for place in places:
         scatter, strokes = stroke_scatter(place.selected.final.model, place.fit, place.nuisances, place.floor)
-        level = place.selected.final.model.law.mu_k * place.believed.load
+        final = place.selected.final.model
+        along = [friction_along(s, final.law, final.effects, final.load)[s.sliding] for s in place.fit]
+        level = float(np.mean(np.abs(np.concatenate(along))))
         if scatter > 0.0:
             share = 100.0 * scatter / level
             remarks.append(f"friction scatters by {share:.1f} % from stroke to stroke ({strokes} strokes){_at(place)}")
