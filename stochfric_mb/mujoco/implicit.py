@@ -559,12 +559,18 @@ def add_force(f, answer, motion, u, change, q, dx, dy, h, nv):
 
 @compiled
 def residual(places, tangent, normal, numbers, rows, f, u, change, r, end, h, nv):
-    """Fill ``r`` with force minus the law's force; return the largest part of mu_s N that it is."""
+    """Fill ``r`` with force minus the law's force; return the largest part of mu_s N that it is.
+
+    Where friction has turned a sliding velocity over, that is infinite, and ``r`` is incomplete.
+    """
     worst = 0.0
     for q in range(len(places)):
         address, state = places[q, 2], places[q, 3]
         row = numbers[q]
         vx, vy = contact_motion(address, row, tangent, normal, rows, u, change, q, nv)
+        if is_held(places, q):
+            r[2 * q], r[2 * q + 1] = 0.0, 0.0
+            continue
         gx, gy = law_at(state, address, end, h, row, vx, vy)
         if slides(state, address) and gx * vx + gy * vy < 0.0:
             return math.inf
@@ -572,6 +578,12 @@ def residual(places, tangent, normal, numbers, rows, f, u, change, r, end, h, nv
         size, cap = math.hypot(r[2 * q], r[2 * q + 1]), row[MU] * n.load(address + 8 * s.NORMAL)
         worst = max(worst, size / cap if cap > 0.0 else (0.0 if size == 0.0 else 1.0))
     return worst
+
+
+@compiled
+def is_held(places, q):
+    """Return whether true stick holds the contact."""
+    return n.load(places[q, 3] + 8 * s.NEEDS_HOLD) != 0.0 and n.load(places[q, 2] + 8 * s.STICK) != 0.0
 
 
 @compiled
@@ -583,18 +595,29 @@ def law_at(state, address, end, h, row, vx, vy):
 
 @compiled
 def newton_all(places, tangent, answer, motion, normal, numbers, rows, f, u, change, end, h, nv):  # noqa: PLR0912
-    """Improve all forces by Newton's method with difference quotients of the laws; return whether it converged."""
+    """Improve all forces by Newton's method with difference quotients of the laws; return whether it converged.
+
+    Contacts that true stick holds keep their forces, which several of them may share in many ways; then it is for the
+    sweeps to say whether all is found.
+    """
     m = len(places)
+    held = 0
     for q in range(m):
-        if n.load(places[q, 3] + 8 * s.NEEDS_HOLD) != 0.0:
-            return False
+        held += is_held(places, q)
+    if held == m:
+        return False
     a, slopes, x, r = np.empty((2 * m, 2 * m)), np.empty((m, 6)), np.empty(2 * m), np.empty(2 * m)
     worst = residual(places, tangent, normal, numbers, rows, f, u, change, r, end, h, nv)
+    if worst == math.inf:
+        return False
     for _ in range(NEWTON_STEPS):
         if worst <= FORCE_TOLERANCE:
-            return True
+            return held == 0
         for q in range(m):
-            law_slopes(places, tangent, numbers, slopes[q], f, r, u, q, end, h, nv)
+            if is_held(places, q):
+                slopes[q] = 0.0
+            else:
+                law_slopes(places, tangent, numbers, slopes[q], f, r, u, q, end, h, nv)
         for i in range(2 * m):
             q = i // 2
             v, w, k = slopes[q, i % 2], slopes[q, 2 + i % 2], slopes[q, 4 + i % 2] * rows[q, 1]
@@ -621,8 +644,8 @@ def newton_all(places, tangent, answer, motion, normal, numbers, rows, f, u, cha
             part *= 0.5
         if not better:
             residual(places, tangent, normal, numbers, rows, f, u, change, r, end, h, nv)
-            return worst <= 1.0e3 * FORCE_TOLERANCE
-    return worst <= FORCE_TOLERANCE
+            return held == 0 and worst <= 1.0e3 * FORCE_TOLERANCE
+    return held == 0 and worst <= FORCE_TOLERANCE
 
 
 @compiled

@@ -1,0 +1,94 @@
+"""MuJoCo: friction of one pair leaves the rest of the model alone, whatever cone, Jacobian, solver and integrator it has."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+mujoco = pytest.importorskip("mujoco")
+
+import stochfric_mb.mujoco as engine  # noqa: E402
+from stochfric_mb.laws.coulomb import Coulomb  # noqa: E402
+from stochfric_mb.laws.elastic_stick import ElasticStick  # noqa: E402
+
+G = 9.81
+SCENE = """<mujoco><option timestep="1e-3" {options}/><worldbody><geom name="floor" type="plane" size="50 50 1"/>
+<geom name="other" type="plane" size="50 50 1" pos="0 0 0" contype="2" conaffinity="2"/>
+{ours}
+<body pos="0 5 .0499"><freejoint/><geom type="box" size=".05 .05 .05" mass="1" condim="4" friction=".5 .01 .001" contype="2"
+conaffinity="2"/></body>
+<body pos="0 7 .0999"><freejoint/><geom type="sphere" size=".1" mass="1" condim="6" friction=".5 .01 .01" contype="2"
+conaffinity="2"/></body>
+<body pos="0 9 1"><joint name="hinge" axis="0 1 0" frictionloss=".2" limited="true" range="-40 40"/>
+<geom type="capsule" fromto="0 0 0 0 0 -.5" size=".02" mass="1" contype="0" conaffinity="0"/></body></worldbody></mujoco>"""
+OURS = """<body pos="0 0 .0499"><joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>
+<geom name="box" type="box" size=".05 .05 .05" mass="1"/></body>"""
+MODES = [(ElasticStick(0.8, 0.5), "explicit"), (ElasticStick(0.8, 0.5), "implicit"), (Coulomb(0.8, 0.5), "implicit")]
+CONES, JACOBIANS = ("pyramidal", "elliptic"), ("dense", "sparse")
+
+
+def run(ours, law, mode, options):
+    spec = mujoco.MjSpec.from_string(SCENE.format(ours=OURS if ours else "", options=options))
+    if ours:
+        engine.add_friction(spec, ("box", "floor"), law, mode=mode)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    first = 2 if ours else 0
+    mujoco.mj_step(model, data, nstep=500)  # to rest: until then normal forces change
+    if ours:
+        data.qvel[0] = 3.0
+    data.qvel[first : first + 3] = 1.0, 0.3, 0.0
+    data.qvel[first + 5] = 4.0
+    data.qvel[first + 6 : first + 9] = 2.0, 0.0, 0.0
+    data.qvel[first + 12] = 3.0
+    mujoco.mj_step(model, data)  # explicit friction is still stuck in this one
+    speed = float(data.qvel[0])
+    mujoco.mj_step(model, data, nstep=499)
+    return (speed - data.qvel[0], data.qpos[2:].copy()) if ours else (0.0, data.qpos.copy())
+
+
+@pytest.mark.parametrize(("cone", "jacobian"), list(itertools.product(CONES, JACOBIANS)))
+@pytest.mark.parametrize(("law", "mode"), MODES)
+def test_the_rest_of_the_model_moves_as_without_us(law, mode, cone, jacobian):
+    options = f'cone="{cone}" jacobian="{jacobian}" tolerance="1e-14" iterations="200" ls_iterations="100"'
+    _, alone = run(False, law, mode, options)
+    lost, rest = run(True, law, mode, options)
+    assert lost == pytest.approx(0.5 * G * 0.499, rel=1e-6)
+    assert np.abs(rest - alone).max() < 1e-7  # what the solver's tolerance makes of bodies that slide, spin and roll
+
+
+@pytest.mark.parametrize("solver", ["Newton", "CG", "PGS"])
+@pytest.mark.parametrize("integrator", ["Euler", "implicit", "implicitfast", "RK4"])
+@pytest.mark.parametrize(("law", "mode"), MODES)
+def test_solvers_and_integrators(law, mode, integrator, solver):
+    options = f'cone="elliptic" solver="{solver}" integrator="{integrator}" iterations="500" tolerance="1e-12"'
+    lost, _ = run(True, law, mode, options)
+    assert lost == pytest.approx(0.5 * G * 0.499, rel=1e-5)  # as well as CG and PGS know the normal force
+
+
+STACK = """<mujoco><option timestep="1e-3" {options}/><worldbody><geom name="floor" type="plane" size="50 50 1"
+friction="1 .01 .01"/><body pos="0 0 .0499"><freejoint/><geom name="lower" type="box" size=".1 .1 .05" mass="2"
+friction="1 .01 .01"/></body>
+<body pos="0 0 .1498"><freejoint/><geom name="upper" type="box" size=".05 .05 .05" mass="1"/></body></worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize(("cone", "jacobian"), list(itertools.product(CONES, JACOBIANS)))
+@pytest.mark.parametrize(("law", "mode"), MODES)
+def test_our_contact_on_a_body_that_native_friction_holds(law, mode, cone, jacobian):
+    """The same bodies have both: the lower box stands by native friction while the upper one slides on it by ours."""
+    spec = mujoco.MjSpec.from_string(STACK.format(options=f'cone="{cone}" jacobian="{jacobian}"'))
+    engine.add_friction(spec, ("upper", "lower"), law, mode=mode)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, nstep=500)
+    data.qvel[6] = 0.4
+    start = float(data.qpos[0])
+    mujoco.mj_step(model, data, nstep=10)  # in which the boxes sink in on one side, and the lever arm takes up speed
+    speed = float(data.qvel[6] - data.qvel[0])
+    mujoco.mj_step(model, data, nstep=50)
+    assert data.qvel[6] - data.qvel[0] - speed == pytest.approx(-0.5 * G * 0.05, rel=3e-3)
+    (found,) = engine.readings(model, data).values()
+    assert sum(c.normal_force for c in found) == pytest.approx(G, rel=1e-3)  # no contact lifts off
+    assert abs(data.qpos[0] - start) < 2e-4  # native friction lets the lower box drift
+    mujoco.mj_step(model, data, nstep=600)
+    assert abs(data.qvel[6]) < 1e-4
