@@ -35,6 +35,11 @@ def discover(
     """
     from stochfric_mb.discovery.workflow import discover_belt_box
     from stochfric_mb.measurement.dataset import Dataset, load_dataset
+    from stochfric_mb.mechanisms import BeltBox
 
     data = dataset if isinstance(dataset, Dataset) else load_dataset(dataset, scenario)
+    if not isinstance(data.scenario.mechanism, BeltBox):
+        from stochfric_mb.discovery.joints import joint_outcome
+
+        return joint_outcome(data, progress=progress)
     return discover_belt_box(data, progress=progress)

@@ -11,6 +11,7 @@ import numpy as np
 from stochfric_mb.discovery.joints.balance import nuisances_of, sheet_of
 from stochfric_mb.discovery.joints.fitting import JointModel
 from stochfric_mb.discovery.joints.outcome import JointOutcome, PlaceOutcome
+from stochfric_mb.discovery.joints.pictures import friction_picture
 from stochfric_mb.discovery.joints.scores import loop_floor, noise_floor, score
 from stochfric_mb.discovery.joints.selection import Selected, Selector
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
@@ -92,7 +93,11 @@ def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
     notes += _run_notes(dataset)
     floor = loop_floor(dataset.test) if dataset.scenario.controller is not None else None
     result = verdict(dataset, places, found, notes, floor)
-    return JointOutcome(result, augmented(dataset.scenario, places, found), tuple(places), found)
+    pictures = tuple(
+        friction_picture(p.place, p.test, p.nuisances, p.selected.recalibrated.model, p.selected.final.model) for p in places
+    )
+    scenario = augmented(dataset.scenario, places, found)
+    return JointOutcome(result, scenario, dataset, places=tuple(places), timing=found, pictures=pictures)
 
 
 def _place(

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any
 
 from stochfric_mb.discovery.joints.fitting import JointModel
+from stochfric_mb.discovery.joints.pictures import Picture
 from stochfric_mb.discovery.joints.scores import Score
 from stochfric_mb.discovery.joints.selection import Selected
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
 from stochfric_mb.discovery.joints.timing import Timing
-from stochfric_mb.discovery.result import Result
-from stochfric_mb.scenario import Scenario
+from stochfric_mb.discovery.workflow import Outcome
 
 
 @dataclasses.dataclass(frozen=True)
@@ -37,14 +36,12 @@ class PlaceOutcome:
 
 
 @dataclasses.dataclass(frozen=True)
-class JointOutcome:
-    """Everything about one dataset."""
+class JointOutcome(Outcome):
+    """Everything about one dataset; `Outcome` has the result, the augmented scenario and the dataset."""
 
-    result: Result
-    """The result, as ``result.json`` has it."""
-    scenario: Scenario[Any]
-    """The augmented model: corrections, effects and all."""
-    places: tuple[PlaceOutcome, ...]
+    places: tuple[PlaceOutcome, ...] = ()
     """The joints, those with effects first."""
-    timing: Timing | None
+    timing: Timing | None = None
     """Delay between drive and motion; None where none could be looked for."""
+    pictures: tuple[Picture, ...] = ()
+    """Pictures for the report."""

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from stochfric_mb.discovery.joints.fitting import independent_count
 from stochfric_mb.discovery.joints.gauss_newton import least_squares
 from stochfric_mb.discovery.joints.outcome import JointOutcome
+from stochfric_mb.discovery.joints.pictures import step_picture
 from stochfric_mb.discovery.joints.rate_and_state import friction_path
 from stochfric_mb.discovery.joints.selection import NAMED, TIE
 from stochfric_mb.discovery.joints.windows import noise_level
@@ -106,7 +107,11 @@ def spring_slider_outcome(dataset: Dataset, tell: Callable[[str], None]) -> Join
     best = max(fits[1:], key=lambda f: scores[f.law.kind])
     accepted = scores[best.law.kind] > NAMED
     result = _result(dataset, tracks, plain, best if accepted else None, fits, scores)
-    return JointOutcome(result, _augmented(dataset, best if accepted else plain), (), None)
+    models = {"recalibrated": plain} | ({"augmented": best} if accepted else {})
+    series = {n: np.concatenate(f.law.predict(tracks, f.values)) for n, f in models.items()}
+    series = {"data": np.concatenate([t.friction for t in tracks])} | series
+    picture = step_picture(np.concatenate([t.run.time for t in tracks]), series)
+    return JointOutcome(result, _augmented(dataset, best if accepted else plain), dataset, pictures=(picture,))
 
 
 def track_of(run: Run, dataset: Dataset) -> Track:

@@ -24,6 +24,11 @@ ROTATIONAL = {
     "N": "N m", "m": "rad", "m/s": "rad/s", "N s/m": "N m s/rad", "N s^2/m^2": "N m s^2/rad^2",
 }  # fmt: skip
 """Unit of a parameter where friction acts along a line -> where it acts about an axis."""
+FACTORS = {
+    "mass": "mass_factor", "armature": "armature_factor", "gain": "drive_factor", "damping": "damping_factor",
+    "offset": "drive_offset",
+}  # fmt: skip
+"""Correction of a named joint -> its name in the result, where the scenario's own numbers are tables of joints."""
 NO_BELT = ("belt_speed_ripple",)
 """Effects of a mechanism that a joint does not have."""
 
@@ -113,7 +118,8 @@ def _believed(place: PlaceOutcome) -> dict[str, Interval]:
     for knob, value in zip(fit.knobs, fit.values, strict=True):
         if knob.owner < 0:
             spread = 1.96 * fit.deviation(knob.owner, knob.name)
-            found[knob.name] = Interval(float(value), float(value - spread), float(value + spread), knob.unit)
+            name = FACTORS.get(knob.name, knob.name) if place.place else knob.name
+            found[name] = Interval(float(value), float(value - spread), float(value + spread), knob.unit)
     return found
 
 
