@@ -82,7 +82,7 @@ class Mjcf:
             if key not in table:
                 raise InputError(f"key mechanism.{key} is missing; add it to [mechanism]")
         return cls(
-            file=folder / str(table["file"]),
+            file=(folder / str(table["file"])).resolve(),
             friction=_numbers(table, "friction"),
             positions={k: str(v) for k, v in _table(table, "positions").items()},
             drives={k: _drive(k, v) for k, v in _table(table, "drives").items()},
