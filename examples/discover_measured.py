@@ -1,0 +1,52 @@
+"""What the workflow says of published friction measurements.
+
+Run it as ``python examples/discover_measured.py emps``; the names are the folders under ``models`` that have a
+``dataset.toml``. The data are not part of the package: set STOCHFRIC_DATA to the folder that holds them.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from stochfric_mb.discovery import discover
+from stochfric_mb.discovery.export import mjcf, parameter_table, scenario_toml
+from stochfric_mb.mechanisms import SpringSlider
+
+MODELS = Path(__file__).parents[1] / "models"
+
+
+def names() -> list[str]:
+    """Return the names of the datasets."""
+    return sorted(file.parent.name for file in MODELS.glob("*/dataset.toml"))
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Discover, tell, and write the augmented model where it is asked for."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("name", choices=names())
+    parser.add_argument("--out", type=Path, help="folder for parameters.csv, augmented.toml and augmented.xml")
+    options = parser.parse_args(arguments)
+    outcome = discover(MODELS / options.name, progress=print)
+    result = outcome.result
+    print(f"{options.name}: {result.verdict}")
+    for effect in result.effects:
+        print(f"  {effect.kind}: {effect.where.text}")
+    if result.gap is not None:
+        gap = result.gap
+        print(
+            f"  held out, {gap.metric} [{gap.unit}]: {gap.baseline:.4g} as believed, {gap.recalibrated:.4g} recalibrated, "
+            f"{gap.augmented:.4g} with the effects, {gap.floor:.4g} noise"
+        )
+    for note in result.notes:
+        print(f"  {note}")
+    if options.out is not None:
+        options.out.mkdir(parents=True, exist_ok=True)
+        (options.out / "parameters.csv").write_text(parameter_table(result), encoding="utf-8")
+        (options.out / "augmented.toml").write_text(scenario_toml(outcome.scenario), encoding="utf-8")
+        if not isinstance(outcome.scenario.mechanism, SpringSlider):
+            (options.out / "augmented.xml").write_text(mjcf(outcome.scenario), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
