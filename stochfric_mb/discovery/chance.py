@@ -20,8 +20,10 @@ MEMORY = 3.0
 """Correlation from slip to slip over its standard error at which the scatter has a memory [-]."""
 REMAINING_SCATTER = 0.1
 """Share of the believed model's scatter that must remain with the effects in for it to be called random [-]."""
-EARLY = 0.03
-"""Share of slips that break away far too early at which kicks are looked at [-]."""
+LEAST_SHARE = 0.004
+"""Scatter over the friction itself below which, beside a named effect, it is what the effect's form leaves [-]."""
+FEWEST_KICKED, MOST_KICKED = 0.02, 0.35
+"""Share of slips that stand out for which kicks are the reason [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -36,27 +38,32 @@ class Chance:
     """Its parameters."""
 
 
-def early(study: Study) -> tuple[float, float, float]:
-    """Return the share of slips that break away far too early, that of far too late ones, and how early [N]."""
+def kicked(study: Study) -> tuple[np.ndarray, float]:
+    """Return which slips stand out from all others of their run, and by how much [N]: in onset force, or in the slip."""
     pool = study.pool
-    centred = np.concatenate(
-        [pool.features[pool.run == r, 0] - np.median(pool.features[pool.run == r, 0]) for r in range(pool.n_runs)]
-    )
-    limit = max(5.0 * robust_deviation(centred), 0.04 * float(np.median(pool.static)))
-    low = centred < -limit
-    return float(low.mean()), float((centred > limit).mean()), float(-np.median(centred[low])) if low.any() else 0.0
+    forces = pool.features[:, :2].copy()
+    for r in range(pool.n_runs):
+        forces[pool.run == r] -= np.median(forces[pool.run == r], axis=0)
+    spread = np.array([robust_deviation(forces[:, 0]), robust_deviation(forces[:, 1])])
+    limit = np.maximum(8.0 * spread, 0.02 * float(np.median(pool.static)))
+    far = (np.abs(forces) > limit).any(axis=1)
+    return far, float(np.median(np.abs(forces[far]).max(axis=1))) if far.any() else 0.0
 
 
 def kicks(study: Study) -> Chance | None:
-    """Return impacts if a few slips, and only a few, break away far too early."""
-    share, late, force = early(study)
-    if share < EARLY or share > 0.45 or late > 0.3 * share:
+    """Return impacts if a few slips, and only a few, stand out, and not at a regular count."""
+    far, force = kicked(study)
+    share = float(far.mean())
+    if not FEWEST_KICKED < share < MOST_KICKED:
         return None
     pool = study.pool
-    cycles = float(np.median([np.median(np.diff(s.onset_time)) for s in pool.slips]))
-    # a kick that lasts 2 ms adds its mean force to the spring's; one in about three is strong enough to be seen
-    impulse = 1.5 * force * 2.0e-3
-    return Chance("impacts", 400.0 * share, {"rate": 3.0 * share / cycles, "impulse": impulse})
+    gaps = np.concatenate([np.diff(np.flatnonzero(far[pool.run == r])) for r in range(pool.n_runs)])
+    if len(gaps) >= 4 and np.mean(gaps == np.median(gaps)) > 0.8:
+        return None
+    cycle = float(np.median([np.median(np.diff(s.onset_time)) for s in pool.slips]))
+    # a kick in slip changes its mean force by the impulse over the slip's duration; one in stick adds to the spring
+    impulse = force * float(np.median(pool.restick_time - pool.onset_time))
+    return Chance("impacts", 400.0 * share, {"rate": 1.5 * share / cycle, "impulse": impulse})
 
 
 def chance(study: Study, scatter: Randomness, solution: Solution, named: Sequence[str]) -> Chance | Where | None:
@@ -67,12 +74,15 @@ def chance(study: Study, scatter: Randomness, solution: Solution, named: Sequenc
     remaining = np.exp(2.0 * solution.scatter[:2]).sum() / np.exp(2.0 * study.solution.scatter[:2]).sum()
     if named and remaining < REMAINING_SCATTER:
         return None
+    load = float(np.median(study.pool.normal_force))
+    sigma_s, sigma_k, _ = np.exp(solution.scatter) / load
+    mu_s, mu_k = study.solution.coefficients[:2]
+    if named and sigma_s < LEAST_SHARE * mu_s and sigma_k < LEAST_SHARE * mu_s:
+        return None
     if scatter.two_levels > NAME:
         return Where("scatter", "friction switches at random between two levels")
-    load = float(np.median(study.pool.normal_force))
-    if scatter.wander > NAME and scatter.correlation > MEMORY:
+    if (scatter.wander > NAME and scatter.correlation > MEMORY) or scatter.wander > 5.0 * NAME:
         share = max(scatter.wander_share, 1.0e-3)
-        mu_s, mu_k = study.solution.coefficients[:2]
         return Chance(
             "correlated_coefficients",
             scatter.wander,
@@ -82,7 +92,6 @@ def chance(study: Study, scatter: Randomness, solution: Solution, named: Sequenc
         return Where("scatter, time", "friction varies from slip to slip with a memory that no known random process has")
     if study.model.process is not None:
         return None
-    sigma_s, sigma_k, _ = np.exp(solution.scatter) / load
     within = scatter.within > CERTAIN and scatter.within > 0.05 * strongest
     values: dict[str, float | str] = {
         "process": "knots" if within else "per_event", "sigma_s": float(sigma_s), "sigma_k": float(sigma_k)

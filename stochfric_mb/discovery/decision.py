@@ -26,10 +26,14 @@ SECOND = 0.1
 """A further effect needs at least this share of the first one's score [-]."""
 MOST_EFFECTS = 3
 """Effects that are looked for."""
+STALLED = 0.6
+"""Share of the scatter that may remain after a ripple is taken out; if more does, no search for further ones makes sense."""
 MOST_ROUNDS = 5
 """Rounds of the search: harmonics of a named ripple take rounds of their own."""
 FITTED_TO_FORECASTS = (*PERIODIC, "friction_drift", "sensor_drift", "sensor_step")
 """Effects that change in the course of a run: fitted to forecasts as soon as they are named."""
+REPEATED = (*PERIODIC, "sensor_step")
+"""Effects that may be there more than once: overtones of a ripple, a step there and back."""
 LINEAR = ("sensor_delay",)
 """Effects that stay regressors: a simulated slip does not show them."""
 
@@ -79,6 +83,9 @@ def decide(study: Study, *, progress: Progress = lambda _: None) -> Decision:
     for kind, score, values in blamed:
         named.append(Named(kind, (), score, where_of(kind)))
         model = with_kinematic(study, model, kind, values)
+    if any(n.kind == "sensor_clipping" for n in named):
+        # a clipped record says too little of the forces
+        return Decision("effect", tuple(named), None, model, (), None, details)
     progress("screening")
     return _Search(study, model, named, details, progress).run()
 
@@ -98,6 +105,7 @@ class _Search:
         self.terms: Terms = study.terms
         self.solution: Solution = study.solution
         self.ranking: tuple[tuple[str, float], ...] = ()
+        self.stalled = False
         if any(n.kind in ("belt_speed_ripple", "presliding_compliance") for n in named):
             self._take_out()
 
@@ -111,7 +119,7 @@ class _Search:
             if len(kinds) >= MOST_EFFECTS:
                 break
             candidates = screen(
-                self.pool, self.regression, self.terms, self.solution, without=[k for k in kinds if k not in PERIODIC]
+                self.pool, self.regression, self.terms, self.solution, without=[k for k in kinds if k not in REPEATED]
             )
             if round_ == 0:
                 self.ranking = tuple((c.name, c.score) for c in candidates)
@@ -133,6 +141,8 @@ class _Search:
                 break
             confirmed = outcome.confirmed
             self._add(outcome)
+            if self.stalled:
+                break
         return self._chance()
 
     def _wanders(self, name: str, score: float) -> bool:
@@ -154,6 +164,7 @@ class _Search:
             self.model = chosen.model
             self.named.append(Named(kind, chosen.class_, chosen.candidate.score, where_of(kind)))
         self.progress("what is left")
+        before = np.exp(2.0 * self.solution.scatter[:2]).sum()
         if kind in LINEAR:
             self.terms = self.terms.plus(chosen.candidate.hypothesis.columns)
             self.solution = self.regression.fit(self.terms, self.solution.scatter)
@@ -162,6 +173,7 @@ class _Search:
             fit = refit(self.model, self.study.windows, self.study.uncertainty, most=12, evaluations=20)
             self.model = fit.model
         self._take_out()
+        self.stalled = kind in PERIODIC and np.exp(2.0 * self.solution.scatter[:2]).sum() > STALLED * before
 
     def _take_out(self) -> None:
         """Go on with what the model leaves of the features."""

@@ -11,13 +11,20 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery.calibration import calibrate
 from stochfric_mb.discovery.forecast import Windows, score, windows_of
+from stochfric_mb.discovery.hypotheses import step_times, steps
 from stochfric_mb.discovery.model import OWN_TO_RUN, Model
+from stochfric_mb.discovery.naming import with_steps
+from stochfric_mb.discovery.pool import make_pool
 from stochfric_mb.discovery.refit import refit
+from stochfric_mb.discovery.regression import Regression, believed
 from stochfric_mb.discovery.result import Gap
 from stochfric_mb.discovery.scatter import simulated_slips
 from stochfric_mb.discovery.slips import Slips
 
+START = np.array([-3.0, -3.0, -4.0])
+"""Logarithms of the scatter at which a step is looked for [ln N]."""
 PHASES = 4
 """Starts of the search for a phase."""
 
@@ -52,6 +59,7 @@ def phased(model: Model) -> bool:
 
 def settled(model: Model, runs: HeldOut) -> Model:
     """Return the model with its phases found in the first halves of the held-out runs."""
+    model = _stepped(model, runs)
     if not phased(model):
         return model
     calm = deterministic(model)
@@ -62,7 +70,11 @@ def settled(model: Model, runs: HeldOut) -> Model:
             continue
         best, cost = None, np.inf
         for start in np.arange(PHASES) * 2.0 * np.pi / PHASES:
-            values = tuple({"phase": float(start)} if hasattr(e, "phase") else {} for e in calm.effects)
+            before = calm.own.get(windows.record.name, ({},) * len(calm.effects))
+            values = tuple(
+                dict(b) | ({"phase": float(start)} if hasattr(e, "phase") else {})
+                for e, b in zip(calm.effects, before, strict=True)
+            )
             trial = dataclasses.replace(calm, own=dict(calm.own) | {windows.record.name: values})
             fit = refit(trial, [windows], {}, only=OWN_TO_RUN, evaluations=12, most=10)
             if fit.cost < cost:
@@ -73,6 +85,27 @@ def settled(model: Model, runs: HeldOut) -> Model:
             full[place] = dict(values)
         own[windows.record.name] = tuple(full)
     return dataclasses.replace(model, own=own)
+
+
+def _stepped(model: Model, runs: HeldOut) -> Model:
+    """Return the model with the sensor's step found in each held-out run: a fault of the record, like its phase."""
+    places = [i for i, e in enumerate(model.effects) if e.kind == "sensor_step"]
+    if not places:
+        return model
+    for slips in runs.slips:
+        pool = make_pool([slips], [calibrate(slips)])
+        regression = Regression(pool)
+        terms = believed(pool, dict.fromkeys(("stiffness", "mass", "damping"), 0.01))
+        trials = steps(pool, 0, multiplied=False)
+        when: list[float] = []
+        for _ in places:
+            best = int(np.argmax(regression.gains(terms, START, [[t] for t in trials])))
+            terms = terms.plus([trials[best]])
+            when.append(float(step_times(pool)[best]))
+        sizes = regression.solve(terms, START).coefficients[-len(places) :]
+        for place, size, time in zip(places, sizes, when, strict=True):
+            model = with_steps(model, {slips.record.name: (float(size), time)}, place)
+    return model
 
 
 def deterministic(model: Model) -> Model:

@@ -12,6 +12,7 @@ from stochfric_mb.discovery.refit import refit
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.study import Study
 from stochfric_mb.effects import make_effect
+from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
 
 NAME = 20.0
 """Score at which an effect is named [-]."""
@@ -83,18 +84,20 @@ def _ripple_phases(study: Study, frequency: float) -> list[tuple[str, float]]:
 def kinematics(study: Study, details: dict[str, object]) -> list[tuple[str, float, dict[str, float]]] | Where:
     """Return the effects that the stick phases and the sensor show, or where they disagree with no known effect."""
     found: list[tuple[str, float, dict[str, float]]] = []
-    outliers = study.outliers
-    n = sum(len(r.time) for r in study.records)
-    details["outlier_share"] = outliers
-    if outliers > 5.0e-5 and outliers * n >= 5:
-        size = np.concatenate([np.abs(r.raw - r.position)[r.outlier] for r in study.records])
-        found.append(
-            ("sensor_outliers", float(outliers * n * 10.0), {"fraction": outliers, "size": float(np.sqrt(np.mean(size**2)))})
-        )
     details["ceiling"] = study.ceiling[0]
     if study.ceiling[0] > LEVEL_VISITS:
-        found.append(("sensor_clipping", 100.0 * float(study.ceiling[0]), {"high": float(study.ceiling[1])}))
-        return found
+        return [("sensor_clipping", 100.0 * float(study.ceiling[0]), {"high": float(study.ceiling[1])})]
+    found += _delays(study, details)
+    # what only stands out of a smoothed sensor's samples is no outlier
+    noise = max(s.noise.deviation for s in study.pool.slips)
+    sizes = np.concatenate([np.abs(r.raw - r.position)[r.outlier] for r in study.records])
+    n = sum(len(r.time) for r in study.records)
+    outliers = float(np.count_nonzero(sizes > 5.5 * noise)) / n
+    details["outlier_share"] = outliers
+    if outliers > 5.0e-5 and outliers * n >= 5:
+        found.append(
+            ("sensor_outliers", float(outliers * n * 10.0), {"fraction": outliers, "size": float(np.sqrt(np.mean(sizes**2)))})
+        )
     sticking = study.sticking
     if sticking is None:
         return found
@@ -102,11 +105,15 @@ def kinematics(study: Study, details: dict[str, object]) -> list[tuple[str, floa
     scores = dict(sticking.scores)
     if not _step_stays(study, sticking.settings["sensor_step"]):
         scores["sensor_step"] = -np.inf
+    if _driven(study, sticking.settings["belt_speed_ripple"]["frequency"]):
+        # a stuck box that moves with the known force: the contact yields
+        scores["presliding_compliance"] = max(scores["presliding_compliance"], scores.pop("belt_speed_ripple"))
     best = max(scores, key=lambda k: scores[k])
     score = scores[best]
     if score <= NAME:
         hum = _line(study, details)
-        if sticking.scores["sensor_step"] > max(NAME, 0.2 * sticking.excess):
+        forced = any(r.mechanism.excitation_amplitude for r in study.records)
+        if sticking.scores["sensor_step"] > max(NAME, 0.2 * sticking.excess) and not forced:
             return Where("stick, single moments", "in stick the box jumps off the belt's line, and is back after the next slip")
         return hum if hum is not None else found
     if best in ("creep_before", "creep_after", "yielding"):
@@ -127,9 +134,35 @@ def kinematics(study: Study, details: dict[str, object]) -> list[tuple[str, floa
         stiffness = max(settings["angular_frequency"] ** 2 * box.mass - box.stiffness, 0.1 * box.stiffness)
         limit = float(study.solution.coefficients[0]) * box.normal_force / stiffness
         found.append((best, score, {"elastic_limit": limit, "damping_ratio": settings["damping_ratio"]}))
-    elif best == "sensor_step":
-        found.append((best, score, {"size": 1.0e-5, "time": settings["time_0"]}))
+    # a step of the sensor is named by the forces, where its size shows
     return found
+
+
+def _driven(study: Study, frequency: float) -> bool:
+    """Return whether a frequency [Hz] is that of the known excitation."""
+    return any(
+        r.mechanism.excitation_amplitude
+        and abs(frequency - r.mechanism.excitation_angular_frequency / (2.0 * np.pi)) < 2.0 / (r.time[-1] - r.time[0])
+        for r in study.records
+    )
+
+
+def _delays(study: Study, details: dict[str, object]) -> list[tuple[str, float, dict[str, float]]]:
+    """Return the delay of the position after a velocity channel, where runs have one and the delay is beyond doubt."""
+    found: list[Delay] = []
+    for run in study.dataset.fit:
+        if "velocity" in run.channels:
+            position = Term(run.channels["position"], 1)
+            width = 0.4 / study.records[0].angular_frequency
+            found.append(estimate_delay(run.channels["velocity"], [position], run.sample_interval, half_width=width))
+    if not found:
+        return []
+    seconds = float(np.mean([d.seconds for d in found]))
+    doubt = float(np.mean([d.high - d.low for d in found])) / 3.92 / np.sqrt(len(found))
+    details["delay"] = {"seconds": seconds, "deviation": doubt}
+    if abs(seconds) < max(5.0 * doubt, 0.5 * study.dataset.fit[0].sample_interval):
+        return []
+    return [("sensor_delay", float(min((seconds / max(doubt, 1.0e-6)) ** 2, 1.0e4)), {"delay": seconds})]
 
 
 def _step_stays(study: Study, setting: dict[str, float]) -> bool:

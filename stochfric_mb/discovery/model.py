@@ -19,6 +19,8 @@ CORRECTED = ("stiffness", "mass", "damping")
 """Parameters of the mechanism that recalibration may correct."""
 NOT_FITTED = ("reference_load", "spacing", "fraction", "size", "time", "duration", "high", "low", "static_share")
 """Parameters of effects that forecasts cannot fit, or that are fixed by what they mean."""
+REACH = 0.25
+"""How far a fit may move the coefficients, over mu_s [-]: further off, a forecast that never slips would look good."""
 SHORTEST_LIMIT = 1.0e-6
 """Smallest elastic limit that a fit may reach [m]: a stiffer contact cannot be told from a rigid one and costs time."""
 OWN_TO_RUN = ("phase", "phase_2", "phase_3")
@@ -105,8 +107,10 @@ def knobs_of(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str]
     """
     law = model.law
     knobs = [
-        Knob("mu_s", law.mu_s, 0.02 * law.mu_s, np.inf, 1.0e-4, 10.0),
-        Knob("mu_k", law.mu_k, 0.02 * law.mu_s, np.inf, 1.0e-5, 10.0),
+        Knob("mu_s", law.mu_s, 0.02 * law.mu_s, np.inf, law.mu_s * (1.0 - REACH), law.mu_s * (1.0 + REACH)),
+        Knob(
+            "mu_k", law.mu_k, 0.02 * law.mu_s, np.inf, 1.0e-5, max(law.mu_k, min(law.mu_k + REACH * law.mu_s, 0.98 * law.mu_s))
+        ),
     ]
     for name in CORRECTED:
         prior = uncertainty.get(name, 0.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -29,9 +30,30 @@ def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int)
     if candidate.name in PERIODIC:
         return _periodic(model, candidate, pool, coefficients)
     if candidate.name == "sensor_step":
-        size = float(np.mean(coefficients))
-        return model.plus(make_effect("sensor_step", size=size, time=float(candidate.hypothesis.setting[0])))
+        sizes = [float(c) for c in coefficients]
+        times = candidate.hypothesis.setting
+        return with_steps(model, {s.record.name: (sizes[r], times[r]) for r, s in enumerate(pool.slips)})
     return model.plus(_bounded(candidate.name, candidate.hypothesis.start(coefficients)))
+
+
+def with_steps(model: Model, steps: Mapping[str, tuple[float, float]], place: int | None = None) -> Model:
+    """Return the model with each run's own step of the sensor: size [m] and time [s].
+
+    Args:
+        model: the model.
+        steps: run -> size and time.
+        place: number of the effect that is this step; a new one if not given.
+    """
+    if place is None:
+        size, when = next(iter(steps.values()))
+        model = model.plus(make_effect("sensor_step", size=size, time=when))
+        place = len(model.effects) - 1
+    own = dict(model.own)
+    for run, (size, when) in steps.items():
+        values = list(own.get(run, ({},) * len(model.effects)))
+        values[place] = dict(values[place]) | {"size": size, "time": when}
+        own[run] = tuple(values)
+    return dataclasses.replace(model, own=own)
 
 
 def _bounded(kind: str, values: dict[str, float]) -> Effect:

@@ -18,7 +18,7 @@ from stochfric_mb.discovery.study import Progress, Study, slips_of_run, study
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
 
-NOT_JUDGED = {"random_coefficients", "correlated_coefficients", "impacts", "sensor_outliers", "sensor_clipping", "sensor_step"}
+NOT_JUDGED = {"random_coefficients", "correlated_coefficients", "impacts", "sensor_outliers", "sensor_clipping"}
 """Effects whose worth one-cycle forecasts do not measure."""
 EXPLAINED, EXPLAINED_RANDOM = 0.65, 0.25
 """Share of the reducible error of the fit runs' forecasts that named effects must explain, without and with random ones [-]."""
@@ -112,8 +112,9 @@ def augmented_scenario(dataset: Dataset, model: Model) -> Scenario:
 def _fitted(model: Model, found: Study) -> Fit:
     """Return the model as believed, fitted within its uncertainty; its scatter, if any is declared, stays as declared."""
     start = dataclasses.replace(deterministic(model), corrections=dict.fromkeys(("stiffness", "mass", "damping"), 0.0))
-    mu_s, mu_k = found.solution.coefficients[:2]
-    fit = refit(start.with_law(float(mu_s), float(max(mu_k, 1e-5))), found.windows, found.uncertainty)
+    mu_s, mu_k = (float(max(c, 1.0e-5)) for c in found.solution.coefficients[:2])
+    fits = [refit(m, found.windows, found.uncertainty) for m in (start.with_law(mu_s, mu_k), start)]
+    fit = min(fits, key=lambda f: f.cost)
     return dataclasses.replace(fit, model=dataclasses.replace(model, law=fit.model.law, corrections=fit.model.corrections))
 
 
@@ -123,7 +124,11 @@ def _augmented(decision: Decision, found: Study, recalibrated: Fit) -> Fit | Non
         return None
     model = decision.model
     calm = deterministic(model)
-    fit = refit(calm, found.windows, found.uncertainty, evaluations=25) if calm.effects else recalibrated
+    if calm.effects:
+        starts = (calm, dataclasses.replace(calm, law=recalibrated.model.law, corrections=recalibrated.model.corrections))
+        fit = min((refit(m, found.windows, found.uncertainty, evaluations=25) for m in starts), key=lambda f: f.cost)
+    else:
+        fit = recalibrated
     places = [i for i, e in enumerate(model.effects) if e in calm.effects]
     effects = list(model.effects)
     for place, effect in zip(places, fit.model.effects, strict=False):
