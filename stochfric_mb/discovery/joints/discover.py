@@ -80,15 +80,18 @@ class _Plain:
 
 def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
     found: Timing | None = None
+    base = believed_delay(dataset.scenario)
     if not isinstance(dataset.scenario.mechanism, PrismaticJoint) or dataset.scenario.mechanism.mass > 0.0:
         tell("timing")  # a slow prescribed motion has no inertia by which it could be late
         first = source.places[0][0]
-        found = timing(lambda d, w: source.sheets(first, "fit", d, w), source.nuisances(first), dataset.fit[0].sample_interval)
+        found = timing(
+            lambda d, w: source.sheets(first, "fit", base + d, w), source.nuisances(first), dataset.fit[0].sample_interval
+        )
         if found is not None and not found.named and found.material:
             found = found.against(_best_friction(source, dataset.scenario))
-    delay = found.seconds if found is not None and found.named else 0.0
+    more = found.seconds if found is not None and found.named else 0.0
     notes: list[str] = []
-    places = [_place(dataset, tell, source, name, load, delay, notes) for name, load in source.places]
+    places = [_place(dataset, tell, source, name, load, (base, base + more), notes) for name, load in source.places]
     places.sort(key=lambda p: -sum(t.score for t in p.selected.found))
     notes += _run_notes(dataset)
     floor = loop_floor(dataset.test) if dataset.scenario.controller is not None else None
@@ -101,9 +104,10 @@ def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
 
 
 def _place(
-    dataset: Dataset, tell: Progress, source: Any, name: str, load: float, delay: float, notes: list[str]
+    dataset: Dataset, tell: Progress, source: Any, name: str, load: float, delays: tuple[float, float], notes: list[str]
 ) -> PlaceOutcome:
     scenario = dataset.scenario
+    base, delay = delays
     fit_sheets, test_sheets = source.sheets(name, "fit", delay), source.sheets(name, "test", delay)
     notes += _sign_notes(fit_sheets)
     nuisances = source.nuisances(name)
@@ -115,9 +119,9 @@ def _place(
         label: score(model, test_sheets, nuisances, dataset.test, scenario)
         for label, model in _models(believed, selected).items()
     }
-    if delay:  # what was believed knows nothing of the delay
-        early = source.sheets(name, "test", 0.0)
-        plain = Selector(source.sheets(name, "fit", 0.0), nuisances, believed).recalibrated.model
+    if delay != base:  # what was believed knows nothing of the delay that was found
+        early = source.sheets(name, "test", base)
+        plain = Selector(source.sheets(name, "fit", base), nuisances, believed).recalibrated.model
         scores["baseline"] = score(believed, early, nuisances, dataset.test, scenario)
         scores["recalibrated"] = score(plain, early, nuisances, dataset.test, scenario)
     floor = noise_floor(selected.final.model, test_sheets, nuisances)
@@ -125,10 +129,11 @@ def _place(
 
 
 def _best_friction(source: Any, scenario: Scenario[Any]) -> float:
-    """Return the best score of a friction effect at the first joint, with no delay compensated."""
+    """Return the best score of a friction effect at the first joint, with no further delay compensated."""
     name, load = source.places[0]
     nuisances = source.nuisances(name)
-    stage = Selector(source.sheets(name, "fit", 0.0), nuisances, _believed(scenario, name, nuisances, load)).first()
+    base = believed_delay(scenario)
+    stage = Selector(source.sheets(name, "fit", base), nuisances, _believed(scenario, name, nuisances, load)).first()
     return stage.trials[0].score if stage.trials else 0.0
 
 
@@ -173,14 +178,19 @@ def _run_notes(dataset: Dataset) -> list[str]:
     ]
 
 
+def believed_delay(scenario: Scenario[Any]) -> float:
+    """Return by how much the scenario says that positions are late [s]."""
+    return sum(e.to_dict()["delay"] for e in scenario.effects if e.kind == "sensor_delay")
+
+
 def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], found: Timing | None) -> Scenario[Any]:
     """Return the scenario with what was found; of several joints, the first one's effects, in that joint."""
     model = places[0].selected.final.model
     effects = list(model.effects)
-    if found is not None and found.named and found.seconds > 0.0:
-        effects.append(make_effect("sensor_delay", delay=found.seconds))
-    else:
-        effects += [e for e in scenario.effects if e.kind == "sensor_delay"]
+    effects += [e for e in scenario.effects if e.group == "sensor" and e.kind != "sensor_delay"]
+    delay = believed_delay(scenario) + (found.seconds if found is not None and found.named else 0.0)
+    if delay > 0.0:  # one that comes before has no effect of its own, and stays a finding
+        effects.append(make_effect("sensor_delay", delay=delay))
     return dataclasses.replace(
         scenario,
         mechanism=_corrected(scenario.mechanism, places),

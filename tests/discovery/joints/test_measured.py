@@ -29,6 +29,18 @@ def test_emps_closed_loop_on_held_out_time():
     assert gap.augmented <= 0.039
 
 
+@pytest.mark.parametrize("name", ["emps", "seal_o_ring", "swing_up_ddp"])
+def test_the_augmented_scenario_alone_has_the_augmented_score(name):
+    found = outcome(name)
+    again = joint_outcome(dataclasses.replace(dataset(name), scenario=found.scenario))
+    before, after = found.places[0].scores["augmented"], again.places[0].scores["baseline"]
+    # the width of the window is chosen against the friction that is believed, which for the seal is less than before
+    assert after.sliding == pytest.approx(before.sliding, rel=0.02 if name == "seal_o_ring" else 1e-9)
+    if before.loop is not None:
+        assert after.loop == pytest.approx(before.loop, rel=1e-9)
+    assert "sensor_delay" not in kinds(again)
+
+
 def test_emps_twice_gives_the_same():
     assert joint_outcome(dataset("emps")).result.to_json() == outcome("emps").result.to_json()
 
