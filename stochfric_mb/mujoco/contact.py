@@ -30,6 +30,8 @@ CONTACTS_FULL = 1
 """mjWARN_CONTACTFULL."""
 SWITCHES, BISECTIONS = 4, 40
 """Most switches of a law looked for within one step, and halvings of the step to find one."""
+SUDDEN = 0.05
+"""Change of the normal force in a step, relative to it, with which explicit friction (one step late) will not do."""
 JUMP = 10.0
 """A displacement this many times beyond what the velocities allow is a body that was moved, not a motion."""
 
@@ -248,8 +250,8 @@ def displacement(data, address, body, surface, t, vx, vy):
 
 
 @compiled
-def predicted_normal_force(model, data, contact):
-    """Return the normal force [N] of a new contact, from the acceleration of the step before."""
+def predicted_normal_force(model, data, contact, warm):
+    """Return the normal force [N] that a contact would have with the acceleration of the step before, at ``warm``."""
     row = n.int_field(contact, n.C_EFC)
     if row < 0:
         return 0.0
@@ -260,7 +262,7 @@ def predicted_normal_force(model, data, contact):
         count = n.load_int(n.pointer_field(data, n.D_EFC_NNZ) + 4 * row)
         first = n.load_int(n.pointer_field(data, n.D_EFC_ADDRESS) + 4 * row)
     jacobian, columns = n.pointer_field(data, n.D_EFC_J), n.pointer_field(data, n.D_EFC_COLUMN)
-    qvel, warm = n.pointer_field(data, n.D_QVEL), n.pointer_field(data, n.D_WARMSTART)
+    qvel = n.pointer_field(data, n.D_QVEL)
     rate, acceleration = 0.0, 0.0
     for k in range(count):
         column = n.load_int(columns + 4 * (first + k)) if sparse else k
@@ -271,6 +273,30 @@ def predicted_normal_force(model, data, contact):
     gap = n.load(n.pointer_field(data, n.D_EFC_POS) + 8 * row) - n.load(n.pointer_field(data, n.D_EFC_MARGIN) + 8 * row)
     wanted = -n.load(kbip + 8) * rate - n.load(kbip) * n.load(kbip + 16) * gap
     return max(0.0, n.load(n.pointer_field(data, n.D_EFC_D) + 8 * row) * (wanted - acceleration))
+
+
+@compiled
+def warm_row(state):
+    """Return the address of the instance's row of generalised coordinates: the acceleration of the step before."""
+    blocks = s.DESCRIPTOR + int(n.load(state + 8 * s.N_DESCRIPTOR)) + 2 * int(n.load(state + 8 * s.N_SLOTS)) * s.SLOT
+    return state + 8 * blocks
+
+
+@compiled
+def is_sudden(model, data, state, contact, address):
+    """Return whether the normal force changes much within this step, as in an impact, or the contact is new.
+
+    With the acceleration of the step before, the normal force changes by 1/(1 - d) times as much as it will, d being the
+    constraint's impedance (MuJoCo's computation chapter, constraint model: R = (1 - d)/d A).
+    """
+    if n.load(address + 8 * s.LIVE) == 0.0:
+        return True
+    row, old = n.int_field(contact, n.C_EFC), n.load(address + 8 * s.NORMAL)
+    if row < 0:
+        return old > 0.0
+    impedance = n.load(n.pointer_field(data, n.D_EFC_KBIP) + 32 * row + 16)
+    change = (1.0 - impedance) * (predicted_normal_force(model, data, contact, warm_row(state)) - old)
+    return abs(change) > SUDDEN * old
 
 
 @compiled
@@ -397,7 +423,7 @@ def begin(model, data, state):
     known = int(n.load(state + 8 * s.N_COMMITTED)) if last == now else 0
     t = canonical_time(now, half_step(model))
     body, surface = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
-    count, total = 0, 0.0
+    count, total, sudden = 0, 0.0, False
     for i in range(n.int_field(data, n.D_NCON)):
         contact = contact_address(data, i)
         sign = side(contact, body, surface)
@@ -407,6 +433,8 @@ def begin(model, data, state):
             n.mj_warning(data, np.int32(CONTACTS_FULL), np.int32(count))
             break
         total += track(model, data, state, i, sign, t, known, count)
+        if n.load(state + 8 * s.MODE) == s.AUTO and not sudden:
+            sudden = is_sudden(model, data, state, contact, slot(state, 1, count))
         count += 1
     n.store(state + 8 * s.N_CURRENT, float(count))
     star = body < 0 or surface < 0
@@ -417,7 +445,7 @@ def begin(model, data, state):
             commit_slot(state, address, t, pair, among)
         else:
             commit_slot(state, address, t, total, count)
-    n.store(state + 8 * s.SOLVED, 1.0 if beyond_explicit(model, state, count, total, star) else 0.0)
+    n.store(state + 8 * s.SOLVED, 1.0 if sudden or beyond_explicit(model, state, count, total, star) else 0.0)
 
 
 @compiled
@@ -491,7 +519,7 @@ def track(model, data, state, i, sign, t, known, k):
         if n.load(old + 8 * s.LIVE) == 0.0:
             old = 0
     else:
-        normal_force = predicted_normal_force(model, data, contact)
+        normal_force = predicted_normal_force(model, data, contact, n.pointer_field(data, n.D_WARMSTART))
     fill(model, data, state, contact, sign, t, address, old)
     n.store(address + 8 * s.GEOM_1, a + 1.0)
     n.store(address + 8 * s.GEOM_2, b + 1.0)
@@ -742,6 +770,25 @@ def slot_at_stage(model, data, state, i, sign, t, k):
     commit_slot(state, address, t, normal_force, 1)
     n.store(address + 8 * s.LIVE, 0.0)
     return address
+
+
+@compiled
+def solve_new(model, data, state):
+    """In auto mode, solve the rest of a step within which a contact is born: its explicit limit is not known."""
+    if n.load(state + 8 * s.MODE) != s.AUTO or n.load(state + 8 * s.SOLVED) != 0.0:
+        return
+    body, surface = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
+    count = int(n.load(state + 8 * s.N_CURRENT))
+    k = 0
+    for i in range(n.int_field(data, n.D_NCON)):
+        contact = contact_address(data, i)
+        if side(contact, body, surface) == 0:
+            continue
+        a, b = n.int_field(contact, n.C_GEOM), n.load_int(n.field(contact, n.C_GEOM) + 4)
+        if count == 0 or find(state, 1, count, a, b, ordinal_of(data, i), k) == 0:
+            n.store(state + 8 * s.SOLVED, 1.0)
+            return
+        k += 1
 
 
 @compiled

@@ -40,6 +40,7 @@ from stochfric_mb.mujoco.contact import (
     side,
     slot_at_stage,
     switch_within,
+    warm_row,
 )
 from stochfric_mb.mujoco.root import local_force
 
@@ -86,13 +87,6 @@ def state_of(model, data, instance):
     """Return the address of an instance's state."""
     first = n.load_int(n.pointer_field(model, n.M_STATE_ADDRESS) + 4 * instance)
     return n.pointer_field(data, n.D_PLUGIN_STATE) + 8 * first
-
-
-@compiled
-def warm_row(state):
-    """Return the address of the instance's row of generalised coordinates."""
-    blocks = s.DESCRIPTOR + int(n.load(state + 8 * s.N_DESCRIPTOR)) + 2 * int(n.load(state + 8 * s.N_SLOTS)) * s.SLOT
-    return state + 8 * blocks
 
 
 @compiled

@@ -19,7 +19,7 @@ from stochfric_mb.compile import compiled, native
 from stochfric_mb.mujoco import config
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.contact import apply, begin, finish
+from stochfric_mb.mujoco.contact import apply, begin, finish, solve_new
 from stochfric_mb.mujoco.implicit import any_solved, is_last, keep_warm_start, solve_instances
 from stochfric_mb.mujoco.registration import register_plugin
 
@@ -196,6 +196,8 @@ def _compute(model, data, instance, capability):
         if n.load(state + 8 * s.STARTED) == 0.0:
             keep_warm_start(model, data, state)
         begin(model, data, state)
+    else:
+        solve_new(model, data, state)
     if n.load(state + 8 * s.SOLVED) == 0.0:
         apply(model, data, state)
     if is_last(model, instance) and any_solved(model, data, instance):

@@ -50,9 +50,9 @@ def box_spec(*, angle=0.0, dt=2e-4, integrator="RK4"):
     return mujoco.MjSpec.from_string(BOX.format(dt=dt, integrator=integrator, gx=gx, gz=gz))
 
 
-def box_model(friction=ELASTIC, **options):
+def box_model(friction=ELASTIC, *, mode="auto", **options):
     spec = box_spec(**options)
-    engine.add_friction(spec, ("box", "floor"), friction)
+    engine.add_friction(spec, ("box", "floor"), friction, mode=mode)
     return spec.compile()
 
 
@@ -289,7 +289,7 @@ def test_a_sliding_box_stops_where_it_should_and_stays():
 
 
 def test_a_new_contact_rubs_from_its_first_step():
-    model = box_model(Havsin(mu_s=0.8, mu_k=0.6, v_s=1e-2, v_d=2e-2))
+    model = box_model(Havsin(mu_s=0.8, mu_k=0.6, v_s=1e-2, v_d=2e-2), mode="explicit")
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     data.qpos[2] -= 1e-4
@@ -552,7 +552,7 @@ def guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, h
 
     register_law(users_law.Viscous)
     try:
-        model = box_model(users_law.Viscous(mu_s=0.8, mu_k=0.6, viscosity=0.5))
+        model = box_model(users_law.Viscous(mu_s=0.8, mu_k=0.6, viscosity=0.5), mode="explicit")
         data = mujoco.MjData(model)
         data.qpos[2] -= 1e-3
         data.qvel[0] = 1.0

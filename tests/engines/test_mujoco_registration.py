@@ -53,7 +53,7 @@ def _run(code):
 def test_importing_compiles_nothing_and_a_model_what_it_asks_for():
     _run("""
 assert compiled() == [], compiled()
-loss = slide(load("stochfric.pair", PAIR))
+loss = slide(load("stochfric.pair", {**PAIR, "mode": "explicit"}))
 assert compiled() == ["pair"], compiled()
 assert abs(loss - LOSS) < 0.02 * LOSS, loss
 loss = slide(load("stochfric.pair", {**PAIR, "mode": "implicit"}))
@@ -76,7 +76,7 @@ assert compiled() == ["pair", "solver"], compiled()
 
 def test_a_binary_model_compiles_when_its_data_are_made():
     _run("""
-model = load("stochfric.pair", PAIR)
+model = load("stochfric.pair", {**PAIR, "mode": "explicit"})
 path = os.path.join(tempfile.mkdtemp(), "m.mjb")
 mujoco.mj_saveModel(model, path)
 again = '''
