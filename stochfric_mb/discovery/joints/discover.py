@@ -26,6 +26,8 @@ from stochfric_mb.mechanisms import HingePendulum, Mjcf, PrismaticJoint, SpringS
 from stochfric_mb.scenario import Scenario
 
 Progress = Callable[[str], None]
+FEWEST = 8
+"""Fewest windows of sliding in the runs of a role: fewer say nothing about friction."""
 
 
 def discover_joint(dataset: Dataset, *, progress: Progress | None = None) -> Result:
@@ -79,6 +81,9 @@ class _Plain:
 
 
 def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
+    for name, _ in source.places:
+        for role in ("fit", "test"):
+            _require_sliding(source.sheets(name, role, believed_delay(dataset.scenario)), name, role)
     found: Timing | None = None
     base = believed_delay(dataset.scenario)
     if not isinstance(dataset.scenario.mechanism, PrismaticJoint) or dataset.scenario.mechanism.mass > 0.0:
@@ -126,6 +131,22 @@ def _place(
         scores["recalibrated"] = score(plain, early, nuisances, dataset.test, scenario)
     floor = noise_floor(selected.final.model, test_sheets, nuisances)
     return PlaceOutcome(name, selected, tuple(nuisances), believed, tuple(fit_sheets), tuple(test_sheets), scores, floor)
+
+
+def _require_sliding(sheets: Sequence[Sheet], name: str, role: str) -> None:
+    """Return if the joint slides in the runs of a role.
+
+    Raises:
+        InputError: it hardly does.
+    """
+    windows = sum(int(s.sliding.sum()) for s in sheets)
+    if windows < FEWEST:
+        runs = ", ".join(s.run for s in sheets)
+        where = f"joint {name!r}" if name else "the joint"
+        raise InputError(
+            f"{where} slides one way in only {windows} windows of the runs with role {role!r} ({runs}); at least {FEWEST} are "
+            "needed: record longer or livelier motion, or check the unit of position"
+        )
 
 
 def _best_friction(source: Any, scenario: Scenario[Any]) -> float:

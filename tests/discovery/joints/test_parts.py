@@ -119,6 +119,21 @@ def test_a_missing_channel_is_named():
         sheet_of(bare, scenario())
 
 
+def test_a_joint_that_rests_is_refused():
+    data = pair(coulomb)
+    still = [{**r.channels, "position": 1e-6 * np.random.default_rng(0).standard_normal(len(r.time))} for r in data.runs]
+    runs = tuple(dataclasses.replace(r, channels=c) for r, c in zip(data.runs, still, strict=True))
+    with pytest.raises(InputError, match="slides one way in only"):
+        joint_outcome(dataclasses.replace(data, runs=runs))
+
+
+def test_without_uncertainty_the_mechanism_is_taken_as_exact():
+    found = joint_outcome(dataclasses.replace(pair(grease), scenario=scenario(uncertainty={})))
+    assert [e.kind for e in found.result.effects] == ["viscous_friction"]
+    assert set(found.result.believed) == {"mu_k"}
+    assert found.scenario.mechanism == scenario().mechanism
+
+
 def test_a_belt_box_is_no_joint():
     box = BeltBox(mass=1.0, damping=0.0, stiffness=1.0, normal_force=1.0, belt_velocity=0.1)
     with pytest.raises(InputError, match="no driven joint"):
