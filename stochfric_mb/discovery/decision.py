@@ -14,6 +14,7 @@ from stochfric_mb.discovery.kinematics import kinematics, with_kinematic
 from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.naming import PERIODIC, as_harmonic
 from stochfric_mb.discovery.randomness import Randomness, randomness
+from stochfric_mb.discovery.record import Array
 from stochfric_mb.discovery.refit import refit
 from stochfric_mb.discovery.regression import Regression, Solution, Terms, believed
 from stochfric_mb.discovery.result import Where
@@ -30,12 +31,10 @@ STALLED = 0.6
 """Share of the scatter that may remain after a ripple is taken out; if more does, no search for further ones makes sense."""
 MOST_ROUNDS = 5
 """Rounds of the search: harmonics of a named ripple take rounds of their own."""
-FITTED_TO_FORECASTS = (*PERIODIC, "friction_drift", "sensor_drift", "sensor_step")
+FITTED_TO_FORECASTS = (*PERIODIC, "friction_drift", "sensor_drift")
 """Effects that change in the course of a run: fitted to forecasts as soon as they are named."""
-REPEATED = (*PERIODIC, "sensor_step")
-"""Effects that may be there more than once: overtones of a ripple, a step there and back."""
-LINEAR = ("sensor_delay",)
-"""Effects that stay regressors: a simulated slip does not show them."""
+LINEAR = ("sensor_delay", "sensor_drift", "sensor_step")
+"""Effects that stay regressors: a simulated slip does not show what the sensor adds."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -106,6 +105,7 @@ class _Search:
         self.solution: Solution = study.solution
         self.ranking: tuple[tuple[str, float], ...] = ()
         self.stalled = False
+        self.kept: list[Array] = []
         if any(n.kind in ("belt_speed_ripple", "presliding_compliance") for n in named):
             self._take_out()
 
@@ -119,7 +119,7 @@ class _Search:
             if len(kinds) >= MOST_EFFECTS:
                 break
             candidates = screen(
-                self.pool, self.regression, self.terms, self.solution, without=[k for k in kinds if k not in REPEATED]
+                self.pool, self.regression, self.terms, self.solution, without=[k for k in kinds if k not in PERIODIC]
             )
             if round_ == 0:
                 self.ranking = tuple((c.name, c.score) for c in candidates)
@@ -166,9 +166,7 @@ class _Search:
         self.progress("what is left")
         before = np.exp(2.0 * self.solution.scatter[:2]).sum()
         if kind in LINEAR:
-            self.terms = self.terms.plus(chosen.candidate.hypothesis.columns)
-            self.solution = self.regression.fit(self.terms, self.solution.scatter)
-            return
+            self.kept += chosen.candidate.hypothesis.columns
         if kind in FITTED_TO_FORECASTS:
             fit = refit(self.model, self.study.windows, self.study.uncertainty, most=12, evaluations=20)
             self.model = fit.model
@@ -179,7 +177,7 @@ class _Search:
         """Go on with what the model leaves of the features."""
         self.pool = left_over(self.study.pool, self.model)
         self.regression = Regression(self.pool)
-        self.terms = believed(self.pool, dict(self.study.uncertainty))
+        self.terms = believed(self.pool, dict(self.study.uncertainty)).plus(self.kept)
         self.solution = self.regression.fit(self.terms, self.solution.scatter)
 
     def _chance(self) -> Decision:

@@ -50,19 +50,23 @@ def velocity_weakening(pool: Pool) -> list[Hypothesis]:
 
 
 def viscous_friction(pool: Pool) -> list[Hypothesis]:
-    """Return the relative velocity in the slip, linear or levelling off."""
+    """Return the relative velocity in the slip, linear or levelling off, proportional to the load or not."""
     speed = pool.relative_velocity
     fastest = float(np.median(speed.max(axis=1)))
-    found = [Hypothesis("viscous_friction", [pool.column(None, speed)], (), lambda b: {"coefficient": float(b[0])})]
-    for knee in fastest * np.array([0.15, 0.4]):
-        found.append(
-            Hypothesis(
-                "viscous_friction",
-                [pool.column(None, -knee * np.expm1(-speed / knee))],
-                (knee,),
-                lambda b, v=knee: {"coefficient": float(b[0]), "saturation_velocity": float(v)},
-            )
-        )
+    reference = float(pool.normal_force[0])
+    found: list[Hypothesis] = []
+    loads = [(np.ones(len(pool.run)), 0.0)]
+    if np.ptp(pool.normal_force) > 0.05 * reference:
+        loads.append((pool.normal_force / reference, reference))
+    for load, name in loads:
+        more = {"reference_load": name} if name else {}
+        # a start that levels off beyond the fastest slip: a fit can find either end from there
+        linear = lambda b, more=more: more | {"coefficient": 1.3 * float(b[0]), "saturation_velocity": 1.5 * fastest}  # noqa: E731
+        found.append(Hypothesis("viscous_friction", [pool.column(None, speed * load[:, None])], (), linear))
+        for knee in fastest * np.array([0.15, 0.4]):
+            curved = lambda b, v=knee, more=more: more | {"coefficient": float(b[0]), "saturation_velocity": float(v)}  # noqa: E731
+            columns = [pool.column(None, -knee * np.expm1(-speed / knee) * load[:, None])]
+            found.append(Hypothesis("viscous_friction", columns, (knee,), curved))
     return found
 
 
@@ -78,7 +82,7 @@ def frictional_lag(pool: Pool) -> list[Hypothesis]:
             (d,),
             lambda b, d=d: {"distance": float(d * np.clip(b[0], 0.2, 3.0))},
         )
-        for d in whole * np.array([0.007, 0.014, 0.028, 0.056, 0.11])
+        for d in whole * np.array([0.007, 0.014, 0.028, 0.056, 0.11, 0.22])
     ]
 
 

@@ -30,9 +30,12 @@ def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int)
     if candidate.name in PERIODIC:
         return _periodic(model, candidate, pool, coefficients)
     if candidate.name == "sensor_step":
-        sizes = [float(c) for c in coefficients]
-        times = candidate.hypothesis.setting
-        return with_steps(model, {s.record.name: (sizes[r], times[r]) for r, s in enumerate(pool.slips)})
+        sizes = coefficients.reshape(pool.n_runs, -1)
+        times = np.array(candidate.hypothesis.setting).reshape(pool.n_runs, -1)
+        for step in range(sizes.shape[1]):
+            found = {s.record.name: (float(sizes[r, step]), float(times[r, step])) for r, s in enumerate(pool.slips)}
+            model = with_steps(model, found)
+        return model
     return model.plus(_bounded(candidate.name, candidate.hypothesis.start(coefficients)))
 
 

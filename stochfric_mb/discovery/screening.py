@@ -12,7 +12,6 @@ import numpy as np
 
 from stochfric_mb.discovery.hypotheses import SCREENS, Hypothesis, competitors, step_times, steps
 from stochfric_mb.discovery.pool import Pool
-from stochfric_mb.discovery.record import Array
 from stochfric_mb.discovery.regression import Regression, Solution, Terms
 
 POSITIVE = (
@@ -20,6 +19,8 @@ POSITIVE = (
     "sensor_delay",
 )  # fmt: skip
 """Effects whose strength cannot be negative."""
+WORTH_A_SECOND = 20.0
+"""Score that a second step of the sensor needs [-]."""
 REFITTED = 14
 """Candidates, best first at fixed variance components, whose variance components are fitted anew."""
 
@@ -101,12 +102,20 @@ def _possible(candidate: Candidate, terms: Terms) -> bool:
 
 
 def _step(pool: Pool, regression: Regression, terms: Terms, solution: Solution, kind: str, *, multiplied: bool) -> Hypothesis:
-    """Return one step a run, each where it explains most."""
-    columns: list[Array] = []
-    when: list[float] = []
-    for run in range(pool.n_runs):
-        trials = steps(pool, run, multiplied=multiplied)
-        best = int(np.argmax(regression.gains(terms, solution.scatter, [[t] for t in trials])))
-        columns.append(trials[best])
-        when.append(float(step_times(pool)[best]))
-    return Hypothesis(kind, columns, tuple(when))
+    """Return one step a run, each where it explains most; two of a sensor where the second one explains enough more."""
+    place = step_times(pool)
+    trials = [steps(pool, run, multiplied=multiplied) for run in range(pool.n_runs)]
+    firsts = [int(np.argmax(regression.gains(terms, solution.scatter, [[t] for t in mine]))) for mine in trials]
+    columns = [mine[best] for mine, best in zip(trials, firsts, strict=True)]
+    once = Hypothesis(kind, columns, tuple(float(place[best]) for best in firsts))
+    if multiplied:
+        return once
+    wider = terms.plus(columns)
+    gains = [regression.gains(wider, solution.scatter, [[t] for t in mine]) for mine in trials]
+    worth = 2.0 * sum(float(g.max()) for g in gains) - pool.n_runs * (np.log(regression.n) + 2.0 * np.log(len(place)))
+    if worth < WORTH_A_SECOND:
+        return once
+    seconds = [int(np.argmax(g)) for g in gains]
+    both = [c for mine, a, b in zip(trials, firsts, seconds, strict=True) for c in (mine[a], mine[b])]
+    when = [float(place[i]) for a, b in zip(firsts, seconds, strict=True) for i in (a, b)]
+    return Hypothesis(kind, both, tuple(when))

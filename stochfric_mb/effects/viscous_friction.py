@@ -10,7 +10,7 @@ import dataclasses
 import math
 from typing import ClassVar
 
-from stochfric_mb.effects.contract import SPEED, VISCOUS_FORCE, Effect, parameter
+from stochfric_mb.effects.contract import NORMAL_FORCE, SPEED, VISCOUS_FORCE, Effect, parameter
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -27,9 +27,14 @@ class ViscousFriction(Effect):
         default=math.inf,
     )  # fmt: skip
     """Speed at which the film thins and the force levels off [m/s]."""
+    reference_load: float = parameter(
+        "N", "normal force at which the coefficient holds, if the force grows with it", scale=10.0, low=0.0, default=0.0
+    )
+    """Normal force at which the coefficient holds, the force being proportional to it [N]; 0: the load does not matter."""
 
     kind: ClassVar[str] = "viscous_friction"
-    equation: ClassVar[str] = "F = (mu N + coefficient abs(v_rel)) sign(v_rel), levelling off beyond the saturation velocity"
+    equation: ClassVar[str] = "F = (mu N + coefficient abs(v_rel)) sign(v_rel), levelling off beyond the saturation velocity, or "
+        "proportional to the load"
     source: ClassVar[str] = "Reynolds 1886; Armstrong-Helouvry, Dupont and Canudas de Wit 1994, eq. 6"
     group: ClassVar[str] = "friction law"
 
@@ -37,4 +42,5 @@ class ViscousFriction(Effect):
 def friction(world, memory, rates, p):
     """Add the viscous force."""
     speed = world[SPEED] if p[1] > 1.0e300 else -p[1] * math.expm1(-world[SPEED] / p[1])
-    world[VISCOUS_FORCE] += p[0] * speed
+    load = world[NORMAL_FORCE] / p[2] if p[2] > 0.0 else 1.0
+    world[VISCOUS_FORCE] += p[0] * speed * load
