@@ -33,8 +33,9 @@ class ViscousFriction(Effect):
     """Normal force at which the coefficient holds, the force being proportional to it [N]; 0: the load does not matter."""
 
     kind: ClassVar[str] = "viscous_friction"
-    equation: ClassVar[str] = "F = (mu N + coefficient abs(v_rel)) sign(v_rel), levelling off beyond the saturation velocity, or "
-        "proportional to the load"
+    equation: ClassVar[str] = (
+        "F = (mu N + coefficient abs(v_rel)) sign(v_rel), levelling off beyond the saturation velocity, or proportional to N"
+    )
     source: ClassVar[str] = "Reynolds 1886; Armstrong-Helouvry, Dupont and Canudas de Wit 1994, eq. 6"
     group: ClassVar[str] = "friction law"
 
