@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from stochfric_mb.discovery.joints.confounding import TOGETHER, Confounded, confounded, stand_ins
-from stochfric_mb.discovery.joints.fitting import JointFit
+from stochfric_mb.discovery.joints.fitting import JointFit, hidden_share
 from stochfric_mb.discovery.joints.friction import friction_along
 from stochfric_mb.discovery.joints.outcome import PlaceOutcome
 from stochfric_mb.discovery.joints.scores import stroke_scatter
@@ -29,6 +29,8 @@ FACTORS = {
     "offset": "drive_offset",
 }  # fmt: skip
 """Correction of a named joint -> its name in the result, where the scenario's own numbers are tables of joints."""
+IMITATED = 0.99
+"""Part of an effect's change of friction that other numbers imitate, from which it cannot be identified [-]."""
 NO_BELT = ("belt_speed_ripple",)
 """Effects of a mechanism that a joint does not have."""
 
@@ -107,7 +109,7 @@ def _parameters(fit: JointFit, owner: int, effect: Effect, *, rotates: bool) -> 
             continue
         if np.isfinite(deviation):
             found[field.name] = Interval(value, value - 1.96 * deviation, value + 1.96 * deviation, unit)
-        elif not (field.name[-2:] in ("_2", "_3") and value == 0.0):
+        elif value != field.default:
             found[field.name] = Interval(value, value, value, unit)
     return found
 
@@ -149,9 +151,22 @@ def _gap(places: Sequence[PlaceOutcome], loop_floor: float | None) -> Gap:
     )  # fmt: skip
 
 
+def _imitated(place: PlaceOutcome) -> list[str]:
+    """Return the one-parameter effects, not found, that corrections of the mechanism imitate."""
+    fit = place.selected.final
+    found = {t.candidate.kind for t in place.selected.found}
+    tried = [t.candidate for t in place.selected.stages[0].trials if t.candidate.parameters == 1]
+    return [
+        c.kind
+        for c in tried
+        if c.kind not in found and place.nuisances and hidden_share(c.starts[0], place.fit, fit) > IMITATED
+    ]
+
+
 def _unseen(places: Sequence[PlaceOutcome]) -> tuple[str, ...]:
     seen = {t.candidate.kind for p in places for s in p.selected.stages for t in s.trials}
     seen |= {e.kind for p in places for e in p.believed.effects} | {"sensor_delay"}
+    seen -= {kind for p in places for kind in _imitated(p)}
     return tuple(k for k in effect_kinds() if k not in seen and k not in NO_BELT)
 
 
@@ -179,6 +194,9 @@ def _timing_notes(timing: Timing | None) -> list[str]:
 def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
     remarks: list[str] = []
     for place in places:
+        for kind in _imitated(place):
+            names = ", ".join(n.name for n in place.nuisances)
+            remarks.append(f"{kind} would look like a correction of {names} here{_at(place)}: if there is any, they hold it")
         scatter, strokes = stroke_scatter(place.selected.final.model, place.fit, place.nuisances, place.floor)
         final = place.selected.final.model
         along = [friction_along(s, final.law, final.effects, final.load)[s.sliding] for s in place.fit]
