@@ -89,7 +89,7 @@ def choose(
         if outcome is not None:
             return outcome
         # simulation does not bear the shape out: what remains are effects that change from slip to slip
-        effects = [c for c in effects if c.name not in family]
+        effects = [c for c in effects if c.name not in family and c.score > WORTH_SIMULATING * shape]
         others = [c for c in others if c.name not in SHAPES]
     best = effects[0] if effects else None
     other = others[0] if others else None

@@ -18,7 +18,7 @@ from stochfric_mb.discovery.record import Array
 from stochfric_mb.discovery.refit import refit
 from stochfric_mb.discovery.regression import Regression, Solution, Terms, believed
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.screening import screen
+from stochfric_mb.discovery.screening import Candidate, screen
 from stochfric_mb.discovery.study import Progress, Study
 from stochfric_mb.discovery.where import where_of
 from stochfric_mb.effects import make_effect
@@ -127,7 +127,7 @@ class _Search:
             self.details[f"round_{round_ + 1}"] = {c.name: c.score for c in candidates[:8]}
             if candidates[0].score < max(NAME if round_ == 0 else SELECT, SECOND * first if round_ else 0.0):
                 break
-            if round_ == 0 and self._wanders(candidates[0].name, candidates[0].score):
+            if round_ == 0 and self._wanders(candidates[0]):
                 break
             self.progress("confirmation")
             outcome = choose(self.study, self.model, self.terms, candidates, cases, confirmed, self.details)
@@ -145,12 +145,14 @@ class _Search:
                 break
         return self._chance()
 
-    def _wanders(self, name: str, score: float) -> bool:
+    def _wanders(self, winner: Candidate) -> bool:
         """Return whether a winner on the axis of time is better told as a random wander."""
-        if name not in IN_TIME:
+        if winner.name not in (*IN_TIME, *PERIODIC):
             return False
         scatter = randomness(self.regression, self.terms, self.solution)
-        return scatter.correlation > MEMORY and scatter.wander > 0.5 * score and scatter.two_levels < NAME
+        # a ripple names physics and has to be beaten; hats on the axis of time name none
+        share = 0.5 if winner.name in IN_TIME else 1.2
+        return scatter.correlation > MEMORY and scatter.wander > share * winner.score and scatter.two_levels < NAME
 
     def _add(self, chosen: Chosen) -> None:
         """Take an effect into the model, and out of the features."""
@@ -185,7 +187,15 @@ class _Search:
         scatter = randomness(self.regression, self.terms, self.solution)
         self.details["randomness"] = dataclasses.asdict(scatter)
         kinds = [n.kind for n in self.named]
-        found = (kicks(self.study) if not kinds else None) or chance(self.study, scatter, self.solution, kinds)
+        kick = kicks(self.study) if not kinds else None
+        if kick is None and "single_moments" in self.details:
+            where = Where(
+                "stick, single moments", "in stick the box leaves the belt's line at once, and is back after the next slip"
+            )
+            if not self.named:
+                return self._unknown(where, scatter)
+            self.details["left_over"] = dataclasses.asdict(where)
+        found = kick or chance(self.study, scatter, self.solution, kinds)
         if isinstance(found, Where):
             if not self.named:
                 return self._unknown(found, scatter)

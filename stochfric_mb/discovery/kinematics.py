@@ -114,7 +114,7 @@ def kinematics(study: Study, details: dict[str, object]) -> list[tuple[str, floa
         hum = _line(study, details)
         forced = any(r.mechanism.excitation_amplitude for r in study.records)
         if sticking.scores["sensor_step"] > max(NAME, 0.2 * sticking.excess) and not forced:
-            return Where("stick, single moments", "in stick the box jumps off the belt's line, and is back after the next slip")
+            details["single_moments"] = sticking.scores["sensor_step"]
         return hum if hum is not None else found
     if best in ("creep_before", "creep_after", "yielding"):
         gradual = max(sticking.scores["yielding"], sticking.scores["presliding_compliance"])
