@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 
 import numpy as np
 
 from stochfric_mb.discovery.chance import MEMORY, chance, kicks
-from stochfric_mb.discovery.choice import IN_TIME, NAME, SELECT, Chosen, choose
+from stochfric_mb.discovery.choice import IN_TIME, NAME, OUTDONE, SELECT, Chosen, choose
 from stochfric_mb.discovery.confirmation import cases_of, confirm
 from stochfric_mb.discovery.innovations import left_over
 from stochfric_mb.discovery.kinematics import kinematics, with_kinematic
@@ -127,7 +128,7 @@ class _Search:
             self.details[f"round_{round_ + 1}"] = {c.name: c.score for c in candidates[:8]}
             if candidates[0].score < max(NAME if round_ == 0 else SELECT, SECOND * first if round_ else 0.0):
                 break
-            if round_ == 0 and self._wanders(candidates[0]):
+            if round_ == 0 and self._wanders(candidates):
                 break
             self.progress("confirmation")
             outcome = choose(self.study, self.model, self.terms, candidates, cases, confirmed, self.details)
@@ -145,9 +146,11 @@ class _Search:
                 break
         return self._chance()
 
-    def _wanders(self, winner: Candidate) -> bool:
+    def _wanders(self, candidates: Sequence[Candidate]) -> bool:
         """Return whether a winner on the axis of time is better told as a random wander."""
-        if winner.name not in (*IN_TIME, *PERIODIC):
+        winner = candidates[0]
+        drifts = max((c.score for c in candidates if c.name in ("friction_drift", "sensor_drift")), default=-np.inf)
+        if winner.name not in (*IN_TIME, *PERIODIC) or drifts > OUTDONE * winner.score:
             return False
         scatter = randomness(self.regression, self.terms, self.solution)
         # a ripple names physics and has to be beaten; hats on the axis of time name none

@@ -239,10 +239,20 @@ def sensor_drift(pool: Pool) -> list[Hypothesis]:
     """Return k times a drift of the position, the same in stick and slip."""
     last = pool.duration
     stiffness = pool.per_run(lambda s: s.record.mechanism.stiffness)
-    columns = [
-        pool.column(pool.direction * stiffness * pool.onset_time / last, pool.direction * stiffness * pool.mean_time / last)
+
+    def start(b: Array) -> dict[str, float]:
+        return {"rate": float(b[0] / last)}
+
+    shapes: list[Callable[[Array], Array]] = [lambda t: t / last, lambda t: np.sqrt(np.maximum(t, 0.0) / last)]
+    return [
+        Hypothesis(
+            "sensor_drift",
+            [pool.column(pool.direction * stiffness * s(pool.onset_time), pool.direction * stiffness * s(pool.mean_time))],
+            (),
+            start,
+        )
+        for s in shapes
     ]
-    return [Hypothesis("sensor_drift", columns, (), lambda b: {"rate": float(b[0] / last)})]
 
 
 def frequencies(pool: Pool) -> Array:

@@ -124,6 +124,9 @@ def kinematics(study: Study, details: dict[str, object]) -> list[tuple[str, floa
         return Where("stick, before the break-away", "the box leaves the belt's motion before it breaks away")
     if best == "creep_after":
         return Where("stick, after the re-stick", "the box does not follow the belt at once when it sticks again")
+    if best == "sensor_drift":
+        # a drift of the sensor, like a step, is named by the forces
+        return found
     if score < 0.75 * sticking.excess - 60.0:
         return Where("stick", "in stick the box does not follow the belt, in a way that no known effect explains")
     settings = sticking.settings[best]

@@ -21,7 +21,7 @@ class Sticking:
     """What the stick phases tell; scores are falls of chi^2 less what chance and choice give."""
 
     scores: dict[str, float]
-    """Score of: belt_speed_ripple, presliding_compliance, sensor_step, sensor_clipping, creep_before, creep_after, yielding."""
+    """Score of: belt_speed_ripple, presliding_compliance, sensor_step, sensor_clipping, creep_before, creep_after, yielding, sensor_drift."""
     settings: dict[str, dict[str, float]]
     """Parameters at the best score."""
     belt_velocity_error: Array
@@ -95,6 +95,9 @@ def analyse(slips: Sequence[Slips]) -> Sticking | None:
         return [np.clip(1.0 - np.abs(column - p) / 0.05, 0.0, 1.0) for p in places]
 
     scores["creep_before"] = gain(lambda run: hats(run.samples.to_onset, (0.0, 0.05, 0.1, 0.15))) - 4 * n * log_n
+    scores["sensor_drift"] = (
+        gain(lambda run: [np.sqrt(run.samples.time - run.samples.time[0]), run.samples.time**2]) - 2 * n * log_n
+    )
     scores["yielding"] = gain(_yielding) - 3 * n * log_n
     scores["creep_after"] = gain(lambda run: hats(run.samples.since_restick, (0.0, 0.05, 0.1))) - 3 * n * log_n
     step, times = _step(runs, rests)
