@@ -15,7 +15,7 @@ from stochfric_mb.discovery.record import Array
 MOST_WINDOWS = 16
 """Forecasts a run that a fit uses, spread over the run."""
 UNIT = 1.0e-5
-"""Size of an error that counts fully [m]; larger ones count less and less (Cauchy)."""
+"""Size of an error that counts fully [m]; larger ones count by their size, not its square."""
 CLIP = 60.0
 """Errors beyond this many units count as this many: a missed slip says no more than that."""
 
@@ -79,7 +79,7 @@ def refit(
         return np.concatenate([*parts, 3.0 * (values - believed) / priors])
 
     found = least_squares(
-        errors, np.zeros(len(knobs)), bounds=(low, high), loss="cauchy", f_scale=2.0, diff_step=0.02, max_nfev=evaluations,
+        errors, np.zeros(len(knobs)), bounds=(low, high), loss="soft_l1", f_scale=2.0, diff_step=0.02, max_nfev=evaluations,
         xtol=1.0e-4, ftol=1.0e-4,
     )  # fmt: skip
     values = start + scale * found.x
