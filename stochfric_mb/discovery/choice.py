@@ -9,7 +9,7 @@ import numpy as np
 
 from stochfric_mb.discovery.confirmation import Case, Confirmed, confirm
 from stochfric_mb.discovery.model import Model
-from stochfric_mb.discovery.naming import with_candidate
+from stochfric_mb.discovery.naming import PERIODIC, with_candidate
 from stochfric_mb.discovery.regression import Terms
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.screening import Candidate
@@ -25,6 +25,8 @@ CONFIRMED_CLASS = 10.0
 """Effects whose simulated criterion is within this of the best are of one class with it [-]."""
 LACK, LACK_SHARE = 25.0, 0.35
 """A simulated candidate is refused if chi^2 stays this far above its freedom and above this share of the believed model's."""
+LOCKED = 0.9
+"""Share of a ripple's score that alternation from slip to slip must reach to be believed in its place [-]."""
 WORTH_SIMULATING = 0.1
 """Share of the best score from which on a candidate is simulated [-]."""
 
@@ -97,6 +99,11 @@ def choose(
         return Where(other.axis, f"the disagreement lives on the axis: {other.axis}; no known effect explains it")
     if best is None or best.score < NAME:
         return None
+    parity = next((c for c in others if c.name == "parity"), None)
+    if parity is not None and best.name in PERIODIC and parity.score > LOCKED * best.score:
+        return Where(
+            parity.axis, "friction alternates from slip to slip: no ripple that has its own frequency stays in step so"
+        )
     near = best.score - max(CLASS, CLASS_SHARE * best.score)
     class_ = tuple(c.name for c in effects[1:] if c.score > near)
     return Chosen(best, class_, with_candidate(model, best, study.pool, n_terms), before, False)
