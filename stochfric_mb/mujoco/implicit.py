@@ -28,7 +28,6 @@ from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.contact import (
     add_rows,
     bodies_of,
-    call,
     coefficients,
     contact_address,
     displacement,
@@ -42,22 +41,12 @@ from stochfric_mb.mujoco.contact import (
     switch_within,
     warm_row,
 )
-from stochfric_mb.mujoco.root import local_force
+from stochfric_mb.mujoco.together import MU, NORMAL, SURFACE, U0, V0, VX, VY, hold, settle, share
 
-OUTER, SWEEPS, ROUNDS = 6, 20, 4
-"""Most solutions by MuJoCo, sweeps over the contacts, and rounds of mode switches, in one step."""
-NEWTON_EVERY, NEWTON_STEPS, HALVINGS = 3, 12, 6
-"""Sweeps before Newton's method on all contacts is tried; its most steps, and most halvings of one."""
-FORCE_TOLERANCE = 1.0e-10
-"""Error of a force relative to mu_s N at which Newton's method ends."""
-NEAR = 1.0e-2
-"""Error of the guess relative to mu_s N from which Newton's method on all contacts may start."""
+OUTER, ROUNDS = 6, 4
+"""Most solutions by MuJoCo, and rounds of mode switches, in one step."""
 MAX_DENSE = 200
 """Above so many degrees of freedom the answer of the other constraints comes from repeated solutions alone."""
-TOLERANCE = 1.0e-12
-"""Change of the velocities in a sweep, relative to those that friction changes in a step, at which sweeps end."""
-TURNED = 1.0e-9
-"""How far beyond rest a sliding contact is braked, relative to the velocity taken, so that its law sees it turned."""
 QUADRATIC, CONE = 1, 4
 """mjtConstraintState of rows that answer linearly."""
 FRICTION_DOF, FRICTION_TENDON, ELLIPTIC = 1, 2, 7
@@ -66,8 +55,6 @@ EULER, IMPLICIT, IMPLICITFAST = 0, 2, 3
 """mjtIntegrator."""
 EULER_DAMP, DAMPER = 1 << 15, 1 << 6
 """mjtDisableBit."""
-U0, V0, SURFACE, MU, FREE = 0, 2, 4, 6, 8
-"""Columns of a contact's numbers: displacement, velocity, surface velocity, coefficients, free velocity."""
 
 
 @compiled
@@ -164,7 +151,7 @@ def gather(model, data, state, places, count):
 
 
 @compiled
-def solve(model, data, places, warm):  # noqa: PLR0915
+def solve(model, data, places, warm):  # noqa: PLR0912, PLR0915
     """Find the friction forces of the contacts in ``places``, add them to the passive forces and to the slots."""
     nv = n.int_field(model, n.M_NV)
     m = len(places)
@@ -185,7 +172,8 @@ def solve(model, data, places, warm):  # noqa: PLR0915
     n.move(passive, base)
     n.move(warm, guess)
     normal = np.empty((m, nv))
-    f, numbers, response, rows = np.empty((m, 2)), np.empty((m, 10)), np.empty((m, 4)), np.empty((m, 3))
+    f, before, numbers, response = np.empty((m, 2)), np.empty((m, 2)), np.empty((m, 10)), np.empty((m, 4))
+    at, coupling = np.empty((m, 3)), np.empty((3 * m, 2 * m))
     prepare(model, data, places, tangent, normal, numbers, f, work, starting, t, end, h, qvel)
     damped = damping(model, data, nv)
     hessian = np.empty((nv, nv))
@@ -199,18 +187,25 @@ def solve(model, data, places, warm):  # noqa: PLR0915
         n.mj_fwdConstraint(model, data)
         n.move(qacc, guess)
         if states_changed(data, states) or outer == 0:
-            responses(model, data, tangent, normal, hessian, mass, answer, motion, response, damped, nv, h)
+            responses(model, data, tangent, hessian, mass, answer, motion, response, damped, nv, h)
+            couple(data, places, tangent, normal, answer, motion, coupling, nv, h)
         velocities(model, data, mass, qvel, qacc, u, work, damped, nv, h)
-        normal_forces(data, places, normal, qacc, rows, nv)
+        contact_motions(data, places, tangent, normal, numbers, qacc, u, at, nv)
+        n.move(f, before)
         if outer == 0 and starting:
-            start_guards(places, numbers, rows, t)
-        change[:] = 0.0
-        settle(places, tangent, answer, motion, normal, numbers, response, rows, f, u, change, end, h, nv)
+            start_guards(places, numbers, at, t)
+        settle(places, coupling, numbers, at, f, response, end, h)
         if starting:
             for _ in range(ROUNDS):
-                if not switch_ahead(places, tangent, numbers, response, rows, u, t, end, h, nv):
+                if not switch_ahead(places, coupling, numbers, response, at, t, end, h):
                     break
-                settle(places, tangent, answer, motion, normal, numbers, response, rows, f, u, change, end, h, nv)
+                settle(places, coupling, numbers, at, f, response, end, h)
+        change[:] = 0.0
+        for q in range(m):
+            for i in range(2):
+                step = f[q, i] - before[q, i]
+                for j in range(nv):
+                    change[j] += answer[2 * q + i, j] * step
         if consistent(model, data, states, change, qacc, nv):
             break
     n.move(base, passive)
@@ -311,7 +306,7 @@ def damping(model, data, nv):
 
 
 @compiled
-def responses(model, data, tangent, normal, hessian, mass, answer, motion, response, damped, nv, h):
+def responses(model, data, tangent, hessian, mass, answer, motion, response, damped, nv, h):
     """Fill how accelerations (``answer``) and end velocities (``motion``, ``response``) answer to friction forces."""
     if nv <= MAX_DENSE:
         n.mj_fullM(model, data, hessian.ctypes.data)
@@ -415,311 +410,41 @@ def velocities(model, data, mass, qvel, qacc, u, work, damped, nv, h):
 
 
 @compiled
-def normal_forces(data, places, normal, qacc, rows, nv):
-    """Fill (normal force [N], its fall per relative acceleration [kg], 0) of each contact, from MuJoCo's solution."""
+def couple(data, places, tangent, normal, answer, motion, coupling, nv, h):
+    """Fill by how much relative velocities [m/s] and normal forces [N] fall (three rows a contact) for each newton."""
     for q in range(len(places)):
         efc = n.int_field(contact_address(data, places[q, 0]), n.C_EFC)
-        acceleration = 0.0
+        active = n.load_int(n.pointer_field(data, n.D_EFC_STATE) + 4 * efc) == QUADRATIC and nv <= MAX_DENSE
+        d = n.load(n.pointer_field(data, n.D_EFC_D) + 8 * efc) if active else 0.0
+        for i in range(len(tangent)):
+            x, y, z = 0.0, 0.0, 0.0
+            for j in range(nv):
+                x += tangent[2 * q, j] * motion[i, j]
+                y += tangent[2 * q + 1, j] * motion[i, j]
+                z += normal[q, j] * answer[i, j]
+            coupling[3 * q, i], coupling[3 * q + 1, i], coupling[3 * q + 2, i] = h * x, h * y, d * z
+
+
+@compiled
+def contact_motions(data, places, tangent, normal, numbers, qacc, u, at, nv):
+    """Fill the contacts' relative velocities [m/s] at the step's end and normal forces [N], from MuJoCo's solution."""
+    for q in range(len(places)):
+        efc = n.int_field(contact_address(data, places[q, 0]), n.C_EFC)
+        vx, vy, acceleration = numbers[q, SURFACE], numbers[q, SURFACE + 1], 0.0
         for j in range(nv):
+            vx -= tangent[2 * q, j] * u[j]
+            vy -= tangent[2 * q + 1, j] * u[j]
             acceleration += normal[q, j] * qacc[j]
-        d = n.load(n.pointer_field(data, n.D_EFC_D) + 8 * efc)
-        force = d * (n.load(n.pointer_field(data, n.D_EFC_AREF) + 8 * efc) - acceleration)
-        rows[q, 0] = max(force, 0.0)
-        rows[q, 1] = d if force > 0.0 and nv <= MAX_DENSE else 0.0
+        d, wanted = n.load(n.pointer_field(data, n.D_EFC_D) + 8 * efc), n.load(n.pointer_field(data, n.D_EFC_AREF) + 8 * efc)
+        at[q, VX], at[q, VY], at[q, NORMAL] = vx, vy, max(d * (wanted - acceleration), 0.0)
 
 
 @compiled
-def settle(places, tangent, answer, motion, normal, numbers, response, rows, f, u, change, end, h, nv):
-    """Find the forces of all contacts: each contact in turn, then Newton's method on all of them where that is slow."""
-    ready = near(places, tangent, normal, numbers, rows, f, u, change, end, h, nv)
-    if ready and newton_all(places, tangent, answer, motion, normal, numbers, rows, f, u, change, end, h, nv):
-        return
-    old = np.empty(nv)
-    for i in range(SWEEPS):
-        n.move(u, old)
-        scale = sweep(places, tangent, answer, motion, normal, numbers, response, rows, f, u, change, end, h, nv)
-        moved = 0.0
-        for j in range(nv):
-            moved = max(moved, abs(u[j] - old[j]))
-        if len(places) == 1 or moved <= TOLERANCE * scale:
-            return
-        if i % NEWTON_EVERY == NEWTON_EVERY - 1 and newton_all(
-            places, tangent, answer, motion, normal, numbers, rows, f, u, change, end, h, nv
-        ):
-            return
-
-
-@compiled
-def near(places, tangent, normal, numbers, rows, f, u, change, end, h, nv):
-    """Return whether the guess is so near to the laws' forces, and the speeds to those before, that Newton may start."""
-    for q in range(len(places)):
-        address, state, row = places[q, 2], places[q, 3], numbers[q]
-        if n.load(state + 8 * s.NEEDS_HOLD) != 0.0:
-            return False
-        vx, vy = contact_motion(address, row, tangent, normal, rows, u, change, q, nv)
-        gx, gy = law_at(state, address, end, h, row, vx, vy)
-        turned = slides(state, address) and gx * vx + gy * vy < 0.0
-        if turned or math.hypot(f[q, 0] - gx, f[q, 1] - gy) > NEAR * row[MU] * n.load(address + 8 * s.NORMAL):
-            return False
-        edge = n.load(state + 8 * s.STICK_SPEED)
-        if n.load(state + 8 * s.HAS_MODE) == 0.0 and (math.hypot(vx, vy) > edge) != (math.hypot(row[V0], row[V0 + 1]) > edge):
-            return False
-    return True
-
-
-@compiled
-def sweep(places, tangent, answer, motion, normal, numbers, response, rows, f, u, change, end, h, nv):
-    """Let each contact in turn find its force at the others' last ones; return the velocity that friction can change."""
-    scale = 0.0
-    for q in range(len(places)):  # all from the same velocities, so that contacts alike share alike
-        address = places[q, 2]
-        if n.load(places[q, 3] + 8 * s.NEEDS_HOLD) != 0.0:
-            vx, vy = contact_motion(address, numbers[q], tangent, normal, rows, u, change, q, nv)
-            part = share(places, rows, q)
-            hold(address, response[q], h, part * vx, part * vy)
-            n.store(address + 8 * s.HOLD_X, n.load(address + 8 * s.HOLD_X) + f[q, 0])
-            n.store(address + 8 * s.HOLD_Y, n.load(address + 8 * s.HOLD_Y) + f[q, 1])
-    for q in range(len(places)):
-        address, state = places[q, 2], places[q, 3]
-        row, w = numbers[q], response[q]
-        vx, vy = contact_motion(address, row, tangent, normal, rows, u, change, q, nv)
-        row[FREE] = vx + h * (w[0] * f[q, 0] + w[1] * f[q, 1])
-        row[FREE + 1] = vy + h * (w[2] * f[q, 0] + w[3] * f[q, 1])
-        fx, fy = local_force(state, address, force_function(state), end, h, row, w, f[q, 0], f[q, 1])
-        if slides(state, address):
-            part = brake(row, w, h, fx, fy)
-            fx, fy = part * fx, part * fy
-        add_force(f, answer, motion, u, change, q, fx - f[q, 0], fy - f[q, 1], h, nv)
-        scale = max(scale, h * max(w[0], w[3]) * row[MU] * n.load(address + 8 * s.NORMAL))
-    return scale
-
-
-@compiled
-def share(places, rows, q):
-    """Return the contact's part of the normal force of its instance: stuck contacts share what holds them likewise."""
-    total = 0.0
-    for k in range(len(places)):
-        if places[k, 3] == places[q, 3]:
-            total += rows[k, 0]
-    return rows[q, 0] / total if total > 0.0 else 1.0
-
-
-@compiled
-def slides(state, address):
-    """Return whether the contact is one of a law with modes that slides."""
-    return n.load(state + 8 * s.HAS_MODE) != 0.0 and n.load(address + 8 * s.STICK) == 0.0
-
-
-@compiled
-def brake(row, w, h, fx, fy):
-    """Return the part of a sliding contact's force that brings it to rest, at most 1.
-
-    Sliding friction does not turn a velocity over: the law switches there, which `switch_ahead` then sees.
-    """
-    free = fx * row[FREE] + fy * row[FREE + 1]
-    felt = h * (fx * (w[0] * fx + w[1] * fy) + fy * (w[2] * fx + w[3] * fy))
-    return min(1.0, max(free, 0.0) * (1.0 + TURNED) / felt) if felt > free else 1.0
-
-
-@compiled
-def force_function(state):
-    """Return the address of the law's force."""
-    return n.load_word(n.law_row(int(n.load(state + 8 * s.LAW))) + n.FORCE)
-
-
-@compiled
-def contact_motion(address, row, tangent, normal, rows, u, change, q, nv):
-    """Return the contact's relative velocity [m/s] at the step's end; its normal force goes to the slot."""
-    vx, vy, normal_force = row[SURFACE], row[SURFACE + 1], rows[q, 0]
-    for j in range(nv):
-        vx -= tangent[2 * q, j] * u[j]
-        vy -= tangent[2 * q + 1, j] * u[j]
-        normal_force -= rows[q, 1] * normal[q, j] * change[j]
-    n.store(address + 8 * s.NORMAL, max(normal_force, 0.0))
-    return vx, vy
-
-
-@compiled
-def add_force(f, answer, motion, u, change, q, dx, dy, h, nv):
-    """Change the force of contact ``q``, with the velocities and the accelerations."""
-    if dx == 0.0 and dy == 0.0:
-        return
-    f[q, 0] += dx
-    f[q, 1] += dy
-    for j in range(nv):
-        u[j] += h * (motion[2 * q, j] * dx + motion[2 * q + 1, j] * dy)
-        change[j] += answer[2 * q, j] * dx + answer[2 * q + 1, j] * dy
-
-
-@compiled
-def residual(places, tangent, normal, numbers, rows, f, u, change, r, end, h, nv):
-    """Fill ``r`` with force minus the law's force; return the largest part of mu_s N that it is.
-
-    Where friction has turned a sliding velocity over, that is infinite, and ``r`` is incomplete.
-    """
-    worst = 0.0
-    for q in range(len(places)):
-        address, state = places[q, 2], places[q, 3]
-        row = numbers[q]
-        vx, vy = contact_motion(address, row, tangent, normal, rows, u, change, q, nv)
-        if is_held(places, q):
-            r[2 * q], r[2 * q + 1] = 0.0, 0.0
-            continue
-        gx, gy = law_at(state, address, end, h, row, vx, vy)
-        if slides(state, address) and gx * vx + gy * vy < 0.0:
-            return math.inf
-        r[2 * q], r[2 * q + 1] = f[q, 0] - gx, f[q, 1] - gy
-        size, cap = math.hypot(r[2 * q], r[2 * q + 1]), row[MU] * n.load(address + 8 * s.NORMAL)
-        worst = max(worst, size / cap if cap > 0.0 else (0.0 if size == 0.0 else 1.0))
-    return worst
-
-
-@compiled
-def is_held(places, q):
-    """Return whether true stick holds the contact."""
-    return n.load(places[q, 3] + 8 * s.NEEDS_HOLD) != 0.0 and n.load(places[q, 2] + 8 * s.STICK) != 0.0
-
-
-@compiled
-def law_at(state, address, end, h, row, vx, vy):
-    """Return the law's force [N] at an end velocity."""
-    call(state, address, force_function(state), end, row[U0] + h * vx, row[U0 + 1] + h * vy, vx, vy, row[MU], row[MU + 1])
-    return n.load(state + 8 * s.OUTPUT), n.load(state + 8 * (s.OUTPUT + 1))
-
-
-@compiled
-def newton_all(places, tangent, answer, motion, normal, numbers, rows, f, u, change, end, h, nv):  # noqa: PLR0912
-    """Improve all forces by Newton's method with difference quotients of the laws; return whether it converged.
-
-    Contacts that true stick holds keep their forces, which several of them may share in many ways; then it is for the
-    sweeps to say whether all is found.
-    """
-    m = len(places)
-    held = 0
-    for q in range(m):
-        held += is_held(places, q)
-    if held == m:
-        return False
-    a, slopes, x, r = np.empty((2 * m, 2 * m)), np.empty((m, 6)), np.empty(2 * m), np.empty(2 * m)
-    worst = residual(places, tangent, normal, numbers, rows, f, u, change, r, end, h, nv)
-    if worst == math.inf:
-        return False
-    for _ in range(NEWTON_STEPS):
-        if worst <= FORCE_TOLERANCE:
-            return held == 0
-        for q in range(m):
-            if is_held(places, q):
-                slopes[q] = 0.0
-            else:
-                law_slopes(places, tangent, numbers, slopes[q], f, r, u, q, end, h, nv)
-        for i in range(2 * m):
-            q = i // 2
-            v, w, k = slopes[q, i % 2], slopes[q, 2 + i % 2], slopes[q, 4 + i % 2] * rows[q, 1]
-            for j in range(2 * m):
-                total = 0.0
-                for c in range(nv):
-                    z = h * motion[j, c]
-                    total += v * tangent[2 * q, c] * z + w * tangent[2 * q + 1, c] * z + k * normal[q, c] * answer[j, c]
-                a[i, j] = total
-            a[i, i] += 1.0
-        n.move(r, x)
-        if not eliminate(a, x):
-            return False
-        part, better = 1.0, False
-        for _ in range(HALVINGS):
-            for q in range(m):
-                add_force(f, answer, motion, u, change, q, -part * x[2 * q], -part * x[2 * q + 1], h, nv)
-            new = residual(places, tangent, normal, numbers, rows, f, u, change, r, end, h, nv)
-            if new < worst:
-                worst, better = new, True
-                break
-            for q in range(m):
-                add_force(f, answer, motion, u, change, q, part * x[2 * q], part * x[2 * q + 1], h, nv)
-            part *= 0.5
-        if not better:
-            residual(places, tangent, normal, numbers, rows, f, u, change, r, end, h, nv)
-            return held == 0 and worst <= 1.0e3 * FORCE_TOLERANCE
-    return held == 0 and worst <= FORCE_TOLERANCE
-
-
-@compiled
-def law_slopes(places, tangent, numbers, slope, f, r, u, q, end, h, nv):
-    """Fill the slopes of the law's force: by vx (x, y) transposed, by vy, and by the normal force."""
-    address, state, row = places[q, 2], places[q, 3], numbers[q]
-    vx, vy = row[SURFACE], row[SURFACE + 1]
-    for j in range(nv):
-        vx -= tangent[2 * q, j] * u[j]
-        vy -= tangent[2 * q + 1, j] * u[j]
-    gx, gy = f[q, 0] - r[2 * q], f[q, 1] - r[2 * q + 1]
-    step = 1.0e-4 * n.load(state + 8 * s.STICK_SPEED)
-    ax, ay = law_at(state, address, end, h, row, vx + step, vy)
-    slope[0], slope[1] = (ax - gx) / step, (ay - gy) / step
-    ax, ay = law_at(state, address, end, h, row, vx, vy + step)
-    slope[2], slope[3] = (ax - gx) / step, (ay - gy) / step
-    normal_force = n.load(address + 8 * s.NORMAL)
-    more = 1.0e-6 * normal_force
-    slope[4], slope[5] = 0.0, 0.0
-    if more > 0.0:
-        n.store(address + 8 * s.NORMAL, normal_force + more)
-        ax, ay = law_at(state, address, end, h, row, vx, vy)
-        n.store(address + 8 * s.NORMAL, normal_force)
-        slope[4], slope[5] = (ax - gx) / more, (ay - gy) / more
-
-
-@compiled
-def eliminate(a, x):
-    """Replace x by the solution of A y = x (Gauss, partial pivots); return whether A is regular."""
-    size = len(x)
-    for k in range(size):
-        p = k
-        for i in range(k + 1, size):
-            if abs(a[i, k]) > abs(a[p, k]):
-                p = i
-        if a[p, k] == 0.0:
-            return False
-        if p != k:
-            for j in range(k, size):
-                a[k, j], a[p, j] = a[p, j], a[k, j]
-            x[k], x[p] = x[p], x[k]
-        for i in range(k + 1, size):
-            part = a[i, k] / a[k, k]
-            if part != 0.0:
-                for j in range(k + 1, size):
-                    a[i, j] -= part * a[k, j]
-                x[i] -= part * x[k]
-    for i in range(size - 1, -1, -1):
-        total = x[i]
-        for j in range(i + 1, size):
-            total -= a[i, j] * x[j]
-        x[i] = total / a[i, i]
-    return True
-
-
-@compiled
-def hold(address, w, h, vx, vy):
-    """Write the force that takes (vx, vy) from the velocity within the step; a direction that cannot move needs none."""
-    a, b, d = w[0], 0.5 * (w[1] + w[2]), w[3]
-    det = a * d - b * b
-    if det > 1.0e-9 * (a + d) * (a + d):
-        n.store(address + 8 * s.HOLD_X, (d * vx - b * vy) / (h * det))
-        n.store(address + 8 * s.HOLD_Y, (a * vy - b * vx) / (h * det))
-    elif a + d > 0.0:  # one direction only: W = lambda e e^T, and its trace is lambda
-        trace = a + d
-        x = (a * vx + b * vy) / (h * trace * trace)
-        y = (b * vx + d * vy) / (h * trace * trace)
-        n.store(address + 8 * s.HOLD_X, x)
-        n.store(address + 8 * s.HOLD_Y, y)
-    else:
-        n.store(address + 8 * s.HOLD_X, 0.0)
-        n.store(address + 8 * s.HOLD_Y, 0.0)
-
-
-@compiled
-def start_guards(places, numbers, rows, t):
+def start_guards(places, numbers, at, t):
     """Keep the guards at the step's start, with the normal forces of the step."""
     for q in range(len(places)):
         address, state = places[q, 2], places[q, 3]
-        n.store(address + 8 * s.NORMAL, rows[q, 0])
+        n.store(address + 8 * s.NORMAL, at[q, NORMAL])
         if n.load(state + 8 * s.HAS_MODE) != 0.0:
             row = n.law_row(int(n.load(state + 8 * s.LAW)))
             guards_at(state, address, row, t, numbers[q, U0], numbers[q, U0 + 1], numbers[q, V0], numbers[q, V0 + 1])
@@ -727,7 +452,7 @@ def start_guards(places, numbers, rows, t):
 
 
 @compiled
-def switch_ahead(places, tangent, numbers, response, rows, u, t, end, h, nv):
+def switch_ahead(places, coupling, numbers, response, at, t, end, h):
     """Let the laws with modes switch where they would within the step; return whether any did."""
     switched = False
     for q in range(len(places)):
@@ -735,17 +460,13 @@ def switch_ahead(places, tangent, numbers, response, rows, u, t, end, h, nv):
         if n.load(state + 8 * s.HAS_MODE) == 0.0 or not n.load(address + 8 * s.NORMAL) > 0.0:
             continue
         row = numbers[q]
-        vx, vy = row[SURFACE], row[SURFACE + 1]
-        for j in range(nv):
-            vx -= tangent[2 * q, j] * u[j]
-            vy -= tangent[2 * q + 1, j] * u[j]
         if n.load(state + 8 * s.NEEDS_HOLD) != 0.0 and n.load(address + 8 * s.STICK) == 0.0:  # what holds it once at rest
             fx, fy = n.load(address + 8 * s.HOLD_X), n.load(address + 8 * s.HOLD_Y)
-            part = share(places, rows, q)
+            part = share(coupling, at, q)
             hold(address, response[q], h, part * row[V0], part * row[V0 + 1])
             n.store(address + 8 * s.HOLD_X, fx - n.load(address + 8 * s.HOLD_X))
             n.store(address + 8 * s.HOLD_Y, fy - n.load(address + 8 * s.HOLD_Y))
-        switched = switch_slot(state, address, row, t, end, h, vx, vy) or switched
+        switched = switch_slot(state, address, row, t, end, h, at[q, VX], at[q, VY]) or switched
     return switched
 
 

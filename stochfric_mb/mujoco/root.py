@@ -1,7 +1,8 @@
 """The force of one contact at the step's end: the root of F = force(u + h v, v) with v = c - h W F.
 
-Along the direction of the force that the law would give at the free velocity c this is one equation for one number
-(exact for isotropic laws and masses); what is left across it, Newton's method with difference quotients removes.
+Where the law's force runs along the velocity, v = (1 + h k W)^-1 c with F = k v: one equation for one number, whatever
+W is (`along_velocity`). Else the direction of the force that the law would give at the free velocity c gives one
+equation (`along`), and what is left across it, Newton's method with difference quotients removes.
 Where a falling law has several roots, the one is taken that the velocity meets first on its way from that at the
 step's start, as the motion itself would.
 """
@@ -22,7 +23,11 @@ from stochfric_mb.mujoco.contact import call
 
 PRECISION = 1.0e-11
 """Error of a force relative to mu_s N at which the search ends."""
-ROOT_STEPS, NEWTON_STEPS, TURNS, EXPANSIONS = 80, 8, 3, 8
+PARALLEL = 1.0e-9
+"""Sine of the angle between force and velocity that counts as none."""
+STUCK = 1.0 - 1.0e-12
+"""Part of the velocity along W's main axis that is gone when a contact counts as stuck."""
+ROOT_STEPS, NEWTON_STEPS, TURNS, EXPANSIONS, HALVINGS = 80, 8, 3, 8, 14
 U0, V0, MU, FREE = 0, 2, 6, 8
 
 
@@ -44,7 +49,7 @@ def end_speed(h, row, w, fx, fy):
 
 
 @compiled
-def local_force(state, address, function, end, h, row, w, fx, fy):
+def local_force(state, address, function, end, h, row, w, fx, fy):  # noqa: PLR0911
     """Return the contact's force [N]; (fx, fy) is the last guess."""
     cap = row[MU] * n.load(address + 8 * s.NORMAL)
     if not cap > 0.0:
@@ -61,6 +66,13 @@ def local_force(state, address, function, end, h, row, w, fx, fy):
     size = math.hypot(ex, ey)
     if size == 0.0:
         return 0.0, 0.0
+    if abs(ex * row[FREE + 1] - ey * row[FREE]) <= PARALLEL * size * math.hypot(row[FREE], row[FREE + 1]):
+        kx, ky, found = along_velocity(state, address, function, end, h, row, w, cap)
+        if found:
+            gx, gy = law_force(state, address, function, end, h, row, w, kx, ky)
+            if math.hypot(gx - kx, gy - ky) <= tolerance:
+                return kx, ky
+            return newton(state, address, function, end, h, row, w, kx, ky, tolerance)
     for _ in range(TURNS):
         ex, ey = ex / size, ey / size
         part = along(state, address, function, end, h, row, w, ex, ey, cap, fx * ex + fy * ey)
@@ -86,10 +98,72 @@ def steady(state, h, row, w, fx, fy):
 
 
 @compiled
-def excess(state, address, function, end, h, row, w, ex, ey, part):
-    """Return the force minus the law's, along a direction [N]."""
-    gx, gy = law_force(state, address, function, end, h, row, w, part * ex, part * ey)
-    return part - (gx * ex + gy * ey)
+def force_at(h, row, w, ex, ey, turns, part):
+    """Return a force [N]: ``part`` along (ex, ey), or, if it ``turns``, the one along the velocity that it leads to.
+
+    Then (ex, ey) is W's main axis, and ``part`` of the free velocity along it is gone.
+    """
+    if not turns:
+        return part * ex, part * ey
+    b = 0.5 * (w[1] + w[2])
+    main = ex * (w[0] * ex + b * ey) + ey * (b * ex + w[3] * ey)
+    k = part / ((1.0 - part) * h * main)
+    x = (row[FREE] * ex + row[FREE + 1] * ey) * (1.0 - part)
+    y = (row[FREE + 1] * ex - row[FREE] * ey) / (1.0 + h * k * max(w[0] + w[3] - main, 0.0))
+    return k * (x * ex - y * ey), k * (x * ey + y * ex)
+
+
+@compiled
+def excess(state, address, function, end, h, row, w, ex, ey, turns, part):
+    """Return the force minus the law's, along the force [N]."""
+    fx, fy = force_at(h, row, w, ex, ey, turns, part)
+    gx, gy = law_force(state, address, function, end, h, row, w, fx, fy)
+    if not turns:
+        return part - (gx * ex + gy * ey)
+    size = math.hypot(fx, fy)
+    return size - (gx * fx + gy * fy) / size if size > 0.0 else -math.hypot(gx, gy)
+
+
+@compiled
+def part_at(h, row, w, ex, ey, speed):
+    """Return the part of the velocity along W's main axis that is gone where ``speed`` is left of it all."""
+    low, high = math.log(1.0 - STUCK), 0.0
+    for _ in range(HALVINGS):  # to half a per cent of the speed: it is to tell one root from the next
+        middle = 0.5 * (low + high)
+        fx, fy = force_at(h, row, w, ex, ey, True, 1.0 - math.exp(middle))
+        if end_speed(h, row, w, fx, fy) > speed:
+            high = middle
+        else:
+            low = middle
+    return 1.0 - math.exp(high)
+
+
+@compiled
+def along_velocity(state, address, function, end, h, row, w, cap):
+    """Return the force [N] that runs along the velocity that it leads to, and whether there is one."""
+    angle = 0.5 * math.atan2(w[1] + w[2], w[0] - w[3])
+    ex, ey = math.cos(angle), math.sin(angle)
+    if not ex * (w[0] * ex + w[1] * ey) + ey * (w[2] * ex + w[3] * ey) > 0.0:
+        return 0.0, 0.0, False
+    high = STUCK
+    at_high = excess(state, address, function, end, h, row, w, ex, ey, True, high)
+    if not at_high > 0.0:
+        return 0.0, 0.0, False
+    start = part_at(h, row, w, ex, ey, math.hypot(row[V0], row[V0 + 1]))
+    edge = part_at(h, row, w, ex, ey, n.load(state + 8 * s.STICK_SPEED))
+    low, at_low = start, excess(state, address, function, end, h, row, w, ex, ey, True, start)
+    if at_low > 0.0:
+        high, at_high, low = start, at_low, 0.0
+        at_low = excess(state, address, function, end, h, row, w, ex, ey, True, low)
+    if low < edge < high:
+        middle = excess(state, address, function, end, h, row, w, ex, ey, True, edge)
+        if middle > 0.0:
+            high, at_high = edge, middle
+        else:
+            low, at_low = edge, middle
+    part = root(state, address, function, end, h, row, w, ex, ey, True, low, at_low, high, at_high, -1.0, PRECISION * cap)
+    fx, fy = force_at(h, row, w, ex, ey, True, part)
+    return fx, fy, True
 
 
 @compiled
@@ -98,7 +172,7 @@ def along(state, address, function, end, h, row, w, ex, ey, cap, guess):  # noqa
     felt = h * (ex * (w[0] * ex + w[1] * ey) + ey * (w[2] * ex + w[3] * ey))
     high, top = cap, 0.0
     for _ in range(EXPANSIONS):
-        top = excess(state, address, function, end, h, row, w, ex, ey, high)
+        top = excess(state, address, function, end, h, row, w, ex, ey, False, high)
         if top >= 0.0:
             break
         high *= 2.0
@@ -107,13 +181,13 @@ def along(state, address, function, end, h, row, w, ex, ey, cap, guess):  # noqa
     free = row[FREE] * ex + row[FREE + 1] * ey
     start = min(max((free - row[V0] * ex - row[V0 + 1] * ey) / felt, 0.0), high)
     edge = (free - n.load(state + 8 * s.STICK_SPEED)) / felt
-    here = excess(state, address, function, end, h, row, w, ex, ey, start)
+    here = excess(state, address, function, end, h, row, w, ex, ey, False, start)
     if here == 0.0:
         return start
     if here < 0.0:
         low, at_low, at_high = start, here, top
         if start < edge < high:
-            middle = excess(state, address, function, end, h, row, w, ex, ey, edge)
+            middle = excess(state, address, function, end, h, row, w, ex, ey, False, edge)
             if middle >= 0.0:
                 high, at_high = edge, middle
             else:
@@ -121,18 +195,18 @@ def along(state, address, function, end, h, row, w, ex, ey, cap, guess):  # noqa
     else:
         low, at_low, high, at_high = 0.0, -1.0, start, here
         if 0.0 < edge < start:
-            middle = excess(state, address, function, end, h, row, w, ex, ey, edge)
+            middle = excess(state, address, function, end, h, row, w, ex, ey, False, edge)
             if middle <= 0.0:
                 low, at_low = edge, middle
             else:
                 high, at_high = edge, middle
         if low == 0.0:
-            at_low = excess(state, address, function, end, h, row, w, ex, ey, 0.0)
-    return root(state, address, function, end, h, row, w, ex, ey, low, at_low, high, at_high, guess, PRECISION * cap)
+            at_low = excess(state, address, function, end, h, row, w, ex, ey, False, 0.0)
+    return root(state, address, function, end, h, row, w, ex, ey, False, low, at_low, high, at_high, guess, PRECISION * cap)
 
 
 @compiled
-def root(state, address, function, end, h, row, w, ex, ey, low, at_low, high, at_high, guess, tolerance):
+def root(state, address, function, end, h, row, w, ex, ey, turns, low, at_low, high, at_high, guess, tolerance):
     """Return the root between two sizes of opposite excess: false position (Anderson and Bjorck), halved when slow."""
     if at_low >= 0.0:
         return low
@@ -141,7 +215,7 @@ def root(state, address, function, end, h, row, w, ex, ey, low, at_low, high, at
     x = guess if low < guess < high else low - at_low * (high - low) / (at_high - at_low)
     width, last = high - low, 0
     for i in range(ROOT_STEPS):
-        y = excess(state, address, function, end, h, row, w, ex, ey, x)
+        y = excess(state, address, function, end, h, row, w, ex, ey, turns, x)
         if abs(y) <= tolerance:
             return x
         shrink = 1.0 - y / (at_low if y < 0.0 else at_high)
