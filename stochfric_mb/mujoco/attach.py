@@ -18,14 +18,11 @@ from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.config import MAX_SLOTS, configuration
 from stochfric_mb.mujoco.joints import Joint, Tendon, add_joint_friction, joint_instances, joint_reading
+from stochfric_mb.mujoco.options import check_options
 from stochfric_mb.mujoco.plugin import NAME, register
 
 ANY = "*"
 """Stands for every geom that the other one can collide with."""
-
-
-class IntegratorWarning(UserWarning):
-    """An integrator with which friction is known to be inaccurate."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -99,7 +96,7 @@ def add_friction(
         IntegratorWarning: the model uses the ``discrete`` integrator.
     """
     register()
-    _require_passive_forces(spec)
+    check_options(spec.option.disableflags, spec.option.integrator)
     if isinstance(geoms, Joint | Tendon):
         return add_joint_friction(spec, geoms, friction, normal_force=normal_force, seed=seed, sample=sample, contact=contact)
     if normal_force is not None:
@@ -109,14 +106,14 @@ def add_friction(
     _require_free(spec, pairs)
     slots = max(16, min(4 * len(pairs), MAX_SLOTS)) if slots is None else slots
     texts = configuration(
-        as_friction(friction), body, surface, seed=seed, sample=sample, contact=contact, slots=_require_slots(slots), mode=mode
+        as_friction(friction), body, surface, seed=seed, sample=sample, contact=contact, slots=require_slots(slots), mode=mode
     )
     name = _free_name(spec, f"friction_{body}_{surface}".replace(ANY, "any"))
     plugin: Any = spec.add_plugin(name=name, plugin_name=NAME, active=True)
     plugin.config = {key: value for key, value in texts.items() if value}
     spec.activate_plugin(NAME)
     for pair in pairs:
-        _take_over(spec, *pair)
+        take_over(spec, *pair)
     return name
 
 
@@ -151,10 +148,11 @@ def _instance_readings(model: mujoco.MjModel, data: mujoco.MjData, instance: int
     state = header(model, data, instance)
     first = s.DESCRIPTOR + int(state[s.N_DESCRIPTOR]) + int(state[s.N_SLOTS]) * s.SLOT
     block = state[first : first + int(state[s.N_CURRENT]) * s.SLOT].reshape(-1, s.SLOT)
-    return [_reading(model, state, row) for row in block]
+    return [reading_of(model, state, row) for row in block]
 
 
-def _reading(model: mujoco.MjModel, state: Any, row: Any) -> Reading:
+def reading_of(model: mujoco.MjModel, state: Any, row: Any) -> Reading:
+    """Return the reading of one contact from its instance's state and its slot there."""
     force = row[s.FX] * row[s.AXIS_1 : s.AXIS_1 + 3] + row[s.FY] * row[s.AXIS_2 : s.AXIS_2 + 3]
     pair = [int(row[s.GEOM_1]) - 1, int(row[s.GEOM_2]) - 1]
     body, surface = int(state[s.GEOM_BODY]), int(state[s.GEOM_SURFACE])
@@ -258,22 +256,12 @@ def _carrier(spec: mujoco.MjSpec, geom: Any) -> Any:
     return body
 
 
-def _require_passive_forces(spec: mujoco.MjSpec) -> None:
-    off = mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER
-    if spec.option.disableflags & off == off:
-        raise InputError(
-            "option.disableflags has both spring and damper disabled, with which MuJoCo leaves out all passive forces, "
-            "friction too; enable one of them (and set stiffness or damping to 0 instead)"
-        )
-    if spec.option.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE:
-        warnings.warn(
-            "integrator discrete: its friction error is twenty times that of Euler; use RK4 (best), Euler or implicitfast",
-            IntegratorWarning,
-            stacklevel=3,
-        )
+def require_slots(slots: int) -> int:
+    """Return a number of slots.
 
-
-def _require_slots(slots: int) -> int:
+    Raises:
+        InputError: it is no whole number, or out of range.
+    """
     if int(slots) != slots or not 0 < slots <= MAX_SLOTS:
         raise InputError(f"slots = {slots!r} must be a whole number from 1 to {MAX_SLOTS}; 16 suits most pairs")
     return int(slots)
@@ -286,7 +274,7 @@ def _free_name(spec: mujoco.MjSpec, name: str) -> str:
     return name
 
 
-def _take_over(spec: mujoco.MjSpec, body: str, surface: str) -> None:
+def take_over(spec: mujoco.MjSpec, body: str, surface: str) -> None:
     """Make the two geoms an explicit pair without native friction, with the normal contact that they had."""
     for pair in spec.pairs:
         if {pair.geomname1, pair.geomname2} == {body, surface}:

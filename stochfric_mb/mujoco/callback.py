@@ -36,7 +36,7 @@ from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.attach import Reading, _reading, _require_passive_forces, _require_slots
+from stochfric_mb.mujoco.attach import Reading, reading_of, require_slots
 from stochfric_mb.mujoco.config import (
     R_DESCRIPTOR,
     R_HAS_MODE,
@@ -51,6 +51,7 @@ from stochfric_mb.mujoco.config import (
 )
 from stochfric_mb.mujoco.contact import apply, begin, contact_address, find, ordinal_of, side, slot
 from stochfric_mb.mujoco.dof import RUNGE_KUTTA
+from stochfric_mb.mujoco.options import check_options
 from stochfric_mb.mujoco.plugin import UNSET, register
 
 MODEL, DATA, STATE, PHASE, SIGNATURE, GEOM_A, GEOM_B, WIDTH = range(8)
@@ -103,13 +104,13 @@ class friction:  # noqa: N801  (a context, used like a function)
         """
         if data.model is not model and data.model._address != model._address:
             raise InputError("data belongs to another model; pass the model that it was made with")
-        _require_passive_forces(_Options(model))
+        check_options(model.opt.disableflags, model.opt.integrator)
         self._model, self._data = model, data
         self._pairs = {names: _geoms(model, names) for names in pairs}
         self._plans = {names: _plan(model, geoms, names) for names, geoms in self._pairs.items()}
         self._states: dict[tuple[str, str], np.ndarray[Any, np.dtype[np.float64]]] = {}
         for contact, (names, law) in enumerate(pairs.items()):
-            state = _fresh_state(as_friction(law), _require_slots(slots), seed=seed, sample=sample, contact=contact)
+            state = _fresh_state(as_friction(law), require_slots(slots), seed=seed, sample=sample, contact=contact)
             state[s.GEOM_BODY], state[s.GEOM_SURFACE] = self._pairs[names]
             self._states[names] = state
         self._kept: list[tuple[Any, int, int]] = []
@@ -161,7 +162,7 @@ class friction:  # noqa: N801  (a context, used like a function)
         for names, state in self._states.items():
             first = s.DESCRIPTOR + int(state[s.N_DESCRIPTOR]) + int(state[s.N_SLOTS]) * s.SLOT
             block = state[first : first + int(state[s.N_CURRENT]) * s.SLOT].reshape(-1, s.SLOT)
-            out[names] = [_reading(self._model, state, row) for row in block]
+            out[names] = [reading_of(self._model, state, row) for row in block]
         return out
 
     def _warn_untouched(self) -> None:
@@ -172,13 +173,6 @@ class friction:  # noqa: N801  (a context, used like a function)
     def touched(self) -> dict[tuple[str, str], bool]:
         """Return for each pair whether it has ever touched."""
         return {names: bool(state[s.COEFFICIENTS] != UNSET or state[s.N_CURRENT]) for names, state in self._states.items()}
-
-
-class _Options:
-    """A compiled model's options where a specification's are asked for."""
-
-    def __init__(self, model: mujoco.MjModel) -> None:
-        self.option = model.opt
 
 
 def _geoms(model: mujoco.MjModel, names: tuple[str, str]) -> tuple[int, int]:

@@ -29,7 +29,7 @@ from stochfric_mb.laws.elastic_stick import ElasticStick
 from stochfric_mb.laws.substitute import MARGIN, elastic_substitute
 from stochfric_mb.mujoco import joints, probes
 from stochfric_mb.mujoco.advice import SLIDING, advice
-from stochfric_mb.mujoco.attach import _take_over, add_friction
+from stochfric_mb.mujoco.attach import add_friction, take_over
 from stochfric_mb.mujoco.findings import SHARES, CheckResult, Findings, Row
 from stochfric_mb.mujoco.probes import Drift, Record, Slide, State
 from stochfric_mb.mujoco.sites import (
@@ -303,7 +303,7 @@ class _Bench:
             if self.spec is None:
                 return None
             spec = self.spec.copy()
-            _take_over(spec, *site.names)
+            take_over(spec, *site.names)
             return spec.compile()
         model = copy.copy(self.model)
         if isinstance(site, Joint):

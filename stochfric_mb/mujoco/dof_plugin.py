@@ -21,6 +21,7 @@ from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import config, dof
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
+from stochfric_mb.mujoco.options import CHECKER, options_allow
 from stochfric_mb.mujoco.plugin import UNSET, register
 from stochfric_mb.mujoco.registration import register_plugin
 
@@ -45,6 +46,7 @@ def register_joints() -> int:
     """
     register()
     n.TABLE[_NUMBER_READER] = ctypes.cast(_READER, ctypes.c_void_p).value or 0
+    n.TABLE[n.OPTIONS_CHECKER] = ctypes.cast(CHECKER, ctypes.c_void_p).value or 0
     n.TABLE[_EXPLAINER] = ctypes.cast(_EXPLAIN, ctypes.c_void_p).value or 0
     passive = int(mujoco.mjtPluginCapabilityBit.mjPLUGIN_PASSIVE)
     slot = register_plugin(NAME, ATTRIBUTES, keys=_KEYS, capability=passive, callbacks=_CALLBACKS)
@@ -161,7 +163,7 @@ def _init(model, data, instance):
     if bad:
         n.call_python(n.entry(_EXPLAINER), model, instance, 0)
         return _INT(-1)
-    return _INT(0)
+    return _INT(0) if options_allow(model) else _INT(-1)
 
 
 def _reset(model, state, plugin_data, instance):

@@ -131,8 +131,9 @@ KEYS, N_KEYS = FURTHER + 64, 16
 (
     M_SOLVER, M_NOSLIP, M_DISABLE, M_DAMPING, D_EFC_TYPE, D_EFC_STATE, D_EFC_AREF, D_EFC_AR,
 ) = range(KEYS + N_KEYS, KEYS + N_KEYS + 8)  # fmt: skip
-SOLVER, PREPARER = KEYS + N_KEYS + 8, KEYS + N_KEYS + 9
-"""Places of the addresses of the implicit mode's solution, once it is compiled, and of the Python function that does so."""
+SOLVER, PREPARER, OPTIONS_CHECKER = range(KEYS + N_KEYS + 8, KEYS + N_KEYS + 11)
+"""Places of the addresses of the implicit mode's solution, once it is compiled, and of two Python functions: the one that
+compiles it, and the one that looks at a model's options."""
 TABLE: Any = (ctypes.c_int64 * (KEYS + 64))()
 """What compiled code must look up in this process."""
 

@@ -21,6 +21,7 @@ from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.contact import apply, begin, finish, solve_new
 from stochfric_mb.mujoco.implicit import any_solved, is_last, keep_warm_start, solve_instances
+from stochfric_mb.mujoco.options import CHECKER, options_allow
 from stochfric_mb.mujoco.registration import register_plugin
 
 NAME = "stochfric.pair"
@@ -45,6 +46,7 @@ def register() -> int:
     n.fill_table()
     n.TABLE[n.READER] = ctypes.cast(config.READER, ctypes.c_void_p).value or 0
     n.TABLE[n.EXPLAINER] = ctypes.cast(config.EXPLAINER, ctypes.c_void_p).value or 0
+    n.TABLE[n.OPTIONS_CHECKER] = ctypes.cast(CHECKER, ctypes.c_void_p).value or 0
     n.TABLE[n.PREPARER] = ctypes.cast(_PREPARE_SOLVER, ctypes.c_void_p).value or 0
     passive = int(mujoco.mjtPluginCapabilityBit.mjPLUGIN_PASSIVE)
     return register_plugin(NAME, config.ATTRIBUTES, keys=n.KEYS, capability=passive, callbacks=_CALLBACKS)
@@ -151,6 +153,8 @@ def _init(model, data, instance):
         bad = bad or number < 0 or number > 4294967295
     if bad:
         n.call_python(n.entry(n.EXPLAINER), model, instance, 0)
+        return _INT(-1)
+    if not options_allow(model):
         return _INT(-1)
     implicit = mode == s.IMPLICIT or n.load(record_of(model, instance) + 8 * config.R_NEEDS_HOLD) != 0.0
     return _INT(-1) if implicit and solver(model, data, instance) == 0 else _INT(0)

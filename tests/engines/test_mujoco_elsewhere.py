@@ -1,6 +1,8 @@
 """MuJoCo: friction of one pair leaves the rest of the model alone, whatever cone, Jacobian, solver and integrator it has."""
 
 import itertools
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -92,3 +94,41 @@ def test_our_contact_on_a_body_that_native_friction_holds(law, mode, cone, jacob
     assert abs(data.qpos[0] - start) < 2e-4  # native friction lets the lower box drift
     mujoco.mj_step(model, data, nstep=600)
     assert abs(data.qvel[6]) < 1e-4
+
+
+# --- options with which friction cannot act ---------------------------------------------------------------------------
+
+CODE = """
+import warnings, mujoco, stochfric_mb.mujoco as engine
+from stochfric_mb.laws.elastic_stick import ElasticStick
+spec = mujoco.MjSpec.from_string({scene!r})
+engine.add_friction(spec, {place}, ElasticStick(0.8, 0.5){load})
+text = spec.to_xml()
+for old, new in {changes!r}:
+    assert old in text
+    text = text.replace(old, new)
+warnings.simplefilter("always")
+model = mujoco.MjModel.from_xml_string(text)
+data = mujoco.MjData(model)
+mujoco.mj_step(model, data)
+"""
+FLAGS = ("<option ", '<option><flag spring="disable" damper="disable"/></option><option ')
+
+
+@pytest.mark.parametrize(
+    ("place", "load", "changes", "said", "refused"),
+    [
+        ('("box", "floor")', "", [FLAGS], "leaves out all passive forces, friction too; enable one of them", True),
+        ('engine.Joint("hinge")', ", normal_force=1.0", [FLAGS], "leaves out all passive forces", True),
+        ('("box", "floor")', "", [('integrator="RK4"', 'integrator="discrete"')], "use RK4 (best), Euler or", False),
+        ('engine.Joint("hinge")', ", normal_force=1.0", [('integrator="RK4"', 'integrator="discrete"')], "use RK4", False),
+        ('("box", "floor")', "", [('value="box"', 'value="bax"')], "geom1 = 'bax'", True),
+    ],
+)
+def test_a_model_file_with_options_that_will_not_do(place, load, changes, said, refused):
+    """The plugin itself says so, also of a file that others have written."""
+    scene = SCENE.format(ours=OURS, options='integrator="RK4"')
+    code = CODE.format(scene=scene, place=place, load=load, changes=changes)
+    out = subprocess.run([sys.executable, "-c", code], check=False, capture_output=True, text=True)
+    assert said in out.stderr
+    assert (out.returncode != 0) == refused
