@@ -49,8 +49,9 @@ from stochfric_mb.mujoco.config import (
     configuration,
     record_of,
 )
-from stochfric_mb.mujoco.contact import apply, begin, contact_address, find, ordinal_of, side, slot
+from stochfric_mb.mujoco.contact import apply, begin, find, slot
 from stochfric_mb.mujoco.dof import RUNGE_KUTTA
+from stochfric_mb.mujoco.kinematics import contact_address, ordinal_of, side
 from stochfric_mb.mujoco.options import check_options
 from stochfric_mb.mujoco.plugin import UNSET, register
 

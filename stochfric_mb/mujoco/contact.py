@@ -17,23 +17,30 @@ import math
 
 import numpy as np
 
-from stochfric_mb.coefficients.path import CURSOR as CURSOR_SIZE
-from stochfric_mb.coefficients.path import canonical_time, evaluate
-from stochfric_mb.coefficients.processes import TIME
+from stochfric_mb.coefficients.path import canonical_time
 from stochfric_mb.compile import compiled
-from stochfric_mb.laws.abi import MAX_STATE, call_law
-from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
+from stochfric_mb.mujoco.kinematics import (
+    bodies_of,
+    contact_address,
+    displacement,
+    dot,
+    ordinal_of,
+    point_of,
+    put,
+    relative_velocity,
+    set_axes,
+    side,
+    surface_velocity,
+    to_body,
+)
+from stochfric_mb.mujoco.switching import call, coefficients, commit_slot, half_step
 
 CONTACTS_FULL = 1
 """mjWARN_CONTACTFULL."""
-SWITCHES, BISECTIONS = 4, 40
-"""Most switches of a law looked for within one step, and halvings of the step to find one."""
 SUDDEN = 0.05
 """Change of the normal force in a step, relative to it, with which explicit friction (one step late) will not do."""
-JUMP = 10.0
-"""A displacement this many times beyond what the velocities allow is a body that was moved, not a motion."""
 
 
 @compiled
@@ -41,33 +48,6 @@ def slot(state, current, k):
     """Return the address of slot ``k`` of the committed (0) or the current (1) block."""
     base = s.DESCRIPTOR + int(n.load(state + 8 * s.N_DESCRIPTOR))
     return state + 8 * (base + (current * int(n.load(state + 8 * s.N_SLOTS)) + k) * s.SLOT)
-
-
-@compiled
-def contact_address(data, i):
-    """Return the address of contact ``i``."""
-    return n.pointer_field(data, n.D_CONTACT) + i * n.entry(n.CONTACT_SIZE)
-
-
-@compiled
-def side(contact, body, surface):
-    """Return +1 if geom 1 of the contact is the body, -1 if geom 2 is, 0 if the contact is none of ours.
-
-    ``body`` or ``surface`` -1 stands for any geom; contacts of flexible bodies have geom -1 and are never ours.
-    """
-    a = n.int_field(contact, n.C_GEOM)
-    b = n.load_int(n.field(contact, n.C_GEOM) + 4)
-    if a < 0 or b < 0:
-        return 0
-    if a == body and (b == surface or surface < 0):
-        return 1
-    if b == body and (a == surface or surface < 0):
-        return -1
-    if body < 0 and b == surface:
-        return 1
-    if body < 0 and a == surface:
-        return -1
-    return 0
 
 
 @compiled
@@ -83,170 +63,6 @@ def find(state, current, count, a, b, ordinal, guess):
         ):
             return address
     return 0
-
-
-@compiled
-def ordinal_of(data, i):
-    """Return how many earlier contacts join the same two geoms as contact ``i``."""
-    a = n.load_word(n.field(contact_address(data, i), n.C_GEOM))
-    count = 0
-    for j in range(i):
-        if n.load_word(n.field(contact_address(data, j), n.C_GEOM)) == a:
-            count += 1
-    return count
-
-
-@compiled
-def body_of(model, geom):
-    """Return the body of a geom."""
-    return n.load_int(n.pointer_field(model, n.M_GEOM_BODY) + 4 * geom)
-
-
-@compiled
-def velocity(model, data, body, x, y, z):
-    """Return the velocity [m/s] of the body's material point at (x, y, z)."""
-    root = n.load_int(n.pointer_field(model, n.M_BODY_ROOT) + 4 * body)
-    c = n.pointer_field(data, n.D_SUBTREE_COM) + 24 * root
-    rx, ry, rz = x - n.load(c), y - n.load(c + 8), z - n.load(c + 16)
-    v = n.pointer_field(data, n.D_CVEL) + 48 * body
-    wx, wy, wz = n.load(v), n.load(v + 8), n.load(v + 16)
-    return (
-        n.load(v + 24) + wy * rz - wz * ry,
-        n.load(v + 32) + wz * rx - wx * rz,
-        n.load(v + 40) + wx * ry - wy * rx,
-    )
-
-
-@compiled
-def spin(data, body, x, y, z):
-    """Return the body's angular velocity [rad/s] about the direction (x, y, z)."""
-    v = n.pointer_field(data, n.D_CVEL) + 48 * body
-    return n.load(v) * x + n.load(v + 8) * y + n.load(v + 16) * z
-
-
-@compiled
-def to_body(data, body, x, y, z):
-    """Return the world point (x, y, z) in the body's frame."""
-    p = n.pointer_field(data, n.D_XPOS) + 24 * body
-    r = n.pointer_field(data, n.D_XMAT) + 72 * body
-    dx, dy, dz = x - n.load(p), y - n.load(p + 8), z - n.load(p + 16)
-    return (
-        n.load(r) * dx + n.load(r + 24) * dy + n.load(r + 48) * dz,
-        n.load(r + 8) * dx + n.load(r + 32) * dy + n.load(r + 56) * dz,
-        n.load(r + 16) * dx + n.load(r + 40) * dy + n.load(r + 64) * dz,
-    )
-
-
-@compiled
-def to_world(data, body, point):
-    """Return the world position of the body's point stored at ``point``."""
-    p = n.pointer_field(data, n.D_XPOS) + 24 * body
-    r = n.pointer_field(data, n.D_XMAT) + 72 * body
-    x, y, z = n.load(point), n.load(point + 8), n.load(point + 16)
-    return (
-        n.load(p) + n.load(r) * x + n.load(r + 8) * y + n.load(r + 16) * z,
-        n.load(p + 8) + n.load(r + 24) * x + n.load(r + 32) * y + n.load(r + 40) * z,
-        n.load(p + 16) + n.load(r + 48) * x + n.load(r + 56) * y + n.load(r + 64) * z,
-    )
-
-
-@compiled
-def dot(address, x, y, z):
-    """Return the scalar product of the vector at ``address`` with (x, y, z)."""
-    return n.load(address) * x + n.load(address + 8) * y + n.load(address + 16) * z
-
-
-@compiled
-def put(address, x, y, z):
-    """Write a vector."""
-    n.store(address, x)
-    n.store(address + 8, y)
-    n.store(address + 16, z)
-
-
-@compiled
-def surface_velocity(contact, sign):
-    """Return the velocity [m/s] of the counter-surface's belt relative to the body's, in world axes."""
-    f = n.field(contact, n.C_FRAME)
-    v = n.field(contact, n.C_SURFACEVEL)
-    s1, s2 = sign * n.load(v), sign * n.load(v + 8)
-    return (
-        s1 * n.load(f + 24) + s2 * n.load(f + 48),
-        s1 * n.load(f + 32) + s2 * n.load(f + 56),
-        s1 * n.load(f + 40) + s2 * n.load(f + 64),
-    )
-
-
-@compiled
-def relative_velocity(model, data, contact, sign, body, surface):
-    """Return the velocity [m/s] of the counter-surface relative to the body at the contact point, in world axes."""
-    x, y, z = point_of(contact)
-    bx, by, bz = velocity(model, data, body, x, y, z)
-    cx, cy, cz = velocity(model, data, surface, x, y, z)
-    sx, sy, sz = surface_velocity(contact, sign)
-    return cx - bx + sx, cy - by + sy, cz - bz + sz
-
-
-@compiled
-def point_of(contact):
-    """Return the contact point (world)."""
-    p = n.field(contact, n.C_POS)
-    return n.load(p), n.load(p + 8), n.load(p + 16)
-
-
-@compiled
-def bodies_of(model, contact, sign):
-    """Return the ids of the body and of the counter-surface's body."""
-    a = body_of(model, n.int_field(contact, n.C_GEOM))
-    b = body_of(model, n.load_int(n.field(contact, n.C_GEOM) + 4))
-    return (a, b) if sign > 0 else (b, a)
-
-
-@compiled
-def set_axes(data, contact, current, old, body, surface, step):
-    """Write the tangent frame: the old one carried along with the contact, or a new one along the surface velocity."""
-    f = n.field(contact, n.C_FRAME)
-    nx, ny, nz = n.load(f), n.load(f + 8), n.load(f + 16)
-    if old != 0:
-        e = old + 8 * s.AXIS_1
-        x, y, z = n.load(e), n.load(e + 8), n.load(e + 16)
-        turn = 0.5 * step * (spin(data, body, nx, ny, nz) + spin(data, surface, nx, ny, nz))
-        x, y, z = x + turn * (ny * z - nz * y), y + turn * (nz * x - nx * z), z + turn * (nx * y - ny * x)
-    else:
-        x, y, z = surface_velocity(contact, 1.0)
-        if x * x + y * y + z * z == 0.0:
-            x, y, z = (1.0, 0.0, 0.0) if abs(nx) < 0.9 else (0.0, 1.0, 0.0)
-        elif x + y + z < 0.0:
-            x, y, z = -x, -y, -z
-    along = x * nx + y * ny + z * nz
-    x, y, z = x - along * nx, y - along * ny, z - along * nz
-    size = math.sqrt(x * x + y * y + z * z)
-    if not size > 0.0:
-        x, y, z, size = n.load(f + 24), n.load(f + 32), n.load(f + 40), 1.0
-    x, y, z = x / size, y / size, z / size
-    put(current + 8 * s.AXIS_1, x, y, z)
-    put(current + 8 * s.AXIS_2, ny * z - nz * y, nz * x - nx * z, nx * y - ny * x)
-
-
-@compiled
-def displacement(data, address, body, surface, t, vx, vy):
-    """Return the displacement [m] since the slot's time: of the two bodies' contact points, plus surface velocity.
-
-    Where that is far from what the velocities allow, a body was put elsewhere or contacts changed places; then the
-    mean velocity counts.
-    """
-    e1, e2 = address + 8 * s.AXIS_1, address + 8 * s.AXIS_2
-    bx, by, bz = to_world(data, body, address + 8 * s.ON_BODY)
-    cx, cy, cz = to_world(data, surface, address + 8 * s.ON_SURFACE)
-    step = t - n.load(address + 8 * s.SINCE)
-    dx = dot(e1, cx - bx, cy - by, cz - bz) + step * n.load(address + 8 * s.SX)
-    dy = dot(e2, cx - bx, cy - by, cz - bz) + step * n.load(address + 8 * s.SY)
-    wx, wy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
-    mx, my = 0.5 * step * (vx + wx), 0.5 * step * (vy + wy)
-    allowed = JUMP * step * (math.hypot(vx, vy) + math.hypot(wx, wy)) + 1.0e-6
-    if math.hypot(dx - mx, dy - my) > allowed:
-        return mx, my
-    return dx, dy
 
 
 @compiled
@@ -378,39 +194,6 @@ def push(model, data, state, body, surface, target):
         put(g, -n.load(f), -n.load(f + 8), -n.load(f + 16))
         put(k, -n.load(m), -n.load(m + 8), -n.load(m + 16))
         n.mj_applyFT(model, data, g, k, p, np.int32(surface), target)
-
-
-@compiled
-def coefficients(state, t, position, events):
-    """Return (mu_s, mu_k) of the instance's path; along time, once for all its contacts."""
-    kept = state + 8 * s.COEFFICIENTS
-    if n.load(state + 8 * (s.DESCRIPTOR + 1)) != TIME:
-        return coefficients_anew(state, t, position, events)
-    if n.load(kept) != t:
-        mu_s, mu_k = coefficients_anew(state, t, position, events)
-        put(kept, t, mu_s, mu_k)
-    return n.load(kept + 8), n.load(kept + 16)
-
-
-@compiled
-def coefficients_anew(state, t, position, events):
-    """Return (mu_s, mu_k) of the instance's path, evaluated now."""
-    return evaluate(
-        n.vector(state + 8 * s.DESCRIPTOR, int(n.load(state + 8 * s.N_DESCRIPTOR))),
-        n.vector(state + 8 * s.CURSOR, CURSOR_SIZE),
-        int(n.load(state + 8 * s.SEED)),
-        int(n.load(state + 8 * s.SAMPLE)),
-        int(n.load(state + 8 * s.CONTACT)),
-        t,
-        position,
-        events,
-    )
-
-
-@compiled
-def half_step(model):
-    """Return half the engine's step [s]."""
-    return 0.5 * n.number_field(model, n.M_TIMESTEP)
 
 
 @compiled
@@ -576,148 +359,6 @@ def fill(model, data, state, contact, sign, t, address, old):
     if needed or (old == 0 and n.load(state + 8 * s.MODE) != s.EXPLICIT):
         n.store(address + 8 * s.FELT, tangent_mass(model, data, state, contact, address, body, surface))
     n.store(address + 8 * s.MASS, n.load(address + 8 * s.FELT) if n.load(state + 8 * s.NEEDS_MASS) != 0.0 else 0.0)
-
-
-@compiled
-def commit_slot(state, address, t, total, count):
-    """Run the law's commit (init for a new contact) on a current slot.
-
-    Contacts of one pair share the mass that they feel, in proportion to their normal forces.
-    """
-    normal_force = n.load(address + 8 * s.NORMAL)
-    share = normal_force / total if total > 0.0 else 1.0 / count
-    n.store(address + 8 * s.MASS, n.load(address + 8 * s.MASS) * share)
-    row = n.law_row(int(n.load(state + 8 * s.LAW)))
-    if row == 0:
-        return
-    ux, uy = n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
-    vx, vy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
-    modes = n.load(state + 8 * s.HAS_MODE) != 0.0
-    if n.load(address + 8 * s.LIVE) == 0.0:
-        changed = switch(state, address, n.load_word(row + n.INIT), t, ux, uy, vx, vy)
-        n.store(address + 8 * s.EVENTS, 0.0)
-    else:
-        if modes and n.load(address + 8 * s.IMPLICIT_STEP) == 0.0:
-            switch_within(state, address, row, t)
-        changed = switch(state, address, n.load_word(row + n.COMMIT), t, ux, uy, vx, vy)
-    mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
-    n.store(address + 8 * s.MU_S, mu_s)
-    n.store(address + 8 * s.MU_K, mu_k)
-    n.store(address + 8 * s.LIVE, 1.0)
-    if modes and changed:
-        guards_at(state, address, row, t, ux, uy, vx, vy)
-        keep_guards(state, address)
-
-
-@compiled
-def keep_guards(state, address):
-    """Copy the guards from the work space to the slot, for the search in the time that follows."""
-    for j in range(GUARDS):
-        n.store(address + 8 * (s.START_GUARDS + j), n.load(state + 8 * (s.OUTPUT + j)))
-
-
-@compiled
-def guards_at(state, address, row, t, ux, uy, vx, vy):
-    """Write the law's guards at this instant to the work space."""
-    mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
-    call(state, address, n.load_word(row + n.GUARD), t, ux, uy, vx, vy, mu_s, mu_k)
-
-
-@compiled
-def switch(state, address, function, t, ux, uy, vx, vy):
-    """Give a slot the law state that ``function`` (init or commit) returns; return whether it is another one.
-
-    Stick phases that begin are counted.
-    """
-    changed = n.load(address + 8 * s.LIVE) == 0.0
-    mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
-    call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k)
-    for j in range(MAX_STATE):
-        new = n.load(state + 8 * (s.OUTPUT + j))
-        changed = changed or n.load(address + 8 * (s.STATE + j)) != new
-        n.store(address + 8 * (s.STATE + j), new)
-    was = n.load(address + 8 * s.STICK)
-    if n.load(state + 8 * s.HAS_MODE) != 0.0:
-        stuck = 1.0 if n.load(address + 8 * s.STATE) == 0.0 else 0.0
-    else:
-        stuck = 1.0 if math.hypot(vx, vy) <= n.load(state + 8 * s.STICK_SPEED) else 0.0
-    n.store(address + 8 * s.STICK, stuck)
-    if stuck > was:
-        n.store(address + 8 * s.EVENTS, n.load(address + 8 * s.EVENTS) + 1.0)
-    return changed
-
-
-@compiled
-def switch_within(state, address, row, t):
-    """Let a law with modes switch where it should have within the step that has just ended.
-
-    Where one of the law's guards has changed sign, ``commit`` runs with the state there, by the cubic through both
-    ends of the step: what the law remembers of a switch then does not depend on where the step ended.
-    """
-    before = n.load(address + 8 * s.BEFORE)
-    start = 0.0
-    for _ in range(SWITCHES):
-        if not guard_crossed(state, address, row, t, 1.0):
-            keep_guards(state, address)
-            return
-        low, end = start, 1.0
-        for _ in range(BISECTIONS):
-            middle = 0.5 * (low + end)
-            if guard_crossed(state, address, row, t, middle):
-                end = middle
-            else:
-                low = middle
-        ux, uy, vx, vy = between(address, t, end)
-        now = before + end * (t - before)
-        switch(state, address, n.load_word(row + n.COMMIT), now, ux, uy, vx, vy)
-        guards_at(state, address, row, now, ux, uy, vx, vy)
-        keep_guards(state, address)
-        start = end
-
-
-@compiled
-def between(address, t, part):
-    """Return displacement [m] and velocity [m/s] at a part of the step that ends at ``t``: the cubic through its ends."""
-    b = address + 8 * s.BEFORE
-    h = t - n.load(b)
-    ux, uy, vx, vy = n.load(b + 8), n.load(b + 16), n.load(b + 24), n.load(b + 32)
-    dx, dy = n.load(address + 8 * s.UX) - ux, n.load(address + 8 * s.UY) - uy
-    wx, wy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
-    p, q = part, 1.0 - part
-    end, here, there = p * p * (3.0 - 2.0 * p), p * q * q * h, -p * p * q * h
-    rise, early, late = 6.0 * p * q / h, q * (1.0 - 3.0 * p), p * (3.0 * p - 2.0)
-    return (
-        ux + end * dx + here * vx + there * wx,
-        uy + end * dy + here * vy + there * wy,
-        rise * dx + early * vx + late * wx,
-        rise * dy + early * vy + late * wy,
-    )
-
-
-@compiled
-def guard_crossed(state, address, row, t, part):
-    """Return whether a guard that was positive at the start of the search is not positive at a part of the step."""
-    if part == 1.0:
-        ux, uy = n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
-        guards_at(state, address, row, t, ux, uy, n.load(address + 8 * s.VX), n.load(address + 8 * s.VY))
-    else:
-        ux, uy, vx, vy = between(address, t, part)
-        before = n.load(address + 8 * s.BEFORE)
-        guards_at(state, address, row, before + part * (t - before), ux, uy, vx, vy)
-    for j in range(GUARDS):
-        if n.load(address + 8 * (s.START_GUARDS + j)) > 0.0 and n.load(state + 8 * (s.OUTPUT + j)) <= 0.0:
-            return True
-    return False
-
-
-@compiled
-def call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k):
-    """Call one of the law's functions on a slot; the result goes to the work space."""
-    call_law(
-        function, t, ux, uy, vx, vy, n.load(address + 8 * s.NORMAL), mu_s, mu_k, n.load(address + 8 * s.MASS),
-        n.load(address + 8 * s.HOLD_X), n.load(address + 8 * s.HOLD_Y),
-        address + 8 * s.STATE, state + 8 * s.PARAMETERS, state + 8 * s.OUTPUT,
-    )  # fmt: skip
 
 
 @compiled

@@ -28,7 +28,9 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.laws.abi import MAX_STATE, call_law
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.contact import JUMP, call, coefficients, commit_slot, half_step, slot, switch
+from stochfric_mb.mujoco.contact import slot
+from stochfric_mb.mujoco.kinematics import JUMP
+from stochfric_mb.mujoco.switching import call, coefficients, commit_slot, half_step, switch
 
 KIND, OBJECT, LOAD = s.GEOM_BODY, s.GEOM_SURFACE, s.POINT
 """Header places with another meaning here: 0 joint or 1 tendon, its number, and the load [N or N m]."""

@@ -25,22 +25,9 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.laws.abi import MAX_STATE
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.contact import (
-    add_rows,
-    bodies_of,
-    coefficients,
-    contact_address,
-    displacement,
-    guards_at,
-    half_step,
-    keep_guards,
-    point_of,
-    put,
-    side,
-    slot_at_stage,
-    switch_within,
-    warm_row,
-)
+from stochfric_mb.mujoco.contact import add_rows, slot_at_stage, warm_row
+from stochfric_mb.mujoco.kinematics import bodies_of, contact_address, displacement, point_of, put, side
+from stochfric_mb.mujoco.switching import coefficients, guards_at, half_step, keep_guards, switch_within
 from stochfric_mb.mujoco.together import MU, NORMAL, SURFACE, U0, V0, VX, VY, hold, settle, share
 
 OUTER, ROUNDS = 6, 4

@@ -14,7 +14,8 @@ import numpy as np
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.contact import contact_address, side, slot
+from stochfric_mb.mujoco.contact import slot
+from stochfric_mb.mujoco.kinematics import contact_address, side
 
 COLUMNS = 7
 """Position, velocity, friction force along x, normal force, mu_s, mu_k, stick."""

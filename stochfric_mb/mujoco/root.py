@@ -19,7 +19,7 @@ import math
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.contact import call
+from stochfric_mb.mujoco.switching import call
 
 PRECISION = 1.0e-11
 """Error of a force relative to mu_s N at which the search ends."""

@@ -22,8 +22,8 @@ import numpy as np
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.contact import call
 from stochfric_mb.mujoco.root import local_force
+from stochfric_mb.mujoco.switching import call
 
 SWEEPS, NEWTON_STEPS = 20, 8
 """Most sweeps over the contacts, and most steps of Newton's method after each."""
