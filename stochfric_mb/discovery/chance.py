@@ -68,16 +68,10 @@ def kicks(study: Study) -> Chance | None:
 
 def chance(study: Study, scatter: Randomness, solution: Solution, named: Sequence[str]) -> Chance | Where | None:
     """Return random friction, or where a scatter of no known kind lives, or None."""
-    strongest = max(scatter.static, scatter.kinetic)
-    if strongest <= CERTAIN and scatter.wander <= NAME:
-        return None
-    remaining = np.exp(2.0 * solution.scatter[:2]).sum() / np.exp(2.0 * study.solution.scatter[:2]).sum()
-    if named and remaining < REMAINING_SCATTER:
-        return None
     load = float(np.median(study.pool.normal_force))
     sigma_s, sigma_k, _ = np.exp(solution.scatter) / load
     mu_s, mu_k = study.solution.coefficients[:2]
-    if named and sigma_s < LEAST_SHARE * mu_s and sigma_k < LEAST_SHARE * mu_s:
+    if not _scatters(study, scatter, solution, named, max(sigma_s, sigma_k) / mu_s):
         return None
     if scatter.two_levels > NAME:
         return Where("scatter", "friction switches at random between two levels")
@@ -92,8 +86,17 @@ def chance(study: Study, scatter: Randomness, solution: Solution, named: Sequenc
         return Where("scatter, time", "friction varies from slip to slip with a memory that no known random process has")
     if study.model.process is not None:
         return None
+    strongest = max(scatter.static, scatter.kinetic)
     within = scatter.within > CERTAIN and scatter.within > 0.05 * strongest
     values: dict[str, float | str] = {
         "process": "knots" if within else "per_event", "sigma_s": float(sigma_s), "sigma_k": float(sigma_k)
     }  # fmt: skip
     return Chance("random_coefficients", strongest, values)
+
+
+def _scatters(study: Study, scatter: Randomness, solution: Solution, named: Sequence[str], share: float) -> bool:
+    """Return whether friction scatters beyond doubt, and by more than what the form of a named effect may leave."""
+    if max(scatter.static, scatter.kinetic) <= CERTAIN and scatter.wander <= NAME:
+        return False
+    remaining = np.exp(2.0 * solution.scatter[:2]).sum() / np.exp(2.0 * study.solution.scatter[:2]).sum()
+    return not named or (remaining >= REMAINING_SCATTER and share >= LEAST_SHARE)

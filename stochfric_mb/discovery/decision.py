@@ -20,7 +20,7 @@ from stochfric_mb.discovery.refit import refit
 from stochfric_mb.discovery.regression import Regression, Solution, Terms, believed
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.screening import Candidate, screen
-from stochfric_mb.discovery.study import Progress, Study
+from stochfric_mb.discovery.study import EVERYTHING, Channels, Progress, Study
 from stochfric_mb.discovery.where import where_of
 from stochfric_mb.effects import make_effect
 
@@ -72,11 +72,11 @@ class Decision:
     """Numbers behind it."""
 
 
-def decide(study: Study, *, progress: Progress = lambda _: None) -> Decision:
+def decide(study: Study, *, channels: Channels = EVERYTHING, progress: Progress = lambda _: None) -> Decision:
     """Return what the fit runs say."""
     details: dict[str, object] = {}
     model = _levels(study.model, study)
-    blamed = kinematics(study, details)
+    blamed = kinematics(study, details) if channels.kinematic else []
     if isinstance(blamed, Where):
         return Decision("unknown", (), blamed, model, (), None, details)
     named: list[Named] = []
@@ -87,7 +87,7 @@ def decide(study: Study, *, progress: Progress = lambda _: None) -> Decision:
         # a clipped record says too little of the forces
         return Decision("effect", tuple(named), None, model, (), None, details)
     progress("screening")
-    return _Search(study, model, named, details, progress).run()
+    return _Search(study, model, named, details, progress, channels.confirmation).run()
 
 
 def _levels(model: Model, study: Study) -> Model:
@@ -99,8 +99,17 @@ def _levels(model: Model, study: Study) -> Model:
 class _Search:
     """The search for effects in the forces of the slips, one after the other."""
 
-    def __init__(self, study: Study, model: Model, named: list[Named], details: dict[str, object], progress: Progress) -> None:
+    def __init__(
+        self,
+        study: Study,
+        model: Model,
+        named: list[Named],
+        details: dict[str, object],
+        progress: Progress,
+        confirmation: bool,
+    ) -> None:
         self.study, self.model, self.named, self.details, self.progress = study, model, named, details, progress
+        self.confirmation = confirmation
         self.pool, self.regression = study.pool, study.regression
         self.terms: Terms = study.terms
         self.solution: Solution = study.solution
@@ -112,7 +121,7 @@ class _Search:
 
     def run(self) -> Decision:
         """Return the decision."""
-        cases = cases_of(self.pool, self.model)
+        cases = cases_of(self.pool, self.model) if self.confirmation else []
         confirmed = confirm(cases, self.model, self.study.uncertainty) if cases else None
         first = 0.0
         for round_ in range(MOST_ROUNDS):

@@ -205,7 +205,7 @@ def _natural_frequency(pool: Pool) -> float:
 
 
 def _oscillator(pool: Pool, frequency: float) -> Array:
-    """Return w^2 q at the nodes, where q'' + 0.02 w q' + w^2 q = -x'' from rest at the break-away [m/s^2], shape (n, N_NODES)."""
+    """Return w^2 q at the nodes [m/s^2], shape (n, N_NODES): q'' + 0.02 w q' + w^2 q = -x'' from rest at the break-away."""
     w = 2.0 * np.pi * frequency
     tau = pool.node_time - pool.onset_time[:, None]
     count = 120

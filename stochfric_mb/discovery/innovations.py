@@ -43,7 +43,7 @@ def left_over(pool: Pool, model: Model) -> Pool:
 
 
 def _predicted(slips: Slips, model: Model, dwell: Array, count: int | None = None) -> Array:
-    """Return the features of the slips as the model predicts them [N], shape (count, N_FEATURES); nan where it does not slip."""
+    """Return the features of the slips as the model predicts them [N], shape (count, N_FEATURES); nan where none slips."""
     rows: list[Array] = []
     previous = np.r_[np.median(slips.restick_position), slips.restick_position[:-1]]
     belt = slips.record.mechanism.belt_velocity

@@ -8,8 +8,10 @@ import numpy as np
 
 from stochfric_mb.discovery.hypotheses import step_times, steps
 from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.record import OUTLIER_DEVIATIONS
 from stochfric_mb.discovery.refit import refit
 from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.sticking import Sticking
 from stochfric_mb.discovery.study import Study
 from stochfric_mb.effects import make_effect
 from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
@@ -20,6 +22,16 @@ LEVEL_VISITS = 0.5
 """Share of the visits to the ceiling that must be level for the sensor to be called clipped [-]."""
 YIELDS = 0.5
 """Share of the evidence for creep that a yielding or ringing contact must reach to be named in its place [-]."""
+CREEP = {
+    "creep_before": ("stick, before the break-away", "the box leaves the belt's motion before it breaks away"),
+    "creep_after": ("stick, after the re-stick", "the box does not follow the belt at once when it sticks again"),
+    "yielding": ("stick", "the box lags behind the belt more and more while it sticks"),
+}
+"""Ways in which a stuck box may creep -> axis and sentence."""
+ELSE = ("stick", "in stick the box does not follow the belt, in a way that no known effect explains")
+"""The same where none of them explains enough."""
+LEAST_OUTLIERS = 5.0e-5
+"""Share of outliers from which on they are named [-]."""
 LINE = 60.0
 """Strength of a line in the noise at which it is no chance [-]; the largest of 64 without a line stays below 10."""
 
@@ -81,27 +93,59 @@ def _ripple_phases(study: Study, frequency: float) -> list[tuple[str, float]]:
     return found
 
 
-def kinematics(study: Study, details: dict[str, object]) -> list[tuple[str, float, dict[str, float]]] | Where:
+Blamed = list[tuple[str, float, dict[str, float]]]
+"""Effects with their scores and parameters."""
+
+
+def kinematics(study: Study, details: dict[str, object]) -> Blamed | Where:
     """Return the effects that the stick phases and the sensor show, or where they disagree with no known effect."""
-    found: list[tuple[str, float, dict[str, float]]] = []
     details["ceiling"] = study.ceiling[0]
     if study.ceiling[0] > LEVEL_VISITS:
         return [("sensor_clipping", 100.0 * float(study.ceiling[0]), {"high": float(study.ceiling[1])})]
-    found += _delays(study, details)
-    # what only stands out of a smoothed sensor's samples is no outlier
+    found = _delays(study, details) + _outliers(study, details)
+    in_stick = _in_stick(study, details)
+    return in_stick if isinstance(in_stick, Where) else found + in_stick
+
+
+def _outliers(study: Study, details: dict[str, object]) -> Blamed:
+    """Return outliers; what only stands out of a smoothed sensor's samples is none."""
     noise = max(s.noise.deviation for s in study.pool.slips)
     sizes = np.concatenate([np.abs(r.raw - r.position)[r.outlier] for r in study.records])
-    n = sum(len(r.time) for r in study.records)
-    outliers = float(np.count_nonzero(sizes > 5.5 * noise)) / n
-    details["outlier_share"] = outliers
-    if outliers > 5.0e-5 and outliers * n >= 5:
-        found.append(
-            ("sensor_outliers", float(outliers * n * 10.0), {"fraction": outliers, "size": float(np.sqrt(np.mean(sizes**2)))})
-        )
+    count = int(np.count_nonzero(sizes > OUTLIER_DEVIATIONS * noise))
+    share = count / sum(len(r.time) for r in study.records)
+    details["outlier_share"] = share
+    if share < LEAST_OUTLIERS or count < 5:
+        return []
+    return [("sensor_outliers", 10.0 * count, {"fraction": share, "size": float(np.sqrt(np.mean(sizes**2)))})]
+
+
+def _in_stick(study: Study, details: dict[str, object]) -> Blamed | Where:
+    """Return what the stick phases show; steps and drifts of the sensor are left to the forces, where their size shows."""
     sticking = study.sticking
     if sticking is None:
-        return found
+        return []
     details["sticking"] = dict(sticking.scores) | {"excess": sticking.excess, "excess_ratio": sticking.excess_ratio}
+    best, score = _winner(study, sticking)
+    if score <= NAME:
+        forced = any(r.mechanism.excitation_amplitude for r in study.records)
+        if sticking.scores["sensor_step"] > max(NAME, 0.2 * sticking.excess) and not forced:
+            details["single_moments"] = sticking.scores["sensor_step"]
+        return _line(study, details) or []
+    if best in ("sensor_drift", "sensor_step"):
+        return []
+    if best in CREEP or score < 0.75 * sticking.excess - 60.0:
+        return Where(*CREEP.get(best, ELSE))
+    settings = sticking.settings[best]
+    if best == "belt_speed_ripple":
+        return [(best, score, {"amplitude": 0.01, "frequency": settings["frequency"]})]
+    box = study.records[0].mechanism
+    stiffness = max(settings["angular_frequency"] ** 2 * box.mass - box.stiffness, 0.1 * box.stiffness)
+    limit = float(study.solution.coefficients[0]) * box.normal_force / stiffness
+    return [(best, score, {"elastic_limit": limit, "damping_ratio": settings["damping_ratio"]})]
+
+
+def _winner(study: Study, sticking: Sticking) -> tuple[str, float]:
+    """Return what explains the stick phases best, and its score."""
     scores = dict(sticking.scores)
     if not _step_stays(study, sticking.settings["sensor_step"]):
         scores["sensor_step"] = -np.inf
@@ -109,36 +153,11 @@ def kinematics(study: Study, details: dict[str, object]) -> list[tuple[str, floa
         # a stuck box that moves with the known force: the contact yields
         scores["presliding_compliance"] = max(scores["presliding_compliance"], scores.pop("belt_speed_ripple"))
     best = max(scores, key=lambda k: scores[k])
-    score = scores[best]
-    if score <= NAME:
-        hum = _line(study, details)
-        forced = any(r.mechanism.excitation_amplitude for r in study.records)
-        if sticking.scores["sensor_step"] > max(NAME, 0.2 * sticking.excess) and not forced:
-            details["single_moments"] = sticking.scores["sensor_step"]
-        return hum if hum is not None else found
-    if best in ("creep_before", "creep_after", "yielding"):
-        gradual = max(sticking.scores["yielding"], sticking.scores["presliding_compliance"])
-        if gradual > YIELDS * score:
-            best, score = "presliding_compliance", max(score, 0.0) + max(sticking.scores["presliding_compliance"], 0.0)
-    if best == "creep_before":
-        return Where("stick, before the break-away", "the box leaves the belt's motion before it breaks away")
-    if best == "creep_after":
-        return Where("stick, after the re-stick", "the box does not follow the belt at once when it sticks again")
-    if best == "sensor_drift":
-        # a drift of the sensor, like a step, is named by the forces
-        return found
-    if score < 0.75 * sticking.excess - 60.0:
-        return Where("stick", "in stick the box does not follow the belt, in a way that no known effect explains")
-    settings = sticking.settings[best]
-    if best == "belt_speed_ripple":
-        found.append((best, score, {"amplitude": 0.01, "frequency": settings["frequency"]}))
-    elif best == "presliding_compliance":
-        box = study.records[0].mechanism
-        stiffness = max(settings["angular_frequency"] ** 2 * box.mass - box.stiffness, 0.1 * box.stiffness)
-        limit = float(study.solution.coefficients[0]) * box.normal_force / stiffness
-        found.append((best, score, {"elastic_limit": limit, "damping_ratio": settings["damping_ratio"]}))
-    # a step of the sensor is named by the forces, where its size shows
-    return found
+    if best in CREEP:
+        rings = scores["presliding_compliance"]
+        if max(scores["yielding"], rings) > YIELDS * scores[best]:
+            return "presliding_compliance", scores[best] + max(rings, 0.0)
+    return best, scores[best]
 
 
 def _driven(study: Study, frequency: float) -> bool:

@@ -123,9 +123,8 @@ def _two_levels(regression: Regression, rest: Array, solution: Solution) -> floa
     pool = regression.pool
     best = -np.inf
     for column in (0, 1):
-        values = np.concatenate([
-            (lambda v: v - np.median(v))(rest[(pool.run == r) & pool.kept, column]) for r in range(pool.n_runs)
-        ])  # fmt: skip
+        parts = [rest[(pool.run == r) & pool.kept, column] for r in range(pool.n_runs)]
+        values = np.concatenate([p - np.median(p) for p in parts if len(p)])
         n = len(values)
         if n < 20:
             continue

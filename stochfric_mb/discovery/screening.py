@@ -86,10 +86,11 @@ def screen(
         wider = terms.plus(hypothesis.columns)
         if i < REFITTED:
             fitted = regression.fit(wider, solution.scatter)
-            score = 2.0 * (solution.cost - fitted.cost) - penalty
+            final = 2.0 * (solution.cost - fitted.cost) - penalty
         else:
             fitted = regression.solve(wider, solution.scatter)
-        found.append(Candidate(kind, axis, score, hypothesis, fitted))
+            final = score
+        found.append(Candidate(kind, axis, final, hypothesis, fitted))
     return sorted((c for c in found if _possible(c, terms)), key=lambda c: -c.score)
 
 

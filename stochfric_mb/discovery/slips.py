@@ -11,6 +11,7 @@ where two integrations by parts leave the position alone under the integral and,
 from __future__ import annotations
 
 import dataclasses
+import itertools
 from collections.abc import Iterator
 
 import numpy as np
@@ -168,7 +169,7 @@ def _quiet(record: Record, rough: list[tuple[int, int]]) -> list[Array]:
     """Return the stick phases between rough slips less their lines [m], sample by sample."""
     margin = record.samples(0.8)
     phases: list[Array] = []
-    for (_, restick), (onset, _) in zip(rough[:-1], rough[1:], strict=True):
+    for (_, restick), (onset, _) in itertools.pairwise(rough):
         position = record.position[restick + margin : onset - margin]
         if len(position) > 40:
             place = np.linspace(-1.0, 1.0, len(position))

@@ -21,7 +21,7 @@ class Sticking:
     """What the stick phases tell; scores are falls of chi^2 less what chance and choice give."""
 
     scores: dict[str, float]
-    """Score of: belt_speed_ripple, presliding_compliance, sensor_step, sensor_clipping, creep_before, creep_after, yielding, sensor_drift."""
+    """Score of belt_speed_ripple, presliding_compliance, sensor_step, sensor_drift, creep_before, creep_after, yielding."""
     settings: dict[str, dict[str, float]]
     """Parameters at the best score."""
     belt_velocity_error: Array

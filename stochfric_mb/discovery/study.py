@@ -27,6 +27,20 @@ Progress = Callable[[str], None]
 
 
 @dataclasses.dataclass(frozen=True)
+class Channels:
+    """Which parts of the method are used; all of them, but for a study of what each is worth."""
+
+    kinematic: bool = True
+    """Whether the stick phases and the sensor are looked at by themselves first."""
+    confirmation: bool = True
+    """Whether candidates are confirmed by simulating them, and names must explain the runs."""
+
+
+EVERYTHING = Channels()
+"""The whole method."""
+
+
+@dataclasses.dataclass(frozen=True)
 class Study:
     """Everything measured from the fit runs, before a decision."""
 

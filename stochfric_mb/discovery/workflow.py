@@ -14,7 +14,7 @@ from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.refit import Fit, refit, thinned
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.discovery.scatter import matched
-from stochfric_mb.discovery.study import Progress, Study, slips_of_run, study
+from stochfric_mb.discovery.study import EVERYTHING, Channels, Progress, Study, slips_of_run, study
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
 
@@ -51,11 +51,12 @@ class Outcome:
     """The held-out runs."""
 
 
-def discover_belt_box(dataset: Dataset, *, progress: Progress = lambda _: None) -> Outcome:
+def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, progress: Progress = lambda _: None) -> Outcome:
     """Return what a data set of belt-box runs says about its model.
 
     Args:
         dataset: the runs.
+        channels: parts of the method to use.
         progress: called with the name of each stage as it begins.
 
     Raises:
@@ -64,14 +65,18 @@ def discover_belt_box(dataset: Dataset, *, progress: Progress = lambda _: None) 
     found = study(dataset, progress=progress)
     if found is None:
         return _too_few(dataset)
-    decision = decide(found, progress=progress)
+    decision = decide(found, channels=channels, progress=progress)
     progress("recalibration")
     believed = found.model
     recalibrated = _fitted(believed, found)
     progress("refit")
     fit = _augmented(decision, found, recalibrated)
     augmented = fit.model if fit is not None else recalibrated.model
-    if fit is not None and (poor := unexplained(found, decision, recalibrated.model, augmented)) is not None:
+    if (
+        fit is not None
+        and channels.confirmation
+        and (poor := unexplained(found, decision, recalibrated.model, augmented)) is not None
+    ):
         decision, fit, augmented = poor, None, recalibrated.model
     progress("held-out runs")
     runs = held_out([s for s in (slips_of_run(r, dataset) for r in dataset.test) if len(s) >= 2], phased=phased(augmented))
