@@ -100,12 +100,13 @@ def summary(verdicts: list[Verdict]) -> dict[str, dict[str, Any]]:
     groups = {"one": [v for v in verdicts if not v.several_points], "several": [v for v in verdicts if v.several_points]}
     rows: dict[str, dict[str, Any]] = {}
     for group, members in groups.items():
-        for row, (value, n) in _rows(members).items():
+        for row, (value, n) in shares(members).items():
             rows.setdefault(row, {})[group] = {"value": value, "n": n}
     return rows
 
 
-def _rows(members: list[Verdict]) -> dict[str, tuple[float | None, int]]:
+def shares(members: list[Verdict]) -> dict[str, tuple[float | None, int]]:
+    """Rows of TARGETS plus what stands beside them, over all the verdicts: value (None if n is 0) and n."""
     counted = [v for v in members if v.counted]
     effects = [v for v in counted if v.kind not in (NONE, UNKNOWN)]
     unknowns = [v for v in counted if v.kind == UNKNOWN]
@@ -162,7 +163,7 @@ def as_markdown(verdicts: list[Verdict], title: str) -> str:
     for row, by_group in summary(verdicts).items():
         must = TARGETS.get(row, (None, None))
         cells = [
-            _cell(by_group[group]) + f" | {_number(target)}" for group, target in zip(("one", "several"), must, strict=True)
+            cell(by_group[group]) + f" | {_number(target)}" for group, target in zip(("one", "several"), must, strict=True)
         ]
         lines.append(f"| {row} | " + " | ".join(cells) + " |")
     lines += ["", "## Answers by true kind (strength 0.5 and above)", "", "| truth | answers |", "|---|---|"]
@@ -176,7 +177,8 @@ def as_markdown(verdicts: list[Verdict], title: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _cell(entry: dict[str, Any]) -> str:
+def cell(entry: dict[str, Any]) -> str:
+    """A `value` and its `n`, as a table shows them."""
     return "-" if entry["value"] is None else f"{_number(entry['value'])} (n = {entry['n']})"
 
 

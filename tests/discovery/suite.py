@@ -43,6 +43,18 @@ def run_case(case: Case, out: Path, discover: Discover, limit: float, *, keep: b
     """Generate, discover, and store what came; a failure is stored as an answer, too."""
     dataset, answer = out / "datasets" / case.name, out / "answers" / case.name
     truth = write(case, dataset, out / "truth" / f"{case.name}.json")
+    stored = answered(truth, dataset, answer, discover, limit)
+    file = _file(case, out)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(json.dumps(stored, indent=1))
+    if not keep:
+        shutil.rmtree(dataset)
+        shutil.rmtree(answer, ignore_errors=True)
+    return stored
+
+
+def answered(truth: dict[str, object], dataset: Path, answer: Path, discover: Discover, limit: float) -> dict[str, Any]:
+    """Discover in a dataset that is there; what is stored of it: truth, result, error and seconds."""
     shutil.rmtree(answer, ignore_errors=True)  # left by a run that was cut off
     result, error = None, None
     begin = time.perf_counter()
@@ -52,14 +64,7 @@ def run_case(case: Case, out: Path, discover: Discover, limit: float, *, keep: b
         result = json.loads((answer / "result.json").read_text())
     except Exception as failure:  # whatever goes wrong in one case must not end the suite
         error = f"{type(failure).__name__}: {failure}"
-    stored = {"truth": truth, "result": result, "error": error, "seconds": time.perf_counter() - begin}
-    file = _file(case, out)
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(json.dumps(stored, indent=1))
-    if not keep:
-        shutil.rmtree(dataset)
-        shutil.rmtree(answer, ignore_errors=True)
-    return stored
+    return {"truth": truth, "result": result, "error": error, "seconds": time.perf_counter() - begin}
 
 
 def run(
@@ -82,7 +87,7 @@ def run(
             waiting = {pool.submit(run_case, case, out, discover, limit, keep=keep): case for case in open_cases}
             for i, done in enumerate(as_completed(waiting)):
                 _say(i, len(open_cases), waiting[done], done.result())
-    verdicts = [_judge_stored(json.loads(_file(case, out).read_text())) for case in cases]
+    verdicts = [judged(json.loads(_file(case, out).read_text())) for case in cases]
     out.mkdir(parents=True, exist_ok=True)
     seeds = sorted({case.seed for case in cases})
     kind = "reporting" if seeds and seeds[0] in plan.REPORTING else "tuning"
@@ -109,12 +114,13 @@ def _time_limit(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGALRM, before)
 
 
-def _judge_stored(stored: dict[str, Any]) -> judge.Verdict:
+def judged(stored: dict[str, Any]) -> judge.Verdict:
+    """The verdict on what is stored of a case."""
     return judge.judge(stored["truth"], stored["result"], stored["seconds"])
 
 
 def _say(i: int, n: int, case: Case, stored: dict[str, Any]) -> None:
-    verdict = _judge_stored(stored)
+    verdict = judged(stored)
     mark = "ok   " if verdict.top_1 else "WRONG"
     reason = f" ({stored['error']})" if stored["error"] else ""
     print(f"[{i + 1}/{n}] {mark} {case.name}: {verdict.answer} in {verdict.seconds:.1f} s{reason}", flush=True)
@@ -128,7 +134,8 @@ def _finished(file: Path, *, retry: bool) -> bool:
     return file.exists() and not (retry and json.loads(file.read_text())["error"])
 
 
-def _seeds(text: str) -> range:
+def seed_range(text: str) -> range:
+    """A..B, or one seed, as argparse reads it; all for tuning or all for reporting."""
     first, _, last = text.partition("..")
     seeds = range(int(first), int(last or first) + 1)
     if not any(all(seed in known for seed in seeds) for known in (plan.TUNING, plan.REPORTING)):
@@ -142,7 +149,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path)
     parser.add_argument("--full", action="store_true", help="all cases of the seeds; default: a sample of 24")
     parser.add_argument("--sample", type=int, help="about this many cases, spread evenly")
-    parser.add_argument("--seeds", type=_seeds, default=range(1), help="A..B of 0..99 (tuning) or 1000..1099 (reporting)")
+    parser.add_argument("--seeds", type=seed_range, default=range(1), help="A..B of 0..99 (tuning) or 1000..1099 (reporting)")
     parser.add_argument("--kind", action="append", default=[], help="only this kind or form (repeatable)")
     parser.add_argument("--design", action="append", default=[], help="only this design (repeatable)")
     parser.add_argument("--strength", action="append", type=float, default=[], help="only this strength (repeatable)")
