@@ -11,6 +11,7 @@ from stochfric_mb.discovery.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.decision import Decision, Named, decide
 from stochfric_mb.discovery.gap import HeldOut, deterministic, floor_of, gap_of, held_out, mean_score, phased, settled
 from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.power import smallest
 from stochfric_mb.discovery.refit import Fit, refit, thinned
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.discovery.scatter import matched
@@ -93,6 +94,7 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
         next_experiment=next_experiment(decision, found),
         believed=_intervals(recalibrated, found),
         notes=notes,
+        power=smallest(found) if decision.verdict == "none" else {},
         details=decision.details,
     )
     scenario = augmented_scenario(dataset, augmented)
