@@ -115,7 +115,7 @@ def knobs_of(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str]
     for name in CORRECTED:
         prior = uncertainty.get(name, 0.0)
         if prior > 0.0:
-            knobs.append(Knob(name, model.corrections.get(name, 0.0), prior, prior, max(-0.95, -6 * prior), 6 * prior))
+            knobs.append(Knob(name, model.corrections.get(name, 0.0), prior, prior, max(-0.95, -3.0 * prior), 3.0 * prior))
     for i, effect in enumerate(model.effects):
         for field in dataclasses.fields(effect):
             meta = field.metadata
