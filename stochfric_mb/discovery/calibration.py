@@ -68,6 +68,8 @@ def calibrate(slips: Slips, *, seed: int = 11) -> Calibration:
     error = features.copy()
     error[:, :2] -= forces
     design = np.c_[np.ones(len(error)), forces - (static, kinetic)]
+    fitted = np.linalg.lstsq(design, error, rcond=None)[0]
+    rest = error - design @ fitted
     kept = np.ones(len(error), dtype=bool)
     for _ in range(3):
         fitted = np.linalg.lstsq(design[kept], error[kept], rcond=None)[0]
@@ -93,7 +95,7 @@ def _simulated(slips: Slips, static: float, kinetic: float, repeat: int, generat
     start = system.march(Start(-4.0, 0.0, box.belt_velocity, stick=True), step, round(4.0 * record.rate)).end
     motion = system.march(start, step / FINER, len(record.time) * FINER)
     position = motion.position[FINER - 1 :: FINER]
-    time = start.time + step * np.arange(1, len(position) + 1)
+    time = np.asarray(start.time + step * np.arange(1, len(position) + 1), dtype=np.float64)
     simulated = make_record(record.name, time, position + slips.noise.draw(len(position), generator), box)
     found = extract(simulated, ridge=slips.ridge)
     fine = start.time + step / FINER * np.arange(1, len(motion.position) + 1)
@@ -111,6 +113,6 @@ def _simulated(slips: Slips, static: float, kinetic: float, repeat: int, generat
         at = slice(int(onset) + 2, max(int(later[0]) - 1, int(onset) + 3))
         # the sample before the break-away is on average half a step early
         late = 0.5 * step / FINER * box.stiffness * box.belt_velocity
-        features.append(np.r_[found.onset_force[i], found.moments[i]])
+        features.append(found.features[i])
         forces.append(np.array([motion.friction_force[onset] + late, np.mean(motion.friction_force[at])]))
     return np.array(features).reshape(-1, N_FEATURES), np.array(forces).reshape(-1, 2)

@@ -46,7 +46,7 @@ def kicked(study: Study) -> tuple[np.ndarray, float]:
         forces[pool.run == r] -= np.median(forces[pool.run == r], axis=0)
     spread = np.array([robust_deviation(forces[:, 0]), robust_deviation(forces[:, 1])])
     limit = np.maximum(8.0 * spread, 0.02 * float(np.median(pool.static)))
-    far = (np.abs(forces) > limit).any(axis=1)
+    far = np.asarray((np.abs(forces) > limit).any(axis=1))
     return far, float(np.median(np.abs(forces[far]).max(axis=1))) if far.any() else 0.0
 
 

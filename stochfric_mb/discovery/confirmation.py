@@ -139,7 +139,7 @@ def _case(
 ) -> Case:
     load = slips.record.mechanism.normal_force
     floor = (FLOOR * 0.5 * load * np.r_[0.2, 0.5, np.ones(N_FEATURES - 2)]) ** 2
-    whitening = np.linalg.inv(np.linalg.cholesky(covariance + np.diag(floor)))
+    whitening = np.asarray(np.linalg.inv(np.linalg.cholesky(covariance + np.diag(floor))), dtype=np.float64)
     case = Case(slips.record, onset, length, features, whitening, slips.ridge, cycle, np.zeros(N_FEATURES))
     plain = model.with_law(features[0] / load, min(features[1], 0.99 * features[0]) / load)
     plain = dataclasses.replace(plain, corrections={}, effects=(), process=None, own={})

@@ -157,7 +157,8 @@ def _kept(features: Array, run: np.ndarray, static: Array) -> np.ndarray:
         centred[mine] = features[mine] - np.median(features[mine], axis=0)
         spread[mine] = 1.48 * np.median(np.abs(centred[mine]), axis=0)
     # a scatter of 15 % of the static force is friction that varies, not an outlier
-    return ~(np.abs(centred) > np.maximum(GROSS * spread, 0.15 * static[:, None])).any(axis=1)
+    gross = (np.abs(centred) > np.maximum(GROSS * spread, 0.15 * static[:, None])).any(axis=1)
+    return np.logical_not(gross)
 
 
 def _typical(slips: Slips) -> Array:

@@ -34,15 +34,17 @@ class Randomness:
 
 def randomness(regression: Regression, terms: Terms, solution: Solution) -> Randomness:
     """Return what the scatter about a fitted model tells."""
-    ratios: list[float] = []
-    for j in range(3):
+
+    def ratio(component: int) -> float:
         without = solution.scatter.copy()
-        without[j] = LOWEST
-        ratios.append(2.0 * (regression.solve(terms, without).cost - solution.cost))
+        without[component] = LOWEST
+        return 2.0 * (regression.solve(terms, without).cost - solution.cost)
+
     rest = regression.residuals(terms, solution)[:, :2]
     correlation = _correlation(regression, rest)
-    wander = _wander(regression, rest, solution) if correlation > WORTH_A_LOOK else (0.0, 0.0, 1.0)
-    return Randomness(*ratios, correlation, *wander, _two_levels(regression, rest, solution))
+    wander, share, time = _wander(regression, rest, solution) if correlation > WORTH_A_LOOK else (0.0, 0.0, 1.0)
+    two_levels = _two_levels(regression, rest, solution)
+    return Randomness(ratio(0), ratio(1), ratio(2), correlation, wander, share, time, two_levels)
 
 
 def _correlation(regression: Regression, rest: Array) -> float:

@@ -18,8 +18,8 @@ ENTER_NOISE, LEAVE_NOISE = 8.0, 4.0
 def relative_velocity(record: Record) -> tuple[Array, float]:
     """Return the smoothed relative velocity v_b - x' [m/s], shape (n,), and the standard deviation of its noise."""
     width = max(record.samples(SMOOTHING_ANGLE) | 1, 5)
-    velocity = savgol_filter(record.position, width, 2, deriv=1, delta=1.0 / record.rate)
-    return record.mechanism.belt_velocity - velocity, record.noise * np.sqrt(12.0 / width**3) * record.rate
+    velocity = np.asarray(savgol_filter(record.position, width, 2, deriv=1, delta=1.0 / record.rate), dtype=np.float64)
+    return record.mechanism.belt_velocity - velocity, float(record.noise * np.sqrt(12.0 / width**3) * record.rate)
 
 
 def slips_of(record: Record) -> list[tuple[int, int]]:

@@ -139,7 +139,8 @@ def extract(record: Record, *, ridge: float | None = None) -> Slips:
     force = box.stiffness * onset_position + box.damping * box.belt_velocity - record.excitation(onset_time)
     return Slips(
         record, noise, line_in(quiet, record.rate), ridge,
-        onset_time, onset_position, restick_time, restick_position, force, moments, *nodes, _stick(record, table),
+        onset_time, onset_position, restick_time, restick_position, force, moments,
+        nodes[0], nodes[1], nodes[2], nodes[3], _stick(record, table),
     )  # fmt: skip
 
 
@@ -244,5 +245,5 @@ def _stick(record: Record, edges: Array) -> StickSamples:
         t, r, x = (a.reshape(count, size).mean(axis=1) for a in (time, residual, position))
         rows.append(np.c_[np.full(count, i), t, r, t - restick, onset - t, x])
     table = np.concatenate(rows) if rows else np.zeros((0, 6))
-    segment, *columns = table.T
-    return StickSamples(segment.astype(np.int64), *columns, size)
+    segment, middle, residual, since, ahead, position = table.T
+    return StickSamples(segment.astype(np.int64), middle, residual, since, ahead, position, size)
