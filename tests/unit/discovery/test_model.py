@@ -1,0 +1,67 @@
+"""Knobs of a model: their values give the model back, and bounds hold."""
+
+import dataclasses
+
+import pytest
+
+from stochfric_mb.discovery.model import Model, adjusted, knobs_of
+from stochfric_mb.effects import make_effect
+from stochfric_mb.laws import make_law
+
+UNCERTAINTY = {"stiffness": 0.02, "mass": 0.02, "damping": 0.3}
+RUNS = ("run_1.csv", "run_2.csv")
+
+
+@pytest.fixture
+def model() -> Model:
+    force = make_effect("harmonic_force", amplitude=0.3, frequency=1.7)
+    drag = make_effect("quadratic_damping", coefficient=40.0)
+    own = {"run_1.csv": ({}, {"phase": 0.4}), "run_2.csv": ({}, {"phase": -2.0})}
+    corrections = {"stiffness": 0.01, "mass": -0.005, "damping": 0.0}
+    return Model(make_law("coulomb", mu_s=0.8, mu_k=0.46), corrections, (drag, force), None, own)
+
+
+def test_knobs_at_their_values_give_the_model_back(model):
+    knobs = knobs_of(model, UNCERTAINTY, RUNS)
+    assert adjusted(model, knobs, [knob.value for knob in knobs]) == model
+
+
+def test_knobs_are_what_may_be_adjusted(model):
+    names = [(knob.name, knob.effect, knob.run) for knob in knobs_of(model, UNCERTAINTY, RUNS)]
+    believed = [(name, -1, "") for name in ("mu_s", "mu_k", "stiffness", "mass", "damping")]
+    phases = [("phase", 1, run) for run in RUNS]
+    assert names == [*believed, ("coefficient", 0, ""), ("amplitude", 1, ""), ("frequency", 1, ""), *phases]
+
+
+def test_what_is_certain_has_no_knob(model):
+    names = {knob.name for knob in knobs_of(model, {"stiffness": 0.0, "damping": 0.3})}
+    assert not {"stiffness", "mass"} & names
+    assert "damping" in names
+
+
+def test_moved_knobs_are_found_again(model):
+    knobs = knobs_of(model, UNCERTAINTY, RUNS)
+    moved = [knob.value + 0.1 * knob.scale for knob in knobs]
+    again = knobs_of(adjusted(model, knobs, moved), UNCERTAINTY, RUNS)
+    assert [knob.value for knob in again] == pytest.approx(moved, rel=1e-12)
+
+
+def test_values_beyond_the_bounds_are_held(model):
+    knobs = knobs_of(model, UNCERTAINTY, RUNS)
+    low = adjusted(model, knobs, [-1e9] * len(knobs))
+    assert low.law.mu_s == pytest.approx(0.75 * model.law.mu_s)
+    assert low.corrections["stiffness"] == pytest.approx(-3.0 * UNCERTAINTY["stiffness"])
+    assert low.effects[1].frequency > 0.0
+
+
+def test_kinetic_friction_never_exceeds_static(model):
+    knobs = knobs_of(model, UNCERTAINTY)
+    values = [{"mu_s": 0.65, "mu_k": 0.7}.get(knob.name, knob.value) for knob in knobs]
+    assert adjusted(model, knobs, values).law.mu_k == 0.65
+
+
+def test_added_effect_starts_without_values_of_its_own(model):
+    more = model.plus(make_effect("quadratic_damping", coefficient=1.0))
+    assert [values[-1] for values in more.own.values()] == [{}, {}]
+    assert more.effects_in("run_2.csv")[1] == dataclasses.replace(model.effects[1], phase=-2.0)
+    assert more.effects_in("unheard_of.csv") == more.effects

@@ -1,0 +1,98 @@
+"""Extraction on the closed form of undamped stick-slip, and Legendre coefficients of polynomials."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.polynomial import legendre
+
+from stochfric_mb.discovery.record import make_record
+from stochfric_mb.discovery.slips import N_MOMENTS, NODES, extract, legendre_coefficients
+from stochfric_mb.mechanisms import BeltBox
+
+BOX = BeltBox(mass=6.08, damping=0.0, stiffness=3956.0, normal_force=13.0, belt_velocity=2.5e-3)
+MU_S, MU_K = 0.8, 0.46
+OMEGA = math.sqrt(BOX.stiffness / BOX.mass)
+JUMP = (MU_S - MU_K) * BOX.normal_force / BOX.stiffness
+SLIP = 2.0 * (math.pi - math.atan(OMEGA * JUMP / BOX.belt_velocity)) / OMEGA
+PERIOD = SLIP + 2.0 * JUMP / BOX.belt_velocity
+NOISE = 5e-6
+
+
+def stick_slip(time: np.ndarray, first_onset: float) -> np.ndarray:
+    """Position [m]: a circle in (x - x_k, v/omega) while slipping, the belt's line while sticking."""
+    since = np.mod(time - first_onset, PERIOD)
+    centre = MU_K * BOX.normal_force / BOX.stiffness
+    slip = centre + JUMP * np.cos(OMEGA * since) + BOX.belt_velocity / OMEGA * np.sin(OMEGA * since)
+    return np.where(since < SLIP, slip, centre - JUMP + BOX.belt_velocity * (since - SLIP))
+
+
+@pytest.fixture(scope="module")
+def slips():
+    time = np.arange(60001) * 1e-3
+    position = stick_slip(time, 0.6543) + NOISE * np.random.default_rng(5).standard_normal(time.size)
+    return extract(make_record("run", time, position, BOX))
+
+
+def test_every_slip_is_found_where_it_is(slips):
+    numbers = np.round((slips.onset_time - 0.6543) / PERIOD)
+    assert np.all(np.diff(numbers) == 1)
+    assert len(slips) >= 60.0 / PERIOD - 2  # those at the ends may be cut
+    # a time is uncertain by what a take-off needs to leave the noise: J (w t)^2/2 = 5 um after 4 ms
+    np.testing.assert_allclose(slips.onset_time, 0.6543 + PERIOD * numbers, atol=4e-3)
+    np.testing.assert_allclose(slips.restick_time - slips.onset_time, SLIP, atol=8e-3)
+
+
+def test_onset_force_is_the_static_friction(slips):
+    scatter = np.std(slips.onset_force)
+    assert scatter < BOX.stiffness * NOISE  # better than a single sample
+    assert np.mean(slips.onset_force) == pytest.approx(MU_S * BOX.normal_force, abs=4.0 * scatter / len(slips) ** 0.5)
+
+
+def quadrature_error(order: int) -> float:
+    """What the trapezoidal rule adds to a coefficient [N]: h^2/12 times the rise of the integrand's slope."""
+    rate = 2.0 / SLIP
+    polynomial = np.eye(N_MOMENTS)[order]
+    kernel = BOX.mass * rate**2 * np.pad(legendre.legder(polynomial, 2), (0, 2))[:N_MOMENTS] + BOX.stiffness * polynomial
+    ends = (-1.0, stick_slip(np.zeros(1), 0.0)[0]), (1.0, stick_slip(np.array([SLIP]), 0.0)[0])
+    slopes = [
+        rate * legendre.legval(u, legendre.legder(kernel)) * x + legendre.legval(u, kernel) * BOX.belt_velocity for u, x in ends
+    ]
+    return 1e-6 / 12.0 * (slopes[1] - slopes[0]) * (2 * order + 1) / SLIP
+
+
+def test_slip_force_is_the_kinetic_friction_and_constant(slips):
+    """Apart from the quadrature, which calibration takes out: nothing in the mean force, 0.7 N in the sixth order."""
+    errors = 4.0 * np.std(slips.moments, axis=0) / len(slips) ** 0.5
+    quadrature = np.array([quadrature_error(q) for q in range(N_MOMENTS)])
+    expected = np.r_[MU_K * BOX.normal_force, np.zeros(N_MOMENTS - 1)] + quadrature
+    # the first and the last interval are shorter than h, and over h/2 the integrand's slope changes by up to
+    # (h/2) (2/T) 3.75 = 3 % at each end
+    allowed = errors + 0.06 * np.abs(quadrature)
+    assert np.all(np.abs(np.mean(slips.moments, axis=0) - expected) < allowed), np.mean(slips.moments, axis=0) - expected
+    assert allowed[0] < 0.01  # the mean slip force of a minute is known to a fifth of a per cent
+
+
+def test_noise_of_the_stick_phases_is_seen(slips):
+    assert slips.noise.deviation == pytest.approx(NOISE, rel=4.0 / (2.0 * 40000) ** 0.5 + 0.01)
+    assert slips.noise.coloured == 0.0
+
+
+def test_motion_without_slip_gives_no_slips():
+    time = np.arange(5001) * 1e-3
+    position = BOX.belt_velocity * time + NOISE * np.random.default_rng(6).standard_normal(time.size)
+    assert len(extract(make_record("run", time, position, BOX))) == 0
+
+
+@pytest.mark.parametrize("order", range(N_MOMENTS + 1))
+def test_coefficients_of_a_polynomial(order):
+    """Of degree up to 7 + 6 = 13 under the integral: exact with 32 Gauss nodes."""
+    coefficients = legendre_coefficients(legendre.legval(NODES, np.eye(N_MOMENTS + 1)[order]))
+    np.testing.assert_allclose(coefficients, np.eye(N_MOMENTS + 1)[order, :N_MOMENTS], atol=1e-13)
+
+
+def test_coefficients_of_many_functions_at_once():
+    functions = np.random.default_rng(7).standard_normal((3, 2, NODES.size))
+    together = legendre_coefficients(functions)
+    assert together.shape == (3, 2, N_MOMENTS)
+    np.testing.assert_allclose(together[2, 1], legendre_coefficients(functions[2, 1]), atol=1e-13)
