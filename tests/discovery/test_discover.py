@@ -30,10 +30,10 @@ CLEAR = (
     Case("unknown.two_states", "one_free", 1.0, SEED),
 )
 COUNTED = 0.1
-"""Share of the error that must be reducible for its closing to be judged [-]."""
+"""Share of the error that is reducible where something is missing [-]."""
 CLOSED = 0.8
-"""Half of all cases must reach 0.95 and nine in ten 0.85. Floor and scores are means over some 50 forecasts whose scores
-scatter by a third: 5 % of the error, so that a single case may lie that much lower."""
+"""The random case sets it: 60 forecasts whose scores scatter by 64 % leave its closed share uncertain by 0.15 (it closes
+0.97). The others are known to 0.005 and close 0.99 or more."""
 
 
 def made(case: Case) -> tuple[dict[str, object], Dataset]:
@@ -58,7 +58,8 @@ def test_clear_cases_are_answered_rightly_and_the_gap_closes(case):
     assert gap is not None
     assert gap.held_out
     reducible = (gap.recalibrated - gap.floor) / gap.recalibrated
-    if result.verdict != "unknown" and reducible >= COUNTED:
+    assert (reducible >= COUNTED) == (result.verdict != "none")  # what is missing costs more than a tenth, at strength 1
+    if result.verdict == "effect":
         assert gap.closed >= CLOSED
 
 
