@@ -1,8 +1,8 @@
 """The plain way, for comparison: differentiate, regress the force sample by sample, drop terms by BIC, name the largest.
 
 It is treated kindly. Samples next to a break-away or re-stick, where the derivative is smeared, are left out; samples
-are taken half a smoothing window apart, so that BIC counts nearly independent ones; stiffness and mass may differ from
-what is stated.
+are taken half a smoothing window apart, so that BIC counts nearly independent ones; stiffness, mass and damping may be
+anything.
 """
 
 import json
@@ -29,7 +29,7 @@ VELOCITIES = (5e-3, 15e-3)
 """Decay velocities of a weakening law [m/s]."""
 LENGTHS = (2e-4, 1e-3)
 """Slip distances over which friction forgets [m]."""
-BELIEVED = ("coulomb", "stiffness", "mass")
+BELIEVED = ("coulomb", "stiffness", "mass", "damping")
 """Terms that are always there and are no effect."""
 
 
@@ -65,7 +65,8 @@ def samples(run: Run, scenario: Any) -> tuple[Array, list[Term]]:
         Term("coulomb", sign * load),
         Term("stiffness", x[kept]),
         Term("mass", acceleration[kept]),
-        Term("viscous_friction", v),
+        Term("damping", velocity[kept]),
+        Term("viscous_friction", load * v),  # at one operating point the same as damping, which is believed first
         Term("quadratic_damping", v * np.abs(v)),
         Term("nonlinear_stiffness", x[kept] ** 3),
         Term("friction_drift", sign * load * t),
