@@ -82,24 +82,29 @@ def samples(run: Run, scenario: Any) -> tuple[Array, list[Term]]:
 
 
 def selected(force: Array, terms: list[Term]) -> list[tuple[str, float]]:
-    """Terms of the set with the least BIC, and the root mean square of their force [N]; thrown out smallest first."""
-    best: tuple[float, list[tuple[str, float]]] = (np.inf, [])
-    left = terms
-    while True:
+    """Terms of the set with the least BIC, and the root mean square of their force [N]; thrown out smallest first.
+
+    What believed terms can explain is taken out of the force and of all terms before.
+    """
+    believed = np.hstack([term.columns for term in terms if term.kind in BELIEVED])
+    basis = np.linalg.qr(believed / np.linalg.norm(believed, axis=0))[0]
+    force = force - basis @ (basis.T @ force)
+    left = [Term(t.kind, t.columns - basis @ (basis.T @ t.columns)) for t in terms if t.kind not in BELIEVED]
+    whole = [np.linalg.norm(t.columns) for t in terms if t.kind not in BELIEVED]
+    left = [t for t, norm in zip(left, whole, strict=True) if np.linalg.norm(t.columns) > 1e-6 * norm]  # else the same
+    best: tuple[float, list[tuple[str, float]]] = (force.size * np.log(np.mean(force**2)), [])
+    while left:
         matrix = np.hstack([term.columns for term in left])
-        coefficients = np.linalg.lstsq(matrix, force)[0]
-        squares = float(np.sum((force - matrix @ coefficients) ** 2))
-        ends = np.cumsum([term.columns.shape[1] for term in left])
-        parts = [t.columns @ c for t, c in zip(left, np.split(coefficients, ends[:-1]), strict=True)]
-        sizes = [float(np.std(part)) for part in parts]
-        bic = force.size * np.log(squares / force.size) + matrix.shape[1] * np.log(force.size)
+        scales = np.linalg.norm(matrix, axis=0)
+        parts = matrix * (np.linalg.lstsq(matrix / scales, force)[0] / scales)
+        ends = np.cumsum([term.columns.shape[1] for term in left])[:-1]
+        sizes = [float(np.std(part.sum(axis=1))) for part in np.split(parts, ends, axis=1)]
+        bic = force.size * np.log(np.mean((force - parts.sum(axis=1)) ** 2)) + matrix.shape[1] * np.log(force.size)
         if bic < best[0]:
-            best = (bic, [(t.kind, s) for t, s in zip(left, sizes, strict=True) if t.kind not in BELIEVED])
-        loose = [i for i, term in enumerate(left) if term.kind not in BELIEVED]
-        if not loose:
-            return best[1]
-        drop = min(loose, key=sizes.__getitem__)
-        left = left[:drop] + left[drop + 1 :]
+            best = (bic, [(term.kind, size) for term, size in zip(left, sizes, strict=True)])
+        smallest = int(np.argmin(sizes))
+        left = left[:smallest] + left[smallest + 1 :]
+    return best[1]
 
 
 def by_points(dataset: Path, out: Path) -> None:
