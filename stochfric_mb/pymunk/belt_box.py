@@ -91,9 +91,8 @@ def simulate(
 def _per_step(trajectory: Trajectory, dt: float) -> Trajectory:
     """Return a trajectory of sub-steps with what it says about steps put in steps of ``dt`` [s]."""
     about = trajectory.attributes
-    note = f"one step of {dt:g} s is {SUBSTEPS} of pymunk's"
     steps = {"n_steps": about["n_steps"] // SUBSTEPS, "seconds_per_step": SUBSTEPS * about["seconds_per_step"]}
-    return dataclasses.replace(trajectory, attributes=about | {"dt": dt, "notes": [*about["notes"], note]} | steps)
+    return dataclasses.replace(trajectory, attributes=about | {"dt": dt, "substeps": SUBSTEPS} | steps)
 
 
 def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, dt: float | None = None, with_friction: bool = True) -> Model:
