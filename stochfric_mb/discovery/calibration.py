@@ -114,5 +114,7 @@ def _simulated(slips: Slips, static: float, kinetic: float, repeat: int, generat
         # the sample before the break-away is on average half a step early
         late = 0.5 * step / FINER * box.stiffness * box.belt_velocity
         features.append(found.features[i])
-        forces.append(np.array([motion.friction_force[onset] + late, np.mean(motion.friction_force[at])]))
+        forces.append(
+            np.array([float(motion.friction_force[onset]) + late, float(np.mean(motion.friction_force[at]))], dtype=np.float64)
+        )
     return np.array(features).reshape(-1, N_FEATURES), np.array(forces).reshape(-1, 2)

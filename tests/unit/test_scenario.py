@@ -82,7 +82,7 @@ def test_bad_content(changes, words):
 
 
 def test_bad_files(tmp_path):
-    with pytest.raises(InputError, match="bundled: .*kang2015_table1"):
+    with pytest.raises(InputError, match=r"bundled: .*kang2015_table1"):
         load_scenario("kang2015_table3")
     with pytest.raises(InputError, match="is a folder"):
         load_scenario(tmp_path)
