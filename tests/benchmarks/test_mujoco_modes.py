@@ -1,4 +1,4 @@
-"""What the modes cost in MuJoCo, on the belt-box and on standing robots, against native friction (run with --benchmark-only)."""
+"""What the modes cost in MuJoCo, on the belt-box and on standing robots, over native friction (--benchmark-only)."""
 
 from pathlib import Path
 
