@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from stochfric_mb.discovery.chance import MEMORY, chance, kicks
-from stochfric_mb.discovery.choice import IN_TIME, NAME, OUTDONE, SELECT, Chosen, choose
+from stochfric_mb.discovery.choice import IN_TIME, NAME, SELECT, Chosen, choose
 from stochfric_mb.discovery.confirmation import cases_of, confirm
 from stochfric_mb.discovery.innovations import left_over
 from stochfric_mb.discovery.kinematics import kinematics, with_kinematic
@@ -158,13 +158,13 @@ class _Search:
     def _wanders(self, candidates: Sequence[Candidate]) -> bool:
         """Return whether a winner on the axis of time is better told as a random wander."""
         winner = candidates[0]
-        drifts = max((c.score for c in candidates if c.name in ("friction_drift", "sensor_drift")), default=-np.inf)
-        if winner.name not in (*IN_TIME, *PERIODIC) or drifts > OUTDONE * winner.score:
+        if winner.name not in (*IN_TIME, *PERIODIC, "sensor_step"):
             return False
+        drifts = max((c.score for c in candidates if c.name in ("friction_drift", "sensor_drift")), default=-np.inf)
         scatter = randomness(self.regression, self.terms, self.solution)
-        # a ripple names physics and has to be beaten; hats on the axis of time name none
-        share = 0.5 if winner.name in IN_TIME else 1.2
-        return scatter.correlation > MEMORY and scatter.wander > share * winner.score and scatter.two_levels < NAME
+        # what names physics has to be beaten; hats on the axis of time name none
+        rival = max(0.5 * winner.score if winner.name in IN_TIME else 1.2 * winner.score, drifts)
+        return scatter.correlation > MEMORY and scatter.wander > rival and scatter.two_levels < NAME
 
     def _add(self, chosen: Chosen) -> None:
         """Take an effect into the model, and out of the features."""
