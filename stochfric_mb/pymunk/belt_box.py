@@ -71,7 +71,8 @@ def simulate(
         scenario: the scenario.
         seed: first part of the address of the coefficient path.
         sample: second part.
-        dt: step [s], dividing the output step; `Scenario.default_dt` if not given. pymunk takes as many for each as `SUBSTEPS` says.
+        dt: step [s], dividing the output step; `Scenario.default_dt` if not given.
+            pymunk takes as many for each as `SUBSTEPS` says.
         progress: called with the simulated time [s] now and then.
 
     Raises:
