@@ -36,6 +36,8 @@ Tick = Callable[[int], None]
 
 IDENTICAL = 1.0e-9
 """Positions that agree to this are the same: what the integration itself leaves, with a margin [m]."""
+IDENTICAL_VELOCITY = 1.0e-7
+"""The same of velocities [m/s]: positions to 1e-9 m at natural frequencies below 100 rad/s."""
 BATCH = 100
 """Samples of a batch, as many as the paper's ensembles."""
 LEVEL = 0.05
@@ -86,8 +88,8 @@ def run_steps(scenarios: Mapping[str, Scenario], settings: Settings, seed: int, 
     return StepStudy(found, settings.n_paper)
 
 
-def claims(study: StepStudy, mends: tuple[Mend, ...], settings: Settings) -> list[Claim]:
-    """Return the claims on displacement and on velocity."""
+def claims(study: StepStudy, mends: Mapping[str, tuple[Mend, ...]], settings: Settings) -> list[Claim]:
+    """Return the claims on displacement and on velocity; ``mends``: quantity -> what mends it."""
     rule = (
         f"fails if for any law, time and pair of steps the two-sample Kolmogorov-Smirnov test of {settings.n_many} samples "
         f"has p < {ALPHA:g}/(number of tests) and the bootstrap interval of the distance lies above {RELEVANT_DISTANCE:g}; "
@@ -116,7 +118,7 @@ def claims(study: StepStudy, mends: tuple[Mend, ...], settings: Settings) -> lis
                 reason=f"Largest distance {most.value:.3f} ({most.low:.3f} to {most.high:.3f}): {most.label}. "
                 f"Law by law: {_by_law(distances, study)}",
                 numbers=tuple(numbers),
-                mends=mends if quantity == "position" else (),
+                mends=mends.get(quantity, ()),
                 remark=_remark(quantity, distances),
                 **common,
             )
@@ -146,8 +148,8 @@ def _remark(quantity: str, distances: list[Number]) -> str:
     )
 
 
-def run_mends(scenario: Scenario, settings: Settings, seed: int, tick: Tick) -> tuple[Mend, ...]:
-    """Return how far the response depends on the output step with each of our processes.
+def run_mends(scenario: Scenario, settings: Settings, seed: int, tick: Tick) -> dict[str, tuple[Mend, ...]]:
+    """Return, for position and velocity, how far each depends on the output step with each of our processes.
 
     Args:
         scenario: coulomb, with a process whose sigmas are taken.
@@ -159,7 +161,7 @@ def run_mends(scenario: Scenario, settings: Settings, seed: int, tick: Tick) -> 
     sigmas: dict[str, Any] = {"sigma_s": scenario.process.sigma_s, "sigma_k": scenario.process.sigma_k}
     spacing = settings.steps[0]
     along_belt = scenario.mechanism.belt_velocity * spacing
-    tests: list[Callable[[], Mend]] = [
+    tests: list[Callable[[], tuple[Mend, ...]]] = [
         lambda: _identical(scenario, Knots(spacing=spacing, **sigmas), f"knots, {spacing:g} s", settings, seed),
         lambda: _identical(
             scenario, Spatial(spacing=along_belt, **sigmas), f"spatial, {1e6 * along_belt:g} um", settings, seed
@@ -167,34 +169,40 @@ def run_mends(scenario: Scenario, settings: Settings, seed: int, tick: Tick) -> 
     ]
     for cls, tau in ((Matern, 0.05), (Matern, 0.2), (OrnsteinUhlenbeck, 0.05), (OrnsteinUhlenbeck, 0.2)):
         tests.append(lambda cls=cls, tau=tau: _refined(scenario, cls, tau, sigmas, settings, seed))
-    found: list[Mend] = []
+    found: list[tuple[Mend, ...]] = []
     for number, test in enumerate(tests, start=1):
         found.append(test())
         tick(number)
-    return tuple(found)
+    return {quantity: tuple(mends[i] for mends in found) for i, quantity in enumerate(QUANTITIES)}
 
 
+QUANTITIES = {"position": "m", "velocity": "m/s"}
+"""What is compared -> its unit."""
 N_MENDS = 6
 """Processes tried."""
 
 
-def _identical(scenario: Scenario, process: Process, name: str, settings: Settings, seed: int) -> Mend:
+def _identical(scenario: Scenario, process: Process, name: str, settings: Settings, seed: int) -> tuple[Mend, ...]:
     """Compare the same samples on output grids of each step: the path does not know the output step."""
-    grids: list[Array] = []
+    grids: dict[str, list[Array]] = {quantity: [] for quantity in QUANTITIES}
     last = settings.times[-1]
     for step in settings.steps:
         problem = dataclasses.replace(scenario, process=process, output_step=step, duration=last)
         every = problem.output_times() if process.clock == 0.0 else list(settings.times)
         result = ensemble.run(problem, settings.n_grid, seed=seed, output_times=every, max_bytes=2**33)
+        places = np.searchsorted(result.time, np.array(settings.times) - 1.0e-9)
         assert result.position is not None
-        grids.append(result.position[:, np.searchsorted(result.time, np.array(settings.times) - 1.0e-9)])
-    gap = max(float(np.max(np.abs(a - b))) for a, b in itertools.combinations(grids, 2))
-    number = Number(
-        name="largest_difference", label="largest difference of x between output steps, run by run",
-        value=gap, unit="m", n=settings.n_grid,
-    )  # fmt: skip
+        assert result.velocity is not None
+        grids["position"].append(result.position[:, places])
+        grids["velocity"].append(result.velocity[:, places])
     text = "the same samples on output grids of each step; the path does not know the output step"
-    return Mend(process=name, text=text, outcome=HOLDS if gap <= IDENTICAL else FAILS, numbers=(number,))
+    found: list[Mend] = []
+    for (quantity, unit), limit in zip(QUANTITIES.items(), (IDENTICAL, IDENTICAL_VELOCITY), strict=True):
+        gap = max(float(np.max(np.abs(a - b))) for a, b in itertools.combinations(grids[quantity], 2))
+        label = f"largest difference of {quantity} between output steps, run by run"
+        number = Number(name="largest_difference", label=label, value=gap, unit=unit, n=settings.n_grid)
+        found.append(Mend(process=name, text=text, outcome=HOLDS if gap <= limit else FAILS, numbers=(number,)))
+    return tuple(found)
 
 
 def _refined(
@@ -204,20 +212,23 @@ def _refined(
     sigmas: Mapping[str, Any],
     settings: Settings,
     seed: int,
-) -> Mend:
+) -> tuple[Mend, ...]:
     """Compare distributions with the process sampled at each output step: the harder test, knots tied to the output."""
     runs: dict[float, EnsembleResult] = {}
     for i, step in enumerate(settings.steps):
         process = cls(correlation_time=correlation_time, spacing=step, **sigmas)
         runs[step] = _run(scenario, process, step, settings, seed, first=i * settings.n_many)
-    distances = _pairs({scenario.law.kind: runs}, "position", settings)
+    name = f"{cls.kind}, correlation time {correlation_time:g} s"
+    return tuple(_compared(name, _pairs({scenario.law.kind: runs}, quantity, settings)) for quantity in QUANTITIES)
+
+
+def _compared(name: str, distances: list[Number]) -> Mend:
     most, least = worst(distances), min(distances, key=lambda d: d.p_value or 0.0)
     n = len(distances)
     numbers = (
         dataclasses.replace(most, name="largest_distance", label=f"largest distance of {n}: {most.label}"),
         Number(name="smallest_p", label=f"smallest p-value of {n}: {least.label}", value=least.p_value or 0.0, n=least.n),
     )
-    name = f"{cls.kind}, correlation time {correlation_time:g} s"
     text = "sampled at each output step in turn; every pair of steps compared"
     certain = least.p_value is not None and least.p_value < ALPHA / n
     outcome = same_distribution(distances)

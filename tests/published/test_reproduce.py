@@ -99,6 +99,22 @@ def test_our_processes_mend_it(claims):
     assert mends["knots, 0.01 s"]["figures"]["largest_difference"]["value"] < 7e-13
 
 
+def test_they_mend_velocity_too(claims):
+    mends = {mend["process"]: mend for mend in claims["step_independence_velocity"]["mended_by"]}
+    for process in ("knots, 0.01 s", "spatial, 25 um", "matern, correlation time 0.2 s"):
+        assert mends[process]["outcome"] == HOLDS
+    # Positions agree to 7e-13 m; the oscillator turns them into velocities with 50 rad/s.
+    assert mends["knots, 0.01 s"]["figures"]["largest_difference"]["value"] < 50 * 7e-13
+
+
+def test_smooth_paths_keep_sigma(claims):
+    """Between knots a tenth of the correlation time apart: sd^2 falls half-way by (1 - correlation)/2 at most."""
+    for mend in claims["interpolation_keeps_distribution"]["mended_by"]:
+        averaged = mend["figures"]["sd_time_average"]
+        assert averaged["low"] > 0.9  # independent knots: 0.8116
+        assert averaged["low"] < 1.0 < averaged["high"] + 0.03  # Ornstein-Uhlenbeck: exp(-0.1), so 0.976 half-way
+
+
 def test_rejection_by_closed_form(claims):
     claim = claims["rejection_keeps_distributions"]
     assert claim["verdict"] == HOLDS
@@ -157,7 +173,7 @@ def test_a_process_that_does_not_know_the_step_turns_the_verdict(monkeypatch):
         sigma_s=sigma_s, sigma_k=sigma_k, spacing=0.01))  # fmt: skip
     scenarios = {"coulomb": load_scenario("kang2015_table1", law="coulomb")}
     study = output_step.run_steps(scenarios, QUICK, 0, lambda done: None)
-    verdicts = {claim.id: claim.verdict for claim in output_step.claims(study, (), QUICK)}
+    verdicts = {claim.id: claim.verdict for claim in output_step.claims(study, {}, QUICK)}
     assert verdicts == {"step_independence_displacement": HOLDS, "step_independence_velocity": HOLDS}
 
 
@@ -165,7 +181,7 @@ def test_same_numbers_for_the_same_seed():
     few = dataclasses.replace(QUICK, n_many=20, n_paper=10, steps=(0.01, 0.001), resamples=9)
     scenarios = {"coulomb": load_scenario("kang2015_table1", law="coulomb")}
     one, two, other = (
-        output_step.claims(output_step.run_steps(scenarios, few, seed, lambda done: None), (), few) for seed in (5, 5, 6)
+        output_step.claims(output_step.run_steps(scenarios, few, seed, lambda done: None), {}, few) for seed in (5, 5, 6)
     )
     assert [c.to_dict() for c in one] == [c.to_dict() for c in two]
     assert [c.to_dict() for c in one] != [c.to_dict() for c in other]
