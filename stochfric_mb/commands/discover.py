@@ -41,7 +41,8 @@ def discover(dataset: str, scenario: str | None, out: str, force: bool) -> None:
         outcome = library.discover(dataset, scenario=scenario, progress=shown.note)
         shown.note("drawing the report")
         with whole_folder(target) as folder:
-            content = write(outcome, folder, command_line())
+            # the same data give the same bytes, wherever they are written to
+            content = write(outcome, folder, command_line(without=("out", "force")))
     _show(content)
     click.echo(f"{target / 'report.html'}")
 

@@ -47,13 +47,17 @@ def engine_names(text: str | None) -> list[str] | None:
     return [require_name("engine", name, ENGINES) for name in names]
 
 
-def command_line() -> str:
-    """Return the command that is running, with the arguments and options that were given, ready for a shell."""
+def command_line(*, without: tuple[str, ...] = ()) -> str:
+    """Return the command that is running, with the arguments and options that were given, ready for a shell.
+
+    Args:
+        without: names of parameters to leave out, such as the output folder of a result that must not depend on it.
+    """
     ctx = click.get_current_context()
     words = ["stochfric", str(ctx.info_name)]
     for parameter in ctx.command.params:
         name = str(parameter.name)
-        if ctx.get_parameter_source(name) is ParameterSource.COMMANDLINE:
+        if name not in without and ctx.get_parameter_source(name) is ParameterSource.COMMANDLINE:
             words += _words(parameter, ctx.params[name])
     return shlex.join(words)
 

@@ -10,7 +10,8 @@ from scipy.stats import chi2 as chi2_distribution
 from stochfric_mb.discovery.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.decision import Decision, Named, decide
 from stochfric_mb.discovery.gap import HeldOut, deterministic, floor_of, gap_of, held_out, mean_score, phased, settled
-from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.intervals import interval
+from stochfric_mb.discovery.model import CORRECTED, Model
 from stochfric_mb.discovery.power import smallest
 from stochfric_mb.discovery.refit import Fit, refit, thinned
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
@@ -180,21 +181,27 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
 def _found(named: Named, fit: Fit | None, model: Model, found: Study) -> Found:
     parameters: dict[str, Interval] = {}
     place = next(i for i, e in enumerate(model.effects) if e.kind == named.kind)
-    effect = model.effects_in(next(iter(model.own)))[place] if model.own else model.effects[place]
+    run = next(iter(model.own), "")
+    effect = model.effects_in(run)[place]
+    # a fit knows the effects that are not random alone
+    fitted = len(deterministic(dataclasses.replace(model, effects=model.effects[:place], own={})).effects)
     n_slips = max(found.regression.n, 2)
     for field in dataclasses.fields(effect):
         value = getattr(effect, field.name)
         if isinstance(value, str) or not np.isfinite(value):
             continue
+        about = field.metadata
         deviation = 0.0
         if fit is not None:
-            deviations = [d for k, d in zip(fit.knobs, fit.deviations, strict=True) if k.name == field.name and k.effect >= 0]
+            deviations = [
+                d
+                for k, d in zip(fit.knobs, fit.deviations, strict=True)
+                if (k.name, k.effect) == (field.name, fitted) and k.run in ("", run)
+            ]
             deviation = float(deviations[0]) if deviations else 0.0
         if field.name.startswith("sigma"):
             deviation = value / np.sqrt(2.0 * n_slips)
-        parameters[field.name] = Interval(
-            float(value), value - 1.96 * deviation, value + 1.96 * deviation, field.metadata["unit"]
-        )
+        parameters[field.name] = interval(value, deviation, about["unit"], about["low"], about["high"])
     p_value = float(chi2_distribution.sf(max(named.score, 0.0), max(len(parameters), 1)))
     return Found(named.kind, named.class_, named.where, parameters, float(named.score), p_value)
 
@@ -203,10 +210,9 @@ def _intervals(fit: Fit, found: Study) -> dict[str, Interval]:
     box = found.dataset.scenario.mechanism
     rows: dict[str, Interval] = {}
     for knob, value, deviation in zip(fit.knobs, fit.values, fit.deviations, strict=True):
-        low, high = value - 1.96 * deviation, value + 1.96 * deviation
-        if knob.name in ("mass", "stiffness", "damping"):
-            value, low, high = (getattr(box, knob.name) * (1.0 + v) for v in (value, low, high))  # noqa: PLW2901
-        rows[knob.name] = Interval(float(value), float(low), float(high), UNITS.get(knob.name, "-"))
+        stated = getattr(box, knob.name, 0.0) if knob.name in CORRECTED else 0.0
+        number, doubt = (stated * (1.0 + value), stated * deviation) if stated else (value, deviation)
+        rows[knob.name] = interval(number, doubt, UNITS.get(knob.name, "-"), low=0.0)
     return rows
 
 

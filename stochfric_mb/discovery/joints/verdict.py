@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from stochfric_mb.discovery.intervals import interval
 from stochfric_mb.discovery.joints.confounding import TOGETHER, Confounded, confounded, stand_ins
 from stochfric_mb.discovery.joints.fitting import JointFit, hidden_share
 from stochfric_mb.discovery.joints.friction import friction_along
@@ -108,7 +109,7 @@ def _parameters(fit: JointFit, owner: int, effect: Effect, *, rotates: bool) -> 
         if deviation < 1.0e-6 * abs(value):  # not known that well: nothing in these data depends on it
             continue
         if np.isfinite(deviation):
-            found[field.name] = Interval(value, value - 1.96 * deviation, value + 1.96 * deviation, unit)
+            found[field.name] = interval(value, deviation, unit, field.metadata["low"], field.metadata["high"])
         elif value != field.default:
             found[field.name] = Interval(value, value, value, unit)
     return found
@@ -119,9 +120,8 @@ def _believed(place: PlaceOutcome) -> dict[str, Interval]:
     found: dict[str, Interval] = {}
     for knob, value in zip(fit.knobs, fit.values, strict=True):
         if knob.owner < 0:
-            spread = 1.96 * fit.deviation(knob.owner, knob.name)
             name = FACTORS.get(knob.name, knob.name) if place.place else knob.name
-            found[name] = Interval(float(value), float(value - spread), float(value + spread), knob.unit)
+            found[name] = interval(float(value), fit.deviation(knob.owner, knob.name), knob.unit, knob.low, knob.high)
     return found
 
 

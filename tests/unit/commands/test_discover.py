@@ -219,3 +219,11 @@ def test_the_example_in_python(rig, tmp_path, monkeypatch, capsys):
     (code,) = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
     exec(compile(code, "docs/discovery.md", "exec"), {})
     assert capsys.readouterr().out == "unknown []\nNone\n"
+
+
+def test_two_output_folders_get_the_same_bytes(rig, tmp_path):
+    for out in ("here", "there"):
+        result = invoke(rig, "--out", tmp_path / out, "--force")
+        assert result.exit_code == 0, result.output
+    for file in ("result.json", "augmented.toml", "report.html"):
+        assert (tmp_path / "here" / file).read_bytes() == (tmp_path / "there" / file).read_bytes(), file
