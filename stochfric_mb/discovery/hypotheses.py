@@ -7,7 +7,6 @@ slip when the effect is switched on.
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -15,22 +14,8 @@ import numpy as np
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.record import Array
 from stochfric_mb.discovery.slips import legendre_coefficients
-
-Columns = list[Array]
-
-
-@dataclasses.dataclass(frozen=True)
-class Hypothesis:
-    """One way in which an effect may be present."""
-
-    kind: str
-    """The effect."""
-    columns: Columns
-    """Its regressors, each of shape (n, N_FEATURES)."""
-    setting: tuple[float, ...] = ()
-    """Values of the parameters that enter nonlinearly."""
-    start: Callable[[Array], dict[str, float]] = lambda _: {}
-    """From the fitted coefficients to values of the effect's parameters, where a fit may start."""
+from stochfric_mb.effects import effect_class, effect_kinds
+from stochfric_mb.effects.marks import Columns, Hypothesis
 
 
 def velocity_weakening(pool: Pool) -> list[Hypothesis]:
@@ -348,6 +333,11 @@ SCREENS: dict[str, Callable[[Pool], list[Hypothesis]]] = {
     )
 }  # fmt: skip
 """Kind of effect -> its hypotheses for a pool."""
+
+
+def screens() -> dict[str, Callable[[Pool], list[Hypothesis]]]:
+    """Return kind of effect -> its hypotheses for a pool, effects of installed packages included."""
+    return SCREENS | {kind: effect_class(kind).hypotheses for kind in effect_kinds() if kind not in SCREENS}
 
 
 def step_times(pool: Pool) -> Array:

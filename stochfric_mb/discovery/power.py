@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from stochfric_mb.discovery.choice import NAME
-from stochfric_mb.discovery.hypotheses import SCREENS
+from stochfric_mb.discovery.hypotheses import screens
 from stochfric_mb.discovery.naming import PERIODIC
 from stochfric_mb.discovery.study import Study
 
@@ -18,7 +18,7 @@ def smallest(study: Study) -> dict[str, float]:
     """
     regression = study.regression
     found: dict[str, float] = {}
-    for kind, screen in SCREENS.items():
+    for kind, screen in screens().items():
         hypotheses = screen(study.pool)
         if not hypotheses:
             continue

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from stochfric_mb.discovery.hypotheses import SCREENS, Hypothesis, competitors, step_times, steps
+from stochfric_mb.discovery.hypotheses import Hypothesis, competitors, screens, step_times, steps
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.regression import Regression, Solution, Terms
 
@@ -64,7 +64,7 @@ def screen(
     """
     log_n = float(np.log(regression.n))
     families: dict[str, tuple[str, list[Hypothesis]]] = {
-        kind: ("", make(pool)) for kind, make in SCREENS.items() if kind not in without
+        kind: ("", make(pool)) for kind, make in screens().items() if kind not in without
     }
     families |= {name: (axis, [Hypothesis(name, list(columns))]) for name, (axis, columns) in competitors(pool).items()}
     for kind, axis, multiplied in (("friction_step", "abrupt change of the friction", True), ("sensor_step", "", False)):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from stochfric_mb.discovery.result import Where
+from stochfric_mb.effects import effect_class
 
 WHERE: dict[str, tuple[str, str]] = {
     "velocity_weakening": ("relative velocity", "friction in slip depends on the sliding velocity and falls as it rises"),
@@ -35,5 +36,7 @@ WHERE: dict[str, tuple[str, str]] = {
 
 def where_of(kind: str) -> Where:
     """Return where an effect shows."""
-    axis, text = WHERE.get(kind, (kind, f"{kind} explains the disagreement"))
-    return Where(axis, text)
+    if kind in WHERE:
+        return Where(*WHERE[kind])
+    cls = effect_class(kind)
+    return Where(cls.axis or kind, cls.shows or f"{kind} explains the disagreement")

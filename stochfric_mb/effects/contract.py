@@ -33,6 +33,7 @@ from stochfric_mb.errors import InputError, require_name, require_number
 
 if TYPE_CHECKING:
     from stochfric_mb.coefficients import Process
+    from stochfric_mb.effects.marks import Hypothesis, Slips
 
 Array = npt.NDArray[np.float64]
 
@@ -102,6 +103,10 @@ class Effect:
     """Place of ``friction`` among effects: 1 adds to mu_s or mu_k, 2 mixes them, 3 multiplies both."""
     n_memory: ClassVar[int] = 0
     """Number of unknowns of the effect's own differential equation."""
+    axis: ClassVar[str] = ""
+    """Where in a record it shows, in a word or two, such as "relative velocity"."""
+    shows: ClassVar[str] = ""
+    """What it does there, as a sentence without a full stop."""
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
@@ -141,6 +146,11 @@ class Effect:
     def shortest_time(self, speed: float) -> float:
         """Return the shortest period [s] that the effect brings in while the contact moves at ``speed`` [m/s]."""
         return math.inf
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return the ways in which the effect may have marked the slips; none: discovery does not look for it there."""
+        return []
 
     @classmethod
     def functions(cls) -> ModuleType:
