@@ -32,7 +32,7 @@ class RailSpot(Effect):
     source: ClassVar[str] = "my rig, 2026"
     group: ClassVar[str] = "friction varies"
     order: ClassVar[int] = 3
-    axis: ClassVar[str] = "position of the box"
+    shows_on: ClassVar[str] = "position of the box"
     shows: ClassVar[str] = "friction is low where the rail is polished"
 
     @classmethod

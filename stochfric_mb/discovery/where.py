@@ -39,4 +39,4 @@ def where_of(kind: str) -> Where:
     if kind in WHERE:
         return Where(*WHERE[kind])
     cls = effect_class(kind)
-    return Where(cls.axis or kind, cls.shows or f"{kind} explains the disagreement")
+    return Where(cls.shows_on or kind, cls.shows or f"{kind} explains the disagreement")

@@ -103,7 +103,7 @@ class Effect:
     """Place of ``friction`` among effects: 1 adds to mu_s or mu_k, 2 mixes them, 3 multiplies both."""
     n_memory: ClassVar[int] = 0
     """Number of unknowns of the effect's own differential equation."""
-    axis: ClassVar[str] = ""
+    shows_on: ClassVar[str] = ""
     """Where in a record it shows, in a word or two, such as "relative velocity"."""
     shows: ClassVar[str] = ""
     """What it does there, as a sentence without a full stop."""
