@@ -40,9 +40,7 @@ def matched(model: Model, pool: Pool, *, rounds: int = 3) -> Model:
         for name, column in (("sigma_s", 1), ("sigma_k", 3)):
             now = getattr(model.effects[place], name)
             ratio = target[column] / simulated[column] if simulated[column] > 0.0 else 1.0
-            # beyond a quarter of the distance of the means, pairs with mu_k > mu_s would be common
-            most = 0.25 * max(model.law.mu_s - model.law.mu_k, 0.02 * model.law.mu_s)
-            values[name] = float(min(max(now, 1.0e-5) * np.clip(ratio, 0.4, 2.5), most))
+            values[name] = float(min(max(now, 1.0e-5) * np.clip(ratio, 0.4, 2.5), _most(model)))
         effects = list(model.effects)
         effects[place] = dataclasses.replace(effects[place], **values)
         knots = getattr(model.effects[place], "process", "") == "knots"
@@ -53,7 +51,17 @@ def matched(model: Model, pool: Pool, *, rounds: int = 3) -> Model:
         mu_s = float(np.clip(model.law.mu_s + shift[0], (1.0 - FARTHEST) * first.mu_s, (1.0 + FARTHEST) * first.mu_s))
         mu_k = float(np.clip(model.law.mu_k + shift[1], 1.0e-5, 0.98 * mu_s))
         model = dataclasses.replace(model, effects=tuple(effects)).with_law(mu_s, mu_k)
+        # the means may have come closer to each other
+        for name in ("sigma_s", "sigma_k"):
+            values[name] = min(values[name], _most(model))
+        effects[place] = dataclasses.replace(effects[place], **values)
+        model = dataclasses.replace(model, effects=tuple(effects))
     return model
+
+
+def _most(model: Model) -> float:
+    """Return the largest deviation of a coefficient: beyond a quarter of the means' distance pairs with mu_k > mu_s abound."""
+    return 0.25 * max(model.law.mu_s - model.law.mu_k, 0.02 * model.law.mu_s)
 
 
 def simulated_slips(model: Model, like: Slips, *, sample: int = 0, seed: int = 5) -> Slips:
