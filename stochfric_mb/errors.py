@@ -1,10 +1,11 @@
-"""The errors this package raises, and the two checks that build most of them.
+"""The errors this package raises, and the checks that build most of them.
 
 Every message names the value, the rule it broke and the remedy.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import difflib
 import math
 from collections.abc import Iterable
@@ -92,3 +93,23 @@ def _range(low: float, high: float, above: float, below: float) -> str:
     elif high < math.inf:
         parts.append(f"<= {high:g}")
     return " and ".join(parts)
+
+
+def require_fields(what: str, cls: type, names: Iterable[str]) -> None:
+    """Check that names are those of a dataclass's fields, and that none without a default is missing.
+
+    Args:
+        what: what the class is, for messages, such as "law coulomb".
+        cls: the dataclass.
+        names: what is given.
+
+    Raises:
+        InputError: an unknown or a missing name.
+    """
+    fields = {f.name: f for f in dataclasses.fields(cls)}
+    given = list(names)
+    for name in given:
+        require_name(f"parameter of {what}", name, fields)
+    missing = [n for n, f in fields.items() if f.default is dataclasses.MISSING and n not in given]
+    if missing:
+        raise InputError(f"{what} lacks {', '.join(missing)}; give a number for each")

@@ -5,7 +5,6 @@ Effects of other packages join by an entry point in the group `GROUP`, name = ki
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 import importlib
 import importlib.metadata
@@ -13,7 +12,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from stochfric_mb.effects.contract import GROUPS, Effect
-from stochfric_mb.errors import InputError, require_name
+from stochfric_mb.errors import InputError, require_fields, require_name
 
 GROUP = "stochfric_mb.effects"
 """Group of the entry points by which other packages bring effects."""
@@ -90,12 +89,7 @@ def make_effect(kind: str, **values: Any) -> Effect:
         InputError: unknown kind, unknown or missing parameter, or a value out of range.
     """
     cls = effect_class(kind)
-    fields = {f.name: f for f in dataclasses.fields(cls)}
-    for name in values:
-        require_name(f"parameter of effect {kind}", name, fields)
-    missing = [n for n, f in fields.items() if f.default is dataclasses.MISSING and n not in values]
-    if missing:
-        raise InputError(f"effect {kind} lacks {', '.join(missing)}; give a number for each")
+    require_fields(f"effect {kind}", cls, values)
     return cls(**values)
 
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 import importlib
 from typing import Any
 
-from stochfric_mb.errors import InputError, require_name
+from stochfric_mb.errors import require_fields, require_name
 from stochfric_mb.laws.contract import AXIOMS, GUARDS, Law
 
 LAWS: dict[str, tuple[str, str] | type[Law]] = {
@@ -49,12 +48,7 @@ def make_law(kind: str, **parameters: Any) -> Law:
         InputError: unknown kind, unknown or missing parameter, or a value out of range.
     """
     cls = law_class(kind)
-    fields = {f.name: f for f in dataclasses.fields(cls)}
-    for name in parameters:
-        require_name(f"parameter of law {kind}", name, fields)
-    missing = [n for n, f in fields.items() if f.default is dataclasses.MISSING and n not in parameters]
-    if missing:
-        raise InputError(f"law {kind} lacks {', '.join(missing)}; give a number for each")
+    require_fields(f"law {kind}", cls, parameters)
     return cls(**parameters)
 
 
