@@ -25,7 +25,9 @@ FLOOR = 1.0e-3
 """Error of the features that is always allowed, over the normal force [-]: numerics are never discovered."""
 TYPICAL_SLIPS, LOOKED_AT = 6, 10
 """Slips compared at an operating point with a known excitation, chosen from this many as those most like each other."""
-STRENGTHS = ("amplitude", "coefficient", "distance", "cubic", "gap", "mass_ratio", "rate", "exponent", "asymmetry")
+STRENGTHS = (
+    "amplitude", "coefficient", "distance", "cubic", "gap", "mass_ratio", "rate", "exponent", "asymmetry", "time_constant",
+)  # fmt: skip
 """Parameters that measure how strong an effect is."""
 MISSED = 50.0
 """Deviation that counts for every feature where the candidate does not slip as the data do."""

@@ -13,7 +13,6 @@ import numpy as np
 
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.record import Array
-from stochfric_mb.discovery.slips import legendre_coefficients
 from stochfric_mb.effects import effect_class, effect_kinds
 from stochfric_mb.effects.marks import Columns, Hypothesis
 
@@ -56,19 +55,19 @@ def viscous_friction(pool: Pool) -> list[Hypothesis]:
 
 
 def frictional_lag(pool: Pool) -> list[Hypothesis]:
-    """Return friction that falls with the distance slipped since the break-away."""
-    distance = pool.slip_distance
-    whole = float(np.median(distance.max(axis=1)))
+    """Return friction that falls with the distance slipped since the break-away, or with the time."""
     gap = np.maximum(pool.static - pool.kinetic, 0.02 * pool.static)[:, None]
-    return [
-        Hypothesis(
-            "frictional_lag",
-            [pool.column(None, gap * np.exp(-distance / d))],
-            (d,),
-            lambda b, d=d: {"distance": float(d * np.clip(b[0], 0.2, 3.0))},
-        )
-        for d in whole * np.array([0.007, 0.014, 0.028, 0.056, 0.11, 0.22])
-    ]
+    found: list[Hypothesis] = []
+    for name, since, shares in (
+        ("distance", pool.slip_distance, (0.007, 0.014, 0.028, 0.056, 0.11, 0.22)),
+        ("time_constant", pool.node_time - pool.onset_time[:, None], (0.03, 0.06, 0.12, 0.24)),
+    ):
+        whole = float(np.median(since.max(axis=1)))
+        for scale in whole * np.array(shares):
+            start = lambda b, name=name, scale=scale: {name: float(scale * np.clip(b[0], 0.2, 3.0))}  # noqa: E731
+            columns = [pool.column(None, gap * np.exp(-since / scale))]
+            found.append(Hypothesis("frictional_lag", columns, (scale,), start, variant=name))
+    return found
 
 
 def dwell_ageing(pool: Pool) -> list[Hypothesis]:
@@ -240,74 +239,6 @@ def sensor_drift(pool: Pool) -> list[Hypothesis]:
     ]
 
 
-def frequencies(pool: Pool) -> Array:
-    """Return the frequencies at which periodic effects are looked for [Hz]."""
-    slip_rate = np.median([1.0 / np.median(np.diff(s.onset_time)) for s in pool.slips])
-    return np.arange(3.0 / pool.duration, 1.6 * slip_rate, 1.0 / (5.0 * pool.duration))
-
-
-def periodic(
-    pool: Pool, kind: str, phases: tuple[Array, Array], weights: tuple[Array, Array], harmonics: int, setting: tuple[float, ...]
-) -> Hypothesis:
-    """Return cosine and sine of every harmonic and run: the phase is each run's own.
-
-    Args:
-        pool: the slips.
-        kind: the effect.
-        phases: phase of the fundamental at the onset, shape (n,), and at the nodes, shape (n, N_NODES) [rad].
-        weights: force at the onset and in the slip that is modulated [N], shape (n,).
-        harmonics: number of harmonics.
-        setting: what the phases were made from.
-    """
-    angle = np.stack([h * np.concatenate([phases[0][:, None], phases[1]], axis=1) for h in range(1, harmonics + 1)])
-    waves = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    onset = weights[0] * waves[..., 0]
-    in_slip = legendre_coefficients(weights[1][:, None] * waves[..., 1:])
-    all_runs = np.concatenate([onset[..., None], in_slip], axis=-1)
-    columns: Columns = []
-    for run in range(pool.n_runs):
-        mine = (pool.run == run)[:, None]
-        for h in range(harmonics):
-            for wave in (0, 1):
-                column = all_runs[h, wave] * mine
-                # less its mean over the run: phases of their own must not stand in for levels that differ from run to run
-                columns.append(column - mine * (column.sum(axis=0) / mine.sum()))
-    return Hypothesis(kind, columns, (*setting, float(harmonics)))
-
-
-def normal_load_ripple(pool: Pool) -> list[Hypothesis]:
-    """Return friction that is modulated in time, in stick and slip by the same share."""
-    return [
-        periodic(pool, "normal_load_ripple", _in_time(pool, f), (pool.static, pool.kinetic), h, (f,))
-        for h in (1, 3)
-        for f in frequencies(pool)
-    ]
-
-
-def harmonic_force(pool: Pool) -> list[Hypothesis]:
-    """Return a force that is added in time, the same in stick and slip."""
-    one = pool.direction.astype(np.float64)
-    return [periodic(pool, "harmonic_force", _in_time(pool, f), (one, one), h, (f,)) for h in (1, 3) for f in frequencies(pool)]
-
-
-def position_dependent_friction(pool: Pool) -> list[Hypothesis]:
-    """Return friction that is modulated along the belt, in stick and slip by the same share."""
-    slowest = pool.belt_velocity.min()
-    onset = pool.belt_velocity * pool.onset_time - pool.typical_onset
-    nodes = pool.belt_velocity[:, None] * pool.node_time - pool.typical_position
-    return [
-        periodic(
-            pool, "position_dependent_friction", (2 * np.pi * f / slowest * onset, 2 * np.pi * f / slowest * nodes),
-            (pool.static, pool.kinetic), h, (slowest / f,),
-        )
-        for h in (1, 3) for f in frequencies(pool)
-    ]  # fmt: skip
-
-
-def _in_time(pool: Pool, frequency: float) -> tuple[Array, Array]:
-    return 2.0 * np.pi * frequency * pool.onset_time, 2.0 * np.pi * frequency * pool.node_time
-
-
 def sensor_delay(pool: Pool) -> list[Hypothesis]:
     """Return minus the rate of the known force, where there is one: a late record compares with a force that has moved on."""
     if not any(s.record.mechanism.excitation_amplitude for s in pool.slips):
@@ -329,10 +260,9 @@ SCREENS: dict[str, Callable[[Pool], list[Hypothesis]]] = {
     for screen in (
         velocity_weakening, viscous_friction, frictional_lag, dwell_ageing, direction_asymmetry, load_dependence,
         nonlinear_stiffness, quadratic_damping, backlash, second_mode, friction_drift, sensor_drift, sensor_delay,
-        normal_load_ripple, harmonic_force, position_dependent_friction,
     )
 }  # fmt: skip
-"""Kind of effect -> its hypotheses for a pool."""
+"""Kind of effect -> its hypotheses for a pool; for periodic effects see `waves`."""
 
 
 def screens() -> dict[str, Callable[[Pool], list[Hypothesis]]]:

@@ -15,6 +15,8 @@ from stochfric_mb.effects import Effect, effect_class, make_effect
 
 PERIODIC = ("normal_load_ripple", "harmonic_force", "position_dependent_friction")
 """Effects whose phase each run has its own value of."""
+HIGHEST_HARMONIC = 9
+"""Order up to which a ripple at a multiple of a named one's frequency is its harmonic: beyond, a multiple is always near."""
 
 
 def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int) -> Model:
@@ -112,7 +114,7 @@ def as_harmonic(model: Model, candidate: Candidate, pool: Pool, n_terms: int) ->
     belt = float(pool.belt_velocity.min())
     main, other = _frequency(held, belt), _candidate_frequency(candidate, belt)
     order = round(other / main)
-    if order < 1 or abs(other - order * main) > 2.0 / pool.duration:
+    if not 1 <= order <= HIGHEST_HARMONIC or abs(other - order * main) > 2.0 / pool.duration:
         return None
     if held.kind == candidate.name:
         return with_candidate(model, candidate, pool, n_terms)

@@ -52,6 +52,20 @@ class Solution:
     """Logarithms of sigma_s, sigma_k, sigma_w [ln N], shape (3,)."""
 
 
+@dataclasses.dataclass(frozen=True)
+class Part:
+    """What further regressors of one run meet, whitened; rows are (slip, feature) pairs."""
+
+    run: int
+    """Number of the run."""
+    inverse: Array
+    """Whitening of a slip's features [1/N], shape (N_FEATURES, N_FEATURES)."""
+    basis: Array
+    """The run's rows of an orthonormal basis of the terms, shape (rows, p)."""
+    rest: Array
+    """What the terms leave of the features, shape (rows,)."""
+
+
 class Regression:
     """Fits of models to one pool of slips."""
 
@@ -99,12 +113,7 @@ class Regression:
 
     def gains(self, terms: Terms, scatter: Array, trials: Sequence[Sequence[Array]]) -> Array:
         """Return by how much each trial's further columns lower the cost at fixed variance components, shape (len(trials),)."""
-        design, target, _ = self._whitened(terms.columns, scatter)
-        weights = np.diag(1.0 / terms.priors)
-        basis, _ = np.linalg.qr(np.r_[design, weights])
-        rest = np.r_[target, np.zeros(len(weights))]
-        rest = rest - basis @ (basis.T @ rest)
-        top = basis[: len(target)]
+        top, rest = self._rest(terms, scatter)
         gains = np.zeros(len(trials))
         for i, columns in enumerate(trials):
             more, _, _ = self._whitened(np.stack(columns, axis=2), scatter)
@@ -116,10 +125,30 @@ class Regression:
             if not usable.any():
                 continue
             size = size[usable]
-            along = (more.T @ rest[: len(target)])[usable] / size
+            along = (more.T @ rest)[usable] / size
             gram = gram[np.ix_(usable, usable)] / np.outer(size, size) + 1.0e-9 * np.eye(len(size))
             gains[i] = 0.5 * float(along @ np.linalg.solve(gram, along))
         return gains
+
+    def parts(self, terms: Terms, scatter: Array) -> list[Part]:
+        """Return what further regressors of single runs meet, run by run."""
+        top, rest = self._rest(terms, scatter)
+        found: list[Part] = []
+        first = 0
+        for run, rows in enumerate(self._rows):
+            at = slice(first, first + N_FEATURES * len(rows))
+            found.append(Part(run, self._whitening(run, scatter), top[at], rest[at]))
+            first = at.stop
+        return found
+
+    def _rest(self, terms: Terms, scatter: Array) -> tuple[Array, Array]:
+        """Return an orthonormal basis of the whitened terms, and what they leave of the whitened features."""
+        design, target, _ = self._whitened(terms.columns, scatter)
+        weights = np.diag(1.0 / terms.priors)
+        basis, _ = np.linalg.qr(np.r_[design, weights])
+        rest = np.r_[target, np.zeros(len(weights))]
+        rest = rest - basis @ (basis.T @ rest)
+        return basis[: len(target)], rest[: len(target)]
 
     def residuals(self, terms: Terms, solution: Solution) -> Array:
         """Return the features less the model [N], shape (n, N_FEATURES), of all slips."""
@@ -134,14 +163,16 @@ class Regression:
         covariance[1:, 1:] += white * np.diag(_WHITE)
         return covariance
 
+    def _whitening(self, run: int, scatter: Array) -> Array:
+        return np.asarray(np.linalg.inv(np.linalg.cholesky(self.covariance(run, scatter))), dtype=np.float64)
+
     def _whitened(self, columns: Array, scatter: Array) -> tuple[Array, Array, float]:
         designs: list[Array] = []
         targets: list[Array] = []
         volume = 0.0
         for r, rows in enumerate(self._rows):
-            factor = np.linalg.cholesky(self.covariance(r, scatter))
-            inverse = np.linalg.inv(factor)
-            volume += 2.0 * float(np.log(np.diag(factor)).sum()) * len(rows)
+            inverse = self._whitening(r, scatter)
+            volume -= 2.0 * float(np.log(np.diag(inverse)).sum()) * len(rows)
             targets.append((self.pool.features[rows] @ inverse.T).ravel())
             designs.append((inverse @ columns[rows]).reshape(-1, columns.shape[2]))
         return np.concatenate(designs), np.concatenate(targets), volume

@@ -13,6 +13,7 @@ import numpy as np
 from stochfric_mb.discovery.hypotheses import Hypothesis, competitors, screens, step_times, steps
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.regression import Regression, Solution, Terms
+from stochfric_mb.discovery.waves import WAVES, best_wave
 
 POSITIVE = (
     "velocity_weakening", "viscous_friction", "frictional_lag", "dwell_ageing", "quadratic_damping", "backlash", "second_mode",
@@ -53,7 +54,7 @@ class Candidate:
 def screen(
     pool: Pool, regression: Regression, terms: Terms, solution: Solution, *, without: Sequence[str] = ()
 ) -> list[Candidate]:
-    """Return the best hypothesis of each kind, best first.
+    """Return the best hypothesis of each kind, and of each variant of a kind, best first.
 
     Args:
         pool: the slips.
@@ -63,21 +64,26 @@ def screen(
         without: kinds that the model holds already.
     """
     log_n = float(np.log(regression.n))
-    families: dict[str, tuple[str, list[Hypothesis]]] = {
-        kind: ("", make(pool)) for kind, make in screens().items() if kind not in without
-    }
-    families |= {name: (axis, [Hypothesis(name, list(columns))]) for name, (axis, columns) in competitors(pool).items()}
+    families: list[tuple[str, str, list[Hypothesis], int]] = []  # name, axis, hypotheses, size of the grid
+    for kind, make in screens().items():
+        hypotheses = make(pool) if kind not in without else []
+        for variant in dict.fromkeys(h.variant for h in hypotheses):
+            families.append((kind, "", [h for h in hypotheses if h.variant == variant], len(hypotheses)))
+    for kind in WAVES:
+        if kind not in without:
+            wave, looked_at = best_wave(kind, pool, regression, terms, solution.scatter)
+            families.append((kind, "", [wave], looked_at))
+    for name, (axis, columns) in competitors(pool).items():
+        families.append((name, axis, [Hypothesis(name, list(columns))], 1))
     for kind, axis, multiplied in (("friction_step", "abrupt change of the friction", True), ("sensor_step", "", False)):
         if kind not in without:
-            families[kind] = (axis, [_step(pool, regression, terms, solution, kind, multiplied=multiplied)])
+            step = _step(pool, regression, terms, solution, kind, multiplied=multiplied)
+            families.append((kind, axis, [step], len(step_times(pool)) ** pool.n_runs))
     rough: list[tuple[float, str, str, Hypothesis, float]] = []
-    for kind, (axis, hypotheses) in families.items():
-        if not hypotheses:
-            continue
+    for kind, axis, hypotheses, grid in families:
         gains = regression.gains(terms, solution.scatter, [h.columns for h in hypotheses])
         cost = np.array([len(h.columns) * log_n for h in hypotheses])
         best = int(np.argmax(2.0 * gains - cost))
-        grid = len(hypotheses) if "_step" not in kind else len(step_times(pool)) ** pool.n_runs
         penalty = float(cost[best]) + 2.0 * np.log(grid)
         rough.append((2.0 * float(gains[best]) - penalty, kind, axis, hypotheses[best], penalty))
     rough.sort(key=lambda r: -r[0])

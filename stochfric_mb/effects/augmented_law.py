@@ -254,6 +254,7 @@ def _see(t, ux, vx, state, mu_s, mu_k, p, begins, w, memory):
     stuck_before = state[DWELL] < 0.0  # dwell and slip follow commits, so that the force has no jump within a step
     w[e.DWELL] = 0.0 if begins else t - state[SINCE] if stuck_before else state[DWELL]
     w[e.SLIP] = 0.0 if begins or stuck_before else abs(u - state[BROKE_AT])
+    w[e.SLIP_TIME] = 0.0 if begins or stuck_before else max(t - state[SINCE] - state[DWELL], 0.0)
     w[e.BELT_POSITION], w[e.MU_S], w[e.MU_K], w[e.VISCOUS_FORCE] = u, mu_s, mu_k, 0.0
     for i in range(int(q[N_AROUND]), int(q[N_AROUND] + q[N_FRICTION])):
         row = TABLE + 3 * i

@@ -83,7 +83,9 @@ MU_K = 19
 """Kinetic coefficient [-]; changed by ``friction``."""
 VISCOUS_FORCE = 20
 """Friction force beside mu_k N, along v_rel [N]; changed by ``friction``."""
-WORLD = 21
+SLIP_TIME = 21
+"""Time since break-away [s], 0 in stick."""
+WORLD = 22
 """Number of entries."""
 
 

@@ -1,4 +1,4 @@
-"""Frictional lag: friction falls from static to kinetic over a sliding distance."""
+"""Frictional lag: friction falls from static to kinetic over a sliding distance, or over a time."""
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
 # pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
@@ -10,26 +10,36 @@ import dataclasses
 import math
 from typing import ClassVar
 
-from stochfric_mb.effects.contract import MU_K, MU_S, SLIP, Effect, parameter
+from stochfric_mb.effects.contract import MU_K, MU_S, SLIP, SLIP_TIME, Effect, parameter
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class FrictionalLag(Effect):
-    """mu = mu_k + (mu_s - mu_k) exp(-slip/distance), slip being the distance slid since break-away.
+    """mu = mu_k + (mu_s - mu_k) exp(-slip/distance - slip_time/time_constant), both counted from break-away.
 
-    Reference: E. Rabinowicz, Proc. Phys. Soc. 71, 1958, 668-675, doi 10.1088/0370-1328/71/4/316.
+    This is a memory f with f' = -f (abs(v_rel)/distance + 1/time_constant) that a stick phase fills to 1.
+
+    References: E. Rabinowicz, Proc. Phys. Soc. 71, 1958, 668-675, doi 10.1088/0370-1328/71/4/316 (distance);
+    D. P. Hess, A. Soom, J. Tribology 112, 1990, 147-152, doi 10.1115/1.2920220 (a lag in time).
     """
 
-    distance: float = parameter("m", "sliding distance over which friction falls to 1/e", scale=1.0e-4, low=0.0, strict=True)
+    distance: float = parameter(
+        "m", "sliding distance over which friction falls to 1/e", scale=1.0e-4, low=0.0, strict=True, infinite=True,
+        default=math.inf,
+    )  # fmt: skip
     """Sliding distance over which friction falls to 1/e [m]."""
+    time_constant: float = parameter(
+        "s", "time over which friction falls to 1/e", scale=1.0e-2, low=0.0, strict=True, infinite=True, default=math.inf
+    )
+    """Time over which friction falls to 1/e [s]."""
 
     kind: ClassVar[str] = "frictional_lag"
-    equation: ClassVar[str] = "mu = mu_k + (mu_s - mu_k) exp(-slip/distance)"
-    source: ClassVar[str] = "Rabinowicz 1951, 1958; Dieterich 1979"
+    equation: ClassVar[str] = "mu = mu_k + (mu_s - mu_k) exp(-slip/distance - slip_time/time_constant)"
+    source: ClassVar[str] = "Rabinowicz 1951, 1958; Dieterich 1979; Hess and Soom 1990"
     group: ClassVar[str] = "friction law"
     order: ClassVar[int] = 2
 
 
 def friction(world, memory, rates, p):
     """Let mu_k start at mu_s."""
-    world[MU_K] += (world[MU_S] - world[MU_K]) * math.exp(-world[SLIP] / p[0])
+    world[MU_K] += (world[MU_S] - world[MU_K]) * math.exp(-world[SLIP] / p[0] - world[SLIP_TIME] / p[1])

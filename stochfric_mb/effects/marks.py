@@ -135,5 +135,7 @@ class Hypothesis:
     """Its regressors, made by `Slips.column`; the first-order change when the effect is switched on."""
     setting: tuple[float, ...] = ()
     """Values of the parameters that enter nonlinearly; one hypothesis a point of their grid."""
-    start: Callable[[Array], dict[str, float]] = lambda _: {}
+    start: Callable[[Array], dict[str, Any]] = lambda _: {}
     """From the fitted coefficients to values of the effect's parameters, where a fit may start."""
+    variant: str = ""
+    """Which of several forms of the effect; the best of each form is followed up."""

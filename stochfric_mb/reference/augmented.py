@@ -54,6 +54,8 @@ class Start:
     """Time since it stuck [s]; of a sliding box the duration of the last stick."""
     slip: float = 0.0
     """Distance that a sliding box has slid since break-away [m]."""
+    slip_time: float = 0.0
+    """Time that a sliding box has slid since break-away [s]."""
     memory: tuple[float, ...] | None = None
     """Unknowns of the effects' own equations, one after the other; None: at rest relative to the box."""
     deflection: float = math.nan
@@ -199,7 +201,7 @@ class AugmentedSystem:
         run.y[2 : 2 + run.counts[2]] = self._memories([start])[0]
         augmented_march.begin(
             run, self._descriptor, float(start.time), float(start.position), float(start.velocity), bool(start.stick),
-            float(start.dwell), float(start.slip), float(start.draws), float(start.deflection),
+            float(start.dwell), float(start.slip), float(start.slip_time), float(start.draws), float(start.deflection),
         )  # fmt: skip
         return run
 
@@ -276,6 +278,7 @@ def _end(run: Any) -> Start:
         stick=not sliding,
         dwell=float(clock[m.DWELL] if sliding else clock[m.NOW] - clock[m.SINCE]),
         slip=float(clock[m.SLID] + abs(u - clock[m.BROKE_AT])) if sliding else 0.0,
+        slip_time=float(clock[m.NOW] - clock[m.SINCE] - clock[m.DWELL]) if sliding else 0.0,
         memory=tuple(float(v) for v in y[2 : 2 + run.counts[2]]),
         deflection=u - float(clock[m.ANCHOR]) if clock[m.MODE] == m.SPRING else math.nan,
         draws=int(clock[m.DRAWS]),

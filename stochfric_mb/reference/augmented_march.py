@@ -56,11 +56,11 @@ DENSE = np.array(
 
 
 @compiled
-def begin(r, d, t, position, velocity, stuck, dwell, slip, draws, deflection):
+def begin(r, d, t, position, velocity, stuck, dwell, slip, slip_time, draws, deflection):
     """Set up a run at time t [s]; the memories are in ``r.y`` already. A deflection that is not a number: at rest."""
     clock, y = r.clock, r.y
     clock[m.NOW], clock[m.DWELL], clock[m.DRAWS], clock[m.SWITCHES], clock[m.STATUS] = t, dwell, draws, 0.0, OK
-    clock[m.SINCE] = t - dwell
+    clock[m.SINCE] = t - dwell - (0.0 if stuck else slip_time)
     clock[m.STEP], clock[m.MARGIN] = RESTART, math.nan
     y[0], y[1] = position, velocity
     surround(r, t, y, r.unused)
@@ -295,7 +295,7 @@ def _come_to_rest(r, d, log):
     surround(r, t, y, r.unused)
     travel = w[e.BELT_TRAVEL]
     if r.constants[m.LIMIT] > 0.0:
-        rub(r, d, t, clock[m.SIDE], 0.0, 0.0, 0.0)
+        rub(r, d, t, clock[m.SIDE], 0.0, 0.0, 0.0, 0.0)
         stiffness, damping = spring_constants(r)
         limit = w[e.MU_S] * w[e.NORMAL_FORCE] / stiffness
         z = clock[m.SIDE] * limit - damping * (w[e.BELT_VELOCITY] - y[1]) / stiffness
@@ -306,7 +306,7 @@ def _come_to_rest(r, d, log):
         surround(r, t, y, r.unused)
         needed = hold(r, t)
         side = 1.0 if needed >= 0.0 else -1.0
-        rub(r, d, t, side, 0.0, 0.0, 0.0)
+        rub(r, d, t, side, 0.0, 0.0, 0.0, 0.0)
         if abs(needed) > w[e.MU_S] * w[e.NORMAL_FORCE]:
             _slide_from(r, side, travel - y[0], clock[m.SLID] + abs(travel - y[0] - clock[m.BROKE_AT]))
             clock[m.SWITCHES] += 1.0
@@ -363,7 +363,7 @@ def forecasts(r, d, starts, memories, step, count, out):
         for j in range(r.counts[2]):
             r.y[2 + j] = memories[k, j]
         s = starts[k]
-        begin(r, d, s[0], s[1], s[2], s[3] != 0.0, s[4], s[5], 0.0, math.nan)
+        begin(r, d, s[0], s[1], s[2], s[3] != 0.0, s[4], s[5], 0.0, 0.0, math.nan)
         march(r, d, step, count, row, True)
         worst = max(worst, r.clock[m.STATUS])
         for i in range(count):

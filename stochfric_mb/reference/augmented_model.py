@@ -111,13 +111,13 @@ def hold(r, t):
 
 
 @compiled
-def rub(r, d, t, direction, speed, dwell, slip):
+def rub(r, d, t, direction, speed, dwell, slip, slip_time):
     """Find the coefficients, after `surround`: path, effects, law's curve between the two.
 
     Where friction at the lowest sliding speed exceeds mu_s the contact cannot slide away, so it holds up to there.
     """
     c, w = r.constants, r.world
-    w[e.DIRECTION], w[e.SPEED], w[e.DWELL], w[e.SLIP] = direction, speed, dwell, slip
+    w[e.DIRECTION], w[e.SPEED], w[e.DWELL], w[e.SLIP], w[e.SLIP_TIME] = direction, speed, dwell, slip, slip_time
     w[e.BELT_POSITION] = w[e.BELT_TRAVEL] - w[e.POSITION]
     mu_s, mu_k = evaluate(
         d, r.cursor, int(c[SEED]), int(c[SAMPLE]), int(c[CONTACT]), t, w[e.BELT_POSITION], r.clock[DRAWS]
@@ -139,7 +139,7 @@ def slide(r, d, t, y, rates):
     clock, w = r.clock, r.world
     speed = max(clock[SIDE] * (w[e.BELT_VELOCITY] - y[1]), 0.0)
     slip = clock[SLID] + abs(w[e.BELT_TRAVEL] - y[0] - clock[BROKE_AT])
-    rub(r, d, t, clock[SIDE], speed, clock[DWELL], slip)
+    rub(r, d, t, clock[SIDE], speed, clock[DWELL], slip, max(t - clock[SINCE] - clock[DWELL], 0.0))
     return clock[SIDE] * (w[e.MU_K] * w[e.NORMAL_FORCE] + w[e.VISCOUS_FORCE])
 
 
@@ -148,7 +148,7 @@ def stick(r, d, t, y, rates):
     """Find everything for a contact that rides on the belt; return (holding force, its limit) [N]."""
     ride(r, t, y, rates)
     needed = hold(r, t)
-    rub(r, d, t, 1.0 if needed >= 0.0 else -1.0, 0.0, t - r.clock[SINCE], 0.0)
+    rub(r, d, t, 1.0 if needed >= 0.0 else -1.0, 0.0, t - r.clock[SINCE], 0.0, 0.0)
     return needed, r.world[e.MU_S] * r.world[e.NORMAL_FORCE]
 
 
@@ -159,7 +159,7 @@ def spring(r, d, t, y, rates):
     w = r.world
     z = w[e.BELT_TRAVEL] - y[0] - r.clock[ANCHOR]
     v = w[e.BELT_VELOCITY] - y[1]
-    rub(r, d, t, 1.0 if z > 0.0 or (z == 0.0 and v >= 0.0) else -1.0, 0.0, t - r.clock[SINCE], 0.0)
+    rub(r, d, t, 1.0 if z > 0.0 or (z == 0.0 and v >= 0.0) else -1.0, 0.0, t - r.clock[SINCE], 0.0, 0.0)
     if w[e.NORMAL_FORCE] <= 0.0:
         return 0.0, z, 0.0
     stiffness, damping = spring_constants(r)

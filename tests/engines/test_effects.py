@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from stochfric_mb.effects import EFFECTS, effect_class
+from stochfric_mb.effects import EFFECTS, effect_class, make_effect
 from stochfric_mb.effects.combine import on_sensor
 from stochfric_mb.engines import adapter
 from stochfric_mb.metrics import rms_difference
@@ -44,6 +44,14 @@ def test_each_effect_agrees_with_the_reference(kind: str, engine: str, reference
     assert np.median(np.abs(run.friction_force - reference.friction_force)) < 0.01 * 0.8 * 13.0
     # MuJoCo's solver leaves the normal force a residual of about 1e-4
     np.testing.assert_allclose(run.normal_force, reference.normal_force, rtol=1.0e-3)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_lag_in_time_agrees_with_the_reference(engine: str) -> None:
+    pytest.importorskip(engine)
+    scenario = dataclasses.replace(_scenario(), effects=(make_effect("frictional_lag", time_constant=0.02),))
+    reference, run = adapter("reference").simulate(scenario, seed=1), adapter(engine).simulate(scenario, seed=1)
+    assert rms_difference(run.position, reference.position) < RMS
 
 
 @pytest.mark.parametrize("engine", ENGINES)

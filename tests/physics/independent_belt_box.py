@@ -93,14 +93,14 @@ class Box:
             mu_s += e["rate"] * math.log(1 + dwell / e["time_constant"])
         return mu_s * self.factor(t, x, travel, side)
 
-    def kinetic(self, t, x, v, travel, side, slip, dwell):
+    def kinetic(self, t, x, v, travel, side, slip, dwell, slip_time):
         speed = max(side * (self.belt(t)[0] - v), 0.0)
         mu_k = self.mu_k
         if e := self.get("velocity_weakening"):
             mu_k += e["amplitude"] * math.exp(-speed / e["decay_velocity"])
         if e := self.get("frictional_lag"):
             mu_s = self.static(t, x, travel, side, dwell) / self.factor(t, x, travel, side)
-            mu_k += (mu_s - mu_k) * math.exp(-slip / e["distance"])
+            mu_k += (mu_s - mu_k) * math.exp(-slip / e.get("distance", math.inf) - slip_time / e.get("time_constant", math.inf))
         extra = self.get("viscous_friction")["coefficient"] * speed if self.get("viscous_friction") else 0.0
         return mu_k * self.factor(t, x, travel, side) * self.normal(t) + extra
 
@@ -133,9 +133,9 @@ def simulate(box: Box, times: np.ndarray) -> np.ndarray:
                 return limit * box.normal(s) - abs(hold)
         else:
 
-            def rates(s, z, side=side, dwell=dwell, broke=broke):
+            def rates(s, z, side=side, dwell=dwell, broke=broke, begun=t):
                 travel = box.belt(s)[2]
-                f = side * box.kinetic(s, z[0], z[1], travel, side, abs(travel - z[0] - broke), dwell)
+                f = side * box.kinetic(s, z[0], z[1], travel, side, abs(travel - z[0] - broke), dwell, s - begun)
                 return [z[1], (f + box.force(s, *z)) / box.m, z[3], box.oscillator(*z)]
 
             def event(s, z, side=side, t=t):

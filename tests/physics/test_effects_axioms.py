@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from stochfric_mb.contact import Contact
-from stochfric_mb.effects import EFFECTS, Effect, effect_class
+from stochfric_mb.effects import EFFECTS, Effect, effect_class, make_effect
 from stochfric_mb.effects.augmented_law import augmented_law
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
@@ -172,6 +172,16 @@ def test_restart_goes_on_as_before(kind: str) -> None:
     second = system.march(first.end, 1.0e-3, 1500)
     both = np.concatenate([first.position, second.position])
     assert np.abs(both - whole.position).max() < 1.0e-7  # the steps differ after the restart
+
+
+def test_restart_within_a_slip_keeps_the_time_since_break_away() -> None:
+    system = augmented_system(BOX, COULOMB, [make_effect("frictional_lag", time_constant=0.05)])
+    whole = system.march(Start(), 1.0e-3, 3000)
+    slipping = int(np.flatnonzero((whole.time > 1.0) & (whole.stick == 0.0))[20])
+    first = system.march(Start(), 1.0e-3, slipping)
+    assert 0.015 < first.end.slip_time < 0.025
+    second = system.march(first.end, 1.0e-3, 3000 - slipping)
+    assert np.abs(second.position - whole.position[slipping:]).max() < 1.0e-7  # the steps differ after the restart
 
 
 def test_forecasts_are_marches() -> None:

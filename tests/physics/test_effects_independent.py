@@ -57,6 +57,12 @@ def test_one_effect(kind: str) -> None:
     assert np.abs(fast - slow).max() < (KINKED if kind == "backlash" else TOLERANCE)
 
 
+@pytest.mark.parametrize("values", [{"time_constant": 0.02}, {"distance": 2.0e-4, "time_constant": 0.02}])
+def test_lag_in_time(values: dict[str, float]) -> None:
+    fast, slow = _both({"frictional_lag": values})
+    assert np.abs(fast - slow).max() < TOLERANCE
+
+
 @pytest.mark.parametrize("kind", ["direction_asymmetry", "position_dependent_friction", "dwell_ageing"])
 def test_reversed_belt(kind: str) -> None:
     fast, slow = _both({kind: CASES[kind]}, belt=-2.5e-3)

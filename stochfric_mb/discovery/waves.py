@@ -1,0 +1,173 @@
+"""Periodic effects: what a wave in time or along the belt would leave in the slips, looked for over a grid of frequencies.
+
+Amplitude and phase of every harmonic are each run's own, so that the columns of a wave are nonzero in one run only; the
+gain of thousands of frequencies is found from small Gram matrices, run by run.
+
+Slow waves count by how they differ from slip to slip: phases of their own must not stand in for levels that differ from
+run to run. Waves faster than the slips make these break away at their crests, all in the same phase, so that nothing
+differs: such waves count as a whole.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+
+import numpy as np
+
+from stochfric_mb.discovery.pool import Pool
+from stochfric_mb.discovery.record import Array
+from stochfric_mb.discovery.regression import Part, Regression, Terms
+from stochfric_mb.discovery.slips import N_FEATURES, legendre_coefficients
+from stochfric_mb.effects.marks import Hypothesis
+
+HARMONICS = 3
+"""Harmonics of a wave that is no sine."""
+SLOW = 1.6
+"""Frequency over the rate of the slips up to which waves are slow [-]; harmonics are looked for in slow ones alone."""
+COARSE, FINE = 3.0, 15.0
+"""Frequencies of the grid, and about its best one, in 1/(length of the record) [-]."""
+CHUNK = 64
+"""Frequencies that are looked at together."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Wave:
+    """Where a wave runs and what it modulates."""
+
+    place: Array
+    """Time, or belt coordinate over the slowest belt velocity, at the break-away and at the nodes [s], (n, 1 + N_NODES)."""
+    weight: Array
+    """Force that is modulated there [N], shape (n, 1 + N_NODES)."""
+    setting: Callable[[float], float]
+    """From the frequency [Hz] to the parameter of the effect."""
+
+
+def normal_load_ripple(pool: Pool) -> Wave:
+    """Return friction that is modulated in time, in stick and slip by the same share."""
+    return Wave(_times(pool), _friction(pool), lambda f: f)
+
+
+def harmonic_force(pool: Pool) -> Wave:
+    """Return a force that is added in time, the same in stick and slip."""
+    times = _times(pool)
+    return Wave(times, np.broadcast_to(pool.direction.astype(np.float64)[:, None], times.shape), lambda f: f)
+
+
+def position_dependent_friction(pool: Pool) -> Wave:
+    """Return friction that is modulated along the belt, in stick and slip by the same share."""
+    slowest = float(pool.belt_velocity.min())
+    position = np.concatenate([pool.typical_onset[:, None], pool.typical_position], axis=1)
+    return Wave((pool.belt_velocity[:, None] * _times(pool) - position) / slowest, _friction(pool), lambda f: slowest / f)
+
+
+WAVES: dict[str, Callable[[Pool], Wave]] = {
+    make.__name__: make for make in (normal_load_ripple, harmonic_force, position_dependent_friction)
+}
+"""Kind of periodic effect -> its wave in a pool."""
+
+
+def _times(pool: Pool) -> Array:
+    return np.concatenate([pool.onset_time[:, None], pool.node_time], axis=1)
+
+
+def _friction(pool: Pool) -> Array:
+    return np.concatenate([pool.static[:, None], np.repeat(pool.kinetic[:, None], pool.node_time.shape[1], axis=1)], axis=1)
+
+
+def frequencies(pool: Pool) -> Array:
+    """Return the frequencies at which waves are looked for [Hz]: three waves in a record to one wave in a slip."""
+    fastest = 1.0 / float(np.median(pool.restick_time - pool.onset_time))
+    return np.arange(3.0 / pool.duration, max(fastest, SLOW * _slip_rate(pool)), 1.0 / (COARSE * pool.duration))
+
+
+def _slip_rate(pool: Pool) -> float:
+    return float(np.median([1.0 / np.median(np.diff(s.onset_time)) for s in pool.slips]))
+
+
+def wave_columns(pool: Pool, wave: Wave, frequency: float, harmonics: int) -> list[Array]:
+    """Return cosine and sine of every harmonic and run as regressors, each of shape (n, N_FEATURES)."""
+    slow = frequency <= SLOW * _slip_rate(pool)
+    features = _features(wave.place, wave.weight, np.array([frequency]), harmonics)[0]
+    columns: list[Array] = []
+    for run in range(pool.n_runs):
+        mine = (pool.run == run)[:, None]
+        for h in range(harmonics):
+            for part in (features[h].real, features[h].imag):
+                columns.append(mine * (part - part[mine[:, 0]].mean(axis=0) if slow else part))
+    return columns
+
+
+def _features(place: Array, weight: Array, grid: Array, harmonics: int) -> Array:
+    """Return weight exp(2 pi i h f place) as features, shape (len(grid), harmonics, n, N_FEATURES), complex."""
+    first = np.exp(2.0j * np.pi * grid[:, None, None] * place)
+    found = np.empty((len(grid), harmonics, len(place), N_FEATURES), dtype=np.complex128)
+    turned = np.ones_like(first)
+    for h in range(harmonics):
+        turned = turned * first
+        found[:, h, :, 0] = weight[:, 0] * turned[..., 0]
+        found[:, h, :, 1:] = legendre_coefficients(weight[:, 1:] * turned[..., 1:])
+    return found
+
+
+def best_wave(kind: str, pool: Pool, regression: Regression, terms: Terms, scatter: Array) -> tuple[Hypothesis, int]:
+    """Return the best wave of a kind, and how many were looked at.
+
+    Args:
+        kind: one of `WAVES`.
+        pool: the slips.
+        regression: fits to them.
+        terms: what the model holds so far.
+        scatter: logarithms of the variance components.
+    """
+    wave = WAVES[kind](pool)
+    parts = regression.parts(terms, scatter)
+    cost = 2.0 * pool.n_runs * float(np.log(regression.n))
+    whole = frequencies(pool)
+    limit = SLOW * _slip_rate(pool)
+    slow, fast = whole[whole <= limit], whole[whole > limit]
+    best, looked_at = (-np.inf, float(whole[0]), 1), 0
+    for harmonics, grid in ((1, slow), (HARMONICS, slow), (1, fast)):
+        if len(grid) == 0:
+            continue
+        gains = _gains(pool, wave, parts, grid, harmonics)
+        centre = float(grid[np.argmax(gains)])
+        close = centre + np.arange(-2, 3) / (FINE * pool.duration)
+        close = close[(close <= limit) == (centre <= limit)]
+        fine = _gains(pool, wave, parts, close, harmonics)
+        looked_at += len(grid)
+        trial = (2.0 * float(fine.max()) - cost * harmonics, float(close[np.argmax(fine)]), harmonics)
+        best = max(best, trial)
+    _, frequency, harmonics = best
+    columns = wave_columns(pool, wave, frequency, harmonics)
+    return Hypothesis(kind, columns, (wave.setting(frequency), float(harmonics))), looked_at
+
+
+def _gains(pool: Pool, wave: Wave, parts: list[Part], grid: Array, harmonics: int) -> Array:
+    """Return by how much waves of the grid's frequencies lower the cost at fixed variance components, shape (len(grid),)."""
+    found = [_some(pool, wave, parts, grid[i : i + CHUNK], harmonics) for i in range(0, len(grid), CHUNK)]
+    return np.concatenate(found)
+
+
+def _some(pool: Pool, wave: Wave, parts: list[Part], grid: Array, harmonics: int) -> Array:
+    width = 2 * harmonics
+    size = width * len(parts)
+    gram = np.zeros((len(grid), size, size))
+    along = np.zeros((len(grid), size))
+    shared = np.zeros((len(grid), parts[0].basis.shape[1], size))
+    for i, part in enumerate(parts):
+        mine = pool.run == part.run
+        features = _features(wave.place[mine], wave.weight[mine], grid, harmonics)
+        if grid[0] <= SLOW * _slip_rate(pool):
+            features -= features.mean(axis=2, keepdims=True)
+        white = (features[:, :, pool.kept[mine]] @ part.inverse.T).reshape(len(grid), harmonics, -1)
+        columns = np.stack([white.real, white.imag], axis=2).reshape(len(grid), width, -1)
+        at = slice(i * width, (i + 1) * width)
+        gram[:, at, at] = columns @ columns.transpose(0, 2, 1)
+        along[:, at] = columns @ part.rest
+        shared[:, :, at] = part.basis.T @ columns.transpose(0, 2, 1)
+    scale = np.sqrt(np.maximum(np.einsum("fii->fi", gram), 1.0e-300))
+    # what of the waves the believed model cannot imitate
+    gram = (gram - shared.transpose(0, 2, 1) @ shared) / (scale[:, :, None] * scale[:, None, :]) + 1.0e-6 * np.eye(size)
+    along /= scale
+    return 0.5 * np.einsum("fi,fi->f", along, np.linalg.solve(gram, along[..., None])[..., 0])

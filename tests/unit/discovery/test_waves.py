@@ -1,0 +1,67 @@
+"""Waves: the quick search against the plain regression, and a force whose crests the slips keep to."""
+
+import numpy as np
+import pytest
+
+from stochfric_mb.discovery.calibration import calibrate
+from stochfric_mb.discovery.pool import Pool, make_pool
+from stochfric_mb.discovery.record import make_record
+from stochfric_mb.discovery.regression import Regression, Terms, believed
+from stochfric_mb.discovery.slips import extract
+from stochfric_mb.discovery.waves import WAVES, _gains, best_wave, wave_columns
+from stochfric_mb.effects import make_effect
+from stochfric_mb.laws import make_law
+from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.reference.augmented import Start, augmented_system
+
+NOISE = 5e-6
+FREQUENCY = 4.3
+BELTS = (2.5e-3, 1.7e-3)
+
+
+def pool_of(effect) -> Pool:
+    """Two runs of 30 s with an effect, at two belt velocities."""
+    law = make_law("coulomb", mu_s=0.8, mu_k=0.46)
+    found = []
+    for run, belt in enumerate(BELTS):
+        box = BeltBox(mass=6.08, damping=0.768, stiffness=3956.0, normal_force=13.0, belt_velocity=belt)
+        motion = augmented_system(box, law, [effect]).march(Start(-20.0, 0.0, belt, stick=True), 1e-3, 50_000)
+        position = motion.position[20_000:] + NOISE * np.random.default_rng(run).standard_normal(30_000)
+        found.append(extract(make_record(f"run {run}", np.arange(1, 30_001) * 1e-3, position, box)))
+    return make_pool(found, [calibrate(s) for s in found])
+
+
+@pytest.fixture(scope="module")
+def entrained() -> tuple[Pool, Regression, Terms]:
+    pool = pool_of(make_effect("harmonic_force", amplitude=0.6, frequency=FREQUENCY, phase=0.4))
+    return pool, Regression(pool), believed(pool, {"mass": 0.003, "stiffness": 0.01, "damping": 0.2})
+
+
+@pytest.mark.parametrize("kind", WAVES)
+@pytest.mark.parametrize(("frequency", "harmonics"), [(0.31, 1), (0.31, 3), (FREQUENCY, 1)])
+def test_gain_is_that_of_the_regression(kind, frequency, harmonics, entrained):
+    pool, regression, terms = entrained
+    scatter = np.array([-3.0, -3.0, -4.0])
+    wave = WAVES[kind](pool)
+    quick = _gains(pool, wave, regression.parts(terms, scatter), np.array([frequency]), harmonics)[0]
+    plain = regression.gains(terms, scatter, [wave_columns(pool, wave, frequency, harmonics)])[0]
+    # both add a ridge of 1e-6 or less to a Gram matrix of unit diagonal
+    assert quick == pytest.approx(plain, rel=1e-3, abs=1e-3)
+
+
+def test_a_fast_force_is_found_although_slips_keep_to_its_crests(entrained):
+    pool, regression, terms = entrained
+    for run in range(pool.n_runs):
+        phase = np.exp(2j * np.pi * FREQUENCY * pool.onset_time[pool.run == run])
+        assert abs(phase.mean()) > 0.9  # the same phase at every break-away
+    start = regression.fit(terms)
+    scores = {}
+    for kind in WAVES:
+        hypothesis, looked_at = best_wave(kind, pool, regression, terms, start.scatter)
+        fitted = regression.fit(terms.plus(hypothesis.columns), start.scatter)
+        scores[kind] = 2.0 * (start.cost - fitted.cost) - 2.0 * np.log(looked_at)
+        if kind == "harmonic_force":
+            # a wave seen for 30 s has a line 1/30 Hz wide
+            assert hypothesis.setting[0] == pytest.approx(FREQUENCY, abs=1.0 / 30.0)
+    assert max(scores, key=lambda k: scores[k]) == "harmonic_force"
+    assert scores["harmonic_force"] > 100.0
