@@ -105,7 +105,7 @@ def choose(
             parity.axis, "friction alternates from slip to slip: no ripple that has its own frequency stays in step so"
         )
     near = best.score - max(CLASS, CLASS_SHARE * best.score)
-    class_ = tuple(c.name for c in effects[1:] if c.score > near)
+    class_ = tuple(dict.fromkeys(c.name for c in effects[1:] if c.score > near and c.name != best.name))
     return Chosen(best, class_, with_candidate(model, best, study.pool, n_terms), before, False)
 
 
@@ -123,12 +123,13 @@ def _by_simulation(
     trials = [c for c in effects if c.name in family and c.score > max(WORTH_SIMULATING * shape, SELECT / 2.0)][:6]
     tried = [(c, confirm(cases, with_candidate(model, c, study.pool, n_terms), study.uncertainty)) for c in trials]
     rounds = sum(key.startswith("confirmation") for key in details)
-    details[f"confirmation_{rounds + 1}"] = {c.name: [f.chi2, f.criterion] for c, f in tried} | {
+    tried.sort(key=lambda t: t[1].criterion)
+    # of several variants of an effect the best one counts
+    details[f"confirmation_{rounds + 1}"] = {c.name: [f.chi2, f.criterion] for c, f in reversed(tried)} | {
         "believed": [before.chi2, before.criterion]
     }
     if not tried:
         return None
-    tried.sort(key=lambda t: t[1].criterion)
     best, fitted = tried[0]
     if before.criterion - fitted.criterion < SELECT:
         return None
@@ -137,5 +138,6 @@ def _by_simulation(
             "shape of the friction force within a slip",
             f"no known effect explains the force within the slips; {best.name} comes closest",
         )
-    class_ = tuple(c.name for c, f in tried[1:] if f.criterion < fitted.criterion + CONFIRMED_CLASS)
+    near = fitted.criterion + CONFIRMED_CLASS
+    class_ = tuple(dict.fromkeys(c.name for c, f in tried[1:] if f.criterion < near and c.name != best.name))
     return Chosen(best, class_, fitted.model, fitted, True)

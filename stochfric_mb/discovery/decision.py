@@ -96,6 +96,14 @@ def _levels(model: Model, study: Study) -> Model:
     return model.with_law(float(max(mu_s, 1.0e-3)), float(np.clip(mu_k, 1.0e-5, 0.999 * mu_s)))
 
 
+def _scores(candidates: Sequence[Candidate]) -> dict[str, float]:
+    """Return name -> score, best first; of several variants of an effect the best."""
+    found: dict[str, float] = {}
+    for candidate in candidates:
+        found.setdefault(candidate.name, candidate.score)
+    return found
+
+
 class _Search:
     """The search for effects in the forces of the slips, one after the other."""
 
@@ -132,9 +140,9 @@ class _Search:
                 self.pool, self.regression, self.terms, self.solution, without=[k for k in kinds if k not in PERIODIC]
             )
             if round_ == 0:
-                self.ranking = tuple((c.name, c.score) for c in candidates)
+                self.ranking = tuple(_scores(candidates).items())
                 first = candidates[0].score
-            self.details[f"round_{round_ + 1}"] = {c.name: c.score for c in candidates[:8]}
+            self.details[f"round_{round_ + 1}"] = _scores(candidates[:8])
             if candidates[0].score < max(NAME if round_ == 0 else SELECT, SECOND * first if round_ else 0.0):
                 break
             if round_ == 0 and self._wanders(candidates):
