@@ -15,6 +15,7 @@ from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
 from stochfric_mb.exudyn.normal import Normal, as_normal
 from stochfric_mb.exudyn.plane import PlaneContact
 from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, ForceExpression, force_expression, lower
+from stochfric_mb.exudyn.turning import TurningContact, must_turn
 from stochfric_mb.friction import Friction
 from stochfric_mb.laws import Law
 
@@ -29,7 +30,9 @@ def add_friction(
     normal: Sequence[float] | None = None,
     contact_stiffness: float | None = None,
     contact_damping: float = 0.0,
-    touch: float = 0.0,
+    touch: float | None = None,
+    radius: float = 0.0,
+    normal_turns_with: str = "marker0",
     surface_velocity: float | Sequence[float] = 0.0,
     effective_mass: float | None = None,
     seed: int = 0,
@@ -40,7 +43,9 @@ def add_friction(
 
     Coordinate markers: sliding along a line. The friction force on ``marker1``'s coordinate acts along
     ``surface_velocity - (velocity1 - velocity0)``; marker 0 gets the opposite one. Position markers: sliding in the plane
-    across ``normal``, which does not turn with a body.
+    across ``normal``, which turns with marker 0 if not told otherwise. The point of contact lies ``radius`` below marker 1;
+    its velocity is that of the body's material there relative to the counter-surface's, so that turntables, drums, balls and
+    wheels are right. Forces and torques act at that point on both bodies.
 
     A symbolic user function evaluates the law, so that it runs without Python in every solver; the state is committed
     after each accepted step, in the system's PostStep function, which calls the one that was there. A simulation that
@@ -54,12 +59,16 @@ def add_friction(
         normal_force: normal force: a number [N], > 0 (normal torque over radius for a rotation); a function of time; or
             a constraint, by its object index or its name, whose reaction it is (implicit solvers only). It goes on along
             a line from step to step. Positions may have ``contact_stiffness`` instead.
-        normal: direction from the counter-surface to the body, for positions.
+        normal: direction from the counter-surface to the body, for positions, in the axes of what it turns with.
         contact_stiffness: stiffness of a unilateral normal contact [N/m], > 0, which acts on the bodies too.
         contact_damping: its damping [N s/m], >= 0.
-        touch: distance of the markers along the normal at which contact begins [m].
+        touch: distance of the markers along the normal at which contact begins [m]; ``radius`` if not given.
+        radius: distance of the point of contact from marker 1, against the normal [m], >= 0: that of a ball or an upright
+            wheel whose centre is marker 1.
+        normal_turns_with: "marker0": a plane of the counter-surface, such as a plate that tilts; "marker1": a plane of
+            the body, such as a pad on a lever; "space": a plane that does not turn, such as where a drum passes by.
         surface_velocity: velocity of the counter-surface on top of marker 0's [m/s]: a number for coordinates, a vector
-            for positions.
+            for positions, in the axes of what the normal turns with.
         effective_mass: mass that the contact feels [kg], for laws that need it.
         seed: seed of the path of coefficients.
         sample: number of the sample.
@@ -73,15 +82,19 @@ def add_friction(
     kinds = {marker_kind(mbs, m) for m in (marker0, marker1)}
     markers = (marker0, marker1)
     if kinds == {"coordinate"}:
-        if normal is not None or contact_stiffness is not None:
-            raise InputError("normal and contact_stiffness are for position markers; give coordinates a normal_force")
+        if normal is not None or contact_stiffness is not None or radius != 0.0:
+            raise InputError("normal, contact_stiffness and radius are for position markers; give coordinates a normal_force")
         return CoordinateContact(mbs, markers, friction, as_normal(mbs, normal_force), surface_velocity, **options)
     if kinds == {"position"}:
         if (normal_force is None) == (contact_stiffness is None):
             raise InputError("give either normal_force or contact_stiffness, which makes one")
         given = None if normal_force is None else as_normal(mbs, normal_force)
+        touch = radius if touch is None else touch
         penalty = None if contact_stiffness is None else (contact_stiffness, contact_damping, touch)
-        return PlaneContact(mbs, markers, friction, given, penalty, normal, surface_velocity, **options)
+        if not must_turn(mbs, markers, normal_turns_with, radius):
+            return PlaneContact(mbs, markers, friction, given, penalty, normal, surface_velocity, **options)
+        turning: Any = (normal_turns_with, radius)
+        return TurningContact(mbs, markers, friction, given, penalty, normal, surface_velocity, *turning, **options)
     raise InputError("friction acts between two coordinate markers or between two position markers; these are of both kinds")
 
 
@@ -205,6 +218,14 @@ def marker_kind(mbs: Any, marker: Any) -> str:
     kind = mbs.GetMarker(marker)["markerType"]
     if kind.endswith("Coordinate"):
         return "coordinate"
-    if kind in ("BodyPosition", "BodyRigid", "NodePosition", "NodeRigid", "SuperElementPosition", "SuperElementRigid"):
+    if kind in (
+        "BodyPosition",
+        "BodyRigid",
+        "NodePosition",
+        "NodeRigid",
+        "SuperElementPosition",
+        "SuperElementRigid",
+        "KinematicTreeRigid",
+    ):
         return "position"
     raise InputError(f"marker {int(marker)} is a {kind}; friction acts between markers of coordinates or of positions")

@@ -15,11 +15,14 @@ from stochfric_mb.exudyn.attach import bind_own, line_expression
 from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
 from stochfric_mb.exudyn.normal import Normal, ReactionNormal, as_normal
 from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, lower
+from stochfric_mb.exudyn.turning import with_orientation
 from stochfric_mb.friction import Friction
 from stochfric_mb.laws import Law
 
-_PRESSING = {"JointRevoluteZ": (0, 1), "JointRevolute2D": (0, 1), "JointPrismaticX": (1, 2), "JointPrismatic2D": (1, 2)}
-"""Kind of joint -> components of its reaction that press its surfaces together."""
+_FREE = {"JointRevoluteZ": 5, "JointRevolute2D": 5, "JointPrismaticX": 0, "JointPrismatic2D": 0}
+"""Kind of joint -> its axis that is free, as a generic joint counts them: translations along x, y, z, then rotations."""
+_CYCLES = (np.eye(3)[:, [1, 2, 0]], np.eye(3)[:, [2, 0, 1]], np.eye(3))
+"""Rotations that put the z axis where the joint's x, y, z axis is."""
 
 
 def add_joint_friction(
@@ -41,7 +44,8 @@ def add_joint_friction(
 
     Args:
         mbs: the system.
-        joint: object index of a RevoluteJointZ, RevoluteJoint2D, PrismaticJointX or PrismaticJoint2D.
+        joint: object index of a RevoluteJointZ, RevoluteJoint2D, PrismaticJointX, PrismaticJoint2D, or of a GenericJoint
+            that leaves one axis free, a rotation or a translation.
         friction: a law, or a law with the process of its coefficients.
         radius: radius of the pin [m], > 0; for revolute joints.
         normal_force: as `add_friction` has it; if not given, the joint's own reaction across its axis (implicit solvers
@@ -52,41 +56,70 @@ def add_joint_friction(
         contact: number of the contact: contacts with different numbers have independent paths.
 
     Raises:
-        InputError: another kind of joint, or as `add_friction`.
+        InputError: another kind of joint, a GenericJoint that leaves no axis or more than one free, or as `add_friction`.
     """
-    kind = mbs.GetObject(joint)["objectType"]
-    if kind not in _PRESSING:
-        raise InputError(f"object {int(joint)} is a {kind}; friction in joints is for {', '.join(_PRESSING)}")
-    normal = ReactionNormal(mbs, joint, _PRESSING[kind]) if normal_force is None else as_normal(mbs, normal_force)
+    axis = _free_axis(mbs, joint)
+    across = [i for i in range(3) if i != axis % 3]
+    normal = ReactionNormal(mbs, joint, across) if normal_force is None else as_normal(mbs, normal_force)
     options: dict[str, Any] = {"effective_mass": effective_mass, "seed": seed, "sample": sample, "contact": contact}
-    return JointContact(mbs, joint, friction, normal, require_number("radius", radius, above=0.0, unit="m"), **options)
+    return JointContact(mbs, joint, axis, friction, normal, require_number("radius", radius, above=0.0, unit="m"), **options)
+
+
+def _free_axis(mbs: Any, joint: Any) -> int:
+    """Return the axis along or about which a joint leaves its second body free: 0 to 2 a translation, 3 to 5 a rotation.
+
+    Raises:
+        InputError: as `add_joint_friction`.
+    """
+    entry = mbs.GetObject(joint)
+    kind = entry["objectType"]
+    if kind in _FREE:
+        return _FREE[kind]
+    if kind != "JointGeneric":
+        raise InputError(
+            f"object {int(joint)} is a {kind}; friction in joints is for {', '.join(_FREE)} and JointGeneric; use add_friction "
+            "between markers of its bodies for others"
+        )
+    free = [i for i, constrained in enumerate(entry["constrainedAxes"]) if not constrained]
+    if len(free) != 1:
+        raise InputError(
+            f"object {int(joint)} is a JointGeneric with constrainedAxes = {list(entry['constrainedAxes'])}, which leaves "
+            f"{len(free)} axes free; friction in a joint acts along or about one: constrain five axes, or use add_friction "
+            "between markers of its bodies"
+        )
+    return free[0]
 
 
 class JointContact(FrictionContact):
     """Friction in a joint; made by `add_joint_friction`."""
 
-    def __init__(self, mbs: Any, joint: Any, friction: Law | Friction, normal: Normal, radius: float, **options: Any) -> None:
+    def __init__(
+        self, mbs: Any, joint: Any, free: int, friction: Law | Friction, normal: Normal, radius: float, **options: Any
+    ) -> None:
         super().__init__(mbs, friction, normal, **options)
         self._own = np.zeros(4)
         bind_own(self._words, self._own)
         self._words[at.ASK_FIRST] = 1
         entry = mbs.GetObject(joint)
-        self._turns = "Revolute" in entry["objectType"]
+        self._turns = free >= 3
         """Whether the joint turns."""
         self._radius = radius if self._turns else 1.0
         self._numbers[at.RADIUS] = self._radius
         self._displacement = OUTPUT.Rotation if self._turns else OUTPUT.DisplacementLocal
         self._velocity = OUTPUT.AngularVelocityLocal if self._turns else OUTPUT.VelocityLocal
         self._reaction = OUTPUT.TorqueLocal if self._turns else OUTPUT.ForceLocal
-        markers = [_with_orientation(mbs, m) for m in entry["markerNumbers"]]
+        markers = [with_orientation(mbs, m) for m in entry["markerNumbers"]]
         expression = line_expression(self)
         self._make_symbols(expression.names)
         function = self._function(expression.force)
         if self._turns:
-            turn = {name: entry[name] for name in ("rotationMarker0", "rotationMarker1") if name in entry}
+            cycle = _CYCLES[free - 3]  # the connector turns about z
+            rotations = [np.asarray(entry.get(f"rotationMarker{i}", np.eye(3))) @ cycle for i in range(2)]
+            pairs = [_turned(mbs, m, rotation, i) for i, (m, rotation) in enumerate(zip(markers, rotations, strict=True))]
+            markers, turn = [marker for marker, _ in pairs], pairs[0][1] | pairs[1][1]
             connector = TorsionalSpringDamper(markerNumbers=markers, springTorqueUserFunction=function, **turn)
         else:
-            axis = entry["axisMarker0"] if "axisMarker0" in entry else entry["rotationMarker0"][:, 0]
+            axis = entry["axisMarker0"] if "axisMarker0" in entry else entry["rotationMarker0"][:, free]
             connector = LinearSpringDamper(markerNumbers=markers, axisMarker0=axis, springForceUserFunction=function)
         self.object = mbs.AddObject(connector)
         self._begin(expression.names)
@@ -126,9 +159,13 @@ class JointContact(FrictionContact):
         )
 
 
-def _with_orientation(mbs: Any, marker: Any) -> Any:
-    """Return the marker, or a new one at the same place of the same body that has an orientation."""
+def _turned(mbs: Any, marker: Any, rotation: Any, i: int) -> tuple[Any, dict[str, Any]]:
+    """Return a marker with the axes ``rotation`` in those of ``marker``, and what a connector must be told besides."""
+    if np.array_equal(rotation, np.eye(3)):
+        return marker, {}
     entry = mbs.GetMarker(marker)
-    if entry["markerType"] != "BodyPosition":
-        return marker
-    return mbs.AddMarker(MarkerBodyRigid(bodyNumber=entry["bodyNumber"], localPosition=entry["localPosition"]))
+    if entry["markerType"] != "BodyRigid":
+        return marker, {f"rotationMarker{i}": rotation}
+    place = np.array(entry["localHT"])
+    place[:3, :3] = place[:3, :3] @ rotation
+    return mbs.AddMarker(MarkerBodyRigid(bodyNumber=entry["bodyNumber"], localHT=place)), {}

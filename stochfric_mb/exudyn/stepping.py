@@ -50,7 +50,10 @@ SWITCHED = 42
 """Time of the law's last change of mode [s]."""
 LARGEST_NORMAL = 43
 """Largest normal force [N] of this simulation."""
-NEW = 44
+SPIN, SPUN, SPIN_BEFORE = 44, 46, 48
+"""What turning adds to the motion of marker 1 relative to marker 0, along both axes of the plane: velocity [m/s] now,
+displacement [m] up to the last accepted step, and velocity there. 0 for contacts without (see `frames`)."""
+NEW = 50
 """Scratch for a law's output."""
 GUARDS_BEFORE = NEW + MAX_STATE
 """The law's guards at the last accepted step."""
@@ -131,13 +134,20 @@ def dot(numbers, a, b):
 
 
 @compiled
+def spun(t, i, numbers):
+    """Return the displacement [m] that turning has added by time t along axis i, by the trapezoidal rule in the step."""
+    return numbers[SPUN + i] + 0.5 * (t - numbers[T]) * (numbers[SPIN_BEFORE + i] + numbers[SPIN + i])
+
+
+@compiled
 def kinematics(t, numbers, words):
     """Return relative displacements [m] and velocities [m/s], counter-surface minus body, from the engine's coordinates."""
     w = numbers[SURFACE_VELOCITY]
     if words[PLANE] == 1:
         w_2 = numbers[SURFACE_VELOCITY_2]
-        ux, uy = w * t - dot(numbers, AXIS_1, DISTANCE), w_2 * t - dot(numbers, AXIS_2, DISTANCE)
-        return ux, uy, w - dot(numbers, AXIS_1, RATE), w_2 - dot(numbers, AXIS_2, RATE)
+        dx, dy = dot(numbers, AXIS_1, DISTANCE) + spun(t, 0, numbers), dot(numbers, AXIS_2, DISTANCE) + spun(t, 1, numbers)
+        vx, vy = dot(numbers, AXIS_1, RATE) + numbers[SPIN], dot(numbers, AXIS_2, RATE) + numbers[SPIN + 1]
+        return w * t - dx, w_2 * t - dy, w - vx, w_2 - vy
     d = number_at(words[POSITION_1]) - number_at(words[POSITION_0])  # pyright: ignore[reportCallIssue]
     v = number_at(words[VELOCITY_1]) - number_at(words[VELOCITY_0])  # pyright: ignore[reportCallIssue]
     return w * t - numbers[RADIUS] * d, 0.0, w - numbers[RADIUS] * v, 0.0
@@ -222,6 +232,8 @@ def _proceed(t, numbers, words):
     n = penalty(numbers) if words[PENALTY] == 1 else max(numbers[GIVEN_NORMAL], 0.0)
     bits = NOTHING
     if words[STARTED] == 0 or t < numbers[T] or (t == numbers[T] and _moved(motion, numbers)):
+        _forget_spin(t, numbers)
+        motion = kinematics(t, numbers, words)
         restart(t, motion, n, numbers, words)
         numbers[START] = t
         bits = CHANGED | RESTARTED
@@ -247,8 +259,19 @@ def _moved(motion, numbers):
 
 
 @compiled
+def _forget_spin(t, numbers):
+    """Let the displacement that turning adds begin at time t [s]."""
+    for i in range(2):
+        numbers[SPUN + i], numbers[SPIN_BEFORE + i] = 0.0, numbers[SPIN + i]
+    numbers[T] = t
+
+
+@compiled
 def _keep(t, motion, n, numbers):
     """Remember the accepted step."""
+    for i in range(2):
+        numbers[SPUN + i] = spun(t, i, numbers)
+        numbers[SPIN_BEFORE + i] = numbers[SPIN + i]
     numbers[T], numbers[NORMAL_FORCE] = t, n
     numbers[LARGEST_NORMAL] = max(numbers[LARGEST_NORMAL], n)
     numbers[U], numbers[U_2], numbers[V], numbers[V_2] = motion

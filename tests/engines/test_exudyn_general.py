@@ -16,6 +16,7 @@ from exudyn.itemInterface import (
     CoordinateConstraint,
     CoordinateSpringDamper,
     Force,
+    GenericJoint,
     LoadCoordinate,
     MarkerBodyPosition,
     MarkerBodyRigid,
@@ -31,7 +32,8 @@ from exudyn.itemInterface import (
     RevoluteJointZ,
     RigidBody2D,
 )
-from exudyn.utilities import InertiaCuboid
+from exudyn.rigidBodyUtilities import RotationVector2RotationMatrix
+from exudyn.utilities import InertiaCuboid, RigidBodyInertia
 
 from stochfric_mb import reference
 from stochfric_mb.coefficients import Knots, PerEvent
@@ -491,9 +493,72 @@ def test_a_slide_brakes_a_block(kind: str, normal_force: float | None) -> None:
     assert rows[1, 1] == pytest.approx(-0.5 / (0.5 * G), rel=1e-3)  # v^2/(2 mu_k g)
 
 
+def generic(free: int, *, speed: float = 0.0, tilted: bool = False, constrained: object = None):
+    """A body on a generic joint that leaves one axis free, without weight; joint and axis, global."""
+    mbs = exudyn.SystemContainer().AddSystem()
+    frame = RotationVector2RotationMatrix(np.array([0.3, -0.5, 0.8])) if tilted else np.eye(3)
+    axis = frame[:, free % 3]
+    inertia = RigidBodyInertia(mass=2.0, inertiaTensor=np.eye(3) * 0.02)
+    motion = {"initialAngularVelocity" if free >= 3 else "initialVelocity": speed * axis}
+    body = mbs.CreateRigidBody(inertia=inertia, **motion)
+    place = exudyn.HT(rotation=frame, translation=[0.0] * 3)
+    bodies = (mbs.AddObject(ObjectGround()), body)
+    markers = [mbs.AddMarker(MarkerBodyRigid(bodyNumber=b, localHT=place)) for b in bodies]
+    axes = [int(i != free) for i in range(6)] if constrained is None else constrained
+    joint = mbs.AddObject(GenericJoint(markerNumbers=markers, constrainedAxes=axes))
+    across = 20.0 * frame[:, (free + 1) % 3] + 15.0 * frame[:, (free + 2) % 3]  # 25 N press on the joint
+    mbs.AddLoad(Force(markerNumber=markers[1], loadVector=across + 7.0 * axis * (free >= 3)))
+    return mbs, joint, body, axis
+
+
+@pytest.mark.parametrize("free", range(6))
+@pytest.mark.parametrize("tilted", [False, True])
+def test_a_generic_joint_with_one_free_axis(free: int, tilted: bool) -> None:
+    """Slowed down by mu_k N/m, or mu_k N r/I, with N the reaction across the axis; a push along a pin does not count."""
+    turns, radius = free >= 3, 0.1
+    mbs, joint, body, axis = generic(free, speed=3.0 if turns else 0.5, tilted=tilted)
+    felt = 0.02 / radius**2 if turns else 2.0
+    contact = add_joint_friction(mbs, joint, ELASTIC, radius=radius, effective_mass=felt)
+    mbs.Assemble()
+    rows = contact.record([0.02])
+    solve_dynamic(mbs, silent_settings(1e-4, 0.02), solver="generalized_alpha")
+    output = exudyn.OutputVariableType
+    speed = mbs.GetObjectOutputBody(body, output.AngularVelocity if turns else output.Velocity) @ axis
+    assert rows[0, 7] == pytest.approx(25.0, rel=1e-6)
+    # the first half step goes without friction: 0.5e-4 of 0.02 s
+    lost = 0.5 * 25.0 * 0.02 * (radius / 0.02 if turns else 1.0 / 2.0)
+    assert speed == pytest.approx((3.0 if turns else 0.5) - lost, abs=5e-3 * lost)
+    assert rows[0, 2] == pytest.approx(-speed * (radius if turns else 1.0), rel=1e-9)
+
+
+def test_joints_made_by_exudyns_create_functions() -> None:
+    for name, free in (("CreateRevoluteJoint", 5), ("CreatePrismaticJoint", 0)):
+        mbs = exudyn.SystemContainer().AddSystem()
+        ground = mbs.CreateGround()
+        direction = [0.0, 0.6, 0.8]
+        motion = {"initialAngularVelocity" if free == 5 else "initialVelocity": direction}
+        inertia = RigidBodyInertia(mass=2.0, inertiaTensor=np.eye(3) * 0.02)
+        body = mbs.CreateRigidBody(inertia=inertia, **motion)
+        made = getattr(mbs, name)(itemNumbers=[ground, body], position=[0.0] * 3, axis=direction)
+        joint = made[0] if isinstance(made, list) else made
+        contact = add_joint_friction(mbs, joint, ELASTIC, radius=0.1, normal_force=1.0, effective_mass=1.0)
+        mbs.Assemble()
+        rows = contact.record([0.01])
+        solve_dynamic(mbs, silent_settings(1e-4, 0.01), solver="generalized_alpha")
+        lost = 0.5 * 1.0 * 0.01 * (0.1 / 0.02 if free == 5 else 0.5)
+        assert -rows[0, 2] == pytest.approx((1.0 - lost) * (0.1 if free == 5 else 1.0), rel=1e-6)
+
+
+@pytest.mark.parametrize("constrained", [[1] * 6, [1, 1, 0, 1, 1, 0], [1, 1, 1, 0, 0, 0]])
+def test_a_generic_joint_with_another_number_of_free_axes_is_refused(constrained: list[int]) -> None:
+    mbs, joint, _, _ = generic(5, constrained=constrained)
+    with pytest.raises(InputError, match=r"constrainedAxes = \[1, 1, .* constrain five axes, or use add_friction"):
+        add_joint_friction(mbs, joint, ELASTIC, effective_mass=1.0)
+
+
 def test_friction_is_for_revolute_and_prismatic_joints() -> None:
     mbs, _, _ = revolute("planar", 0.0)
-    with pytest.raises(InputError, match="JointRevoluteZ"):
+    with pytest.raises(InputError, match=r"JointRevoluteZ.*use add_friction"):
         add_joint_friction(mbs, exudyn.ObjectIndex(0), ELASTIC, effective_mass=1.0)
 
 
