@@ -25,13 +25,17 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.laws.abi import MAX_STATE
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
+from stochfric_mb.mujoco.answer import MU, NORMAL, SURFACE, TURNED, U0, V0, VX, VY, law_at, slides
 from stochfric_mb.mujoco.contact import add_rows, slot_at_stage, warm_row
+from stochfric_mb.mujoco.holding import want_rest
 from stochfric_mb.mujoco.kinematics import bodies_of, contact_address, displacement, point_of, put, side
 from stochfric_mb.mujoco.switching import coefficients, guards_at, half_step, keep_guards, switch_within
-from stochfric_mb.mujoco.together import MU, NORMAL, SURFACE, U0, V0, VX, VY, hold, settle, share
+from stochfric_mb.mujoco.together import settle, space_needed
 
 OUTER, ROUNDS = 6, 4
 """Most solutions by MuJoCo, and rounds of mode switches, in one step."""
+FULL = 1.0e-8
+"""Part of a sliding force that is missing where it has brought the contact to rest."""
 MAX_DENSE = 200
 """Above so many degrees of freedom the answer of the other constraints comes from repeated solutions alone."""
 QUADRATIC, CONE = 1, 4
@@ -161,6 +165,7 @@ def solve(model, data, places, warm):  # noqa: PLR0912, PLR0915
     normal = np.empty((m, nv))
     f, before, numbers, response = np.empty((m, 2)), np.empty((m, 2)), np.empty((m, 10)), np.empty((m, 4))
     at, coupling = np.empty((m, 3)), np.empty((3 * m, 2 * m))
+    space = np.empty(space_needed(m))
     prepare(model, data, places, tangent, normal, numbers, f, work, starting, t, end, h, qvel)
     damped = damping(model, data, nv)
     hessian = np.empty((nv, nv))
@@ -181,12 +186,12 @@ def solve(model, data, places, warm):  # noqa: PLR0912, PLR0915
         n.move(f, before)
         if outer == 0 and starting:
             start_guards(places, numbers, at, t)
-        settle(places, coupling, numbers, at, f, response, end, h)
+        settle(places, coupling, numbers, at, f, response, end, h, space)
         if starting:
             for _ in range(ROUNDS):
-                if not switch_ahead(places, coupling, numbers, response, at, t, end, h):
+                if not switch_ahead(places, coupling, numbers, response, at, f, t, end, h, space):
                     break
-                settle(places, coupling, numbers, at, f, response, end, h)
+                settle(places, coupling, numbers, at, f, response, end, h, space)
         change[:] = 0.0
         for q in range(m):
             for i in range(2):
@@ -439,22 +444,36 @@ def start_guards(places, numbers, at, t):
 
 
 @compiled
-def switch_ahead(places, coupling, numbers, response, at, t, end, h):
+def switch_ahead(places, coupling, numbers, response, at, f, t, end, h, space):
     """Let the laws with modes switch where they would within the step; return whether any did."""
-    switched = False
+    switched, rests = False, False
     for q in range(len(places)):
         address, state = places[q, 2], places[q, 3]
+        if n.load(state + 8 * s.NEEDS_HOLD) != 0.0 and n.load(address + 8 * s.STICK) == 0.0:
+            n.store(address + 8 * s.HOLD_X, f[q, 0])
+            n.store(address + 8 * s.HOLD_Y, f[q, 1])
+            rests = rests or stops(places, numbers, at, f, q, end, h)
+    if rests:
+        want_rest(places, coupling, numbers, at, f, response, h, space)
+    for q in range(len(places)):
+        address, state, row = places[q, 2], places[q, 3], numbers[q]
         if n.load(state + 8 * s.HAS_MODE) == 0.0 or not n.load(address + 8 * s.NORMAL) > 0.0:
             continue
-        row = numbers[q]
-        if n.load(state + 8 * s.NEEDS_HOLD) != 0.0 and n.load(address + 8 * s.STICK) == 0.0:  # what holds it once at rest
-            fx, fy = n.load(address + 8 * s.HOLD_X), n.load(address + 8 * s.HOLD_Y)
-            part = share(coupling, at, q)
-            hold(address, response[q], h, part * row[V0], part * row[V0 + 1])
-            n.store(address + 8 * s.HOLD_X, fx - n.load(address + 8 * s.HOLD_X))
-            n.store(address + 8 * s.HOLD_Y, fy - n.load(address + 8 * s.HOLD_Y))
-        switched = switch_slot(state, address, row, t, end, h, at[q, VX], at[q, VY]) or switched
+        vx, vy = at[q, VX], at[q, VY]
+        if stops(places, numbers, at, f, q, end, h):  # a little beyond rest, whatever rounding leaves
+            vx, vy = -TURNED * row[V0], -TURNED * row[V0 + 1]
+        switched = switch_slot(state, address, row, t, end, h, vx, vy) or switched
     return switched
+
+
+@compiled
+def stops(places, numbers, at, f, q, end, h):
+    """Return whether a contact that slides comes to rest within the step: its force is less than the law's."""
+    address, state = places[q, 2], places[q, 3]
+    if not slides(state, address) or not n.load(address + 8 * s.NORMAL) > 0.0:
+        return False
+    gx, gy = law_at(state, address, end, h, numbers[q], at[q, VX], at[q, VY])
+    return math.hypot(f[q, 0], f[q, 1]) < (1.0 - FULL) * math.hypot(gx, gy)
 
 
 @compiled

@@ -23,6 +23,8 @@ from stochfric_mb.mujoco.switching import call
 
 PRECISION = 1.0e-11
 """Error of a force relative to mu_s N at which the search ends."""
+ROUNDING = 4.0e-16
+"""Error of a sum, relative to its terms."""
 PARALLEL = 1.0e-9
 """Sine of the angle between force and velocity that counts as none."""
 STUCK = 1.0 - 1.0e-12
@@ -259,6 +261,9 @@ def newton(state, address, function, end, h, row, w, fx, fy, tolerance):
         bx, by = law_force(state, address, function, end, h, row, w, fx, fy)
         row[FREE + 1] -= step
         ax, ay, bx, by = (ax - gx) / step, (ay - gy) / step, (bx - gx) / step, (by - gy) / step
+        rounding = ROUNDING * (math.hypot(row[U0], row[U0 + 1]) / h + math.hypot(row[FREE], row[FREE + 1]))
+        if size <= rounding * math.sqrt(ax * ax + ay * ay + bx * bx + by * by):
+            break
         p, q = 1.0 + h * (ax * w[0] + bx * w[2]), h * (ax * w[1] + bx * w[3])
         u, v = h * (ay * w[0] + by * w[2]), 1.0 + h * (ay * w[1] + by * w[3])
         det = p * v - q * u

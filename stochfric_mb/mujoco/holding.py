@@ -1,0 +1,245 @@
+"""The forces that hold contacts of true stick, all of them together.
+
+The relative velocities v of the held contacts fall by A x for a change x of their forces; A is singular where one body
+has more contacts than it can move in, and rigid bodies leave open how those share. Here x = S y with each contact's own
+share S_q = share_q (h W_q)^-1 (`share`): the least x of all in the measure of S^-1, that is, by normal forces. GMRES on
+A S y = v finds it in as many steps as the bodies can move in (Saad and Schultz 1986, doi 10.1137/0907058). The largest
+eigenvalue of A S is 1.
+"""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: reportCallIssue=false, reportAttributeAccessIssue=false
+# (compiled functions are typed by numba; MuJoCo's bindings are not typed)
+
+from __future__ import annotations
+
+import math
+
+from stochfric_mb.compile import compiled
+from stochfric_mb.mujoco import native as n
+from stochfric_mb.mujoco import slots as s
+from stochfric_mb.mujoco.answer import MU, NORMAL, V0, VX, VY, add_force, law_at, take
+
+STILL = 1.0e-12
+"""Velocity left, relative to that which mu_s N takes, at which contacts count as held."""
+DEPENDENT = 1.0e-11
+"""Part of a direction that is left beside the earlier ones, at which it counts as one of them."""
+SLIGHT = 1.0e-3
+"""Mobility, relative to the largest, of motions that are stopped a little in each step only: it takes so much force that
+what is no motion of rigid bodies at all, but rounding or a change of the contact points, would break the contacts away."""
+
+
+@compiled
+def is_held(places, q):
+    """Return whether true stick holds the contact."""
+    return n.load(places[q, 3] + 8 * s.NEEDS_HOLD) != 0.0 and n.load(places[q, 2] + 8 * s.STICK) != 0.0
+
+
+@compiled
+def hold_still(places, coupling, numbers, motion, f, response, end, h, space):
+    """Give the held contacts the forces that hold them; return the largest change over mu_s N, -1 if a law forbids it."""
+    want_hold(places, coupling, numbers, motion, f, response, h, space)
+    allowed, moved = True, 0.0
+    for q in range(len(places)):
+        if is_held(places, q):
+            vx, vy = take(places, motion, q)
+            gx, gy = law_at(places[q, 3], places[q, 2], end, h, numbers[q], vx, vy)
+            x, y = n.load(places[q, 2] + 8 * s.HOLD_X), n.load(places[q, 2] + 8 * s.HOLD_Y)
+            allowed = allowed and gx == x and gy == y
+            cap = numbers[q, MU] * n.load(places[q, 2] + 8 * s.NORMAL)
+            if cap > 0.0:
+                moved = max(moved, math.hypot(gx - f[q, 0], gy - f[q, 1]) / cap)
+            add_force(coupling, motion, f, q, gx - f[q, 0], gy - f[q, 1])
+    return moved if allowed else -1.0
+
+
+@compiled
+def want_hold(places, coupling, numbers, motion, f, response, h, space):
+    """Write the forces that would hold the held contacts still to their slots."""
+    m = len(places)
+    size = 0
+    index, shares, x = space[:m], space[m : 2 * m], space[2 * m : 4 * m]
+    enough = math.inf
+    for q in range(m):
+        if not is_held(places, q):
+            continue
+        n.store(places[q, 2] + 8 * s.HOLD_X, f[q, 0])
+        n.store(places[q, 2] + 8 * s.HOLD_Y, f[q, 1])
+        if motion[q, NORMAL] > 0.0:
+            index[size], shares[size] = q, share(coupling, motion, q)
+            x[2 * size], x[2 * size + 1] = motion[q, VX], motion[q, VY]
+            size += 1
+            enough = min(enough, smallest(numbers, motion, response, q, h))
+    minimise(coupling, response, index[:size], shares, h, enough, x, space[4 * m :])
+    for i in range(size):
+        q = int(index[i])
+        n.store(places[q, 2] + 8 * s.HOLD_X, f[q, 0] + x[2 * i])
+        n.store(places[q, 2] + 8 * s.HOLD_Y, f[q, 1] + x[2 * i + 1])
+
+
+@compiled
+def want_rest(places, coupling, numbers, motion, f, response, h, space):
+    """Write the forces that would hold the contacts that slide, once they are at rest, to their slots.
+
+    It is their share of what keeps all contacts of such laws at the velocities that they have at the step's start.
+    """
+    m = len(places)
+    size = 0
+    index, shares, x = space[:m], space[m : 2 * m], space[2 * m : 4 * m]
+    enough = math.inf
+    for q in range(m):
+        if n.load(places[q, 3] + 8 * s.NEEDS_HOLD) != 0.0 and motion[q, NORMAL] > 0.0:
+            index[size], shares[size] = q, share(coupling, motion, q)
+            vx, vy = motion[q, VX] - numbers[q, V0], motion[q, VY] - numbers[q, V0 + 1]
+            for p in range(m):
+                if n.load(places[p, 3] + 8 * s.NEEDS_HOLD) != 0.0 and motion[p, NORMAL] > 0.0:
+                    vx += coupling[3 * q, 2 * p] * f[p, 0] + coupling[3 * q, 2 * p + 1] * f[p, 1]
+                    vy += coupling[3 * q + 1, 2 * p] * f[p, 0] + coupling[3 * q + 1, 2 * p + 1] * f[p, 1]
+            x[2 * size], x[2 * size + 1] = vx, vy
+            size += 1
+            enough = min(enough, smallest(numbers, motion, response, q, h))
+    minimise(coupling, response, index[:size], shares, h, enough, x, space[4 * m :])
+    for i in range(size):
+        q = int(index[i])
+        if not is_held(places, q):
+            n.store(places[q, 2] + 8 * s.HOLD_X, x[2 * i])
+            n.store(places[q, 2] + 8 * s.HOLD_Y, x[2 * i + 1])
+
+
+@compiled
+def smallest(numbers, motion, response, q, h):
+    """Return the velocity [m/s] that counts as none at a contact."""
+    return STILL * numbers[q, MU] * motion[q, NORMAL] * h * (response[q, 0] + response[q, 3])
+
+
+@compiled
+def minimise(coupling, response, index, shares, h, enough, x, space):  # noqa: PLR0912
+    """Replace the velocities in ``x`` by the changes of the contacts' forces that stop them, by GMRES."""
+    size = 2 * len(index)
+    basis = space[: (size + 1) * size].reshape(size + 1, size)
+    at = (size + 1) * size
+    r = space[at : at + (size + 1) * size].reshape(size, size + 1)  # column k of the triangle in row k
+    at += (size + 1) * size
+    cosine, sine, g = space[at : at + size], space[at + size : at + 2 * size], space[at + 2 * size : at + 3 * size + 1]
+    rest = space[at + 3 * size + 1 : at + 4 * size + 1]
+    g[0] = norm(x[:size])
+    if g[0] <= enough:
+        x[:size] = 0.0
+        return
+    for j in range(size):
+        rest[j] = x[j]
+        basis[0, j] = x[j] / g[0]
+    steps = 0
+    for k in range(size):
+        new, column = basis[k + 1], r[k]
+        mobility(coupling, response, index, shares, h, basis[k], x, new)
+        length = norm(new)
+        column[: k + 1] = 0.0
+        for _ in range(2):  # what rounding leaves of the first time is removed by the second
+            for i in range(k + 1):
+                part = 0.0
+                for j in range(size):
+                    part += basis[i, j] * new[j]
+                column[i] += part
+                for j in range(size):
+                    new[j] -= part * basis[i, j]
+        left = norm(new)
+        last = left <= DEPENDENT * length
+        for j in range(size):
+            new[j] = 0.0 if last else new[j] / left
+        for i in range(k):
+            a, b = column[i], column[i + 1]
+            column[i], column[i + 1] = cosine[i] * a + sine[i] * b, cosine[i] * b - sine[i] * a
+        pivot = math.sqrt(column[k] ** 2 + (0.0 if last else left**2))
+        if not pivot > SLIGHT:
+            break
+        cosine[k], sine[k] = column[k] / pivot, (0.0 if last else left / pivot)
+        column[k] = pivot
+        g[k + 1] = -sine[k] * g[k]
+        g[k] *= cosine[k]
+        steps = k + 1
+        if abs(g[k + 1]) <= enough or last:
+            break
+    for k in range(steps - 1, -1, -1):
+        for i in range(k + 1, steps):
+            g[k] -= r[i, k] * g[i]
+        g[k] /= r[k, k]
+    y = r[0]  # no longer needed
+    y[:] = 0.0
+    for k in range(steps):
+        for j in range(size):
+            y[j] += g[k] * basis[k, j]
+    mobility(coupling, response, index, shares, h, y[:size], x, basis[0])
+    for j in range(size):
+        y[j] += rest[j] - basis[0, j]
+    spread(response, index, shares, h, y, x)
+
+
+@compiled
+def norm(x):
+    """Return the length of a vector."""
+    total = 0.0
+    for j in range(len(x)):
+        total += x[j] * x[j]
+    return math.sqrt(total)
+
+
+@compiled
+def spread(response, index, shares, h, y, x):
+    """Fill the changes of forces x = S y."""
+    for i in range(len(index)):
+        x[2 * i], x[2 * i + 1] = hold(response[int(index[i])], h, shares[i] * y[2 * i], shares[i] * y[2 * i + 1])
+
+
+@compiled
+def mobility(coupling, response, index, shares, h, y, x, out):
+    """Fill the velocities A S y; ``x`` is to work in."""
+    spread(response, index, shares, h, y, x)
+    for i in range(len(index)):
+        p = 3 * int(index[i])
+        a, b = 0.0, 0.0
+        for j in range(len(index)):
+            q = 2 * int(index[j])
+            a += coupling[p, q] * x[2 * j] + coupling[p, q + 1] * x[2 * j + 1]
+            b += coupling[p + 1, q] * x[2 * j] + coupling[p + 1, q + 1] * x[2 * j + 1]
+        out[2 * i], out[2 * i + 1] = a, b
+
+
+@compiled
+def share(coupling, motion, q):
+    """Return the contact's part, by normal forces, of what it and those that move with it have to hold.
+
+    It is N_q/sum_p |W_qq^-1 W_qp| N_p: then N is an eigenvector of the mobilities' sizes so weighted, with eigenvalue 1,
+    and by Perron and Frobenius the sweeps, all contacts from the same velocities, never overshoot.
+    """
+    mine = max(motion[q, NORMAL], 0.0)
+    a, b = coupling[3 * q, 2 * q], coupling[3 * q, 2 * q + 1]
+    c, d = coupling[3 * q + 1, 2 * q], coupling[3 * q + 1, 2 * q + 1]
+    det, total = a * d - b * c, 0.0
+    for p in range(len(motion)):
+        if not motion[p, NORMAL] > 0.0:
+            continue
+        e, f = coupling[3 * q, 2 * p], coupling[3 * q, 2 * p + 1]
+        g, k = coupling[3 * q + 1, 2 * p], coupling[3 * q + 1, 2 * p + 1]
+        if det > 1.0e-9 * (a + d) * (a + d):
+            e, f, g, k = (d * e - b * g) / det, (d * f - b * k) / det, (a * g - c * e) / det, (a * k - c * f) / det
+        elif a + d > 0.0:
+            e, f, g, k = e / (a + d), f / (a + d), g / (a + d), k / (a + d)
+        squares, minor = e * e + f * f + g * g + k * k, e * k - f * g
+        largest = math.sqrt(0.5 * (squares + math.sqrt(max(squares * squares - 4.0 * minor * minor, 0.0))))
+        total += largest * motion[p, NORMAL]
+    return mine / total if total > 0.0 else 1.0
+
+
+@compiled
+def hold(w, h, vx, vy):
+    """Return the force [N] that takes (vx, vy) from the velocity within the step; what cannot move needs none."""
+    a, b, d = w[0], 0.5 * (w[1] + w[2]), w[3]
+    det = a * d - b * b
+    if det > 1.0e-9 * (a + d) * (a + d):
+        return (d * vx - b * vy) / (h * det), (a * vy - b * vx) / (h * det)
+    if a + d > 0.0:  # one direction only: W = lambda e e^T, and its trace is lambda
+        trace = a + d
+        return (a * vx + b * vy) / (h * trace * trace), (b * vx + d * vy) / (h * trace * trace)
+    return 0.0, 0.0
