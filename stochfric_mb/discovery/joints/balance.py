@@ -27,6 +27,8 @@ ABSOLUTE = ("offset",)
 """Numbers whose uncertainty is given in their own unit, since they may be believed to be 0."""
 POSITIVE = ("mass", "inertia", "damping", "piston_area")
 """Numbers that cannot be negative."""
+HELD = 0.5
+"""How much later than its sample a drive acts that a controller holds until its next sample [samples], on average."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -128,10 +130,11 @@ def sheet_of(run: Run, scenario: Scenario, *, delay: float = 0.0, samples: int |
             f"run {run.name!r}: {len(q)} samples are too few for windows of {window.half_width:.3g} s; record longer"
         )
     drives = ("drive", "force_gain", "torque_gain")
+    late = delay + (HELD * h if scenario.controller is not None else 0.0)
     columns: dict[str, Array] = {}
     total = np.zeros(len(window.centres))
     for name, of in terms.items():
-        shift = delay if name in drives else 0.0
+        shift = late if name in drives else 0.0
         column = sum(f * window.through(t.signal, t.derivative, shift)[window.centres] for f, t in of(1.0))
         total = total - values[name] * column
         columns[name] = np.asarray(column)

@@ -141,14 +141,20 @@ class Competitor:
     signed: bool
     """Whether it turns with the direction of the motion, as friction does."""
 
-    def columns(self, sheet: Sheet) -> Array:
-        """Return its columns at the centres of windows, shape (n_centres, k), k = 0 if what it depends on is constant."""
-        rows = _legendre(self.values(sheet))
-        if self.signed:
-            rows = np.sign(sheet.velocity) * rows
-        return (
-            np.column_stack([sheet.window.at_centres(row) for row in rows]) if len(rows) else np.zeros((len(sheet.driven), 0))
-        )
+    def columns(self, sheets: Sequence[Sheet]) -> list[Array]:
+        """Return its columns at the centres of windows of each sheet, shape (n_centres, k); k = 0 for a constant.
+
+        Its range is that of all sheets: what is asked is a dependence that they share.
+        """
+        values = [self.values(s) for s in sheets]
+        low, high = min(float(v.min()) for v in values), max(float(v.max()) for v in values)
+        found: list[Array] = []
+        for sheet, value in zip(sheets, values, strict=True):
+            rows = _legendre(value, low, high)
+            rows = np.sign(sheet.velocity) * rows if self.signed else rows
+            seen = [sheet.window.at_centres(row) for row in rows]
+            found.append(np.column_stack(seen) if seen else np.zeros((len(sheet.driven), 0)))
+        return found
 
 
 COMPETITORS = (
@@ -163,10 +169,9 @@ COMPETITORS = (
 )
 
 
-def _legendre(values: Array) -> Array:
-    """Return Legendre polynomials of order 1 to 3 of values scaled to -1...1, shape (3, n); empty for a constant."""
-    width = float(np.ptp(values))
-    if width <= 1.0e-12 * max(float(np.max(np.abs(values))), 1.0e-300):
+def _legendre(values: Array, low: float, high: float) -> Array:
+    """Return Legendre polynomials of order 1 to 3, low and high being -1 and 1, shape (3, n); empty if these are the same."""
+    if high - low <= 1.0e-12 * max(abs(low), abs(high), 1.0e-300):
         return np.zeros((0, len(values)))
-    scaled = 2.0 * (values - values.min()) / width - 1.0
+    scaled = 2.0 * (values - low) / (high - low) - 1.0
     return np.polynomial.legendre.legvander(scaled, 3)[:, 1:].T

@@ -247,6 +247,23 @@ def fit(
     return dataclasses.replace(result, covariance=covariance)
 
 
+def prior_rows(fitted: JointFit, noise: float) -> tuple[Array, Array]:
+    """Return the rows by which priors enter a linear fit about ``fitted``, shape (n_tied, n_knobs), and their values.
+
+    Args:
+        fitted: the fit.
+        noise: as of `fit`.
+    """
+    tied = [i for i, k in enumerate(fitted.knobs) if np.isfinite(k.deviation)]
+    rows = np.zeros((len(tied), len(fitted.knobs)))
+    values = np.zeros(len(tied))
+    for row, i in enumerate(tied):
+        knob = fitted.knobs[i]
+        rows[row, i] = noise / knob.deviation
+        values[row] = noise * (fitted.values[i] - knob.believed) / knob.deviation
+    return rows, values
+
+
 def bounds_of(knobs: Sequence[Knob], start: Array, scale: Array) -> tuple[Array, Array]:
     """Return the bounds of the steps; a start on a bound is let in by a hair."""
     low = np.array([(k.low - v) / s for k, v, s in zip(knobs, start, scale, strict=True)])

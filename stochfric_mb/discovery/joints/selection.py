@@ -10,7 +10,9 @@ import numpy.typing as npt
 from scipy.stats import f as fisher
 
 from stochfric_mb.discovery.joints.candidates import COMPETITORS, Candidate, Competitor, candidates, span_of
-from stochfric_mb.discovery.joints.fitting import JointFit, JointModel, fit, independent_count, predicted_rms
+from stochfric_mb.discovery.joints.evidence import scatter, settings_of, whitened
+from stochfric_mb.discovery.joints.fitting import JointFit, JointModel, fit, predicted_rms, prior_rows
+from stochfric_mb.discovery.joints.left_out import LeftOut, blocks, compared, strokes
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
 
 Array = npt.NDArray[np.float64]
@@ -21,12 +23,16 @@ MATERIAL = 0.05
 """Least share of the error on left-out blocks that an effect must take away: less is real, perhaps, but no explanation."""
 PLAIN = 0.1
 """The same for a competitor without a name: that something is missing is said where it is plain to see."""
-BLOCKS = 8
-"""Blocks of the record that are left out in turn."""
 BETTER = 0.5
 """Least share of the blocks that must get better: an effect that shows in one place only is one that was fitted to it."""
+CHANCE = 0.01
+"""Without that score an effect is taken where strokes left out, one by one, say so with no more chance than this of error."""
+FEWEST_STROKES = 8
+"""Fewest strokes that can."""
 TIE = 10.0
 """Difference of scores within which effects cannot be told apart."""
+ALIKE = 0.5
+"""Least part of an effect's evidence that one must have which could stand in for it."""
 MOST = 4
 """Most effects in one joint: beyond, errors of the first ones would be explained."""
 WIN = (15.0, 0.03)
@@ -57,10 +63,10 @@ class Stage:
     """Every candidate, best first."""
     competitors: tuple[tuple[str, float], ...]
     """Axis of each smooth competitor, with its score."""
-    gain: float
-    """Part of the error on left-out blocks that the best candidate takes away [-]."""
-    better: float
-    """Share of blocks that it makes better [-]."""
+    blocks: LeftOut
+    """What the best candidate is worth on blocks left out."""
+    strokes: LeftOut | None
+    """What it is worth on strokes left out, where this was asked."""
     accepted: bool
     """Whether it was taken into the model."""
 
@@ -95,6 +101,7 @@ class Selector:
     ) -> None:
         self._sheets, self._nuisances = list(sheets), list(nuisances)
         self._tell = progress or (lambda _: None)
+        self._settings = settings_of(sheets)
         first = fit(start, sheets, nuisances, noise=_typical(sheets))
         self._noise = _weight(first)
         self.recalibrated = self._fit(start)
@@ -136,9 +143,14 @@ class Selector:
             fits.append((candidate, self._best(current, candidate)))
         trials = self._scored(current, fits)
         rivals = self._competitors(current, trials[0].fit)
-        gain, better = self.cross_validated(current.model, trials[0].fit.model)
-        enough = trials[0].score > NAMED and gain > MATERIAL and better >= BETTER
-        return Stage(current, tuple(trials), tuple(rivals), gain, better, enough)
+        models = current.model, trials[0].fit.model
+        inside = compared(*models, self._sheets, self._nuisances, self._noise, blocks(self._sheets))
+        enough = trials[0].score > NAMED and inside.gain > MATERIAL and inside.better >= BETTER
+        repeats = None
+        if not enough and len(parts := strokes(self._sheets)) >= FEWEST_STROKES:
+            repeats = compared(*models, self._sheets, self._nuisances, self._noise, parts)
+            enough = repeats.gain > MATERIAL and repeats.p_value < CHANCE
+        return Stage(current, tuple(trials), tuple(rivals), inside, repeats, enough)
 
     def _best(self, current: JointFit, candidate: Candidate) -> JointFit:
         starts = sorted(candidate.starts, key=lambda e: predicted_rms(current.model, e, self._sheets, current))
@@ -147,66 +159,65 @@ class Selector:
 
     def _scored(self, current: JointFit, fits: Sequence[tuple[Candidate, JointFit]]) -> list[Trial]:
         # all are judged by the same count of independent windows: that of the best fit
-        n = max(min((f for _, f in fits), key=lambda f: f.rms).independent, 4.0)
-        trials = [self._trial(current, c, f, n, len(fits)) for c, f in fits]
+        best = min((f for _, f in fits), key=lambda f: f.rms)
+        n = max(best.independent, 4.0)
+        trials = [self._trial(current, c, f, best, n, len(fits)) for c, f in fits]
         return sorted(trials, key=lambda t: -t.score)
 
-    def _trial(self, current: JointFit, candidate: Candidate, fitted: JointFit, n: float, kinds: int) -> Trial:
+    def _trial(self, current: JointFit, candidate: Candidate, fitted: JointFit, best: JointFit, n: float, kinds: int) -> Trial:
         p, grid = candidate.parameters, len(candidate.starts) * kinds
         ratio = max((current.rms / fitted.rms) ** 2, 1.0)
-        score = n * np.log(ratio) - p * np.log(n) - 2.0 * np.log(grid)
+        score = self._evidence(current, fitted, best, n) - p * np.log(n) - 2.0 * np.log(grid)
         spare = max(n - len(fitted.knobs), 1.0)
         chance = float(fisher.sf((ratio - 1.0) * spare / p, p, spare))
         return Trial(candidate, fitted, float(score), min(1.0, chance * grid))
 
+    def _evidence(self, plain: JointFit, richer: JointFit, best: JointFit, n: float) -> float:
+        """Return 2 delta log L of two fits, settings scattering as they do about the best fit there is."""
+        ratio = scatter(np.concatenate(best.remainders), self._settings, n).ratio
+        before, after = (
+            scatter(np.concatenate(f.remainders), self._settings, n, ratios=np.array([ratio])) for f in (plain, richer)
+        )
+        return before.deviance - after.deviance
+
     def _competitors(self, current: JointFit, best: JointFit) -> list[tuple[str, float]]:
         n = max(best.independent, 4.0)
+        prior, offsets = prior_rows(current, self._noise)
         rest = np.concatenate(current.remainders)
+        before = scatter(rest, self._settings, n)
+        kept = adjustable(current)
         found: list[tuple[str, float]] = []
         for rival in COMPETITORS:
-            parts = [rival.columns(s)[s.sliding] for s in self._sheets]
-            width = min(p.shape[1] for p in parts)
+            seen = rival.columns(self._sheets)
+            columns = np.concatenate([c[s.sliding] for c, s in zip(seen, self._sheets, strict=True)])
+            width = columns.shape[1]
             if width == 0:
                 continue
-            columns = np.concatenate([p[:, :width] for p in parts])
-            design = np.column_stack([current.jacobian, columns])
-            design = design / np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
-            left = rest - design @ np.linalg.lstsq(design, rest, rcond=1.0e-10)[0]
-            score = n * np.log(np.mean(rest**2) / np.mean(left**2)) - width * np.log(n)
+            design = np.column_stack([current.jacobian[:, kept], columns])
+            below = np.column_stack([prior[:, kept], np.zeros((len(prior), width))])
+            after = min(self._deviance_without(rest, offsets, design, below, n, ratio) for ratio in {0.0, before.ratio})
+            score = before.deviance - after - width * np.log(n)
             found.append((rival.axis, float(score)))
         return sorted(found, key=lambda r: -r[1])
 
-    def cross_validated(self, plain: JointModel, richer: JointModel) -> tuple[float, float]:
-        """Return by what part ``richer`` lowers the error on blocks left out of the fits, and in what share of them."""
-        errors: list[tuple[float, float, int]] = []
-        for left_out in self._blocks():
-            kept = [s.sliding & ~out for s, out in zip(self._sheets, left_out, strict=True)]
-            both: list[float] = []
-            for model in (plain, richer):
-                fitted = fit(model, self._sheets, self._nuisances, noise=self._noise, masks=kept, evaluations=4).model
-                rest = [
-                    fitted.remainder(s, self._nuisances)[s.sliding & out] for s, out in zip(self._sheets, left_out, strict=True)
-                ]
-                both.append(float(np.sum(np.concatenate(rest) ** 2)))
-            errors.append((both[0], both[1], 1))
-        before, after = (sum(e[i] for e in errors) for i in (0, 1))
-        return 1.0 - float(np.sqrt(after / before)), float(np.mean([e[1] < e[0] for e in errors]))
-
-    def _blocks(self) -> list[list[npt.NDArray[np.bool_]]]:
-        """Return the blocks to leave out: stretches of the runs, one after the other, of equally many sliding windows."""
-        sliding = np.concatenate([s.sliding for s in self._sheets])
-        number = np.cumsum(sliding) * BLOCKS // (int(sliding.sum()) + 1)
-        ends = np.cumsum([len(s.sliding) for s in self._sheets])[:-1]
-        return [np.split((number == k) & sliding, ends) for k in range(BLOCKS)]
+    def _deviance_without(self, rest: Array, offsets: Array, design: Array, below: Array, n: float, ratio: float) -> float:
+        """Return the deviance of what ``design`` leaves, fitted for one ratio of the variances; ``below`` are the priors."""
+        both = np.vstack([whitened(design, self._settings, n, ratio), below])
+        scale = np.maximum(np.linalg.norm(both, axis=0), 1.0e-300)
+        goal = np.r_[whitened(rest[:, None], self._settings, n, ratio)[:, 0], offsets]
+        fitted = np.linalg.lstsq(both / scale, goal, rcond=1.0e-10)[0]
+        return scatter(rest - design / scale @ fitted, self._settings, n).deviance
 
     def _re_examined(self, current: JointFit, found: list[Trial]) -> tuple[JointFit, list[Trial]]:
         """Drop effects that later ones have made superfluous."""
         for trial in found[:-1]:
+            if trial.score < NAMED:  # taken for what it is worth on strokes left out
+                continue
             kind = trial.candidate.kind
             without = dataclasses.replace(current.model, effects=tuple(e for e in current.model.effects if e.kind != kind))
             fitted = self._fit(without)
             n = max(current.independent, 4.0)
-            score = n * np.log((fitted.rms / current.rms) ** 2) - trial.candidate.parameters * np.log(n)
+            score = self._evidence(fitted, current, current, n) - trial.candidate.parameters * np.log(n)
             if score < NAMED:
                 current, found = fitted, [t for t in found if t.candidate.kind != kind]
         return current, found
@@ -222,9 +233,14 @@ class Selector:
         fits = [(c, self._best(without, c)) for c in choices]
         n = max(final.independent, 4.0)
         size = {c.kind: c.parameters for c in candidates(span, others, without.model.load)}[own.kind]
-        mine = n * np.log((without.rms / final.rms) ** 2) - size * np.log(n)
-        theirs = [(c.kind, n * np.log((without.rms / f.rms) ** 2) - c.parameters * np.log(n)) for c, f in fits]
-        return tuple(kind for kind, score in theirs if score > mine - TIE)
+        mine = self._evidence(without, final, final, n)
+        theirs = [(c, self._evidence(without, f, final, n)) for c, f in fits]
+        # one that explains next to nothing stands in for nothing, however close the scores
+        return tuple(
+            c.kind
+            for c, gain in theirs
+            if gain > ALIKE * mine and gain - c.parameters * np.log(n) > mine - size * np.log(n) - TIE
+        )
 
     def _unknown(self, last: Stage) -> str:
         """Return the axis along which something is missing that no effect explains; empty if nothing is."""
@@ -239,21 +255,34 @@ class Selector:
 
     def _rival_gain(self, current: JointFit, rival: Competitor) -> float:
         """Return by what part a competitor lowers the error on blocks left out."""
-        parts = [rival.columns(s) for s in self._sheets]
-        width = min(p.shape[1] for p in parts)
         inside = [s.sliding for s in self._sheets]
-        x = np.concatenate([p[m, :width] for p, m in zip(parts, inside, strict=True)])
-        x = np.column_stack([current.jacobian, x])
-        y = np.concatenate(current.remainders)
+        x = np.concatenate([c[m] for c, m in zip(rival.columns(self._sheets), inside, strict=True)])
+        prior, offsets = prior_rows(current, self._noise)
+        known = np.vstack([current.jacobian, prior])[:, adjustable(current)]
+        x = np.column_stack([known, _padded(x, len(prior))])
+        y = np.r_[np.concatenate(current.remainders), offsets]
         before = after = 0.0
-        for block in self._blocks():
-            out = np.concatenate([b[m] for b, m in zip(block, inside, strict=True)])
-            for design, plain in ((current.jacobian, True), (x, False)):
+        for block in blocks(self._sheets):
+            out = np.r_[np.concatenate([b[m] for b, m in zip(block, inside, strict=True)]), np.zeros(len(prior), dtype=bool)]
+            for design, plain in ((known, True), (x, False)):
                 scale = np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
                 b = np.linalg.lstsq(design[~out] / scale, y[~out], rcond=1.0e-10)[0]
                 error = float(np.sum((y[out] - design[out] / scale @ b) ** 2))
                 before, after = (before + error, after) if plain else (before, after + error)
         return 1.0 - float(np.sqrt(after / before))
+
+
+def adjustable(fitted: JointFit) -> list[int]:
+    """Return the numbers of a fit that a smooth competitor may move: all but gains.
+
+    With less gain and a potential of its own in the place of gravity there would be less of everything, errors included.
+    """
+    return [i for i, k in enumerate(fitted.knobs) if k.owner != -2 or not k.name.endswith("gain")]
+
+
+def _padded(columns: Array, rows: int) -> Array:
+    """Return ``columns`` with ``rows`` rows of zeros below."""
+    return np.vstack([columns, np.zeros((rows, columns.shape[1]))])
 
 
 def _typical(sheets: Sequence[Sheet]) -> float:
@@ -264,6 +293,3 @@ def _weight(fitted: JointFit) -> float:
     """Return the deviation per window for which a prior counts as one independent window."""
     n = sum(map(len, fitted.remainders))
     return fitted.rms * float(np.sqrt(n / max(fitted.independent, 1.0)))
-
-
-__all__ = ["Selected", "Selector", "Stage", "Trial", "independent_count"]

@@ -116,7 +116,7 @@ def _through(make: Callable[[float], Sequence[Sheet]], names: Sequence[str], int
     best = int(np.argmin(errors))
     step = grid[1] - grid[0]
     fine = np.linspace(grid[best] - step, grid[best] + step, 9)
-    delay = float(fine[int(np.argmin([_left(make(d), names, generous)[0] for d in fine]))])
+    delay = lowest(fine, np.array([_left(make(d), names, generous)[0] for d in fine]))
     rest, n = _left(make(delay), names, generous)
     still, _ = _left(make(0.0), names, generous)
     # S(T) = S (1 + (T - T0)^2 curvature): one standard deviation raises n S by S
@@ -129,6 +129,15 @@ def _through(make: Callable[[float], Sequence[Sheet]], names: Sequence[str], int
     gain = 1.0 - float(np.sqrt(rest / still))
     material = bool(inside and gain > MATERIAL and abs(delay) > LEAST_SAMPLES * interval)
     return _Seen(delay, deviation, float(score), gain, material)
+
+
+def lowest(x: Array, y: Array) -> float:
+    """Return where the parabola through the lowest of equidistant points and its neighbours is lowest."""
+    i = min(max(int(np.argmin(y)), 1), len(x) - 2)
+    left, middle, right = y[i - 1 : i + 2]
+    curve = left - 2.0 * middle + right
+    inside = min(left, right) >= middle and curve > 0.0
+    return float(x[i] + 0.5 * (x[1] - x[0]) * (left - right) / curve) if inside else float(x[int(np.argmin(y))])
 
 
 def _left(sheets: Sequence[Sheet], names: Sequence[str], generous: bool) -> tuple[float, float]:

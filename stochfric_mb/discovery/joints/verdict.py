@@ -80,17 +80,21 @@ def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
         effect = fit.model.effects[first + i]
         others = tuple(dict.fromkeys([*same, *stand_ins(effect.kind, pairs)]))
         axis = trial.candidate.where
+        stage = next(s for s in place.selected.stages if s.trials[0] is trial)
         text = (
-            f"Friction depends on {axis}{_at(place)}: the error falls from {_rms_before(place, i):.4g} to {trial.fit.rms:.4g} "
+            f"Friction depends on {axis}{_at(place)}: the error falls from {stage.before.rms:.4g} to {trial.fit.rms:.4g} "
             f"{place.fit[0].unit} on the runs that were learned from."
         )
+        chance = trial.p_value
+        if stage.strokes is not None:
+            chance = stage.strokes.p_value
+            text += (
+                f" On strokes left out, one by one, it falls by {100.0 * stage.strokes.gain:.0f} %, in "
+                f"{round(stage.strokes.better * stage.strokes.parts)} of {stage.strokes.parts}; it is named for that."
+            )
         numbers = _parameters(fit, first + i, effect, rotates=place.fit[0].unit == "N m")
-        found.append(Found(effect.kind, others, Where(axis, text), numbers, trial.score, trial.p_value))
+        found.append(Found(effect.kind, others, Where(axis, text), numbers, trial.score, chance))
     return found
-
-
-def _rms_before(place: PlaceOutcome, i: int) -> float:
-    return place.selected.stages[i].before.rms
 
 
 def _at(place: PlaceOutcome) -> str:
@@ -225,8 +229,9 @@ def _details(places: Sequence[PlaceOutcome], timing: Timing | None, pairs: Seque
                         "before": s.before.rms,
                         "trials": [[t.candidate.kind, t.score, t.fit.rms] for t in s.trials],
                         "competitors": [list(c) for c in s.competitors],
-                        "gain_on_blocks_left_out": s.gain,
-                        "blocks_better": s.better,
+                        "gain_on_blocks_left_out": s.blocks.gain,
+                        "blocks_better": s.blocks.better,
+                        "strokes_left_out": dataclasses.asdict(s.strokes) if s.strokes is not None else None,
                         "accepted": s.accepted,
                     }
                     for s in p.selected.stages

@@ -21,15 +21,15 @@ from stochfric_mb.scenario import Scenario, any_scenario_from_dict
 H = 1.0e-3
 
 
-def sine_run(friction, *, mass=2.0, delay=0.0, noise=1.0e-6, seed=0, role="fit", start=0.0):
-    """A mass moved along two sines, with the force that it takes; position and force are exact but for noise."""
+def sine_run(friction, *, mass=2.0, delay=0.0, noise=1.0e-6, seed=0, role="fit", start=0.0, gain=1.0):
+    """A mass moved along two sines, ``gain`` times as far as usual, with the force that it takes; exact but for noise."""
     rng = np.random.default_rng(seed)
     t = start + H * np.arange(8000)
 
     def motion(time):
         q = 0.1 * np.sin(4.0 * time) + 0.03 * np.sin(9.0 * time + 1.0)
         v = 0.4 * np.cos(4.0 * time) + 0.27 * np.cos(9.0 * time + 1.0)
-        return q, v, -1.6 * np.sin(4.0 * time) - 2.43 * np.sin(9.0 * time + 1.0)
+        return gain * q, gain * v, gain * (-1.6 * np.sin(4.0 * time) - 2.43 * np.sin(9.0 * time + 1.0))
 
     q, _, _ = motion(t - delay)
     _, v, a = motion(t)
@@ -117,6 +117,36 @@ def test_a_missing_channel_is_named():
     bare = dataclasses.replace(run, channels={"position": run.channels["position"]})
     with pytest.raises(InputError, match="has no force"):
         sheet_of(bare, scenario())
+
+
+def settings(friction, zero):
+    """Four runs to learn from and one held out; ``friction(run, q, v)`` and ``zero[run]`` are those of each run."""
+    roles = ("fit", "fit", "fit", "fit", "test")
+    runs = [
+        sine_run(lambda q, v, i=i: friction(i, q, v) + zero[i], seed=i, role=role, start=20.0 * i, gain=0.4 + 0.3 * i)
+        for i, role in enumerate(roles)
+    ]
+    return Dataset(title="", scenario_path=None, scenario=scenario(), runs=tuple(runs))
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_runs_that_differ_for_no_known_reason_name_nothing(seed):
+    rng = np.random.default_rng(seed)
+    level, zero = 1.0 + 0.06 * rng.standard_normal(5), 0.15 * rng.standard_normal(5)
+    result = joint_outcome(settings(lambda i, q, v: level[i] * coulomb(q, v), zero)).result
+    assert result.verdict == "none"
+
+
+def test_what_no_effect_explains_is_unknown_in_several_runs_too():
+    rng = np.random.default_rng(5)
+
+    def hump(i, q, v):  # most friction in the middle of the speeds, least at both ends
+        return coulomb(q, v) * (1.0 + 0.6 * np.sin(np.pi * np.minimum(np.abs(v), 0.8) / 0.8))
+
+    result = joint_outcome(settings(hump, 0.05 * rng.standard_normal(5))).result
+    assert result.verdict == "unknown"
+    assert result.where is not None
+    assert "speed" in result.where.axis
 
 
 def test_a_joint_that_rests_is_refused():
