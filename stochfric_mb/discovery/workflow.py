@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 from scipy.stats import chi2 as chi2_distribution
 
 from stochfric_mb.discovery.advice import next_experiment, not_identifiable
+from stochfric_mb.discovery.borne_out import LEAST_REDUCIBLE, compared, without_last
 from stochfric_mb.discovery.decision import Decision, Named, decide
 from stochfric_mb.discovery.gap import HeldOut, deterministic, floor_of, gap_of, held_out, mean_score, phased, settled
 from stochfric_mb.discovery.intervals import interval
@@ -25,8 +27,6 @@ NOT_JUDGED = {"impacts", "sensor_outliers", "sensor_clipping"}
 EXPLAINED, EXPLAINED_RANDOM = 0.65, 0.2
 """Share of the reducible error of the fit runs' forecasts that named effects must explain; the second one where random
 effects or a step between two slips, whose moment is not known well, are among them [-]."""
-LEAST_REDUCIBLE = 0.08
-"""Reducible error, over the error itself, below which that share would be noise over noise [-]."""
 JUDGED_WINDOWS = 24
 """Forecasts of each run that are judged."""
 UNITS = {"mu_s": "-", "mu_k": "-", "mass": "kg", "stiffness": "N/m", "damping": "N s/m"}
@@ -81,10 +81,12 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     ):
         decision, fit, augmented = poor, None, recalibrated.model
     progress("held-out runs")
-    runs = held_out([s for s in (slips_of_run(r, dataset) for r in dataset.test) if len(s) >= 2], phased=phased(augmented))
+    slips = [s for s in (slips_of_run(r, dataset) for r in dataset.test) if len(s) >= 2]
+    runs = held_out(slips, phased=phased(augmented))
     augmented = settled(augmented, runs)
+    decision, fit, augmented = _borne_out(decision, fit, augmented, found, recalibrated, runs)
     gap = gap_of(believed, recalibrated.model, augmented, runs) if sum(map(len, runs.second)) else None
-    notes = _notes(found, gap)
+    notes = _notes(found, decision, gap)
     result = Result(
         verdict=decision.verdict,  # pyright: ignore[reportArgumentType]  # one of three words
         effects=tuple(_found(n, fit, augmented, found) for n in decision.named),
@@ -178,6 +180,35 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
     return dataclasses.replace(decision, verdict="unknown", named=(), where=where)
 
 
+def _borne_out(
+    decision: Decision, fit: Fit | None, augmented: Model, found: Study, recalibrated: Fit, runs: HeldOut
+) -> tuple[Decision, Fit | None, Model]:
+    """Return the decision and its model less the effects, last found first, that make forecasts of held-out runs worse."""
+    dropped: dict[str, object] = {}
+    last: Named | None = None
+    while decision.named and decision.named[-1].kind not in NOT_JUDGED:
+        last = decision.named[-1]
+        fewer = dataclasses.replace(decision, named=decision.named[:-1], model=without_last(decision.model, last.kind))
+        refitted = _augmented(fewer, found, recalibrated) if fewer.named else None
+        before = settled(refitted.model, runs) if refitted is not None else recalibrated.model
+        seen = compared(before, augmented, runs)
+        if seen is None or not seen.worse:
+            break
+        dropped[last.kind] = dataclasses.asdict(seen)
+        decision, fit, augmented = fewer, refitted, before
+    if not dropped:
+        return decision, fit, augmented
+    decision.details["not_borne_out"] = dropped
+    if decision.named or last is None:
+        return decision, fit, augmented
+    error = mean_score(augmented, runs)
+    reducible = error - min(floor_of(augmented, runs), error)
+    if reducible < LEAST_REDUCIBLE * error:
+        return dataclasses.replace(decision, verdict="none"), fit, augmented
+    text = f"{last.kind} comes closest on the fit runs, but makes forecasts of the held-out runs worse"
+    return dataclasses.replace(decision, verdict="unknown", where=Where(last.where.axis, text)), fit, augmented
+
+
 def _found(named: Named, fit: Fit | None, model: Model, found: Study) -> Found:
     parameters: dict[str, Interval] = {}
     place = next(i for i, e in enumerate(model.effects) if e.kind == named.kind)
@@ -216,7 +247,7 @@ def _intervals(fit: Fit, found: Study) -> dict[str, Interval]:
     return rows
 
 
-def _notes(found: Study, gap: Gap | None) -> tuple[str, ...]:
+def _notes(found: Study, decision: Decision, gap: Gap | None) -> tuple[str, ...]:
     notes: list[str] = []
     if found.outliers > 0.0:
         notes.append(f"{found.outliers:.2e} of the samples were outliers and were replaced by a running median")
@@ -228,6 +259,11 @@ def _notes(found: Study, gap: Gap | None) -> tuple[str, ...]:
         error = float(found.sticking.belt_velocity_error[worst])
         if abs(error) > max(0.01, 5.0 * float(found.sticking.belt_velocity_deviation[worst])):
             notes.append(f"in stick the box moves at {1.0 + error:.3f} times the stated belt velocity: check the belt velocity")
+    dropped: Any = decision.details.get("not_borne_out", {})
+    notes += [
+        f"{kind} is not borne out by the held-out runs: error {seen['with_']:.3g} m with it, {seen['without']:.3g} m without"
+        for kind, seen in dropped.items()
+    ]
     if gap is not None and gap.augmented > gap.recalibrated:
         notes.append(
             f"on the held-out runs the augmented model forecasts worse ({gap.augmented:.3g} m) than the recalibrated one "
