@@ -144,12 +144,12 @@ class CoordinateContact(FrictionContact):
             self._own[1] = self._mbs.GetObjectOutput(self.object, OUTPUT.Displacement)
             self._own[3] = self._mbs.GetObjectOutput(self.object, OUTPUT.Velocity)
 
-    def reset(self) -> None:
+    def reset(self, start: float = 0.0) -> None:
         """Start the contact afresh, at the system's initial displacement and velocity."""
         self._own[:] = 0.0
         self._plain = False
         self._bind_own()
-        super().reset()
+        super().reset(start)
 
     def _bind_own(self) -> None:
         bind_own(self._words, self._own)

@@ -149,13 +149,15 @@ class FrictionContact:
             )
         return float(limit), formula
 
-    def reset(self) -> None:
-        """Start the contact afresh, at the system's initial displacement and velocity."""
+    def reset(self, start: float = 0.0) -> None:
+        """Start the contact afresh, at the system's initial displacement and velocity and the time ``start`` [s]."""
         self._read_initial_motion()
         self._words[at.STARTED] = 0
-        at.proceed(0.0, self.where)
-        at.locate(0.0, self.where)  # compiled now rather than in the middle of a run
-        at.advance(0.0, self.where)
+        if self._normal.changes and not self._normal.reaction:  # implicit solvers ask for the force before the first step
+            self._read_normal(start)
+        at.proceed(start, self.where)
+        at.locate(start, self.where)  # compiled now rather than in the middle of a run
+        at.advance(start, self.where)
         self._pass_on()
         self._words[[at.STARTED, at.NEXT_RECORD]] = 0
 
@@ -203,11 +205,19 @@ class FrictionContact:
         if not self._unsure:
             return False
         self._unsure = False
-        self._numbers[[at.NORMAL_FORCE, at.GIVEN_NORMAL]] = self._normal.at(0.0)
-        line = self._names.index(NORMAL_LINE[0])
-        self._live[line], self._live[line + 1] = self._numbers[at.GIVEN_NORMAL], 0.0
-        self._pass_on()
+        self.guess_normal(self._normal.at(0.0))
         return True
+
+    def guess_normal(self, force: float | None) -> None:
+        """Let the step to come have a constant normal force [N]; None: the reaction as it is now, other sources stay."""
+        if force is None:
+            if not self._normal.reaction:
+                return
+            force = self._normal.at(0.0)
+        self._numbers[[at.NORMAL_FORCE, at.GIVEN_NORMAL, at.GIVEN_RATE]] = force, force, 0.0
+        line = self._names.index(NORMAL_LINE[0])
+        self._live[line], self._live[line + 1] = force, 0.0
+        self._pass_on()
 
     @property
     def unsure(self) -> bool:
@@ -225,10 +235,12 @@ class FrictionContact:
         """Whether the next step may contain a switch."""
         return bool(self._words[at.WATCHING])
 
-    def prepare(self, dt: float) -> None:
-        """Start afresh with the solver's step [s], whose grid located steps keep to."""
+    def prepare(self, dt: float, start: float) -> None:
+        """Start afresh with the solver's step [s], whose grid located steps keep to, at the time ``start`` [s]."""
         self._numbers[at.STEP] = dt
-        self.reset()
+        if self._normal.reaction:
+            self.guess_normal(0.0)
+        self.reset(start)
 
     def locate(self, on: bool) -> None:
         """Say whether steps are to end where the law switches."""

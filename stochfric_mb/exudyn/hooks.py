@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import contextlib
+from collections.abc import Callable, Iterator
 from typing import Any, Protocol
 
 from stochfric_mb.exudyn.stepping import advance
@@ -28,8 +29,8 @@ class Contact(Protocol):
         """Do what `advance` asks for; return whether `watched` may have changed."""
         ...
 
-    def prepare(self, dt: float) -> None:
-        """Start afresh with the solver's step [s]."""
+    def prepare(self, dt: float, start: float) -> None:
+        """Start afresh with the solver's step [s] at the time ``start`` [s]."""
         ...
 
     def locate(self, on: bool) -> None:
@@ -55,6 +56,10 @@ class Contact(Protocol):
 
     def refine(self) -> bool:
         """Take the normal force of the trial step where it was guessed; return whether the step must be repeated."""
+        ...
+
+    def guess_normal(self, force: float | None) -> None:
+        """Let the step to come have a constant normal force [N]; None: the reaction as it is now, other sources stay."""
         ...
 
     def recommended_step(self, t: float) -> float:
@@ -97,6 +102,18 @@ class Hooks:
         self._own = {"PostStep": self._post_step(), "PostNewton": self._post_newton()}
         self._mbs.SetPostStepUserFunction(self._own["PostStep"])
         self.watch()
+
+    @contextlib.contextmanager
+    def put_aside(self) -> Iterator[None]:
+        """Empty the system's slots for a trial run that nobody is to notice, and fill them again after it."""
+        there = {slot: installed(self._mbs, slot) for slot in ("PreStep", "PostStep", "PostNewton")}
+        try:
+            for slot in there:
+                getattr(self._mbs, f"Set{slot}UserFunction")(0)
+            yield
+        finally:
+            for slot, function in there.items():
+                getattr(self._mbs, f"Set{slot}UserFunction")(function or 0)
 
     def watch(self) -> None:
         """Put PostNewton in place while it is needed, and take it away otherwise: it costs as much as a step."""

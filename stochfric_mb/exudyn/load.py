@@ -101,10 +101,10 @@ class CoordinateLoad(_Load):
         self._words[at.ASK_FIRST] = int(self._normal.changes)
         bind_coordinates(self._mbs, self._words, self._zero, [-1, coordinate_index(self._mbs, self._marker)])
 
-    def reset(self) -> None:
+    def reset(self, start: float = 0.0) -> None:
         """Start the contact afresh, at the system's initial displacement and velocity."""
         bind_own(self._words, self._own)
-        super().reset()
+        super().reset(start)
 
     def _read_motion(self) -> None:
         """Copy the coordinate and its rate, for the time before a simulation starts."""

@@ -20,6 +20,8 @@ SOLVERS = {
 }
 """Name of a solver -> Exudyn's own."""
 EXPLICIT = ("rk44", "dopri5", "velocity_verlet")
+TRIAL = 1.0e-2
+"""Part of a step after which reactions at the start are taken."""
 
 
 def silent_settings(dt: float, duration: float) -> Any:
@@ -64,13 +66,14 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     if solver in EXPLICIT and any(contact.needs_reactions for contact in hooks.contacts):
         raise InputError(NO_REACTION)
     for contact in hooks.contacts:
-        contact.prepare(dt)
+        contact.prepare(dt, integration.startTime)
     if limited and (broken := _broken_limit(hooks, dt)):
         raise StabilityError(f"{where}: {broken}")
     hooks.install(locate=locate)
     _settle_settings(mbs, integration, hooks, dt if locate else 0.0)
     printed, exudyn.config.printToConsole = exudyn.config.printToConsole, False
     try:
+        _find_reactions(mbs, settings, solver, hooks, dt)
         success = mbs.SolveDynamic(settings, solverType=SOLVERS[solver], showHints=False)
     except exudyn.ExudynError as error:
         if isinstance(error.__cause__, Exception):
@@ -87,6 +90,29 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
         raise SimulationError(f"{where} reported success with a state that is not finite: {broken}")
     if limited and (broken := _broken_limit(hooks, dt)):
         raise SimulationError(f"{where} reported success, but the outcome is not to be trusted: {broken}")
+
+
+def _find_reactions(mbs: Any, settings: Any, solver: str, hooks: Hooks, dt: float) -> None:
+    """Let contacts whose normal force is a reaction know it at the start, so that the first step has its friction.
+
+    Two steps of a small part of dt [s] that nobody notices: the first without friction, the second with that of the first.
+    """
+    contacts = [contact for contact in hooks.contacts if contact.needs_reactions]
+    if not contacts:
+        return
+    trial = exudyn.SimulationSettings()
+    trial.SetDictionary(settings.GetDictionary())
+    trial.solution.file.write = trial.solution.sensors.active = False
+    integration = trial.timeIntegration
+    integration.endTime, integration.numberOfSteps = integration.startTime + TRIAL * dt, 1
+    integration.automaticStepSize = integration.adaptiveStep = False
+    integration.verboseMode = integration.verboseModeFile = 0
+    integration.generalizedAlpha.useNewmark = integration.generalizedAlpha.useIndex2Constraints = True
+    with hooks.put_aside():
+        for _ in range(2):
+            mbs.SolveDynamic(trial, solverType=SOLVERS[solver], showHints=False)
+            for contact in contacts:
+                contact.guess_normal(None)
 
 
 def _broken_limit(hooks: Hooks, dt: float) -> str:

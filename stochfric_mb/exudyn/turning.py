@@ -71,9 +71,9 @@ class TurningContact(FrictionContact):
         self._push(float(self._mbs.systemData.GetTime()))
         return self._out[frames.GLOBAL : frames.GLOBAL + 3].copy()
 
-    def prepare(self, dt: float) -> None:
-        """Start afresh with the solver's step [s]; tell implicit solvers what the load depends on."""
-        super().prepare(dt)
+    def prepare(self, dt: float, start: float) -> None:
+        """Start afresh, as any contact does; tell implicit solvers what the load depends on."""
+        super().prepare(dt, start)
         if self.lever is not None:
             self._mbs.systemData.AddODE2LoadDependencies(self.lever, self._coordinates())
 
