@@ -61,15 +61,13 @@ def measured(hidden: Callable[[float, float], float], *, seed: int, role: str, d
         )
         if step % stride == 0:
             data.ctrl[:] = np.array([120.0, 60.0]) * (target - data.qpos) - np.array([8.0, 4.0]) * data.qvel
-            rows.append(np.r_[t, data.qpos, data.ctrl])
+            rows.append(np.r_[t, data.qpos, data.ctrl, target])
         data.qfrc_applied[1] = -hidden(float(data.qpos[1]), float(data.qvel[1]))
         mujoco.mj_step(model, data)
     table = np.array(rows)
-    # the torque of a sample is held until the next one: on average it acts half a sample later than the angles are read
-    table[1:, 3:] = 0.5 * (table[1:, 3:] + table[:-1, 3:])
     table[:, 1:3] += NOISE[0] * rng.standard_normal((len(table), 2))
-    table[:, 3:] += NOISE[1] * rng.standard_normal((len(table), 2))
-    names = ("shoulder_angle", "elbow_angle", "shoulder_torque", "elbow_torque")
+    table[:, 3:5] += NOISE[1] * rng.standard_normal((len(table), 2))
+    names = ("shoulder_angle", "elbow_angle", "shoulder_torque", "elbow_torque", "shoulder_target", "elbow_target")
     return Run(
         name=f"{role} {seed}",
         role="fit" if role == "fit" else "test",
@@ -90,14 +88,17 @@ def discovered(hidden: Callable[[float, float], float], seed: int = 1) -> JointO
 def main() -> None:
     """Print what is found for each hidden friction."""
     for hidden in (nothing, grease, wave):
-        result = discovered(hidden).result
+        outcome = discovered(hidden)
+        result = outcome.result
         print(f"hidden: {hidden.__name__}; found: {result.verdict}")
         for effect in result.effects:
             numbers = ", ".join(f"{k} = {v.value:.3g} {v.unit}" for k, v in effect.parameters.items())
             print(f"  {effect.kind} ({numbers}): {effect.where.text}")
-        if result.gap is not None:
-            print(f"  held out: {result.gap.recalibrated:.4f} -> {result.gap.augmented:.4f} {result.gap.unit}, "
-                  f"noise {result.gap.floor:.4f}")  # fmt: skip
+        before, after = (outcome.places[0].scores[k] for k in ("recalibrated", "augmented"))
+        print(f"  held out, inverse dynamics: {before.sliding:.4f} -> {after.sliding:.4f} N m")
+        print(f"  held out, arm and controller simulated again: angles {1e3 * (before.forward or 0.0):.3f} -> "
+              f"{1e3 * (after.forward or 0.0):.3f} mrad, torques {100.0 * (before.loop or 0.0):.2f} -> "
+              f"{100.0 * (after.loop or 0.0):.2f} %")  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ from stochfric_mb.effects import Effect, effect_from_dict
 from stochfric_mb.effects.combine import combined_process, with_compliance
 from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_name, require_number
 from stochfric_mb.laws import Law, law_class, make_law
-from stochfric_mb.mechanisms import MECHANISMS, BeltBox, Cascade, Mechanism, Mjcf, controller_from_dict
+from stochfric_mb.mechanisms import MECHANISMS, BeltBox, Controller, Mechanism, Mjcf, controller_from_dict
 
 if TYPE_CHECKING:
     from typing_extensions import TypeVar
@@ -44,7 +44,7 @@ class Scenario(Generic[M]):
     """How the coefficients are declared to vary; see `coefficient_process`."""
     effects: tuple[Effect, ...] = ()
     """What has been added to mechanism and law."""
-    controller: Cascade | None = None
+    controller: Controller | None = None
     """The controller that was in the loop; None: there was none."""
     duration: float
     """Time to simulate [s], > 0."""

@@ -34,19 +34,21 @@ class Mjcf:
     file: Path
     """The MJCF file."""
     friction: Mapping[str, float]
-    """Joint in which friction acts -> its load [N, for a hinge N m]: friction is mu times load."""
+    """Joint or tendon in which friction acts -> its load [N, for a hinge N m]: friction is mu times load."""
     positions: Mapping[str, str]
     """Joint -> channel or covariate of its position [m or rad]."""
     drives: Mapping[str, Drive]
-    """Joint -> what drives it, as measured; a joint without one is not driven."""
+    """Joint or tendon -> what drives it, as measured; one that is not named is not driven."""
+    tendons: tuple[str, ...] = ()
+    """Tendons that may be named in the place of joints."""
     damping: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Joint -> damping beyond the model's own, such as back-EMF [N s/m or N m s/rad]."""
     offset: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
-    """Joint -> constant force against its coordinate [N or N m]."""
+    """Joint or tendon -> constant force against its coordinate [N or N m]."""
     factors: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
     """``mass``, ``armature`` -> factor on the model's own, as corrected by data [-]."""
     effects_in: tuple[str, ...] = ()
-    """Joints in which the scenario's effects act; empty: all that have friction."""
+    """Joints and tendons in which the scenario's effects act; empty: all that have friction."""
 
     kind: ClassVar[str] = "mjcf"
     rotational: ClassVar[bool] = True
@@ -56,12 +58,21 @@ class Mjcf:
             raise InputError("mechanism.friction names no joint; write friction = { elbow = 1.0 } (joint and its load)")
         for joint, load in self.friction.items():
             require_number(f"mechanism.friction.{joint}", load, above=0.0, unit="N or N m")
-            require_name("joint of mechanism.friction (a joint of mechanism.positions)", joint, self.positions)
+            require_name(
+                "joint of mechanism.friction (a joint of mechanism.positions, or one of mechanism.tendons)", joint, self.known
+            )
         for name, factor in self.factors.items():
             require_name("key mechanism.factors.", name, ("mass", "armature"))
             require_number(f"mechanism.factors.{name}", factor, low=0.0)
-        for joint in (*self.drives, *self.damping, *self.offset, *self.effects_in):
+        for joint in self.damping:
             require_name("joint (a joint of mechanism.positions)", joint, self.positions)
+        for place in (*self.drives, *self.offset, *self.effects_in):
+            require_name("joint (a joint of mechanism.positions, or one of mechanism.tendons)", place, self.known)
+
+    @property
+    def known(self) -> list[str]:
+        """Joints and tendons by name."""
+        return [*self.positions, *self.tendons]
 
     @property
     def normal_force(self) -> float:
@@ -76,6 +87,11 @@ class Mjcf:
             InputError: unknown, missing or unusable key.
         """
         fields = [f.name for f in dataclasses.fields(cls)]
+        if "pairs" in table:
+            raise InputError(
+                f"mechanism.pairs = {table['pairs']!r}: friction is sought in joints and tendons, not in contact pairs, whose "
+                "normal force no record holds; give the joint along which the bodies slide, and the load as its friction"
+            )
         for key in table:
             require_name("key mechanism.", key, [*fields, "kind"])
         for key in ("file", "friction", "positions"):
@@ -86,7 +102,8 @@ class Mjcf:
             friction=_numbers(table, "friction"),
             positions={k: str(v) for k, v in _table(table, "positions").items()},
             drives={k: _drive(k, v) for k, v in _table(table, "drives").items()},
-            effects_in=tuple(str(joint) for joint in table.get("effects_in", ())),
+            tendons=_names(table, "tendons"),
+            effects_in=_names(table, "effects_in"),
             **{key: _numbers(table, key) for key in ("damping", "offset", "factors")},
         )
 
@@ -101,6 +118,7 @@ class Mjcf:
             "damping": dict(self.damping),
             "offset": dict(self.offset),
             "factors": dict(self.factors),
+            "tendons": list(self.tendons),
             "effects_in": list(self.effects_in),
         }
 
@@ -110,6 +128,13 @@ def _table(table: Mapping[str, Any], key: str) -> Mapping[str, Any]:
     if not isinstance(value, Mapping):
         raise InputError(f"mechanism.{key} = {value!r} is not a table of joints; write {key} = {{ elbow = ... }}")
     return cast(Mapping[str, Any], value)
+
+
+def _names(table: Mapping[str, Any], key: str) -> tuple[str, ...]:
+    value = table.get(key, [])
+    if not isinstance(value, list):
+        raise InputError(f'mechanism.{key} = {value!r} is not a list of names; write {key} = ["cable"]')
+    return tuple(str(name) for name in cast(list[Any], value))
 
 
 def _numbers(table: Mapping[str, Any], key: str) -> dict[str, float]:

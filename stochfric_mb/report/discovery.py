@@ -31,6 +31,7 @@ CAPTIONS = {
 METRICS = {
     "crps_one_cycle": "error of forecasts one cycle ahead (CRPS; without scatter, the mean absolute error)",
     "closed_loop_voltage": "error of the simulated closed loop: root mean square of the voltage's, over that of the voltage",
+    "closed_loop_drive": "error of the simulated closed loop: root mean square of what the controller gives, over its size",
     "inverse_dynamics_sliding": "error of the driving force that the model asks for while the joint slides (root mean square)",
 }
 """Metric -> what it is, in words; other metrics are told by their names."""

@@ -12,7 +12,7 @@ from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet, least_speed, sl
 from stochfric_mb.discovery.joints.windows import Window, chosen_window, noise_level
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.mechanisms import HingePendulum, PrismaticJoint
+from stochfric_mb.mechanisms import Cascade, HingePendulum, PrismaticJoint
 from stochfric_mb.scenario import Scenario
 
 Array = npt.NDArray[np.float64]
@@ -130,7 +130,7 @@ def sheet_of(run: Run, scenario: Scenario, *, delay: float = 0.0, samples: int |
             f"run {run.name!r}: {len(q)} samples are too few for windows of {window.half_width:.3g} s; record longer"
         )
     drives = ("drive", "force_gain", "torque_gain")
-    late = delay + (HELD * h if scenario.controller is not None else 0.0)
+    late = delay + (HELD * h if isinstance(scenario.controller, Cascade) else 0.0)
     columns: dict[str, Array] = {}
     total = np.zeros(len(window.centres))
     for name, of in terms.items():

@@ -97,15 +97,62 @@ def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
     more = found.seconds if found is not None and found.named else 0.0
     notes: list[str] = []
     places = [_place(dataset, tell, source, name, load, (base, base + more), notes) for name, load in source.places]
-    places.sort(key=lambda p: -sum(t.score for t in p.selected.found))
+    places = _beside(dataset, tell, source, places, (base, base + more))
+    places.sort(key=_evidence)
+    places, floor = _simulated(dataset, tell, source, places, base + more)
     notes += _run_notes(dataset)
-    floor = loop_floor(dataset.test) if dataset.scenario.controller is not None else None
     result = verdict(dataset, places, found, notes, floor)
     pictures = tuple(
         friction_picture(p.place, p.test, p.nuisances, p.selected.recalibrated.model, p.selected.final.model) for p in places
     )
     scenario = augmented(dataset.scenario, places, found)
     return JointOutcome(result, scenario, dataset, places=tuple(places), timing=found, pictures=pictures)
+
+
+def _evidence(place: PlaceOutcome) -> float:
+    """Return minus the evidence found at a place, for sorting."""
+    return -sum(max(t.score, 0.0) for t in place.selected.found)
+
+
+def _beside(
+    dataset: Dataset, tell: Progress, source: Any, places: list[PlaceOutcome], delays: tuple[float, float]
+) -> list[PlaceOutcome]:
+    """Return the places anew, judged beside the one with the most evidence, where friction in one enters another's balance."""
+    names = [(p, load) for p, load in source.places if isinstance(dataset.scenario.mechanism, Mjcf) and source.coupled(p)]
+    found = {name: place for (name, _), place in zip(source.places, places, strict=True)}
+    if not names or not any(p.selected.found for p in places):
+        return places
+    first = min(found, key=lambda name: _evidence(found[name]))
+    source.known.update({name: p.selected.recalibrated.model for name, p in found.items()})
+    source.known[first] = found[first].selected.final.model
+    for name, load in names:
+        if name != first:
+            found[name] = _place(dataset, tell, source, name, load, delays, [])
+            source.known[name] = found[name].selected.final.model
+    return [found[name] for name, _ in source.places]
+
+
+def _simulated(
+    dataset: Dataset, tell: Progress, source: Any, places: list[PlaceOutcome], delay: float
+) -> tuple[list[PlaceOutcome], float | None]:
+    """Return the places with the errors of forward simulation in the engine, and the noise of what a controller gives."""
+    if not isinstance(dataset.scenario.mechanism, Mjcf):
+        return places, loop_floor(dataset.test) if dataset.scenario.controller is not None else None
+    from stochfric_mb.discovery.joints.mjcf_forward import drive_floor, forward
+
+    scores = dict(places[0].scores)
+    by_name = {p.place or source.places[0][0]: p for p in places}
+    stages: dict[str, dict[str, JointModel]] = {
+        "baseline": {name: p.believed for name, p in by_name.items()},
+        "recalibrated": {name: p.selected.recalibrated.model for name, p in by_name.items()},
+        "augmented": {name: p.selected.final.model for name, p in by_name.items()},
+    }
+    for label, models in stages.items():
+        tell(f"forward simulation, {label}")
+        seen = forward(source, models, delay)
+        scores[label] = dataclasses.replace(scores[label], loop=seen.drive, forward=seen.position)
+    floor = drive_floor(source) if dataset.scenario.controller is not None else None
+    return [dataclasses.replace(places[0], scores=scores), *places[1:]], floor
 
 
 def _place(

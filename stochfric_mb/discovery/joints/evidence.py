@@ -92,5 +92,6 @@ def whitened(columns: Array, settings: Labels, independent: float, ratio: float)
     index = np.unique(settings, return_inverse=True)[1]
     size = np.bincount(index)
     kept = 1.0 / np.sqrt(1.0 + ratio * size * independent / len(columns))
-    means = np.stack([np.bincount(index, c) / size for c in columns.T], axis=1)
-    return columns - ((1.0 - kept)[:, None] * means)[index]
+    means: Array = np.stack([np.bincount(index, c) / size for c in columns.T], axis=1)
+    shrunk: Array = ((1.0 - kept)[:, None] * means)[index]
+    return columns - shrunk

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -68,7 +69,8 @@ def compared(
     errors = np.array([[_error(m, sheets, nuisances, noise, part) for m in (plain, richer)] for part in parts])
     before, after = errors.sum(axis=0)
     fall = errors[:, 0] - errors[:, 1]
-    chance = float(wilcoxon(fall, alternative="greater").pvalue) if np.any(fall != 0.0) else 1.0
+    ranked: Any = wilcoxon(fall, alternative="greater") if np.any(fall != 0.0) else None
+    chance = 1.0 if ranked is None else float(ranked.pvalue)
     return LeftOut(1.0 - float(np.sqrt(after / before)), float(np.mean(fall > 0.0)), chance, len(parts))
 
 

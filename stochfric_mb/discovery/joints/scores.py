@@ -13,7 +13,7 @@ from stochfric_mb.discovery.joints.fitting import JointModel
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
 from stochfric_mb.discovery.joints.windows import noise_level
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.mechanisms import PrismaticJoint
+from stochfric_mb.mechanisms import Cascade, PrismaticJoint
 from stochfric_mb.scenario import Scenario
 
 Array = npt.NDArray[np.float64]
@@ -33,7 +33,9 @@ class Score:
     whole: float
     """Inverse dynamics, rms over all windows, reversals and rest included [N or N m]."""
     loop: float | None
-    """Voltage of the simulated closed loop against the measured one, relative rms [-]; None without a controller."""
+    """Voltage, or another drive, of the simulated closed loop against the measured one, relative rms [-]; None without."""
+    forward: float | None = None
+    """Positions of the model run forward in its engine against the measured ones, rms [m or rad]; None where it was not."""
 
 
 def score(
@@ -48,7 +50,7 @@ def score(
 def loop_error(model: JointModel, runs: Sequence[Run], scenario: Scenario) -> float | None:
     """Return the relative error of the simulated controller's voltage [-]; None where there is no controller."""
     controller = scenario.controller
-    if controller is None:
+    if not isinstance(controller, Cascade):
         return None
     wrong = right = 0.0
     for run in runs:

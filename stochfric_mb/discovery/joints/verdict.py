@@ -145,9 +145,10 @@ def _gap(places: Sequence[PlaceOutcome], loop_floor: float | None) -> Gap:
     place = places[0]
     before, middle, after = (place.scores[k] for k in ("baseline", "recalibrated", "augmented"))
     if before.loop is not None and middle.loop is not None and after.loop is not None and loop_floor is not None:
+        metric = "closed_loop_drive" if middle.forward is not None else "closed_loop_voltage"
         return Gap(
-            "closed_loop_voltage", "-", True, before.loop, middle.loop, after.loop, loop_floor,
-            "high-frequency content of the measured voltage (third differences)",
+            metric, "-", True, before.loop, middle.loop, after.loop, loop_floor,
+            f"high-frequency content of the measured {metric.removeprefix('closed_loop_')} (third differences)",
         )  # fmt: skip
     return Gap(
         "inverse_dynamics_sliding", place.fit[0].unit, True, before.sliding, middle.sliding, after.sliding, place.floor,

@@ -1,0 +1,276 @@
+"""Confirmation in the engine: the user's model runs forward with the friction found, and the controller in the loop.
+
+Before each step the friction that is available in each place goes into MuJoCo's own ``frictionloss``, which holds at rest and
+opposes motion. Where a controller drives a joint it acts again, on simulated positions; other joints get their measured drive.
+Without a controller errors would add up along the record, so there the model starts anew from the measured state, `AHEAD`.
+"""
+
+# pyright: reportAttributeAccessIssue=false
+# (MuJoCo's bindings are not typed)
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.joints.fitting import JointModel
+from stochfric_mb.discovery.joints.friction import chain, resistance
+from stochfric_mb.discovery.joints.mjcf import MjcfSource, column, corrected, drive_of
+from stochfric_mb.discovery.joints.mjcf_model import scale_masses
+from stochfric_mb.discovery.joints.windows import Window, noise_level
+from stochfric_mb.effects.contract import WORLD
+from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.run import Run
+from stochfric_mb.mechanisms import JointLoop, ProportionalDerivative
+
+Array = npt.NDArray[np.float64]
+Models = Mapping[str, JointModel]
+"""Place -> model of its friction."""
+
+AHEAD = 0.5
+"""Time after which a simulation without a controller starts again from the measured state [s]."""
+SETTLE = 0.25
+"""Time from which a simulated closed loop is compared: what is wrong in its first state has faded [s]."""
+STIFF = (2.0, 1.0)
+"""Reference time [steps] and damping ratio of the friction constraints: as stiff as the step allows, so that rest is rest."""
+HARD = (0.9999, 0.9999, 0.001, 0.5, 2.0)
+"""Their impedance."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Forward:
+    """Simulated runs against measured ones."""
+
+    position: float
+    """Error of the positions, rms over joints and samples [m or rad]."""
+    drive: float | None
+    """Error of what the controller gives, relative rms [-]; None without a controller."""
+
+
+def forward(source: MjcfSource, models: Models, delay: float) -> Forward:
+    """Return how far the simulated held-out runs are from the measured ones.
+
+    Args:
+        source: the model and the runs.
+        models: friction and corrections of each place.
+        delay: by how much positions come after the driving force in the record [s].
+
+    Raises:
+        InputError: the controller's reference or factor is missing in a run.
+    """
+    wrong = wrong_drive = drive = 0.0
+    count = 0
+    for run in source.dataset.test:
+        plant = _Plant(source, models, run, delay)
+        position, given = plant.simulated()
+        seen = plant.compared
+        wrong += float(np.sum((position - plant.measured)[seen] ** 2))
+        count += int(seen.sum()) * position.shape[1]
+        for joint, output in given.items():
+            recorded = _output(run, source, joint)[plant.start : plant.end]
+            wrong_drive += float(np.sum((output - recorded)[seen] ** 2))
+            drive += float(np.sum(recorded[seen] ** 2))
+    looped = isinstance(source.dataset.scenario.controller, ProportionalDerivative)
+    return Forward(float(np.sqrt(wrong / count)), float(np.sqrt(wrong_drive / drive)) if looped else None)
+
+
+def drive_floor(source: MjcfSource) -> float:
+    """Return the noise of what the controller gave over its size [-], from third differences."""
+    noise = size = 0.0
+    for run in source.dataset.test:
+        for joint in _loops(source):
+            recorded = _output(run, source, joint)
+            noise += noise_level(recorded) ** 2 * len(recorded)
+            size += float(np.sum(recorded**2))
+    return float(np.sqrt(noise / size))
+
+
+def _loops(source: MjcfSource) -> Mapping[str, JointLoop]:
+    loop = source.dataset.scenario.controller
+    return loop.joints if isinstance(loop, ProportionalDerivative) else {}
+
+
+def _output(run: Run, source: MjcfSource, joint: str) -> Array:
+    """Return what the controller of a joint gave: the first column of its drive."""
+    return column(run, source.mechanism.drives[joint].columns[0])
+
+
+class _Plant:
+    """One run, simulated."""
+
+    def __init__(self, source: MjcfSource, models: Models, run: Run, delay: float) -> None:
+        self._source, self._models, self._run, self._delay = source, models, run, delay
+        mujoco = source.mujoco
+        self._mechanism = corrected(source.mechanism, {p: models[p].nuisances for p, _ in source.places})
+        model = copy.copy(source.model)
+        first = models[source.places[0][0]].nuisances
+        scale_masses(mujoco, model, first.get("mass", 1.0))
+        model.dof_armature *= first.get("armature", 1.0)
+        for i, name in enumerate(source.names):
+            factor = models[name].nuisances.get("damping", 1.0) if name in models else 1.0
+            model.dof_damping[i] = factor * model.dof_damping[i] + self._mechanism.damping.get(name, 0.0)
+        self._steps = max(1, round(run.sample_interval / model.opt.timestep))
+        model.opt.timestep = run.sample_interval / self._steps
+        reference = STIFF[0] * model.opt.timestep, STIFF[1]
+        model.dof_solref[:], model.tendon_solref_fri[:] = reference, reference
+        model.dof_solimp[:], model.tendon_solimp_fri[:] = HARD, HARD
+        self._model, self._data = model, mujoco.MjData(model)
+        # through the narrowest window: velocities to start from
+        narrow = Window(8 * run.sample_interval, run.sample_interval, len(run.time))
+        rows = [column(run, source.mechanism.positions[n]) for n in source.names]
+        self._state = tuple(np.column_stack([narrow.through(x, d) for x in rows]) for d in (0, 1))
+        self.start, self.end = int(narrow.centres[0]), int(narrow.centres[-1])
+        self.measured: Array = np.column_stack(rows)[self.start : self.end]
+        """Measured positions, shape (n, n_joints)."""
+        self._controls = {joint: self._control(joint, loop) for joint, loop in _loops(source).items()}
+        late = SETTLE / run.sample_interval if self._controls else 0
+        self.compared: npt.NDArray[np.bool_] = np.arange(len(self.measured)) >= late
+        """Samples that are compared, shape (n,)."""
+
+    def simulated(self) -> tuple[Array, dict[str, Array]]:
+        """Return positions, shape (n, n_joints), and what each controller gives, shape (n,)."""
+        mujoco, model, data, run = self._source.mujoco, self._model, self._data, self._run
+        n, h = self.end - self.start, run.sample_interval
+        places = [_Place(self._source, p, load, self._models[p], run) for p, load in self._source.places]
+        period = getattr(self._source.dataset.scenario.controller, "period", 0.0)
+        hold = max(1, round(period / h * self._steps)) if period > 0.0 else 1
+        drives = {p: self._late(drive_of(run, self._mechanism, p)) for p in self._mechanism.drives}
+        positions, given = np.empty((n, model.nv)), {joint: np.empty(n) for joint in self._controls}
+        again = n if self._controls else max(1, round(AHEAD / h))
+        forces: dict[str, float] = {}
+        for i in range(n):
+            if i % again == 0:
+                self._start(self.start + i)
+                for place in places:
+                    place.start(data)
+            positions[i] = data.qpos
+            for k in range(self._steps):
+                if (i * self._steps + k) % hold == 0:
+                    for joint, control in self._controls.items():
+                        output, forces[joint] = control(self.start + i, k / self._steps, data)
+                        if k == 0:
+                            given[joint][i] = output
+                data.qfrc_applied[:] = 0.0
+                for place, series in drives.items():
+                    force = forces[place] if place in forces else float(series[self.start + i])
+                    self._push(place, force)
+                for place, force in self._mechanism.offset.items():
+                    self._push(place, -force)
+                for place in places:
+                    place.set(
+                        model, data, float(run.time[self.start + i]) + k * model.opt.timestep, forces, drives, self.start + i
+                    )
+                mujoco.mj_step(model, data)
+        return positions, given
+
+    def _late(self, drive: Array) -> Array:
+        at = np.arange(len(drive)) - self._delay / self._run.sample_interval
+        return np.interp(at, np.arange(len(drive)), drive)
+
+    def _start(self, sample: int) -> None:
+        mujoco, data = self._source.mujoco, self._data
+        mujoco.mj_resetData(self._model, data)
+        data.qpos[:], data.qvel[:] = self._state[0][sample], self._state[1][sample]
+        mujoco.mj_forward(self._model, data)
+
+    def _push(self, place: str, force: float) -> None:
+        """Add a force along a joint or tendon."""
+        if place in self._source.names:
+            self._data.qfrc_applied[self._source.names.index(place)] += force
+        else:
+            self._data.qfrc_applied[:] += force * direction(self._source, self._model, self._data, place)
+
+    def _control(self, joint: str, loop: JointLoop) -> Callable[[int, float, Any], tuple[float, float]]:
+        """Return the controller of a joint: sample, part of the interval after it, state -> output, force."""
+        run, source = self._run, self._source
+        if joint not in source.mechanism.drives or joint not in source.names:
+            raise InputError(
+                f"controller.joints.{joint}: {joint!r} has no drive that a controller could give; add mechanism.drives.{joint}"
+            )
+        if loop.factor and loop.factor not in run.constants:
+            given = ", ".join(run.constants) or "none"
+            raise InputError(
+                f"run {run.name!r} has no constant {loop.factor!r} for controller.joints.{joint}.factor (it has: {given})"
+            )
+        factor = run.constants[loop.factor] if loop.factor else 1.0
+        reference, dof = column(run, loop.reference), source.names.index(joint)
+        drive = self._mechanism.drives[joint]
+        ratio = np.full(len(run.time), drive.gain)
+        for name in drive.columns[1:]:
+            ratio = ratio * column(run, name)
+
+        def control(sample: int, part: float, data: Any) -> tuple[float, float]:
+            goal = (1.0 - part) * reference[sample] + part * reference[min(sample + 1, len(reference) - 1)]
+            error = goal - float(data.qpos[dof])
+            u = factor * (loop.position_gain * error - loop.velocity_gain * float(data.qvel[dof]))
+            u = min(max(u, -loop.limit), loop.limit)
+            return u, u * float(ratio[sample])
+
+        return control
+
+
+class _Place:
+    """Friction in one joint or tendon while the model runs."""
+
+    def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> None:
+        self._source, self._name, self._links = source, name, chain(model.law, model.effects, load)
+        self._joint = name in source.names
+        self._number = (source.names if self._joint else source.tendons).index(name)
+        self._world, self._memory = np.zeros(WORLD), np.zeros(8)
+        self._gain = model.nuisances.get("gain", 1.0)
+        self._damping = source.mechanism.damping.get(name, 0.0)
+        self._turned, self._side = 0.0, 0.0
+
+    def _seen(self, data: Any) -> tuple[float, float]:
+        if self._joint:
+            return float(data.qpos[self._number]), float(data.qvel[self._number])
+        return float(data.ten_length[self._number]), float(data.ten_velocity[self._number])
+
+    def start(self, data: Any) -> None:
+        """Begin a stroke where the model is."""
+        q, v = self._seen(data)
+        self._turned, self._side = q, 1.0 if v >= 0.0 else -1.0
+
+    def set(
+        self, model: Any, data: Any, t: float, forces: Mapping[str, float], drives: Mapping[str, Array], sample: int
+    ) -> None:
+        """Give the engine the friction that is available now."""
+        q, v = self._seen(data)
+        side = 1.0 if v > 0.0 else -1.0 if v < 0.0 else self._side
+        if side != self._side:
+            self._turned, self._side = q, side
+        drive = forces.get(self._name, float(drives[self._name][sample]) if self._name in drives else 0.0)
+        # the load that friction knows of is that of the drive as believed, as in the fits
+        load = abs(drive / self._gain - self._damping * v)
+        links = self._links
+        against = side * float(
+            resistance(
+                links.numbers,
+                links.calls,
+                links.parameters,
+                self._world,
+                self._memory,
+                t,
+                q,
+                v,
+                load,
+                abs(q - self._turned),
+                side,
+            )
+        )
+        loss = model.dof_frictionloss if self._joint else model.tendon_frictionloss
+        loss[self._number] = max(against, 1.0e-9)
+
+
+def direction(source: MjcfSource, model: Any, data: Any, tendon: str) -> Array:
+    """Return how a tendon's length changes with each joint in the present state, shape (n_joints,)."""
+    number = source.tendons.index(tendon)
+    row = np.zeros(model.nv)
+    start, count = int(model.ten_J_rowadr[number]), int(model.ten_J_rownnz[number])
+    row[model.ten_J_colind[start : start + count]] = data.ten_J[start : start + count]
+    return row
