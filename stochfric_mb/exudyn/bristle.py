@@ -23,6 +23,7 @@ def add_bristle(
     *,
     normal_force: float,
     effective_mass: float,
+    hold: float = 0.0,
     seed: int = 0,
     sample: int = 0,
     contact: int = 0,
@@ -30,7 +31,8 @@ def add_bristle(
     """Return Exudyn's bristle (CoordinateSpringDamperExt) with the parameters nearest to an elastic stick.
 
     Stuck: spring mu_s N/e_lim and damper 2 zeta sqrt(k m_eff). Sliding: mu_k + (mu_s - mu_k) exp(-v/decay_velocity), the
-    law's with v_s = 0. The coefficients are those at the middle of each step, passed in the system's PostStep function.
+    law's with v_s = 0. The coefficients are those at the middle of each step, or of each stretch of ``hold``, passed in the system's PostStep
+    function.
 
     Args:
         mbs: the system.
@@ -39,6 +41,7 @@ def add_bristle(
         friction: an `ElasticStick`, or one with a process in time.
         normal_force: normal force [N], > 0.
         effective_mass: mass that the contact feels [kg], > 0.
+        hold: time for which coefficients are held [s], >= 0: passing new ones costs as much as all the rest of the bristle.
         seed: seed of the path of coefficients.
         sample: number of the sample.
         contact: number of the contact.
@@ -67,18 +70,21 @@ def add_bristle(
         exponentialDecayStatic=max(law.decay_velocity, 1.0e-9),
         frictionProportionalZone=0.0,
     )
-    return Bristle(mbs, mbs.AddObject(connector), friction, n, (seed, sample, contact))
+    hold = require_number("hold", hold, low=0.0, unit="s")
+    return Bristle(mbs, mbs.AddObject(connector), friction, n, (seed, sample, contact), hold)
 
 
 class Bristle:
     """Exudyn's bristle in a system; made by `add_bristle`."""
 
-    def __init__(self, mbs: Any, number: Any, friction: Friction, normal_force: float, address: tuple[int, int, int]) -> None:
+    def __init__(
+        self, mbs: Any, number: Any, friction: Friction, normal_force: float, address: tuple[int, int, int], hold: float
+    ) -> None:
         self.object = number
         """Index of the connector."""
         self._mbs, self._normal_force = mbs, normal_force
         self._path = friction.path(*address)
-        self._last = math.nan
+        self._last, self._hold, self._until = math.nan, hold, -math.inf
         self.mu_s, self.mu_k = self._path.at(0.0)
         """The coefficients [-] of the step to come."""
         if friction.process is not None:
@@ -88,10 +94,15 @@ class Bristle:
             self._set(0.0)
 
     def follow(self, t: float) -> None:
-        """Pass on the coefficients at the middle of the step that begins at t [s], as long as the last one."""
+        """Pass on the coefficients of what begins at t [s]: of a step as long as the last one, or of a longer ``hold``."""
         step = t - self._last if t > self._last else 0.0
+        if t <= self._last:
+            self._until = -math.inf  # a new simulation
         self._last = t
-        self._set(t + 0.5 * step)
+        if t >= self._until:
+            held = max(step, self._hold)
+            self._until = t + held * (1.0 - 1.0e-6) - 0.5 * step  # times are sums of rounded steps
+            self._set(t + 0.5 * held)
 
     def _set(self, t: float) -> None:
         self.mu_s, self.mu_k = self._path.at(t)

@@ -551,7 +551,9 @@ def test_a_generic_joint_with_one_free_axis(free: int, tilted: bool) -> None:
     speed = mbs.GetObjectOutputBody(body, output.AngularVelocity if turns else output.Velocity) @ axis
     assert rows[0, 7] == pytest.approx(25.0, rel=1e-6)
     lost = 0.5 * 25.0 * 0.02 * (radius / 0.02 if turns else 1.0 / 2.0)
-    assert speed == pytest.approx((3.0 if turns else 0.5) - lost, abs=1e-7 * lost)  # a constant force: exact but for the solver's tolerances
+    assert speed == pytest.approx(
+        (3.0 if turns else 0.5) - lost, abs=1e-7 * lost
+    )  # a constant force: exact but for the solver's tolerances
     assert rows[0, 2] == pytest.approx(-speed * (radius if turns else 1.0), rel=1e-9)
 
 
@@ -608,6 +610,24 @@ def test_the_built_in_bristle_with_stochastic_coefficients() -> None:
     assert steady == pytest.approx(braked(add_friction, None), abs=5e-6)
     assert random == pytest.approx(braked(add_friction, process), abs=5e-6)
     assert abs(random - steady) > 5e-6  # the path does its work: measured 9.8 um
+
+
+def test_a_bristle_holds_its_coefficients_for_as_long_as_told() -> None:
+    s = scenario()
+    mbs, _, ground, slide = without_friction(s.mechanism)
+    process = Knots(sigma_s=0.015, sigma_k=0.1, spacing=0.01)
+    bristle = add_bristle(
+        mbs, ground, slide, Friction(s.law, process), normal_force=13.0, effective_mass=6.08, hold=2e-3, seed=1
+    )
+    seen: list[tuple[float, float]] = []
+    mbs.SetPreStepUserFunction(lambda mbs, t: seen.append((bristle.mu_s, bristle.mu_k)) or True)
+    mbs.Assemble()
+    for _ in range(2):
+        seen.clear()
+        solve_dynamic(mbs, silent_settings(1e-4, 0.02), solver="rk44", locate=False)
+        path = Friction(s.law, process).path(1, 0, 0)
+        expected = [path.at(2e-3 * (i // 20 + 0.5)) for i in range(200)]
+        np.testing.assert_allclose(seen, expected, rtol=1e-9)
 
 
 @pytest.mark.parametrize(
