@@ -551,9 +551,8 @@ def test_a_generic_joint_with_one_free_axis(free: int, tilted: bool) -> None:
     speed = mbs.GetObjectOutputBody(body, output.AngularVelocity if turns else output.Velocity) @ axis
     assert rows[0, 7] == pytest.approx(25.0, rel=1e-6)
     lost = 0.5 * 25.0 * 0.02 * (radius / 0.02 if turns else 1.0 / 2.0)
-    assert speed == pytest.approx(
-        (3.0 if turns else 0.5) - lost, abs=1e-7 * lost
-    )  # a constant force: exact but for the solver's tolerances
+    # a constant force: exact but for the solver's tolerances
+    assert speed == pytest.approx((3.0 if turns else 0.5) - lost, abs=1e-7 * lost)
     assert rows[0, 2] == pytest.approx(-speed * (radius if turns else 1.0), rel=1e-9)
 
 
