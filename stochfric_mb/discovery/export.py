@@ -64,10 +64,12 @@ def mjcf(scenario: Scenario[Any]) -> str:
         raise InputError(f"mechanism {mechanism.kind!r} has no joint; its augmented.toml can be run by itself")
     law = ElasticStick(mu_s=scenario.law.mu_s, mu_k=scenario.law.mu_k, e_lim=PRESLIDING)
     viscous = sum(e.coefficient for e in scenario.effects if e.kind == "viscous_friction")  # type: ignore[attr-defined]
-    for joint, load in loads.items():
-        attach.add_friction(spec, attach.Joint(joint), law, normal_force=load)
-        if not acts_in or joint in acts_in:
-            element = next(j for j in spec.joints if j.name == joint)
+    tendons = getattr(mechanism, "tendons", ())
+    for place, load in loads.items():
+        tied = place in tendons
+        attach.add_friction(spec, attach.Tendon(place) if tied else attach.Joint(place), law, normal_force=load)
+        if not acts_in or place in acts_in:
+            element = next(j for j in (spec.tendons if tied else spec.joints) if j.name == place)
             _damp(element, viscous)
     spec.compile()
     left = [e.kind for e in scenario.effects if e.kind not in CARRIED]

@@ -103,7 +103,10 @@ def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
     notes += _run_notes(dataset)
     result = verdict(dataset, places, found, notes, floor)
     pictures = tuple(
-        friction_picture(p.place, p.test, p.nuisances, p.selected.recalibrated.model, p.selected.final.model) for p in places
+        friction_picture(
+            p.place and f"{p.thing} {p.place}", p.test, p.nuisances, p.selected.recalibrated.model, p.selected.final.model
+        )
+        for p in places
     )
     scenario = augmented(dataset.scenario, places, found)
     return JointOutcome(result, scenario, dataset, places=tuple(places), timing=found, pictures=pictures)
@@ -177,7 +180,9 @@ def _place(
         scores["baseline"] = score(believed, early, nuisances, dataset.test, scenario)
         scores["recalibrated"] = score(plain, early, nuisances, dataset.test, scenario)
     floor = noise_floor(selected.final.model, test_sheets, nuisances)
-    return PlaceOutcome(name, selected, tuple(nuisances), believed, tuple(fit_sheets), tuple(test_sheets), scores, floor)
+    thing = "tendon" if name in getattr(scenario.mechanism, "tendons", ()) else "joint"
+    seen = tuple(fit_sheets), tuple(test_sheets)
+    return PlaceOutcome(name, selected, tuple(nuisances), believed, *seen, scores, floor, thing)
 
 
 def _require_sliding(sheets: Sequence[Sheet], name: str, role: str) -> None:

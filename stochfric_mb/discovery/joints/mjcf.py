@@ -209,7 +209,7 @@ class MjcfSource:
             slip=slipped(path.position, path.velocity, least),
             driven=own + np.sum(weights * left, axis=1),
             columns=columns,
-            sliding=slides(window, path.velocity, least),
+            sliding=slides(window, path.velocity, least) & self._others_slide(run, place, window),
             noise=float(np.hypot(window.gain(0) * noise[0], window.gain(2) * noise[2])),
             factors=_factors(run, window, path.velocity, path.position, path.load),
         )
@@ -253,6 +253,15 @@ class MjcfSource:
                 force = friction_along(sheet, model.law, model.effects, model.load)
                 taken += force[:, None] * path.direction
         return taken
+
+    def _others_slide(self, run: Run, place: str, window: Window) -> npt.NDArray[np.bool_]:
+        """Return at which centres friction that enters from other places is known, since they slide, too."""
+        known = np.ones(len(window.centres), dtype=bool)
+        if self.coupled(place):
+            for name, _ in self.places:
+                path = self.path(run, name, window)
+                known &= slides(window, path.velocity, self._least(run, name, window, path))
+        return known
 
     def path(self, run: Run, place: str, window: Window) -> Path:
         """Return the motion along a joint or tendon in a run."""

@@ -33,6 +33,8 @@ class PlaceOutcome:
     """``baseline``, ``recalibrated``, ``augmented``, and ``with KIND`` after each effect -> errors on the held-out runs."""
     floor: float
     """Noise of the balance on the held-out runs [N or N m]."""
+    thing: str = "joint"
+    """What the place is: a joint, or a tendon."""
 
 
 @dataclasses.dataclass(frozen=True)

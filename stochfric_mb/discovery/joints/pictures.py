@@ -42,7 +42,7 @@ def friction_picture(
         {"x": f"velocity [{rate}]", "y": f"friction [{unit}]", "series": left},
         {"x": "time [s]", "y": f"left over [{unit}]", "series": right},
     ]
-    title = f"Friction in joint {place}" if place else "Friction"
+    title = f"Friction in {place}" if place else "Friction"
     caption = (
         "Held-out runs. Left: friction from inverse dynamics and as the models have it. Right: what they leave while the joint "
         "slides."

@@ -98,7 +98,7 @@ def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
 
 
 def _at(place: PlaceOutcome) -> str:
-    return f" in joint {place.place}" if place.place else ""
+    return f" in {place.thing} {place.place}" if place.place else ""
 
 
 def _parameters(fit: JointFit, owner: int, effect: Effect, *, rotates: bool) -> dict[str, Interval]:
