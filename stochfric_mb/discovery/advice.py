@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from stochfric_mb.discovery.belt import belt_speed
 from stochfric_mb.discovery.decision import Decision
 from stochfric_mb.discovery.study import Study
 
@@ -39,6 +40,9 @@ def not_identifiable(study: Study) -> tuple[str, ...]:
 
 def next_experiment(decision: Decision, study: Study) -> str:
     """Return the experiment that would decide what is open."""
+    belt = belt_speed(study)
+    if belt is not None and belt.too_much and not decision.named:
+        return belt.advice
     for named in decision.named:
         for other in named.class_:
             if (advice := DECIDES.get(frozenset({named.kind, other}))) is not None:

@@ -13,6 +13,7 @@ from stochfric_mb.discovery.randomness import Randomness
 from stochfric_mb.discovery.regression import Solution
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.study import Study
+from stochfric_mb.discovery.switching import Switching
 
 CERTAIN = 30.0
 """Likelihood ratio at which friction scatters beyond doubt [-]."""
@@ -24,6 +25,13 @@ LEAST_SHARE = 0.004
 """Scatter over the friction itself below which, beside a named effect, it is what the effect's form leaves [-]."""
 FEWEST_KICKED, MOST_KICKED = 0.02, 0.35
 """Share of slips that stand out for which kicks are the reason [-]."""
+
+FEWEST_ALIKE, ALIKE = 4, 0.3
+"""Slips that stand out by the same, and their share of those that do, from which on friction has a second level; amounts
+that are spread evenly over a tenth of the force would put one in thirty so close together [-]."""
+TOGETHER = 0.5
+"""Correlation of stick and slip above which the scatter is not that of two independent coefficients [-]: of 24 slips with
+independent ones 1 in 80 reaches it, of 48 1 in 3000."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -50,11 +58,26 @@ def kicked(study: Study) -> tuple[np.ndarray, float]:
     return far, float(np.median(np.abs(forces[far]).max(axis=1))) if far.any() else 0.0
 
 
+def _repeated(study: Study) -> bool:
+    """Return whether many of the slips that stand out do so by the same share: a kick comes at any phase of the stick."""
+    pool = study.pool
+    for column, level in enumerate((pool.static, pool.kinetic)):
+        share = pool.features[:, column] / level
+        for r in range(pool.n_runs):
+            share[pool.run == r] -= np.median(share[pool.run == r])
+        spread = robust_deviation(share)
+        far = np.sort(share[np.abs(share) > max(8.0 * spread, 0.02)])
+        alike = max((int(np.searchsorted(far, v + 3.0 * spread, "right")) - i for i, v in enumerate(far)), default=0)
+        if alike >= FEWEST_ALIKE and alike > ALIKE * len(far):
+            return True
+    return False
+
+
 def kicks(study: Study) -> Chance | None:
-    """Return impacts if a few slips, and only a few, stand out, and not at a regular count."""
+    """Return impacts if a few slips, and only a few, stand out, each by its own amount, and not at a regular count."""
     far, force = kicked(study)
     share = float(far.mean())
-    if not FEWEST_KICKED < share < MOST_KICKED:
+    if not FEWEST_KICKED < share < MOST_KICKED or _repeated(study):
         return None
     pool = study.pool
     gaps = np.concatenate([np.diff(np.flatnonzero(far[pool.run == r])) for r in range(pool.n_runs)])
@@ -66,15 +89,17 @@ def kicks(study: Study) -> Chance | None:
     return Chance("impacts", 400.0 * share, {"rate": 1.5 * share / cycle, "impulse": impulse})
 
 
-def chance(study: Study, scatter: Randomness, solution: Solution, named: Sequence[str]) -> Chance | Where | None:
+def chance(
+    study: Study, scatter: Randomness, levels: Switching, solution: Solution, named: Sequence[str]
+) -> Chance | Where | None:
     """Return random friction, or where a scatter of no known kind lives, or None."""
     load = float(np.median(study.pool.normal_force))
     sigma_s, sigma_k, _ = np.exp(solution.scatter) / load
     mu_s, mu_k = study.solution.coefficients[:2]
     if not _scatters(study, scatter, solution, named, max(sigma_s, sigma_k) / mu_s):
         return None
-    if scatter.two_levels > NAME:
-        return Where("scatter", "friction switches at random between two levels")
+    if levels.where is not None:
+        return levels.where
     if (scatter.wander > NAME and scatter.correlation > MEMORY) or scatter.wander > 5.0 * NAME:
         share = max(scatter.wander_share, 1.0e-3)
         return Chance(
@@ -82,10 +107,13 @@ def chance(study: Study, scatter: Randomness, solution: Solution, named: Sequenc
             scatter.wander,
             {"sigma_s": float(share * mu_s), "sigma_k": float(share * mu_k), "correlation_time": float(scatter.wander_time)},
         )
+    where = None
     if scatter.correlation > 2.0 * MEMORY:
-        return Where("scatter, time", "friction varies from slip to slip with a memory that no known random process has")
-    if study.model.process is not None:
-        return None
+        where = Where("scatter, time", "friction varies from slip to slip with a memory that no known random process has")
+    elif study.model.process is None and scatter.together > TOGETHER:
+        where = Where("scatter, in stick and slip alike", "a force or a load of irregular course acts in stick and slip alike")
+    if where is not None or study.model.process is not None:
+        return where
     strongest = max(scatter.static, scatter.kinetic)
     within = scatter.within > CERTAIN and scatter.within > 0.05 * strongest
     values: dict[str, float | str] = {

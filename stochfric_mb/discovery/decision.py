@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery.belt import belt_speed
 from stochfric_mb.discovery.chance import MEMORY, chance, kicks
 from stochfric_mb.discovery.choice import IN_TIME, NAME, SELECT, Chosen, choose
 from stochfric_mb.discovery.confirmation import cases_of, confirm
@@ -21,6 +22,7 @@ from stochfric_mb.discovery.regression import Regression, Solution, Terms, belie
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.screening import Candidate, screen
 from stochfric_mb.discovery.study import EVERYTHING, Channels, Progress, Study
+from stochfric_mb.discovery.switching import JUMPS, SWITCHES, in_step, switching
 from stochfric_mb.discovery.where import where_of
 from stochfric_mb.effects import make_effect
 
@@ -30,6 +32,12 @@ MOST_EFFECTS = 3
 """Effects that are looked for."""
 STALLED = 0.6
 """Share of the scatter that may remain after a ripple is taken out; if more does, no search for further ones makes sense."""
+LEFT_OVER = 0.35
+"""Share of the scatter that named effects may leave where what is left is of no known kind: as in the forecasts, a name
+must explain the larger part, 65 %."""
+AS_WELL = 0.1
+"""Share of the scatter that an effect may leave which explains two levels as well [-]: a square ripple's fundamental and
+third harmonic leave as much, a ripple fitted to random levels a third or more."""
 MOST_ROUNDS = 5
 """Rounds of the search: harmonics of a named ripple take rounds of their own."""
 FITTED_TO_FORECASTS = (*PERIODIC, "friction_drift", "sensor_drift")
@@ -77,6 +85,9 @@ def decide(study: Study, *, channels: Channels = EVERYTHING, progress: Progress 
     details: dict[str, object] = {}
     model = _levels(study.model, study)
     blamed = kinematics(study, details) if channels.kinematic else []
+    belt = belt_speed(study)
+    if not blamed and channels.kinematic and belt is not None and belt.too_much:
+        return Decision("unknown", (), belt.where, model, (), None, details)
     if isinstance(blamed, Where):
         return Decision("unknown", (), blamed, model, (), None, details)
     named: list[Named] = []
@@ -123,6 +134,7 @@ class _Search:
         self.solution: Solution = study.solution
         self.ranking: tuple[tuple[str, float], ...] = ()
         self.stalled = False
+        self.in_forces = not named
         self.kept: list[Array] = []
         if any(n.kind in ("belt_speed_ripple", "presliding_compliance") for n in named):
             self._take_out()
@@ -145,8 +157,14 @@ class _Search:
             self.details[f"round_{round_ + 1}"] = _scores(candidates[:8])
             if candidates[0].score < max(NAME if round_ == 0 else SELECT, SECOND * first if round_ else 0.0):
                 break
-            if round_ == 0 and self._wanders(candidates):
-                break
+            if round_ == 0 and not self.named:
+                if self._wanders(candidates):
+                    break
+                sudden = self._sudden(candidates)
+                if sudden is not None and kicks(self.study) is None:
+                    return self._unknown(sudden)
+                if sudden is not None:
+                    break
             self.progress("confirmation")
             outcome = choose(self.study, self.model, self.terms, candidates, cases, confirmed, self.details)
             if isinstance(outcome, Where):
@@ -172,7 +190,31 @@ class _Search:
         scatter = randomness(self.regression, self.terms, self.solution)
         # what names physics has to be beaten; hats on the axis of time name none
         rival = max(0.5 * winner.score if winner.name in IN_TIME else 1.2 * winner.score, drifts)
-        return scatter.correlation > MEMORY and scatter.wander > rival and scatter.two_levels < NAME
+        return scatter.correlation > MEMORY and scatter.wander > rival
+
+    def _sudden(self, candidates: Sequence[Candidate]) -> Where | None:
+        """Return where friction switches, if it does and the best effect does not explain that as well; None if not."""
+        found = switching(self.regression, self.regression.residuals(self.terms, self.solution))
+        self.details["switching"] = dataclasses.asdict(found)
+        best = next((c for c in candidates if c.is_effect), None)
+        if found.two_levels:
+            explained = best is not None and _scatter(best.solution) < AS_WELL * _scatter(self.solution)
+            return None if explained and not (best is not None and self._counts(best)) else SWITCHES
+        if found.where is None:
+            return None
+        if best is not None:
+            with_best = self.terms.plus(best.hypothesis.columns)
+            found = switching(self.regression, self.regression.residuals(with_best, best.solution))
+        return JUMPS if found.at_rest_between_jumps else None
+
+    def _counts(self, ripple: Candidate) -> bool:
+        """Return whether a ripple is one of the slips' number, not of time or place."""
+        if ripple.name not in PERIODIC:
+            return False
+        along_belt = ripple.name == "position_dependent_friction"
+        main = float(ripple.hypothesis.setting[0])
+        frequency = float(self.pool.belt_velocity.min()) / main if along_belt else main
+        return in_step(frequency, self.pool, along_belt=along_belt)
 
     def _add(self, chosen: Chosen) -> None:
         """Take an effect into the model, and out of the features."""
@@ -186,14 +228,14 @@ class _Search:
             self.model = chosen.model
             self.named.append(Named(kind, chosen.class_, chosen.candidate.score, where_of(kind)))
         self.progress("what is left")
-        before = np.exp(2.0 * self.solution.scatter[:2]).sum()
+        before = _scatter(self.solution)
         if kind in LINEAR:
             self.kept += chosen.candidate.hypothesis.columns
         if kind in FITTED_TO_FORECASTS:
             fit = refit(self.model, self.study.windows, self.study.uncertainty, most=12, evaluations=20)
             self.model = fit.model
         self._take_out()
-        self.stalled = kind in PERIODIC and np.exp(2.0 * self.solution.scatter[:2]).sum() > STALLED * before
+        self.stalled = kind in PERIODIC and _scatter(self.solution) > STALLED * before
 
     def _take_out(self) -> None:
         """Go on with what the model leaves of the features."""
@@ -215,9 +257,11 @@ class _Search:
             if not self.named:
                 return self._unknown(where, scatter)
             self.details["left_over"] = dataclasses.asdict(where)
-        found = kick or chance(self.study, scatter, self.solution, kinds)
+        levels = switching(self.regression, self.regression.residuals(self.terms, self.solution))
+        found = kick or chance(self.study, scatter, levels, self.solution, kinds)
         if isinstance(found, Where):
-            if not self.named:
+            left = _scatter(self.solution) / _scatter(self.study.solution)
+            if not self.named or (self.in_forces and left > LEFT_OVER):
                 return self._unknown(found, scatter)
             self.details["left_over"] = dataclasses.asdict(found)
         elif found is not None:
@@ -228,3 +272,8 @@ class _Search:
 
     def _unknown(self, where: Where, scatter: Randomness | None = None) -> Decision:
         return Decision("unknown", (), where, _levels(self.study.model, self.study), self.ranking, scatter, self.details)
+
+
+def _scatter(solution: Solution) -> float:
+    """Return the variance of both forces of a slip about a fitted model [N^2]."""
+    return float(np.exp(2.0 * solution.scatter[:2]).sum())

@@ -32,6 +32,9 @@ ELSE = ("stick", "in stick the box does not follow the belt, in a way that no kn
 """The same where none of them explains enough."""
 LEAST_OUTLIERS = 5.0e-5
 """Share of outliers from which on they are named [-]."""
+OUTSHINES = 10.0
+"""Evidence of such a line over that of the best effect in stick from which on the line is no trace of the effect: a contact
+that rings is seen in the first few periods after each re-stick, a line all along [-]."""
 LINE = 60.0
 """Strength of a line in the noise at which it is no chance [-]; the largest of 64 without a line stays below 10."""
 
@@ -126,13 +129,14 @@ def _in_stick(study: Study, details: dict[str, object]) -> Blamed | Where:
         return []
     details["sticking"] = dict(sticking.scores) | {"excess": sticking.excess, "excess_ratio": sticking.excess_ratio}
     best, score = _winner(study, sticking)
+    if (line := _line(study, details)) is not None and _gain_of_line(study) > OUTSHINES * score:
+        return line
     if score <= NAME:
         forced = any(r.mechanism.excitation_amplitude for r in study.records)
         if sticking.scores["sensor_step"] > max(NAME, 0.2 * sticking.excess) and not forced:
             details["single_moments"] = sticking.scores["sensor_step"]
-        return _line(study, details) or []
-    if best in ("sensor_drift", "sensor_step"):
-        return []
+    if score <= NAME or best in ("sensor_drift", "sensor_step"):
+        return line if line is not None and score <= NAME else []
     if best in CREEP or score < 0.75 * sticking.excess - 60.0:
         return Where(*CREEP.get(best, ELSE))
     settings = sticking.settings[best]
@@ -211,3 +215,10 @@ def _line(study: Study, details: dict[str, object]) -> Where | None:
     return Where(
         "frequency, sensor", f"the position holds a vibration of {frequency:.3g} Hz and {amplitude:.2g} m, in stick too"
     )
+
+
+def _gain_of_line(study: Study) -> float:
+    """Return by how much the strongest line lowers chi^2 of the stick phases' samples [-]."""
+    slips = max(study.pool.slips, key=lambda s: s.line[2])
+    count = sum(len(s.stick.time) * s.stick.bin_size for s in study.pool.slips)
+    return count * slips.line[1] ** 2 / 2.0 / slips.noise.deviation**2

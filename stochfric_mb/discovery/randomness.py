@@ -1,4 +1,4 @@
-"""Is friction random: variance components, their correlation in time, and whether the scatter has two levels."""
+"""Is friction random: variance components, their correlation in time, and whether stick and slip scatter together."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ class Randomness:
     """Standard deviation of the wander over the mean friction [-]."""
     wander_time: float
     """Its correlation time [s]."""
-    two_levels: float
-    """Score of two levels against one, for the onset force or the force in slip [-]."""
+    together: float
+    """Correlation of the onset force with the mean force of the slip that follows [-]."""
 
 
 def randomness(regression: Regression, terms: Terms, solution: Solution) -> Randomness:
@@ -43,8 +43,15 @@ def randomness(regression: Regression, terms: Terms, solution: Solution) -> Rand
     rest = regression.residuals(terms, solution)[:, :2]
     correlation = _correlation(regression, rest)
     wander, share, time = _wander(regression, rest, solution) if correlation > WORTH_A_LOOK else (0.0, 0.0, 1.0)
-    two_levels = _two_levels(regression, rest, solution)
-    return Randomness(ratio(0), ratio(1), ratio(2), correlation, wander, share, time, two_levels)
+    return Randomness(ratio(0), ratio(1), ratio(2), correlation, wander, share, time, _together(regression, rest))
+
+
+def _together(regression: Regression, rest: Array) -> float:
+    """Return the correlation of the two forces of a slip, each less its mean over the run."""
+    pool = regression.pool
+    parts = [rest[(pool.run == r) & pool.kept] for r in range(pool.n_runs)]
+    first, second = np.concatenate([p - p.mean(axis=0) for p in parts if len(p)]).T
+    return float(first @ second / max(np.sqrt((first @ first) * (second @ second)), 1.0e-30))
 
 
 def _correlation(regression: Regression, rest: Array) -> float:
@@ -118,31 +125,3 @@ def _wander(regression: Regression, rest: Array, solution: Solution) -> tuple[fl
         best[1],
         best[2],
     )
-
-
-def _two_levels(regression: Regression, rest: Array, solution: Solution) -> float:
-    """Return the best score of a mixture of two normal distributions with one width against one, over both forces."""
-    pool = regression.pool
-    best = -np.inf
-    for column in (0, 1):
-        parts = [rest[(pool.run == r) & pool.kept, column] for r in range(pool.n_runs)]
-        values = np.concatenate([p - np.median(p) for p in parts if len(p)])
-        n = len(values)
-        if n < 20:
-            continue
-        one = n * np.log(values.std() + 1.0e-12)
-        low, high = np.quantile(values, (0.2, 0.8))
-        share, width = 0.5, max((high - low) / 4.0, 1.0e-12)
-        for _ in range(60):
-            a = share * np.exp(-0.5 * ((values - low) / width) ** 2)
-            b = (1.0 - share) * np.exp(-0.5 * ((values - high) / width) ** 2)
-            p = a / np.maximum(a + b, 1.0e-300)
-            share = float(np.clip(p.mean(), 0.05, 0.95))
-            low, high = float((p * values).sum() / p.sum()), float(((1 - p) * values).sum() / (1 - p).sum())
-            width = max(float(np.sqrt((p * (values - low) ** 2 + (1 - p) * (values - high) ** 2).mean())), 1.0e-12)
-        density = share * np.exp(-0.5 * ((values - low) / width) ** 2) + (1 - share) * np.exp(
-            -0.5 * ((values - high) / width) ** 2
-        )
-        two = n * np.log(width) - float(np.log(np.maximum(density, 1.0e-300)).sum()) - n / 2.0
-        best = max(best, 2.0 * (one - two) - 2.0 * np.log(n))
-    return float(best)

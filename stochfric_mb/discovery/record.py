@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 
 import numpy as np
 import numpy.typing as npt
 from scipy.ndimage import median_filter
-from scipy.signal import lfilter
+from scipy.signal import lfilter, savgol_filter
 
 from stochfric_mb.mechanisms import BeltBox
 
@@ -16,8 +17,17 @@ Array = npt.NDArray[np.float64]
 
 MEDIAN_WIDTH = 7
 """Width of the running median against which outliers are seen [samples]."""
+SMOOTHING_ANGLE = 0.4
+"""Width of the window in which the motion is smoothed, as an angle of the natural oscillation [rad]."""
 LINE_WINDOW = 128
 """Samples of the pieces in which a line of the noise is looked for."""
+LAGS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96)
+"""Lags at which the colour of the noise is looked at [samples]."""
+MEMORIES = 1.0 - np.geomspace(0.95, 0.003, 48)
+"""Correlations from sample to sample that are tried [-]."""
+RESTLESS = 8.0
+"""Variance of a stick phase over that of the others beyond which it holds more than noise; even noise that is as slow as
+a fifth of a phase stays below it in 999 of 1000 [-]."""
 OUTLIER_DEVIATIONS = 5.5
 """A sample further from the running median than this many standard deviations is an outlier [-]."""
 
@@ -79,6 +89,14 @@ class Record:
     def angular_frequency(self) -> float:
         """Natural angular frequency sqrt(k/m) [rad/s]."""
         return math.sqrt(self.mechanism.stiffness / self.mechanism.mass)
+
+    @functools.cached_property
+    def motion(self) -> tuple[Array, Array]:
+        """Smoothed position [m] and velocity [m/s], shape (n,) each, not mirrored."""
+        width = max(self.samples(SMOOTHING_ANGLE) | 1, 5)
+        step = 1.0 / self.rate
+        smooth, velocity = (savgol_filter(self.position, width, 3, deriv=d, delta=step) for d in (0, 1))
+        return self.direction * np.asarray(smooth, dtype=np.float64), self.direction * np.asarray(velocity, dtype=np.float64)
 
     def samples(self, angle: float) -> int:
         """Return how many samples the natural oscillation takes to turn by ``angle`` [rad]."""
@@ -145,22 +163,39 @@ def line_in(residuals: list[Array], rate: float) -> tuple[float, float, float]:
 def noise_of(residuals: list[Array], white: float) -> Noise:
     """Return the noise that residuals of stick phases show (a line was taken out of each).
 
-    Fits an autocovariance of lags 0 to 8: white + coloured * memory**lag.
+    Fits half the mean squared difference of samples a lag apart, white + coloured (1 - memory**lag): a difference does
+    not know the mean that was taken out of a phase, which hides noise slower than the phase from its autocovariance.
+    Phases that scatter far more than the others hold a motion, and are left out.
     """
     usable = [r - r.mean() for r in residuals if len(r) > 40]
     if sum(map(len, usable)) < 400:
         return Noise(white)
-    lags = np.arange(9)
+    typical = float(np.median([np.var(r) for r in usable]))
+    usable = [r for r in usable if np.var(r) <= RESTLESS * typical]
+    lags = np.arange(4)
     pairs = np.array([sum(len(r) - lag for r in usable) for lag in lags], dtype=np.float64)
     covariance = np.array([sum(float(r[lag:] @ r[: len(r) - lag]) for r in usable) for lag in lags]) / pairs
     deviation = math.sqrt(max(covariance[0], white**2 * 0.25))
-    # the autocorrelation at lag 1..8 of pure white noise scatters by 1/sqrt(n); four of those count as colour
-    if covariance[1:4].mean() < 4.0 * covariance[0] / math.sqrt(pairs[0]):
+    # the autocorrelation at lag 1..3 of pure white noise scatters by 1/sqrt(n); four of those count as colour
+    if covariance[1:].mean() < 4.0 * covariance[0] / math.sqrt(pairs[0]):
         return Noise(deviation)
-    memories = np.linspace(0.05, 0.99, 48)
-    shapes = memories[:, None] ** lags[None, 1:]
-    strength = (shapes @ covariance[1:]) / (shapes**2).sum(axis=1)
-    misfit = ((covariance[1:] - strength[:, None] * shapes) ** 2).sum(axis=1)
-    best = int(np.argmin(misfit))
-    coloured = math.sqrt(min(max(strength[best], 0.0), covariance[0]))
-    return Noise(deviation, coloured, float(memories[best]))
+    longest = float(np.median([len(r) for r in usable])) / 3.0
+    apart = np.array([lag for lag in LAGS if lag < longest])
+    halves = np.array([_half_difference(usable, lag) for lag in apart])
+    best = (np.inf, 0.0, 0.0, 0.0)
+    for memory in MEMORIES:
+        shape = 1.0 - memory**apart
+        for columns in (np.stack([np.ones(len(apart)), shape], axis=1), shape[:, None]):
+            strengths = np.linalg.lstsq(columns, halves, rcond=None)[0]
+            misfit = float(np.sum((halves - columns @ strengths) ** 2))
+            if (strengths >= 0.0).all() and misfit < best[0]:
+                best = (misfit, float(memory), float(strengths[-1]), float(strengths[0]) if len(strengths) > 1 else 0.0)
+    _, memory, coloured, rest = best
+    return Noise(math.sqrt(coloured + rest), math.sqrt(coloured), memory)
+
+
+def _half_difference(pieces: list[Array], lag: int) -> float:
+    """Return half the mean squared difference of samples ``lag`` apart [m^2]."""
+    longer = [p for p in pieces if len(p) > lag]
+    count = sum(len(p) - lag for p in longer)
+    return 0.5 * sum(float(np.sum((p[lag:] - p[:-lag]) ** 2)) for p in longer) / max(count, 1)

@@ -15,6 +15,10 @@ import numpy as np
 from stochfric_mb.discovery.record import Array, Noise
 from stochfric_mb.discovery.slips import Slips, StickSamples
 
+ACCIDENT, MOST_ACCIDENTS = 3.0, 0.25
+"""Misfit of a stick phase over that of the others from which on it is an accident, and the share of the phases that may
+be; more of them are the rule [-]. Of phases of noise that is slower than a tenth of them 1 in 100 is set aside."""
+
 
 @dataclasses.dataclass(frozen=True)
 class Sticking:
@@ -24,6 +28,8 @@ class Sticking:
     """Score of belt_speed_ripple, presliding_compliance, sensor_step, sensor_drift, creep_before, creep_after, yielding."""
     settings: dict[str, dict[str, float]]
     """Parameters at the best score."""
+    runs: tuple[tuple[str, float], ...]
+    """Name of each run and its stated belt velocity [m/s], positive, in the order of the next two."""
     belt_velocity_error: Array
     """Measured over stated belt velocity, less 1, run by run [-]."""
     belt_velocity_deviation: Array
@@ -67,6 +73,9 @@ def analyse(slips: Sequence[Slips]) -> Sticking | None:
     runs = [_phases(s) for s in slips if len(s.stick.time) >= 50]
     if not runs:
         return None
+    # a jump may stand in a single phase; all else that stick shows is there in most of them
+    step, times = _step(runs, [run.rest([]) for run in runs])
+    runs = [_without_accidents(run) for run in runs]
     rests = [run.rest([]) for run in runs]
     chi2 = sum(float(r @ r) for r in rests)
     freedom = sum(len(run.values) - len(np.unique(run.samples.segment)) - 1 for run in runs)
@@ -100,11 +109,11 @@ def analyse(slips: Sequence[Slips]) -> Sticking | None:
     )
     scores["yielding"] = gain(_yielding) - 3 * n * log_n
     scores["creep_after"] = gain(lambda run: hats(run.samples.since_restick, (0.0, 0.05, 0.1))) - 3 * n * log_n
-    step, times = _step(runs, rests)
     scores["sensor_step"] = step - n * (log_n + 2.0 * np.log(max(freedom, 2)))
     settings["sensor_step"] = {f"time_{i}": t for i, t in enumerate(times)}
     errors = np.array([_belt_error(run) for run in runs]).T
-    return Sticking(scores, settings, errors[0], errors[1], chi2 - freedom, chi2 / max(freedom, 1))
+    stated = tuple((run.slips.record.name, run.slips.record.mechanism.belt_velocity) for run in runs)
+    return Sticking(scores, settings, stated, errors[0], errors[1], chi2 - freedom, chi2 / max(freedom, 1))
 
 
 def _phases(slips: Slips) -> _Phases:
@@ -112,6 +121,23 @@ def _phases(slips: Slips) -> _Phases:
     deviation = bin_deviation(slips.noise, samples.bin_size)
     empty = _Phases(slips, samples, samples.residual, samples.time, deviation)
     return dataclasses.replace(empty, values=empty.centred(samples.residual / deviation), line=empty.centred(samples.time))
+
+
+def _without_accidents(run: _Phases) -> _Phases:
+    """Return the stick phases without those few that are far more off the belt's line than the others: a kick was in them."""
+    segment, values = run.samples.segment, run.rest([])
+    count = np.maximum(np.bincount(segment), 1)
+    misfit = np.bincount(segment, values**2) / count
+    present = np.bincount(segment) > 0
+    off = present & (misfit > ACCIDENT * float(np.median(misfit[present])))
+    if not off.any() or off.sum() > MOST_ACCIDENTS * present.sum():
+        return run
+    kept = ~off[segment]
+    s = run.samples
+    samples = StickSamples(
+        s.segment[kept], s.time[kept], s.residual[kept], s.since_restick[kept], s.to_onset[kept], s.position[kept], s.bin_size
+    )
+    return dataclasses.replace(run, samples=samples, values=run.values[kept], line=run.line[kept])
 
 
 def _ripple_gains(runs: Sequence[_Phases], rests: Sequence[Array], grid: Array) -> Array:

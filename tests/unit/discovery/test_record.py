@@ -50,6 +50,25 @@ def test_colour_is_found_with_its_memory():
     assert found.white == pytest.approx(DEVIATION, rel=4.0 * 0.029)
 
 
+def test_noise_as_slow_as_a_tenth_of_a_phase_keeps_its_size():
+    memory = np.exp(-1.0 / 50.0)
+    levelled = [
+        p - np.polyval(np.polyfit(range(500), p, 1), range(500)) for p in pieces(autoregression(40000, 4e-6, memory), 500)
+    ]
+    found = noise_of(levelled, 1e-6)
+    # 40000 samples hold 400 independent ones of a memory of 50: 3.5 % of the deviation; a line takes 6 % of it away
+    assert found.deviation == pytest.approx(4e-6, rel=4.0 * 0.035 + 0.06)
+    assert -1.0 / np.log(found.memory) == pytest.approx(50.0, rel=0.4)
+
+
+def test_phases_with_a_motion_in_them_are_no_noise():
+    quiet = pieces(white(16000))
+    moved = [*quiet[:-2], *(p + 4e-5 * (np.arange(len(p)) > 400) for p in quiet[-2:])]
+    found = noise_of(moved, DEVIATION)
+    assert found.coloured == 0.0
+    assert found.deviation == pytest.approx(DEVIATION, rel=4.0 / (2.0 * 16000) ** 0.5)
+
+
 def test_too_little_quiet_gives_the_level_alone():
     found = noise_of([white(100)], 3e-6)
     assert (found.deviation, found.coloured) == (3e-6, 0.0)

@@ -1,0 +1,99 @@
+"""Levels and jumps in made-up slips: what switches at random, what changes in its own way, what repeats."""
+
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from stochfric_mb.discovery.switching import JUMPS, SWITCHES, in_step, switching
+
+N, RUNS, CYCLE = 50, 2, 1.1
+NOISE = 0.003
+
+
+@dataclass
+class Pool:
+    """Slips at a regular pace, as many as the tests need of a pool."""
+
+    run: np.ndarray = field(default_factory=lambda: np.repeat(np.arange(RUNS), N))
+    n_runs: int = RUNS
+    duration: float = N * CYCLE
+    typical_onset: float = 0.0
+    kept: np.ndarray = field(default_factory=lambda: np.ones(N * RUNS, dtype=bool))
+    onset_time: np.ndarray = field(default_factory=lambda: np.tile(CYCLE * np.arange(N), RUNS))
+    belt_velocity: np.ndarray = field(default_factory=lambda: np.full(N * RUNS, 2.5e-3))
+
+    @property
+    def calibrations(self):
+        return [SimpleNamespace(covariance=NOISE**2 * np.eye(8))] * RUNS
+
+    @property
+    def slips(self):
+        box = SimpleNamespace(belt_velocity=2.5e-3)
+        one = SimpleNamespace(onset_time=CYCLE * np.arange(N), record=SimpleNamespace(mechanism=box))
+        return [one] * RUNS
+
+
+def found(onset: np.ndarray, slip: np.ndarray | None = None):
+    generator = np.random.default_rng(1)
+    residuals = NOISE * generator.standard_normal((N * RUNS, 8))
+    residuals[:, 0] += onset
+    residuals[:, 1] += onset if slip is None else slip
+    return switching(SimpleNamespace(pool=Pool()), residuals)
+
+
+def draws(seed: int = 3) -> np.random.Generator:
+    return np.random.default_rng(seed)
+
+
+def time() -> np.ndarray:
+    return Pool().onset_time
+
+
+def test_random_levels_are_told_from_everything_else():
+    state = np.cumsum(draws().random(N * RUNS) < 0.3) % 2
+    assert found(0.2 * state).where is SWITCHES
+
+
+def test_levels_that_stay_for_long_are_jumps():
+    levels = np.repeat([0.0, 0.9, 0.3, 1.4, 0.6, -0.5, 0.1, 1.1, -0.2, 0.7], N * RUNS // 10)
+    assert found(np.zeros(N * RUNS), 0.3 * levels).where is JUMPS
+
+
+@pytest.mark.parametrize("period", [4.3, 9.7])
+def test_square_ripple_switches_regularly(period):
+    run = Pool().run
+    square = np.sign(np.sin(2.0 * np.pi * (time() / period + 0.37 * run)))
+    assert found(0.2 * square).where is None
+
+
+@pytest.mark.parametrize(
+    "scatter",
+    [
+        draws().standard_normal(N * RUNS),
+        draws().uniform(-1.7, 1.7, N * RUNS),
+        np.sin(2.0 * np.pi * time() / 7.3),
+        np.cumsum(draws().standard_normal(N * RUNS)) / 5.0,
+        time() / 20.0,
+    ],
+    ids=["normal draws", "even draws", "sine", "wander", "drift"],
+)
+def test_what_changes_from_every_slip_to_the_next_does_not_switch(scatter):
+    assert found(0.1 * scatter).where is None
+
+
+def test_one_step_of_a_sensor_is_no_switching():
+    assert found(0.3 * (time() > 20.0)).where is None
+
+
+def test_noise_alone_does_not_switch():
+    assert found(np.zeros(N * RUNS)).where is None
+
+
+def test_a_pattern_of_seven_slips_is_in_step_with_them_and_another_frequency_is_not():
+    pool = Pool()
+    assert in_step(1.0 / (7.0 * CYCLE), pool, along_belt=False)
+    assert in_step(3.0 / (7.0 * CYCLE), pool, along_belt=True)
+    # half way between 1/7 and 1/6 of the slips' frequency, and no other ratio of small numbers near
+    assert not in_step(0.1548 / CYCLE, pool, along_belt=False)
