@@ -17,17 +17,17 @@ from stochfric_mb.pymunk import add_friction
 from stochfric_mb.pymunk.belt_box import Model, advance, build, start
 from stochfric_mb.scenario import load_scenario
 
-N_STEPS = 5000
-ROUNDS = 9
+N_STEPS = 200
+ROUNDS = 200
 RATIO_LIMIT = 2.0
 """The goal for one step of pymunk; 1.1 to 1.5 is measured, the rest is room for a busy machine. A belt-box run of elastic
 stick takes two such steps for one of its own, 2.5 times the bare one: there accuracy is bought with the goal."""
 
 
 def seconds(model: Model, dt: float, first: int) -> float:
-    before = time.perf_counter()
+    before = time.process_time()
     advance(model, dt, first, N_STEPS)
-    return time.perf_counter() - before
+    return time.process_time() - before
 
 
 @pytest.mark.parametrize(
@@ -40,13 +40,16 @@ def seconds(model: Model, dt: float, first: int) -> float:
     ],
 )
 def test_friction_costs_at_most_as_much_as_the_bare_step(scenario: str, law: str, dt: float) -> None:
+    """Short blocks in turn, so that both meet the machine's best moments."""
     chosen = load_scenario(scenario, law=law)
     models = [build(chosen, seed=1, with_friction=w) for w in (True, False)]
     for model in models:
         start(model, dt)
     rounds = [[seconds(m, dt, 1 + i * N_STEPS) for m in models] for i in range(ROUNDS)]
     with_friction, bare = (min(r[i] for r in rounds) for i in (0, 1))
-    print(f"{scenario} {law}: {1e6 * with_friction / N_STEPS:.2f} us/step, bare {1e6 * bare / N_STEPS:.2f} us/step")
+    print(
+        f"{scenario} {law}: {1e6 * with_friction / N_STEPS:.2f} us/step, bare {1e6 * bare / N_STEPS:.2f} us/step, {with_friction / bare:.2f}"
+    )
     assert with_friction < RATIO_LIMIT * bare
 
 
@@ -73,10 +76,10 @@ def belt_with_boxes(law: str | None) -> pymunk.Space:
 
 
 def step_seconds(space: pymunk.Space, n: int, dt: float) -> float:
-    before = time.perf_counter()
+    before = time.process_time()
     for _ in range(n):
         space.step(dt)
-    return (time.perf_counter() - before) / n
+    return (time.process_time() - before) / n
 
 
 @pytest.mark.parametrize("law", ["elastic_stick", "havsin", "coulomb"])
@@ -87,7 +90,9 @@ def test_a_hundred_contacts_cost_at_most_twice_the_plain_scene(law: str) -> None
         step_seconds(space, 20, 2e-5)  # the first steps load the compiled callbacks
     blocks = [[step_seconds(s, 20, 2e-5) for s in spaces] for _ in range(150)]
     with_friction, plain = (min(b[i] for b in blocks) for i in (0, 1))
-    print(f"{N_CONTACTS} contacts, {law}: {1e6 * with_friction:.0f} us/step, plain {1e6 * plain:.0f} us/step")
+    print(
+        f"{N_CONTACTS} contacts, {law}: {1e6 * with_friction:.0f} us/step, plain {1e6 * plain:.0f} us/step, {with_friction / plain:.2f}"
+    )
     # measured 1.5 (elastic_stick), 1.3 (havsin), 1.3 (coulomb)
     assert with_friction < RATIO_LIMIT * plain
 
