@@ -194,8 +194,8 @@ def add_friction(
     """Let a friction law act where ``a`` touches ``b``, instead of pymunk's own friction; the handle that undoes it.
 
     Nothing else changes: call ``space.step(dt)`` as before. pymunk's steps are first order in position (off by a t dt/2,
-    friction or not); `start` before the first makes them second order. The time of the coefficients starts at 0, and each contact
-    has a path of its own: contact i len(b) + j between the shapes a[i] and b[j] where both are listed, otherwise
+    friction or not); `start` before the first makes them second order. The time of the coefficients starts at 0, and each
+    contact has a path of its own: contact i len(b) + j between the shapes a[i] and b[j] where both are listed, otherwise
     contacts are numbered by first touch. A contact that opens and closes again starts anew on the same path.
 
     Laws with true stick (coulomb, karnopp, stribeck) set the cap of pymunk's own friction solver; all others are
