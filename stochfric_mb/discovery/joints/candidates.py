@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -174,5 +175,5 @@ def _legendre(values: Array, low: float, high: float) -> Array:
     if high - low <= 1.0e-12 * max(abs(low), abs(high), 1.0e-300):
         return np.zeros((0, len(values)))
     scaled = 2.0 * (values - low) / (high - low) - 1.0
-    rows: Array = np.polynomial.legendre.legvander(scaled, 3)[:, 1:].T
+    rows: Any = np.polynomial.legendre.legvander(scaled, 3)[:, 1:].T
     return rows

@@ -12,6 +12,7 @@ from stochfric_mb.discovery.joints.balance import nuisances_of, sheet_of
 from stochfric_mb.discovery.joints.fitting import JointModel
 from stochfric_mb.discovery.joints.outcome import JointOutcome, PlaceOutcome
 from stochfric_mb.discovery.joints.pictures import friction_picture
+from stochfric_mb.discovery.joints.randomness import dependence, stroke_scatter
 from stochfric_mb.discovery.joints.scores import loop_floor, noise_floor, score
 from stochfric_mb.discovery.joints.selection import Selected, Selector
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
@@ -28,6 +29,10 @@ from stochfric_mb.scenario import Scenario
 Progress = Callable[[str], None]
 FEWEST = 8
 """Fewest windows of sliding in the runs of a role: fewer say nothing about friction."""
+RANDOM = "random_coefficients"
+"""Effect of friction that is drawn anew for each stroke."""
+BESIDE = ("sensor", "randomness")
+"""Groups of effects that are no part of the mean friction."""
 
 
 def discover_joint(dataset: Dataset, *, progress: Progress | None = None) -> Result:
@@ -179,10 +184,14 @@ def _place(
         plain = Selector(source.sheets(name, "fit", base), nuisances, believed).recalibrated.model
         scores["baseline"] = score(believed, early, nuisances, dataset.test, scenario)
         scores["recalibrated"] = score(plain, early, nuisances, dataset.test, scenario)
-    floor = noise_floor(selected.final.model, test_sheets, nuisances)
+    final = selected.final.model
+    random = stroke_scatter(final, fit_sheets, nuisances, believed_scatter(scenario))
+    floor = noise_floor(final, test_sheets, nuisances)
+    if random is not None and random.accounted:
+        floor = float(np.hypot(floor, random.sigma * _rms_dependence(final, test_sheets)))
     thing = "tendon" if name in getattr(scenario.mechanism, "tendons", ()) else "joint"
     seen = tuple(fit_sheets), tuple(test_sheets)
-    return PlaceOutcome(name, selected, tuple(nuisances), believed, *seen, scores, floor, thing)
+    return PlaceOutcome(name, selected, tuple(nuisances), believed, *seen, scores, floor, thing, random)
 
 
 def _require_sliding(sheets: Sequence[Sheet], name: str, role: str) -> None:
@@ -214,7 +223,7 @@ def _believed(scenario: Scenario[Any], place: str, nuisances: Sequence[Nuisance]
     acts_in = getattr(scenario.mechanism, "effects_in", ())
     if acts_in and place not in acts_in:
         return JointModel(scenario.law, (), {n.name: n.value for n in nuisances}, load)
-    own = tuple(e for e in scenario.effects if e.group != "sensor")
+    own = tuple(e for e in scenario.effects if e.group not in BESIDE)
     return JointModel(scenario.law, own, {n.name: n.value for n in nuisances}, load)
 
 
@@ -251,6 +260,16 @@ def _run_notes(dataset: Dataset) -> list[str]:
     ]
 
 
+def believed_scatter(scenario: Scenario[Any]) -> float:
+    """Return the standard deviation of mu_k from stroke to stroke that the scenario declares [-]."""
+    return float(np.sqrt(sum(e.to_dict()["sigma_k"] ** 2 for e in scenario.effects if e.kind == RANDOM)))
+
+
+def _rms_dependence(model: JointModel, sheets: Sequence[Sheet]) -> float:
+    """Return the change of friction with mu_k, rms over the windows of sliding [N or N m]."""
+    return float(np.sqrt(np.mean(np.concatenate([dependence(model, s)[s.sliding] for s in sheets]) ** 2)))
+
+
 def believed_delay(scenario: Scenario[Any]) -> float:
     """Return by how much the scenario says that positions are late [s]."""
     return sum(e.to_dict()["delay"] for e in scenario.effects if e.kind == "sensor_delay")
@@ -260,7 +279,13 @@ def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], found: Ti
     """Return the scenario with what was found; of several joints, the first one's effects, in that joint."""
     model = places[0].selected.final.model
     effects = list(model.effects)
-    effects += [e for e in scenario.effects if e.group == "sensor" and e.kind != "sensor_delay"]
+    random = places[0].random
+    drawn = random is not None and random.named
+    left = ("sensor_delay", RANDOM) if drawn else ("sensor_delay",)
+    effects += [e for e in scenario.effects if e.group in BESIDE and e.kind not in left]
+    if random is not None and drawn:
+        sigma_s = random.sigma * model.law.mu_s / model.law.mu_k
+        effects.append(make_effect(RANDOM, process="per_event", sigma_s=sigma_s, sigma_k=random.sigma))
     delay = believed_delay(scenario) + (found.seconds if found is not None and found.named else 0.0)
     if delay > 0.0:  # one that comes before has no effect of its own, and stays a finding
         effects.append(make_effect("sensor_delay", delay=delay))

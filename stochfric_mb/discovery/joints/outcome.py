@@ -6,6 +6,7 @@ import dataclasses
 
 from stochfric_mb.discovery.joints.fitting import JointModel
 from stochfric_mb.discovery.joints.pictures import Picture
+from stochfric_mb.discovery.joints.randomness import StrokeScatter
 from stochfric_mb.discovery.joints.scores import Score
 from stochfric_mb.discovery.joints.selection import Selected
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
@@ -35,6 +36,8 @@ class PlaceOutcome:
     """Noise of the balance on the held-out runs [N or N m]."""
     thing: str = "joint"
     """What the place is: a joint, or a tendon."""
+    random: StrokeScatter | None = None
+    """Scatter of friction from stroke to stroke; None: too few strokes."""
 
 
 @dataclasses.dataclass(frozen=True)

@@ -85,23 +85,5 @@ def noise_floor(model: JointModel, sheets: Sequence[Sheet], nuisances: Sequence[
     return _rms(np.concatenate(parts))
 
 
-def stroke_scatter(
-    model: JointModel, sheets: Sequence[Sheet], nuisances: Sequence[Nuisance], noise: float
-) -> tuple[float, int]:
-    """Return by how much friction differs from stroke to stroke beyond noise [N or N m], and the number of strokes."""
-    means: list[float] = []
-    variances: list[float] = []
-    for s in sheets:
-        rest = model.remainder(s, nuisances) * np.sign(s.velocity[s.window.centres])
-        edges = np.flatnonzero(np.diff(np.r_[0, s.sliding.astype(np.int8), 0]))
-        for start, end in zip(edges[::2], edges[1::2], strict=True):
-            if end - start >= 2 * APART:
-                means.append(float(rest[start:end].mean()))
-                variances.append(noise**2 * APART / (end - start))
-    if len(means) < 4:
-        return 0.0, len(means)
-    return float(np.sqrt(max(np.var(means, ddof=1) - np.mean(variances), 0.0))), len(means)
-
-
 def _rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2))) if len(values) else float("nan")

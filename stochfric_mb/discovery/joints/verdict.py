@@ -11,9 +11,7 @@ import numpy as np
 from stochfric_mb.discovery.intervals import interval
 from stochfric_mb.discovery.joints.confounding import TOGETHER, Confounded, confounded, stand_ins
 from stochfric_mb.discovery.joints.fitting import JointFit, hidden_share
-from stochfric_mb.discovery.joints.friction import friction_along
 from stochfric_mb.discovery.joints.outcome import PlaceOutcome
-from stochfric_mb.discovery.joints.scores import stroke_scatter
 from stochfric_mb.discovery.joints.timing import NAMED as SURE
 from stochfric_mb.discovery.joints.timing import Timing
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
@@ -43,7 +41,7 @@ def verdict(
     pairs = confounded(places[0].fit)
     effects = [_delay(timing)] if timing is not None and timing.named else []
     for place in places:
-        effects += _found(place, pairs)
+        effects += _found(place, pairs) + _drawn(place)
     unknown = next((p for p in places if p.selected.unknown and not effects), None)
     kind = "effect" if effects else "unknown" if unknown is not None else "none"
     where = None
@@ -95,6 +93,19 @@ def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
         numbers = _parameters(fit, first + i, effect, rotates=place.fit[0].unit == "N m")
         found.append(Found(effect.kind, others, Where(axis, text), numbers, trial.score, chance))
     return found
+
+
+def _drawn(place: PlaceOutcome) -> list[Found]:
+    """Return the finding that friction is drawn anew for each stroke, if it is one."""
+    seen = place.random
+    if seen is None or not seen.named:
+        return []
+    text = (
+        f"Friction differs from stroke to stroke{_at(place)} by {100.0 * seen.share:.1f} % (standard deviation, {seen.strokes} "
+        "strokes), more than its scatter within them explains, and each stroke by itself."
+    )
+    size = Interval(seen.sigma, seen.low, seen.high, "-")
+    return [Found("random_coefficients", (), Where("stroke", text), {"sigma_k": size}, seen.score, seen.p_value)]
 
 
 def _at(place: PlaceOutcome) -> str:
@@ -152,7 +163,8 @@ def _gap(places: Sequence[PlaceOutcome], loop_floor: float | None) -> Gap:
         )  # fmt: skip
     return Gap(
         "inverse_dynamics_sliding", place.fit[0].unit, True, before.sliding, middle.sliding, after.sliding, place.floor,
-        "differences between neighbouring windows that do not overlap",
+        "differences between neighbouring windows that do not overlap"
+        + (", and the scatter from stroke to stroke" if place.random is not None and place.random.accounted else ""),
     )  # fmt: skip
 
 
@@ -171,6 +183,7 @@ def _imitated(place: PlaceOutcome) -> list[str]:
 def _unseen(places: Sequence[PlaceOutcome]) -> tuple[str, ...]:
     seen = {t.candidate.kind for p in places for s in p.selected.stages for t in s.trials}
     seen |= {e.kind for p in places for e in p.believed.effects} | {"sensor_delay"}
+    seen |= {"random_coefficients"} if any(p.random is not None for p in places) else set()
     seen -= {kind for p in places for kind in _imitated(p)}
     return tuple(k for k in effect_kinds() if k not in seen and k not in NO_BELT)
 
@@ -202,13 +215,10 @@ def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
         for kind in _imitated(place):
             names = ", ".join(n.name for n in place.nuisances)
             remarks.append(f"{kind} would look like a correction of {names} here{_at(place)}: if there is any, they hold it")
-        scatter, strokes = stroke_scatter(place.selected.final.model, place.fit, place.nuisances, place.floor)
-        final = place.selected.final.model
-        along = [friction_along(s, final.law, final.effects, final.load)[s.sliding] for s in place.fit]
-        level = float(np.mean(np.abs(np.concatenate(along))))
-        if scatter > 0.0:
-            share = 100.0 * scatter / level
-            remarks.append(f"friction scatters by {share:.1f} % from stroke to stroke ({strokes} strokes){_at(place)}")
+        if place.random is not None and place.random.low > 0.0 and not place.random.accounted:
+            how = "wanders" if place.random.wanders else "scatters"
+            share, strokes = 100.0 * place.random.share, place.random.strokes
+            remarks.append(f"friction {how} by {share:.1f} % from stroke to stroke ({strokes} strokes){_at(place)}")
         if place.selected.found and place.selected.unknown:
             remarks.append(f"what remains depends on {place.selected.unknown}{_at(place)}; no known effect explains it")
     return remarks
@@ -223,6 +233,7 @@ def _details(places: Sequence[PlaceOutcome], timing: Timing | None, pairs: Seque
                 "place": p.place,
                 "held_out": {k: dataclasses.asdict(v) for k, v in p.scores.items()},
                 "floor": p.floor,
+                "strokes": dataclasses.asdict(p.random) if p.random is not None else None,
                 "half_width": [s.window.half_width for s in p.fit],
                 "independent_windows": p.selected.final.independent,
                 "stages": [
