@@ -181,6 +181,9 @@ mj_fwdAcceleration = _external("mj_fwdAcceleration", types.void, _I64, _I64)  # 
 mj_fwdConstraint = _external("mj_fwdConstraint", types.void, _I64, _I64)  # noqa: N816
 mj_referenceConstraint = _external("mj_referenceConstraint", types.void, _I64, _I64)  # noqa: N816
 mj_rne = _external("mj_rne", types.void, _I64, _I64, _I32, _I64)
+mj_markStack = _external("mj_markStack", types.void, _I64)  # noqa: N816
+mj_freeStack = _external("mj_freeStack", types.void, _I64)  # noqa: N816
+mj_stackAllocNum = _external("mj_stackAllocNum", _I64, _I64, _I64)  # noqa: N816
 mju_error = _external("mju_error", types.void, _I64)
 
 
@@ -299,6 +302,14 @@ def _pointer(typingctx, address):
 
 
 @intrinsic
+def _word_pointer(typingctx, address):
+    def generate(context, builder, signature, args):
+        return builder.inttoptr(args[0], ir.IntType(64).as_pointer())
+
+    return types.CPointer(types.int64)(types.intp), generate
+
+
+@intrinsic
 def call_function(typingctx, function, a, b, c):
     """Call a function of three words at an address; return its answer."""
 
@@ -320,6 +331,24 @@ def call_python(function, a, b, c):
 def vector(address, n):
     """Return the ``n`` doubles at ``address`` as an array (a view)."""
     return carray(_pointer(address), n)
+
+
+@compiled
+def stack(data, length):
+    """Return a vector on MuJoCo's stack, not yet filled; it lasts until mj_freeStack."""
+    return carray(_pointer(mj_stackAllocNum(data, length)), length)
+
+
+@compiled
+def stack_table(data, rows, columns):
+    """Return a matrix on MuJoCo's stack, not yet filled."""
+    return carray(_pointer(mj_stackAllocNum(data, rows * columns)), (rows, columns))
+
+
+@compiled
+def stack_words(data, rows, columns):
+    """Return a matrix of 64-bit integers on MuJoCo's stack, not yet filled."""
+    return carray(_word_pointer(mj_stackAllocNum(data, rows * columns)), (rows, columns))
 
 
 @compiled

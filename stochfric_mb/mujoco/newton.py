@@ -15,19 +15,21 @@ from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.answer import FREE, MU, U0, VX, VY, add_force, answer, brake, keep_free, law_at, slides, take
 from stochfric_mb.mujoco.holding import is_held
 
-NEWTON_STEPS = 8
-"""Most steps."""
+NEWTON_STEPS, HALVINGS = 12, 3
+"""Most steps, whole or halved; most halvings of one."""
 FORCE_TOLERANCE = 1.0e-10
 """Error of a force relative to mu_s N at which the search ends."""
 ROUNDING = 4.0e-16
 """Error of a sum, relative to its terms."""
-FLOOR, OWN, SLOPES = 6, 7, 8
-"""Columns of the error that rounding of the displacement leaves, over mu_s N, and of a flag: 1 where the slopes are those
-of the contact's own answer; number of the columns."""
+FLOOR, OWN, KIND, GX, SLOPES = 6, 7, 8, 9, 11
+"""Columns of the slopes: error that rounding of the displacement leaves, over mu_s N; 1 where the slopes are those of the
+contact's own answer; what the contact does; its answer [N]; number of the columns."""
+NONE, FREELY, BRAKED = range(3)
+"""What a contact does: it is held or open; it obeys its law; it comes to rest."""
 
 
 @compiled
-def newton(places, coupling, numbers, motion, f, response, end, h, close, space):
+def newton(places, coupling, numbers, motion, f, response, end, h, close, space):  # noqa: PLR0912
     """Improve all forces by Newton's method; return whether it converged, else the best forces are kept.
 
     It solves F = S(v + h W F, N) with each contact's own answer S, in which a contact that comes to stick or to slip
@@ -40,17 +42,24 @@ def newton(places, coupling, numbers, motion, f, response, end, h, close, space)
     at += SLOPES * m
     r, best = space[at : at + 2 * m], space[at + 2 * m : at + 4 * m]
     slopes[:, FLOOR] = 0.0
-    least = math.inf
+    least, halvings = math.inf, 0
     for _ in range(NEWTON_STEPS):
         worst = residual(places, numbers, motion, f, response, r, slopes, end, h, close)
         if worst <= FORCE_TOLERANCE:
             return True
         if worst < least:
-            least = worst
+            least, halvings = worst, 0
             for q in range(m):
                 best[2 * q], best[2 * q + 1] = f[q, 0], f[q, 1]
-        elif close:
+        elif halvings < HALVINGS:  # not so far
+            halvings += 1
+            for q in range(m):
+                add_force(coupling, motion, f, q, 0.5 * (best[2 * q] - f[q, 0]), 0.5 * (best[2 * q + 1] - f[q, 1]))
+            continue
+        else:
             break
+        for q in range(m):
+            fill_slopes(places, numbers, motion, response, slopes[q], q, end, h, close)
         for i in range(2 * m):
             q = i // 2
             by_vx, by_vy, by_normal = slopes[q, i % 2], slopes[q, 2 + i % 2], slopes[q, 4 + i % 2]
@@ -71,20 +80,18 @@ def newton(places, coupling, numbers, motion, f, response, end, h, close, space)
 
 @compiled
 def residual(places, numbers, motion, f, response, r, slopes, end, h, close):
-    """Fill ``r`` with force minus answer, and the answer's slopes; return the largest part of mu_s N that ``r`` is.
+    """Fill ``r`` with force minus answer; return the largest part of mu_s N that it is.
 
     What rounding leaves counts as none.
     """
     worst = 0.0
     for q in range(len(places)):
-        address, state, row = places[q, 2], places[q, 3], numbers[q]
+        address, state, row, slope = places[q, 2], places[q, 3], numbers[q], slopes[q]
         r[2 * q], r[2 * q + 1] = 0.0, 0.0
-        for k in range(6):
-            slopes[q, k] = 0.0
-        slopes[q, OWN] = 0.0 if close else 1.0
+        slope[KIND] = NONE
         if is_held(places, q):
             continue
-        braked = False
+        slope[KIND], braked = FREELY, False
         if close:
             vx, vy = take(places, motion, q)
             gx, gy = law_at(state, address, end, h, row, vx, vy)
@@ -94,35 +101,36 @@ def residual(places, numbers, motion, f, response, r, slopes, end, h, close):
                 gx, gy, braked = part * gx, part * gy, part < 1.0
         else:
             gx, gy, braked = answer(places, numbers, motion, f, response, q, end, h)
+        slope[GX], slope[GX + 1] = gx, gy
         r[2 * q], r[2 * q + 1] = f[q, 0] - gx, f[q, 1] - gy
         size, cap = math.hypot(r[2 * q], r[2 * q + 1]), row[MU] * n.load(address + 8 * s.NORMAL)
         part = size / cap if cap > 0.0 else (0.0 if size == 0.0 else 1.0)
-        if part > slopes[q, FLOOR]:
+        if part > slope[FLOOR]:
             worst = max(worst, part)
-        if cap > 0.0 and worst > FORCE_TOLERANCE:
-            if braked:
-                slopes[q, OWN] = 1.0
-                brake_slopes(response[q], slopes[q], gx, gy, h)
-            else:
-                fill_slopes(places, numbers, motion, response, slopes[q], q, gx, gy, end, h, close)
+        slope[KIND] = NONE if not cap > 0.0 else BRAKED if braked else FREELY
     return worst
 
 
 @compiled
-def brake_slopes(w, slope, gx, gy, h):
-    """Fill the slopes of the force that brings a contact to rest along its own direction."""
-    felt = h * (gx * (w[0] * gx + w[1] * gy) + gy * (w[2] * gx + w[3] * gy))
-    if felt > 0.0:
-        slope[0], slope[1], slope[2], slope[3] = gx * gx / felt, gx * gy / felt, gx * gy / felt, gy * gy / felt
+def fill_slopes(places, numbers, motion, response, slope, q, end, h, close):
+    """Fill the slopes of a contact's force by vx (x, y), by vy, and by the normal force: the law's, or the answer's.
 
-
-@compiled
-def fill_slopes(places, numbers, motion, response, slope, q, gx, gy, end, h, close):
-    """Fill the slopes of the force (gx, gy) by vx (x, y), by vy, and by the normal force: the law's, or the answer's.
-
-    With G and k the slopes of the law, those of the answer are (1 + h G W)^-1 G and (1 + h G W)^-1 k.
+    With G and k the slopes of the law, those of the answer are (1 + h G W)^-1 G and (1 + h G W)^-1 k. A force that brings
+    the contact to rest along its own direction has those of G = infinity in that direction.
     """
     address, state, row, w = places[q, 2], places[q, 3], numbers[q], response[q]
+    gx, gy = slope[GX], slope[GX + 1]
+    for k in range(6):
+        slope[k] = 0.0
+    slope[OWN] = 0.0 if close else 1.0
+    if slope[KIND] == NONE:
+        return
+    if slope[KIND] == BRAKED:
+        slope[OWN] = 1.0
+        felt = h * (gx * (w[0] * gx + w[1] * gy) + gy * (w[2] * gx + w[3] * gy))
+        if felt > 0.0:
+            slope[0], slope[1], slope[2], slope[3] = gx * gx / felt, gx * gy / felt, gx * gy / felt, gy * gy / felt
+        return
     vx, vy = motion[q, VX], motion[q, VY]
     if not close:
         vx = row[FREE] - h * (w[0] * gx + w[1] * gy)

@@ -23,6 +23,8 @@ from stochfric_mb.mujoco.switching import call
 
 PRECISION = 1.0e-11
 """Error of a force relative to mu_s N at which the search ends."""
+LEVEL = 1.0e-2
+"""Change of the force over mu_s N between two velocities that leaves no room for another root between them."""
 ROUNDING = 4.0e-16
 """Error of a sum, relative to its terms."""
 PARALLEL = 1.0e-9
@@ -60,10 +62,14 @@ def local_force(state, address, function, end, h, row, w, fx, fy):  # noqa: PLR0
     gx, gy = law_force(state, address, function, end, h, row, w, fx, fy)
     if math.hypot(gx - fx, gy - fy) <= tolerance:
         return fx, fy
-    if steady(state, h, row, w, gx, gy):
+    keeps = steady(state, h, row, w, gx, gy)
+    if keeps:
         kx, ky = law_force(state, address, function, end, h, row, w, gx, gy)
         if math.hypot(kx - gx, ky - gy) <= tolerance:
             return gx, gy
+    kx, ky, found = newton(state, address, function, end, h, row, w, gx if keeps else fx, gy if keeps else fy, tolerance)
+    if found and is_first(state, address, function, end, h, row, w, kx, ky, cap):
+        return kx, ky
     ex, ey = law_force(state, address, function, end, h, row, w, 0.0, 0.0)
     size = math.hypot(ex, ey)
     if size == 0.0:
@@ -74,7 +80,8 @@ def local_force(state, address, function, end, h, row, w, fx, fy):  # noqa: PLR0
             gx, gy = law_force(state, address, function, end, h, row, w, kx, ky)
             if math.hypot(gx - kx, gy - ky) <= tolerance:
                 return kx, ky
-            return newton(state, address, function, end, h, row, w, kx, ky, tolerance)
+            kx, ky, _ = newton(state, address, function, end, h, row, w, kx, ky, tolerance)
+            return kx, ky
     for _ in range(TURNS):
         ex, ey = ex / size, ey / size
         part = along(state, address, function, end, h, row, w, ex, ey, cap, fx * ex + fy * ey)
@@ -87,7 +94,26 @@ def local_force(state, address, function, end, h, row, w, fx, fy):  # noqa: PLR0
         ex, ey = gx, gy
         if across > 0.1 * size:
             break
-    return newton(state, address, function, end, h, row, w, fx, fy, tolerance)
+    fx, fy, _ = newton(state, address, function, end, h, row, w, fx, fy, tolerance)
+    return fx, fy
+
+
+@compiled
+def is_first(state, address, function, end, h, row, w, fx, fy, cap):
+    """Return whether a root is the one that the velocity meets first: the law is almost level on the way, or only rises."""
+    modes = n.load(state + 8 * s.HAS_MODE) != 0.0
+    if modes and n.load(address + 8 * s.STICK) != 0.0:
+        return True
+    vx, vy = row[V0], row[V0 + 1]
+    if not modes:
+        fast = math.hypot(vx, vy) > n.load(state + 8 * s.STICK_SPEED)
+        if (end_speed(h, row, w, fx, fy) > n.load(state + 8 * s.STICK_SPEED)) != fast:
+            return False
+        if not fast:
+            return True
+    call(state, address, function, end, row[U0] + h * vx, row[U0 + 1] + h * vy, vx, vy, row[MU], row[MU + 1])
+    before = math.hypot(n.load(state + 8 * s.OUTPUT), n.load(state + 8 * (s.OUTPUT + 1)))
+    return abs(math.hypot(fx, fy) - before) <= LEVEL * cap
 
 
 @compiled
@@ -246,14 +272,14 @@ def root(state, address, function, end, h, row, w, ex, ey, turns, low, at_low, h
 
 @compiled
 def newton(state, address, function, end, h, row, w, fx, fy, tolerance):
-    """Return the force (fx, fy) [N] improved by Newton's method in the plane, as far as that helps."""
+    """Return the force (fx, fy) [N] improved by Newton's method in the plane, and whether nothing is left to improve."""
     step = 1.0e-4 * n.load(state + 8 * s.STICK_SPEED)
     gx, gy = law_force(state, address, function, end, h, row, w, fx, fy)
     rx, ry = fx - gx, fy - gy
     size = math.hypot(rx, ry)
     for _ in range(NEWTON_STEPS):
         if size <= tolerance:
-            break
+            return fx, fy, True
         row[FREE] += step
         ax, ay = law_force(state, address, function, end, h, row, w, fx, fy)
         row[FREE] -= step
@@ -263,7 +289,7 @@ def newton(state, address, function, end, h, row, w, fx, fy, tolerance):
         ax, ay, bx, by = (ax - gx) / step, (ay - gy) / step, (bx - gx) / step, (by - gy) / step
         rounding = ROUNDING * (math.hypot(row[U0], row[U0 + 1]) / h + math.hypot(row[FREE], row[FREE + 1]))
         if size <= rounding * math.sqrt(ax * ax + ay * ay + bx * bx + by * by):
-            break
+            return fx, fy, True
         p, q = 1.0 + h * (ax * w[0] + bx * w[2]), h * (ax * w[1] + bx * w[3])
         u, v = h * (ay * w[0] + by * w[2]), 1.0 + h * (ay * w[1] + by * w[3])
         det = p * v - q * u
@@ -282,4 +308,4 @@ def newton(state, address, function, end, h, row, w, fx, fy, tolerance):
             dx, dy = 0.5 * dx, 0.5 * dy
         if not better:
             break
-    return fx, fy
+    return fx, fy, size <= tolerance

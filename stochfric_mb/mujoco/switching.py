@@ -19,8 +19,10 @@ from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.kinematics import put
 
-SWITCHES, BISECTIONS = 4, 40
-"""Most switches of a law looked for within one step, and halvings of the step to find one."""
+SWITCHES, SEARCHES = 4, 120
+"""Most switches of a law looked for within one step, and instants looked at to find one."""
+INSTANT = 5.0e-13
+"""Part of a step to which the instant of a switch is found."""
 
 
 @compiled
@@ -148,19 +150,40 @@ def switch_within(state, address, row, t):
         if not guard_crossed(state, address, row, t, 1.0):
             keep_guards(state, address)
             return
-        low, end = start, 1.0
-        for _ in range(BISECTIONS):
-            middle = 0.5 * (low + end)
-            if guard_crossed(state, address, row, t, middle):
-                end = middle
-            else:
-                low = middle
+        end = first_crossing(state, address, row, t, start)
         ux, uy, vx, vy = between(address, t, end)
         now = before + end * (t - before)
         switch(state, address, n.load_word(row + n.COMMIT), now, ux, uy, vx, vy)
         guards_at(state, address, row, now, ux, uy, vx, vy)
         keep_guards(state, address)
         start = end
+
+
+@compiled
+def first_crossing(state, address, row, t, low):
+    """Return the part of the step, after ``low``, just behind which no guard that was positive is so any more.
+
+    False position on the least of them (Dahlquist and Bjorck, the Illinois method), which ends on both sides of the root.
+    """
+    end, at_low, at_end = 1.0, least_guard(state, address, row, t, low), least_guard(state, address, row, t, 1.0)
+    last = 0
+    for k in range(SEARCHES):
+        if end - low <= 2.0 * INSTANT:
+            break
+        middle = low - at_low * (end - low) / (at_end - at_low) if at_low > 0.0 else 0.5 * (low + end)
+        if k % 4 == 3:
+            middle = 0.5 * (low + end)
+        middle = min(max(middle, low + INSTANT), end - INSTANT)
+        value = least_guard(state, address, row, t, middle)
+        if value > 0.0:
+            low, at_low = middle, value
+            at_end *= 0.5 if last > 0 else 1.0
+            last = 1
+        else:
+            end, at_end = middle, value
+            at_low *= 0.5 if last < 0 else 1.0
+            last = -1
+    return end
 
 
 @compiled
@@ -185,6 +208,12 @@ def between(address, t, part):
 @compiled
 def guard_crossed(state, address, row, t, part):
     """Return whether a guard that was positive at the start of the search is not positive at a part of the step."""
+    return least_guard(state, address, row, t, part) <= 0.0
+
+
+@compiled
+def least_guard(state, address, row, t, part):
+    """Return the least of the guards that were positive at the start of the search, at a part of the step."""
     if part == 1.0:
         ux, uy = n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
         guards_at(state, address, row, t, ux, uy, n.load(address + 8 * s.VX), n.load(address + 8 * s.VY))
@@ -192,7 +221,8 @@ def guard_crossed(state, address, row, t, part):
         ux, uy, vx, vy = between(address, t, part)
         before = n.load(address + 8 * s.BEFORE)
         guards_at(state, address, row, before + part * (t - before), ux, uy, vx, vy)
+    least = math.inf
     for j in range(GUARDS):
-        if n.load(address + 8 * (s.START_GUARDS + j)) > 0.0 and n.load(state + 8 * (s.OUTPUT + j)) <= 0.0:
-            return True
-    return False
+        if n.load(address + 8 * (s.START_GUARDS + j)) > 0.0:
+            least = min(least, n.load(state + 8 * (s.OUTPUT + j)))
+    return least

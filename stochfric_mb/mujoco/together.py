@@ -23,7 +23,7 @@ import math
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.answer import MU, V0, VX, VY, add_force, answer, law_at, slides, take
+from stochfric_mb.mujoco.answer import FREE, MU, V0, VX, VY, add_force, answer, law_at, slides, take
 from stochfric_mb.mujoco.holding import hold_still, is_held, want_hold
 from stochfric_mb.mujoco.newton import newton
 
@@ -42,7 +42,7 @@ OFTEN = 3
 @compiled
 def space_needed(m):
     """Return the length of the work space of `settle` for ``m`` contacts."""
-    return 8 * m * m + 24 * m + 16
+    return 8 * m * m + 32 * m + 16
 
 
 @compiled
@@ -71,7 +71,7 @@ def search(places, coupling, numbers, motion, f, response, end, h, space):
             continue
         remember(f, first)
         close = newton(places, coupling, numbers, motion, f, response, end, h, True, rest)
-        if not close or not is_nearest(places, numbers, motion, f, first, end, h):
+        if not close or not is_nearest(places, numbers, motion, f, first, response, end, h, True):
             restore(coupling, motion, f, first)
         elif held == 0:
             return
@@ -120,7 +120,7 @@ def reach(places, coupling, numbers, motion, f, first, end, h, response, held, s
         if not newton(places, coupling, numbers, motion, f, response, end, h, True, space):
             return False
         if moved <= STILL:
-            return is_nearest(places, numbers, motion, f, first, end, h)
+            return is_nearest(places, numbers, motion, f, first, response, end, h, False)
     return False
 
 
@@ -144,24 +144,29 @@ def is_fast(state, address, vx, vy):
 
 
 @compiled
-def is_nearest(places, numbers, motion, f, first, end, h):
+def is_nearest(places, numbers, motion, f, first, response, end, h, own):
     """Return whether the forces are the roots that the motion meets first on its way from the start of the step.
 
     Where a contact sticks, its law only rises, and the root is the only one. Where it slides, there is no other if the
-    law is almost level from the velocity before to that after, or the force almost that of the first guess.
+    law is almost level from the velocity before to that after, or the force almost that of the first guess. With
+    ``own``, the ways are those from the contacts' own answers, the forces ``first``.
     """
     for q in range(len(places)):
-        address, state, row = places[q, 2], places[q, 3], numbers[q]
+        address, state, row, w = places[q, 2], places[q, 3], numbers[q], response[q]
+        ux, uy = row[V0], row[V0 + 1]
+        if own:
+            ux = row[FREE] - h * (w[0] * first[2 * q] + w[1] * first[2 * q + 1])
+            uy = row[FREE + 1] - h * (w[2] * first[2 * q] + w[3] * first[2 * q + 1])
         modes, cap = n.load(state + 8 * s.HAS_MODE) != 0.0, row[MU] * n.load(address + 8 * s.NORMAL)
         vx, vy = motion[q, VX], motion[q, VY]
         fast = is_fast(state, address, vx, vy)
-        if not modes and fast != is_fast(state, address, row[V0], row[V0 + 1]):
+        if not modes and fast != is_fast(state, address, ux, uy):
             return False
         if not fast or not cap > 0.0:
             continue
         if math.hypot(f[q, 0] - first[2 * q], f[q, 1] - first[2 * q + 1]) > NEAR * cap:
             gx, gy = law_at(state, address, end, h, row, vx, vy)
-            kx, ky = law_at(state, address, end, h, row, row[V0], row[V0 + 1])
+            kx, ky = law_at(state, address, end, h, row, ux, uy)
             if abs(math.hypot(gx, gy) - math.hypot(kx, ky)) > NEAR * cap:
                 return False
     return True
