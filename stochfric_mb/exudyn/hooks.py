@@ -6,6 +6,8 @@ import contextlib
 from collections.abc import Callable, Iterator
 from typing import Any, Protocol
 
+import exudyn
+
 from stochfric_mb.exudyn.stepping import advance
 from stochfric_mb.exudyn.symbolic import symbolic
 
@@ -70,7 +72,7 @@ class Contact(Protocol):
 class Hooks:
     """PostStep commits all contacts; PostNewton, while a switch may be near, asks for steps that end there.
 
-    A system has one slot for each. Functions that were there are called after these.
+    A system has one slot for each. Functions that were there, or that the user puts there later, are called after these.
     """
 
     def __init__(self, mbs: Any) -> None:
@@ -85,10 +87,12 @@ class Hooks:
 
     @classmethod
     def of(cls, mbs: Any) -> Hooks:
-        """Return the hooks of a system, made at the first call."""
-        if _KEY not in mbs.variables:
-            mbs.variables[_KEY] = cls(mbs)
-        return mbs.variables[_KEY]
+        """Return the hooks of a system, made at the first call, and anew where the system was reset."""
+        hooks = mbs.variables.get(_KEY)
+        if hooks is None or (hooks._own and installed(mbs, "PostStep") is None):
+            _watch_setters()
+            hooks = mbs.variables[_KEY] = cls(mbs)
+        return hooks
 
     def install(self, *, locate: bool) -> None:
         """Take the system's slots, remembering what is there; ``locate``: whether steps end where a law switches."""
@@ -99,8 +103,17 @@ class Hooks:
             there = installed(self._mbs, slot)
             if there is not None and there is not self._own.get(slot):
                 self._other[slot] = there
+        self._fill()
+
+    def chain(self, slot: str, function: Any) -> None:
+        """Take a function that the user puts in a slot, 0 for none, to be called after ours."""
+        _SETTERS[slot](self._mbs, function)
+        self._other[slot] = installed(self._mbs, slot)
+        self._fill()
+
+    def _fill(self) -> None:
         self._own = {"PostStep": self._post_step(), "PostNewton": self._post_newton()}
-        self._mbs.SetPostStepUserFunction(self._own["PostStep"])
+        _SETTERS["PostStep"](self._mbs, self._own["PostStep"])
         self.watch()
 
     @contextlib.contextmanager
@@ -109,20 +122,20 @@ class Hooks:
         there = {slot: installed(self._mbs, slot) for slot in ("PreStep", "PostStep", "PostNewton")}
         try:
             for slot in there:
-                getattr(self._mbs, f"Set{slot}UserFunction")(0)
+                _set(self._mbs, slot, 0)
             yield
         finally:
             for slot, function in there.items():
-                getattr(self._mbs, f"Set{slot}UserFunction")(function or 0)
+                _set(self._mbs, slot, function or 0)
 
     def watch(self) -> None:
         """Put PostNewton in place while it is needed, and take it away otherwise: it costs as much as a step."""
         other = self._other["PostNewton"]
         needed = self._locating and (other is not None or any(c.watched for c in self.contacts))
         if needed or any(c.unsure for c in self.contacts):
-            self._mbs.SetPostNewtonUserFunction(self._own["PostNewton"])
+            _SETTERS["PostNewton"](self._mbs, self._own["PostNewton"])
         else:
-            self._mbs.SetPostNewtonUserFunction(other or 0)
+            _SETTERS["PostNewton"](self._mbs, other or 0)
 
     def _post_step(self) -> Callable[[Any, float], bool]:
         """Return the function that commits all contacts, then calls the user's (a closure: it runs every step)."""
@@ -154,6 +167,38 @@ class Hooks:
             return [max(abs(error), SWITCH_ERROR), min(steps if step < 0.0 else [*steps, step])]
 
         return post_newton
+
+
+_SETTERS: dict[str, Callable[[Any, Any], None]] = {}
+"""Slot -> Exudyn's own method that fills it."""
+
+
+def _watch_setters() -> None:
+    """Have systems with friction chain what the user puts in the slots: alone it would keep contacts from committing."""
+    for slot in ("PostStep", "PostNewton"):
+        if slot not in _SETTERS:
+            _SETTERS[slot] = getattr(exudyn.MainSystem, f"Set{slot}UserFunction")
+            setattr(exudyn.MainSystem, f"Set{slot}UserFunction", _chaining(slot))
+
+
+def _chaining(slot: str) -> Callable[[Any, Any], None]:
+    def set_function(mbs: Any, value: Any) -> None:
+        hooks = mbs.variables.get(_KEY)
+        if isinstance(hooks, Hooks):
+            hooks.chain(slot, value)
+        else:
+            _SETTERS[slot](mbs, value)
+
+    set_function.__doc__ = _SETTERS[slot].__doc__
+    return set_function
+
+
+def _set(mbs: Any, slot: str, function: Any) -> None:
+    """Put a function in a slot as it is."""
+    if slot in _SETTERS:
+        _SETTERS[slot](mbs, function)
+    else:
+        getattr(mbs, f"Set{slot}UserFunction")(function)
 
 
 def installed(mbs: Any, slot: str) -> Callable[..., Any] | None:

@@ -335,6 +335,47 @@ def test_a_user_function_installed_before_is_called_too() -> None:
     assert contact.force == pytest.approx(-0.5)
 
 
+@pytest.mark.parametrize("by", ["solve_dynamic", "SolveDynamic"])
+def test_a_user_function_installed_after_the_friction_does_not_replace_it(by: str) -> None:
+    mbs, ground, slide, data = free_mass(0.5)
+    contact = add_friction(mbs, ground, slide, ELASTIC, normal_force=10.0, effective_mass=1.0)
+    seen: list[float] = []
+    mbs.SetPostStepUserFunction(lambda mbs, t: seen.append(t) or True)
+    mbs.Assemble()
+
+    def run() -> None:
+        if by == "SolveDynamic":
+            mbs.SolveDynamic(silent_settings(1e-4, 0.2), solverType=SOLVERS["rk44"], showHints=False)
+        else:
+            solve_dynamic(mbs, silent_settings(1e-4, 0.2), locate=False)
+
+    run()
+    assert len(seen) == 2001
+    assert contact.stick
+    assert abs(data.GetODE2Coordinates_t()[0]) < 1e-6  # without commits it would slide back
+    mbs.SetPostStepUserFunction(0)
+    run()
+    assert len(seen) == 2001
+    assert contact.stick
+    other, *_ = free_mass(0.5)  # systems without friction are left alone
+    other.SetPostStepUserFunction(seen.append)
+    assert other.GetPostStepUserFunction()["function"] == seen.append
+
+
+def test_a_system_that_is_reset_can_be_built_anew() -> None:
+    mbs, ground, slide, data = free_mass(0.5)
+    add_friction(mbs, ground, slide, ELASTIC, normal_force=10.0, effective_mass=1.0)
+    mbs.Assemble()
+    solve_dynamic(mbs, silent_settings(1e-4, 0.05))
+    mbs.Reset()
+    ground = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0))
+    contact = add_friction(mbs, ground, add_mass(mbs, 1.0), ELASTIC, normal_force=10.0, effective_mass=1.0)
+    mbs.Assemble()
+    solve_dynamic(mbs, silent_settings(1e-4, 0.05))
+    assert data.GetODE2Coordinates_t()[0] == pytest.approx(1.0 - 5.0 * 0.05, rel=1e-9)
+    assert contact.normal_force == 10.0
+
+
 class MineError(Exception):
     pass
 
