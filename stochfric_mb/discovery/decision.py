@@ -9,7 +9,7 @@ import numpy as np
 
 from stochfric_mb.discovery.belt import belt_speed
 from stochfric_mb.discovery.chance import MEMORY, chance, kicks
-from stochfric_mb.discovery.choice import IN_TIME, NAME, SELECT, Chosen, choose
+from stochfric_mb.discovery.choice import IN_SLIP, IN_TIME, NAME, SELECT, SHAPES, Chosen, choose
 from stochfric_mb.discovery.confirmation import cases_of, confirm
 from stochfric_mb.discovery.innovations import left_over
 from stochfric_mb.discovery.kinematics import kinematics, with_kinematic
@@ -173,7 +173,7 @@ class _Search:
                 # what was found stands; the rest is noted, not named
                 self.details["left_over"] = dataclasses.asdict(outcome)
                 break
-            if outcome is None:
+            if outcome is None or not self._stands_alone(outcome, candidates):
                 break
             confirmed = outcome.confirmed
             self._add(outcome)
@@ -215,6 +215,20 @@ class _Search:
         main = float(ripple.hypothesis.setting[0])
         frequency = float(self.pool.belt_velocity.min()) / main if along_belt else main
         return in_step(frequency, self.pool, along_belt=along_belt)
+
+    def _stands_alone(self, chosen: Chosen, candidates: Sequence[Candidate]) -> bool:
+        """Return whether an effect outside the family of shapes has evidence beside the shapes that beat it.
+
+        Where simulating them does not bear such shapes out, they are what the features leave of every slip, and an effect
+        that has nothing but a likeness to them is not there.
+        """
+        shapes = [c for c in candidates if c.name in IN_SLIP + SHAPES and c.score > chosen.candidate.score]
+        if chosen.simulated or not shapes:
+            return True
+        beside = self.terms.plus([column for c in shapes[:2] for column in c.hypothesis.columns])
+        own = [chosen.candidate.hypothesis.columns]
+        lost = [float(self.regression.gains(terms, self.solution.scatter, own)[0]) for terms in (self.terms, beside)]
+        return chosen.candidate.score - 2.0 * (lost[0] - lost[1]) >= NAME
 
     def _add(self, chosen: Chosen) -> None:
         """Take an effect into the model, and out of the features."""
