@@ -185,7 +185,8 @@ def _place(
         scores["baseline"] = score(believed, early, nuisances, dataset.test, scenario)
         scores["recalibrated"] = score(plain, early, nuisances, dataset.test, scenario)
     final = selected.final.model
-    random = stroke_scatter(final, fit_sheets, nuisances, believed_scatter(scenario))
+    # where something without a name is missing from the mean, strokes differ for that
+    random = None if selected.unknown else stroke_scatter(final, fit_sheets, nuisances, believed_scatter(scenario))
     floor = noise_floor(final, test_sheets, nuisances)
     if random is not None and random.accounted:
         floor = float(np.hypot(floor, random.sigma * _rms_dependence(final, test_sheets)))
