@@ -242,6 +242,11 @@ class FrictionContact:
             self.guess_normal(0.0)
         self.reset(start)
 
+    def begin(self, dt: float, start: float) -> None:
+        """Start afresh, or go on where a simulation has stopped at the time ``start`` [s]."""
+        if not (self._words[at.STARTED] and start == self._numbers[at.T]):
+            self.prepare(dt, start)
+
     def locate(self, on: bool) -> None:
         """Say whether steps are to end where the law switches."""
         self._words[at.LOCATING] = int(on)
@@ -286,8 +291,8 @@ class FrictionContact:
     def _read_initial_motion(self) -> None:
         """Take the relative motion at the start of a simulation; connectors tell the current one only."""
         data = self._mbs.systemData
-        if len(data.GetODE2Coordinates(INITIAL)) == 0:
-            return
+        if not self._mbs.systemIsConsistent or len(data.GetODE2Coordinates(INITIAL)) == 0:
+            return  # not assembled, or not since it has grown
         x, v = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
         data.SetODE2Coordinates(data.GetODE2Coordinates(INITIAL))
         data.SetODE2Coordinates_t(data.GetODE2Coordinates_t(INITIAL))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 from collections.abc import Callable, Iterator
 from typing import Any, Protocol
 
@@ -33,6 +34,10 @@ class Contact(Protocol):
 
     def prepare(self, dt: float, start: float) -> None:
         """Start afresh with the solver's step [s] at the time ``start`` [s]."""
+        ...
+
+    def begin(self, dt: float, start: float) -> None:
+        """Start afresh, or go on where a simulation has stopped at the time ``start`` [s]."""
         ...
 
     def locate(self, on: bool) -> None:
@@ -90,7 +95,7 @@ class Hooks:
         """Return the hooks of a system, made at the first call, and anew where the system was reset."""
         hooks = mbs.variables.get(_KEY)
         if hooks is None or (hooks._own and installed(mbs, "PostStep") is None):
-            _watch_setters()
+            _watch_methods()
             hooks = mbs.variables[_KEY] = cls(mbs)
         return hooks
 
@@ -171,14 +176,43 @@ class Hooks:
 
 _SETTERS: dict[str, Callable[[Any, Any], None]] = {}
 """Slot -> Exudyn's own method that fills it."""
+_SOLVE: list[Callable[..., Any]] = []
+"""Exudyn's own method that solves."""
 
 
-def _watch_setters() -> None:
-    """Have systems with friction chain what the user puts in the slots: alone it would keep contacts from committing."""
+def solve(mbs: Any, settings: Any, **options: Any) -> bool:
+    """Return what Exudyn's SolveDynamic returns, contacts as they are."""
+    return _SOLVE[0](mbs, settings, **options) if _SOLVE else mbs.SolveDynamic(settings, **options)
+
+
+def _watch_methods() -> None:
+    """Have systems with friction chain what the user puts in the slots, and start contacts afresh when they are solved.
+
+    A function of the user's alone would keep contacts from committing; and implicit solvers ask for the force once before
+    any function of ours is called.
+    """
     for slot in ("PostStep", "PostNewton"):
         if slot not in _SETTERS:
             _SETTERS[slot] = getattr(exudyn.MainSystem, f"Set{slot}UserFunction")
             setattr(exudyn.MainSystem, f"Set{slot}UserFunction", _chaining(slot))
+    if not _SOLVE:
+        _SOLVE.append(exudyn.MainSystem.SolveDynamic)
+        exudyn.MainSystem.SolveDynamic = _starting(_SOLVE[0])
+
+
+def _starting(method: Callable[..., Any]) -> Callable[..., Any]:
+    @functools.wraps(method)
+    def solve_dynamic(mbs: Any, *arguments: Any, **options: Any) -> Any:
+        hooks = mbs.variables.get(_KEY)
+        settings = arguments[0] if arguments else options.get("simulationSettings")
+        if isinstance(hooks, Hooks) and settings is not None:
+            integration = settings.timeIntegration
+            dt = (integration.endTime - integration.startTime) / max(integration.numberOfSteps, 1)
+            for contact in hooks.contacts:
+                contact.begin(dt, integration.startTime)
+        return method(mbs, *arguments, **options)
+
+    return solve_dynamic
 
 
 def _chaining(slot: str) -> Callable[[Any, Any], None]:

@@ -8,7 +8,7 @@ import exudyn
 import numpy as np
 
 from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_name
-from stochfric_mb.exudyn.hooks import SWITCH_ERROR, Hooks
+from stochfric_mb.exudyn.hooks import SWITCH_ERROR, Hooks, solve
 from stochfric_mb.exudyn.normal import NO_REACTION
 
 _TYPE = exudyn.DynamicSolverType
@@ -74,7 +74,7 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     printed, exudyn.config.printToConsole = exudyn.config.printToConsole, False
     try:
         _find_reactions(mbs, settings, solver, hooks, dt)
-        success = mbs.SolveDynamic(settings, solverType=SOLVERS[solver], showHints=False)
+        success = solve(mbs, settings, solverType=SOLVERS[solver], showHints=False)
     except exudyn.ExudynError as error:
         if isinstance(error.__cause__, Exception):
             raise error.__cause__ from error.__cause__.__cause__
@@ -110,7 +110,7 @@ def _find_reactions(mbs: Any, settings: Any, solver: str, hooks: Hooks, dt: floa
     integration.generalizedAlpha.useNewmark = integration.generalizedAlpha.useIndex2Constraints = True
     with hooks.put_aside():
         for _ in range(2):
-            mbs.SolveDynamic(trial, solverType=SOLVERS[solver], showHints=False)
+            solve(mbs, trial, solverType=SOLVERS[solver], showHints=False)
             for contact in contacts:
                 contact.guess_normal(None)
 

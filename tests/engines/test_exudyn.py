@@ -272,9 +272,8 @@ def test_exudyns_own_solve_starts_afresh_too(solver: str) -> None:
     for _ in range(2):
         built.mbs.SolveDynamic(silent_settings(built.dt, s.duration), solverType=SOLVERS[solver], showHints=False)
         x.append(built.mbs.systemData.GetODE2Coordinates()[0])
-    if solver == "rk44":
-        assert x[0] == x[1] == x[2]
-    assert x == pytest.approx([x[0]] * 3, rel=1e-4)  # the first acceleration is computed with the last state, in mid-slip
+    assert x[1] == x[2]
+    assert x[0] == pytest.approx(x[1], rel=0.0 if solver == "rk44" else 1e-6)  # solve_dynamic: a Jacobian at each step
 
 
 def test_a_simulation_can_go_on_from_where_it_stopped() -> None:

@@ -725,6 +725,20 @@ def test_an_exception_in_a_users_load_or_normal_force_comes_out(solver: str) -> 
         solve_dynamic(mbs, silent_settings(1e-4, 0.1), solver=solver)
 
 
+@pytest.mark.parametrize("radius", [0.0, 0.05])
+def test_friction_can_be_added_to_a_system_that_has_run(radius: float) -> None:
+    mbs = exudyn.SystemContainer().AddSystem()
+    ground, body = mbs.CreateGround(), rigid_body(mbs, velocity=(1.0, 0.0, 0.0))
+    markers = [mbs.AddMarker(MarkerBodyPosition(bodyNumber=b)) for b in (ground, body)]
+    mbs.Assemble()
+    solve_dynamic(mbs, silent_settings(1e-3, 0.01), solver="generalized_alpha")
+    plane = {"normal": (0, 1, 0), "normal_force": 2.0, "effective_mass": 2.0, "radius": radius}
+    contact = add_friction(mbs, *markers, ELASTIC, **plane)
+    mbs.Assemble()
+    solve_dynamic(mbs, silent_settings(1e-3, 0.01), solver="generalized_alpha")
+    np.testing.assert_allclose(contact.force, [-0.5 * 2.0, 0.0, 0.0], atol=1e-9)
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

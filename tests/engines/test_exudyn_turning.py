@@ -314,6 +314,33 @@ def test_two_free_bodies_keep_momentum_and_angular_momentum(turns_with: str, sol
     np.testing.assert_allclose(momenta(False), before, atol=1e-10 if solver == "rk44" else 1e-5)
 
 
+def test_exudyns_own_solve_gives_the_same_and_repeats() -> None:
+    ends = []
+    for own in (True, True, False):
+        if not ends or not own:
+            mbs = exudyn.SystemContainer().AddSystem()
+            places, velocities = ([0.0, 0.0, 0.0], [0.3, 0.099, 0.0]), ([0.0, 0.0, 0.0], [0.6, 0.0, 0.2])
+            bodies = [
+                free_body(mbs, m, 0.02, referencePosition=p, initialVelocity=v)
+                for m, p, v in zip((5.0, 1.0), places, velocities, strict=True)
+            ]
+            markers = [position_of(mbs, b) for b in bodies]
+            options = {"normal": (0, 1, 0), "radius": 0.1, "contact_stiffness": 1e4, "effective_mass": 0.3}
+            contact = add_friction(mbs, *markers, even(0.4), **options)
+            mbs.Assemble()
+        settings = silent_settings(1e-3, 0.05)
+        if own:
+            settings.timeIntegration.computeLoadsJacobian = 2
+            kind = exudyn.DynamicSolverType.GeneralizedAlpha
+            assert mbs.SolveDynamic(settings, solverType=kind, showHints=False)
+        else:
+            solve_dynamic(mbs, settings, solver="generalized_alpha", locate=False)
+        ends.append(mbs.systemData.GetODE2Coordinates())
+    assert contact.state.size
+    assert np.array_equal(ends[0], ends[1])
+    np.testing.assert_allclose(ends[0], ends[2], atol=1e-8)  # tolerances of Newton's method
+
+
 def test_a_rigid_body_at_rest_on_ground_keeps_the_fast_route() -> None:
     mbs = exudyn.SystemContainer().AddSystem()
     ground, body = mbs.AddObject(ObjectGround()), free_body(mbs, 1.0, 0.1)
