@@ -15,6 +15,9 @@ from stochfric_mb.reference.augmented import Start
 
 FARTHEST = 0.15
 """Most by which the matching moves the means, over mu_s [-]."""
+SAMPLES, SAMPLES_OF_WANDER = 3, 8
+"""Simulations of a run that are averaged: the scatter of 50 independent slips is known to 10 %, but a wander has only a
+few independent values in a run, and its scatter in a single one may well be half or twice the process's."""
 SETTLING = 4.0
 """Simulated time before the record that is not looked at [s]."""
 
@@ -31,8 +34,11 @@ def matched(model: Model, pool: Pool, *, rounds: int = 3) -> Model:
         return model
     target = _statistics(pool.slips)
     first = model.law
+    knots = getattr(model.effects[place], "process", "") == "knots"
+    count = SAMPLES if knots else SAMPLES_OF_WANDER
     for round_ in range(rounds):
-        simulated = _statistics([simulated_slips(model, s, sample=round_) for s in pool.slips])
+        samples = range(round_ * count, (round_ + 1) * count)
+        simulated = _statistics([simulated_slips(model, s, sample=i) for s in pool.slips for i in samples])
         if not simulated.all():
             return model
         load = float(np.median(pool.normal_force))
@@ -43,7 +49,6 @@ def matched(model: Model, pool: Pool, *, rounds: int = 3) -> Model:
             values[name] = float(min(max(now, 1.0e-5) * np.clip(ratio, 0.4, 2.5), _most(model)))
         effects = list(model.effects)
         effects[place] = dataclasses.replace(effects[place], **values)
-        knots = getattr(model.effects[place], "process", "") == "knots"
         if not knots:
             model = dataclasses.replace(model, effects=tuple(effects))
             continue

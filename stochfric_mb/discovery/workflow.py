@@ -21,6 +21,7 @@ from stochfric_mb.discovery.refusal import refusal
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.discovery.scatter import matched
 from stochfric_mb.discovery.study import EVERYTHING, Channels, Progress, Study, slips_of_run, study
+from stochfric_mb.effects import Effect
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
 
@@ -232,7 +233,7 @@ def _found(named: Named, fit: Fit | None, model: Model, found: Study) -> Found:
     effect = model.effects_in(run)[place]
     # a fit knows the effects that are not random alone
     fitted = len(deterministic(dataclasses.replace(model, effects=model.effects[:place], own={})).effects)
-    n_slips = max(found.regression.n, 2)
+    independent = _independent(effect, found)
     for field in dataclasses.fields(effect):
         value = getattr(effect, field.name)
         if isinstance(value, str) or not np.isfinite(value):
@@ -247,10 +248,20 @@ def _found(named: Named, fit: Fit | None, model: Model, found: Study) -> Found:
             ]
             deviation = float(deviations[0]) if deviations else 0.0
         if field.name.startswith("sigma"):
-            deviation = value / np.sqrt(2.0 * n_slips)
+            deviation = value / np.sqrt(2.0 * independent)
         parameters[field.name] = interval(value, deviation, about["unit"], about["low"], about["high"])
     p_value = float(chi2_distribution.sf(max(named.score, 0.0), max(len(parameters), 1)))
     return Found(named.kind, named.class_, named.where, parameters, float(named.score), p_value)
+
+
+def _independent(effect: Effect, found: Study) -> float:
+    """Return of how many independent values of the friction the fit runs tell: slips, or memories of a process that has one."""
+    n_slips = max(found.regression.n, 2)
+    memory = getattr(effect, "correlation_time", 0.0)
+    if memory <= 0.0:
+        return n_slips
+    time = sum(float(s.record.time[-1] - s.record.time[0]) for s in found.pool.slips)
+    return min(n_slips, max(time / (2.0 * memory), 1.0))  # a mean over T knows T/(2 tau) values of an exponential memory
 
 
 def _intervals(fit: Fit, found: Study) -> dict[str, Interval]:
