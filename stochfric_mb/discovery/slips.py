@@ -17,6 +17,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
 
+from stochfric_mb.discovery.belt_wave import without_wave
 from stochfric_mb.discovery.edges import locate_edge
 from stochfric_mb.discovery.record import Array, Noise, Record, line_in, noise_of
 from stochfric_mb.discovery.segmentation import slips_of
@@ -119,8 +120,10 @@ def extract(record: Record, *, ridge: float | None = None) -> Slips:
         ridge: how firmly the force at break-away is believed to be constant; chosen from the data if not given.
     """
     rough = list(_inside(record, slips_of(record)))
-    quiet = _quiet(record, rough)
+    quiet, when = _quiet(record, rough)
     noise = noise_of(quiet, record.noise)
+    if noise.coloured > 0.0 and (calmer := without_wave(quiet, when)) is not None:
+        noise = noise_of(calmer, record.noise)
     firm = noise.deviation / (_STIFF * np.ptp(record.position) / 2.0)
     if ridge is None:
         misfits = [_edge(record, begin, 1, firm)[3] / noise.deviation**2 for begin, _ in rough[:24]]
@@ -166,16 +169,18 @@ def _locate(record: Record, begin: int, end: int, ridge: float, firm: float) -> 
     return onset[0], onset[1], restick[0], restick[1]
 
 
-def _quiet(record: Record, rough: list[tuple[int, int]]) -> list[Array]:
-    """Return the stick phases between rough slips less their lines [m], sample by sample."""
+def _quiet(record: Record, rough: list[tuple[int, int]]) -> tuple[list[Array], list[Array]]:
+    """Return the stick phases between rough slips less their lines [m], sample by sample, and the samples' times [s]."""
     margin = record.samples(0.8)
     phases: list[Array] = []
+    times: list[Array] = []
     for (_, restick), (onset, _) in itertools.pairwise(rough):
         position = record.position[restick + margin : onset - margin]
         if len(position) > 40:
             place = np.linspace(-1.0, 1.0, len(position))
             phases.append(position - position.mean() - place * (place @ position) / (place @ place))
-    return phases
+            times.append(record.time[restick + margin : onset - margin])
+    return phases, times
 
 
 def _slip(record: Record, edge: Array) -> tuple[Array, Array]:

@@ -25,7 +25,7 @@ from stochfric_mb.effects import Effect
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
 
-NOT_JUDGED = {"impacts", "sensor_outliers", "sensor_clipping"}
+NOT_JUDGED = {"sensor_outliers", "sensor_clipping"}
 """Effects whose worth one-cycle forecasts do not measure."""
 EXPLAINED, EXPLAINED_RANDOM = 0.65, 0.2
 """Share of the reducible error of the fit runs' forecasts that named effects must explain; the second one where random
