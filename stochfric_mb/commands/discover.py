@@ -26,7 +26,7 @@ MARKER = "result.json"
 @click.command(epilog=EXAMPLE)
 @click.argument("dataset")
 @click.option("--scenario", metavar="SCENARIO", help="Model believed so far; needed for a measured file alone.")
-@click.option("--out", required=True, metavar="DIR", help="Folder for result.json, augmented.toml, report.html and plots.")
+@click.option("--out", required=True, metavar="DIR", help="Folder for report, result and exports.")
 @click.option("--force", is_flag=True, help="Replace what is at --out.")
 def discover(dataset: str, scenario: str | None, out: str, force: bool) -> None:
     """Find where the runs of DATASET and their model disagree, name the missing effect, and show that the gap shrinks."""
@@ -48,16 +48,15 @@ def discover(dataset: str, scenario: str | None, out: str, force: bool) -> None:
 
 
 def write(outcome: Outcome, folder: Path, command: str) -> dict[str, Any]:
-    """Write result.json, augmented.toml, report.html and plots/ of a discovery into an existing folder.
+    """Write result.json, report.html, plots/ and the exports of a discovery into an existing folder.
 
     Returns:
         The content of ``result.json``.
     """
     import json
 
-    import tomli_w
-
     from stochfric_mb.commands.report_folder import write_report
+    from stochfric_mb.discovery.export import files
     from stochfric_mb.report.discovery import further, page
     from stochfric_mb.report.discovery_evidence import gather
     from stochfric_mb.report.discovery_facts import complete
@@ -69,7 +68,8 @@ def write(outcome: Outcome, folder: Path, command: str) -> dict[str, Any]:
     more = further(outcome)
     plots = drawn | {f"{number}_{title.lower().replace(' ', '_')}": png for number, (title, _, png) in enumerate(more, 1)}
     write_report(folder, numbers=MARKER, content=content, plots=plots, page=page(content, drawn, more))
-    (folder / "augmented.toml").write_text(tomli_w.dumps(outcome.scenario.to_dict()), encoding="utf-8")
+    for name, text in files(outcome).items():
+        (folder / name).write_text(text, encoding="utf-8")
     return content
 
 

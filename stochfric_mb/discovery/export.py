@@ -6,8 +6,9 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,10 +18,28 @@ from stochfric_mb.laws.elastic_stick import ElasticStick
 from stochfric_mb.mechanisms import HingePendulum, Mjcf, PrismaticJoint
 from stochfric_mb.scenario import Scenario
 
+if TYPE_CHECKING:
+    from stochfric_mb.discovery.workflow import Outcome
+
 PRESLIDING = 1.0e-5
 """Presliding displacement of the law that MuJoCo runs [m or rad]: it holds at rest, where Coulomb's law says nothing."""
 CARRIED = ("viscous_friction", "sensor_delay")
 """Effects that the MJCF carries, or that do not belong into a model."""
+
+
+def files(outcome: Outcome) -> dict[str, str]:
+    """Return what a result is exported as: name of a file -> its text.
+
+    Always ``parameters.csv`` and ``augmented.toml``; for driven joints ``augmented.xml``, where MuJoCo is installed, and for
+    slides and hinges ``exudyn_friction.py``, to be run beside ``augmented.toml``.
+    """
+    scenario = outcome.scenario
+    written = {"parameters.csv": parameter_table(outcome.result), "augmented.toml": scenario_toml(scenario)}
+    if isinstance(scenario.mechanism, Mjcf | PrismaticJoint | HingePendulum) and importlib.util.find_spec("mujoco"):
+        written["augmented.xml"] = mjcf(scenario)
+    if isinstance(scenario.mechanism, PrismaticJoint | HingePendulum):
+        written["exudyn_friction.py"] = exudyn_snippet("augmented.toml")
+    return written
 
 
 def parameter_table(result: Result) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 
 from stochfric_mb.discovery.intervals import interval
 from stochfric_mb.discovery.joints.confounding import TOGETHER, Confounded, confounded, stand_ins
+from stochfric_mb.discovery.joints.evidence import scatter, settings_of
 from stochfric_mb.discovery.joints.fitting import JointFit, hidden_share
 from stochfric_mb.discovery.joints.outcome import PlaceOutcome
 from stochfric_mb.discovery.joints.timing import NAMED as SURE
@@ -30,6 +31,8 @@ FACTORS = {
 """Correction of a named joint -> its name in the result, where the scenario's own numbers are tables of joints."""
 IMITATED = 0.99
 """Part of an effect's change of friction that other numbers imitate, from which it cannot be identified [-]."""
+PLAIN = 14.0
+"""Fall of the deviance from which a scatter between settings is spoken of."""
 NO_BELT = ("belt_speed_ripple",)
 """Effects of a mechanism that a joint does not have."""
 
@@ -215,6 +218,7 @@ def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
         for kind in _imitated(place):
             names = ", ".join(n.name for n in place.nuisances)
             remarks.append(f"{kind} would look like a correction of {names} here{_at(place)}: if there is any, they hold it")
+        remarks += _between_settings(place)
         if place.random is not None and place.random.low > 0.0 and not place.random.accounted:
             how = "wanders" if place.random.wanders else "scatters"
             share, strokes = 100.0 * place.random.share, place.random.strokes
@@ -222,6 +226,19 @@ def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
         if place.selected.found and place.selected.unknown:
             remarks.append(f"what remains depends on {place.selected.unknown}{_at(place)}; no known effect explains it")
     return remarks
+
+
+def _between_settings(place: PlaceOutcome) -> list[str]:
+    """Return a remark if what is left stays the same in a run and direction."""
+    fit, settings = place.selected.final, settings_of(place.fit)
+    rest, n = np.concatenate(fit.remainders), max(place.selected.final.independent, 4.0)
+    seen, none = scatter(rest, settings, n), scatter(rest, settings, n, ratios=np.zeros(1))
+    if none.deviance - seen.deviance < PLAIN:
+        return []
+    return [
+        f"{seen.between:.2g} {place.fit[0].unit} of what is left{_at(place)} stay the same in all strokes of a run in one "
+        f"direction, and differ between these {len(np.unique(settings))} settings: a zero or a law, the data do not say which"
+    ]
 
 
 def _details(places: Sequence[PlaceOutcome], timing: Timing | None, pairs: Sequence[Confounded]) -> dict[str, Any]:

@@ -7,7 +7,7 @@ import tomllib
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.export import exudyn_snippet, mjcf, parameter_table, scenario_toml
+from stochfric_mb.discovery.export import exudyn_snippet, files, mjcf, parameter_table, scenario_toml
 from stochfric_mb.discovery.joints import joint_outcome
 from stochfric_mb.discovery.joints.force import joint_friction
 from stochfric_mb.errors import InputError
@@ -26,6 +26,14 @@ def test_the_table_has_the_intervals_of_the_result(found):
     number = found.result.effects[0].parameters["coefficient"]
     assert float(row["low"]) == pytest.approx(number.low, rel=1e-5)
     assert row["unit"] == "N s/m"
+
+
+def test_the_files_of_a_slide(found):
+    pytest.importorskip("mujoco", reason="one of the files is a MuJoCo model")
+    written = files(found)
+    assert sorted(written) == ["augmented.toml", "augmented.xml", "exudyn_friction.py", "parameters.csv"]
+    assert "load_any_scenario('augmented.toml')" in written["exudyn_friction.py"]
+    assert any_scenario_from_dict(tomllib.loads(written["augmented.toml"])) == found.scenario
 
 
 def test_the_scenario_file_reads_back(found):

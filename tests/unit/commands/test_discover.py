@@ -84,7 +84,8 @@ def refused(result, *parts):
 def test_it_writes_numbers_scenario_page_and_plots(rig, tmp_path):
     result = invoke(rig, "--out", tmp_path / "out")
     assert result.exit_code == 0, result.output
-    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["augmented.toml", "plots", "report.html", "result.json"]
+    written = sorted(p.name for p in (tmp_path / "out").iterdir())
+    assert written == ["augmented.toml", "parameters.csv", "plots", "report.html", "result.json"]
     content = json.loads((tmp_path / "out" / "result.json").read_text(encoding="utf-8"))
     assert content["schema"] == "stochfric.discovery/1"
     assert content["verdict"] == "unknown"  # no verdict on friction without slips
