@@ -91,7 +91,7 @@ TOLERANCE, BEYOND, SHORTEST, GRID = 1.0e-3, 1.0e-4, 2.0e-4, 5.0e-5
 as on the grid (as `canonical_time` has it, since engine time is a sum of rounded steps)."""
 ROUNDING = 1.0e-9
 """What a sum of many steps may differ from the time it stands for [s]."""
-FINE, FINE_STEPS = 0.25, 2.0
+FINE, FINE_STEPS = 0.25, 8.0
 """Steps within so many steps after a change of mode are shortened to this part: the force changes fast then."""
 STEPS_AHEAD = 3.0
 """A guard is watched where it may turn within so many steps at the rate of the last one."""
