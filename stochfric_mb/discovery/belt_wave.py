@@ -37,25 +37,25 @@ def without_wave(phases: Sequence[Array], times: Sequence[Array]) -> list[Array]
         return None
     duration = float(means[-1][0][-1] - means[0][0][0])
     grid = np.arange(2.0 / duration, FASTEST, 1.0 / (4.0 * duration))
-    target, cosines, products = np.zeros(len(grid), complex), np.zeros(len(grid)), np.zeros(len(grid), complex)
+    # Gram matrix of cosine and sine, and their products with the phases, at each frequency
+    aa, bb, ab, ar, br = np.zeros((5, len(grid)))
     for t, p in means:
-        wave = _levelled(np.exp(2j * np.pi * grid[:, None] * t))
-        target += wave @ p
-        cosines += (np.abs(wave) ** 2).sum(axis=1)
-        products += (wave**2).sum(axis=1)
-    # cosine and sine by their Gram matrix, written in the complex wave
-    aa, bb, ab = (cosines + products.real) / 2.0, (cosines - products.real) / 2.0, products.imag / 2.0
+        angle = 2.0 * np.pi * grid[:, None] * t
+        cosine, sine = _levelled(np.cos(angle)), _levelled(np.sin(angle))
+        aa += (cosine**2).sum(axis=1)
+        bb += (sine**2).sum(axis=1)
+        ab += (cosine * sine).sum(axis=1)
+        ar += cosine @ p
+        br += sine @ p
     determinant = np.maximum(aa * bb - ab**2, 1.0e-12 * np.maximum(aa, 1.0e-300) ** 2)
-    gains = (bb * target.real**2 - 2.0 * ab * target.real * target.imag + aa * target.imag**2) / determinant
+    gains = (bb * ar**2 - 2.0 * ab * ar * br + aa * br**2) / determinant
     best = int(np.argmax(gains))
     if gains[best] < EXPLAINED * sum(float(p @ p) for _, p in means):
         return None
-    a = (bb[best] * target[best].real - ab[best] * target[best].imag) / determinant[best]
-    b = (aa[best] * target[best].imag - ab[best] * target[best].real) / determinant[best]
+    a = (bb[best] * ar[best] - ab[best] * br[best]) / determinant[best]
+    b = (aa[best] * br[best] - ab[best] * ar[best]) / determinant[best]
     angles = (2.0 * np.pi * grid[best] * t for t in times)
-    return [
-        p - _levelled((a * np.cos(angle) + b * np.sin(angle))[None])[0].real for p, angle in zip(phases, angles, strict=True)
-    ]
+    return [p - _levelled((a * np.cos(angle) + b * np.sin(angle))[None])[0] for p, angle in zip(phases, angles, strict=True)]
 
 
 def _averaged(values: Array) -> Array:
@@ -64,7 +64,7 @@ def _averaged(values: Array) -> Array:
     return values[: count * STRIDE].reshape(count, STRIDE).mean(axis=1)
 
 
-def _levelled(waves: np.ndarray) -> np.ndarray:
+def _levelled(waves: Array) -> Array:
     """Return rows less their mean and their line."""
     place = np.linspace(-1.0, 1.0, waves.shape[1])
     waves = waves - waves.mean(axis=1, keepdims=True)

@@ -94,7 +94,7 @@ def rescored(dataset: Path, answer: Path) -> Rescored | None:
 
 def _read(dataset: Path, entry: dict[str, Any]) -> Run:
     table = np.genfromtxt(dataset / entry["file"], delimiter=",", names=True, deletechars="")
-    names = {name.split("_[")[0].split(" [")[0]: name for name in table.dtype.names}
+    names = {name.split("_[")[0].split(" [")[0]: name for name in table.dtype.names or ()}
     return Run(table[names["time"]], table[names["position"]], dict(entry.get("set", {})))
 
 
@@ -161,7 +161,7 @@ def _path(scenario: Scenario, run: Run, start: tuple[int, int, float], sample: i
     path = motion.position
     for effect in sensor:
         if effect.kind != "sensor_delay":  # taken into account by the earlier start
-            path = effect.measure(time + step * np.arange(1, last - first + 1), path, generator)
+            path = effect.measure(run.time[first + 1 : last + 1], path, generator)
     return path
 
 
