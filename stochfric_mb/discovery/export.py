@@ -78,7 +78,7 @@ def mjcf(scenario: Scenario[Any]) -> str:
     if isinstance(mechanism, Mjcf):
         spec, loads, acts_in = _corrected(mujoco, mechanism), dict(mechanism.friction), mechanism.effects_in
     elif isinstance(mechanism, PrismaticJoint | HingePendulum):
-        spec, loads, acts_in = mujoco.MjSpec.from_string(_plain(mechanism)), {"joint": mechanism.normal_force}, ()
+        spec, loads, acts_in = mujoco.MjSpec.from_string(plain_mjcf(mechanism)), {"joint": mechanism.normal_force}, ()
     else:
         raise InputError(f"mechanism {mechanism.kind!r} has no joint; its augmented.toml can be run by itself")
     law = ElasticStick(mu_s=scenario.law.mu_s, mu_k=scenario.law.mu_k, e_lim=PRESLIDING)
@@ -122,7 +122,7 @@ def _damp(joint: Any, coefficient: float) -> None:
     joint.damping = damping
 
 
-def _plain(mechanism: PrismaticJoint | HingePendulum) -> str:
+def plain_mjcf(mechanism: PrismaticJoint | HingePendulum) -> str:
     """Return the mechanism as MJCF."""
     if isinstance(mechanism, PrismaticJoint):
         gravity, kind, armature = "0 0 0", 'type="slide" axis="1 0 0"', 0.0

@@ -13,9 +13,10 @@ from stochfric_mb.discovery.joints.fitting import JointModel
 from stochfric_mb.discovery.joints.outcome import JointOutcome, PlaceOutcome
 from stochfric_mb.discovery.joints.pictures import friction_picture
 from stochfric_mb.discovery.joints.randomness import dependence, stroke_scatter
-from stochfric_mb.discovery.joints.scores import loop_floor, noise_floor, score
+from stochfric_mb.discovery.joints.scores import noise_floor, score
 from stochfric_mb.discovery.joints.selection import Selected, Selector
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
+from stochfric_mb.discovery.joints.simulated import simulated
 from stochfric_mb.discovery.joints.timing import Timing, timing
 from stochfric_mb.discovery.joints.verdict import verdict
 from stochfric_mb.discovery.result import Result
@@ -104,7 +105,7 @@ def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
     places = [_place(dataset, tell, source, name, load, (base, base + more), notes) for name, load in source.places]
     places = _beside(dataset, tell, source, places, (base, base + more))
     places.sort(key=_evidence)
-    places, floor = _simulated(dataset, tell, source, places, base + more)
+    places, floor = simulated(dataset, tell, source, places, (base, base + more))
     notes += _run_notes(dataset)
     result = verdict(dataset, places, found, notes, floor)
     pictures = tuple(
@@ -140,29 +141,6 @@ def _beside(
     return [found[name] for name, _ in source.places]
 
 
-def _simulated(
-    dataset: Dataset, tell: Progress, source: Any, places: list[PlaceOutcome], delay: float
-) -> tuple[list[PlaceOutcome], float | None]:
-    """Return the places with the errors of forward simulation in the engine, and the noise of what a controller gives."""
-    if not isinstance(dataset.scenario.mechanism, Mjcf):
-        return places, loop_floor(dataset.test) if dataset.scenario.controller is not None else None
-    from stochfric_mb.discovery.joints.mjcf_forward import drive_floor, forward
-
-    scores = dict(places[0].scores)
-    by_name = {p.place or source.places[0][0]: p for p in places}
-    stages: dict[str, dict[str, JointModel]] = {
-        "baseline": {name: p.believed for name, p in by_name.items()},
-        "recalibrated": {name: p.selected.recalibrated.model for name, p in by_name.items()},
-        "augmented": {name: p.selected.final.model for name, p in by_name.items()},
-    }
-    for label, models in stages.items():
-        tell(f"forward simulation, {label}")
-        seen = forward(source, models, delay)
-        scores[label] = dataclasses.replace(scores[label], loop=seen.drive, forward=seen.position)
-    floor = drive_floor(source) if dataset.scenario.controller is not None else None
-    return [dataclasses.replace(places[0], scores=scores), *places[1:]], floor
-
-
 def _place(
     dataset: Dataset, tell: Progress, source: Any, name: str, load: float, delays: tuple[float, float], notes: list[str]
 ) -> PlaceOutcome:
@@ -179,11 +157,12 @@ def _place(
         label: score(model, test_sheets, nuisances, dataset.test, scenario)
         for label, model in _models(believed, selected).items()
     }
+    undelayed = None
     if delay != base:  # what was believed knows nothing of the delay that was found
         early = source.sheets(name, "test", base)
-        plain = Selector(source.sheets(name, "fit", base), nuisances, believed).recalibrated.model
+        undelayed = Selector(source.sheets(name, "fit", base), nuisances, believed).recalibrated.model
         scores["baseline"] = score(believed, early, nuisances, dataset.test, scenario)
-        scores["recalibrated"] = score(plain, early, nuisances, dataset.test, scenario)
+        scores["recalibrated"] = score(undelayed, early, nuisances, dataset.test, scenario)
     final = selected.final.model
     # where something without a name is missing from the mean, strokes differ for that
     random = None if selected.unknown else stroke_scatter(final, fit_sheets, nuisances, believed_scatter(scenario))
@@ -192,7 +171,7 @@ def _place(
         floor = float(np.hypot(floor, random.sigma * _rms_dependence(final, test_sheets)))
     thing = "tendon" if name in getattr(scenario.mechanism, "tendons", ()) else "joint"
     seen = tuple(fit_sheets), tuple(test_sheets)
-    return PlaceOutcome(name, selected, tuple(nuisances), believed, *seen, scores, floor, thing, random)
+    return PlaceOutcome(name, selected, tuple(nuisances), believed, *seen, scores, floor, thing, random, undelayed)
 
 
 def _require_sliding(sheets: Sequence[Sheet], name: str, role: str) -> None:

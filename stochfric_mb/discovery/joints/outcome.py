@@ -38,6 +38,8 @@ class PlaceOutcome:
     """What the place is: a joint, or a tendon."""
     random: StrokeScatter | None = None
     """Scatter of friction from stroke to stroke; None: too few strokes."""
+    undelayed: JointModel | None = None
+    """The recalibrated model without the delay that was found; None: none was."""
 
 
 @dataclasses.dataclass(frozen=True)

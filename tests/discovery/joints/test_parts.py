@@ -101,6 +101,15 @@ def test_one_effect_is_named_and_measured(friction, kind, name, truth):
     assert result.gap.closed > 0.9
 
 
+def test_a_slide_is_simulated_again_from_measured_states():
+    pytest.importorskip("mujoco", reason="the slide runs in MuJoCo")
+    scores = joint_outcome(pair(grease)).places[0].scores
+    before, after = scores["recalibrated"].forward, scores["augmented"].forward
+    # half a second after a start whose velocity is known to 1e-4 m/s, with a drive that is held for 1 ms
+    assert after < 5e-4
+    assert before > 10.0 * after
+
+
 def test_a_delay_is_named_first_and_is_not_friction():
     result = joint_outcome(pair(coulomb, delay=0.012)).result
     assert [e.kind for e in result.effects] == ["sensor_delay"]
