@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import contextlib
-import functools
 from collections.abc import Callable, Iterator
 from typing import Any, Protocol
 
-import exudyn
-
+from stochfric_mb.exudyn import methods
 from stochfric_mb.exudyn.stepping import advance
 from stochfric_mb.exudyn.symbolic import symbolic
 
 SWITCH_ERROR = 10.0
 """Error that makes Exudyn repeat a step with the recommended size (its tolerance is set below it)."""
-_KEY = "stochfric_mb"
 
 
 class Contact(Protocol):
@@ -93,10 +90,10 @@ class Hooks:
     @classmethod
     def of(cls, mbs: Any) -> Hooks:
         """Return the hooks of a system, made at the first call, and anew where the system was reset."""
-        hooks = mbs.variables.get(_KEY)
+        hooks = mbs.variables.get(methods.KEY)
         if hooks is None or (hooks._own and installed(mbs, "PostStep") is None):
-            _watch_methods()
-            hooks = mbs.variables[_KEY] = cls(mbs)
+            methods.wrap()
+            hooks = mbs.variables[methods.KEY] = cls(mbs)
         return hooks
 
     def install(self, *, locate: bool) -> None:
@@ -112,13 +109,13 @@ class Hooks:
 
     def chain(self, slot: str, function: Any) -> None:
         """Take a function that the user puts in a slot, 0 for none, to be called after ours."""
-        _SETTERS[slot](self._mbs, function)
+        methods.fill(self._mbs, slot, function)
         self._other[slot] = installed(self._mbs, slot)
         self._fill()
 
     def _fill(self) -> None:
         self._own = {"PostStep": self._post_step(), "PostNewton": self._post_newton()}
-        _SETTERS["PostStep"](self._mbs, self._own["PostStep"])
+        methods.fill(self._mbs, "PostStep", self._own["PostStep"])
         self.watch()
 
     @contextlib.contextmanager
@@ -127,20 +124,20 @@ class Hooks:
         there = {slot: installed(self._mbs, slot) for slot in ("PreStep", "PostStep", "PostNewton")}
         try:
             for slot in there:
-                _set(self._mbs, slot, 0)
+                methods.fill(self._mbs, slot, 0)
             yield
         finally:
             for slot, function in there.items():
-                _set(self._mbs, slot, function or 0)
+                methods.fill(self._mbs, slot, function or 0)
 
     def watch(self) -> None:
         """Put PostNewton in place while it is needed, and take it away otherwise: it costs as much as a step."""
         other = self._other["PostNewton"]
         needed = self._locating and (other is not None or any(c.watched for c in self.contacts))
         if needed or any(c.unsure for c in self.contacts):
-            _SETTERS["PostNewton"](self._mbs, self._own["PostNewton"])
+            methods.fill(self._mbs, "PostNewton", self._own["PostNewton"])
         else:
-            _SETTERS["PostNewton"](self._mbs, other or 0)
+            methods.fill(self._mbs, "PostNewton", other or 0)
 
     def _post_step(self) -> Callable[[Any, float], bool]:
         """Return the function that commits all contacts, then calls the user's (a closure: it runs every step)."""
@@ -172,67 +169,6 @@ class Hooks:
             return [max(abs(error), SWITCH_ERROR), min(steps if step < 0.0 else [*steps, step])]
 
         return post_newton
-
-
-_SETTERS: dict[str, Callable[[Any, Any], None]] = {}
-"""Slot -> Exudyn's own method that fills it."""
-_SOLVE: list[Callable[..., Any]] = []
-"""Exudyn's own method that solves."""
-
-
-def solve(mbs: Any, settings: Any, **options: Any) -> bool:
-    """Return what Exudyn's SolveDynamic returns, contacts as they are."""
-    return _SOLVE[0](mbs, settings, **options) if _SOLVE else mbs.SolveDynamic(settings, **options)
-
-
-def _watch_methods() -> None:
-    """Have systems with friction chain what the user puts in the slots, and start contacts afresh when they are solved.
-
-    A function of the user's alone would keep contacts from committing; and implicit solvers ask for the force once before
-    any function of ours is called.
-    """
-    for slot in ("PostStep", "PostNewton"):
-        if slot not in _SETTERS:
-            _SETTERS[slot] = getattr(exudyn.MainSystem, f"Set{slot}UserFunction")
-            setattr(exudyn.MainSystem, f"Set{slot}UserFunction", _chaining(slot))
-    if not _SOLVE:
-        _SOLVE.append(exudyn.MainSystem.SolveDynamic)
-        exudyn.MainSystem.SolveDynamic = _starting(_SOLVE[0])
-
-
-def _starting(method: Callable[..., Any]) -> Callable[..., Any]:
-    @functools.wraps(method)
-    def solve_dynamic(mbs: Any, *arguments: Any, **options: Any) -> Any:
-        hooks = mbs.variables.get(_KEY)
-        settings = arguments[0] if arguments else options.get("simulationSettings")
-        if isinstance(hooks, Hooks) and settings is not None:
-            integration = settings.timeIntegration
-            dt = (integration.endTime - integration.startTime) / max(integration.numberOfSteps, 1)
-            for contact in hooks.contacts:
-                contact.begin(dt, integration.startTime)
-        return method(mbs, *arguments, **options)
-
-    return solve_dynamic
-
-
-def _chaining(slot: str) -> Callable[[Any, Any], None]:
-    def set_function(mbs: Any, value: Any) -> None:
-        hooks = mbs.variables.get(_KEY)
-        if isinstance(hooks, Hooks):
-            hooks.chain(slot, value)
-        else:
-            _SETTERS[slot](mbs, value)
-
-    set_function.__doc__ = _SETTERS[slot].__doc__
-    return set_function
-
-
-def _set(mbs: Any, slot: str, function: Any) -> None:
-    """Put a function in a slot as it is."""
-    if slot in _SETTERS:
-        _SETTERS[slot](mbs, function)
-    else:
-        getattr(mbs, f"Set{slot}UserFunction")(function)
 
 
 def installed(mbs: Any, slot: str) -> Callable[..., Any] | None:

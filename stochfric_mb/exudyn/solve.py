@@ -5,21 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import exudyn
-import numpy as np
 
-from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_name
-from stochfric_mb.exudyn.hooks import SWITCH_ERROR, Hooks, solve
+from stochfric_mb.errors import InputError, SimulationError, require_name
+from stochfric_mb.exudyn.hooks import SWITCH_ERROR, Hooks
+from stochfric_mb.exudyn.methods import solve
 from stochfric_mb.exudyn.normal import NO_REACTION
+from stochfric_mb.exudyn.outcome import EXPLICIT, SOLVERS, Outcome
 
-_TYPE = exudyn.DynamicSolverType
-SOLVERS = {
-    "rk44": _TYPE.RK44,
-    "generalized_alpha": _TYPE.GeneralizedAlpha,
-    "dopri5": _TYPE.DOPRI5,
-    "velocity_verlet": _TYPE.VelocityVerlet,
-}
-"""Name of a solver -> Exudyn's own."""
-EXPLICIT = ("rk44", "dopri5", "velocity_verlet")
 TRIAL = 1.0e-2
 """Part of a step after which reactions at the start are taken."""
 
@@ -59,16 +51,14 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     """
     require_name("solver", solver, SOLVERS)
     integration = settings.timeIntegration
-    dt = (integration.endTime - integration.startTime) / integration.numberOfSteps
-    where = f"Exudyn ({solver}, dt = {dt:g} s)"
     hooks = Hooks.of(mbs)
-    limited = solver in EXPLICIT and not (solver == "dopri5" and integration.automaticStepSize)
+    outcome = Outcome(hooks.contacts, solver, integration)
+    dt = outcome.dt
     if solver in EXPLICIT and any(contact.needs_reactions for contact in hooks.contacts):
         raise InputError(NO_REACTION)
     for contact in hooks.contacts:
         contact.prepare(dt, integration.startTime)
-    if limited and (broken := _broken_limit(hooks, dt)):
-        raise StabilityError(f"{where}: {broken}")
+    outcome.require_step()
     hooks.install(locate=locate)
     _settle_settings(mbs, integration, hooks, dt if locate else 0.0)
     printed, exudyn.config.printToConsole = exudyn.config.printToConsole, False
@@ -78,18 +68,11 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     except exudyn.ExudynError as error:
         if isinstance(error.__cause__, Exception):
             raise error.__cause__ from error.__cause__.__cause__
-        raise SimulationError(f"{where} failed: {error}") from error
+        raise SimulationError(f"{outcome.where} failed: {error}") from error
     finally:
         exudyn.config.printToConsole = printed
         hooks.install(locate=False)
-    broken = (_broken_limit(hooks, dt) if limited else "") or "use a smaller step or another solver"
-    if not success:
-        raise SimulationError(f"{where} gave up: {broken}")
-    state = np.concatenate([mbs.systemData.GetODE2Coordinates(), mbs.systemData.GetODE2Coordinates_t()])
-    if not np.all(np.isfinite(state)):
-        raise SimulationError(f"{where} reported success with a state that is not finite: {broken}")
-    if limited and (broken := _broken_limit(hooks, dt)):
-        raise SimulationError(f"{where} reported success, but the outcome is not to be trusted: {broken}")
+    outcome.require_success(mbs, success)
 
 
 def _find_reactions(mbs: Any, settings: Any, solver: str, hooks: Hooks, dt: float) -> None:
@@ -113,17 +96,6 @@ def _find_reactions(mbs: Any, settings: Any, solver: str, hooks: Hooks, dt: floa
             solve(mbs, trial, solverType=SOLVERS[solver], showHints=False)
             for contact in contacts:
                 contact.guess_normal(None)
-
-
-def _broken_limit(hooks: Hooks, dt: float) -> str:
-    """Return what says that dt [s] is beyond a contact's limit for explicit solvers, "" if it is not."""
-    limit, formula = min((contact.step_limit() for contact in hooks.contacts), default=(np.inf, ""))
-    if dt <= limit:
-        return ""
-    return (
-        f"dt is beyond the stability limit {limit:.3g} s ({formula}) of an explicit solver; use dt <= {0.5 * limit:.2g} s or "
-        "solver='generalized_alpha'"
-    )
 
 
 def _settle_settings(mbs: Any, integration: Any, hooks: Hooks, dt: float) -> None:

@@ -697,6 +697,22 @@ def test_success_beyond_the_limit_is_an_error() -> None:
         solve_dynamic(mbs, silent_settings(5e-5, 0.1), solver="rk44")
 
 
+def test_exudyns_own_solve_is_checked_too() -> None:
+    """Explicit solvers return True with nonsense, where the law's limit is not kept or a load is not a number."""
+    own = {"solverType": SOLVERS["rk44"], "showHints": False}
+    mbs, _, ground, slide = without_friction(scenario().mechanism)
+    add_friction(mbs, ground, slide, make_law("havsin", mu_s=0.8, mu_k=0.5), normal_force=13.0, effective_mass=6.08)
+    mbs.Assemble()
+    with pytest.raises(StabilityError, match=r"law havsin: 4 v_s m_eff/\(pi mu_s N\)"):
+        mbs.SolveDynamic(silent_settings(1e-3, 0.1), **own)
+    assert mbs.SolveDynamic(silent_settings(1e-3, 0.1), showHints=False)  # GeneralizedAlpha, Exudyn's default, has no limit
+    assert mbs.SolveDynamic(silent_settings(2e-5, 0.01), **own)
+    mbs.AddLoad(LoadCoordinate(markerNumber=slide, load=0.0, loadUserFunction=lambda *_: math.nan))
+    mbs.Assemble()
+    with pytest.raises(SimulationError, match="reported success with a state that is not finite"):
+        mbs.SolveDynamic(silent_settings(2e-5, 0.01), **own)
+
+
 class MineError(Exception):
     pass
 

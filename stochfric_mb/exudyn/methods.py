@@ -1,0 +1,78 @@
+"""Three methods of Exudyn's systems, wrapped so that friction survives what a script does with them.
+
+A PostStep function of the user's alone would keep contacts from committing; implicit solvers ask for the force once before
+any function of ours is called; and a solver's success says little. Systems without friction are left alone.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import exudyn
+
+from stochfric_mb.exudyn.outcome import SOLVERS, Outcome
+
+KEY = "stochfric_mb"
+"""Where a system's variables hold its hooks."""
+_SETTERS: dict[str, Callable[[Any, Any], None]] = {}
+"""Slot -> Exudyn's own method that fills it."""
+_SOLVE: list[Callable[..., Any]] = []
+"""Exudyn's own method that solves."""
+
+
+def fill(mbs: Any, slot: str, function: Any) -> None:
+    """Put a function in one of the system's slots as it is, 0 for none."""
+    if slot in _SETTERS:
+        _SETTERS[slot](mbs, function)
+    else:
+        getattr(mbs, f"Set{slot}UserFunction")(function)
+
+
+def solve(mbs: Any, settings: Any, **options: Any) -> bool:
+    """Return what Exudyn's SolveDynamic returns, contacts as they are."""
+    return (_SOLVE[0] if _SOLVE else exudyn.MainSystem.SolveDynamic)(mbs, settings, **options)
+
+
+def wrap() -> None:
+    """Have systems with friction chain what the user puts in the slots, and start contacts afresh when they are solved."""
+    for slot in ("PostStep", "PostNewton"):
+        if slot not in _SETTERS:
+            _SETTERS[slot] = getattr(exudyn.MainSystem, f"Set{slot}UserFunction")
+            setattr(exudyn.MainSystem, f"Set{slot}UserFunction", _chaining(slot))
+    if not _SOLVE:
+        _SOLVE.append(exudyn.MainSystem.SolveDynamic)
+        exudyn.MainSystem.SolveDynamic = _checked(_SOLVE[0])
+
+
+def _chaining(slot: str) -> Callable[[Any, Any], None]:
+    def set_function(mbs: Any, value: Any) -> None:
+        hooks = mbs.variables.get(KEY)
+        if hooks is None:
+            fill(mbs, slot, value)
+        else:
+            hooks.chain(slot, value)
+
+    set_function.__doc__ = _SETTERS[slot].__doc__
+    return set_function
+
+
+def _checked(method: Callable[..., Any]) -> Callable[..., Any]:
+    @functools.wraps(method)
+    def solve_dynamic(mbs: Any, simulationSettings: Any = None, solverType: Any = None, *arguments: Any, **options: Any) -> Any:
+        hooks = mbs.variables.get(KEY)
+        if hooks is None or not hooks.contacts or simulationSettings is None:
+            return method(mbs, simulationSettings, solverType, *arguments, **options)
+        kind = SOLVERS["generalized_alpha"] if solverType is None else solverType
+        name = next((name for name, known in SOLVERS.items() if known == kind), str(kind))
+        outcome = Outcome(hooks.contacts, name, simulationSettings.timeIntegration, masses_needed=False)
+        for contact in hooks.contacts:
+            contact.begin(outcome.dt, simulationSettings.timeIntegration.startTime)
+        outcome.require_step()
+        success = method(mbs, simulationSettings, solverType, *arguments, **options)
+        if success:
+            outcome.require_success(mbs, success)
+        return success
+
+    return solve_dynamic
