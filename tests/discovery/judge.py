@@ -51,6 +51,9 @@ class Verdict:
     closed: float | None
     """Closed share of the gap; None if none was reducible."""
     seconds: float
+    reproduced: float | None = None
+    """Share that `augmented.toml` closes when it is re-simulated alone, less the reported share; None if that was not done
+    or nothing was reducible."""
 
     @property
     def counted(self) -> bool:
@@ -58,8 +61,8 @@ class Verdict:
         return self.visible and self.strength >= COUNTED_STRENGTH and "+" not in self.kind
 
 
-def judge(truth: dict[str, Any], result: dict[str, Any] | None, seconds: float) -> Verdict:
-    """Compare a result (None: the run failed) with the truth record of its case."""
+def judge(truth: dict[str, Any], result: dict[str, Any] | None, seconds: float, again: dict[str, Any] | None = None) -> Verdict:
+    """Compare a result (None: the run failed) with the truth record of its case; `again`: a second scoring of the gap."""
     case = truth["case"]
     named = (result or {}).get("effects") or []
     kinds = [effect["kind"] for effect in named]
@@ -83,6 +86,7 @@ def judge(truth: dict[str, Any], result: dict[str, Any] | None, seconds: float) 
         all_named=all(any(kind in names for names in classes) for kind in truth["kinds"]),
         closed=_closed(result),
         seconds=seconds,
+        reproduced=_reproduced(_closed(result), again),
     )
 
 
@@ -93,6 +97,12 @@ def _closed(result: dict[str, Any] | None) -> float | None:
     if closed is None or not recalibrated or floor is None or (recalibrated - floor) / recalibrated < REDUCIBLE:
         return None
     return float(closed)
+
+
+def _reproduced(closed: float | None, again: dict[str, Any] | None) -> float | None:
+    if closed is None or again is None or again["closed"] is None:
+        return None
+    return float(again["closed"]) - closed
 
 
 def summary(verdicts: list[Verdict]) -> dict[str, dict[str, Any]]:
@@ -119,6 +129,7 @@ def shares(members: list[Verdict]) -> dict[str, tuple[float | None, int]]:
     hidden = [v for v in members if not v.visible]
     pairs = [v for v in members if "+" in v.kind and v.strength >= COUNTED_STRENGTH]
     closed = [v.closed for v in effects if v.closed is not None]
+    reproduced = [v.reproduced for v in members if v.reproduced is not None]
     return {
         "top-1 name right": _share([v.top_1 for v in effects]),
         "truth in the reported class": _share([v.in_class for v in effects]),
@@ -127,6 +138,8 @@ def shares(members: list[Verdict]) -> dict[str, tuple[float | None, int]]:
         "forced into a wrong name": _share([v.answer not in (UNKNOWN, NONE, "failed") and not v.top_1 for v in unknowns]),
         "gap closed, median": (float(np.median(closed)) if closed else None, len(closed)),
         "gap closed, 10 % quantile": (float(np.quantile(closed, 0.1)) if closed else None, len(closed)),
+        "augmented.toml re-simulated alone: closed share less the reported one, median": _quantile(reproduced, 0.5),
+        "the same, 10 % quantile": _quantile(reproduced, 0.1),
         "seconds a case, median": _quantile([v.seconds for v in members], 0.5),
         "seconds a case, 90 % quantile": _quantile([v.seconds for v in members], 0.9),
         "the very name, not only one that cannot be told apart": _share([v.exact for v in effects]),

@@ -19,6 +19,7 @@ from typing import Any
 
 from . import judge, plan
 from .generator.case import Case, write
+from .resimulate import rescored
 
 Discover = Callable[[Path, Path], None]
 """(dataset folder, output folder): leaves result.json in the output folder."""
@@ -39,11 +40,19 @@ def by_command(dataset: Path, out: Path) -> None:
         sys.argv = before
 
 
-def run_case(case: Case, out: Path, discover: Discover, limit: float, *, keep: bool = False) -> dict[str, Any]:
-    """Generate, discover, and store what came; a failure is stored as an answer, too."""
+def run_case(
+    case: Case, out: Path, discover: Discover, limit: float, *, keep: bool = False, rescore: bool = False
+) -> dict[str, Any]:
+    """Generate, discover, and store what came; a failure is stored as an answer, too.
+
+    With `rescore` what `augmented.toml` closes of the gap by itself is stored beside what the result claims.
+    """
     dataset, answer = out / "datasets" / case.name, out / "answers" / case.name
     truth = write(case, dataset, out / "truth" / f"{case.name}.json")
     stored = answered(truth, dataset, answer, discover, limit)
+    if rescore and stored["result"] and stored["result"]["verdict"] == "effect":
+        again = rescored(dataset, answer)
+        stored["rescored"] = again and {**asdict(again), "closed": again.closed}
     file = _file(case, out)
     file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(json.dumps(stored, indent=1))
@@ -76,15 +85,18 @@ def run(
     limit: float = 300.0,
     keep: bool = False,
     retry: bool = False,
+    rescore: bool = False,
 ) -> list[judge.Verdict]:
     """Run the cases that are not yet stored (with `retry` also those that failed) and judge all; writes the summaries."""
     open_cases = [case for case in cases if not _finished(_file(case, out), retry=retry)]
     if jobs == 1:
         for i, case in enumerate(open_cases):
-            _say(i, len(open_cases), case, run_case(case, out, discover, limit, keep=keep))
+            _say(i, len(open_cases), case, run_case(case, out, discover, limit, keep=keep, rescore=rescore))
     else:
         with ProcessPoolExecutor(jobs) as pool:
-            waiting = {pool.submit(run_case, case, out, discover, limit, keep=keep): case for case in open_cases}
+            waiting = {
+                pool.submit(run_case, case, out, discover, limit, keep=keep, rescore=rescore): case for case in open_cases
+            }
             for i, done in enumerate(as_completed(waiting)):
                 _say(i, len(open_cases), waiting[done], done.result())
     verdicts = [judged(json.loads(_file(case, out).read_text())) for case in cases]
@@ -116,7 +128,7 @@ def _time_limit(seconds: float) -> Iterator[None]:
 
 def judged(stored: dict[str, Any]) -> judge.Verdict:
     """The verdict on what is stored of a case."""
-    return judge.judge(stored["truth"], stored["result"], stored["seconds"])
+    return judge.judge(stored["truth"], stored["result"], stored["seconds"], stored.get("rescored"))
 
 
 def _say(i: int, n: int, case: Case, stored: dict[str, Any]) -> None:
@@ -157,6 +169,7 @@ def main() -> None:
     parser.add_argument("--limit", type=float, default=300.0, help="seconds for one case")
     parser.add_argument("--keep", action="store_true", help="keep datasets and answers")
     parser.add_argument("--retry", action="store_true", help="run cases again that failed before")
+    parser.add_argument("--rescore", action="store_true", help="score each augmented.toml a second time, alone")
     parser.add_argument("--list", action="store_true", help="print the cases and end")
     chosen = parser.parse_args()
     cases = plan.selected(plan.cases(chosen.seeds), set(chosen.kind), set(chosen.design), set(chosen.strength))
@@ -168,7 +181,7 @@ def main() -> None:
         return
     if chosen.out is None:
         parser.error("--out DIR is needed")
-    run(cases, chosen.out, jobs=chosen.jobs, limit=chosen.limit, keep=chosen.keep, retry=chosen.retry)
+    run(cases, chosen.out, jobs=chosen.jobs, limit=chosen.limit, keep=chosen.keep, retry=chosen.retry, rescore=chosen.rescore)
     print((chosen.out / "summary.md").read_text())
 
 
