@@ -218,10 +218,10 @@ def _keeps_sigma(averaged: statistics.Estimate) -> str:
 def _smooth_paths(scenario: Scenario, settings: Settings, seed: int) -> tuple[Mend, ...]:
     """Return the standard deviation of processes with a correlation time, measured as that of the paper's knots."""
     assert scenario.process is not None
-    sigmas = {"sigma_s": scenario.process.sigma_s, "sigma_k": scenario.process.sigma_k}
+    sigma_s, sigma_k = scenario.process.sigma_s, scenario.process.sigma_k
     found: list[Mend] = []
     for cls in (Matern, OrnsteinUhlenbeck):
-        process = cls(correlation_time=SMOOTH_TIME, spacing=SMOOTH_TIME / 10.0, **sigmas)
+        process = cls(correlation_time=SMOOTH_TIME, spacing=SMOOTH_TIME / 10.0, sigma_s=sigma_s, sigma_k=sigma_k)
         measured = measure_interpolation(dataclasses.replace(scenario, process=process), settings, seed)
         averaged = statistics.mean(measured.batches / _unbiased(PATH_BATCH) @ SIMPSON)
         number = of_estimate(
