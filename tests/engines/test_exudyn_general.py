@@ -136,7 +136,16 @@ def box_as_force(s: Scenario, seed: int):
     return mbs, add_friction_load(mbs, markers[1], Friction(s.law, s.process), **options, **plane)
 
 
-ROUTES = [box_on_coordinates, box_on_position, box_on_contact, box_as_load, box_as_force]
+def box_on_turning_plane(s: Scenario, seed: int):
+    """The belt-box in a plane that would turn with the box."""
+    m = s.mechanism
+    mbs, markers = box_in_space(s, rigid=True)
+    options = {"normal_force": m.normal_force, "effective_mass": m.mass, "seed": seed}
+    plane = {"normal": (0.0, 1.0, 0.0), "surface_velocity": (m.belt_velocity, 0.0, 0.0), "normal_turns_with": "marker1"}
+    return mbs, add_friction(mbs, *markers, Friction(s.law, s.process), **options, **plane)
+
+
+ROUTES = [box_on_coordinates, box_on_position, box_on_contact, box_on_turning_plane, box_as_load, box_as_force]
 
 
 @pytest.mark.parametrize("route", ROUTES)
@@ -645,7 +654,7 @@ def test_the_bristle_says_what_it_cannot_do(friction, message: str) -> None:
 # --- sensors, errors, manners -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("route", [box_on_coordinates, box_on_contact, box_as_load])
+@pytest.mark.parametrize("route", [box_on_coordinates, box_on_contact, box_on_turning_plane, box_as_load])
 def test_force_stick_and_coefficients_are_sensors(route) -> None:
     s = scenario(duration=1.2)
     mbs, contact = route(s, 1)

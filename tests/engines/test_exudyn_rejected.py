@@ -19,33 +19,12 @@ from stochfric_mb.coefficients import Knots
 from stochfric_mb.exudyn import add_friction, add_joint_friction, silent_settings, solve_dynamic
 from stochfric_mb.friction import Friction
 from stochfric_mb.laws import make_law
-from stochfric_mb.scenario import Scenario
-from tests.engines.test_exudyn_general import (
-    box_as_force,
-    box_as_load,
-    box_in_space,
-    box_on_contact,
-    box_on_coordinates,
-    box_on_position,
-    scenario,
-)
+from tests.engines.test_exudyn_general import ROUTES, scenario
 
 DT = 1e-3
 FRICTION = Friction(
     make_law("elastic_stick", mu_s=0.8, mu_k=0.5, decay_velocity=0.0), Knots(sigma_s=0.03, sigma_k=0.03, spacing=0.01)
 )
-
-
-def box_on_turning_plane(s: Scenario, seed: int):
-    """The belt-box in a plane that would turn with the box."""
-    m = s.mechanism
-    mbs, markers = box_in_space(s, rigid=True)
-    options = {"normal_force": m.normal_force, "effective_mass": m.mass, "seed": seed}
-    plane = {"normal": (0.0, 1.0, 0.0), "surface_velocity": (m.belt_velocity, 0.0, 0.0), "normal_turns_with": "marker1"}
-    return mbs, add_friction(mbs, *markers, Friction(s.law, s.process), **options, **plane)
-
-
-ROUTES = [box_on_coordinates, box_on_position, box_on_contact, box_on_turning_plane, box_as_load, box_as_force]
 
 
 class Watch:
