@@ -146,6 +146,44 @@ def test_a_spinning_ball_moves_along_a_parabola_and_then_straight(normal) -> Non
     np.testing.assert_allclose(velocity - radius * np.cross(omega, n), 0.0, atol=5e-5)
 
 
+@pytest.mark.parametrize("mu", [0.1, 0.3])
+@pytest.mark.parametrize("solver", ["rk44", "generalized_alpha"])
+def test_a_ball_rolls_or_slides_down_an_incline_on_ground(mu: float, solver: str) -> None:
+    """Rolling, 5/7 g sin(theta), as long as mu_s > 2/7 tan(theta); otherwise g (sin(theta) - mu cos(theta))."""
+    slope, mass, radius = 0.5, 2.0, 0.05
+    tilt = RotationVector2RotationMatrix(np.array([0.0, 0.0, -slope]))  # x down the slope, y its normal
+    mbs = exudyn.SystemContainer().AddSystem()
+    place = exudyn.HT(rotation=tilt, translation=[0.3, 0.1, 0.0])
+    incline = mbs.AddMarker(MarkerBodyRigid(bodyNumber=mbs.AddObject(ObjectGround()), localHT=place))
+    down, n = tilt[:, 0], tilt[:, 1]
+    stiffness = 1e6
+    centre = np.array([0.3, 0.1, 0.0]) + (radius - mass * G * math.cos(slope) / stiffness) * n
+    ball = free_body(mbs, mass, 0.4 * mass * radius**2, referencePosition=centre, gravity=[0.0, -G, 0.0])
+    contact = add_friction(
+        mbs,
+        incline,
+        position_of(mbs, ball),
+        even(mu),
+        normal=(0, 1, 0),
+        radius=radius,
+        contact_stiffness=stiffness,
+        contact_damping=math.sqrt(stiffness * mass),
+        effective_mass=mass / 3.5,
+    )
+    mbs.Assemble()
+    solve_dynamic(mbs, silent_settings(2e-4, 0.3), solver=solver)
+    rolls = mu > 2.0 / 7.0 * math.tan(slope)
+    acceleration = 5.0 / 7.0 * G * math.sin(slope) if rolls else G * (math.sin(slope) - mu * math.cos(slope))
+    velocity, omega = coordinates(mbs, ball)
+    # the elastic stick takes up its load within its first swing, which is worth e_lim omega_n = 3 mm/s at most
+    np.testing.assert_allclose(velocity, acceleration * 0.3 * down, atol=3e-3)
+    if rolls:
+        assert contact.stick
+        assert omega[2] == pytest.approx(-(velocity @ down) / radius, rel=2e-3)
+    assert contact.normal_force == pytest.approx(mass * G * math.cos(slope), rel=1e-4)
+    np.testing.assert_allclose(contact.force, -mass * (G * math.sin(slope) - acceleration) * down, rtol=2e-2, atol=2e-2)
+
+
 # --- a counter-surface that turns -------------------------------------------------------------------------------------
 
 
