@@ -12,11 +12,14 @@ import pytest
 exudyn = pytest.importorskip("exudyn", reason="exudyn is not installed")
 
 from exudyn.itemInterface import (
+    CoordinateConstraint,
     Force,
     MarkerBodyPosition,
     MarkerBodyRigid,
+    MarkerNodeCoordinate,
     MassPoint,
     NodePoint,
+    NodePointGround,
     NodeRigidBody2D,
     ObjectGround,
     RigidBody2D,
@@ -92,6 +95,29 @@ def test_sliding_becomes_rolling(shape: str, share: float, solver: str) -> None:
     solve_dynamic(mbs, silent_settings(dt, 10.0 * round(rolls / dt) * dt), solver=solver)
     np.testing.assert_allclose(coordinates(mbs, body)[0], [v_0 / (1.0 + share), 0.0, 0.0], atol=1e-6)
     assert np.linalg.norm(contact.force) < 1e-4 * mu * mass * G
+
+
+def test_a_disc_rolls_under_the_reaction_of_a_constraint() -> None:
+    v_0, mass, radius, mu, dt = 0.6, 2.0, 0.05, 0.3, 1e-4
+    mbs = exudyn.SystemContainer().AddSystem()
+    ground = mbs.AddObject(ObjectGround())
+    node = mbs.AddNode(NodeRigidBody2D(initialVelocities=[v_0, 0.0, 0.0]))
+    body = mbs.AddObject(RigidBody2D(nodeNumber=node, mass=mass, inertia=0.5 * mass * radius**2))
+    markers = [position_of(mbs, b) for b in (ground, body)]
+    fixed = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0))
+    height = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=node, coordinate=1))
+    mbs.AddObject(CoordinateConstraint(name="floor", markerNumbers=[fixed, height]))
+    mbs.AddLoad(Force(markerNumber=markers[1], loadVector=[0.0, -mass * G, 0.0]))
+    options = {"normal": (0.0, 1.0, 0.0), "normal_force": "floor", "radius": radius, "effective_mass": mass / 3.0}
+    contact = add_friction(mbs, *markers, even(mu), **options)
+    mbs.Assemble()
+    rolls = v_0 / (3.0 * mu * G)
+    rows = contact.record(np.arange(0.0, rolls, 1e-3))
+    solve_dynamic(mbs, silent_settings(dt, 0.1), solver="generalized_alpha")
+    slides = rows[:, 0] < rolls - 2.0 * dt
+    np.testing.assert_allclose(-rows[slides, 2], v_0 * (1.0 - rows[slides, 0] / rolls), atol=1e-8)  # from the first step on
+    np.testing.assert_allclose(rows[1:, 7], mass * G, rtol=1e-9)
+    np.testing.assert_allclose(coordinates(mbs, body)[0], [2.0 / 3.0 * v_0, 0.0, 0.0], atol=1e-5)
 
 
 @pytest.mark.parametrize("normal", [(0.0, 0.0, 1.0), (1.0, 2.0, -3.0)])
