@@ -121,14 +121,14 @@ class Hooks:
     @contextlib.contextmanager
     def put_aside(self) -> Iterator[None]:
         """Empty the system's slots for a trial run that nobody is to notice, and fill them again after it."""
-        there = {slot: installed(self._mbs, slot) for slot in ("PreStep", "PostStep", "PostNewton")}
+        there = {slot: _content(self._mbs, slot) for slot in ("PreStep", "PostStep", "PostNewton")}
         try:
             for slot in there:
                 methods.fill(self._mbs, slot, 0)
             yield
         finally:
             for slot, function in there.items():
-                methods.fill(self._mbs, slot, function or 0)
+                methods.fill(self._mbs, slot, function)
 
     def watch(self) -> None:
         """Put PostNewton in place while it is needed, and take it away otherwise: it costs as much as a step."""
@@ -173,8 +173,13 @@ class Hooks:
 
 def installed(mbs: Any, slot: str) -> Callable[..., Any] | None:
     """Return the function in one of the system's slots, or None."""
-    there = getattr(mbs, f"Get{slot}UserFunction")()
-    function = there["function"] if isinstance(there, dict) else there
+    function = _content(mbs, slot)
     if isinstance(function, symbolic.UserFunction):
         return function.Evaluate
     return function if callable(function) else None
+
+
+def _content(mbs: Any, slot: str) -> Any:
+    """Return what is in one of the system's slots as it can be put there again: a function, a symbolic one, or 0."""
+    there = getattr(mbs, f"Get{slot}UserFunction")()
+    return there["function"] if isinstance(there, dict) else there
