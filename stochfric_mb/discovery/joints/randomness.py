@@ -31,6 +31,8 @@ FEWEST = 8
 """Fewest strokes beyond one in each setting."""
 APART = 4
 """Centres between windows that share no samples that matter."""
+REVERSAL = 10
+"""Longest reversal across which noise is followed [windows that share no samples]."""
 STEP = 1.0e-3
 """Relative change of mu_k by which friction's dependence on it is taken."""
 CONFIDENCE = 3.84
@@ -57,6 +59,8 @@ class StrokeScatter:
     """Part of the error (rms) that it is [-]."""
     correlation: float
     """Correlation of strokes that follow each other in one direction [-]."""
+    across: float
+    """Correlation of the force that is left just before a reversal with that just after it [-]."""
     strokes: int
     """Number of strokes."""
     level: float
@@ -70,9 +74,14 @@ class StrokeScatter:
         return self.correlation > 2.0 / np.sqrt(self.strokes)
 
     @property
+    def slow_noise(self) -> bool:
+        """Whether what is left goes on across reversals, where friction would turn: slow noise of the drive."""
+        return self.across > 2.0 / np.sqrt(self.strokes)
+
+    @property
     def named(self) -> bool:
         """Whether it is a finding."""
-        return self.score > NAMED and self.gain > MATERIAL and not self.wanders
+        return self.score > NAMED and self.gain > MATERIAL and not self.wanders and not self.slow_noise
 
     @property
     def accounted(self) -> bool:
@@ -97,10 +106,13 @@ def stroke_scatter(
     settings: list[int] = []
     squares: list[float] = []
     forces: list[float] = []
+    halves: list[float] = []
+    reversals: list[tuple[float, float]] = []
     for i, sheet in enumerate(sheets):
         rest = model.remainder(sheet, nuisances)
         along = dependence(model, sheet)
         edges = np.flatnonzero(np.diff(np.r_[0, sheet.sliding.astype(np.int8), 0]))
+        reversals += _across(rest, edges)
         for start, end in zip(edges[::2], edges[1::2], strict=True):
             r, f = rest[start:end], along[start:end]
             size = float(f @ f)
@@ -112,13 +124,17 @@ def stroke_scatter(
             within.append(float(np.mean((r - delta * f) ** 2)))
             precision.append(independent * size / (end - start))
             squares.append(float(np.mean(r**2)))
+            half = len(r) // 2
+            first, second = (float(f[p] @ r[p]) / max(float(f[p] @ f[p]), 1.0e-300) for p in (slice(half), slice(half, None)))
+            halves.append(0.25 * (first - second) ** 2)
             forces.append(size / (end - start))
             settings.append(2 * i + int(sheet.velocity[sheet.window.centres][start] > 0.0))
     groups = np.unique(settings, return_inverse=True)[1] if settings else np.zeros(0, dtype=np.int64)
     if len(deltas) - (int(groups.max(initial=-1)) + 1) < FEWEST:
         return None
     delta = np.array(deltas)
-    variance = float(np.mean(within)) / np.array(precision)
+    # noise as slow as a stroke shows in how its halves differ: independent ones would make this the variance of delta
+    variance = np.maximum(float(np.mean(within)) / np.array(precision), float(np.mean(halves)))
     grid = np.r_[0.0, np.sqrt(np.median(variance)) * np.logspace(-2.0, 2.5, 200)]
     deviance = np.array([_deviance(s, delta, variance, groups) for s in grid])
     best = int(np.argmin(deviance))
@@ -136,10 +152,27 @@ def stroke_scatter(
         p_value=0.5 * float(chi2.sf(fall, 1)) if fall > 0.0 else 1.0,
         gain=1.0 - float(np.sqrt(left)),
         correlation=_following(delta, sigma**2 + variance, groups),
+        across=_correlation(reversals),
         strokes=len(delta),
         level=force,
         believed=believed,
     )
+
+
+def _across(rest: Array, edges: npt.NDArray[np.int64]) -> list[tuple[float, float]]:
+    """Return what is left at the end of each stroke and at the start of the next one, where a stroke follows soon."""
+    found: list[tuple[float, float]] = []
+    for end, start in zip(edges[1:-1:2], edges[2::2], strict=True):
+        if start - end <= REVERSAL * APART:
+            found.append((float(rest[max(end - 2 * APART, 0) : end].mean()), float(rest[start : start + 2 * APART].mean())))
+    return found
+
+
+def _correlation(pairs: Sequence[tuple[float, float]]) -> float:
+    if len(pairs) < 4:
+        return 0.0
+    before, after = (np.array(x) for x in zip(*pairs, strict=True))
+    return float(before @ after / max(float(np.sqrt((before @ before) * (after @ after))), 1.0e-300))
 
 
 def dependence(model: JointModel, sheet: Sheet) -> Array:

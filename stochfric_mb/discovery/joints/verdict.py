@@ -222,7 +222,8 @@ def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
         if place.random is not None and place.random.low > 0.0 and not place.random.accounted:
             how = "wanders" if place.random.wanders else "scatters"
             share, strokes = 100.0 * place.random.share, place.random.strokes
-            remarks.append(f"friction {how} by {share:.1f} % from stroke to stroke ({strokes} strokes){_at(place)}")
+            why = "; it goes on across reversals, as slow noise of the drive does" if place.random.slow_noise else ""
+            remarks.append(f"friction {how} by {share:.1f} % from stroke to stroke ({strokes} strokes){_at(place)}{why}")
         if place.selected.found and place.selected.unknown:
             remarks.append(f"what remains depends on {place.selected.unknown}{_at(place)}; no known effect explains it")
     return remarks

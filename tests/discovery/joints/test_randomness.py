@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from stochfric_mb.discovery.joints import joint_outcome
 from stochfric_mb.scenario import any_scenario_from_dict
@@ -70,3 +71,16 @@ def test_strokes_that_resemble_those_before_are_not_drawn_anew():
     walks = [pair(drawn(s, memory=0.95)) for s in (4, 5, 6)]
     result = joint_outcome(longer(walks[0], walks[1:])).result
     assert "random_coefficients" not in [e.kind for e in result.effects]
+
+
+@pytest.mark.parametrize("seed", [1017, 1111])
+def test_slow_noise_of_the_force_is_no_friction(seed):
+    rng = np.random.default_rng(seed)
+
+    def noisy(run):
+        slow = lfilter([np.sqrt(1.0 - 0.995**2)], [1.0, -0.995], rng.standard_normal(len(run.time)))  # 0.2 s, half a stroke
+        return dataclasses.replace(run, channels={**run.channels, "force": run.channels["force"] + 0.2 * slow})
+
+    plain = pair(coulomb)
+    result = joint_outcome(dataclasses.replace(plain, runs=tuple(map(noisy, plain.runs)))).result
+    assert result.verdict == "none"
