@@ -65,7 +65,7 @@ def stops(places, numbers, at, f, q, end, h):
     address, state = places[q, 2], places[q, 3]
     if not slides(state, address) or not n.load(address + 8 * s.NORMAL) > 0.0:
         return False
-    gx, gy = law_at(state, address, end, h, numbers[q], at[q, VX], at[q, VY])
+    gx, gy = law_at(places[q], end, h, numbers[q], at[q, VX], at[q, VY])
     return math.hypot(f[q, 0], f[q, 1]) < (1.0 - FULL) * math.hypot(gx, gy)
 
 

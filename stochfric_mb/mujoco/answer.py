@@ -47,7 +47,7 @@ def answer(places, numbers, motion, f, response, q, end, h):
     row, w = numbers[q], response[q]
     vx, vy = take(places, motion, q)
     keep_free(row, w, h, vx, vy, f[q, 0], f[q, 1])
-    fx, fy = local_force(state, address, force_function(state), end, h, row, w, f[q, 0], f[q, 1])
+    fx, fy = local_force(state, address, places[q, 4], end, h, row, w, f[q, 0], f[q, 1])
     part = brake(row, w, h, fx, fy) if slides(state, address) else 1.0
     return part * fx, part * fy, part < 1.0
 
@@ -77,13 +77,8 @@ def brake(row, w, h, fx, fy):
 
 
 @compiled
-def force_function(state):
-    """Return the address of the law's force."""
-    return n.load_word(n.law_row(int(n.load(state + 8 * s.LAW))) + n.FORCE)
-
-
-@compiled
-def law_at(state, address, end, h, row, vx, vy):
-    """Return the law's force [N] at an end velocity."""
-    call(state, address, force_function(state), end, row[U0] + h * vx, row[U0 + 1] + h * vy, vx, vy, row[MU], row[MU + 1])
+def law_at(place, end, h, row, vx, vy):
+    """Return the law's force [N] at an end velocity; ``place`` is the contact's row of `implicit.gather`."""
+    address, state = place[2], place[3]
+    call(state, address, place[4], end, row[U0] + h * vx, row[U0 + 1] + h * vy, vx, vy, row[MU], row[MU + 1])
     return n.load(state + 8 * s.OUTPUT), n.load(state + 8 * (s.OUTPUT + 1))

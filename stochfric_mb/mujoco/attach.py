@@ -211,6 +211,18 @@ def colliding_pairs(spec: mujoco.MjSpec, body: str, surface: str) -> list[tuple[
     return [(other, surface) if body == ANY else (body, other) for other in others]
 
 
+def copied(spec: mujoco.MjSpec) -> mujoco.MjSpec:
+    """Return a copy of a spec with its plugin instances, which ``MjSpec.copy`` leaves out."""
+    copy: Any = spec.copy()
+    have = {p.name for p in copy.plugins}
+    for plugin in spec.plugins:
+        if plugin.name not in have:
+            made = copy.add_plugin(name=plugin.name, plugin_name=plugin.plugin_name, active=plugin.active)
+            made.config = dict(plugin.config)
+            copy.activate_plugin(plugin.plugin_name)
+    return copy
+
+
 def _can_collide(model: mujoco.MjModel, a: int, b: int) -> bool:
     """Return whether MuJoCo lets two geoms collide (its documentation, computation chapter, collision detection)."""
     pairs = {frozenset((int(i), int(j))) for i, j in zip(model.pair_geom1, model.pair_geom2, strict=True)}

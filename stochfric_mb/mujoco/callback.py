@@ -373,8 +373,9 @@ def evaluate_row(model, data, row):
 def keep_current(state, now):
     """Make the current slots the committed ones."""
     count = int(n.load(state + 8 * s.N_CURRENT))
-    for j in range(count * s.SLOT):
-        n.store(slot(state, 0, 0) + 8 * j, n.load(slot(state, 1, 0) + 8 * j))
+    source, target = slot(state, 1, 0), slot(state, 0, 0)
+    for j in range(0, 8 * count * s.SLOT, 8):
+        n.store(target + j, n.load(source + j))
     n.store(state + 8 * s.N_COMMITTED, float(count))
     n.store(state + 8 * s.ADVANCED, now)
 
@@ -404,7 +405,7 @@ def renew_normal_forces(model, data, state):
 def write_normal_forces(model, data, state):
     """Write the contacts' normal forces to the committed slots; new contacts get a slot without a law state."""
     body, surface = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
-    count, wrench = int(n.load(state + 8 * s.N_COMMITTED)), np.empty(6)
+    count, wrench = int(n.load(state + 8 * s.N_COMMITTED)), state + 8 * s.FORCE
     for i in range(n.int_field(data, n.D_NCON)):
         contact = contact_address(data, i)
         if side(contact, body, surface) == 0:
@@ -421,6 +422,6 @@ def write_normal_forces(model, data, state):
             n.store(address + 8 * s.GEOM_2, b + 1.0)
             n.store(address + 8 * s.ORDINAL, float(ordinal))
             n.store(address + 8 * s.LIVE, 0.0)
-        n.mj_contactForce(model, data, np.int32(i), wrench.ctypes.data)
-        n.store(address + 8 * s.NORMAL, max(wrench[0], 0.0))
+        n.mj_contactForce(model, data, np.int32(i), wrench)
+        n.store(address + 8 * s.NORMAL, max(n.load(wrench), 0.0))
     n.store(state + 8 * s.N_COMMITTED, float(count))

@@ -29,7 +29,8 @@ from stochfric_mb.laws.elastic_stick import ElasticStick
 from stochfric_mb.laws.substitute import MARGIN, elastic_substitute
 from stochfric_mb.mujoco import joints, probes
 from stochfric_mb.mujoco.advice import SLIDING, advice
-from stochfric_mb.mujoco.attach import add_friction, take_over
+from stochfric_mb.mujoco.attach import add_friction, copied, take_over
+from stochfric_mb.mujoco.encounters import covers, forgotten, own_pairs
 from stochfric_mb.mujoco.findings import SHARES, CheckResult, Findings, Row
 from stochfric_mb.mujoco.probes import Drift, Record, Slide, State
 from stochfric_mb.mujoco.sites import (
@@ -139,6 +140,8 @@ class _Bench:
         self.law, self.mu_k_ratio, self.duration = law, mu_k_ratio, duration
         self.state = probes.State(np.zeros(0), np.zeros(0))
         self.tail: dict[tuple[int, int], _Seen] = {}
+        self.met: set[frozenset[int]] = set()
+        self.duration_seen = 0.0
 
     def probe_time(self) -> float:
         """Return the simulated time of one site's probes, without slides [s]."""
@@ -153,6 +156,7 @@ class _Bench:
         advance = stage("settling", duration)
         for i in range(steps + 1):
             mujoco.mj_forward(model, data)
+            self.met.update(frozenset(pair) for pair in data.contact.geom[: data.ncon].tolist())
             if i >= (1.0 - TAIL) * steps:
                 _look(model, data, self.tail)
             if i < steps:
@@ -164,15 +168,21 @@ class _Bench:
                     "lower its timestep, or shorten the settling time"
                 )
         self.state = probes.snapshot(model, data)
+        self.duration_seen = float(data.time)
 
     def sites(self, most: int) -> tuple[list[tuple[AnySite, str]], list[str]]:
         """Return what has friction, each with the reason not to probe it (empty: probe), and what was left out."""
         notes: list[str] = []
         data = probes.started(self.model, self.state)
         rough = {g: seen for g, seen in self.tail.items() if seen.dim >= 3 and seen.mu[0] > FRICTIONLESS}
-        smooth = len(self.tail) - len(rough)
+        owned = own_pairs(self.model)
+        ours = [g for g in self.tail.keys() - rough.keys() if any(covers(pair, g) for pair in owned)]
+        smooth = len(self.tail) - len(rough) - len(ours)
+        if ours:
+            notes.append(f"{len(ours)} touching pair{'s have' if len(ours) > 1 else ' has'} friction of this package already")
         if smooth:
             notes.append(f"{smooth} touching pair{'s have' if smooth > 1 else ' has'} no friction (condim 1 or mu 0)")
+        notes += forgotten(self.model, self.met, self.duration_seen)
         loaded = sorted(rough.items(), key=lambda item: -item[1].normal)
         found: list[tuple[AnySite, str]] = []
         for number, (geoms, seen) in enumerate(loaded):
@@ -302,7 +312,7 @@ class _Bench:
         if isinstance(site, ContactPair):
             if self.spec is None:
                 return None
-            spec = self.spec.copy()
+            spec = copied(self.spec)
             take_over(spec, *site.names)
             return spec.compile()
         model = copy.copy(self.model)
@@ -338,7 +348,7 @@ class _Bench:
         """Return the model with our law at the site, or why it cannot be had."""
         if self.spec is None:
             return None, None, "a binary model cannot be changed; give the XML"
-        spec = self.spec.copy()
+        spec = copied(self.spec)
         try:
             if isinstance(site, ContactPair):
                 contacts = len(pair_contacts(probes.started(self.model, self.state), site.geoms))
@@ -361,7 +371,7 @@ def load(model: str | Path | mujoco.MjSpec) -> tuple[mujoco.MjSpec | None, mujoc
         InputError: there is no such file, or MuJoCo cannot load it.
     """
     if isinstance(model, mujoco.MjSpec):
-        spec = model.copy()
+        spec = copied(model)
         return spec, _compiled(spec, "the spec")
     path = _located(Path(model))
     try:

@@ -471,12 +471,13 @@ def finish(model, data, state):
     """Commit the current slots when the engine accepts a step, with the normal forces of its last solution."""
     count = int(n.load(state + 8 * s.N_CURRENT))
     n_slots = int(n.load(state + 8 * s.N_SLOTS))
-    for j in range(count * s.SLOT):
-        n.store(slot(state, 0, 0) + 8 * j, n.load(slot(state, 1, 0) + 8 * j))
+    source, target = slot(state, 1, 0), slot(state, 0, 0)
+    for j in range(0, 8 * count * s.SLOT, 8):
+        n.store(target + j, n.load(source + j))
     for k in range(count):
         n.store(slot(state, 0, k) + 8 * s.NORMAL, 0.0)
     body, surface = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
-    wrench = np.empty(6)
+    wrench = state + 8 * s.FORCE
     k = 0
     for i in range(n.int_field(data, n.D_NCON)):
         contact = contact_address(data, i)
@@ -496,8 +497,8 @@ def finish(model, data, state):
             n.store(address + 8 * s.GEOM_2, b + 1.0)
             n.store(address + 8 * s.ORDINAL, float(ordinal))
             n.store(address + 8 * s.LIVE, 0.0)
-        n.mj_contactForce(model, data, np.int32(i), wrench.ctypes.data)
-        n.store(address + 8 * s.NORMAL, max(wrench[0], 0.0))
+        n.mj_contactForce(model, data, np.int32(i), wrench)
+        n.store(address + 8 * s.NORMAL, max(n.load(wrench), 0.0))
     n.store(state + 8 * s.N_COMMITTED, float(count))
     n.store(state + 8 * s.ADVANCED, n.number_field(data, n.D_TIME))
     n.store(state + 8 * s.STARTED, 0.0)

@@ -21,7 +21,7 @@ from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import config, dof
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.options import CHECKER, options_allow
+from stochfric_mb.mujoco.options import CHECKER, options_allow, require_passive_forces
 from stochfric_mb.mujoco.plugin import UNSET, register
 from stochfric_mb.mujoco.registration import register_plugin
 
@@ -199,7 +199,10 @@ def _compute(model, data, instance, capability):
 
 
 def _advance(model, data, instance):
-    dof.finish(data, dof.state_of(model, data, instance))
+    state = dof.state_of(model, data, instance)
+    if n.load(state + 8 * s.STARTED) == 0.0:
+        require_passive_forces(model)
+    dof.finish(data, state)
 
 
 _CALLBACKS: dict[str, tuple[Any, Any]] = {

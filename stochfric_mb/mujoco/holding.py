@@ -2,7 +2,7 @@
 
 The relative velocities v of the held contacts fall by A x for a change x of their forces; A is singular where one body
 has more contacts than it can move in, and rigid bodies leave open how those share. Here x = S y with each contact's own
-share S_q = share_q (h W_q)^-1 (`share`): the least x of all in the measure of S^-1, that is, by normal forces. GMRES on
+share S_q (`share`): the least x of all in the measure of S^-1, that is, by normal forces. GMRES on
 A S y = v finds it in as many steps as the bodies can move in (Saad and Schultz 1986, doi 10.1137/0907058). The largest
 eigenvalue of A S is 1.
 """
@@ -25,6 +25,9 @@ STILL = 1.0e-12
 """Velocity left, relative to that which mu_s N takes, at which contacts count as held."""
 DEPENDENT = 1.0e-11
 """Part of a direction that is left beside the earlier ones, at which it counts as one of them."""
+BELOW, AT_REST = 1.0e-6, 1.0e-3
+"""Part of mu_s N that is left to a contact which holds all it can, so that it holds on while N changes by what MuJoCo's
+solver leaves; velocity, relative to that which mu_s N takes, up to which all contacts rest with the others' help."""
 SLIGHT = 1.0e-3
 """Mobility, relative to the largest, of motions that are stopped a little in each step only: it takes so much force that
 what is no motion of rigid bodies at all, but rounding or a change of the contact points, would break the contacts away."""
@@ -44,7 +47,7 @@ def hold_still(places, coupling, numbers, motion, f, response, end, h, space):
     for q in range(len(places)):
         if is_held(places, q):
             vx, vy = take(places, motion, q)
-            gx, gy = law_at(places[q, 3], places[q, 2], end, h, numbers[q], vx, vy)
+            gx, gy = law_at(places[q], end, h, numbers[q], vx, vy)
             x, y = n.load(places[q, 2] + 8 * s.HOLD_X), n.load(places[q, 2] + 8 * s.HOLD_Y)
             allowed = allowed and gx == x and gy == y
             cap = numbers[q, MU] * n.load(places[q, 2] + 8 * s.NORMAL)
@@ -56,26 +59,79 @@ def hold_still(places, coupling, numbers, motion, f, response, end, h, space):
 
 @compiled
 def want_hold(places, coupling, numbers, motion, f, response, h, space):
-    """Write the forces that would hold the held contacts still to their slots."""
+    """Write the forces that would hold the held contacts still to their slots.
+
+    A contact that would have to hold more than mu_s N holds just that, and the others the rest of it; only where they
+    cannot does it want its whole part, with which its law lets it go.
+    """
     m = len(places)
-    size = 0
-    index, shares, x = space[:m], space[m : 2 * m], space[2 * m : 4 * m]
-    enough = math.inf
+    index, shares, wants, x = space[:m], space[m : 2 * m], space[2 * m : 3 * m], space[3 * m : 5 * m]
+    total, whole = space[5 * m : 7 * m], space[7 * m : 9 * m]
     for q in range(m):
-        if not is_held(places, q):
-            continue
-        n.store(places[q, 2] + 8 * s.HOLD_X, f[q, 0])
-        n.store(places[q, 2] + 8 * s.HOLD_Y, f[q, 1])
-        if motion[q, NORMAL] > 0.0:
-            index[size], shares[size] = q, share(coupling, motion, q)
-            x[2 * size], x[2 * size + 1] = motion[q, VX], motion[q, VY]
-            size += 1
-            enough = min(enough, smallest(numbers, motion, response, q, h))
-    minimise(coupling, response, index[:size], shares, h, enough, x, space[4 * m :])
-    for i in range(size):
-        q = int(index[i])
-        n.store(places[q, 2] + 8 * s.HOLD_X, f[q, 0] + x[2 * i])
-        n.store(places[q, 2] + 8 * s.HOLD_Y, f[q, 1] + x[2 * i + 1])
+        total[2 * q], total[2 * q + 1] = f[q, 0], f[q, 1]
+        wants[q] = 1.0 if is_held(places, q) and motion[q, NORMAL] > 0.0 else 0.0
+    full = False
+    for turn in range(m):
+        size, enough = 0, math.inf
+        for q in range(m):
+            if wants[q] != 0.0:
+                index[size], shares[size] = q, share(coupling, motion, q)
+                x[2 * size], x[2 * size + 1] = velocity_with(coupling, motion, f, total, q)
+                size += 1
+                enough = min(enough, smallest(numbers, motion, response, q, h))
+        minimise(coupling, index[:size], shares, enough, x, space[9 * m :])
+        again = False
+        for i in range(size):
+            q = int(index[i])
+            total[2 * q] += x[2 * i]
+            total[2 * q + 1] += x[2 * i + 1]
+        if turn == 0:
+            n.move(total, whole)
+        for i in range(size):
+            q = int(index[i])
+            cap = numbers[q, MU] * motion[q, NORMAL]
+            force = math.sqrt(total[2 * q] ** 2 + total[2 * q + 1] ** 2)
+            if force > cap:
+                total[2 * q] *= (1.0 - BELOW) * cap / force
+                total[2 * q + 1] *= (1.0 - BELOW) * cap / force
+                wants[q] = 0.0
+                again, full = True, True
+        if not again:
+            break
+    if full and not (helped(wants) and all_rest(places, coupling, numbers, motion, f, response, total, h)):
+        n.move(whole, total)
+    for q in range(m):
+        if is_held(places, q):
+            n.store(places[q, 2] + 8 * s.HOLD_X, total[2 * q])
+            n.store(places[q, 2] + 8 * s.HOLD_Y, total[2 * q + 1])
+
+
+@compiled
+def helped(wants):
+    """Return whether a contact is left that holds less than it can."""
+    return wants.max() > 0.0
+
+
+@compiled
+def velocity_with(coupling, motion, f, total, q):
+    """Return the velocity of a contact with the forces ``total`` in place of ``f``."""
+    vx, vy = motion[q, VX], motion[q, VY]
+    for p in range(len(f)):
+        x, y = total[2 * p] - f[p, 0], total[2 * p + 1] - f[p, 1]
+        vx -= coupling[3 * q, 2 * p] * x + coupling[3 * q, 2 * p + 1] * y
+        vy -= coupling[3 * q + 1, 2 * p] * x + coupling[3 * q + 1, 2 * p + 1] * y
+    return vx, vy
+
+
+@compiled
+def all_rest(places, coupling, numbers, motion, f, response, total, h):
+    """Return whether the held contacts rest with the forces ``total``."""
+    for q in range(len(places)):
+        if is_held(places, q) and motion[q, NORMAL] > 0.0:
+            vx, vy = velocity_with(coupling, motion, f, total, q)
+            if abs(vx) + abs(vy) > AT_REST / STILL * smallest(numbers, motion, response, q, h):
+                return False
+    return True
 
 
 @compiled
@@ -99,7 +155,7 @@ def want_rest(places, coupling, numbers, motion, f, response, h, space):
             x[2 * size], x[2 * size + 1] = vx, vy
             size += 1
             enough = min(enough, smallest(numbers, motion, response, q, h))
-    minimise(coupling, response, index[:size], shares, h, enough, x, space[4 * m :])
+    minimise(coupling, index[:size], shares, enough, x, space[4 * m :])
     for i in range(size):
         q = int(index[i])
         if not is_held(places, q):
@@ -114,7 +170,7 @@ def smallest(numbers, motion, response, q, h):
 
 
 @compiled
-def minimise(coupling, response, index, shares, h, enough, x, space):  # noqa: PLR0912
+def minimise(coupling, index, shares, enough, x, space):  # noqa: PLR0912
     """Replace the velocities in ``x`` by the changes of the contacts' forces that stop them, by GMRES."""
     size = 2 * len(index)
     basis = space[: (size + 1) * size].reshape(size + 1, size)
@@ -133,7 +189,7 @@ def minimise(coupling, response, index, shares, h, enough, x, space):  # noqa: P
     steps = 0
     for k in range(size):
         new, column = basis[k + 1], r[k]
-        mobility(coupling, response, index, shares, h, basis[k], x, new)
+        mobility(coupling, index, shares, basis[k], x, new)
         length = norm(new)
         column[: k + 1] = 0.0
         for _ in range(2):  # what rounding leaves of the first time is removed by the second
@@ -170,10 +226,10 @@ def minimise(coupling, response, index, shares, h, enough, x, space):  # noqa: P
     for k in range(steps):
         for j in range(size):
             y[j] += g[k] * basis[k, j]
-    mobility(coupling, response, index, shares, h, y[:size], x, basis[0])
+    mobility(coupling, index, shares, y[:size], x, basis[0])
     for j in range(size):
         y[j] += rest[j] - basis[0, j]
-    spread(response, index, shares, h, y, x)
+    spread(index, shares, y, x)
 
 
 @compiled
@@ -186,16 +242,16 @@ def norm(x):
 
 
 @compiled
-def spread(response, index, shares, h, y, x):
-    """Fill the changes of forces x = S y."""
+def spread(index, shares, y, x):
+    """Fill the changes of forces x = S y; they run along the velocities, so that contacts do not pull at each other."""
     for i in range(len(index)):
-        x[2 * i], x[2 * i + 1] = hold(response[int(index[i])], h, shares[i] * y[2 * i], shares[i] * y[2 * i + 1])
+        x[2 * i], x[2 * i + 1] = shares[i] * y[2 * i], shares[i] * y[2 * i + 1]
 
 
 @compiled
-def mobility(coupling, response, index, shares, h, y, x, out):
+def mobility(coupling, index, shares, y, x, out):
     """Fill the velocities A S y; ``x`` is to work in."""
-    spread(response, index, shares, h, y, x)
+    spread(index, shares, y, x)
     for i in range(len(index)):
         p = 3 * int(index[i])
         a, b = 0.0, 0.0
@@ -208,38 +264,24 @@ def mobility(coupling, response, index, shares, h, y, x, out):
 
 @compiled
 def share(coupling, motion, q):
-    """Return the contact's part, by normal forces, of what it and those that move with it have to hold.
+    """Return the force over the velocity that is the contact's part of what it and those that move with it have to hold.
 
-    It is N_q/sum_p |W_qq^-1 W_qp| N_p: then N is an eigenvector of the mobilities' sizes so weighted, with eigenvalue 1,
-    and by Perron and Frobenius the sweeps, all contacts from the same velocities, never overshoot.
+    Its part, by normal forces, is N_q/sum_p |W_qp|/|W_qq| N_p: then N is an eigenvector of the mobilities' sizes so
+    weighted, with eigenvalue 1, and by Perron and Frobenius all contacts together never hold more than there is.
     """
-    mine = max(motion[q, NORMAL], 0.0)
-    a, b = coupling[3 * q, 2 * q], coupling[3 * q, 2 * q + 1]
-    c, d = coupling[3 * q + 1, 2 * q], coupling[3 * q + 1, 2 * q + 1]
-    det, total = a * d - b * c, 0.0
+    mine, own, total = max(motion[q, NORMAL], 0.0), largest(coupling, q, q), 0.0
+    if not own > 0.0:
+        return 0.0
     for p in range(len(motion)):
-        if not motion[p, NORMAL] > 0.0:
-            continue
-        e, f = coupling[3 * q, 2 * p], coupling[3 * q, 2 * p + 1]
-        g, k = coupling[3 * q + 1, 2 * p], coupling[3 * q + 1, 2 * p + 1]
-        if det > 1.0e-9 * (a + d) * (a + d):
-            e, f, g, k = (d * e - b * g) / det, (d * f - b * k) / det, (a * g - c * e) / det, (a * k - c * f) / det
-        elif a + d > 0.0:
-            e, f, g, k = e / (a + d), f / (a + d), g / (a + d), k / (a + d)
-        squares, minor = e * e + f * f + g * g + k * k, e * k - f * g
-        largest = math.sqrt(0.5 * (squares + math.sqrt(max(squares * squares - 4.0 * minor * minor, 0.0))))
-        total += largest * motion[p, NORMAL]
-    return mine / total if total > 0.0 else 1.0
+        if motion[p, NORMAL] > 0.0:
+            total += largest(coupling, q, p) / own * motion[p, NORMAL]
+    return mine / (total * own) if total > 0.0 else 0.0
 
 
 @compiled
-def hold(w, h, vx, vy):
-    """Return the force [N] that takes (vx, vy) from the velocity within the step; what cannot move needs none."""
-    a, b, d = w[0], 0.5 * (w[1] + w[2]), w[3]
-    det = a * d - b * b
-    if det > 1.0e-9 * (a + d) * (a + d):
-        return (d * vx - b * vy) / (h * det), (a * vy - b * vx) / (h * det)
-    if a + d > 0.0:  # one direction only: W = lambda e e^T, and its trace is lambda
-        trace = a + d
-        return (a * vx + b * vy) / (h * trace * trace), (b * vx + d * vy) / (h * trace * trace)
-    return 0.0, 0.0
+def largest(coupling, q, p):
+    """Return the most speed [m/s] that contact ``q`` gets from a newton at ``p``."""
+    e, f = coupling[3 * q, 2 * p], coupling[3 * q, 2 * p + 1]
+    g, k = coupling[3 * q + 1, 2 * p], coupling[3 * q + 1, 2 * p + 1]
+    squares, minor = e * e + f * f + g * g + k * k, e * k - f * g
+    return math.sqrt(0.5 * (squares + math.sqrt(max(squares * squares - 4.0 * minor * minor, 0.0))))

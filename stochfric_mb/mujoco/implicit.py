@@ -101,7 +101,7 @@ def solve_instances(model, data, instance):
     if room == 0:
         return
     n.mj_markStack(data)
-    places = n.stack_words(data, room, 4)
+    places = n.stack_words(data, room, 5)
     count = 0
     for i in range(instance + 1):
         if n.load_int(plugins + 4 * i) == mine:
@@ -116,10 +116,11 @@ def solve_instances(model, data, instance):
 
 @compiled
 def gather(model, data, state, places, count):
-    """Append the instance's contacts as rows (contact, sign, slot, state); return how many rows there are now."""
+    """Append the instance's contacts as rows (contact, sign, slot, state, law's force); return how many rows there are now."""
     t = canonical_time(n.number_field(data, n.D_TIME), half_step(model))
     body, surface = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
     k = 0
+    force = n.load_word(n.law_row(int(n.load(state + 8 * s.LAW))) + n.FORCE)
     for i in range(n.int_field(data, n.D_NCON)):
         contact = contact_address(data, i)
         sign = side(contact, body, surface)
@@ -138,6 +139,7 @@ def gather(model, data, state, places, count):
         places[count, 1] = sign
         places[count, 2] = address
         places[count, 3] = state
+        places[count, 4] = force
         count += 1
     return count
 

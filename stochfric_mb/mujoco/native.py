@@ -131,9 +131,9 @@ KEYS, N_KEYS = FURTHER + 64, 16
 (
     M_SOLVER, M_NOSLIP, M_DISABLE, M_DAMPING, D_EFC_TYPE, D_EFC_STATE, D_EFC_AREF, D_EFC_AR,
 ) = range(KEYS + N_KEYS, KEYS + N_KEYS + 8)  # fmt: skip
-SOLVER, PREPARER, OPTIONS_CHECKER = range(KEYS + N_KEYS + 8, KEYS + N_KEYS + 11)
+SOLVER, PREPARER, OPTIONS_CHECKER, NO_PASSIVE_MESSAGE = range(KEYS + N_KEYS + 8, KEYS + N_KEYS + 12)
 """Places of the addresses of the implicit mode's solution, once it is compiled, and of two Python functions: the one that
-compiles it, and the one that looks at a model's options."""
+compiles it, and the one that looks at a model's options; and of what is said where passive forces are off."""
 TABLE: Any = (ctypes.c_int64 * (KEYS + 64))()
 """What compiled code must look up in this process."""
 

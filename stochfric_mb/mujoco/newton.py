@@ -94,7 +94,7 @@ def residual(places, numbers, motion, f, response, r, slopes, end, h, close):
         slope[KIND], braked = FREELY, False
         if close:
             vx, vy = take(places, motion, q)
-            gx, gy = law_at(state, address, end, h, row, vx, vy)
+            gx, gy = law_at(places[q], end, h, row, vx, vy)
             if gx * vx + gy * vy < 0.0 and slides(state, address):
                 keep_free(row, response[q], h, vx, vy, f[q, 0], f[q, 1])
                 part = brake(row, response[q], h, gx, gy)
@@ -136,12 +136,12 @@ def fill_slopes(places, numbers, motion, response, slope, q, end, h, close):
         vx = row[FREE] - h * (w[0] * gx + w[1] * gy)
         vy = row[FREE + 1] - h * (w[2] * gx + w[3] * gy)
     step = 1.0e-4 * n.load(state + 8 * s.STICK_SPEED)
-    ax, ay = law_at(state, address, end, h, row, vx + step, vy)
-    bx, by = law_at(state, address, end, h, row, vx, vy + step)
+    ax, ay = law_at(places[q], end, h, row, vx + step, vy)
+    bx, by = law_at(places[q], end, h, row, vx, vy + step)
     ax, ay, bx, by = (ax - gx) / step, (ay - gy) / step, (bx - gx) / step, (by - gy) / step
     normal_force = n.load(address + 8 * s.NORMAL)
     n.store(address + 8 * s.NORMAL, (1.0 + 1.0e-6) * normal_force)
-    kx, ky = law_at(state, address, end, h, row, vx, vy)
+    kx, ky = law_at(places[q], end, h, row, vx, vy)
     n.store(address + 8 * s.NORMAL, normal_force)
     kx, ky = (kx - gx) / (1.0e-6 * normal_force), (ky - gy) / (1.0e-6 * normal_force)
     place = ROUNDING * (math.hypot(row[U0], row[U0 + 1]) / h + math.hypot(vx, vy))

@@ -21,7 +21,7 @@ from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.contact import apply, begin, finish, solve_new
 from stochfric_mb.mujoco.implicit import any_solved, is_last, keep_warm_start, solve_instances
-from stochfric_mb.mujoco.options import CHECKER, options_allow
+from stochfric_mb.mujoco.options import CHECKER, MESSAGE, options_allow, require_passive_forces
 from stochfric_mb.mujoco.registration import register_plugin
 
 NAME = "stochfric.pair"
@@ -47,6 +47,7 @@ def register() -> int:
     n.TABLE[n.READER] = ctypes.cast(config.READER, ctypes.c_void_p).value or 0
     n.TABLE[n.EXPLAINER] = ctypes.cast(config.EXPLAINER, ctypes.c_void_p).value or 0
     n.TABLE[n.OPTIONS_CHECKER] = ctypes.cast(CHECKER, ctypes.c_void_p).value or 0
+    n.TABLE[n.NO_PASSIVE_MESSAGE] = ctypes.addressof(MESSAGE)
     n.TABLE[n.PREPARER] = ctypes.cast(_PREPARE_SOLVER, ctypes.c_void_p).value or 0
     passive = int(mujoco.mjtPluginCapabilityBit.mjPLUGIN_PASSIVE)
     return register_plugin(NAME, config.ATTRIBUTES, keys=n.KEYS, capability=passive, callbacks=_CALLBACKS)
@@ -213,7 +214,10 @@ def _compute(model, data, instance, capability):
 
 
 def _advance(model, data, instance):
-    finish(model, data, state_address(model, data, instance))
+    state = state_address(model, data, instance)
+    if n.load(state + 8 * s.STARTED) == 0.0:
+        require_passive_forces(model)
+    finish(model, data, state)
 
 
 _CALLBACKS: dict[str, tuple[Any, Any]] = {

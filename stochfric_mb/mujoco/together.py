@@ -131,7 +131,7 @@ def follow(places, coupling, numbers, motion, f, end, h, space):
         space[2 * q], space[2 * q + 1] = f[q, 0], f[q, 1]
         vx, vy = take(places, motion, q)
         if is_fast(places[q, 3], places[q, 2], vx, vy):
-            space[2 * q], space[2 * q + 1] = law_at(places[q, 3], places[q, 2], end, h, numbers[q], vx, vy)
+            space[2 * q], space[2 * q + 1] = law_at(places[q], end, h, numbers[q], vx, vy)
     restore(coupling, motion, f, space)
 
 
@@ -165,8 +165,8 @@ def is_nearest(places, numbers, motion, f, first, response, end, h, own):
         if not fast or not cap > 0.0:
             continue
         if math.hypot(f[q, 0] - first[2 * q], f[q, 1] - first[2 * q + 1]) > NEAR * cap:
-            gx, gy = law_at(state, address, end, h, row, vx, vy)
-            kx, ky = law_at(state, address, end, h, row, ux, uy)
+            gx, gy = law_at(places[q], end, h, row, vx, vy)
+            kx, ky = law_at(places[q], end, h, row, ux, uy)
             if abs(math.hypot(gx, gy) - math.hypot(kx, ky)) > NEAR * cap:
                 return False
     return True

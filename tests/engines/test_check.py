@@ -14,8 +14,9 @@ mujoco = pytest.importorskip("mujoco")
 
 from stochfric_mb.__main__ import main  # noqa: E402
 from stochfric_mb.errors import InputError, SimulationError  # noqa: E402
+from stochfric_mb.laws.coulomb import Coulomb  # noqa: E402
 from stochfric_mb.laws.elastic_stick import ElasticStick  # noqa: E402
-from stochfric_mb.mujoco import sites  # noqa: E402
+from stochfric_mb.mujoco import add_friction, sites  # noqa: E402
 from stochfric_mb.mujoco.check import check  # noqa: E402
 
 G = 9.81
@@ -178,6 +179,22 @@ def test_what_switches_passive_forces_off_is_said():
     assert row.native is not None
     assert "leaves out all passive forces" in row.ours_problem
     assert row.ours_problem in row.advice
+
+
+def test_pairs_that_never_touch_are_named():
+    spec = mujoco.MjSpec.from_string(
+        """<mujoco><worldbody><geom name="floor" type="plane" size="1 1 1"/><geom name="wall" size=".1" pos="9 0 0"/>
+        <body pos="0 0 .05"><freejoint/><geom name="box" type="box" size=".05 .05 .05"/></body>
+        <body pos="0 0 9"><joint type="slide" axis="1 0 0"/><geom name="kite" size=".1"/></body></worldbody>
+        <contact><pair geom1="kite" geom2="floor"/></contact></mujoco>"""
+    )
+    add_friction(spec, ("box", "wall"), Coulomb(0.8, 0.6))
+    add_friction(spec, ("box", "floor"), Coulomb(0.8, 0.6))
+    notes = check(spec, settle=0.1, duration=0.1).notes
+    (note,) = (n for n in notes if "never touched" in n)
+    assert "never touched in 0.1 s" in note
+    assert ": box x wall, floor x kite;" in note
+    assert "1 touching pair has friction of this package already" in notes
 
 
 def test_only_the_most_loaded_pairs_are_probed():

@@ -487,6 +487,23 @@ def test_unusable_requests_are_refused():
         engine.add_friction(spec, ("box", "floor"), ELASTIC)
 
 
+@pytest.mark.parametrize("place", [("box", "floor"), engine.Joint("turn")])
+def test_passive_forces_switched_off_while_it_runs_stop_it(place):
+    spec = mujoco.MjSpec.from_string(
+        """<mujoco><worldbody><geom name="floor" type="plane" size="5 5 1"/><body pos="0 0 .05"><freejoint/>
+        <geom name="box" type="box" size=".05 .05 .05"/></body><body pos="0 0 3"><joint name="turn"/><geom size=".1"/></body>
+        </worldbody></mujoco>"""
+    )
+    load = None if isinstance(place, tuple) else 1.0
+    engine.add_friction(spec, place, ELASTIC, normal_force=load)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data)
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER
+    with pytest.raises(mujoco.FatalError, match="both spring and damper disabled"):
+        mujoco.mj_step(model, data)
+
+
 def test_two_pairs_have_their_own_friction():
     spec = mujoco.MjSpec.from_string(
         """<mujoco><option timestep="1e-4" integrator="RK4"/><worldbody><geom name="floor" type="plane" size="5 5 1"/>
