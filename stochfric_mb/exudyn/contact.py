@@ -14,6 +14,7 @@ from stochfric_mb.coefficients.path import CoefficientPath
 from stochfric_mb.errors import InputError, SimulationError, require_number
 from stochfric_mb.exudyn import stepping as at
 from stochfric_mb.exudyn.hooks import Hooks
+from stochfric_mb.exudyn.location import locate
 from stochfric_mb.exudyn.normal import NO_REACTION, Normal, is_explicit
 from stochfric_mb.exudyn.symbolic import NORMAL_LINE, live_names, symbolic
 from stochfric_mb.friction import Friction, as_friction
@@ -156,7 +157,7 @@ class FrictionContact:
         if self._normal.changes and not self._normal.reaction:  # implicit solvers ask for the force before the first step
             self._read_normal(start)
         at.proceed(start, self.where)
-        at.locate(start, self.where)  # compiled now rather than in the middle of a run
+        locate(start, self.where)  # compiled now rather than in the middle of a run
         at.advance(start, self.where)
         self._pass_on()
         self._words[[at.STARTED, at.NEXT_RECORD]] = 0
@@ -228,7 +229,7 @@ class FrictionContact:
         """Return the step [s] that ends at the law's next switch or the next grid point, or -1 to accept this one."""
         if self._words[at.ASK_FIRST]:
             self._read_motion()
-        return at.locate(t, self.where)
+        return locate(t, self.where)
 
     @property
     def watched(self) -> bool:

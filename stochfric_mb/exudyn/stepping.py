@@ -85,14 +85,12 @@ NOTHING, CHANGED, RECORDED, LOST, RESTARTED, FETCH, WATCH = 0, 1, 2, 4, 8, 16, 3
 RECORD_COLUMNS = 11
 """time, displacement, velocity, friction force, mu_s, mu_k, stick, normal force; second displacement, velocity, force."""
 
-# event location, in parts of the step
-TOLERANCE, BEYOND, SHORTEST, GRID = 1.0e-3, 1.0e-4, 2.0e-4, 5.0e-5
-"""How near the end of a step a switch may lie, how far beyond it steps end, the shortest step asked for, and what counts
-as on the grid (as `canonical_time` has it, since engine time is a sum of rounded steps)."""
+GRID = 5.0e-5
+"""Part of a step that counts as on the grid of steps (as `canonical_time` has it, since engine time is a sum of steps)."""
 ROUNDING = 1.0e-9
 """What a sum of many steps may differ from the time it stands for [s]."""
-FINE, FINE_STEPS = 0.25, 8.0
-"""Steps within so many steps after a change of mode are shortened to this part: the force changes fast then."""
+FINE_STEPS = 8.0
+"""Steps within so many steps after a change of mode are shortened: the force changes fast then."""
 STEPS_AHEAD = 3.0
 """A guard is watched where it may turn within so many steps at the rate of the last one."""
 
@@ -335,7 +333,7 @@ def _watch(t, motion, n, pair, switched, numbers, words):
     steps = (t - numbers[START]) / numbers[STEP]
     if switched:
         numbers[SWITCHED] = t
-    watch = _settling(t, numbers) or abs(steps - math.floor(steps + 0.5)) > GRID
+    watch = settling(t, numbers) or abs(steps - math.floor(steps + 0.5)) > GRID
     for i in range(GUARDS):
         new = numbers[NEW + i]
         if new > 0.0 and new < STEPS_AHEAD * abs(new - numbers[GUARDS_BEFORE + i]):
@@ -348,7 +346,7 @@ def _watch(t, motion, n, pair, switched, numbers, words):
 
 
 @compiled
-def _settling(t, numbers):
+def settling(t, numbers):
     """Return whether a step that begins at t follows a change of mode closely."""
     return t - numbers[SWITCHED] < (FINE_STEPS - GRID) * numbers[STEP]
 
@@ -421,65 +419,6 @@ def _move_window(t, u, numbers, words):
     segment[5], segment[6] = (cursor[4] - mid_s) / spacing, (cursor[5] - mid_k) / spacing
     segment[7], segment[8] = mid_s, mid_k
     return bits | CHANGED
-
-
-@compiled
-def locate(t, address):
-    """Return the step [s] that ends at the next grid point or just beyond the law's next switch, or -1 to accept.
-
-    A switch is where a guard of the law turns from positive to not positive; it is sought on the cubic through both
-    ends of the step.
-    """
-    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
-    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
-    t_0, step = numbers[T], numbers[STEP]
-    if words[STARTED] == 0 or t <= t_0:
-        return -1.0
-    n = math.floor((t_0 - numbers[START]) / step + GRID) + 1.0
-    grid = numbers[START] + n * step
-    end = min(grid, t_0 + FINE * step) if _settling(t_0, numbers) else grid
-    if t > end + GRID * step:
-        return end - t_0
-    motion, normal_force = kinematics(t, numbers, words), normal_force_at(t, numbers, words)
-    pair = pair_at(t, motion[0], numbers, words)
-    ask(words[GUARD], t, motion, normal_force, pair, numbers, NEW)
-    first = 2.0
-    for i in range(GUARDS):
-        if numbers[GUARDS_BEFORE + i] > 0.0 and numbers[NEW + i] <= 0.0:
-            first = min(first, _crossing(i, t, motion, normal_force, numbers, words))
-            ask(words[GUARD], t, motion, normal_force, pair, numbers, NEW)
-    h = t - t_0
-    if first > 1.0 or (1.0 - first) * h <= TOLERANCE * step or h <= 2.0 * SHORTEST * step:
-        return -1.0
-    return max(first * h + BEYOND * step, SHORTEST * step)
-
-
-@compiled
-def _crossing(i, t, motion, normal_force, numbers, words):
-    """Return where in the step, from 0 to 1, guard ``i`` turns, by bisection on the cubic through both ends."""
-    t_0, h = numbers[T], t - numbers[T]
-    ux, uy, vx, vy = motion
-    low, high = 0.0, 1.0
-    for _ in range(30):
-        s = 0.5 * (low + high)
-        x, v_x = _between(s, h, numbers[U], numbers[V], ux, vx)
-        y, v_y = _between(s, h, numbers[U_2], numbers[V_2], uy, vy)
-        n = numbers[NORMAL_FORCE] + s * (normal_force - numbers[NORMAL_FORCE])
-        pair = pair_at(t_0 + s * h, x, numbers, words)
-        ask(words[GUARD], t_0 + s * h, (x, y, v_x, v_y), n, pair, numbers, NEW)
-        if numbers[NEW + i] > 0.0:
-            low = s
-        else:
-            high = s
-    return high
-
-
-@compiled
-def _between(s, h, u_0, v_0, u, v):
-    """Return u and v at the part s of a step h, u = u_0 + h v_0 s + (3 a - b) s^2 + (b - 2 a) s^3."""
-    a, b = u - u_0 - h * v_0, h * (v - v_0)
-    u_s = u_0 + h * v_0 * s + (3.0 * a - b) * s * s + (b - 2.0 * a) * s**3
-    return u_s, v_0 + (2.0 * (3.0 * a - b) * s + 3.0 * (b - 2.0 * a) * s * s) / h
 
 
 @compiled
