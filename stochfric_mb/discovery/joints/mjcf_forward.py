@@ -22,6 +22,7 @@ from stochfric_mb.discovery.joints.fitting import JointModel
 from stochfric_mb.discovery.joints.friction import chain, resistance
 from stochfric_mb.discovery.joints.mjcf import MjcfSource, column, corrected, drive_of
 from stochfric_mb.discovery.joints.mjcf_model import scale_masses
+from stochfric_mb.discovery.joints.scores import AHEAD
 from stochfric_mb.discovery.joints.windows import Window, noise_level
 from stochfric_mb.effects.contract import WORLD
 from stochfric_mb.errors import InputError
@@ -32,8 +33,6 @@ Array = npt.NDArray[np.float64]
 Models = Mapping[str, JointModel]
 """Place -> model of its friction."""
 
-AHEAD = 0.5
-"""Time after which a simulation without a controller starts again from the measured state [s]."""
 SETTLE = 0.25
 """Time from which a simulated closed loop is compared: what is wrong in its first state has faded [s]."""
 STIFF = (2.0, 1.0)

@@ -20,6 +20,8 @@ Array = npt.NDArray[np.float64]
 
 SETTLED = 10.0
 """Time constants of the position loop after which the state at the start, which is not known, plays no part."""
+AHEAD = 0.5
+"""Time after which a simulation without a controller starts again from the measured state [s]."""
 APART = 4
 """Centres between windows that share no samples that matter."""
 

@@ -13,6 +13,7 @@ from stochfric_mb.discovery.joints.confounding import TOGETHER, Confounded, conf
 from stochfric_mb.discovery.joints.evidence import scatter, settings_of
 from stochfric_mb.discovery.joints.fitting import JointFit, hidden_share
 from stochfric_mb.discovery.joints.outcome import PlaceOutcome
+from stochfric_mb.discovery.joints.scores import AHEAD
 from stochfric_mb.discovery.joints.timing import NAMED as SURE
 from stochfric_mb.discovery.joints.timing import Timing
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
@@ -60,7 +61,13 @@ def verdict(
         not_identifiable=_unseen(places),
         next_experiment=_advice(pairs, places),
         believed={f"{p.place}.{k}" if len(places) > 1 else k: v for p in places for k, v in _believed(p).items()},
-        notes=(*_timing_notes(timing), *(str(p) for p in pairs if p.explained >= TOGETHER), *notes, *_remarks(places)),
+        notes=(
+            *_forward_notes(places[0]),
+            *_timing_notes(timing),
+            *(str(p) for p in pairs if p.explained >= TOGETHER),
+            *notes,
+            *_remarks(places),
+        ),
         details=_details(places, timing, pairs),
     )
 
@@ -201,6 +208,19 @@ def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
         kind, others = same[0]
         return f"To tell {kind} from {', '.join(others)}: more speeds, both directions at each, and a second load."
     return "Rest before break-away, for what rest does to friction; slow reversals, for presliding; a second load."
+
+
+def _forward_notes(place: PlaceOutcome) -> list[str]:
+    """Return what forward simulation says."""
+    before, after = (place.scores[k] for k in ("recalibrated", "augmented"))
+    if before.forward is None or after.forward is None:
+        return []
+    how = "with the controller in the loop" if after.loop is not None else f"{AHEAD:g} s at a time from the measured state"
+    unit = "m or rad" if place.place else "m" if place.fit[0].unit == "N" else "rad"
+    return [
+        f"simulated in MuJoCo, {how}, positions of the held-out runs are off by {before.forward:.3g} {unit} recalibrated, by "
+        f"{after.forward:.3g} augmented (rms)"
+    ]
 
 
 def _timing_notes(timing: Timing | None) -> list[str]:
