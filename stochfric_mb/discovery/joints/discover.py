@@ -282,7 +282,7 @@ def _corrected(mechanism: Any, places: Sequence[PlaceOutcome]) -> Any:
     models = {p.place: p.selected.final.model for p in places}
     if not isinstance(mechanism, Mjcf):
         return dataclasses.replace(mechanism, **models[""].nuisances)
-    from stochfric_mb.discovery.joints.mjcf import corrected
+    from stochfric_mb.discovery.joints.mjcf_columns import corrected
 
     first = places[0].selected.final.model.law.mu_k
     # one law serves all joints: where friction differs, the loads do

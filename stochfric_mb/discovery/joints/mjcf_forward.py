@@ -20,7 +20,8 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.joints.fitting import JointModel
 from stochfric_mb.discovery.joints.friction import chain, resistance
-from stochfric_mb.discovery.joints.mjcf import MjcfSource, column, corrected, drive_of
+from stochfric_mb.discovery.joints.mjcf import MjcfSource
+from stochfric_mb.discovery.joints.mjcf_columns import column, corrected, drive_of
 from stochfric_mb.discovery.joints.mjcf_model import scale_masses
 from stochfric_mb.discovery.joints.scores import AHEAD
 from stochfric_mb.discovery.joints.windows import Window, noise_level

@@ -1,0 +1,58 @@
+"""Measured columns of a run for an MJCF model, and the model as corrected by data."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.errors import require_name
+from stochfric_mb.measurement.run import Run
+from stochfric_mb.mechanisms import Mjcf
+
+Array = npt.NDArray[np.float64]
+
+
+def corrected(mechanism: Mjcf, corrections: Mapping[str, Mapping[str, float]]) -> Mjcf:
+    """Return the mechanism with what data have corrected: place -> number -> value.
+
+    Masses and armature belong to the whole model: those of the first place given are taken.
+    """
+    first = next(iter(corrections.values()))
+    drives = {
+        j: dataclasses.replace(d, gain=d.gain * corrections.get(j, {}).get("gain", 1.0)) for j, d in mechanism.drives.items()
+    }
+    damping = {j: c * corrections.get(j, {}).get("damping", 1.0) for j, c in mechanism.damping.items()}
+    offset = {j: mechanism.offset.get(j, 0.0) + values.get("offset", 0.0) for j, values in corrections.items()}
+    factors = {k: mechanism.factors.get(k, 1.0) * first.get(k, 1.0) for k in ("mass", "armature")}
+    return dataclasses.replace(mechanism, drives=drives, damping=damping, offset=offset, factors=factors)
+
+
+def drive_of(run: Run, mechanism: Mjcf, place: str) -> Array:
+    """Return the measured driving force of a joint or tendon [N or N m], shape (count,); zeros where nothing drives it.
+
+    Raises:
+        InputError: one of its columns is missing.
+    """
+    drive = mechanism.drives.get(place)
+    if drive is None:
+        return np.zeros(len(run.time))
+    force = np.full(len(run.time), drive.gain)
+    for name in drive.columns:
+        force = force * column(run, name)
+    return force
+
+
+def column(run: Run, name: str) -> Array:
+    """Return a channel or covariate of a run.
+
+    Raises:
+        InputError: it has none of that name.
+    """
+    for columns in (run.channels, run.covariates):
+        if name in columns:
+            return columns[name]
+    require_name(f"column of run {run.name} (for the mechanism)", name, [*run.channels, *run.covariates])
+    raise AssertionError  # require_name has raised
