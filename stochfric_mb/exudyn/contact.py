@@ -243,10 +243,12 @@ class FrictionContact:
             self.guess_normal(0.0)
         self.reset(start)
 
-    def begin(self, dt: float, start: float) -> None:
-        """Start afresh, or go on where a simulation has stopped at the time ``start`` [s]."""
-        if not (self._words[at.STARTED] and start == self._numbers[at.T]):
-            self.prepare(dt, start)
+    def begin(self, dt: float, start: float) -> bool:
+        """Start afresh, unless a simulation goes on where it has stopped at the time ``start`` [s]; return which."""
+        if self._words[at.STARTED] and start == self._numbers[at.T]:
+            return False
+        self.prepare(dt, start)
+        return True
 
     def locate(self, on: bool) -> None:
         """Say whether steps are to end where the law switches."""

@@ -33,8 +33,8 @@ class Contact(Protocol):
         """Start afresh with the solver's step [s] at the time ``start`` [s]."""
         ...
 
-    def begin(self, dt: float, start: float) -> None:
-        """Start afresh, or go on where a simulation has stopped at the time ``start`` [s]."""
+    def begin(self, dt: float, start: float) -> bool:
+        """Start afresh, unless a simulation goes on where it has stopped at the time ``start`` [s]; return which."""
         ...
 
     def locate(self, on: bool) -> None:

@@ -13,6 +13,7 @@ from typing import Any
 import exudyn
 
 from stochfric_mb.exudyn.outcome import SOLVERS, Outcome
+from stochfric_mb.exudyn.reactions import find_reactions
 
 KEY = "stochfric_mb"
 """Where a system's variables hold its hooks."""
@@ -36,7 +37,7 @@ def solve(mbs: Any, settings: Any, **options: Any) -> bool:
 
 
 def wrap() -> None:
-    """Have systems with friction chain what the user puts in the slots, and start contacts afresh when they are solved."""
+    """Have systems with friction chain what the user puts in the slots, and start and check contacts when they are solved."""
     for slot in ("PostStep", "PostNewton"):
         if slot not in _SETTERS:
             _SETTERS[slot] = getattr(exudyn.MainSystem, f"Set{slot}UserFunction")
@@ -67,9 +68,11 @@ def _checked(method: Callable[..., Any]) -> Callable[..., Any]:
         kind = SOLVERS["generalized_alpha"] if solverType is None else solverType
         name = next((name for name, known in SOLVERS.items() if known == kind), str(kind))
         outcome = Outcome(hooks.contacts, name, simulationSettings.timeIntegration, masses_needed=False)
-        for contact in hooks.contacts:
-            contact.begin(outcome.dt, simulationSettings.timeIntegration.startTime)
+        start = simulationSettings.timeIntegration.startTime
+        fresh = [contact for contact in hooks.contacts if contact.begin(outcome.dt, start)]
         outcome.require_step()
+        if outcome.implicit:
+            find_reactions(mbs, simulationSettings, kind, fresh, solve, hooks.put_aside)
         success = method(mbs, simulationSettings, solverType, *arguments, **options)
         if success:
             outcome.require_success(mbs, success)

@@ -48,8 +48,10 @@ class Outcome:
         """Step [s]."""
         self.where = f"Exudyn ({solver}, dt = {self.dt:g} s)"
         """What runs, for messages."""
+        self.implicit = solver in _IMPLICIT
+        """Whether the solver is implicit: it has no limit, and computes reactions."""
         adapts = solver in _ADAPTING and integration.automaticStepSize
-        self._contacts = () if solver in _IMPLICIT or adapts else contacts
+        self._contacts = () if self.implicit or adapts else contacts
         self._masses_needed = masses_needed
 
     def require_step(self) -> None:

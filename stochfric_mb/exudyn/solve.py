@@ -11,9 +11,7 @@ from stochfric_mb.exudyn.hooks import SWITCH_ERROR, Hooks
 from stochfric_mb.exudyn.methods import solve
 from stochfric_mb.exudyn.normal import NO_REACTION
 from stochfric_mb.exudyn.outcome import EXPLICIT, SOLVERS, Outcome
-
-TRIAL = 1.0e-2
-"""Part of a step after which reactions at the start are taken."""
+from stochfric_mb.exudyn.reactions import find_reactions
 
 
 def silent_settings(dt: float, duration: float) -> Any:
@@ -63,7 +61,7 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     _settle_settings(mbs, integration, hooks, dt if locate else 0.0)
     printed, exudyn.config.printToConsole = exudyn.config.printToConsole, False
     try:
-        _find_reactions(mbs, settings, solver, hooks, dt)
+        find_reactions(mbs, settings, SOLVERS[solver], hooks.contacts, solve, hooks.put_aside)
         success = solve(mbs, settings, solverType=SOLVERS[solver], showHints=False)
     except exudyn.ExudynError as error:
         if isinstance(error.__cause__, Exception):
@@ -73,29 +71,6 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
         exudyn.config.printToConsole = printed
         hooks.install(locate=False)
     outcome.require_success(mbs, success)
-
-
-def _find_reactions(mbs: Any, settings: Any, solver: str, hooks: Hooks, dt: float) -> None:
-    """Let contacts whose normal force is a reaction know it at the start, so that the first step has its friction.
-
-    Two steps of a small part of dt [s] that nobody notices: the first without friction, the second with that of the first.
-    """
-    contacts = [contact for contact in hooks.contacts if contact.needs_reactions]
-    if not contacts:
-        return
-    trial = exudyn.SimulationSettings()
-    trial.SetDictionary(settings.GetDictionary())
-    trial.solution.file.write = trial.solution.sensors.active = False
-    integration = trial.timeIntegration
-    integration.endTime, integration.numberOfSteps = integration.startTime + TRIAL * dt, 1
-    integration.automaticStepSize = integration.adaptiveStep = False
-    integration.verboseMode = integration.verboseModeFile = 0
-    integration.generalizedAlpha.useNewmark = integration.generalizedAlpha.useIndex2Constraints = True
-    with hooks.put_aside():
-        for _ in range(2):
-            solve(mbs, trial, solverType=SOLVERS[solver], showHints=False)
-            for contact in contacts:
-                contact.guess_normal(None)
 
 
 def _settle_settings(mbs: Any, integration: Any, hooks: Hooks, dt: float) -> None:

@@ -1,0 +1,65 @@
+"""Reactions at the start of a run, for contacts whose normal force is one: without them the first step has no friction."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
+from typing import Any, Protocol
+
+import exudyn
+
+TRIAL = 1.0e-2
+"""Part of a step after which reactions at the start are taken."""
+
+
+class Pressed(Protocol):
+    """What is needed of a contact."""
+
+    @property
+    def needs_reactions(self) -> bool:
+        """Whether the normal force is a reaction."""
+        ...
+
+    def guess_normal(self, force: float | None) -> None:
+        """Let the step to come have a constant normal force [N]; None: the reaction as it is now, other sources stay."""
+        ...
+
+
+def find_reactions(
+    mbs: Any,
+    settings: Any,
+    solver_type: Any,
+    contacts: Sequence[Pressed],
+    solve: Callable[..., bool],
+    unnoticed: Callable[[], AbstractContextManager[None]],
+) -> None:
+    """Let contacts whose normal force is a reaction know it at the start.
+
+    Two steps of a small part of the step, which the user's functions do not notice: the first without friction, the second
+    with that of the first.
+
+    Args:
+        mbs: the system.
+        settings: Exudyn's settings of the run to come; they are not changed.
+        solver_type: Exudyn's implicit solver that will run.
+        contacts: contacts that start.
+        solve: Exudyn's own method that solves.
+        unnoticed: what empties the system's slots while it lasts.
+    """
+    pressed = [contact for contact in contacts if contact.needs_reactions]
+    if not pressed:
+        return
+    trial = exudyn.SimulationSettings()
+    trial.SetDictionary(settings.GetDictionary())
+    trial.solution.file.write = trial.solution.sensors.active = False
+    integration = trial.timeIntegration
+    dt = (integration.endTime - integration.startTime) / max(integration.numberOfSteps, 1)
+    integration.endTime, integration.numberOfSteps = integration.startTime + TRIAL * dt, 1
+    integration.automaticStepSize = integration.adaptiveStep = False
+    integration.verboseMode = integration.verboseModeFile = 0
+    integration.generalizedAlpha.useNewmark = integration.generalizedAlpha.useIndex2Constraints = True
+    with unnoticed():
+        for _ in range(2):
+            solve(mbs, trial, solverType=solver_type, showHints=False)
+            for contact in pressed:
+                contact.guess_normal(None)
