@@ -17,10 +17,10 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
 
-from stochfric_mb.discovery.belt_wave import without_wave
 from stochfric_mb.discovery.edges import locate_edge
 from stochfric_mb.discovery.record import Array, Noise, Record, line_in, noise_of
 from stochfric_mb.discovery.segmentation import slips_of
+from stochfric_mb.discovery.stick_motion import without_pattern, without_wave
 
 N_MOMENTS = 7
 """Legendre coefficients of the friction force in a slip."""
@@ -122,8 +122,9 @@ def extract(record: Record, *, ridge: float | None = None) -> Slips:
     rough = list(_inside(record, slips_of(record)))
     quiet, when = _quiet(record, rough)
     noise = noise_of(quiet, record.noise)
-    if noise.coloured > 0.0 and (calmer := without_wave(quiet, when)) is not None:
-        noise = noise_of(calmer, record.noise)
+    if noise.coloured > 0.0:
+        calmer = without_wave(quiet, when) or quiet
+        noise = noise_of(without_pattern(calmer) or calmer, record.noise)
     firm = noise.deviation / (_STIFF * np.ptp(record.position) / 2.0)
     if ridge is None:
         misfits = [_edge(record, begin, 1, firm)[3] / noise.deviation**2 for begin, _ in rough[:24]]

@@ -12,11 +12,12 @@ from stochfric_mb.discovery.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.belt import belt_speed
 from stochfric_mb.discovery.borne_out import LEAST_REDUCIBLE, compared, without_last
 from stochfric_mb.discovery.decision import Decision, Named, decide
+from stochfric_mb.discovery.forecast import Windows
 from stochfric_mb.discovery.gap import HeldOut, deterministic, floor_of, gap_of, held_out, mean_score, phased, settled
 from stochfric_mb.discovery.intervals import interval
 from stochfric_mb.discovery.model import CORRECTED, Model
 from stochfric_mb.discovery.power import smallest
-from stochfric_mb.discovery.refit import Fit, refit, thinned
+from stochfric_mb.discovery.refit import Fit, refit
 from stochfric_mb.discovery.refusal import refusal
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.discovery.scatter import matched
@@ -33,6 +34,8 @@ effects or a step between two slips, whose moment is not known well, are among t
 MISSED = 0.5
 """Reducible error over the error itself above which "none" is no answer [-]: more is wrong with the forecasts than is right.
 Where nothing is missing, noise and declared scatter leave up to a third."""
+GOLDEN = 0.6180339887498949
+"""The ratio whose multiples repeat least."""
 JUDGED_WINDOWS = 24
 """Forecasts of each run that are judged."""
 UNITS = {"mu_s": "-", "mu_k": "-", "mass": "kg", "stiffness": "N/m", "damping": "N s/m"}
@@ -167,7 +170,7 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
     kinds = {n.kind for n in decision.named}
     if kinds and kinds <= NOT_JUDGED:
         return None
-    windows = [thinned(w, JUDGED_WINDOWS) for w in found.windows if len(w)]
+    windows = [_scattered(w, JUDGED_WINDOWS) for w in found.windows if len(w)]
     runs = HeldOut(found.pool.slips[:2], tuple(windows), tuple(windows))
     before, after = mean_score(recalibrated, runs), mean_score(augmented, runs)
     floor = min(floor_of(augmented, runs), after)
@@ -186,6 +189,12 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
         f"{best.kind} comes closest, but explains only {max(share, 0.0):.0%} of what the runs show",
     )
     return dataclasses.replace(decision, verdict="unknown", named=(), where=where)
+
+
+def _scattered(windows: Windows, most: int) -> Windows:
+    """Return at most ``most`` windows, spread over the run at no regular intervals: a pattern of slips must not escape."""
+    order = np.argsort(np.arange(len(windows)) * GOLDEN % 1.0, kind="stable")
+    return windows.part(np.sort(order[:most]))
 
 
 def _missed(decision: Decision, before: float, floor: float) -> Decision:

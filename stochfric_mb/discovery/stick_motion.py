@@ -1,7 +1,9 @@
-"""A wave in the stick phases: a belt whose speed ripples carries the stuck box along, which must not be taken for slow noise.
+"""Motion in the stick phases that must not be taken for slow noise: a wave of the belt, or what every phase repeats.
 
-By its correlations alone a wave of some hertz cannot be told from noise with a memory of some tens of milliseconds. But a
-wave keeps its phase over the whole record, so that one cosine and one sine explain much of all stick phases together.
+A belt whose speed ripples carries the stuck box along. By its correlations alone a wave of some hertz cannot be told from
+noise with a memory of some tens of milliseconds. But a wave keeps its phase over the whole record, so that one cosine and
+one sine explain much of all stick phases together. A contact that rings after each re-stick, or creeps before each
+break-away, does so alike in all of them.
 """
 
 from __future__ import annotations
@@ -56,6 +58,35 @@ def without_wave(phases: Sequence[Array], times: Sequence[Array]) -> list[Array]
     b = (aa[best] * br[best] - ab[best] * ar[best]) / determinant[best]
     angles = (2.0 * np.pi * grid[best] * t for t in times)
     return [p - _levelled((a * np.cos(angle) + b * np.sin(angle))[None])[0] for p, angle in zip(phases, angles, strict=True)]
+
+
+def without_pattern(phases: Sequence[Array]) -> list[Array] | None:
+    """Return the phases without what they share, counted from their begin or from their end; None where that is little.
+
+    Args:
+        phases: residuals of stick phases [m], their mean and line taken out.
+    """
+    if len(phases) < FEWEST:
+        return None
+    left = [p[::-1] for p in _less_mean(phases)]
+    left = [p[::-1] for p in _less_mean(left)]
+    before, after = (sum(float(p @ p) for p in parts) for parts in (phases, left))
+    # two means of n phases take 2/n of noise with them
+    return left if after < (1.0 - EXPLAINED - 2.0 / len(phases)) * before else None
+
+
+def _less_mean(phases: Sequence[Array]) -> list[Array]:
+    """Return phases less their mean, sample by sample from the begin, as far as most of them reach."""
+    length = int(np.median([len(p) for p in phases]))
+    long = [p[:length] for p in phases if len(p) >= length]
+    mean = np.mean(long, axis=0)
+    found: list[Array] = []
+    for p in phases:
+        p = p.copy()  # noqa: PLW2901
+        reach = min(len(p), length)
+        p[:reach] -= mean[:reach]
+        found.append(p)
+    return found
 
 
 def _averaged(values: Array) -> Array:

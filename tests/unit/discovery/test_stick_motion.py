@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.belt_wave import without_wave
+from stochfric_mb.discovery.stick_motion import without_pattern, without_wave
 
 RATE, PHASES, SAMPLES, PAUSE = 1000.0, 40, 600, 350
 FREQUENCY = 2.13
@@ -44,6 +44,16 @@ def test_a_wave_is_taken_out_and_the_noise_stays():
     # 4 % of the wave's variance on average, 7e-12 m^2 at most of its 5e-11; the noise has 2.5e-11
     assert np.var(np.concatenate(left)) == pytest.approx(25e-12, rel=0.04 * 50.0 / 25.0)
     assert np.var(np.concatenate(parts)) > 2.0 * np.var(np.concatenate(left))
+
+
+def test_what_every_phase_repeats_is_taken_out_and_slow_noise_is_left_alone():
+    parts, _ = phases(slow_noise(4e-6))
+    assert without_pattern(parts) is None
+    creep = 2e-5 * np.clip(np.linspace(-4.0, 1.0, SAMPLES), 0.0, 1.0) ** 2
+    left = without_pattern([p - creep for p in parts])
+    assert left is not None
+    # the mean of 40 phases takes a fortieth of the noise with it, twice
+    assert np.var(np.concatenate(left)) == pytest.approx(np.var(np.concatenate(parts)), rel=2.0 / PHASES + 0.02)
 
 
 def test_a_few_phases_tell_nothing():
