@@ -23,8 +23,8 @@ REMAINING_SCATTER = 0.1
 """Share of the believed model's scatter that must remain with the effects in for it to be called random [-]."""
 LEAST_SHARE = 0.004
 """Scatter over the friction itself below which, beside a named effect, it is what the effect's form leaves [-]."""
-FEWEST_KICKED, MOST_KICKED = 0.08, 0.35
-"""Share of slips that stand out for which kicks are the reason [-]; two of thirty may do so by accident (`pool.FEW_STRAY`)."""
+FEWEST_KICKED, MOST_KICKED = 0.05, 0.35
+"""Share of slips that stand out for which kicks are the reason [-]; one of thirty may do so by accident (see `pool`)."""
 
 FEWEST_ALIKE, ALIKE = 4, 0.3
 """Slips that stand out by the same, and their share of those that do, from which on friction has a second level; amounts
