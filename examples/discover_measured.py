@@ -10,8 +10,7 @@ import argparse
 from pathlib import Path
 
 from stochfric_mb.discovery import discover
-from stochfric_mb.discovery.export import mjcf, parameter_table, scenario_toml
-from stochfric_mb.mechanisms import SpringSlider
+from stochfric_mb.discovery.export import files
 
 MODELS = Path(__file__).parents[1] / "models"
 
@@ -25,7 +24,7 @@ def main(arguments: list[str] | None = None) -> None:
     """Discover, tell, and write the augmented model where it is asked for."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("name", choices=names())
-    parser.add_argument("--out", type=Path, help="folder for parameters.csv, augmented.toml and augmented.xml")
+    parser.add_argument("--out", type=Path, help="folder for parameters.csv, augmented.toml and, for joints, augmented.xml")
     options = parser.parse_args(arguments)
     outcome = discover(MODELS / options.name, progress=print)
     result = outcome.result
@@ -42,10 +41,8 @@ def main(arguments: list[str] | None = None) -> None:
         print(f"  {note}")
     if options.out is not None:
         options.out.mkdir(parents=True, exist_ok=True)
-        (options.out / "parameters.csv").write_text(parameter_table(result), encoding="utf-8")
-        (options.out / "augmented.toml").write_text(scenario_toml(outcome.scenario), encoding="utf-8")
-        if not isinstance(outcome.scenario.mechanism, SpringSlider):
-            (options.out / "augmented.xml").write_text(mjcf(outcome.scenario), encoding="utf-8")
+        for name, text in files(outcome).items():
+            (options.out / name).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -36,7 +36,8 @@ def test_published_measurements(capsys, tmp_path):
         pytest.skip("the measured data are not here: set STOCHFRIC_DATA to their folder")
     load("discover_measured").main(["emps", "--out", str(tmp_path)])
     assert "viscous_friction" in capsys.readouterr().out
-    assert {p.name for p in tmp_path.iterdir()} == {"parameters.csv", "augmented.toml", "augmented.xml"}
+    written = {p.name for p in tmp_path.iterdir()}
+    assert written == {"parameters.csv", "augmented.toml", "augmented.xml", "exudyn_friction.py"}
 
 
 def test_sysid_finds_friction_through_the_plugins_configuration():

@@ -1,0 +1,64 @@
+"""Evidence with two variances, against closed forms; which parts of records are left out."""
+
+import numpy as np
+import pytest
+
+from stochfric_mb.discovery.joints.balance import sheet_of
+from stochfric_mb.discovery.joints.evidence import scatter, settings_of, whitened
+from stochfric_mb.discovery.joints.fitting import stroke_count
+from stochfric_mb.discovery.joints.left_out import blocks, strokes
+from tests.discovery.joints.test_parts import coulomb, scenario, sine_run
+
+
+def grouped(between, within, *, groups=200, size=20, seed=0):
+    rng = np.random.default_rng(seed)
+    labels = np.repeat(np.arange(groups), size)
+    return between * rng.standard_normal(groups)[labels] + within * rng.standard_normal(groups * size), labels
+
+
+def test_one_setting_has_the_deviance_of_its_mean_square():
+    rest = np.array([1.0, -2.0, 3.0])
+    seen = scatter(rest, np.zeros(3, dtype=np.int64), 2.5)
+    # about zero, not about the mean: what a model leaves has no mean of its own
+    assert seen.deviance == pytest.approx(2.5 * np.log(np.mean(rest**2)))
+    assert seen.ratio == 0.0
+
+
+def test_two_variances_are_told_apart():
+    rest, labels = grouped(0.5, 1.0)
+    seen = scatter(rest, labels, float(len(rest)))
+    # 1/sqrt(2 (groups - 1)) of the standard deviation of the groups' means, 0.55, is 0.03; ratios are tried in steps of 33 %
+    assert seen.between == pytest.approx(0.5, abs=0.09)
+    assert seen.within == pytest.approx(1.0, abs=0.05)
+
+
+def test_without_scatter_between_settings_none_is_found():
+    rest, labels = grouped(0.0, 1.0, seed=1)
+    assert scatter(rest, labels, float(len(rest))).between < 0.1
+
+
+def test_whitening_takes_out_means_where_settings_scatter_without_limit():
+    rest, labels = grouped(2.0, 1.0, groups=5)
+    inside = whitened(rest[:, None], labels, float(len(rest)), 1.0e12)[:, 0]
+    means = np.bincount(labels, rest) / np.bincount(labels)
+    np.testing.assert_allclose(inside, rest - means[labels], atol=1e-5)  # means are left by 1/sqrt(ratio size) of their size
+    np.testing.assert_allclose(whitened(rest[:, None], labels, float(len(rest)), 0.0)[:, 0], rest)
+
+
+@pytest.fixture(scope="module")
+def sheets():
+    return [sheet_of(sine_run(coulomb, seed=s), scenario()) for s in (1, 2)]
+
+
+def test_blocks_and_strokes_are_all_of_the_sliding_once(sheets):
+    for parts in (blocks(sheets), strokes(sheets), strokes(sheets[:1])):
+        for i, sheet in enumerate(sheets[: len(parts[0])]):
+            times = np.sum([part[i] for part in parts], axis=0)
+            np.testing.assert_array_equal(times, sheet.sliding.astype(int))
+
+
+def test_one_run_is_left_out_by_strokes_and_several_by_their_directions(sheets):
+    assert len(strokes(sheets[:1])) == stroke_count([sheets[0].sliding])
+    assert len(strokes(sheets)) == 4
+    assert len(np.unique(settings_of(sheets))) == 4
+    assert len(np.unique(settings_of(sheets[:1]))) == 1
