@@ -12,10 +12,11 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from scipy.optimize import least_squares
 
+from stochfric_mb.discovery.least_squares import minimised
 from stochfric_mb.discovery.model import Knob, Model, adjusted, knobs_of
 from stochfric_mb.discovery.pool import Pool
+from stochfric_mb.discovery.recall import recalled
 from stochfric_mb.discovery.record import Array, Record
 from stochfric_mb.discovery.slips import N_FEATURES, Slips, extract
 from stochfric_mb.errors import SimulationError
@@ -29,6 +30,12 @@ STRENGTHS = (
     "amplitude", "coefficient", "distance", "cubic", "gap", "mass_ratio", "rate", "exponent", "asymmetry", "time_constant",
 )  # fmt: skip
 """Parameters that measure how strong an effect is."""
+LEVELLINGS = 2
+"""Times that mu_s and mu_k are moved to their places before a fit begins."""
+DIFFERENCE = 0.01
+"""Step of the derivatives, over a natural step of each number [-]."""
+REMEMBERED = 5.0
+"""Length of the record that what effects with a motion of their own remember is found from [s]."""
 MISSED = 50.0
 """Deviation that counts for every feature where the candidate does not slip as the data do."""
 
@@ -49,8 +56,6 @@ class Case:
     """Inverse Cholesky factor of their covariance [1/N], shape (N_FEATURES, N_FEATURES)."""
     ridge: float
     """Ridge of the extraction."""
-    cycle: float
-    """Time since the break-away before, there at the same position [s]; 0 where the slip before was another."""
     offset: Array
     """What the extraction adds to the truth in the believed model [N], shape (N_FEATURES,)."""
 
@@ -100,9 +105,10 @@ def _free(pool: Pool, model: Model, rows: np.ndarray, runs: Sequence[int]) -> Ca
     covariance = pool.calibrations[runs[0]].covariance * 1.57 / len(rows)
     scatter = np.var(features, axis=0) * 1.57 / len(rows)
     covariance = covariance + np.diag(np.maximum(scatter - np.diag(covariance), 0.0))
-    onset = (float(slips.onset_time[0]), float(np.median(slips.onset_position)), float(np.median(pool.dwell[rows])))
+    middle = float(slips.onset_time[len(slips) // 2])
+    onset = (middle, float(np.median(slips.onset_position)), float(np.median(pool.dwell[rows])))
     length = float(np.median(pool.restick_time[rows] - pool.onset_time[rows]))
-    return _case(model, slips, onset, length, centre, covariance, float(np.median(np.diff(slips.onset_time))))
+    return _case(model, slips, onset, length, centre, covariance)
 
 
 def _forced(pool: Pool, model: Model, rows: np.ndarray) -> list[Case]:
@@ -137,12 +143,11 @@ def _case(
     length: float,
     features: Array,
     covariance: Array,
-    cycle: float = 0.0,
 ) -> Case:
     load = slips.record.mechanism.normal_force
     floor = (FLOOR * 0.5 * load * np.r_[0.2, 0.5, np.ones(N_FEATURES - 2)]) ** 2
     whitening = np.asarray(np.linalg.inv(np.linalg.cholesky(covariance + np.diag(floor))), dtype=np.float64)
-    case = Case(slips.record, onset, length, features, whitening, slips.ridge, cycle, np.zeros(N_FEATURES))
+    case = Case(slips.record, onset, length, features, whitening, slips.ridge, np.zeros(N_FEATURES))
     plain = model.with_law(features[0] / load, min(features[1], 0.99 * features[0]) / load)
     plain = dataclasses.replace(plain, corrections={}, effects=(), process=None, own={})
     predicted = predict(plain, case)
@@ -160,20 +165,18 @@ def predict(model: Model, case: Case) -> Array | None:
     margin = 3.3 / record.angular_frequency
     # from the middle of the stick, so that a break-away that comes early is not missed
     ahead = max(margin * 1.2, 0.55 * case.onset[2])
-    # an effect with a memory of its own rings on from the slip before
-    before = case.cycle if any(e.n_memory for e in model.effects) else 0.0
+    time, position = case.onset[0] - ahead, record.direction * (case.onset[1] - box.belt_velocity * ahead)
+    system = model.system(record)
+    memory = recalled(system, record, np.array([time]), np.array([position]), since=REMEMBERED)
     start = Start(
-        case.onset[0] - ahead - before,
-        record.direction * (case.onset[1] - box.belt_velocity * ahead),
-        record.stated.belt_velocity,
-        True,
-        max(case.onset[2] - ahead, 0.0),
-    )
+        time, position, record.stated.belt_velocity, True, max(case.onset[2] - ahead, 0.0),
+        memory=None if memory is None else tuple(memory[0]),
+    )  # fmt: skip
     # room for a break-away that comes late by a fifth of the static deflection
     late = 0.2 * abs(case.onset[1]) / box.belt_velocity
-    count = round((before + ahead + late + 1.6 * case.length + margin) * record.rate)
+    count = round((ahead + late + 1.6 * case.length + margin) * record.rate)
     try:
-        motion = model.system(record).march(start, 1.0 / record.rate, count)
+        motion = system.march(start, 1.0 / record.rate, count)
     except SimulationError:
         return None
     position = record.direction * motion.position
@@ -188,7 +191,7 @@ def predict(model: Model, case: Case) -> Array | None:
     return np.r_[slips.onset_force[nearest], slips.moments[nearest]]
 
 
-def confirm(cases: Sequence[Case], candidate: Model, uncertainty: Mapping[str, float], *, evaluations: int = 12) -> Confirmed:
+def confirm(cases: Sequence[Case], candidate: Model, uncertainty: Mapping[str, float], *, evaluations: int = 20) -> Confirmed:
     """Return the candidate with its numbers fitted to the features of ``cases``."""
     knobs = [k for k in knobs_of(candidate, uncertainty) if not k.run]
     load = cases[0].record.mechanism.normal_force
@@ -205,9 +208,25 @@ def confirm(cases: Sequence[Case], candidate: Model, uncertainty: Mapping[str, f
         parts = [_error(trial, case) for case in cases]
         return np.concatenate([*parts, (values - believed) / priors])
 
-    first = min(_starts(candidate, knobs, scale), key=lambda s: float(np.sum(errors(np.clip(s, low, high)) ** 2)))
-    found = least_squares(
-        errors, np.clip(first, low, high), bounds=(low, high), diff_step=0.05, max_nfev=evaluations, xtol=1.0e-3, ftol=1.0e-3
+    def levelled(step: Array) -> Array:
+        """Return the step with mu_s and mu_k moved to where the break-away and the mean force in slip are right."""
+        for _ in range(LEVELLINGS):
+            away = _levels_away(adjusted(candidate, knobs, start + scale * step), cases)
+            step = np.clip(step + np.array([away.get(k.name, 0.0) for k in knobs]) / scale, low, high)
+        return step
+
+    starts = [levelled(np.clip(s, low, high)) for s in _starts(candidate, knobs, scale)]
+    first = min(starts, key=lambda s: float(np.sum(errors(s) ** 2)))
+    found = minimised(
+        errors,
+        first,
+        low,
+        high,
+        difference=DIFFERENCE,
+        max_nfev=evaluations,
+        xtol=1.0e-4,
+        ftol=1.0e-3,
+        x_scale="jac",
     )
     n_parameters = sum(k.effect >= 0 for k in knobs)
     return Confirmed(
@@ -217,6 +236,16 @@ def confirm(cases: Sequence[Case], candidate: Model, uncertainty: Mapping[str, f
         n_parameters,
         N_FEATURES * len(cases) - 2 - n_parameters,
     )
+
+
+def _levels_away(model: Model, cases: Sequence[Case]) -> dict[str, float]:
+    """Return by how much mu_s and mu_k are too low for the break-away and the mean force in slip, over all cases."""
+    away: list[Array] = []
+    for case in cases:
+        predicted = predict(model, case)
+        if predicted is not None:
+            away.append((case.features - (predicted - case.offset))[:2] / case.record.mechanism.normal_force)
+    return dict(zip(("mu_s", "mu_k"), np.mean(away, axis=0).tolist(), strict=True)) if away else {}
 
 
 def _starts(candidate: Model, knobs: Sequence[Knob], scale: Array) -> list[Array]:

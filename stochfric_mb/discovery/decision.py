@@ -38,6 +38,8 @@ must explain the larger part, 65 %."""
 AS_WELL = 0.1
 """Share of the scatter that an effect may leave which explains two levels as well [-]: a square ripple's fundamental and
 third harmonic leave as much, a ripple fitted to random levels a third or more."""
+LEAST_KEPT = 0.5
+"""Share of the slips that a model with effects must not miss for a search in what it leaves to make sense [-]."""
 MOST_ROUNDS = 5
 """Rounds of the search: harmonics of a named ripple take rounds of their own."""
 FITTED_TO_FORECASTS = (*PERIODIC, "friction_drift", "sensor_drift")
@@ -249,11 +251,15 @@ class _Search:
             fit = refit(self.model, self.study.windows, self.study.uncertainty, most=12, evaluations=20)
             self.model = fit.model
         self._take_out()
-        self.stalled = kind in PERIODIC and _scatter(self.solution) > STALLED * before
+        self.stalled |= kind in PERIODIC and _scatter(self.solution) > STALLED * before
 
     def _take_out(self) -> None:
         """Go on with what the model leaves of the features."""
-        self.pool = left_over(self.study.pool, self.model)
+        left = left_over(self.study.pool, self.model)
+        if left.kept.sum() < LEAST_KEPT * self.pool.kept.sum():
+            self.stalled = True
+            return
+        self.pool = left
         self.regression = Regression(self.pool)
         self.terms = believed(self.pool, dict(self.study.uncertainty)).plus(self.kept)
         self.solution = self.regression.fit(self.terms, self.solution.scatter)

@@ -11,6 +11,7 @@ import dataclasses
 import numpy as np
 
 from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.recall import recalled
 from stochfric_mb.discovery.record import Array, Record
 from stochfric_mb.discovery.slips import Slips
 from stochfric_mb.errors import SimulationError
@@ -96,7 +97,7 @@ def forecasts(model: Model, windows: Windows, *, sample: int = 0) -> Array:
     late = sum(e.delay for e in effects if e.kind == "sensor_delay")  # pyright: ignore[reportAttributeAccessIssue]
     starts = np.stack([times - late, true, np.full(len(times), belt), np.ones(len(times)), dwell], axis=1)
     try:
-        paths = system.forecasts(starts, windows.stride / record.rate, N_OUTPUTS)
+        paths = system.forecasts(starts, windows.stride / record.rate, N_OUTPUTS, recalled(system, record, starts[:, 0], true))
     except SimulationError:
         return np.full(windows.targets.shape, np.nan)
     for effect in effects:

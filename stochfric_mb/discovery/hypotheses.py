@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery.oscillator import oscillator_pull
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.record import Array
 from stochfric_mb.effects import effect_class, effect_kinds
@@ -132,11 +133,25 @@ def load_dependence(pool: Pool) -> list[Hypothesis]:
 
 
 def nonlinear_stiffness(pool: Pool) -> list[Hypothesis]:
-    """Return -x^3 in stick and slip, along the typical slip."""
+    """Return -x^3, and -x|x| with it, in stick and slip, along the typical slip; the stiffness at rest is left open."""
     onset, position = pool.typical_onset, pool.typical_position
-    scale = float(np.median(np.abs(onset))) ** 3
-    columns = [pool.column(-(onset**3) / scale, -(position**3) / scale)]
-    return [Hypothesis("nonlinear_stiffness", columns, (), lambda b: {"cubic": float(b[0] / scale)})]
+    scale = float(np.median(np.abs(onset)))
+    stiffness = pool.per_run(lambda s: s.record.mechanism.stiffness)
+    linear = pool.column(-onset * stiffness, -position * stiffness[:, None])
+    # sides of the spring, not of the mirrored record: both parts are odd, so that a mirrored run looks the same
+    square, cube = (
+        pool.column(-np.sign(onset) * np.abs(onset / scale) ** n, -np.sign(position) * np.abs(position / scale) ** n)
+        for n in (2, 3)
+    )
+
+    def start(b: Array) -> dict[str, float]:
+        more = {"quadratic": float(b[2] / scale**2)} if len(b) > 2 else {}
+        return {"cubic": float(b[0] / scale**3), "stiffness": float(b[1])} | more
+
+    return [
+        Hypothesis("nonlinear_stiffness", [cube, linear], (), start),
+        Hypothesis("nonlinear_stiffness", [cube, linear, square], (), start),
+    ]
 
 
 def quadratic_damping(pool: Pool) -> list[Hypothesis]:
@@ -147,63 +162,58 @@ def quadratic_damping(pool: Pool) -> list[Hypothesis]:
 
 
 def backlash(pool: Pool) -> list[Hypothesis]:
-    """Return the spring force that a narrow dead zone takes away, for places of the zone along the slip."""
+    """Return the spring force that a narrow dead zone takes away, for places of the zone along the slip.
+
+    Where directions or loads differ, so does the friction that a shift of the whole spring would look like: the side of
+    the gap on which the spring counts as unloaded is then left open.
+    """
     width = 0.02 * float(np.median(pool.typical_onset))
     if width <= 0.0:
         return []
     stiffness = pool.per_run(lambda s: s.record.mechanism.stiffness)
+    back = pool.direction < 0
     low, high = np.quantile(pool.typical_position, (0.08, 0.92))
-    return [
-        Hypothesis(
-            "backlash",
-            [
-                pool.column(
-                    stiffness * np.clip(pool.typical_onset - place, 0.0, width),
-                    stiffness[:, None] * np.clip(pool.typical_position - place, 0.0, width),
-                )
-            ],
-            (place,),
-            lambda b, place=place: {"gap": float(abs(b[0]) * width), "position": float(place)},
-        )
-        for place in np.linspace(low, high, 16)
-    ]
+    places = list(np.linspace(low, high, 16))
+    if back.any():
+        places += list(-np.linspace(low, high, 16) - width)
+    shift = pool.column(*(2 * [-pool.direction * stiffness * width]))
+    shifted = back.any() or np.ptp(pool.normal_force) > 0.05 * pool.normal_force.mean()
+
+    def passed(x: Array, place: float) -> Array:
+        """Return how much of the gap is passed, seen in the mirrored frame of runs with a reversed belt."""
+        away = back if x.ndim == 1 else back[:, None]
+        return np.where(away, np.clip(x + place + width, 0.0, width) - width, np.clip(x - place, 0.0, width))
+
+    def start(b: Array, place: float) -> dict[str, float]:
+        found = {"gap": float(abs(b[0]) * width), "position": place}
+        return found | ({"share_below": float(np.clip(b[1] / b[0], 0.05, 0.95))} if len(b) > 1 and b[0] != 0.0 else {})
+
+    found: list[Hypothesis] = []
+    for place in map(float, places):
+        nodes = stiffness[:, None] * passed(pool.typical_position, place)
+        columns = [pool.column(stiffness * passed(pool.typical_onset, place), nodes)]
+        columns += [shift] if shifted else []
+        found.append(Hypothesis("backlash", columns, (place,), lambda b, place=place: start(b, place)))
+    return found
 
 
 def second_mode(pool: Pool) -> list[Hypothesis]:
-    """Return the force of a light oscillator on the box, driven by the slip's acceleration from rest."""
-    slowest, fastest = 1.5 * _natural_frequency(pool), 7.0 * _natural_frequency(pool)
-    mass = pool.per_run(lambda s: s.record.mechanism.mass)[:, None]
-    return [
-        Hypothesis(
-            "second_mode",
-            [pool.column(None, mass * _oscillator(pool, frequency))],
-            (frequency,),
-            lambda b, f=frequency: {"mass_ratio": float(np.clip(b[0], 0.005, 0.9)), "frequency": float(f)},
-        )
-        for frequency in np.geomspace(slowest, fastest, 36)
-    ]
+    """Return the force of a light oscillator on the box, driven by the slips; what was weighed with the box is left open."""
+    natural = pool.slips[0].record.angular_frequency / (2.0 * np.pi)
+    mass = pool.per_run(lambda s: s.record.mechanism.mass)
+    inertia = pool.column(None, -mass[:, None] * pool.node_acceleration)
+    found: list[Hypothesis] = []
+    for frequency in natural * np.geomspace(1.5, 7.0, 100):
+        for ratio in (0.01, 0.03, 0.1):
+            onset, nodes = oscillator_pull(pool, frequency, ratio)
 
+            def start(b: Array, frequency: float = frequency, ratio: float = ratio) -> dict[str, float]:
+                share = float(np.clip(b[0], 0.005, 0.9))
+                return {"mass_ratio": share, "frequency": frequency, "damping_ratio": ratio, "mass": float(b[1])}
 
-def _natural_frequency(pool: Pool) -> float:
-    return pool.slips[0].record.angular_frequency / (2.0 * np.pi)
-
-
-def _oscillator(pool: Pool, frequency: float) -> Array:
-    """Return w^2 q at the nodes [m/s^2], shape (n, N_NODES): q'' + 0.02 w q' + w^2 q = -x'' from rest at the break-away."""
-    w = 2.0 * np.pi * frequency
-    tau = pool.node_time - pool.onset_time[:, None]
-    count = 120
-    length = pool.restick_time - pool.onset_time
-    grid = np.linspace(0.0, 1.0, count)[None] * length[:, None]
-    step = grid[:, 1]
-    drive = np.stack([np.interp(g, t, a) for g, t, a in zip(grid, tau, pool.node_acceleration, strict=True)])
-    q, rate = np.zeros(len(tau)), np.zeros(len(tau))
-    path = np.zeros((len(tau), count))
-    for j in range(count):
-        rate = rate + step * (-drive[:, j] - w * w * q - 0.02 * w * rate)
-        q = q + step * rate
-        path[:, j] = w * w * q
-    return np.stack([np.interp(t, g, p) for t, g, p in zip(tau, grid, path, strict=True)])
+            columns = [pool.column(mass * onset, mass[:, None] * nodes), inertia]
+            found.append(Hypothesis("second_mode", columns, (frequency, ratio), start))
+    return found
 
 
 def friction_drift(pool: Pool) -> list[Hypothesis]:

@@ -11,7 +11,7 @@ import dataclasses
 import numpy as np
 
 from stochfric_mb.discovery.confirmation import Case, predict
-from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.model import FREED, Model
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.record import Array
 from stochfric_mb.discovery.slips import N_FEATURES, Slips
@@ -26,7 +26,10 @@ def left_over(pool: Pool, model: Model) -> Pool:
         pool: the slips with their features as measured.
         model: a deterministic model with effects, its numbers fitted.
     """
-    plain = dataclasses.replace(model, effects=(), own={})
+    # what an effect freed of the mechanism goes with it
+    freed = {name for effect in model.effects for name in FREED.get(effect.kind, ())}
+    corrections = {name: 0.0 if name in freed else value for name, value in model.corrections.items()}
+    plain = dataclasses.replace(model, effects=(), own={}, corrections=corrections)
     features = pool.features.copy()
     kept = pool.kept.copy()
     for r, slips in enumerate(pool.slips):
@@ -47,8 +50,6 @@ def _predicted(slips: Slips, model: Model, dwell: Array, count: int | None = Non
     rows: list[Array] = []
     previous = np.r_[np.median(slips.restick_position), slips.restick_position[:-1]]
     belt = slips.record.mechanism.belt_velocity
-    free = slips.record.mechanism.excitation_amplitude == 0.0 and len(slips) > 1
-    cycle = float(np.median(np.diff(slips.onset_time))) if free else 0.0
     for i in range(len(slips) if count is None else count):
         # predicted from the last re-stick alone: the place of this break-away is what is to be predicted
         typical = float(np.median(slips.onset_position))
@@ -56,8 +57,7 @@ def _predicted(slips: Slips, model: Model, dwell: Array, count: int | None = Non
         stuck = (typical - previous[i]) / belt if i else float(dwell[i])
         case = Case(
             slips.record, (float(expected), typical, max(stuck, 0.02)),
-            float(np.median(slips.restick_time - slips.onset_time)), slips.features[i], ANY, slips.ridge, cycle,
-            np.zeros(N_FEATURES),
+            float(np.median(slips.restick_time - slips.onset_time)), slips.features[i], ANY, slips.ridge, np.zeros(N_FEATURES),
         )  # fmt: skip
         found = predict(model, case)
         rows.append(np.full(N_FEATURES, np.nan) if found is None else found)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -17,12 +18,23 @@ from stochfric_mb.reference.augmented import AugmentedSystem, augmented_system
 
 CORRECTED = ("stiffness", "mass", "damping")
 """Parameters of the mechanism that recalibration may correct."""
-NOT_FITTED = ("reference_load", "spacing", "fraction", "size", "time", "duration", "high", "low", "static_share")
+NOT_FITTED = ("reference_load", "spacing", "fraction", "size", "time", "duration", "high", "low", "static_share", "share_below")
 """Parameters of effects that forecasts cannot fit, or that are fixed by what they mean."""
 REACH = 0.25
 """How far a fit may move the coefficients, over mu_s [-]: further off, a forecast that never slips would look good."""
+FREED = {"second_mode": ("mass",), "nonlinear_stiffness": ("stiffness",)}
+"""Effect -> what is believed of the mechanism less firmly with it: whether the oscillator was weighed with the body, and at
+which deflection the spring was measured, nobody said."""
+MOST_FREED = 0.4
+"""How far that may be off [-]."""
+MOST_DAMPED = 0.1
+"""Damping ratio up to which a second mode is looked for [-]: one that hardly rings could stand for any shape."""
 SHORTEST_LIMIT = 1.0e-6
 """Smallest elastic limit that a fit may reach [m]: a stiffer contact cannot be told from a rigid one and costs time."""
+TUNED, TUNING = ("frequency", "wavelength"), 0.02
+"""Parameters of effects that small changes of tell upon, and a natural step over their size [-]."""
+MOST_TUNED, FARTHEST = 2.0, 30.0
+"""Factors by which a fit may change these, and other scales of length, time and speed: beyond, simulations take forever."""
 OWN_TO_RUN = ("phase", "phase_2", "phase_3")
 """Parameters of effects that each run has its own value of: records start anywhere."""
 
@@ -114,8 +126,12 @@ def knobs_of(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str]
     ]
     for name in CORRECTED:
         prior = uncertainty.get(name, 0.0)
+        most = 3.0 * prior
+        if any(name in FREED.get(e.kind, ()) for e in model.effects):
+            most, prior = most + MOST_FREED, math.hypot(prior, MOST_FREED / 2.0)
         if prior > 0.0:
-            knobs.append(Knob(name, model.corrections.get(name, 0.0), prior, prior, max(-0.95, -3.0 * prior), 3.0 * prior))
+            scale = uncertainty.get(name, 0.0) or 0.01
+            knobs.append(Knob(name, model.corrections.get(name, 0.0), scale, prior, max(-0.95, -most), most))
     for i, effect in enumerate(model.effects):
         for field in dataclasses.fields(effect):
             meta = field.metadata
@@ -129,17 +145,30 @@ def knobs_of(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str]
                     own = model.own.get(run, ({},) * len(model.effects))[i].get(field.name, value)
                     knobs.append(Knob(field.name, own, 0.3, np.inf, -np.inf, np.inf, i, run))
             elif not (field.name in ("amplitude_2", "amplitude_3") and value == 0.0):
-                scale = max(abs(value), 0.05 * meta["scale"])
-                inside = 1.0e-6 * meta["scale"] if meta["strict"] else 0.0
-                if field.name == "elastic_limit":
-                    inside = SHORTEST_LIMIT
-                knobs.append(Knob(field.name, value, scale, np.inf, meta["low"] + inside, meta["high"] - inside, i))
+                # a frequency that is off by its share of a wave in the whole record changes everything
+                scale = TUNING * value if field.name in TUNED else max(abs(value), 0.05 * meta["scale"])
+                low, high = _bounds(effect.kind, field.name, value, meta)
+                knobs.append(Knob(field.name, value, scale, np.inf, low, high, i))
     return knobs
 
 
+def _bounds(kind: str, name: str, value: float, about: Mapping[str, Any]) -> tuple[float, float]:
+    """Return the smallest and the largest value that a fit may give a parameter of an effect."""
+    inside = 1.0e-6 * about["scale"] if about["strict"] else 0.0
+    low, high = about["low"] + inside, about["high"] - inside
+    if name == "elastic_limit":
+        return about["low"] + SHORTEST_LIMIT, about["high"] - SHORTEST_LIMIT
+    if (kind, name) == ("second_mode", "damping_ratio"):
+        return low, max(MOST_DAMPED, value)
+    if about["strict"] and value > 0.0:
+        most = MOST_TUNED if name in TUNED else FARTHEST
+        return max(low, value / most), min(high, value * most)
+    return low, high
+
+
 def _shared(name: str, value: float) -> bool:
-    """Return whether a share that mu_s takes is to be fitted: where it is neither none nor all."""
-    return name == "static_share" and value not in (0.0, 1.0)
+    """Return whether a share is to be fitted: where it is neither none nor all."""
+    return name in ("static_share", "share_below") and value not in (0.0, 1.0)
 
 
 def adjusted(model: Model, knobs: Sequence[Knob], values: Array) -> Model:

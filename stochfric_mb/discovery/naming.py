@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.model import CORRECTED, FREED, MOST_FREED, Model
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.record import Array
 from stochfric_mb.discovery.screening import Candidate
@@ -38,7 +38,14 @@ def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int)
             found = {s.record.name: (float(sizes[r, step]), float(times[r, step])) for r, s in enumerate(pool.slips)}
             model = with_steps(model, found)
         return model
-    return model.plus(_bounded(candidate.name, candidate.hypothesis.start(coefficients)))
+    values = candidate.hypothesis.start(coefficients)
+    # a fit begins where screening ended: coefficients and corrections belong to the effect's strength
+    mu_s, mu_k = (max(float(c), 1.0e-3) for c in candidate.solution.coefficients[:2])
+    corrections = dict(zip(CORRECTED, map(float, candidate.solution.coefficients[2:5]), strict=True))
+    for name in FREED.get(candidate.name, ()):
+        corrections[name] = float(np.clip(corrections[name] + values.pop(name), -MOST_FREED, MOST_FREED))
+    model = dataclasses.replace(model.with_law(mu_s, mu_k), corrections=corrections)
+    return model.plus(_bounded(candidate.name, values))
 
 
 def with_steps(model: Model, steps: Mapping[str, tuple[float, float]], place: int | None = None) -> Model:

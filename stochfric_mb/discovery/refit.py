@@ -6,9 +6,9 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from stochfric_mb.discovery.forecast import Windows, forecasts
+from stochfric_mb.discovery.least_squares import minimised
 from stochfric_mb.discovery.model import Knob, Model, adjusted, knobs_of
 from stochfric_mb.discovery.record import Array
 
@@ -18,6 +18,10 @@ UNIT = 1.0e-5
 """Size of an error that counts fully [m]; larger ones count by their size, not its square."""
 CLIP = 60.0
 """Errors beyond this many units count as this many: a missed slip says no more than that."""
+
+
+DIFFERENCE = 0.01
+"""Step of the derivatives, over a natural step of each number [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -78,9 +82,9 @@ def refit(
         # priors enter as one observation each; its weight is that of a cycle's worth of independent errors
         return np.concatenate([*parts, 3.0 * (values - believed) / priors])
 
-    found = least_squares(
-        errors, np.zeros(len(knobs)), bounds=(low, high), loss="soft_l1", f_scale=2.0, diff_step=0.02, max_nfev=evaluations,
-        xtol=1.0e-4, ftol=1.0e-4,
+    found = minimised(
+        errors, np.zeros(len(knobs)), low, high, difference=DIFFERENCE, loss="soft_l1", f_scale=2.0, max_nfev=evaluations,
+        xtol=1.0e-4, ftol=1.0e-4, x_scale="jac",
     )  # fmt: skip
     values = start + scale * found.x
     information = found.jac.T @ found.jac

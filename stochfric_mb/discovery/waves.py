@@ -27,6 +27,11 @@ SLOW = 1.6
 """Frequency over the rate of the slips up to which waves are slow [-]; harmonics are looked for in slow ones alone."""
 COARSE, FINE = 3.0, 15.0
 """Frequencies of the grid, and about its best one, in 1/(length of the record) [-]."""
+SHARE_OF_SHAPE = 0.7
+"""Share of the score of shapes of their own for all runs that a fast wave must reach where the rates of the slips differ: that
+all are fractions of one frequency is then evidence that the score does not count [-]."""
+DIFFERENT = 1.1
+"""Ratio of rates from which on they differ [-]."""
 CHUNK = 64
 """Frequencies that are looked at together."""
 
@@ -82,7 +87,11 @@ def frequencies(pool: Pool) -> Array:
 
 
 def _slip_rate(pool: Pool) -> float:
-    return float(np.median([1.0 / np.median(np.diff(s.onset_time)) for s in pool.slips]))
+    return float(np.median(_slip_rates(pool)))
+
+
+def _slip_rates(pool: Pool) -> Array:
+    return np.array([1.0 / np.median(np.diff(s.onset_time)) for s in pool.slips])
 
 
 def wave_columns(pool: Pool, wave: Wave, frequency: float, harmonics: int) -> list[Array]:
@@ -124,6 +133,13 @@ def best_wave(kind: str, pool: Pool, regression: Regression, terms: Terms, scatt
     parts = regression.parts(terms, scatter)
     cost = 2.0 * pool.n_runs * float(np.log(regression.n))
     whole = frequencies(pool)
+    # a wave that all slips of a run keep to looks like a shape that they share: it must tell more with less
+    alike = [pool.column(None, None) for _ in range(pool.n_runs * N_FEATURES)]
+    for i, column in enumerate(alike):
+        column[pool.run == i // N_FEATURES, i % N_FEATURES] = 1.0
+    shaped = 2.0 * float(regression.gains(terms, scatter, [alike])[0]) - len(alike) * float(np.log(regression.n))
+    rates = _slip_rates(pool)
+    share = SHARE_OF_SHAPE if rates.max() > DIFFERENT * rates.min() else 1.0
     limit = SLOW * _slip_rate(pool)
     slow, fast = whole[whole <= limit], whole[whole > limit]
     best, looked_at = (-np.inf, float(whole[0]), 1), 0
@@ -136,8 +152,9 @@ def best_wave(kind: str, pool: Pool, regression: Regression, terms: Terms, scatt
         close = close[(close <= limit) == (centre <= limit)]
         fine = _gains(pool, wave, parts, close, harmonics)
         looked_at += len(grid)
-        trial = (2.0 * float(fine.max()) - cost * harmonics, float(close[np.argmax(fine)]), harmonics)
-        best = max(best, trial)
+        score = 2.0 * float(fine.max()) - cost * harmonics
+        if grid is not fast or score > share * shaped:
+            best = max(best, (score, float(close[np.argmax(fine)]), harmonics))
     _, frequency, harmonics = best
     columns = wave_columns(pool, wave, frequency, harmonics)
     return Hypothesis(kind, columns, (wave.setting(frequency), float(harmonics))), looked_at

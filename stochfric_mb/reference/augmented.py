@@ -205,14 +205,32 @@ class AugmentedSystem:
         )  # fmt: skip
         return run
 
-    def forecasts(self, starts: npt.ArrayLike, step: float, count: int) -> npt.NDArray[np.float64]:
+    def recalled(self, time: Array, position: Array, velocity: Array) -> Array:
+        """Return the memories of the effects at each sample of a motion as measured, at rest at first, shape (n, n_memory).
+
+        Args:
+            time: time [s], shape (n,), increasing by steps that resolve the effects' own motion.
+            position: position of the body [m], shape (n,).
+            velocity: its velocity [m/s], shape (n,).
+        """
+        run = _copied(self._run)
+        found = np.zeros((len(time), int(run.counts[2])))
+        if found.size:
+            motion = [np.ascontiguousarray(a, dtype=np.float64) for a in (time, position, velocity)]
+            augmented_march.recall(run, *motion, _at_rest(self.effects, position[:1], velocity[:1])[0], found)
+        return found
+
+    def forecasts(
+        self, starts: npt.ArrayLike, step: float, count: int, memories: Array | None = None
+    ) -> npt.NDArray[np.float64]:
         """Return positions [m] at step (1, ..., count) after each start, shape (k, count), in one compiled call.
 
         Args:
             starts: shape (k, 5) or (k, 6): time [s], position [m], velocity [m/s], stick (0 or 1), dwell [s] and, if
-                given, slip [m]; memories and springs start at rest.
+                given, slip [m]; springs start at rest.
             step: distance between outputs [s], > 0.
             count: number of outputs.
+            memories: unknowns of the effects' own equations at the starts, shape (k, n_memory); None: at rest.
 
         Raises:
             InputError: starts of another shape.
@@ -225,7 +243,8 @@ class AugmentedSystem:
             table = np.column_stack([table, np.zeros(len(table))])
         run = _copied(self._run)
         paths = np.empty((len(table), count))
-        memories = _at_rest(self.effects, table[:, 1], table[:, 2])
+        if memories is None:
+            memories = _at_rest(self.effects, table[:, 1], table[:, 2])
         status = augmented_march.forecasts(run, self._descriptor, table, memories, float(step), count, paths)
         self._require_sane(status, math.nan)
         return paths

@@ -17,6 +17,8 @@ from stochfric_mb.reference.augmented_model import friction_force, hold, margin,
 from stochfric_mb.reference.events import BREAK_AWAY, STICK, note
 
 OK, ENDLESS, NOT_FINITE = 0.0, 1.0, 2.0
+RUN_AWAY = 1.0e12
+"""Position over the error allowed at which a box has run away: a spring that softens without end throws it out at once."""
 ENDLESS_SWITCHES = 5
 """Switches per output, on average, beyond which a contact chatters without end."""
 RESTART = 2.0e-4
@@ -143,7 +145,7 @@ def _accept(r, d, t, h, error, ahead):
     clock[m.STEP] = h * min(5.0, 0.9 * error**-0.2) if error > 0.0 else 5.0 * h
     if clock[m.MODE] == m.STUCK:
         ride(r, t, r.y, r.unused)
-    elif not math.isfinite(r.y[0] + r.y[1]):
+    elif not math.isfinite(r.y[0] + r.y[1]) or abs(r.y[0]) > RUN_AWAY * r.constants[m.TOLERANCE] > 0.0:
         clock[m.STATUS] = NOT_FINITE
     for j in range(r.counts[2] + 2):
         r.stages[0, j] = r.stages[m.STAGES - 1, j]
@@ -352,6 +354,34 @@ def record(r, d, t, row, only_position):
     row[5], row[6] = m.evaluate(
         d, r.cursor, int(c[m.SEED]), int(c[m.SAMPLE]), int(c[m.CONTACT]), t, r.world[e.BELT_POSITION], r.clock[m.DRAWS]
     )  # fmt: skip
+
+
+@compiled
+def recall(r, time, position, velocity, memory, out):
+    """Fill ``out`` (n, n_memory) with the memories while the body moves as given, on cubics between the samples.
+
+    The classical Runge-Kutta formula, one step a sample.
+    """
+    n = r.counts[2]
+    k = r.stages
+    for j in range(n):
+        r.y[2 + j] = memory[j]
+        out[0, j] = memory[j]
+    for i in range(len(time) - 1):
+        h = time[i + 1] - time[i]
+        for s in range(4):
+            part = 0.0 if s == 0 else 1.0 if s == 3 else 0.5
+            rest = 1.0 - part
+            r.probe[0] = rest * rest * (position[i] * (1.0 + 2.0 * part) + part * h * velocity[i]) + part * part * (
+                position[i + 1] * (3.0 - 2.0 * part) - rest * h * velocity[i + 1]
+            )
+            r.probe[1] = rest * velocity[i] + part * velocity[i + 1]
+            for j in range(n):
+                r.probe[2 + j] = r.y[2 + j] + (part * h * k[s - 1, 2 + j] if s > 0 else 0.0)
+            surround(r, time[i] + part * h, r.probe, k[s])
+        for j in range(n):
+            r.y[2 + j] += h / 6.0 * (k[0, 2 + j] + 2.0 * k[1, 2 + j] + 2.0 * k[2, 2 + j] + k[3, 2 + j])
+            out[i + 1, j] = r.y[2 + j]
 
 
 @compiled

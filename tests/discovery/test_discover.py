@@ -28,6 +28,11 @@ CLEAR = (
     Case("random_coefficients.per_slip", "one_free", 1.0, SEED),
     Case("harmonic_force.sine", "one_free", 1.0, SEED),
     Case("unknown.two_states", "one_free", 1.0, SEED),
+    Case("harmonic_force.fast_sine", "belt_speeds", 1.0, SEED),
+    Case("frictional_lag.relaxation", "belt_speeds", 1.0, SEED),
+    Case("second_mode.heavy_spring", "one_free", 1.0, SEED),
+    Case("nonlinear_stiffness.yielding", "one_free", 1.0, SEED),
+    Case("backlash.one_sided", "reversed_belt", 1.0, SEED),
 )
 COUNTED = 0.1
 """Share of the error that is reducible where something is missing [-]."""

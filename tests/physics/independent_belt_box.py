@@ -47,12 +47,13 @@ class Box:
         """Everything on the box but friction."""
         f = -self.k * x - self.c * v
         if e := self.get("nonlinear_stiffness"):
-            f -= e["cubic"] * x**3
+            f -= e.get("quadratic", 0.0) * x * abs(x) + e["cubic"] * x**3
         if e := self.get("quadratic_damping"):
             f -= e["coefficient"] * v * abs(v)
         if e := self.get("backlash"):
             over = x - e["position"]
             f += self.k * (0.0 if over < 0 else over if over < e["gap"] else e["gap"])
+            f -= self.k * e.get("share_below", 0.0) * e["gap"]
         if e := self.get("harmonic_force"):
             f += e["amplitude"] * math.cos(2 * math.pi * e["frequency"] * t + e["phase"])
         if e := self.get("second_mode"):

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from stochfric_mb.contact import Contact
 from stochfric_mb.effects import EFFECTS, Effect, effect_class, make_effect
 from stochfric_mb.effects.augmented_law import augmented_law
+from stochfric_mb.errors import SimulationError
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference.augmented import Motion, Start, augmented_system
@@ -226,3 +227,10 @@ def test_law_with_nothing_is_the_law_inside(inner: str) -> None:
         assert forces[1] == pytest.approx(forces[0], abs=1.0e-8)
         for contact in contacts:
             contact.commit(t, u, v, 13.0)
+
+
+def test_a_box_thrown_out_by_its_spring_is_an_error() -> None:
+    softening = make_effect("nonlinear_stiffness", cubic=-6.0e9)
+    system = augmented_system(BOX, COULOMB, [softening])
+    with pytest.raises(SimulationError, match="not finite"):
+        system.march(Start(position=-3.0e-3, velocity=-0.1), 1.0e-3, 3000)

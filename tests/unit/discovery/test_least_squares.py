@@ -1,0 +1,41 @@
+"""Least squares on rough errors, and within bounds."""
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+
+from stochfric_mb.discovery.least_squares import minimised
+
+GOAL = np.array([0.7, -1.3])
+FINENESS = 1e-6
+"""Errors are known to this step, as those of a simulation are."""
+
+
+def rough(at: np.ndarray) -> np.ndarray:
+    """Errors that rise in steps: differences below the steps' size see nothing or a cliff."""
+    away = at - GOAL
+    smooth = np.array([away[0] + 0.2 * away[1] ** 2, 2.0 * away[1], away[0] * away[1]])
+    return np.round(smooth / FINENESS) * FINENESS
+
+
+def test_a_stated_step_finds_its_way_where_the_smallest_one_does_not():
+    low, high = np.full(2, -5.0), np.full(2, 5.0)
+    found = minimised(rough, np.zeros(2), low, high, difference=0.01, xtol=1e-8)
+    lost = least_squares(rough, np.zeros(2), bounds=(low, high), diff_step=0.01, xtol=1e-8)
+    # the slopes are known to the step times the curvature, so that the end is reached to the errors' own fineness
+    np.testing.assert_allclose(found.x, GOAL, atol=10.0 * FINENESS)
+    assert np.abs(lost.x - GOAL).max() > 0.1  # SciPy's own step at zero is 1e-8, whatever step is asked for
+
+
+@pytest.mark.parametrize("first", [(0.0, 0.0), (9.0, -9.0)])
+def test_bounds_hold_for_the_derivatives_too(first):
+    asked: list[np.ndarray] = []
+
+    def errors(at):
+        asked.append(at.copy())
+        return at - GOAL
+
+    low, high = np.array([-0.5, -1.0]), np.array([0.2, -0.995])  # the second range is smaller than the step
+    found = minimised(errors, np.array(first), low, high, difference=0.01)
+    assert all(np.all(low <= at) and np.all(at <= high) for at in asked)
+    np.testing.assert_allclose(found.x, (0.2, -1.0), atol=1e-3)
