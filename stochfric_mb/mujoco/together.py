@@ -24,7 +24,7 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.answer import FREE, MU, V0, VX, VY, add_force, answer, law_at, slides, take
-from stochfric_mb.mujoco.holding import hold_still, is_held, want_hold
+from stochfric_mb.mujoco.holding import hold_still, is_held, share, want_hold
 from stochfric_mb.mujoco.newton import newton
 
 SWEEPS, ROUNDS = 20, 6
@@ -35,6 +35,10 @@ STILL = 1.0e-8
 """The same where some contacts stick and others slide."""
 NEAR = 1.0e-2
 """Change of the sliding force over mu_s N that leaves no room for another root of the law between two velocities."""
+AT_LIMIT = 1.0 - 1.0e-6
+"""Part of mu_s N from which a law that sticks is at its limit."""
+SAMPLES = 3
+"""Velocities on the way to rest at which a law is looked at."""
 OFTEN = 3
 """Sweeps from one use of the contacts' own answers in Newton's method to the next."""
 
@@ -126,12 +130,28 @@ def reach(places, coupling, numbers, motion, f, first, end, h, response, held, s
 
 @compiled
 def follow(places, coupling, numbers, motion, f, end, h, space):
-    """Give the contacts that slide their laws' forces at the velocities so far, all from the same ones."""
+    """Give the contacts the forces to start from, all from the same velocities.
+
+    Those that slide get their laws' forces at these velocities. Those that stick keep theirs, but where the law is at
+    its limit, and its slope says nothing of how stiff it is within, they get what would stop them.
+    """
     for q in range(len(places)):
         space[2 * q], space[2 * q + 1] = f[q, 0], f[q, 1]
+        if is_held(places, q):
+            continue
         vx, vy = take(places, motion, q)
+        gx, gy = law_at(places[q], end, h, numbers[q], vx, vy)
         if is_fast(places[q, 3], places[q, 2], vx, vy):
-            space[2 * q], space[2 * q + 1] = law_at(places[q], end, h, numbers[q], vx, vy)
+            space[2 * q], space[2 * q + 1] = gx, gy
+        elif n.load(places[q, 3] + 8 * s.HAS_MODE) != 0.0:
+            cap = numbers[q, MU] * n.load(places[q, 2] + 8 * s.NORMAL)
+            if math.hypot(gx, gy) >= AT_LIMIT * cap:
+                part = share(coupling, motion, q)
+                x, y = f[q, 0] + part * vx, f[q, 1] + part * vy
+                size = math.hypot(x, y)
+                if size > cap:
+                    x, y = x * cap / size, y * cap / size
+                space[2 * q], space[2 * q + 1] = x, y
     restore(coupling, motion, f, space)
 
 
@@ -166,9 +186,25 @@ def is_nearest(places, numbers, motion, f, first, response, end, h, own):
             continue
         if math.hypot(f[q, 0] - first[2 * q], f[q, 1] - first[2 * q + 1]) > NEAR * cap:
             gx, gy = law_at(places[q], end, h, row, vx, vy)
+            if slides(state, address) and math.hypot(f[q, 0], f[q, 1]) < AT_LIMIT * math.hypot(gx, gy):
+                if not stops_at_all(places[q], end, h, row, ux, uy, math.hypot(f[q, 0], f[q, 1])):
+                    return False
+                continue
             kx, ky = law_at(places[q], end, h, row, ux, uy)
             if abs(math.hypot(gx, gy) - math.hypot(kx, ky)) > NEAR * cap:
                 return False
+    return True
+
+
+@compiled
+def stops_at_all(place, end, h, row, vx, vy, force):
+    """Return whether the law's force is more than the one that stops the contact on the whole way from (vx, vy) to rest."""
+    part = 1.0
+    for _ in range(SAMPLES):
+        gx, gy = law_at(place, end, h, row, part * vx, part * vy)
+        if not math.hypot(gx, gy) > force:
+            return False
+        part *= 0.3
     return True
 
 
