@@ -24,12 +24,14 @@ from stochfric_mb.effects import make_effect
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.signs import SEGMENTS, probable_sign_error
-from stochfric_mb.mechanisms import HingePendulum, Mjcf, PrismaticJoint, SpringSlider
+from stochfric_mb.mechanisms import Cascade, HingePendulum, Mjcf, PrismaticJoint, ProportionalDerivative, SpringSlider
 from stochfric_mb.scenario import Scenario
 
 Progress = Callable[[str], None]
 FEWEST = 8
 """Fewest windows of sliding in the runs of a role: fewer say nothing about friction."""
+CONTROLLED = {Cascade.kind: PrismaticJoint.kind, ProportionalDerivative.kind: Mjcf.kind}
+"""Controller -> the mechanism that it drives."""
 RANDOM = "random_coefficients"
 """Effect of friction that is drawn anew for each stroke."""
 BESIDE = ("sensor", "randomness")
@@ -57,6 +59,7 @@ def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> Join
         from stochfric_mb.discovery.joints.spring_slider import spring_slider_outcome
 
         return spring_slider_outcome(dataset, tell)
+    _require_controller(dataset.scenario)
     if isinstance(mechanism, Mjcf):
         from stochfric_mb.discovery.joints.mjcf import mjcf_sheets
 
@@ -66,6 +69,20 @@ def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> Join
     raise InputError(
         f"mechanism {mechanism.kind!r} is no driven joint; use prismatic_joint, hinge_pendulum, spring_slider or mjcf"
     )
+
+
+def _require_controller(scenario: Scenario[Any]) -> None:
+    """Return if a controller, if any, is one of the mechanism's.
+
+    Raises:
+        InputError: it is not.
+    """
+    controller, kind = scenario.controller, scenario.mechanism.kind
+    if controller is not None and kind != CONTROLLED[controller.kind]:
+        raise InputError(
+            f"controller {controller.kind!r} cannot drive mechanism {kind!r}: it drives {CONTROLLED[controller.kind]}; write "
+            "the rig as that mechanism, or leave [controller] out"
+        )
 
 
 @dataclasses.dataclass(frozen=True)

@@ -22,7 +22,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.joints.fitting import JointModel
 from stochfric_mb.discovery.joints.friction import friction_along
-from stochfric_mb.discovery.joints.mjcf_columns import column, drive_of
+from stochfric_mb.discovery.joints.mjcf_columns import column, drive_of, require_loops
 from stochfric_mb.discovery.joints.mjcf_model import by_mass, effective_inertia, inverse, scale_masses, tendon_along
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet, least_speed, slides, slipped
 from stochfric_mb.discovery.joints.windows import Window, chosen_window, noise_level
@@ -73,6 +73,7 @@ def mjcf_sheets(dataset: Dataset) -> MjcfSource:
             f"{mechanism.file.name}: joints {', '.join(map(str, missing)) or 'with quaternions'} have no measured position; "
             "every joint needs one in mechanism.positions, hinge or slide"
         )
+    require_loops(dataset)
     return MjcfSource(dataset, mechanism, mujoco, model, tuple(names), tuple(tendons))
 
 

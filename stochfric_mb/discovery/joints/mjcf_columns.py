@@ -8,11 +8,35 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.errors import require_name
+from stochfric_mb.errors import InputError, require_name
+from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.mechanisms import Mjcf
+from stochfric_mb.mechanisms import Mjcf, ProportionalDerivative
 
 Array = npt.NDArray[np.float64]
+
+
+def require_loops(dataset: Dataset) -> None:
+    """Return if the controller of an MJCF model, if any, can be simulated in the held-out runs.
+
+    Raises:
+        InputError: a joint has no drive, or a run lacks the reference or the factor.
+    """
+    controller, mechanism = dataset.scenario.controller, dataset.scenario.mechanism
+    if not isinstance(controller, ProportionalDerivative):
+        return
+    for joint, loop in controller.joints.items():
+        if joint not in mechanism.drives or joint not in mechanism.positions:
+            raise InputError(
+                f"controller.joints.{joint}: {joint!r} has no drive that a controller could give; add mechanism.drives.{joint}"
+            )
+        for run in dataset.test:
+            column(run, loop.reference)
+            if loop.factor and loop.factor not in run.constants:
+                given = ", ".join(run.constants) or "none"
+                raise InputError(
+                    f"run {run.name!r} has no constant {loop.factor!r} for controller.joints.{joint}.factor (it has: {given})"
+                )
 
 
 def corrected(mechanism: Mjcf, corrections: Mapping[str, Mapping[str, float]]) -> Mjcf:

@@ -26,7 +26,6 @@ from stochfric_mb.discovery.joints.mjcf_model import scale_masses
 from stochfric_mb.discovery.joints.scores import AHEAD
 from stochfric_mb.discovery.joints.windows import Window, noise_level
 from stochfric_mb.effects.contract import WORLD
-from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import JointLoop, ProportionalDerivative
 
@@ -59,9 +58,6 @@ def forward(source: MjcfSource, models: Models, delay: float) -> Forward:
         source: the model and the runs.
         models: friction and corrections of each place.
         delay: by how much positions come after the driving force in the record [s].
-
-    Raises:
-        InputError: the controller's reference or factor is missing in a run.
     """
     wrong = wrong_drive = drive = 0.0
     count = 0
@@ -188,15 +184,6 @@ class _Plant:
     def _control(self, joint: str, loop: JointLoop) -> Callable[[int, float, Any], tuple[float, float]]:
         """Return the controller of a joint: sample, part of the interval after it, state -> output, force."""
         run, source = self._run, self._source
-        if joint not in source.mechanism.drives or joint not in source.names:
-            raise InputError(
-                f"controller.joints.{joint}: {joint!r} has no drive that a controller could give; add mechanism.drives.{joint}"
-            )
-        if loop.factor and loop.factor not in run.constants:
-            given = ", ".join(run.constants) or "none"
-            raise InputError(
-                f"run {run.name!r} has no constant {loop.factor!r} for controller.joints.{joint}.factor (it has: {given})"
-            )
         factor = run.constants[loop.factor] if loop.factor else 1.0
         reference, dof = column(run, loop.reference), source.names.index(joint)
         drive = self._mechanism.drives[joint]

@@ -15,7 +15,7 @@ from stochfric_mb.discovery.joints.windows import Window, chosen_window, noise_l
 from stochfric_mb.errors import InputError
 from stochfric_mb.laws import make_law
 from stochfric_mb.measurement import Dataset, Run
-from stochfric_mb.mechanisms import BeltBox, HingePendulum, PrismaticJoint
+from stochfric_mb.mechanisms import BeltBox, HingePendulum, JointLoop, PrismaticJoint, ProportionalDerivative
 from stochfric_mb.scenario import Scenario, any_scenario_from_dict
 
 H = 1.0e-3
@@ -171,6 +171,12 @@ def test_without_uncertainty_the_mechanism_is_taken_as_exact():
     assert [e.kind for e in found.result.effects] == ["viscous_friction"]
     assert set(found.result.believed) == {"mu_k"}
     assert found.scenario.mechanism == scenario().mechanism
+
+
+def test_a_controller_of_another_mechanism_is_refused():
+    loop = ProportionalDerivative(joints={"joint": JointLoop(position_gain=1.0, reference="goal")})
+    with pytest.raises(InputError, match="cannot drive mechanism 'prismatic_joint'"):
+        joint_outcome(dataclasses.replace(pair(coulomb), scenario=scenario(controller=loop)))
 
 
 def test_a_belt_box_is_no_joint():
