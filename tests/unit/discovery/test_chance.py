@@ -1,0 +1,101 @@
+"""What scatter is called: kicks, independent draws, a wander, or nothing that has a name."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from stochfric_mb.discovery.chance import Chance, chance, kicks
+from stochfric_mb.discovery.randomness import Randomness
+from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.switching import Switching
+
+N, RUNS = 40, 2
+STATIC, KINETIC = 8.0, 5.0
+CALM = Switching(separation=3.0, changes=10.0, regular=False, jumps=0, still=1.0)
+
+
+def study(onset: np.ndarray) -> SimpleNamespace:
+    """Slips whose onset force [N] is off by ``onset``, with a little noise; as much of a study as chance needs."""
+    generator = np.random.default_rng(1)
+    features = np.zeros((N * RUNS, 8))
+    features[:, :2] = np.array([STATIC, KINETIC]) + 0.01 * generator.standard_normal((N * RUNS, 2))
+    features[:, 0] += onset
+    times = np.tile(1.1 * np.arange(N), RUNS)
+    pool = SimpleNamespace(
+        features=features,
+        run=np.repeat(np.arange(RUNS), N),
+        n_runs=RUNS,
+        static=np.full(N * RUNS, STATIC),
+        kinetic=np.full(N * RUNS, KINETIC),
+        slips=[SimpleNamespace(onset_time=1.1 * np.arange(N))] * RUNS,
+        onset_time=times,
+        restick_time=times + 0.1,
+        normal_force=np.full(N * RUNS, 13.0),
+    )
+    solution = SimpleNamespace(coefficients=np.array([0.6, 0.4]), scatter=np.log([0.3, 0.2, 0.01]))
+    return SimpleNamespace(pool=pool, solution=solution, model=SimpleNamespace(process=None))
+
+
+def struck(count: int) -> np.ndarray:
+    return np.random.default_rng(2).choice(N * RUNS, count, replace=False)
+
+
+def test_slips_that_stand_out_by_their_own_amounts_are_kicked():
+    onset = np.zeros(N * RUNS)
+    onset[struck(12)] = -np.random.default_rng(3).uniform(0.5, 5.0, 12)
+    found = kicks(study(onset))
+    assert found is not None
+    assert found.kind == "impacts"
+    assert found.values["rate"] == pytest.approx(1.5 * 12 / 80 / 1.1)
+
+
+def test_slips_that_stand_out_by_the_same_amount_are_at_a_second_level():
+    onset = np.zeros(N * RUNS)
+    onset[struck(12)] = -1.1
+    assert kicks(study(onset)) is None
+
+
+@pytest.mark.parametrize("count", [0, 3, 40])
+def test_none_single_ones_or_half_of_the_slips_are_not_kicked(count):
+    onset = np.zeros(N * RUNS)
+    onset[struck(count)] = -np.random.default_rng(3).uniform(0.5, 5.0, count)
+    assert kicks(study(onset)) is None
+
+
+def scatter(**changes: float) -> Randomness:
+    plain = {"static": 900.0, "kinetic": 900.0, "within": 0.0, "correlation": 0.0, "wander": 0.0, "wander_share": 0.05}
+    return Randomness(**(plain | {"wander_time": 3.0, "together": 0.0} | changes))
+
+
+def called(levels: Switching = CALM, **changes: float) -> Chance | Where | None:
+    one = study(np.zeros(N * RUNS))
+    return chance(one, scatter(**changes), levels, one.solution, [])
+
+
+def test_independent_scatter_is_random_coefficients():
+    found = called()
+    assert isinstance(found, Chance)
+    assert found.kind == "random_coefficients"
+
+
+def test_scatter_that_stick_and_slip_share_without_memory_has_no_name():
+    found = called(together=0.85)
+    assert isinstance(found, Where)
+    assert "stick and slip alike" in found.axis
+
+
+def test_a_wander_may_share_it():
+    found = called(together=0.95, correlation=5.0, wander=80.0)
+    assert isinstance(found, Chance)
+    assert found.kind == "correlated_coefficients"
+
+
+def test_switching_has_no_name_however_it_wanders():
+    levels = Switching(separation=80.0, changes=10.0, regular=False, jumps=20, still=0.7)
+    assert called(levels, correlation=5.0, wander=80.0) is levels.where
+    assert levels.where is not None
+
+
+def test_noise_is_nothing():
+    assert called(static=4.0, kinetic=2.0) is None
