@@ -41,7 +41,7 @@ def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int)
     values = candidate.hypothesis.start(coefficients)
     # a fit begins where screening ended: coefficients and corrections belong to the effect's strength
     mu_s, mu_k = (max(float(c), 1.0e-3) for c in candidate.solution.coefficients[:2])
-    corrections = dict(zip(CORRECTED, map(float, candidate.solution.coefficients[2:5]), strict=True))
+    corrections: dict[str, float] = dict(zip(CORRECTED, map(float, candidate.solution.coefficients[2:5]), strict=True))
     for name in FREED.get(candidate.name, ()):
         corrections[name] = float(np.clip(corrections[name] + values.pop(name), -MOST_FREED, MOST_FREED))
     model = dataclasses.replace(model.with_law(mu_s, mu_k), corrections=corrections)

@@ -14,6 +14,7 @@ import dataclasses
 from collections.abc import Callable
 
 import numpy as np
+import numpy.typing as npt
 
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.record import Array
@@ -46,6 +47,8 @@ class Wave:
     """Force that is modulated there [N], shape (n, 1 + N_NODES)."""
     setting: Callable[[float], float]
     """From the frequency [Hz] to the parameter of the effect."""
+    pace: float = 1.0
+    """How much faster a typical run passes the place than the slowest one [-]."""
 
 
 def normal_load_ripple(pool: Pool) -> Wave:
@@ -63,7 +66,9 @@ def position_dependent_friction(pool: Pool) -> Wave:
     """Return friction that is modulated along the belt, in stick and slip by the same share."""
     slowest = float(pool.belt_velocity.min())
     position = np.concatenate([pool.typical_onset[:, None], pool.typical_position], axis=1)
-    return Wave((pool.belt_velocity[:, None] * _times(pool) - position) / slowest, _friction(pool), lambda f: slowest / f)
+    typical = float(np.median([s.record.mechanism.belt_velocity for s in pool.slips]))
+    place = (pool.belt_velocity[:, None] * _times(pool) - position) / slowest
+    return Wave(place, _friction(pool), lambda f: slowest / f, typical / slowest)
 
 
 WAVES: dict[str, Callable[[Pool], Wave]] = {
@@ -80,10 +85,10 @@ def _friction(pool: Pool) -> Array:
     return np.concatenate([pool.static[:, None], np.repeat(pool.kinetic[:, None], pool.node_time.shape[1], axis=1)], axis=1)
 
 
-def frequencies(pool: Pool) -> Array:
-    """Return the frequencies at which waves are looked for [Hz]: three waves in a record to one wave in a slip."""
+def frequencies(pool: Pool, pace: float = 1.0) -> Array:
+    """Return the frequencies at which waves are looked for [Hz]: three waves in a typical record to one wave in a slip."""
     fastest = 1.0 / float(np.median(pool.restick_time - pool.onset_time))
-    return np.arange(3.0 / pool.duration, max(fastest, SLOW * _slip_rate(pool)), 1.0 / (COARSE * pool.duration))
+    return np.arange(3.0 / (pace * pool.duration), max(fastest, SLOW * _slip_rate(pool)), 1.0 / (COARSE * pool.duration))
 
 
 def _slip_rate(pool: Pool) -> float:
@@ -107,7 +112,7 @@ def wave_columns(pool: Pool, wave: Wave, frequency: float, harmonics: int) -> li
     return columns
 
 
-def _features(place: Array, weight: Array, grid: Array, harmonics: int) -> Array:
+def _features(place: Array, weight: Array, grid: Array, harmonics: int) -> npt.NDArray[np.complex128]:
     """Return weight exp(2 pi i h f place) as features, shape (len(grid), harmonics, n, N_FEATURES), complex."""
     first = np.exp(2.0j * np.pi * grid[:, None, None] * place)
     found = np.empty((len(grid), harmonics, len(place), N_FEATURES), dtype=np.complex128)
@@ -132,7 +137,7 @@ def best_wave(kind: str, pool: Pool, regression: Regression, terms: Terms, scatt
     wave = WAVES[kind](pool)
     parts = regression.parts(terms, scatter)
     cost = 2.0 * pool.n_runs * float(np.log(regression.n))
-    whole = frequencies(pool)
+    whole = frequencies(pool, wave.pace)
     # a wave that all slips of a run keep to looks like a shape that they share: it must tell more with less
     alike = [pool.column(None, None) for _ in range(pool.n_runs * N_FEATURES)]
     for i, column in enumerate(alike):

@@ -8,7 +8,7 @@ from stochfric_mb.discovery.pool import Pool, make_pool
 from stochfric_mb.discovery.record import make_record
 from stochfric_mb.discovery.regression import Regression, Terms, believed
 from stochfric_mb.discovery.slips import extract
-from stochfric_mb.discovery.waves import WAVES, _gains, best_wave, wave_columns
+from stochfric_mb.discovery.waves import WAVES, _gains, best_wave, frequencies, wave_columns
 from stochfric_mb.effects import make_effect
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
@@ -65,3 +65,12 @@ def test_a_fast_force_is_found_although_slips_keep_to_its_crests(entrained):
             assert hypothesis.setting[0] == pytest.approx(FREQUENCY, abs=1.0 / 30.0)
     assert max(scores, key=lambda k: scores[k]) == "harmonic_force"
     assert scores["harmonic_force"] > 100.0
+
+
+def test_a_wave_along_the_belt_is_looked_for_by_the_waves_of_a_typical_run(entrained):
+    pool, _, _ = entrained
+    wave = WAVES["position_dependent_friction"](pool)
+    # the belts run at 1.7 and 2.5 mm/s: the typical one passes 3 waves where the slowest passes fewer
+    assert wave.pace == pytest.approx(np.median(BELTS) / min(BELTS))
+    longest = wave.setting(frequencies(pool, wave.pace)[0])
+    assert longest == pytest.approx(np.median(BELTS) * pool.duration / 3.0)
