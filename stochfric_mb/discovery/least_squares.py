@@ -42,10 +42,5 @@ def minimised(
             columns.append((errors(moved) - here) / (moved[j] - at[j]))
         return np.stack(columns, axis=1)
 
-    return least_squares(
-        values,
-        np.clip(first, low, high),
-        jac=slopes,
-        bounds=(low, high),
-        **options,  # pyright: ignore[reportArgumentType]
-    )
+    more: dict[str, Any] = {"jac": slopes, "bounds": (low, high), **options}
+    return least_squares(values, np.clip(first, low, high), **more)
