@@ -176,7 +176,8 @@ def in_step(frequency: float, pool: Pool, *, along_belt: bool) -> bool:
     counts: list[set[int]] = []
     for slips in pool.slips:
         own = frequency * (slips.record.mechanism.belt_velocity / slowest if along_belt else 1.0)
-        cycle = float(np.median(np.diff(slips.onset_time)))
+        # the mean: where every few slips are harder, their cycles are longer
+        cycle = float(np.mean(np.diff(slips.onset_time)))
         off = {n: abs(own * cycle * n - round(own * cycle * n)) for n in range(2, LONGEST_COUNT + 1)}
         counts.append({n for n, miss in off.items() if miss < RESOLVED * n * cycle / pool.duration})
     return bool(set.intersection(*counts))

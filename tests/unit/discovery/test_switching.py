@@ -91,6 +91,16 @@ def test_noise_alone_does_not_switch():
     assert found(np.zeros(N * RUNS)).where is None
 
 
+def test_harder_slips_with_longer_cycles_are_counted_all_the_same():
+    pattern = np.array([1.0, 1.0, 1.3, 1.3, 1.0, 1.3, 1.0])
+    pool = Pool()
+    box = SimpleNamespace(belt_velocity=2.5e-3)
+    onset = np.cumsum(np.resize(pattern, N))
+    slips = [SimpleNamespace(onset_time=onset, record=SimpleNamespace(mechanism=box))] * RUNS
+    counted = SimpleNamespace(slips=slips, belt_velocity=pool.belt_velocity, duration=onset[-1])
+    assert in_step(1.0 / pattern.sum(), counted, along_belt=False)
+
+
 def test_a_pattern_of_seven_slips_is_in_step_with_them_and_another_frequency_is_not():
     pool = Pool()
     assert in_step(1.0 / (7.0 * CYCLE), pool, along_belt=False)
