@@ -356,7 +356,7 @@ def evaluate_row(model, data, row):
         stages = n.int_field(model, n.M_INTEGRATOR) == RUNGE_KUTTA and (phase > 1 or now < start + 0.75 * step)
         if stages and phase < 4:
             n.store_word(row + 8 * PHASE, phase)
-            apply(model, data, state)
+            apply(model, data, state, n.pointer_field(data, n.D_WARMSTART))
             return
         keep_current(state, now)
         renew_normal_forces(model, data, state)
@@ -365,8 +365,8 @@ def evaluate_row(model, data, row):
         n.store(state + 8 * s.ADVANCED, now)
         renew_normal_forces(model, data, state)
     n.store_word(row + 8 * PHASE, 0)
-    begin(model, data, state)
-    apply(model, data, state)
+    begin(model, data, state, n.pointer_field(data, n.D_WARMSTART))
+    apply(model, data, state, n.pointer_field(data, n.D_WARMSTART))
 
 
 @compiled
@@ -388,8 +388,8 @@ def renew_normal_forces(model, data, state):
     qacc = n.vector(n.pointer_field(data, n.D_QACC), nv)
     actuator = n.vector(n.pointer_field(data, n.D_QFRC_ACTUATOR), nv)
     kept_passive, kept_qacc, kept_actuator = passive.copy(), qacc.copy(), actuator.copy()
-    begin(model, data, state)
-    apply(model, data, state)
+    begin(model, data, state, n.pointer_field(data, n.D_WARMSTART))
+    apply(model, data, state, n.pointer_field(data, n.D_WARMSTART))
     n.mj_rne(model, data, np.int32(0), n.pointer_field(data, n.D_QFRC_BIAS))
     n.mj_referenceConstraint(model, data)
     n.mj_fwdActuation(model, data)

@@ -197,8 +197,11 @@ def push(model, data, state, body, surface, target):
 
 
 @compiled
-def begin(model, data, state):
-    """Make the current slots for a step that starts now, at an accepted state."""
+def begin(model, data, state, warm):
+    """Make the current slots for a step that starts now, at an accepted state.
+
+    ``warm`` is the address of the acceleration of the step before, from which new contacts get their normal forces.
+    """
     now = n.number_field(data, n.D_TIME)
     n.store(state + 8 * s.EVALUATED, now)
     n.store(state + 8 * s.STARTED, 1.0)
@@ -215,7 +218,7 @@ def begin(model, data, state):
         if count == int(n.load(state + 8 * s.N_SLOTS)):
             n.mj_warning(data, np.int32(CONTACTS_FULL), np.int32(count))
             break
-        total += track(model, data, state, i, sign, t, known, count)
+        total += track(model, data, state, i, sign, t, known, count, warm)
         if n.load(state + 8 * s.MODE) == s.AUTO and not sudden:
             sudden = is_sudden(model, data, state, contact, slot(state, 1, count))
         count += 1
@@ -289,7 +292,7 @@ def critical_ratio(state, step):
 
 
 @compiled
-def track(model, data, state, i, sign, t, known, k):
+def track(model, data, state, i, sign, t, known, k, warm):
     """Fill the kinematics of current slot ``k`` from contact ``i``; return its normal force [N]."""
     contact = contact_address(data, i)
     address = slot(state, 1, k)
@@ -302,7 +305,7 @@ def track(model, data, state, i, sign, t, known, k):
         if n.load(old + 8 * s.LIVE) == 0.0:
             old = 0
     else:
-        normal_force = predicted_normal_force(model, data, contact, n.pointer_field(data, n.D_WARMSTART))
+        normal_force = predicted_normal_force(model, data, contact, warm)
     fill(model, data, state, contact, sign, t, address, old)
     n.store(address + 8 * s.GEOM_1, a + 1.0)
     n.store(address + 8 * s.GEOM_2, b + 1.0)
@@ -362,7 +365,7 @@ def fill(model, data, state, contact, sign, t, address, old):
 
 
 @compiled
-def apply(model, data, state):
+def apply(model, data, state, warm):
     """Add the friction forces at this instant; at a step's start also record them."""
     now = n.number_field(data, n.D_TIME)
     starting = now == n.load(state + 8 * s.EVALUATED)
@@ -380,7 +383,7 @@ def apply(model, data, state):
         sign = side(contact, geom, other)
         if sign == 0:
             continue
-        address = slot_at_stage(model, data, state, i, sign, t, k)
+        address = slot_at_stage(model, data, state, i, sign, t, k, warm)
         k += 1
         if address == 0:
             continue
@@ -396,7 +399,7 @@ def apply(model, data, state):
 
 
 @compiled
-def slot_at_stage(model, data, state, i, sign, t, k):
+def slot_at_stage(model, data, state, i, sign, t, k, warm):
     """Return the current slot of contact ``i``; one that was born within the step gets a slot of its own."""
     contact = contact_address(data, i)
     a = n.int_field(contact, n.C_GEOM)
@@ -406,7 +409,7 @@ def slot_at_stage(model, data, state, i, sign, t, k):
     if address != 0 or count == int(n.load(state + 8 * s.N_SLOTS)):
         return address
     n.store(state + 8 * s.N_CURRENT, count + 1.0)
-    normal_force = track(model, data, state, i, sign, t, 0, count)
+    normal_force = track(model, data, state, i, sign, t, 0, count, warm)
     address = slot(state, 1, count)
     commit_slot(state, address, t, normal_force, 1)
     n.store(address + 8 * s.LIVE, 0.0)

@@ -126,7 +126,7 @@ def gather(model, data, state, places, count):
         sign = side(contact, body, surface)
         if sign == 0:
             continue
-        address = slot_at_stage(model, data, state, i, sign, t, k)
+        address = slot_at_stage(model, data, state, i, sign, t, k, warm_row(state))
         k += 1
         if address == 0 or count == len(places):
             continue

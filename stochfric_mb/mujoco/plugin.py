@@ -19,7 +19,7 @@ from stochfric_mb.compile import compiled, native
 from stochfric_mb.mujoco import config
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.contact import apply, begin, finish, solve_new
+from stochfric_mb.mujoco.contact import apply, begin, finish, solve_new, warm_row
 from stochfric_mb.mujoco.implicit import any_solved, is_last, keep_warm_start, solve_instances
 from stochfric_mb.mujoco.options import CHECKER, MESSAGE, options_allow, require_passive_forces
 from stochfric_mb.mujoco.registration import register_plugin
@@ -200,11 +200,11 @@ def _compute(model, data, instance, capability):
     if not stage or n.load(state + 8 * s.STARTED) == 0.0:
         if n.load(state + 8 * s.STARTED) == 0.0:
             keep_warm_start(model, data, state)
-        begin(model, data, state)
+        begin(model, data, state, warm_row(state))
     else:
         solve_new(model, data, state)
     if n.load(state + 8 * s.SOLVED) == 0.0:
-        apply(model, data, state)
+        apply(model, data, state, warm_row(state))
     if is_last(model, instance) and any_solved(model, data, instance):
         function = solver(model, data, instance)
         if function == 0:

@@ -120,6 +120,8 @@ def switch(state, address, function, t, ux, uy, vx, vy):
     Stick phases that begin are counted.
     """
     changed = n.load(address + 8 * s.LIVE) == 0.0
+    for j in range(MAX_STATE):  # a law writes the entries that it has
+        n.store(state + 8 * (s.OUTPUT + j), 0.0)
     mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
     call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k)
     for j in range(MAX_STATE):

@@ -16,6 +16,7 @@ from stochfric_mb.errors import InputError  # noqa: E402
 from stochfric_mb.friction import Friction  # noqa: E402
 from stochfric_mb.laws.coulomb import Coulomb  # noqa: E402
 from stochfric_mb.laws.elastic_stick import ElasticStick  # noqa: E402
+from stochfric_mb.laws.havsin import Havsin  # noqa: E402
 from stochfric_mb.mujoco import slots  # noqa: E402
 from stochfric_mb.mujoco.attach import header  # noqa: E402
 
@@ -198,6 +199,25 @@ def test_a_stuck_scene_falls_asleep_and_wakes():
     data.qfrc_applied[6] = 0.0
     after(model, data, 3000)
     assert (data.tree_asleep >= 0).all()
+
+
+@pytest.mark.parametrize("law", [LAW, Havsin(0.8, 0.6), Coulomb(0.8, 0.6)], ids=["elastic_stick", "havsin", "coulomb"])
+def test_extra_evaluations_change_no_bit_of_the_state(law):
+    """A box that falls, tumbles and slides: contacts come and go."""
+    spec = mujoco.MjSpec.from_string(SCENE.format(integrator="Euler"))
+    engine.add_friction(spec, ("box", "floor"), law)
+    model = spec.compile()
+    plain, nosy = mujoco.MjData(model), mujoco.MjData(model)
+    for data in (plain, nosy):
+        data.qpos[2] += 0.1
+        data.qvel[:6] = 1.0, 0.2, 0.0, 3.0, 1.0, 0.5
+    for _ in range(600):
+        for evaluate in (mujoco.mj_forward, mujoco.mj_inverse, mujoco.mj_forward):
+            evaluate(model, nosy)
+        mujoco.mj_step(model, plain)
+        mujoco.mj_step(model, nosy)
+        assert np.array_equal(plain.qpos, nosy.qpos)
+        assert np.array_equal(plain.plugin_state, nosy.plugin_state)
 
 
 def test_forgotten_pairs_are_listed():
