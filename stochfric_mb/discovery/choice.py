@@ -8,12 +8,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from stochfric_mb.discovery.confirmation import Case, Confirmed, confirm
+from stochfric_mb.discovery.hypotheses import SCREENS
 from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.naming import PERIODIC, with_candidate
 from stochfric_mb.discovery.regression import Terms
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.screening import Candidate
 from stochfric_mb.discovery.study import Study
+from stochfric_mb.discovery.waves import WAVES
 
 SELECT, NAME = 14.0, 20.0
 """Scores at which a candidate is followed up, and at which it is named [-]."""
@@ -81,7 +83,9 @@ def choose(
     """
     n_terms = terms.columns.shape[2]
     several = len(cases) > 1 and not cases[0].record.mechanism.excitation_amplitude
-    family = IN_SLIP + (BETWEEN_POINTS if several else ())
+    # an effect of another package says what it marks, not how slips differ: simulating it decides
+    own = tuple(c.name for c in candidates if c.is_effect and c.name not in (*SCREENS, *WAVES, "sensor_step"))
+    family = IN_SLIP + (BETWEEN_POINTS if several else ()) + own
     effects = [c for c in candidates if c.is_effect]
     others = [c for c in candidates if not c.is_effect]
     shape = max((c.score for c in candidates if c.name in family + SHAPES), default=-np.inf)
