@@ -8,14 +8,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from stochfric_mb.discovery.confirmation import Case, Confirmed, confirm
-from stochfric_mb.discovery.hypotheses import SCREENS
 from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.naming import PERIODIC, with_candidate
 from stochfric_mb.discovery.regression import Terms
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.screening import Candidate
 from stochfric_mb.discovery.study import Study
-from stochfric_mb.discovery.waves import WAVES
+from stochfric_mb.effects import effect_class
 
 SELECT, NAME = 14.0, 20.0
 """Scores at which a candidate is followed up, and at which it is named [-]."""
@@ -84,7 +83,7 @@ def choose(
     n_terms = terms.columns.shape[2]
     several = len(cases) > 1 and not cases[0].record.mechanism.excitation_amplitude
     # an effect of another package says what it marks, not how slips differ: simulating it decides
-    own = tuple(c.name for c in candidates if c.is_effect and c.name not in (*SCREENS, *WAVES, "sensor_step"))
+    own = tuple(c.name for c in candidates if c.is_effect and not effect_class(c.name).__module__.startswith("stochfric_mb."))
     family = IN_SLIP + (BETWEEN_POINTS if several else ()) + own
     effects = [c for c in candidates if c.is_effect]
     others = [c for c in candidates if not c.is_effect]

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from stochfric_mb.discovery.calibration import calibrate
+from stochfric_mb.discovery.competitors import step_times, steps
 from stochfric_mb.discovery.forecast import Windows, score, windows_of
-from stochfric_mb.discovery.hypotheses import step_times, steps
 from stochfric_mb.discovery.model import OWN_TO_RUN, Model
 from stochfric_mb.discovery.naming import with_steps
 from stochfric_mb.discovery.pool import make_pool

@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 
-from stochfric_mb.discovery.hypotheses import step_times, steps
+from stochfric_mb.discovery.competitors import step_times, steps
 from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.record import OUTLIER_DEVIATIONS
 from stochfric_mb.discovery.refit import refit

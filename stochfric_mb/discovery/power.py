@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from stochfric_mb.discovery.choice import NAME
-from stochfric_mb.discovery.hypotheses import screens
+from stochfric_mb.discovery.hypotheses import hypotheses_in, waves_in
 from stochfric_mb.discovery.study import Study
-from stochfric_mb.discovery.waves import WAVES, frequencies, wave_columns
+from stochfric_mb.discovery.waves import frequencies, wave_columns
 from stochfric_mb.effects.marks import Hypothesis
 
 LOOKED_AT = 12
@@ -22,24 +22,23 @@ def smallest(study: Study) -> dict[str, float]:
     """
     regression = study.regression
     found: dict[str, float] = {}
-    families = {kind: screen(study.pool) for kind, screen in screens().items()}
-    grid = {kind: len(hypotheses) for kind, hypotheses in families.items()}
+    families = hypotheses_in(study.pool)
+    periodic = waves_in(study.pool)
+    grid = {kind: len(some) for kind, some in families.items()}
     every = frequencies(study.pool)
-    for kind, wave in WAVES.items():
+    for kind, wave in periodic.items():
         some = every[:: max(len(every) // LOOKED_AT, 1)]
-        families[kind] = [Hypothesis(kind, wave_columns(study.pool, wave(study.pool), f, 1), (f, 1.0)) for f in some]
+        families[kind] = [Hypothesis(kind, wave_columns(study.pool, wave, f, 1), (f, 1.0)) for f in some]
         grid[kind] = len(every)
-    for kind, hypotheses in families.items():
-        if not hypotheses:
-            continue
-        looked_at = hypotheses[:: max(len(hypotheses) // LOOKED_AT, 1)]
+    for kind, family in families.items():
+        looked_at = family[:: max(len(family) // LOOKED_AT, 1)]
         best = np.inf
         for hypothesis in looked_at:
             p = len(hypothesis.columns)
             solution = regression.solve(study.terms.plus(hypothesis.columns), study.solution.scatter)
             needed = np.sqrt(NAME + p * np.log(regression.n) + 2.0 * np.log(grid[kind]))
             strengths = needed * solution.deviations[study.terms.columns.shape[2] :]
-            if kind in WAVES:
+            if kind in periodic:
                 # cosine and sine of every run share the evidence
                 best = min(best, float(np.median(strengths) / np.sqrt(study.pool.n_runs)))
                 continue

@@ -10,10 +10,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from stochfric_mb.discovery.hypotheses import Hypothesis, competitors, screens, step_times, steps
+from stochfric_mb.discovery.competitors import competitors, step_times, steps
+from stochfric_mb.discovery.hypotheses import hypotheses_in, waves_in
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.regression import Regression, Solution, Terms
-from stochfric_mb.discovery.waves import WAVES, best_wave
+from stochfric_mb.discovery.waves import best_wave
+from stochfric_mb.effects.marks import Hypothesis
 
 POSITIVE = (
     "velocity_weakening", "viscous_friction", "frictional_lag", "dwell_ageing", "quadratic_damping", "backlash", "second_mode",
@@ -65,14 +67,12 @@ def screen(
     """
     log_n = float(np.log(regression.n))
     families: list[tuple[str, str, list[Hypothesis], int]] = []  # name, axis, hypotheses, size of the grid
-    for kind, make in screens().items():
-        hypotheses = make(pool) if kind not in without else []
-        for variant in dict.fromkeys(h.variant for h in hypotheses):
-            families.append((kind, "", [h for h in hypotheses if h.variant == variant], len(hypotheses)))
-    for kind in WAVES:
-        if kind not in without:
-            wave, looked_at = best_wave(kind, pool, regression, terms, solution.scatter)
-            families.append((kind, "", [wave], looked_at))
+    for kind, found_of in hypotheses_in(pool, without=without).items():
+        for variant in dict.fromkeys(h.variant for h in found_of):
+            families.append((kind, "", [h for h in found_of if h.variant == variant], len(found_of)))
+    for kind, wave in waves_in(pool, without=without).items():
+        best_one, looked_at = best_wave(kind, wave, pool, regression, terms, solution.scatter)
+        families.append((kind, "", [best_one], looked_at))
     for name, (axis, columns) in competitors(pool).items():
         families.append((name, axis, [Hypothesis(name, list(columns))], 1))
     for kind, axis, multiplied in (("friction_step", "abrupt change of the friction", True), ("sensor_step", "", False)):

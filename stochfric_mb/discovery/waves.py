@@ -10,9 +10,6 @@ differs: such waves count as a whole.
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Callable
-
 import numpy as np
 import numpy.typing as npt
 
@@ -20,7 +17,7 @@ from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.record import Array
 from stochfric_mb.discovery.regression import Part, Regression, Terms
 from stochfric_mb.discovery.slips import N_FEATURES, legendre_coefficients
-from stochfric_mb.effects.marks import Hypothesis
+from stochfric_mb.effects.marks import Hypothesis, Wave
 
 HARMONICS = 3
 """Harmonics of a wave that is no sine."""
@@ -35,54 +32,6 @@ DIFFERENT = 1.1
 """Ratio of rates from which on they differ [-]."""
 CHUNK = 64
 """Frequencies that are looked at together."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Wave:
-    """Where a wave runs and what it modulates."""
-
-    place: Array
-    """Time, or belt coordinate over the slowest belt velocity, at the break-away and at the nodes [s], (n, 1 + N_NODES)."""
-    weight: Array
-    """Force that is modulated there [N], shape (n, 1 + N_NODES)."""
-    setting: Callable[[float], float]
-    """From the frequency [Hz] to the parameter of the effect."""
-    pace: float = 1.0
-    """How much faster a typical run passes the place than the slowest one [-]."""
-
-
-def normal_load_ripple(pool: Pool) -> Wave:
-    """Return friction that is modulated in time, in stick and slip by the same share."""
-    return Wave(_times(pool), _friction(pool), lambda f: f)
-
-
-def harmonic_force(pool: Pool) -> Wave:
-    """Return a force that is added in time, the same in stick and slip."""
-    times = _times(pool)
-    return Wave(times, np.broadcast_to(pool.direction.astype(np.float64)[:, None], times.shape), lambda f: f)
-
-
-def position_dependent_friction(pool: Pool) -> Wave:
-    """Return friction that is modulated along the belt, in stick and slip by the same share."""
-    slowest = float(pool.belt_velocity.min())
-    position = np.concatenate([pool.typical_onset[:, None], pool.typical_position], axis=1)
-    typical = float(np.median([s.record.mechanism.belt_velocity for s in pool.slips]))
-    place = (pool.belt_velocity[:, None] * _times(pool) - position) / slowest
-    return Wave(place, _friction(pool), lambda f: slowest / f, typical / slowest)
-
-
-WAVES: dict[str, Callable[[Pool], Wave]] = {
-    make.__name__: make for make in (normal_load_ripple, harmonic_force, position_dependent_friction)
-}
-"""Kind of periodic effect -> its wave in a pool."""
-
-
-def _times(pool: Pool) -> Array:
-    return np.concatenate([pool.onset_time[:, None], pool.node_time], axis=1)
-
-
-def _friction(pool: Pool) -> Array:
-    return np.concatenate([pool.static[:, None], np.repeat(pool.kinetic[:, None], pool.node_time.shape[1], axis=1)], axis=1)
 
 
 def frequencies(pool: Pool, pace: float = 1.0) -> Array:
@@ -124,17 +73,19 @@ def _features(place: Array, weight: Array, grid: Array, harmonics: int) -> npt.N
     return found
 
 
-def best_wave(kind: str, pool: Pool, regression: Regression, terms: Terms, scatter: Array) -> tuple[Hypothesis, int]:
+def best_wave(
+    kind: str, wave: Wave, pool: Pool, regression: Regression, terms: Terms, scatter: Array
+) -> tuple[Hypothesis, int]:
     """Return the best wave of a kind, and how many were looked at.
 
     Args:
-        kind: one of `WAVES`.
+        kind: a periodic effect.
+        wave: its wave in the pool.
         pool: the slips.
         regression: fits to them.
         terms: what the model holds so far.
         scatter: logarithms of the variance components.
     """
-    wave = WAVES[kind](pool)
     parts = regression.parts(terms, scatter)
     cost = 2.0 * pool.n_runs * float(np.log(regression.n))
     whole = frequencies(pool, wave.pace)

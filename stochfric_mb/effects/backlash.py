@@ -9,7 +9,10 @@ from __future__ import annotations
 import dataclasses
 from typing import ClassVar
 
+import numpy as np
+
 from stochfric_mb.effects.contract import LOAD, POSITION, STIFFNESS, Effect, parameter
+from stochfric_mb.effects.marks import Array, Hypothesis, Slips
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -33,6 +36,44 @@ class Backlash(Effect):
     equation: ClassVar[str] = "spring force k x - k (min(max(x - position, 0), gap) - share_below gap)"
     source: ClassVar[str] = "Nordin and Gutman 2002"
     group: ClassVar[str] = "mechanism"
+    shows_on: ClassVar[str] = "position of the box"
+    shows: ClassVar[str] = "the restoring force has a dead zone"
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return the spring force that a narrow dead zone takes away, for places of the zone along the slip.
+
+        Where directions or loads differ, so does the friction that a shift of the whole spring would look like: the side of
+        the gap on which the spring counts as unloaded is then left open.
+        """
+        width = 0.02 * float(np.median(slips.typical_onset))
+        if width <= 0.0:
+            return []
+        stiffness = slips.per_run(lambda s: s.record.mechanism.stiffness)
+        back = slips.direction < 0
+        low, high = np.quantile(slips.typical_position, (0.08, 0.92))
+        places = list(np.linspace(low, high, 16))
+        if back.any():
+            places += list(-np.linspace(low, high, 16) - width)
+        shift = slips.column(*(2 * [-slips.direction * stiffness * width]))
+        shifted = back.any() or np.ptp(slips.normal_force) > 0.05 * slips.normal_force.mean()
+
+        def passed(x: Array, place: float) -> Array:
+            """Return how much of the gap is passed, seen in the mirrored frame of runs with a reversed belt."""
+            away = back if x.ndim == 1 else back[:, None]
+            return np.where(away, np.clip(x + place + width, 0.0, width) - width, np.clip(x - place, 0.0, width))
+
+        def start(b: Array, place: float) -> dict[str, float]:
+            found = {"gap": float(abs(b[0]) * width), "position": place}
+            return found | ({"share_below": float(np.clip(b[1] / b[0], 0.05, 0.95))} if len(b) > 1 and b[0] != 0.0 else {})
+
+        found: list[Hypothesis] = []
+        for place in map(float, places):
+            nodes = stiffness[:, None] * passed(slips.typical_position, place)
+            columns = [slips.column(stiffness * passed(slips.typical_onset, place), nodes)]
+            columns += [shift] if shifted else []
+            found.append(Hypothesis(cls.kind, columns, (place,), lambda b, place=place: start(b, place)))
+        return found
 
 
 def surroundings(world, memory, rates, p):

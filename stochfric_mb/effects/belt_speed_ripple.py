@@ -39,6 +39,8 @@ class BeltSpeedRipple(Effect):
     equation: ClassVar[str] = "v_b times 1 + amplitude cos(2 pi frequency t + phase)"
     source: ClassVar[str] = "eccentric pulleys and cogging of drives: Armstrong 1991"
     group: ClassVar[str] = "mechanism"
+    shows_on: ClassVar[str] = "time, in stick"
+    shows: ClassVar[str] = "in stick the box shows that the belt's speed varies periodically"
 
     def shortest_time(self, speed: float) -> float:
         """Return the period [s]."""

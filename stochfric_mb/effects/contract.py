@@ -33,7 +33,7 @@ from stochfric_mb.errors import InputError, require_name, require_number
 
 if TYPE_CHECKING:
     from stochfric_mb.coefficients import Process
-    from stochfric_mb.effects.marks import Hypothesis, Slips
+    from stochfric_mb.effects.marks import Hypothesis, Slips, Wave
 
 Array = npt.NDArray[np.float64]
 
@@ -153,6 +153,11 @@ class Effect:
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
         """Return the ways in which the effect may have marked the slips; none: discovery does not look for it there."""
         return []
+
+    @classmethod
+    def wave(cls, slips: Slips) -> Wave | None:
+        """Return where a periodic effect runs and what it modulates; None: it is not periodic."""
+        return None
 
     @classmethod
     def functions(cls) -> ModuleType:

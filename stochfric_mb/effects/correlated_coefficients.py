@@ -29,6 +29,8 @@ class CorrelatedCoefficients(Effect):
     equation: ClassVar[str] = "mu_s, mu_k with correlation exp(-abs(dt)/correlation_time)"
     source: ClassVar[str] = "Uhlenbeck and Ornstein 1930"
     group: ClassVar[str] = "randomness"
+    shows_on: ClassVar[str] = "scatter, time"
+    shows: ClassVar[str] = "friction wanders slowly and at random"
 
     def coefficient_process(self) -> Process:
         """Return the coefficient process that the effect sets."""

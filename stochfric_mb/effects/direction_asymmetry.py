@@ -9,7 +9,10 @@ from __future__ import annotations
 import dataclasses
 from typing import ClassVar
 
+import numpy as np
+
 from stochfric_mb.effects.contract import DIRECTION, MU_K, MU_S, VISCOUS_FORCE, Effect, parameter
+from stochfric_mb.effects.marks import Hypothesis, Slips, apart
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -31,7 +34,17 @@ class DirectionAsymmetry(Effect):
     )
     source: ClassVar[str] = "Armstrong-Helouvry 1991 (robot joints)"
     group: ClassVar[str] = "friction law"
+    shows_on: ClassVar[str] = "direction"
+    shows: ClassVar[str] = "friction differs between the two directions of sliding"
     order: ClassVar[int] = 3
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return the share of the runs with a reversed belt."""
+        if len(set(slips.direction)) < 2:
+            return []
+        back = (slips.direction < 0).astype(np.float64)
+        return apart(cls.kind, slips.static * back, slips.kinetic * back, slips, "asymmetry", {})
 
 
 def friction(world, memory, rates, p):

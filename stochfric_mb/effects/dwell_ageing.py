@@ -10,7 +10,10 @@ import dataclasses
 import math
 from typing import ClassVar
 
+import numpy as np
+
 from stochfric_mb.effects.contract import DWELL, MU_S, Effect, parameter
+from stochfric_mb.effects.marks import Hypothesis, Slips
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -29,7 +32,24 @@ class DwellAgeing(Effect):
     equation: ClassVar[str] = "mu_s = mu_s + rate ln(1 + dwell/time_constant)"
     source: ClassVar[str] = "Dieterich 1972; Ruina 1983"
     group: ClassVar[str] = "friction law"
+    shows_on: ClassVar[str] = "dwell"
+    shows: ClassVar[str] = "the force at break-away depends on how long the contact has stuck"
     order: ClassVar[int] = 1
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return N ln(1 + dwell/tau) at the onset, where the dwell differs enough between slips to show it."""
+        if np.std(np.log(slips.dwell)) < 0.08:
+            return []
+        return [
+            Hypothesis(
+                cls.kind,
+                [slips.column(slips.normal_force * np.log1p(slips.dwell / tau), None)],
+                (tau,),
+                lambda b, tau=tau: {"rate": float(b[0]), "time_constant": float(tau)},
+            )
+            for tau in (0.03, 0.1, 0.3, 1.0)
+        ]
 
 
 def friction(world, memory, rates, p):

@@ -10,7 +10,10 @@ import dataclasses
 import math
 from typing import ClassVar
 
+import numpy as np
+
 from stochfric_mb.effects.contract import MU_K, MU_S, TIME, Effect, parameter
+from stochfric_mb.effects.marks import Hypothesis, Slips, apart
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -35,7 +38,25 @@ class FrictionDrift(Effect):
     )
     source: ClassVar[str] = "Blau 2005 (running-in of frictional contacts)"
     group: ClassVar[str] = "friction varies"
+    shows_on: ClassVar[str] = "time"
+    shows: ClassVar[str] = "friction drifts in the course of a run"
     order: ClassVar[int] = 3
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return friction that drifts in each run: linearly, or towards a limit."""
+        last, middle = slips.duration, slips.mean_time
+        found = apart(
+            cls.kind, slips.static * slips.onset_time / last, slips.kinetic * middle / last, slips, "rate", {}, 1.0 / last
+        )
+        # neighbours differ by a fifth: a coarser grid would leave a clear record to what names no physics
+        for share in np.geomspace(0.03, 1.0, 22):
+            tau = float(share * last)
+            static, kinetic = (
+                level * -np.expm1(-t / tau) for level, t in ((slips.static, slips.onset_time), (slips.kinetic, middle))
+            )
+            found += apart(cls.kind, static, kinetic, slips, "rate", {"time_constant": tau}, 1.0 / tau)
+        return found
 
 
 def friction(world, memory, rates, p):

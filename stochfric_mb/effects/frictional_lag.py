@@ -10,7 +10,10 @@ import dataclasses
 import math
 from typing import ClassVar
 
+import numpy as np
+
 from stochfric_mb.effects.contract import MU_K, MU_S, SLIP, SLIP_TIME, Effect, parameter
+from stochfric_mb.effects.marks import Array, Hypothesis, Slips
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -37,7 +40,28 @@ class FrictionalLag(Effect):
     equation: ClassVar[str] = "mu = mu_k + (mu_s - mu_k) exp(-slip/distance - slip_time/time_constant)"
     source: ClassVar[str] = "Rabinowicz 1951, 1958; Dieterich 1979; Hess and Soom 1990"
     group: ClassVar[str] = "friction law"
+    shows_on: ClassVar[str] = "slip distance"
+    shows: ClassVar[str] = "friction falls with the distance slid after a break-away, not at once"
     order: ClassVar[int] = 2
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return friction that falls with the distance slipped since the break-away, or with the time."""
+        gap = np.maximum(slips.static - slips.kinetic, 0.02 * slips.static)[:, None]
+        found: list[Hypothesis] = []
+        for name, since, shares in (
+            ("distance", slips.slip_distance, (0.007, 0.014, 0.028, 0.056, 0.11, 0.22)),
+            ("time_constant", slips.node_time - slips.onset_time[:, None], (0.03, 0.06, 0.12, 0.24)),
+        ):
+            whole = float(np.median(since.max(axis=1)))
+            for scale in whole * np.array(shares):
+
+                def start(b: Array, name: str = name, scale: float = scale) -> dict[str, float]:
+                    return {name: float(scale * np.clip(b[0], 0.2, 3.0))}
+
+                columns = [slips.column(None, gap * np.exp(-since / scale))]
+                found.append(Hypothesis(cls.kind, columns, (scale,), start, variant=name))
+        return found
 
 
 def friction(world, memory, rates, p):

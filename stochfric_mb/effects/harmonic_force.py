@@ -10,7 +10,10 @@ import dataclasses
 import math
 from typing import ClassVar
 
+import numpy as np
+
 from stochfric_mb.effects.contract import LOAD, TIME, Effect, parameter
+from stochfric_mb.effects.marks import Slips, Wave, times
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -31,10 +34,18 @@ class HarmonicForce(Effect):
     equation: ClassVar[str] = "further force amplitude cos(2 pi frequency t + phase)"
     source: ClassVar[str] = "Den Hartog 1956, chapter 2 (unbalance)"
     group: ClassVar[str] = "mechanism"
+    shows_on: ClassVar[str] = "time"
+    shows: ClassVar[str] = "a periodic force is added, the same in stick and slip"
 
     def shortest_time(self, speed: float) -> float:
         """Return the period [s]."""
         return 1.0 / self.frequency
+
+    @classmethod
+    def wave(cls, slips: Slips) -> Wave:
+        """Return a force that is added in time, the same in stick and slip."""
+        places = times(slips)
+        return Wave(places, np.broadcast_to(slips.direction.astype(np.float64)[:, None], places.shape), lambda f: f)
 
 
 def surroundings(world, memory, rates, p):

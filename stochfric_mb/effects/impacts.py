@@ -42,6 +42,8 @@ class Impacts(Effect):
     equation: ClassVar[str] = "further force: Poisson pulses (J/duration) (1 - cos(2 pi tau/duration)), J normal"
     source: ClassVar[str] = "Cox and Isham 1980 (Poisson process)"
     group: ClassVar[str] = "mechanism"
+    shows_on: ClassVar[str] = "time"
+    shows: ClassVar[str] = "single kicks let the box break away early or jump"
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -9,7 +9,10 @@ from __future__ import annotations
 import dataclasses
 from typing import ClassVar
 
+import numpy as np
+
 from stochfric_mb.effects.contract import MU_K, MU_S, NORMAL_FORCE, Effect, parameter
+from stochfric_mb.effects.marks import Hypothesis, Slips, apart
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -30,7 +33,19 @@ class LoadDependence(Effect):
     equation: ClassVar[str] = "mu_k times (N/reference_load)^exponent, mu_s times (N/reference_load)^(static_share exponent)"
     source: ClassVar[str] = "Bowden and Tabor 1950; Archard 1957"
     group: ClassVar[str] = "friction law"
+    shows_on: ClassVar[str] = "normal load"
+    shows: ClassVar[str] = "friction is not proportional to the normal load"
     order: ClassVar[int] = 3
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return ln(N/N_0) times the friction, where the load differs between runs."""
+        if np.ptp(slips.normal_force) < 0.05 * slips.normal_force.mean():
+            return []
+        reference = float(slips.normal_force[0])
+        change = np.log(slips.normal_force / reference)
+        more = {"reference_load": reference}
+        return apart(cls.kind, slips.static * change, slips.kinetic * change, slips, "exponent", more)[:1]
 
 
 def friction(world, memory, rates, p):

@@ -22,6 +22,11 @@ class Slips(Protocol):
         ...
 
     @property
+    def slips(self) -> tuple[Any, ...]:
+        """The slips run by run, each with its ``record``, which holds ``mechanism`` and ``angular_frequency``."""
+        ...
+
+    @property
     def n_runs(self) -> int:
         """Number of runs."""
         ...
@@ -139,3 +144,55 @@ class Hypothesis:
     """From the fitted coefficients to values of the effect's parameters, where a fit may start."""
     variant: str = ""
     """Which of several forms of the effect; the best of each form is followed up."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Wave:
+    """Where a wave runs and what it modulates."""
+
+    place: Array
+    """Time, or belt coordinate over the slowest belt velocity, at the break-away and at the nodes [s], (n, 1 + N_NODES)."""
+    weight: Array
+    """Force that is modulated there [N], shape (n, 1 + N_NODES)."""
+    setting: Callable[[float], float]
+    """From the frequency [Hz] to the parameter of the effect."""
+    pace: float = 1.0
+    """How much faster a typical run passes the place than the slowest one [-]."""
+
+
+def apart(
+    kind: str, static: Array, kinetic: Array, slips: Slips, name: str, more: dict[str, float], unit: float = 1.0
+) -> list[Hypothesis]:
+    """Return a change of both coefficients by the same share, and one of each by its own.
+
+    Args:
+        kind: the effect.
+        static: change of the onset force for a unit of the parameter [N], shape (n,).
+        kinetic: change of the force in slip [N], shape (n,).
+        slips: the slips.
+        name: the parameter.
+        more: further parameters.
+        unit: parameter for a coefficient of one.
+    """
+
+    def alike(b: Array) -> dict[str, float]:
+        return more | {name: float(b[0] * unit)}
+
+    def each(b: Array) -> dict[str, float]:
+        kinetic_share = b[1] if abs(b[1]) > 0.01 * abs(b[0]) else 0.01 * abs(b[0]) + 1.0e-9
+        return more | {name: float(kinetic_share * unit), "static_share": float(b[0] / kinetic_share)}
+
+    return [
+        Hypothesis(kind, [slips.column(static, kinetic)], (), alike),
+        Hypothesis(kind, [slips.column(static, None), slips.column(None, kinetic)], (), each),
+    ]
+
+
+def times(slips: Slips) -> Array:
+    """Return the times of break-away and nodes [s], shape (n, 1 + nodes)."""
+    return np.concatenate([slips.onset_time[:, None], slips.node_time], axis=1)
+
+
+def friction_at(slips: Slips) -> Array:
+    """Return the typical force at break-away and in slip [N], shape (n, 1 + nodes)."""
+    return np.concatenate([slips.static[:, None], np.repeat(slips.kinetic[:, None], slips.node_time.shape[1], axis=1)], axis=1)

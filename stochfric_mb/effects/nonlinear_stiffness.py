@@ -9,7 +9,10 @@ from __future__ import annotations
 import dataclasses
 from typing import ClassVar
 
+import numpy as np
+
 from stochfric_mb.effects.contract import LOAD, POSITION, Effect, parameter
+from stochfric_mb.effects.marks import Array, Hypothesis, Slips
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -28,6 +31,30 @@ class NonlinearStiffness(Effect):
     equation: ClassVar[str] = "spring force k x + quadratic x abs(x) + cubic x^3"
     source: ClassVar[str] = "Duffing 1918"
     group: ClassVar[str] = "mechanism"
+    shows_on: ClassVar[str] = "position of the box"
+    shows: ClassVar[str] = "the restoring force is not linear in position"
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return -x^3, and -x|x| with it, in stick and slip, along the typical slip; the stiffness at rest is left open."""
+        onset, position = slips.typical_onset, slips.typical_position
+        scale = float(np.median(np.abs(onset)))
+        stiffness = slips.per_run(lambda s: s.record.mechanism.stiffness)
+        linear = slips.column(-onset * stiffness, -position * stiffness[:, None])
+        # sides of the spring, not of the mirrored record: both parts are odd, so that a mirrored run looks the same
+        square, cube = (
+            slips.column(-np.sign(onset) * np.abs(onset / scale) ** n, -np.sign(position) * np.abs(position / scale) ** n)
+            for n in (2, 3)
+        )
+
+        def start(b: Array) -> dict[str, float]:
+            more = {"quadratic": float(b[2] / scale**2)} if len(b) > 2 else {}
+            return {"cubic": float(b[0] / scale**3), "stiffness": float(b[1])} | more
+
+        return [
+            Hypothesis(cls.kind, [cube, linear], (), start),
+            Hypothesis(cls.kind, [cube, linear, square], (), start),
+        ]
 
 
 def surroundings(world, memory, rates, p):

@@ -11,6 +11,7 @@ import math
 from typing import ClassVar
 
 from stochfric_mb.effects.contract import NORMAL_FORCE, TIME, Effect, parameter
+from stochfric_mb.effects.marks import Slips, Wave, friction_at, times
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -31,10 +32,17 @@ class NormalLoadRipple(Effect):
     equation: ClassVar[str] = "N times 1 + amplitude cos(2 pi frequency t + phase)"
     source: ClassVar[str] = "disc thickness variation: Jacobsson 2003"
     group: ClassVar[str] = "mechanism"
+    shows_on: ClassVar[str] = "time"
+    shows: ClassVar[str] = "friction in stick and slip is modulated periodically in time by the same share"
 
     def shortest_time(self, speed: float) -> float:
         """Return the period [s]."""
         return 1.0 / self.frequency
+
+    @classmethod
+    def wave(cls, slips: Slips) -> Wave:
+        """Return friction that is modulated in time, in stick and slip by the same share."""
+        return Wave(times(slips), friction_at(slips), lambda f: f)
 
 
 def surroundings(world, memory, rates, p):

@@ -10,7 +10,10 @@ import dataclasses
 import math
 from typing import ClassVar
 
+import numpy as np
+
 from stochfric_mb.effects.contract import BELT_POSITION, MU_K, MU_S, POSITION, Effect, choice, parameter
+from stochfric_mb.effects.marks import Slips, Wave, friction_at, times
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -43,12 +46,23 @@ class PositionDependentFriction(Effect):
     equation: ClassVar[str] = "both mu times 1 + sum a_h cos(2 pi h s/wavelength + phase_h), s = belt travel - x, or x"
     source: ClassVar[str] = "Armstrong-Helouvry 1991"
     group: ClassVar[str] = "friction varies"
+    shows_on: ClassVar[str] = "belt position"
+    shows: ClassVar[str] = "friction varies along the belt"
     order: ClassVar[int] = 3
 
     def shortest_time(self, speed: float) -> float:
         """Return the time [s] in which the contact passes the shortest wavelength that acts."""
         harmonic = 3.0 if self.amplitude_3 != 0.0 else 2.0 if self.amplitude_2 != 0.0 else 1.0
         return self.wavelength / (harmonic * speed) if speed > 0.0 else math.inf
+
+    @classmethod
+    def wave(cls, slips: Slips) -> Wave:
+        """Return friction that is modulated along the belt, in stick and slip by the same share."""
+        slowest = float(slips.belt_velocity.min())
+        position = np.concatenate([slips.typical_onset[:, None], slips.typical_position], axis=1)
+        typical = float(np.median([s.record.mechanism.belt_velocity for s in slips.slips]))
+        place = (slips.belt_velocity[:, None] * times(slips) - position) / slowest
+        return Wave(place, friction_at(slips), lambda f: slowest / f, typical / slowest)
 
 
 def friction(world, memory, rates, p):

@@ -31,3 +31,5 @@ class PreslidingCompliance(Effect):
     )
     source: ClassVar[str] = "Dahl 1968; Kang, Choi and Yoo 2015, eqs. 3-5"
     group: ClassVar[str] = "friction law"
+    shows_on: ClassVar[str] = "stick"
+    shows: ClassVar[str] = "the contact yields and rings in stick"

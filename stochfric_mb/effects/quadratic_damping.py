@@ -9,7 +9,10 @@ from __future__ import annotations
 import dataclasses
 from typing import ClassVar
 
+import numpy as np
+
 from stochfric_mb.effects.contract import LOAD, VELOCITY, Effect, parameter
+from stochfric_mb.effects.marks import Hypothesis, Slips
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -26,6 +29,15 @@ class QuadraticDamping(Effect):
     equation: ClassVar[str] = "further force -coefficient x' abs(x')"
     source: ClassVar[str] = "Newton's drag: Morison et al. 1950"
     group: ClassVar[str] = "mechanism"
+    shows_on: ClassVar[str] = "velocity"
+    shows: ClassVar[str] = "the damping grows with the square of the box's velocity"
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return -x'|x'|."""
+        velocity = slips.node_velocity
+        columns = [slips.column(-(slips.belt_velocity**2), -velocity * np.abs(velocity))]
+        return [Hypothesis(cls.kind, columns, (), lambda b: {"coefficient": float(b[0])})]
 
 
 def surroundings(world, memory, rates, p):

@@ -32,6 +32,8 @@ class RandomCoefficients(Effect):
     equation: ClassVar[str] = "(mu_s, mu_k) normal, a new pair every `spacing` seconds (knots) or every stick (per_event)"
     source: ClassVar[str] = "Kang, Choi and Yoo 2015, section 2.2"
     group: ClassVar[str] = "randomness"
+    shows_on: ClassVar[str] = "scatter"
+    shows: ClassVar[str] = "friction scatters from slip to slip with no memory"
 
     def coefficient_process(self) -> Process:
         """Return the coefficient process that the effect sets."""

@@ -13,6 +13,8 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import LOAD, MASS, POSITION, VELOCITY, Array, Effect, parameter
+from stochfric_mb.effects.marks import Hypothesis, Slips
+from stochfric_mb.effects.oscillator import oscillator_pull
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -38,6 +40,8 @@ class SecondMode(Effect):
     )
     source: ClassVar[str] = "Den Hartog 1956, chapter 3 (the dynamic absorber)"
     group: ClassVar[str] = "mechanism"
+    shows_on: ClassVar[str] = "frequency"
+    shows: ClassVar[str] = "the box rings with a second mode in slip"
     n_memory: ClassVar[int] = 2
 
     def shortest_time(self, speed: float) -> float:
@@ -47,6 +51,25 @@ class SecondMode(Effect):
     def rest(self, position: Array, velocity: Array) -> Array:
         """Return (q, q') of an oscillator that moves along with the body, shape (n, 2)."""
         return np.stack([position, velocity], axis=1)
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return the force of a light oscillator on the box, driven by the slips; the box's own mass is left open."""
+        natural = slips.slips[0].record.angular_frequency / (2.0 * np.pi)
+        mass = slips.per_run(lambda s: s.record.mechanism.mass)
+        inertia = slips.column(None, -mass[:, None] * slips.node_acceleration)
+        found: list[Hypothesis] = []
+        for frequency in natural * np.geomspace(1.5, 7.0, 100):
+            for ratio in (0.01, 0.03, 0.1):
+                onset, nodes = oscillator_pull(slips, frequency, ratio)
+
+                def start(b: Array, frequency: float = frequency, ratio: float = ratio) -> dict[str, float]:
+                    share = float(np.clip(b[0], 0.005, 0.9))
+                    return {"mass_ratio": share, "frequency": frequency, "damping_ratio": ratio, "mass": float(b[1])}
+
+                columns = [slips.column(mass * onset, mass[:, None] * nodes), inertia]
+                found.append(Hypothesis(cls.kind, columns, (frequency, ratio), start))
+        return found
 
 
 def surroundings(world, memory, rates, p):

@@ -28,6 +28,8 @@ class SensorClipping(Effect):
     equation: ClassVar[str] = "reading min(max(x, low), high)"
     source: ClassVar[str] = "Fraden 2016, chapter 3"
     group: ClassVar[str] = "sensor"
+    shows_on: ClassVar[str] = "position, sensor"
+    shows: ClassVar[str] = "the record stays at one ceiling where the box goes on"
 
     def __post_init__(self) -> None:
         super().__post_init__()

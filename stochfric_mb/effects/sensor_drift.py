@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 from typing import ClassVar
 
 import numpy as np
 
 from stochfric_mb.effects.contract import Array, Effect, parameter
+from stochfric_mb.effects.marks import Hypothesis, Slips
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -24,7 +26,29 @@ class SensorDrift(Effect):
     equation: ClassVar[str] = "reading x + rate t"
     source: ClassVar[str] = "Fraden 2016, chapter 3"
     group: ClassVar[str] = "sensor"
+    shows_on: ClassVar[str] = "time, sensor"
+    shows: ClassVar[str] = "the position drifts, in stick and slip alike"
 
     def measure(self, time: Array, position: Array, rng: np.random.Generator) -> Array:
         """Return what the sensor shows [m]; arguments as in `Effect.measure`."""
         return position + self.rate * time
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return k times a drift of the position, the same in stick and slip."""
+        last = slips.duration
+        side = slips.direction * slips.per_run(lambda s: s.record.mechanism.stiffness)
+
+        def start(b: Array) -> dict[str, float]:
+            return {"rate": float(b[0] / last)}
+
+        shapes: list[Callable[[Array], Array]] = [lambda t: t / last, lambda t: np.sqrt(np.maximum(t, 0.0) / last)]
+        return [
+            Hypothesis(
+                cls.kind,
+                [slips.column(side * s(slips.onset_time), side * s(slips.mean_time))],
+                (),
+                start,
+            )
+            for s in shapes
+        ]

@@ -27,6 +27,8 @@ class SensorOutliers(Effect):
     equation: ClassVar[str] = "reading x + size z, z normal, in a `fraction` of the samples"
     source: ClassVar[str] = "Tukey 1960 (contaminated normal)"
     group: ClassVar[str] = "sensor"
+    shows_on: ClassVar[str] = "sensor"
+    shows: ClassVar[str] = "single samples are far off"
 
     def measure(self, time: Array, position: Array, rng: np.random.Generator) -> Array:
         """Return what the sensor shows [m]; arguments as in `Effect.measure`."""

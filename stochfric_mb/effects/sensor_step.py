@@ -26,6 +26,8 @@ class SensorStep(Effect):
     equation: ClassVar[str] = "reading x + size from `time` on"
     source: ClassVar[str] = "Fraden 2016, chapter 3"
     group: ClassVar[str] = "sensor"
+    shows_on: ClassVar[str] = "time, sensor"
+    shows: ClassVar[str] = "the position jumps once and stays off"
 
     def measure(self, time: Array, position: Array, rng: np.random.Generator) -> Array:
         """Return what the sensor shows [m]; arguments as in `Effect.measure`."""

@@ -10,7 +10,10 @@ import dataclasses
 import math
 from typing import ClassVar
 
+import numpy as np
+
 from stochfric_mb.effects.contract import MU_K, SPEED, Effect, parameter
+from stochfric_mb.effects.marks import Hypothesis, Slips
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -30,7 +33,25 @@ class VelocityWeakening(Effect):
     equation: ClassVar[str] = "mu_k(v) = mu_k + amplitude exp(-abs(v)/decay_velocity)"
     source: ClassVar[str] = "Bo and Pavelescu 1982; Armstrong-Helouvry, Dupont and Canudas de Wit 1994, eq. 7"
     group: ClassVar[str] = "friction law"
+    shows_on: ClassVar[str] = "relative velocity"
+    shows: ClassVar[str] = "friction in slip depends on the sliding velocity and falls as it rises"
     order: ClassVar[int] = 1
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return N exp(-v/v_w) in the slip, for decay velocities v_w about the belt's and the slips'."""
+        speed = slips.relative_velocity
+        load = slips.normal_force[:, None]
+        fastest = float(np.median(speed.max(axis=1)))
+        return [
+            Hypothesis(
+                cls.kind,
+                [slips.column(None, load * np.exp(-speed / decay))],
+                (decay,),
+                lambda b, d=decay: {"amplitude": float(b[0]), "decay_velocity": float(d)},
+            )
+            for decay in fastest * np.array([0.05, 0.1, 0.2, 0.4, 0.8])
+        ]
 
 
 def friction(world, memory, rates, p):

@@ -7,10 +7,14 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 from typing import ClassVar
 
+import numpy as np
+
 from stochfric_mb.effects.contract import NORMAL_FORCE, SPEED, VISCOUS_FORCE, Effect, parameter
+from stochfric_mb.effects.marks import Array, Hypothesis, Slips
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -38,6 +42,33 @@ class ViscousFriction(Effect):
     )
     source: ClassVar[str] = "Reynolds 1886; Armstrong-Helouvry, Dupont and Canudas de Wit 1994, eq. 6"
     group: ClassVar[str] = "friction law"
+    shows_on: ClassVar[str] = "relative velocity"
+    shows: ClassVar[str] = "friction in slip rises with the sliding velocity"
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return the relative velocity in the slip, linear or levelling off, proportional to the load or not."""
+        speed = slips.relative_velocity
+        fastest = float(np.median(speed.max(axis=1)))
+        reference = float(slips.normal_force[0])
+        found: list[Hypothesis] = []
+        loads = [(np.ones(len(slips.run)), 0.0)]
+        if np.ptp(slips.normal_force) > 0.05 * reference:
+            loads.append((slips.normal_force / reference, reference))
+        for load, name in loads:
+            more = {"reference_load": name} if name else {}
+
+            def start(b: Array, factor: float, knee: float, more: dict[str, float] = more) -> dict[str, float]:
+                return more | {"coefficient": factor * float(b[0]), "saturation_velocity": float(knee)}
+
+            # a start that levels off beyond the fastest slip: a fit can find either end from there
+            linear = functools.partial(start, factor=1.3, knee=1.5 * fastest)
+            found.append(Hypothesis(cls.kind, [slips.column(None, speed * load[:, None])], (), linear))
+            for knee in fastest * np.array([0.15, 0.4]):
+                columns = [slips.column(None, -knee * np.expm1(-speed / knee) * load[:, None])]
+                curved = functools.partial(start, factor=1.0, knee=knee)
+                found.append(Hypothesis(cls.kind, columns, (knee,), curved))
+        return found
 
 
 def friction(world, memory, rates, p):

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery.calibration import calibrate
-from stochfric_mb.discovery.oscillator import oscillator_pull
 from stochfric_mb.discovery.pool import make_pool
 from stochfric_mb.discovery.recall import recalled
 from stochfric_mb.discovery.record import make_record
 from stochfric_mb.discovery.slips import extract
 from stochfric_mb.effects import make_effect
+from stochfric_mb.effects.oscillator import oscillator_pull
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference.augmented import Start, augmented_system

@@ -15,29 +15,28 @@ import math
 import numpy as np
 
 from stochfric_mb.compile import compiled
-from stochfric_mb.discovery.pool import Pool
-from stochfric_mb.discovery.record import Array
+from stochfric_mb.effects.marks import Array, Slips
 
 FIRST = 8
 """Times that the first slip is taken before it counts: by then a steady oscillator has forgotten how it began."""
 
 
-def oscillator_pull(pool: Pool, frequency: float, damping_ratio: float) -> tuple[Array, Array]:
-    """Return w^2 r + 2 z w r' [m/s^2] at the break-aways, shape (n,), and at the nodes, shape (n, N_NODES).
+def oscillator_pull(slips: Slips, frequency: float, damping_ratio: float) -> tuple[Array, Array]:
+    """Return w^2 r + 2 z w r' [m/s^2] at the break-aways, shape (n,), and at the nodes, shape (n, nodes).
 
     Args:
-        pool: the slips.
+        slips: the slips.
         frequency: of the oscillator with the box held [Hz].
         damping_ratio: its damping ratio z [-].
     """
-    at_onset, at_nodes = np.zeros(len(pool.run)), np.zeros_like(pool.node_time)
+    at_onset, at_nodes = np.zeros(len(slips.run)), np.zeros_like(slips.node_time)
     w = 2.0 * np.pi * frequency
-    for run in range(pool.n_runs):
-        mine = np.flatnonzero(pool.run == run)
+    for run in range(slips.n_runs):
+        mine = np.flatnonzero(slips.run == run)
         rows = slice(int(mine[0]), int(mine[-1]) + 1)
         _ring(
-            w, damping_ratio, pool.onset_time[rows], pool.restick_time[rows], pool.node_time[rows],
-            pool.node_acceleration[rows], at_onset[rows], at_nodes[rows],
+            w, damping_ratio, slips.onset_time[rows], slips.restick_time[rows], slips.node_time[rows],
+            slips.node_acceleration[rows], at_onset[rows], at_nodes[rows],
         )  # fmt: skip
     return at_onset, at_nodes
 
