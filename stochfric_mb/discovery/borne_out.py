@@ -41,6 +41,11 @@ class Comparison:
         to_gain = self.without - self.floor > LEAST_REDUCIBLE * self.without
         return self.with_ > FAR_OFF * self.without or self.with_ - self.without > chance or to_gain
 
+    @property
+    def better(self) -> bool:
+        """Whether the effect makes the forecasts better, by more than chance."""
+        return self.without - self.with_ > DOUBT * self.deviation
+
 
 def compared(without: Model, with_: Model, runs: HeldOut) -> Comparison | None:
     """Return how two models, phases found already, forecast held-out runs; None where there are too few forecasts."""

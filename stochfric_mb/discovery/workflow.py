@@ -28,6 +28,8 @@ from stochfric_mb.scenario import Scenario
 
 NOT_JUDGED = {"sensor_outliers", "sensor_clipping"}
 """Effects whose worth one-cycle forecasts do not measure."""
+RANDOM = ("random_coefficients", "correlated_coefficients")
+"""Effects that are scatter."""
 EXPLAINED, EXPLAINED_RANDOM = 0.65, 0.2
 """Share of the reducible error of the fit runs' forecasts that named effects must explain; the second one where random
 effects or a step between two slips, whose moment is not known well, are among them [-]."""
@@ -209,7 +211,10 @@ def _missed(decision: Decision, before: float, floor: float) -> Decision:
 def _borne_out(
     decision: Decision, fit: Fit | None, augmented: Model, found: Study, recalibrated: Fit, runs: HeldOut
 ) -> tuple[Decision, Fit | None, Model]:
-    """Return the decision and its model less the effects, last found first, that make forecasts of held-out runs worse."""
+    """Return the decision and its model less the effects that held-out runs do not bear out, last found first.
+
+    An effect must not make their forecasts worse; a further one must make them better.
+    """
     dropped: dict[str, object] = {}
     last: Named | None = None
     while decision.named and decision.named[-1].kind not in NOT_JUDGED:
@@ -218,7 +223,9 @@ def _borne_out(
         refitted = _augmented(fewer, found, recalibrated) if fewer.named else None
         before = settled(refitted.model, runs) if refitted is not None else recalibrated.model
         seen = compared(before, augmented, runs)
-        if seen is None or not seen.worse:
+        # what is beside a named effect needs evidence of its own; a wander's forecasts hang on where the record happens to be
+        idle = bool(fewer.named) and last.kind not in RANDOM and seen is not None and not seen.better
+        if seen is None or not (seen.worse or idle):
             break
         dropped[last.kind] = dataclasses.asdict(seen)
         decision, fit, augmented = fewer, refitted, before

@@ -52,6 +52,11 @@ def test_when_an_effect_makes_forecasts_worse(comparison, worse):
     assert comparison.worse is worse
 
 
+def test_when_an_effect_makes_forecasts_better():
+    assert Comparison(5e-6, 4.7e-6, 1e-7, 4e-6).better  # three standard errors
+    assert not Comparison(5e-6, 4.9e-6, 1e-7, 4e-6).better  # by chance
+
+
 def test_the_last_of_a_kind_is_taken_out_with_its_own_numbers():
     first, second = (
         make_effect("backlash", gap=1e-5, position=1e-3),
