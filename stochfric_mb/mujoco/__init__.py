@@ -7,11 +7,12 @@ Importing this package registers the plugin, so that models that name it can be 
     model = spec.compile()
 """
 
-from stochfric_mb.mujoco.attach import Reading, add_friction, readings
+from stochfric_mb.mujoco.attach import add_friction, readings
 from stochfric_mb.mujoco.callback import ContactWarning, friction
 from stochfric_mb.mujoco.joints import Joint, Tendon
 from stochfric_mb.mujoco.options import IntegratorWarning
 from stochfric_mb.mujoco.plugin import register
+from stochfric_mb.mujoco.reading import Reading
 from stochfric_mb.mujoco.sensing import add_sensor, register_sensors
 from stochfric_mb.mujoco.states import set_friction, state_index, untouched
 

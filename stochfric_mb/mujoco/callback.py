@@ -36,7 +36,7 @@ from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.attach import Reading, reading_of, require_slots
+from stochfric_mb.mujoco.attach import reading_of, require_slots
 from stochfric_mb.mujoco.config import (
     R_DESCRIPTOR,
     R_HAS_MODE,
@@ -54,6 +54,7 @@ from stochfric_mb.mujoco.dof import RUNGE_KUTTA
 from stochfric_mb.mujoco.kinematics import contact_address, ordinal_of, side
 from stochfric_mb.mujoco.options import check_options
 from stochfric_mb.mujoco.plugin import UNSET, register
+from stochfric_mb.mujoco.reading import Reading
 
 MODEL, DATA, STATE, PHASE, SIGNATURE, GEOM_A, GEOM_B, WIDTH = range(8)
 """Words of a context's row: three addresses, evaluations since the step began, the model's signature, two geoms whose

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -17,9 +17,7 @@ from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import config, dof
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.dof_plugin import NAME, register_joints, require_no_hold
-
-if TYPE_CHECKING:
-    from stochfric_mb.mujoco.attach import Reading
+from stochfric_mb.mujoco.reading import Reading
 
 
 @dataclasses.dataclass(frozen=True)
@@ -94,8 +92,6 @@ def joint_instances(model: mujoco.MjModel) -> list[int]:
 
 def joint_reading(model: mujoco.MjModel, state: np.ndarray[Any, Any]) -> list[Reading]:
     """Return what the friction of one joint or tendon did, as a list of one, empty before the first step."""
-    from stochfric_mb.mujoco.attach import Reading
-
     if not state[s.N_CURRENT]:
         return []
     first = s.DESCRIPTOR + int(state[s.N_DESCRIPTOR]) + s.SLOT

@@ -1,4 +1,4 @@
-"""The reference solution of a scenario: closed form for Coulomb, event-located integration for every other law."""
+"""Reference motion under a law: closed form for Coulomb, event-located integration for every other law."""
 
 from __future__ import annotations
 
@@ -17,40 +17,11 @@ from stochfric_mb.laws import Law
 from stochfric_mb.laws.abi import native_law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference import adaptive, coulomb
-from stochfric_mb.scenario import Scenario
 from stochfric_mb.trajectory import Array, Trajectory
 
 METHODS = ("auto", "closed_form", "adaptive")
 CHUNK = 1000
 """Outputs between two calls of ``progress``."""
-
-
-def simulate(
-    scenario: Scenario,
-    *,
-    seed: int = 0,
-    sample: int = 0,
-    dt: float | None = None,
-    progress: Callable[[float], None] | None = None,
-) -> Trajectory:
-    """Return the reference solution of a scenario at its output times.
-
-    Args:
-        scenario: what is simulated.
-        seed: first part of the address of the coefficient path.
-        sample: second part of it.
-        dt: taken for the sake of the common interface and not used: the solution does not depend on a step [s].
-        progress: called with the simulated time [s] now and then.
-
-    Raises:
-        SimulationError: the integration broke down; says where.
-    """
-    if scenario.effects:
-        from stochfric_mb.reference.with_effects import simulate_with_effects
-
-        return simulate_with_effects(scenario, seed=seed, sample=sample, progress=progress)
-    path = scenario.path(seed, sample)
-    return solve(scenario.mechanism, scenario.law, path, scenario.output_times(), progress=progress)
 
 
 def solve(
