@@ -247,7 +247,8 @@ class _Search:
         before = _scatter(self.solution)
         if kind in LINEAR:
             self.kept += chosen.candidate.hypothesis.columns
-        if kind in FITTED_TO_FORECASTS:
+        if kind in FITTED_TO_FORECASTS or chosen.simulated:
+            # a simulated fit knows the features alone, whose bias by noise is that of the believed model
             fit = refit(self.model, self.study.windows, self.study.uncertainty, most=12, evaluations=20)
             self.model = fit.model
         self._take_out()
@@ -255,7 +256,7 @@ class _Search:
 
     def _take_out(self) -> None:
         """Go on with what the model leaves of the features."""
-        left = left_over(self.study.pool, self.model)
+        left = left_over(self.study.pool, self.model, anew=any(n.kind in IN_SLIP for n in self.named))
         if left.kept.sum() < LEAST_KEPT * self.pool.kept.sum():
             self.stalled = True
             return

@@ -10,21 +10,26 @@ import dataclasses
 
 import numpy as np
 
+from stochfric_mb.discovery.calibration import Calibration
 from stochfric_mb.discovery.confirmation import Case, predict
 from stochfric_mb.discovery.model import FREED, Model
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.record import Array
+from stochfric_mb.discovery.sensor_errors import errors_by_noise
 from stochfric_mb.discovery.slips import N_FEATURES, Slips
 
 ANY = np.eye(N_FEATURES)
+LEAST_ERROR = 1.0e-4
+"""Error of the features that always remains, over the onset force [-]: it keeps a noiseless record's covariance invertible."""
 
 
-def left_over(pool: Pool, model: Model) -> Pool:
+def left_over(pool: Pool, model: Model, *, anew: bool = False) -> Pool:
     """Return the pool with the effects of ``model`` taken out of its features; slips that it misses are set aside.
 
     Args:
         pool: the slips with their features as measured.
         model: a deterministic model with effects, its numbers fitted.
+        anew: whether its effects change how a slip begins and ends, so that noise makes other errors in its features.
     """
     # what an effect freed of the mechanism goes with it
     freed = {name for effect in model.effects for name in FREED.get(effect.kind, ())}
@@ -32,6 +37,7 @@ def left_over(pool: Pool, model: Model) -> Pool:
     plain = dataclasses.replace(model, effects=(), own={}, corrections=corrections)
     features = pool.features.copy()
     kept = pool.kept.copy()
+    calibrations = list(pool.calibrations)
     for r, slips in enumerate(pool.slips):
         rows = np.flatnonzero(pool.run == r)
         with_effects = _predicted(slips, model, pool.dwell[rows])
@@ -39,10 +45,24 @@ def left_over(pool: Pool, model: Model) -> Pool:
         one = rows if forced else rows[:1]
         without = _predicted(slips, plain, pool.dwell[rows], len(one))
         features[rows] -= with_effects - without
+        if anew:
+            features[rows], calibrations[r] = _calibrated_anew(features[rows], slips, model, plain, calibrations[r])
         missed = ~np.isfinite(features[rows]).all(axis=1)
         features[rows[missed]] = pool.features[rows[missed]]
         kept[rows[missed]] = False
-    return dataclasses.replace(pool, features=features, kept=kept)
+    return dataclasses.replace(pool, features=features, kept=kept, calibrations=tuple(calibrations))
+
+
+def _calibrated_anew(
+    features: Array, slips: Slips, model: Model, plain: Model, before: Calibration
+) -> tuple[Array, Calibration]:
+    """Return features with the bias by noise that the effects' slips have instead of plain ones, and its covariance."""
+    with_effects, without = errors_by_noise(model, slips), errors_by_noise(plain, slips)
+    if with_effects is None or without is None:
+        return features, before
+    floor = (LEAST_ERROR * float(np.median(slips.onset_force))) ** 2 * np.eye(N_FEATURES)
+    after = dataclasses.replace(before, covariance=with_effects.covariance + floor)
+    return features - (with_effects.bias - without.bias), after
 
 
 def _predicted(slips: Slips, model: Model, dwell: Array, count: int | None = None) -> Array:

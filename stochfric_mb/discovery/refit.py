@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -16,12 +16,20 @@ MOST_WINDOWS = 16
 """Forecasts a run that a fit uses, spread over the run."""
 UNIT = 1.0e-5
 """Size of an error that counts fully [m]; larger ones count by their size, not its square."""
+TYPICAL = 2.0
+"""Errors up to this many units count by their square [-]."""
 CLIP = 60.0
 """Errors beyond this many units count as this many: a missed slip says no more than that."""
-
-
 DIFFERENCE = 0.01
-"""Step of the derivatives, over a natural step of each number [-]."""
+"""Step of the derivatives in a fit, over a natural step of each number [-]."""
+LEAST_STEP, WIDEST = 1.0e-6, 30.0
+"""Shortest and widest step of the slopes that intervals come from, over a natural step of each number [-]."""
+ALIKE = 3.0
+"""Factor within which two slopes, or a change of the errors and one standard deviation, count as alike [-]."""
+MOST_STEPS = 10
+"""Steps that are tried for such a slope."""
+LEAST_TOLD = 1.0e-8
+"""Smallest information on a combination of numbers, over that on single ones, that is told from none [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -36,6 +44,8 @@ class Fit:
     """Fitted values, shape (len(knobs),)."""
     deviations: Array
     """Their standard deviations, shape (len(knobs),)."""
+    alone: Array
+    """What they would be if the others were known, shape (len(knobs),)."""
     cost: float
     """Robust sum of squares at the end [-]."""
 
@@ -66,30 +76,134 @@ def refit(
         evaluations: most Gauss-Newton steps.
         most: forecasts used in each run.
     """
-    used = [thinned(w, most) for w in windows if len(w)]
-    knobs = [k for k in knobs_of(model, uncertainty, [w.record.name for w in used]) if only is None or k.name in only]
-    start = np.array([k.value for k in knobs])
-    scale = np.array([k.scale for k in knobs])
-    priors = np.array([k.prior for k in knobs])
-    believed = np.array([0.0 if np.isfinite(k.prior) else k.value for k in knobs])
-    low = np.array([(k.low - v) / s for k, v, s in zip(knobs, start, scale, strict=True)]) - 1.0e-9
-    high = np.array([(k.high - v) / s for k, v, s in zip(knobs, start, scale, strict=True)]) + 1.0e-9
-
-    def errors(step: Array) -> Array:
-        values = start + scale * step
-        trial = adjusted(model, knobs, values)
-        parts = [np.nan_to_num(np.clip((forecasts(trial, w) - w.targets) / UNIT, -CLIP, CLIP), nan=CLIP).ravel() for w in used]
-        # priors enter as one observation each; its weight is that of a cycle's worth of independent errors
-        return np.concatenate([*parts, 3.0 * (values - believed) / priors])
-
+    misfit = _Misfit(model, windows, uncertainty, only, most)
     found = minimised(
-        errors, np.zeros(len(knobs)), low, high, difference=DIFFERENCE, loss="soft_l1", f_scale=2.0, max_nfev=evaluations,
-        xtol=1.0e-4, ftol=1.0e-4, x_scale="jac",
+        misfit.errors, np.zeros(len(misfit.knobs)), misfit.low, misfit.high, difference=DIFFERENCE, loss="soft_l1",
+        f_scale=TYPICAL, max_nfev=evaluations, xtol=1.0e-4, ftol=1.0e-4, x_scale="jac",
     )  # fmt: skip
-    values = start + scale * found.x
-    information = found.jac.T @ found.jac
-    # the errors of one forecast hang together: a forecast counts as about six independent numbers
-    inflation = sum(w.targets.size for w in used) / max(6 * sum(map(len, used)), 1)
-    variance = max(2.0 * found.cost / max(sum(w.targets.size for w in used), 1), 1.0e-12)
-    deviations = np.sqrt(np.diag(np.linalg.pinv(information)) * variance * inflation) * scale
-    return Fit(adjusted(model, knobs, values), knobs, values, deviations, float(found.cost))
+    values = misfit.start + misfit.scale * found.x
+    spread = misfit.spread(2.0 * found.cost)
+    size = np.sqrt((found.jac**2).sum(axis=0))
+    alone = misfit.scale * np.sqrt(spread) / np.maximum(size, np.sqrt(spread) / WIDEST)
+    deviations = misfit.scale * _deviations(found.jac, spread)
+    return Fit(adjusted(model, misfit.knobs, values), misfit.knobs, values, deviations, alone, float(found.cost))
+
+
+def with_deviations(fit: Fit, windows: Sequence[Windows], uncertainty: Mapping[str, float], *, most: int = MOST_WINDOWS) -> Fit:
+    """Return the fit with standard deviations from differences as wide as what the forecasts leave open.
+
+    A fit's own differences are small. Where errors jump as a number is changed, a slip missed or a gap's edge passed, or do
+    not change at all until it is changed by more, their slopes say nothing of how far off the number may be.
+
+    Args:
+        fit: a fit of all knobs.
+        windows: the forecasts it was made to.
+        uncertainty: relative standard deviations of what is believed.
+        most: forecasts used in each run.
+    """
+    misfit = _Misfit(fit.model, windows, uncertainty, None, most)
+    here = misfit.errors(np.zeros(len(misfit.knobs)))
+    weight = (1.0 + (here / TYPICAL) ** 2) ** -0.75  # of the loss: SciPy scales its Jacobian so
+    spread = misfit.spread(2.0 * fit.cost)
+    alone = {(k.name, k.effect, k.run): a for k, a in zip(fit.knobs, fit.alone, strict=True)}
+    slopes = np.zeros((len(here), len(misfit.knobs)))
+    for j, knob in enumerate(misfit.knobs):
+        first = alone[knob.name, knob.effect, knob.run] / knob.scale
+
+        def change(step: float, j: int = j) -> Array:
+            at = np.zeros(len(misfit.knobs))
+            at[j] = step
+            return weight * (misfit.errors(at) - here) / np.sqrt(spread)
+
+        sides = [
+            sign * _slope(lambda h, sign=sign, change=change: change(sign * h), first, min(WIDEST, sign * float(bound)))
+            for sign, bound in ((-1.0, misfit.low[j]), (1.0, misfit.high[j]))
+        ]
+        down, up = (float(np.linalg.norm(side)) for side in sides)
+        if min(down, up) == 0.0:  # a bound, or nothing to be seen there
+            slopes[:, j] = sides[0] + sides[1]
+        elif max(down, up) > ALIKE * min(down, up):
+            # a jump on one side says nothing of the other
+            slopes[:, j] = sides[0] if down < up else sides[1]
+        else:
+            slopes[:, j] = 0.5 * (sides[0] + sides[1])
+    return dataclasses.replace(fit, knobs=misfit.knobs, values=misfit.start, deviations=misfit.scale * _deviations(slopes, 1.0))
+
+
+def _slope(change: Callable[[float], Array], first: float, most: float) -> Array:
+    """Return the slope of errors, in standard deviations, over the step at which their change counts about one.
+
+    Args:
+        change: change of the errors over a step, shape (n,).
+        first: step to begin with.
+        most: widest step.
+    """
+    if most <= LEAST_STEP:
+        return np.zeros_like(change(0.0))
+    below, above = 0.0, most
+    step = float(np.clip(first, LEAST_STEP, most))
+    for _ in range(MOST_STEPS):
+        moved = change(step)
+        size = float(np.linalg.norm(moved))
+        if 1.0 / ALIKE <= size <= ALIKE or (size < 1.0 and step >= most):
+            return moved / step
+        if size < 1.0:
+            below = step
+        else:
+            above = step
+        guess = step / size if size > 0.0 else most
+        if below < guess < above or (guess >= most and above == most):
+            step = min(guess, most)
+        else:
+            step = float(np.sqrt(max(below, LEAST_STEP) * above))
+    # errors jump there: no farther can the number be off, but no nearer is it known
+    return moved / (step * max(size, 1.0))
+
+
+class _Misfit:
+    """What forecasts miss, over the knobs of a model in their natural steps, all 0 at the start."""
+
+    def __init__(
+        self, model: Model, windows: Sequence[Windows], uncertainty: Mapping[str, float], only: Sequence[str] | None, most: int
+    ) -> None:
+        self.model = model
+        self.windows = [thinned(w, most) for w in windows if len(w)]
+        runs = [w.record.name for w in self.windows]
+        self.knobs = [k for k in knobs_of(model, uncertainty, runs) if only is None or k.name in only]
+        self.start = np.array([k.value for k in self.knobs])
+        self.scale = np.array([k.scale for k in self.knobs])
+        self.low = (np.array([k.low for k in self.knobs]) - self.start) / self.scale - 1.0e-9
+        self.high = (np.array([k.high for k in self.knobs]) - self.start) / self.scale + 1.0e-9
+        self._priors = np.array([k.prior for k in self.knobs])
+        self._believed = np.array([0.0 if np.isfinite(k.prior) else k.value for k in self.knobs])
+
+    def errors(self, step: Array) -> Array:
+        """Return the errors of all forecasts, then what is believed and missed, in units of `UNIT` and of beliefs."""
+        values = self.start + self.scale * step
+        trial = adjusted(self.model, self.knobs, values)
+        parts = [
+            np.nan_to_num(np.clip((forecasts(trial, w) - w.targets) / UNIT, -CLIP, CLIP), nan=CLIP).ravel()
+            for w in self.windows
+        ]
+        # priors enter as one observation each; its weight is that of a cycle's worth of independent errors
+        return np.concatenate([*parts, 3.0 * (values - self._believed) / self._priors])
+
+    def spread(self, squares: float) -> float:
+        """Return the variance that errors count with, from their robust sum of squares."""
+        count = sum(w.targets.size for w in self.windows)
+        # the errors of one forecast hang together: a forecast counts as about six independent numbers
+        inflation = count / max(6 * sum(map(len, self.windows)), 1)
+        return max(squares / max(count, 1), 1.0e-12) * inflation
+
+
+def _deviations(slopes: Array, spread: float) -> Array:
+    """Return the standard deviations that slopes leave; a direction that they do not tell is left open, not called certain."""
+    size = np.sqrt((slopes**2).sum(axis=0))
+    told = size > 0.0
+    found = np.full(len(size), WIDEST)
+    if told.any():
+        scaled = slopes[:, told] / size[told]
+        values, vectors = np.linalg.eigh(scaled.T @ scaled)
+        variance = (vectors**2 / np.maximum(values, LEAST_TOLD)).sum(axis=1)
+        found[told] = np.sqrt(spread * variance) / size[told]
+    return found

@@ -71,18 +71,28 @@ def _most(model: Model) -> float:
 
 def simulated_slips(model: Model, like: Slips, *, sample: int = 0, seed: int = 5) -> Slips:
     """Return the slips of a run simulated from the model, as long as ``like`` and with its noise."""
+    generator = np.random.default_rng([seed, sample])
+    return measured_slips(shown_by(model, like, generator, sample=sample, seed=seed), like, generator)
+
+
+def shown_by(model: Model, like: Slips, generator: np.random.Generator, *, sample: int = 0, seed: int = 5) -> Array:
+    """Return what a sensor without noise shows of a run simulated from the model [m], at the times of ``like``."""
     record = like.record
     step = 1.0 / record.rate
     system = model.system(record, seed=seed, sample=sample)
     first = Start(record.time[0] - SETTLING, 0.0, record.stated.belt_velocity, stick=True)
     start = system.march(first, step, round(SETTLING * record.rate)).end
-    motion = system.march(start, step, len(record.time))
-    generator = np.random.default_rng([seed, sample])
-    position = motion.position
+    position = system.march(start, step, len(record.time)).position
     for effect in model.effects_in(record.name):
         if effect.group == "sensor":
             position = effect.measure(record.time, position, generator)
-    measured = position + like.noise.draw(len(position), generator)
+    return position
+
+
+def measured_slips(shown: Array, like: Slips, generator: np.random.Generator) -> Slips:
+    """Return the slips of a record of ``shown`` [m], shape (n,), with the noise of ``like``."""
+    record = like.record
+    measured = shown + like.noise.draw(len(shown), generator)
     return extract(make_record(record.name, record.time, measured, record.stated), ridge=like.ridge)
 
 

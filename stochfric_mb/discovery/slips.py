@@ -112,19 +112,21 @@ def legendre_coefficients(values: Array) -> Array:
     return values @ _PROJECTION
 
 
-def extract(record: Record, *, ridge: float | None = None) -> Slips:
+def extract(record: Record, *, ridge: float | None = None, noise: Noise | None = None) -> Slips:
     """Return the slips of a record.
 
     Args:
         record: the record.
         ridge: how firmly the force at break-away is believed to be constant; chosen from the data if not given.
+        noise: the noise that edges are located in; that of the stick phases if not given.
     """
     rough = list(_inside(record, slips_of(record)))
     quiet, when = _quiet(record, rough)
-    noise = noise_of(quiet, record.noise)
-    if noise.coloured > 0.0:
-        calmer = without_wave(quiet, when) or quiet
-        noise = noise_of(without_pattern(calmer) or calmer, record.noise)
+    if noise is None:
+        noise = noise_of(quiet, record.noise)
+        if noise.coloured > 0.0:
+            calmer = without_wave(quiet, when) or quiet
+            noise = noise_of(without_pattern(calmer) or calmer, record.noise)
     firm = noise.deviation / (_STIFF * np.ptp(record.position) / 2.0)
     if ridge is None:
         misfits = [_edge(record, begin, 1, firm)[3] / noise.deviation**2 for begin, _ in rough[:24]]

@@ -17,7 +17,7 @@ from stochfric_mb.discovery.gap import HeldOut, deterministic, floor_of, gap_of,
 from stochfric_mb.discovery.intervals import interval
 from stochfric_mb.discovery.model import CORRECTED, Model
 from stochfric_mb.discovery.power import smallest
-from stochfric_mb.discovery.refit import Fit, refit
+from stochfric_mb.discovery.refit import Fit, refit, with_deviations
 from stochfric_mb.discovery.refusal import refusal
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.discovery.scatter import matched
@@ -132,7 +132,7 @@ def _fitted(model: Model, found: Study) -> Fit:
     start = dataclasses.replace(deterministic(model), corrections=dict.fromkeys(("stiffness", "mass", "damping"), 0.0))
     mu_s, mu_k = (float(max(c, 1.0e-5)) for c in found.solution.coefficients[:2])
     fits = [refit(m, found.windows, found.uncertainty) for m in (start.with_law(mu_s, mu_k), start)]
-    fit = min(fits, key=lambda f: f.cost)
+    fit = with_deviations(min(fits, key=lambda f: f.cost), found.windows, found.uncertainty)
     return dataclasses.replace(fit, model=dataclasses.replace(model, law=fit.model.law, corrections=fit.model.corrections))
 
 
@@ -145,6 +145,7 @@ def _augmented(decision: Decision, found: Study, recalibrated: Fit) -> Fit | Non
     if calm.effects:
         starts = (calm, dataclasses.replace(calm, law=recalibrated.model.law, corrections=recalibrated.model.corrections))
         fit = min((refit(m, found.windows, found.uncertainty, evaluations=25) for m in starts), key=lambda f: f.cost)
+        fit = with_deviations(fit, found.windows, found.uncertainty)
     else:
         fit = recalibrated
     places = [i for i, e in enumerate(model.effects) if e in calm.effects]

@@ -1,0 +1,64 @@
+"""Deviations of fitted numbers: what forecasts leave open, also where errors jump."""
+
+import numpy as np
+import pytest
+
+from stochfric_mb.discovery import refit
+from stochfric_mb.discovery.forecast import N_OUTPUTS, Windows
+from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.record import make_record
+from stochfric_mb.laws import make_law
+from stochfric_mb.mechanisms import BeltBox
+
+BOX = BeltBox(mass=6.08, damping=0.768, stiffness=3956.0, normal_force=13.0, belt_velocity=2.5e-3)
+MODEL = Model(make_law("coulomb", mu_s=0.8, mu_k=0.5), {})
+NOISE = 5e-6
+GAIN = 1e-3
+"""Change of a forecast with mu_s [m]."""
+COUNT = 20
+
+
+@pytest.fixture
+def windows():
+    record = make_record("run", np.arange(1000) * 1e-3, np.zeros(1000), BOX)
+    noise = NOISE * np.random.default_rng(3).standard_normal((COUNT, N_OUTPUTS))
+    return Windows(record, np.zeros((COUNT, 3)), noise, 1)
+
+
+def fitted(monkeypatch, windows, shown):
+    """The deviation of mu_s by a fit's own differences, and by wide ones; forecasts are ``shown`` of mu_s and mu_k."""
+
+    def forecasts(model, asked):
+        return np.full(asked.targets.shape, shown(model.law.mu_s, model.law.mu_k))
+
+    monkeypatch.setattr(refit, "forecasts", forecasts)
+    fit = refit.refit(MODEL, [windows], {}, most=COUNT)
+    wide = refit.with_deviations(fit, [windows], {}, most=COUNT)
+    return [dict(zip((k.name for k in f.knobs), f.deviations, strict=True)) for f in (fit, wide)]
+
+
+def test_smooth_forecasts_leave_what_least_squares_leaves(monkeypatch, windows):
+    fit, wide = fitted(monkeypatch, windows, lambda s, k: GAIN * (s - 0.8))
+    assert wide["mu_s"] == pytest.approx(fit["mu_s"], rel=0.01)
+    # a forecast counts as six independent numbers
+    assert wide["mu_s"] == pytest.approx(NOISE / GAIN / np.sqrt(6 * COUNT), rel=0.1)
+
+
+def test_a_number_that_errors_do_not_tell_is_left_open(monkeypatch, windows):
+    _, wide = fitted(monkeypatch, windows, lambda s, k: GAIN * (s - 0.8))
+    assert wide["mu_k"] > 0.25  # half of all that it may be
+
+
+def test_where_errors_jump_the_interval_is_as_wide_as_the_step(monkeypatch, windows):
+    """Forecasts that stay the same within 0.05: the fit's differences, of 0.00016, see nothing."""
+    fit, wide = fitted(monkeypatch, windows, lambda s, k: GAIN * 0.05 * np.round((s - 0.8) / 0.05))
+    assert fit["mu_s"] > 0.25  # told apart from nothing at all
+    assert 0.005 < wide["mu_s"] < 0.1
+
+
+def test_a_cliff_beside_the_fit_is_no_precision(monkeypatch, windows):
+    """Forecasts that jump by ten standard deviations of the noise, 0.0001 above where the fit ends."""
+    fit, wide = fitted(monkeypatch, windows, lambda s, k: GAIN * 0.2 * (s - 0.8) + 10.0 * NOISE * (s > 0.8001))
+    smooth = 5.0 * NOISE / GAIN / np.sqrt(6 * COUNT)
+    assert fit["mu_s"] < 0.2 * smooth
+    assert wide["mu_s"] == pytest.approx(smooth, rel=0.1)  # what the other side tells
