@@ -10,7 +10,7 @@ import dataclasses
 
 import numpy as np
 
-from stochfric_mb.discovery.record import Array, make_record
+from stochfric_mb.discovery.record import Array, Record, make_record
 from stochfric_mb.discovery.slips import N_FEATURES, Slips, extract
 from stochfric_mb.effects import make_effect
 from stochfric_mb.laws import make_law
@@ -38,6 +38,8 @@ class Calibration:
     """Onset force and mean force in slip at which the bias is given [N]."""
     covariance: Array
     """Covariance of the error [N^2], shape (N_FEATURES, N_FEATURES)."""
+    damping: float = 1.0
+    """Damping that was simulated, over the believed one [-]."""
 
     def unbiased(self, features: Array) -> Array:
         """Return features [N], shape (n, N_FEATURES), less their bias."""
@@ -50,20 +52,27 @@ def robust_deviation(values: Array) -> float:
     return float(1.4826 * np.median(np.abs(values - np.median(values))))
 
 
-def calibrate(slips: Slips, *, seed: int = 11) -> Calibration:
-    """Return the errors of the features of ``slips``, by simulation."""
+def calibrate(slips: Slips, *, seed: int = 11, damping: float = 1.0) -> Calibration:
+    """Return the errors of the features of ``slips``, by simulation.
+
+    Args:
+        slips: the slips of a record.
+        seed: of the simulated measurements.
+        damping: factor on the believed damping [-]. Where the slips are damped far more than believed, the edges are
+            located differently, and the features with them.
+    """
     static, kinetic = float(np.median(slips.onset_force)), float(np.median(slips.moments[:, 0]))
     observed: list[Array] = []
     true: list[Array] = []
     generator = np.random.default_rng(seed)
     for repeat in range(REPEATS):
-        measured, truth = _simulated(slips, static, kinetic, repeat, generator)
+        measured, truth = _simulated(slips, static, kinetic, damping, repeat, generator)
         observed.append(measured)
         true.append(truth)
     features, forces = np.concatenate(observed), np.concatenate(true)
     if len(features) < FEWEST:
         return Calibration(
-            np.zeros(N_FEATURES), np.zeros((N_FEATURES, 2)), (static, kinetic), np.diag((UNKNOWN * static / 10.0) ** 2)
+            np.zeros(N_FEATURES), np.zeros((N_FEATURES, 2)), (static, kinetic), np.diag((UNKNOWN * static / 10.0) ** 2), damping
         )
     error = features.copy()
     error[:, :2] -= forces
@@ -77,13 +86,21 @@ def calibrate(slips: Slips, *, seed: int = 11) -> Calibration:
         kept = (np.abs(rest) < 6.0 * 1.48 * np.median(np.abs(rest), axis=0) + 1.0e-6).all(axis=1)
     # a floor keeps a noiseless record's covariance invertible
     covariance = np.cov(rest[kept].T) + (1.0e-4 * static) ** 2 * np.eye(N_FEATURES)
-    return Calibration(fitted[0], fitted[1:].T, (static, kinetic), covariance)
+    return Calibration(fitted[0], fitted[1:].T, (static, kinetic), covariance, damping)
 
 
-def _simulated(slips: Slips, static: float, kinetic: float, repeat: int, generator: np.random.Generator) -> tuple[Array, Array]:
+def damped(record: Record, factor: float) -> Record:
+    """Return a record whose mechanism has ``factor`` times the believed damping."""
+    box, stated = (dataclasses.replace(b, damping=factor * b.damping) for b in (record.mechanism, record.stated))
+    return dataclasses.replace(record, mechanism=box, stated=stated)
+
+
+def _simulated(
+    slips: Slips, static: float, kinetic: float, damping: float, repeat: int, generator: np.random.Generator
+) -> tuple[Array, Array]:
     """Return features and true (onset force, mean force in slip) [N] of the slips of one simulated record."""
     record = slips.record
-    box = record.mechanism
+    box = damped(record, damping).mechanism
     spread = (0.005 * static, 0.05 * static)
     sigma_s = float(np.clip(robust_deviation(slips.onset_force), *spread)) / box.normal_force
     sigma_k = float(np.clip(robust_deviation(slips.moments[:, 0]), *spread)) / box.normal_force

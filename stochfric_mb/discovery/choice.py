@@ -30,6 +30,8 @@ LOCKED = 0.9
 """Share of a ripple's score that alternation from slip to slip must reach to be believed in its place [-]."""
 WORTH_SIMULATING = 0.1
 """Share of the best score from which on a candidate is simulated [-]."""
+MOST_SIMULATED = 7
+"""Candidates that are simulated in one round."""
 
 IN_SLIP = (
     "velocity_weakening", "viscous_friction", "frictional_lag", "nonlinear_stiffness", "quadratic_damping", "backlash",
@@ -123,7 +125,7 @@ def _by_simulation(
     before: Confirmed,
     details: dict[str, object],
 ) -> Chosen | Where | None:
-    trials = [c for c in effects if c.name in family and c.score > max(WORTH_SIMULATING * shape, SELECT / 2.0)][:6]
+    trials = [c for c in effects if c.name in family and c.score > max(WORTH_SIMULATING * shape, SELECT / 2.0)][:MOST_SIMULATED]
     tried = [(c, confirm(cases, with_candidate(model, c, study.pool, n_terms), study.uncertainty)) for c in trials]
     rounds = sum(key.startswith("confirmation") for key in details)
     tried.sort(key=lambda t: t[1].criterion)

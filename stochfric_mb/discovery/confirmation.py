@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery.calibration import damped
 from stochfric_mb.discovery.least_squares import minimised
 from stochfric_mb.discovery.model import Knob, Model, adjusted, knobs_of
 from stochfric_mb.discovery.pool import Pool
@@ -108,7 +109,7 @@ def _free(pool: Pool, model: Model, rows: np.ndarray, runs: Sequence[int]) -> Ca
     middle = float(slips.onset_time[len(slips) // 2])
     onset = (middle, float(np.median(slips.onset_position)), float(np.median(pool.dwell[rows])))
     length = float(np.median(pool.restick_time[rows] - pool.onset_time[rows]))
-    return _case(model, slips, onset, length, centre, covariance)
+    return _case(model, slips, onset, length, centre, covariance, pool.calibrations[runs[0]].damping)
 
 
 def _forced(pool: Pool, model: Model, rows: np.ndarray) -> list[Case]:
@@ -121,7 +122,8 @@ def _forced(pool: Pool, model: Model, rows: np.ndarray) -> list[Case]:
         k = i - int(np.flatnonzero(pool.run == pool.run[i])[0])
         onset = (float(slips.onset_time[k]), float(slips.onset_position[k]), float(pool.dwell[i]))
         length = float(slips.restick_time[k] - slips.onset_time[k])
-        case = _case(model, slips, onset, length, pool.features[i], pool.calibrations[pool.run[i]].covariance)
+        calibration = pool.calibrations[pool.run[i]]
+        case = _case(model, slips, onset, length, pool.features[i], calibration.covariance, calibration.damping)
         predicted = predict(plain, case)
         if predicted is not None:
             cases.append(case)
@@ -143,6 +145,7 @@ def _case(
     length: float,
     features: Array,
     covariance: Array,
+    damping: float,
 ) -> Case:
     load = slips.record.mechanism.normal_force
     floor = (FLOOR * 0.5 * load * np.r_[0.2, 0.5, np.ones(N_FEATURES - 2)]) ** 2
@@ -150,7 +153,8 @@ def _case(
     case = Case(slips.record, onset, length, features, whitening, slips.ridge, np.zeros(N_FEATURES))
     plain = model.with_law(features[0] / load, min(features[1], 0.99 * features[0]) / load)
     plain = dataclasses.replace(plain, corrections={}, effects=(), process=None, own={})
-    predicted = predict(plain, case)
+    # at the damping at which the bias of the features was found
+    predicted = predict(plain, dataclasses.replace(case, record=damped(case.record, damping)))
     if predicted is None:
         return case
     truth = np.zeros(N_FEATURES)

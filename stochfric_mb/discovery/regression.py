@@ -19,6 +19,8 @@ from stochfric_mb.discovery.slips import N_FEATURES, N_MOMENTS
 
 LOWEST, HIGHEST = -7.0, 1.0
 """Range of the logarithm of the variance components [ln N]."""
+DAMPING = 4
+"""Place of the relative error of the damping among the terms of the believed model."""
 _WHITE = 2.0 * np.arange(N_MOMENTS) + 1.0
 
 

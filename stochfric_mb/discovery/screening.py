@@ -83,7 +83,9 @@ def screen(
     for kind, axis, hypotheses, grid in families:
         gains = regression.gains(terms, solution.scatter, [h.columns for h in hypotheses])
         cost = np.array([len(h.columns) * log_n for h in hypotheses])
-        best = int(np.argmax(2.0 * gains - cost))
+        order = np.argsort(cost - 2.0 * gains, kind="stable")
+        # a curved hypothesis whose strength comes out negative must not stand before a straight one that is possible
+        best = next((int(j) for j in order if _can_be(kind, hypotheses[j], regression, terms, solution)), int(order[0]))
         penalty = float(cost[best]) + 2.0 * np.log(grid)
         rough.append((2.0 * float(gains[best]) - penalty, kind, axis, hypotheses[best], penalty))
     rough.sort(key=lambda r: -r[0])
@@ -97,15 +99,19 @@ def screen(
             fitted = regression.solve(wider, solution.scatter)
             final = score
         found.append(Candidate(kind, axis, final, hypothesis, fitted))
-    return sorted((c for c in found if _possible(c, terms)), key=lambda c: -c.score)
+    return sorted((c for c in found if _sign_possible(c.name, c.solution, terms)), key=lambda c: -c.score)
 
 
-def _possible(candidate: Candidate, terms: Terms) -> bool:
+def _can_be(kind: str, hypothesis: Hypothesis, regression: Regression, terms: Terms, solution: Solution) -> bool:
+    return kind not in POSITIVE or _sign_possible(
+        kind, regression.solve(terms.plus(hypothesis.columns), solution.scatter), terms
+    )
+
+
+def _sign_possible(kind: str, fitted: Solution, terms: Terms) -> bool:
     """Return whether the fitted strength has a sign that the effect can have, within two standard deviations."""
-    if candidate.name not in POSITIVE:
-        return True
     place = terms.columns.shape[2]
-    return bool(candidate.solution.coefficients[place] > -2.0 * candidate.solution.deviations[place])
+    return kind not in POSITIVE or bool(fitted.coefficients[place] > -2.0 * fitted.deviations[place])
 
 
 def _step(pool: Pool, regression: Regression, terms: Terms, solution: Solution, kind: str, *, multiplied: bool) -> Hypothesis:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from stochfric_mb.discovery.forecast import Windows, windows_of
 from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.pool import Pool, make_pool
 from stochfric_mb.discovery.record import Record, make_record
-from stochfric_mb.discovery.regression import Regression, Solution, Terms, believed
+from stochfric_mb.discovery.regression import DAMPING, Regression, Solution, Terms, believed
 from stochfric_mb.discovery.slips import Slips, extract
 from stochfric_mb.discovery.sticking import Sticking, analyse, ceiling
 from stochfric_mb.errors import InputError
@@ -22,6 +22,11 @@ from stochfric_mb.measurement.dataset import Dataset, Run
 
 FEWEST_SLIPS = 12
 """Slips of a run below which it says too little to be used."""
+
+FAR_DAMPED = 3.0
+"""Standard deviations from the damping of a calibration beyond which the features are calibrated again [-]."""
+RECALIBRATIONS = 2
+"""Further calibrations at most."""
 
 Progress = Callable[[str], None]
 
@@ -98,23 +103,42 @@ def study(dataset: Dataset, *, progress: Progress = lambda _: None) -> Study | N
     if not usable:
         return None
     progress("calibration")
-    calibrations = [calibrate(s, seed=11 + i) for i, s in enumerate(usable)]
-    pool = make_pool(usable, calibrations)
-    regression = Regression(pool)
-    terms = believed(pool, dict(dataset.scenario.uncertainty))
+    pool, solution = _calibrated(usable, dataset.scenario.uncertainty)
     return Study(
         dataset=dataset,
         model=model,
         uncertainty=dataset.scenario.uncertainty,
         records=records,
         pool=pool,
-        regression=regression,
-        terms=terms,
-        solution=regression.fit(terms),
+        regression=Regression(pool),
+        terms=believed(pool, dict(dataset.scenario.uncertainty)),
+        solution=solution,
         sticking=analyse(usable),
         ceiling=ceiling(usable),
         outliers=float(np.mean(np.concatenate([r.outlier for r in records]))),
     )
+
+
+def _calibrated(usable: Sequence[Slips], uncertainty: Mapping[str, float]) -> tuple[Pool, Solution]:
+    """Return the slips with the bias of their features taken out, at the damping that they show, and their fit."""
+
+
+    def at(damping: float) -> tuple[Pool, Solution, float]:
+        pool = make_pool(usable, [calibrate(s, seed=11 + i, damping=damping) for i, s in enumerate(usable)])
+        terms, regression = believed(pool, dict(uncertainty)), Regression(pool)
+        solution = regression.fit(terms)
+        free = dataclasses.replace(terms, priors=np.r_[terms.priors[:DAMPING], np.inf, terms.priors[DAMPING + 1 :]])
+        shown = regression.solve(free, solution.scatter).coefficients[DAMPING]
+        return pool, solution, max(1.0 + float(shown), 0.0)
+
+    damping, far = 1.0, FAR_DAMPED * uncertainty.get("damping", 0.0)
+    pool, solution, shown = at(damping)
+    for _ in range(RECALIBRATIONS):
+        if abs(shown - damping) <= far:
+            break
+        damping = shown
+        pool, solution, shown = at(damping)
+    return pool, solution
 
 
 def slips_of_run(run: Run, dataset: Dataset) -> Slips:

@@ -58,16 +58,17 @@ class ViscousFriction(Effect):
         for load, name in loads:
             more = {"reference_load": name} if name else {}
 
-            def start(b: Array, factor: float, knee: float, more: dict[str, float] = more) -> dict[str, float]:
-                return more | {"coefficient": factor * float(b[0]), "saturation_velocity": float(knee)}
+            def curved(b: Array, knee: float, more: dict[str, float] = more) -> dict[str, float]:
+                return more | {"coefficient": float(b[0]), "saturation_velocity": float(knee)}
 
-            # a start that levels off beyond the fastest slip: a fit can find either end from there
-            linear = functools.partial(start, factor=1.3, knee=1.5 * fastest)
-            found.append(Hypothesis(cls.kind, [slips.column(None, speed * load[:, None])], (), linear))
+            def linear(b: Array, more: dict[str, float] = more) -> dict[str, float]:
+                return more | {"coefficient": float(b[0])}
+
+            found.append(Hypothesis(cls.kind, [slips.column(None, speed * load[:, None])], (), linear, variant="linear"))
             for knee in fastest * np.array([0.15, 0.4]):
                 columns = [slips.column(None, -knee * np.expm1(-speed / knee) * load[:, None])]
-                curved = functools.partial(start, factor=1.0, knee=knee)
-                found.append(Hypothesis(cls.kind, columns, (knee,), curved))
+                start = functools.partial(curved, knee=knee)
+                found.append(Hypothesis(cls.kind, columns, (knee,), start, variant="levelling off"))
         return found
 
 
