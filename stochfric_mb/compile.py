@@ -69,7 +69,7 @@ class _Called(CPUDispatcher):
 
     def __init__(self, function: Callable[..., Any], options: dict[str, Any]) -> None:
         super().__init__(function, targetoptions={**options, "no_cpython_wrapper": True, "no_cfunc_wrapper": True})
-        self._cache = _cache(function, variant="called")
+        self._cache = _cache(function, variant="merged" if options.get("forceinline") else "called")
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """Return numba's template of the call, with constants taken as any values of their types."""

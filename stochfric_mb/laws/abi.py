@@ -1,12 +1,15 @@
 """A law's compiled functions as C function pointers, so that one compiled law serves every compiled caller.
 
-Signatures (all reals are C doubles; ``state``, ``p`` and ``out`` are pointers to doubles)::
+Signatures (all reals are C doubles; ``held``, ``state``, ``p`` and ``out`` are pointers to doubles)::
 
-    force, commit, init, guards: void(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, state, p, out)
+    force, commit, init, guards: void(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, held, state, p, out)
     flow:                        void(vx, vy, normal_force, zx, zy, mu_s, mu_k, p, out)
 
+``held`` points to (effective_mass, hx, hy). So every argument travels in a register (x86-64 has eight for doubles):
+processors wait for arguments that are written to the stack one by one and passed on in pairs.
+
 The wrappers below are templates: each is bound to the law's own module (its global names and its file), so that numba
-caches them beside the law.
+caches them beside the law. The law's function is merged into its wrapper.
 """
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
@@ -23,14 +26,15 @@ from typing import Any
 
 from llvmlite import ir
 from numba import types
+from numba.core import cgutils
 from numba.extending import intrinsic
 
-from stochfric_mb.compile import native
+from stochfric_mb.compile import compiled_inline, native
 from stochfric_mb.laws import law_class
 
 _DOUBLE = types.float64
 _POINTER = types.CPointer(types.float64)
-LAW_SIGNATURE = types.void(*[_DOUBLE] * 11, _POINTER, _POINTER, _POINTER)
+LAW_SIGNATURE = types.void(*[_DOUBLE] * 8, *[_POINTER] * 4)
 FLOW_SIGNATURE = types.void(*[_DOUBLE] * 7, _POINTER, _POINTER)
 MAX_STATE = 16
 """Most state entries a law may have."""
@@ -76,7 +80,9 @@ def _bind(template: FunctionType, module: ModuleType, signature: Any) -> int:
     code = template.__code__.replace(
         co_filename=module.__file__ or template.__code__.co_filename, co_name=name, co_qualname=name
     )
-    function = FunctionType(code, vars(module), name)
+    called = template.__name__.removeprefix("_")
+    merged = compiled_inline(getattr(module, called).py_func)
+    function = FunctionType(code, {**vars(module), called: merged}, name)
     function.__module__ = module.__name__
     function.__qualname__ = name
     compiled = native(function, signature, template=__file__)
@@ -88,24 +94,24 @@ def _bind(template: FunctionType, module: ModuleType, signature: Any) -> int:
 # ruff: noqa: F821
 
 
-def _init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, state, p, out):
-    new = init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, p)  # pyright: ignore
+def _init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, held, state, p, out):
+    new = init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, held[0], held[1], held[2], p)  # pyright: ignore
     for i in range(len(new)):
         out[i] = new[i]
 
 
-def _force(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, state, p, out):
-    out[0], out[1] = force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p)  # pyright: ignore
+def _force(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, held, state, p, out):
+    out[0], out[1] = force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, held[0], held[1], held[2], p)  # pyright: ignore
 
 
-def _commit(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, state, p, out):
-    new = commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p)  # pyright: ignore
+def _commit(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, held, state, p, out):
+    new = commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, held[0], held[1], held[2], p)  # pyright: ignore
     for i in range(len(new)):
         out[i] = new[i]
 
 
-def _guards(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, state, p, out):
-    new = guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p)  # pyright: ignore
+def _guards(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, held, state, p, out):
+    new = guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, held[0], held[1], held[2], p)  # pyright: ignore
     for i in range(len(new)):
         out[i] = new[i]
 
@@ -114,29 +120,37 @@ def _flow(vx, vy, normal_force, zx, zy, mu_s, mu_k, p, out):
     out[0], out[1], out[2], out[3] = flow(vx, vy, normal_force, zx, zy, mu_s, mu_k, p)  # pyright: ignore
 
 
-def _caller(n_doubles: int, n_pointers: int) -> Any:
-    """Return an intrinsic that calls a C function at an address: (address, doubles..., pointers as integers...)."""
-    double, word = ir.DoubleType(), ir.IntType(64)
-    function_type = ir.FunctionType(ir.VoidType(), [double] * n_doubles + [double.as_pointer()] * n_pointers)
-    signature = types.void(types.intp, *[types.float64] * n_doubles, *[types.intp] * n_pointers)
+def _function_type(n_doubles: int, n_pointers: int) -> Any:
+    double = ir.DoubleType()
+    return ir.FunctionType(ir.VoidType(), [double] * n_doubles + [double.as_pointer()] * n_pointers)
 
-    def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-        function = builder.inttoptr(args[0], function_type.as_pointer())
-        pointers = [builder.inttoptr(a, double.as_pointer()) for a in args[1 + n_doubles :]]
-        builder.call(function, [*args[1 : 1 + n_doubles], *pointers])
-        return context.get_dummy_value()
 
-    assert word.width == 64
-    return signature, generate
+def _pointers(builder: Any, words: Any) -> list[Any]:
+    return [builder.inttoptr(word, ir.DoubleType().as_pointer()) for word in words]
 
 
 @intrinsic
 def call_law(typingctx, address, t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, state, p, out):
     """Call force, commit, init or guards of a law at ``address``; pointers are integers (``array.ctypes.data``)."""
-    return _caller(11, 3)
+
+    def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        function = builder.inttoptr(args[0], _function_type(8, 4).as_pointer())
+        held = cgutils.alloca_once(builder, ir.DoubleType(), size=3)
+        for k, number in enumerate(args[9:12]):
+            builder.store(number, cgutils.gep_inbounds(builder, held, k))
+        builder.call(function, [*args[1:9], held, *_pointers(builder, args[12:])])
+        return context.get_dummy_value()
+
+    return types.void(types.intp, *[types.float64] * 11, *[types.intp] * 3), generate
 
 
 @intrinsic
 def call_flow(typingctx, address, vx, vy, normal_force, zx, zy, mu_s, mu_k, p, out):
     """Call flow of a law at ``address``; pointers are integers."""
-    return _caller(7, 2)
+
+    def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        function = builder.inttoptr(args[0], _function_type(7, 2).as_pointer())
+        builder.call(function, [*args[1:8], *_pointers(builder, args[8:])])
+        return context.get_dummy_value()
+
+    return types.void(types.intp, *[types.float64] * 7, *[types.intp] * 2), generate

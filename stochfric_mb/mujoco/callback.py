@@ -374,9 +374,7 @@ def evaluate_row(model, data, row):
 def keep_current(state, now):
     """Make the current slots the committed ones."""
     count = int(n.load(state + 8 * s.N_CURRENT))
-    source, target = slot(state, 1, 0), slot(state, 0, 0)
-    for j in range(0, 8 * count * s.SLOT, 8):
-        n.store(target + j, n.load(source + j))
+    n.copy_bytes(slot(state, 1, 0), slot(state, 0, 0), 8 * s.SLOT * count)
     n.store(state + 8 * s.N_COMMITTED, float(count))
     n.store(state + 8 * s.ADVANCED, now)
 
@@ -413,7 +411,7 @@ def write_normal_forces(model, data, state):
             continue
         a, b = n.int_field(contact, n.C_GEOM), n.load_int(n.field(contact, n.C_GEOM) + 4)
         ordinal = ordinal_of(data, i)
-        address = find(state, 0, count, a, b, ordinal, 0) if count > 0 else 0
+        address = find(slot(state, 0, 0), count, a, b, ordinal, 0) if count > 0 else 0
         if address == 0:
             if count == int(n.load(state + 8 * s.N_SLOTS)):
                 continue

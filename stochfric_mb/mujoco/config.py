@@ -124,8 +124,8 @@ def load_law(kind: str) -> int:
             return identifier
         if native.TABLE[place] == 0:
             functions = native_law(kind)
-            addresses = [functions.init, functions.force, functions.commit, functions.guards]
-            native.TABLE[place + 1 : place + native.LAW_WIDTH] = addresses
+            words = [functions.init, functions.force, functions.commit, functions.guards, functions.n_state]
+            native.TABLE[place + 1 : place + native.LAW_WIDTH] = words
             native.TABLE[place] = identifier  # last: a row with an identifier is complete
             return identifier
     raise InputError(f"law {kind!r} is one too many: MuJoCo's table holds {native.N_LAWS}; use fewer laws in one process")

@@ -18,10 +18,11 @@ import math
 import numpy as np
 
 from stochfric_mb.coefficients.path import canonical_time
-from stochfric_mb.compile import compiled
+from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.kinematics import (
+    add_rows,
     bodies_of,
     contact_address,
     displacement,
@@ -43,19 +44,19 @@ SUDDEN = 0.05
 """Change of the normal force in a step, relative to it, with which explicit friction (one step late) will not do."""
 
 
-@compiled
+@compiled_inline
 def slot(state, current, k):
     """Return the address of slot ``k`` of the committed (0) or the current (1) block."""
     base = s.DESCRIPTOR + int(n.load(state + 8 * s.N_DESCRIPTOR))
     return state + 8 * (base + (current * int(n.load(state + 8 * s.N_SLOTS)) + k) * s.SLOT)
 
 
-@compiled
-def find(state, current, count, a, b, ordinal, guess):
-    """Return the address of the slot of the contact (geoms a, b, number among equals), 0 if there is none."""
+@compiled_inline
+def find(block, count, a, b, ordinal, guess):
+    """Return the address of the slot of a contact (geoms a, b, number among equals) in a block, 0 if there is none."""
     for i in range(count):
-        k = (guess + i) % count
-        address = slot(state, current, k)
+        k = guess + i if guess + i < count else (guess + i) % count
+        address = block + 8 * s.SLOT * k
         if (
             n.load(address + 8 * s.GEOM_1) == a + 1
             and n.load(address + 8 * s.GEOM_2) == b + 1
@@ -91,7 +92,7 @@ def predicted_normal_force(model, data, contact, warm):
     return max(0.0, n.load(n.pointer_field(data, n.D_EFC_D) + 8 * row) * (wanted - acceleration))
 
 
-@compiled
+@compiled_inline
 def warm_row(state):
     """Return the address of the instance's row of generalised coordinates: the acceleration of the step before."""
     blocks = s.DESCRIPTOR + int(n.load(state + 8 * s.N_DESCRIPTOR)) + 2 * int(n.load(state + 8 * s.N_SLOTS)) * s.SLOT
@@ -120,19 +121,18 @@ def tangent_mass(model, data, state, contact, address, body, surface):
     """Return the mass [kg] that a tangential force feels, 1/(J M^-1 J^T) in the direction where it is smallest."""
     nv = n.int_field(model, n.M_NV)
     if nv > s.MAX_ROW:
-        rows = np.empty((7, nv))
-        return _tangent_mass(model, data, state, contact, address, body, surface, nv, rows.ctypes.data)
-    return _tangent_mass(model, data, state, contact, address, body, surface, nv, state + 8 * s.ROWS)
+        rows = np.empty((4, nv))
+        return _tangent_mass(model, data, contact, address, body, surface, nv, rows.ctypes.data)
+    return _tangent_mass(model, data, contact, address, body, surface, nv, state + 8 * s.ROWS)
 
 
-@compiled
-def _tangent_mass(model, data, state, contact, address, body, surface, nv, rows):
+@compiled_inline
+def _tangent_mass(model, data, contact, address, body, surface, nv, rows):
     for j in range(2 * nv):
         n.store(rows + 8 * j, 0.0)
     x, y, z = point_of(contact)
-    put(state + 8 * s.POINT, x, y, z)
-    add_rows(model, data, state, address, body, 1.0, nv, rows)
-    add_rows(model, data, state, address, surface, -1.0, nv, rows)
+    add_rows(model, data, address, body, 1.0, x, y, z, nv, rows)
+    add_rows(model, data, address, surface, -1.0, x, y, z, nv, rows)
     n.mj_solveM(model, data, rows + 16 * nv, rows, np.int32(2))
     a, b, c = 0.0, 0.0, 0.0
     for j in range(0, 8 * nv, 8):
@@ -143,23 +143,7 @@ def _tangent_mass(model, data, state, contact, address, body, surface, nv, rows)
     return 1.0 / largest if largest > 0.0 else 0.0
 
 
-@compiled
-def add_rows(model, data, state, address, body, sign, nv, rows):
-    """Add the body's point velocity per generalised velocity along both axes to the first two rows."""
-    if body == 0:
-        return
-    jacobian = rows + 32 * nv
-    n.mj_jac(model, data, jacobian, 0, state + 8 * s.POINT, np.int32(body))
-    for i in range(2):
-        e = address + 8 * (s.AXIS_1 + 3 * i)
-        x, y, z = sign * n.load(e), sign * n.load(e + 8), sign * n.load(e + 16)
-        row = rows + 8 * nv * i
-        for j in range(0, 8 * nv, 8):
-            k = jacobian + j
-            n.store(row + j, n.load(row + j) + x * n.load(k) + y * n.load(k + 8 * nv) + z * n.load(k + 16 * nv))
-
-
-@compiled
+@compiled_inline
 def clear_push(state, contact):
     """Start a sum of forces and torques about the contact's point."""
     put(state + 8 * s.FORCE, 0.0, 0.0, 0.0)
@@ -168,7 +152,7 @@ def clear_push(state, contact):
     put(state + 8 * s.POINT, x, y, z)
 
 
-@compiled
+@compiled_inline
 def add_push(state, contact, fx, fy, fz):
     """Add a force on the body at the contact's point to the sum."""
     x, y, z = point_of(contact)
@@ -208,29 +192,30 @@ def begin(model, data, state, warm):
     last = n.load(state + 8 * s.ADVANCED)
     known = int(n.load(state + 8 * s.N_COMMITTED)) if last == now else 0
     t = canonical_time(now, half_step(model))
+    n.store(state + 8 * s.INSTANT, t)
     body, surface = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
-    count, total, sudden = 0, 0.0, False
+    committed, current, n_slots = slot(state, 0, 0), slot(state, 1, 0), int(n.load(state + 8 * s.N_SLOTS))
+    count, total, sudden, auto = 0, 0.0, False, n.load(state + 8 * s.MODE) == s.AUTO
     for i in range(n.int_field(data, n.D_NCON)):
         contact = contact_address(data, i)
         sign = side(contact, body, surface)
         if sign == 0:
             continue
-        if count == int(n.load(state + 8 * s.N_SLOTS)):
+        if count == n_slots:
             n.mj_warning(data, np.int32(CONTACTS_FULL), np.int32(count))
             break
-        total += track(model, data, state, i, sign, t, known, count, warm)
-        if n.load(state + 8 * s.MODE) == s.AUTO and not sudden:
-            sudden = is_sudden(model, data, state, contact, slot(state, 1, count))
+        address = current + 8 * s.SLOT * count
+        total += track(model, data, state, i, sign, t, committed, known, address, count, warm)
+        if auto and not sudden:
+            sudden = is_sudden(model, data, state, contact, address)
         count += 1
     n.store(state + 8 * s.N_CURRENT, float(count))
     star = body < 0 or surface < 0
+    row = n.law_row(int(n.load(state + 8 * s.LAW)))
     for k in range(count):
-        address = slot(state, 1, k)
-        if star:
-            pair, among = pair_total(state, address, count)
-            commit_slot(state, address, t, pair, among)
-        else:
-            commit_slot(state, address, t, total, count)
+        address = current + 8 * s.SLOT * k
+        pair, among = pair_total(state, address, count) if star else (total, count)
+        commit_slot(state, address, row, t, pair, among)
     n.store(state + 8 * s.SOLVED, 1.0 if sudden or beyond_explicit(model, state, count, total, star) else 0.0)
 
 
@@ -292,14 +277,16 @@ def critical_ratio(state, step):
 
 
 @compiled
-def track(model, data, state, i, sign, t, known, k, warm):
-    """Fill the kinematics of current slot ``k`` from contact ``i``; return its normal force [N]."""
+def track(model, data, state, i, sign, t, committed, known, address, k, warm):
+    """Fill the kinematics of the current slot at ``address``, the ``k``-th, from contact ``i``; return its normal force [N].
+
+    ``known`` slots at ``committed`` hold what the step before left.
+    """
     contact = contact_address(data, i)
-    address = slot(state, 1, k)
     a = n.int_field(contact, n.C_GEOM)
     b = n.load_int(n.field(contact, n.C_GEOM) + 4)
     ordinal = ordinal_of(data, i)
-    old = find(state, 0, known, a, b, ordinal, k) if known > 0 else 0
+    old = find(committed, known, a, b, ordinal, k) if known > 0 else 0
     if old != 0:
         normal_force = n.load(old + 8 * s.NORMAL)
         if n.load(old + 8 * s.LIVE) == 0.0:
@@ -314,11 +301,12 @@ def track(model, data, state, i, sign, t, known, k, warm):
     return normal_force
 
 
-@compiled
+@compiled_inline
 def fill(model, data, state, contact, sign, t, address, old):
     """Fill frame, velocity, displacement, material points and mass of a slot; its law state stays the old one."""
     body, surface = bodies_of(model, contact, sign)
-    vx, vy, vz = relative_velocity(model, data, contact, sign, body, surface)
+    sx, sy, sz = surface_velocity(contact, sign)
+    vx, vy, vz = relative_velocity(model, data, contact, body, surface, sx, sy, sz)
     ux, uy = n.load(state + 8 * s.ORIGIN), 0.0
     dx, dy = 0.0, 0.0
     step = 0.0
@@ -348,7 +336,6 @@ def fill(model, data, state, contact, sign, t, address, old):
     n.store(address + 8 * s.UY, uy)
     n.store(address + 8 * s.VX, dot(e1, vx, vy, vz))
     n.store(address + 8 * s.VY, dot(e2, vx, vy, vz))
-    sx, sy, sz = surface_velocity(contact, sign)
     n.store(address + 8 * s.SX, dot(e1, sx, sy, sz))
     n.store(address + 8 * s.SY, dot(e2, sx, sy, sz))
     n.store(address + 8 * s.SINCE, t)
@@ -369,7 +356,7 @@ def apply(model, data, state, warm):
     """Add the friction forces at this instant; at a step's start also record them."""
     now = n.number_field(data, n.D_TIME)
     starting = now == n.load(state + 8 * s.EVALUATED)
-    t = canonical_time(now, half_step(model))
+    t = n.load(state + 8 * s.INSTANT) if starting else canonical_time(now, half_step(model))
     row = n.law_row(int(n.load(state + 8 * s.LAW)))
     target = n.pointer_field(data, n.D_QFRC_PASSIVE)
     if row == 0:
@@ -398,20 +385,20 @@ def apply(model, data, state, warm):
         push(model, data, state, last_body, last_surface, target)
 
 
-@compiled
+@compiled_inline
 def slot_at_stage(model, data, state, i, sign, t, k, warm):
     """Return the current slot of contact ``i``; one that was born within the step gets a slot of its own."""
     contact = contact_address(data, i)
     a = n.int_field(contact, n.C_GEOM)
     b = n.load_int(n.field(contact, n.C_GEOM) + 4)
     count = int(n.load(state + 8 * s.N_CURRENT))
-    address = find(state, 1, count, a, b, ordinal_of(data, i), k) if count > 0 else 0
+    address = find(slot(state, 1, 0), count, a, b, ordinal_of(data, i), k) if count > 0 else 0
     if address != 0 or count == int(n.load(state + 8 * s.N_SLOTS)):
         return address
     n.store(state + 8 * s.N_CURRENT, count + 1.0)
-    normal_force = track(model, data, state, i, sign, t, 0, count, warm)
     address = slot(state, 1, count)
-    commit_slot(state, address, t, normal_force, 1)
+    normal_force = track(model, data, state, i, sign, t, 0, 0, address, count, warm)
+    commit_slot(state, address, n.law_row(int(n.load(state + 8 * s.LAW))), t, normal_force, 1)
     n.store(address + 8 * s.LIVE, 0.0)
     return address
 
@@ -429,13 +416,13 @@ def solve_new(model, data, state):
         if side(contact, body, surface) == 0:
             continue
         a, b = n.int_field(contact, n.C_GEOM), n.load_int(n.field(contact, n.C_GEOM) + 4)
-        if count == 0 or find(state, 1, count, a, b, ordinal_of(data, i), k) == 0:
+        if count == 0 or find(slot(state, 1, 0), count, a, b, ordinal_of(data, i), k) == 0:
             n.store(state + 8 * s.SOLVED, 1.0)
             return
         k += 1
 
 
-@compiled
+@compiled_inline
 def apply_contact(model, data, state, contact, sign, body, surface, address, force, t, starting):
     """Add the friction force of one contact to the sum."""
     e1, e2 = address + 8 * s.AXIS_1, address + 8 * s.AXIS_2
@@ -444,7 +431,8 @@ def apply_contact(model, data, state, contact, sign, body, surface, address, for
         vx, vy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
         mu_s, mu_k = n.load(address + 8 * s.MU_S), n.load(address + 8 * s.MU_K)
     else:
-        wx, wy, wz = relative_velocity(model, data, contact, sign, body, surface)
+        sx, sy, sz = surface_velocity(contact, sign)
+        wx, wy, wz = relative_velocity(model, data, contact, body, surface, sx, sy, sz)
         vx, vy = dot(e1, wx, wy, wz), dot(e2, wx, wy, wz)
         dx, dy = displacement(data, address, body, surface, t, vx, vy)
         ux, uy = ux + dx, uy + dy
@@ -469,16 +457,26 @@ def apply_contact(model, data, state, contact, sign, body, surface, address, for
     )
 
 
+@compiled_inline
+def normal_force_of(model, data, i, wrench):
+    """Return the normal force [N] of contact ``i`` in MuJoCo's last solution; ``wrench`` is room for six numbers."""
+    contact = contact_address(data, i)
+    if n.int_field(contact, n.C_DIM) == 1:
+        row = n.int_field(contact, n.C_EFC)
+        return max(n.load(n.pointer_field(data, n.D_EFC_FORCE) + 8 * row), 0.0) if row >= 0 else 0.0
+    n.mj_contactForce(model, data, np.int32(i), wrench)
+    return max(n.load(wrench), 0.0)
+
+
 @compiled
 def finish(model, data, state):
     """Commit the current slots when the engine accepts a step, with the normal forces of its last solution."""
     count = int(n.load(state + 8 * s.N_CURRENT))
     n_slots = int(n.load(state + 8 * s.N_SLOTS))
-    source, target = slot(state, 1, 0), slot(state, 0, 0)
-    for j in range(0, 8 * count * s.SLOT, 8):
-        n.store(target + j, n.load(source + j))
+    committed = slot(state, 0, 0)
+    n.copy_bytes(slot(state, 1, 0), committed, 8 * s.SLOT * count)
     for k in range(count):
-        n.store(slot(state, 0, k) + 8 * s.NORMAL, 0.0)
+        n.store(committed + 8 * (s.SLOT * k + s.NORMAL), 0.0)
     body, surface = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
     wrench = state + 8 * s.FORCE
     k = 0
@@ -489,19 +487,18 @@ def finish(model, data, state):
         a = n.int_field(contact, n.C_GEOM)
         b = n.load_int(n.field(contact, n.C_GEOM) + 4)
         ordinal = ordinal_of(data, i)
-        address = find(state, 0, count, a, b, ordinal, k) if count > 0 else 0
+        address = find(committed, count, a, b, ordinal, k) if count > 0 else 0
         k += 1
         if address == 0:
             if count == n_slots:
                 continue
-            address = slot(state, 0, count)
+            address = committed + 8 * s.SLOT * count
             count += 1
             n.store(address + 8 * s.GEOM_1, a + 1.0)
             n.store(address + 8 * s.GEOM_2, b + 1.0)
             n.store(address + 8 * s.ORDINAL, float(ordinal))
             n.store(address + 8 * s.LIVE, 0.0)
-        n.mj_contactForce(model, data, np.int32(i), wrench)
-        n.store(address + 8 * s.NORMAL, max(n.load(wrench), 0.0))
+        n.store(address + 8 * s.NORMAL, normal_force_of(model, data, i, wrench))
     n.store(state + 8 * s.N_COMMITTED, float(count))
     n.store(state + 8 * s.ADVANCED, n.number_field(data, n.D_TIME))
     n.store(state + 8 * s.STARTED, 0.0)

@@ -161,7 +161,7 @@ def begin(model, data, state, located):
     load = n.load(state + 8 * LOAD)
     n.store(address + 8 * s.NORMAL, load)
     if located:
-        commit_slot(state, address, t, load, 1)
+        commit_slot(state, address, n.law_row(int(n.load(state + 8 * s.LAW))), t, load, 1)
     else:
         commit_at_end(state, address, t)
     return True
@@ -219,7 +219,7 @@ def commit_at_end(state, address, t):
         return
     new = n.load(address + 8 * s.LIVE) == 0.0
     u, v = n.load(address + 8 * s.UX), n.load(address + 8 * s.VX)
-    switch(state, address, n.load_word(row + (n.INIT if new else n.COMMIT)), t, u, 0.0, v, 0.0)
+    switch(state, address, row, n.INIT if new else n.COMMIT, t, u, 0.0, v, 0.0)
     if new:
         n.store(address + 8 * s.EVENTS, 0.0)
     mu_s, mu_k = coefficients(state, t, u, n.load(address + 8 * s.EVENTS))
@@ -581,7 +581,8 @@ def keep_force(state, force, stopped):
         switch(
             state,
             address,
-            n.load_word(row + n.COMMIT),
+            row,
+            n.COMMIT,
             n.load(address + 8 * s.SINCE),
             n.load(address + 8 * s.UX),
             0.0,

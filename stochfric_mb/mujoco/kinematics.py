@@ -9,21 +9,23 @@ from __future__ import annotations
 
 import math
 
-from stochfric_mb.compile import compiled
+from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 
 JUMP = 10.0
 """A displacement this many times beyond what the velocities allow is a body that was moved, not a motion."""
+NEAR = 1.0e-6
+"""A displacement so near [m] to what the velocities say is a motion in any case."""
 
 
-@compiled
+@compiled_inline
 def contact_address(data, i):
     """Return the address of contact ``i``."""
     return n.pointer_field(data, n.D_CONTACT) + i * n.entry(n.CONTACT_SIZE)
 
 
-@compiled
+@compiled_inline
 def side(contact, body, surface):
     """Return +1 if geom 1 of the contact is the body, -1 if geom 2 is, 0 if the contact is none of ours.
 
@@ -44,7 +46,7 @@ def side(contact, body, surface):
     return 0
 
 
-@compiled
+@compiled_inline
 def ordinal_of(data, i):
     """Return how many earlier contacts join the same two geoms as contact ``i``."""
     a = n.load_word(n.field(contact_address(data, i), n.C_GEOM))
@@ -55,13 +57,13 @@ def ordinal_of(data, i):
     return count
 
 
-@compiled
+@compiled_inline
 def body_of(model, geom):
     """Return the body of a geom."""
     return n.load_int(n.pointer_field(model, n.M_GEOM_BODY) + 4 * geom)
 
 
-@compiled
+@compiled_inline
 def bodies_of(model, contact, sign):
     """Return the ids of the body and of the counter-surface's body."""
     a = body_of(model, n.int_field(contact, n.C_GEOM))
@@ -69,16 +71,18 @@ def bodies_of(model, contact, sign):
     return (a, b) if sign > 0 else (b, a)
 
 
-@compiled
+@compiled_inline
 def point_of(contact):
     """Return the contact point (world)."""
     p = n.field(contact, n.C_POS)
     return n.load(p), n.load(p + 8), n.load(p + 16)
 
 
-@compiled
+@compiled_inline
 def velocity(model, data, body, x, y, z):
     """Return the velocity [m/s] of the body's material point at (x, y, z)."""
+    if body == 0:
+        return 0.0, 0.0, 0.0
     root = n.load_int(n.pointer_field(model, n.M_BODY_ROOT) + 4 * body)
     c = n.pointer_field(data, n.D_SUBTREE_COM) + 24 * root
     rx, ry, rz = x - n.load(c), y - n.load(c + 8), z - n.load(c + 16)
@@ -91,16 +95,20 @@ def velocity(model, data, body, x, y, z):
     )
 
 
-@compiled
+@compiled_inline
 def spin(data, body, x, y, z):
     """Return the body's angular velocity [rad/s] about the direction (x, y, z)."""
+    if body == 0:
+        return 0.0
     v = n.pointer_field(data, n.D_CVEL) + 48 * body
     return n.load(v) * x + n.load(v + 8) * y + n.load(v + 16) * z
 
 
-@compiled
+@compiled_inline
 def to_body(data, body, x, y, z):
     """Return the world point (x, y, z) in the body's frame."""
+    if body == 0:
+        return x, y, z
     p = n.pointer_field(data, n.D_XPOS) + 24 * body
     r = n.pointer_field(data, n.D_XMAT) + 72 * body
     dx, dy, dz = x - n.load(p), y - n.load(p + 8), z - n.load(p + 16)
@@ -111,12 +119,14 @@ def to_body(data, body, x, y, z):
     )
 
 
-@compiled
+@compiled_inline
 def to_world(data, body, point):
     """Return the world position of the body's point stored at ``point``."""
+    x, y, z = n.load(point), n.load(point + 8), n.load(point + 16)
+    if body == 0:
+        return x, y, z
     p = n.pointer_field(data, n.D_XPOS) + 24 * body
     r = n.pointer_field(data, n.D_XMAT) + 72 * body
-    x, y, z = n.load(point), n.load(point + 8), n.load(point + 16)
     return (
         n.load(p) + n.load(r) * x + n.load(r + 8) * y + n.load(r + 16) * z,
         n.load(p + 8) + n.load(r + 24) * x + n.load(r + 32) * y + n.load(r + 40) * z,
@@ -124,13 +134,13 @@ def to_world(data, body, point):
     )
 
 
-@compiled
+@compiled_inline
 def dot(address, x, y, z):
     """Return the scalar product of the vector at ``address`` with (x, y, z)."""
     return n.load(address) * x + n.load(address + 8) * y + n.load(address + 16) * z
 
 
-@compiled
+@compiled_inline
 def put(address, x, y, z):
     """Write a vector."""
     n.store(address, x)
@@ -138,7 +148,7 @@ def put(address, x, y, z):
     n.store(address + 16, z)
 
 
-@compiled
+@compiled_inline
 def surface_velocity(contact, sign):
     """Return the velocity [m/s] of the counter-surface's belt relative to the body's, in world axes."""
     f = n.field(contact, n.C_FRAME)
@@ -151,14 +161,46 @@ def surface_velocity(contact, sign):
     )
 
 
-@compiled
-def relative_velocity(model, data, contact, sign, body, surface):
-    """Return the velocity [m/s] of the counter-surface relative to the body at the contact point, in world axes."""
+@compiled_inline
+def relative_velocity(model, data, contact, body, surface, sx, sy, sz):
+    """Return the velocity [m/s] of the counter-surface relative to the body at the contact point, in world axes.
+
+    (sx, sy, sz) is `surface_velocity`.
+    """
     x, y, z = point_of(contact)
     bx, by, bz = velocity(model, data, body, x, y, z)
     cx, cy, cz = velocity(model, data, surface, x, y, z)
-    sx, sy, sz = surface_velocity(contact, sign)
     return cx - bx + sx, cy - by + sy, cz - bz + sz
+
+
+@compiled
+def add_rows(model, data, address, body, sign, px, py, pz, nv, rows):
+    """Add the velocity of the body's point at (px, py, pz), along both axes of a slot, per generalised velocity.
+
+    ``rows`` is the address of two rows of generalised coordinates. The same as MuJoCo's ``mj_jac`` projected.
+    """
+    dofs, parents = n.pointer_field(model, n.M_BODY_DOFS), n.pointer_field(model, n.M_BODY_PARENT)
+    while body > 0 and n.load_int(dofs + 4 * body) == 0:
+        body = n.load_int(parents + 4 * body)
+    if body == 0:
+        return
+    root = n.load_int(n.pointer_field(model, n.M_BODY_ROOT) + 4 * body)
+    com = n.pointer_field(data, n.D_SUBTREE_COM) + 24 * root
+    rx, ry, rz = px - n.load(com), py - n.load(com + 8), pz - n.load(com + 16)
+    e1, e2 = address + 8 * s.AXIS_1, address + 8 * s.AXIS_2
+    ax, ay, az = sign * n.load(e1), sign * n.load(e1 + 8), sign * n.load(e1 + 16)
+    bx, by, bz = sign * n.load(e2), sign * n.load(e2 + 8), sign * n.load(e2 + 16)
+    before = n.pointer_field(model, n.M_DOF_PARENT)
+    motions = n.pointer_field(data, n.D_CDOF)
+    dof = n.load_int(n.pointer_field(model, n.M_BODY_DOF) + 4 * body) + n.load_int(dofs + 4 * body) - 1
+    while dof >= 0:
+        c = motions + 48 * dof
+        wx, wy, wz = n.load(c), n.load(c + 8), n.load(c + 16)
+        x, y, z = n.load(c + 24) + wy * rz - wz * ry, n.load(c + 32) + wz * rx - wx * rz, n.load(c + 40) + wx * ry - wy * rx
+        row = rows + 8 * dof
+        n.store(row, n.load(row) + ax * x + ay * y + az * z)
+        n.store(row + 8 * nv, n.load(row + 8 * nv) + bx * x + by * y + bz * z)
+        dof = n.load_int(before + 4 * dof)
 
 
 @compiled
@@ -166,6 +208,7 @@ def set_axes(data, contact, current, old, body, surface, step):
     """Write the tangent frame: the old one carried along with the contact, or a new one along the surface velocity."""
     f = n.field(contact, n.C_FRAME)
     nx, ny, nz = n.load(f), n.load(f + 8), n.load(f + 16)
+    turn = 0.0
     if old != 0:
         e = old + 8 * s.AXIS_1
         x, y, z = n.load(e), n.load(e + 8), n.load(e + 16)
@@ -178,6 +221,10 @@ def set_axes(data, contact, current, old, body, surface, step):
         elif x + y + z < 0.0:
             x, y, z = -x, -y, -z
     along = x * nx + y * ny + z * nz
+    if old != 0 and turn == 0.0 and abs(along) <= 1.0e-15:  # it has not moved, to rounding
+        put(current + 8 * s.AXIS_1, x, y, z)
+        put(current + 8 * s.AXIS_2, ny * z - nz * y, nz * x - nx * z, nx * y - ny * x)
+        return
     x, y, z = x - along * nx, y - along * ny, z - along * nz
     size = math.sqrt(x * x + y * y + z * z)
     if not size > 0.0:
@@ -202,7 +249,9 @@ def displacement(data, address, body, surface, t, vx, vy):
     dy = dot(e2, cx - bx, cy - by, cz - bz) + step * n.load(address + 8 * s.SY)
     wx, wy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
     mx, my = 0.5 * step * (vx + wx), 0.5 * step * (vy + wy)
-    allowed = JUMP * step * (math.hypot(vx, vy) + math.hypot(wx, wy)) + 1.0e-6
-    if math.hypot(dx - mx, dy - my) > allowed:
-        return mx, my
+    far = (dx - mx) * (dx - mx) + (dy - my) * (dy - my)
+    if far > NEAR * NEAR:
+        allowed = JUMP * step * (math.hypot(vx, vy) + math.hypot(wx, wy)) + NEAR
+        if not far <= allowed * allowed:
+            return mx, my
     return dx, dy

@@ -3,7 +3,7 @@
 Compiled code is cached on disk and outlives a process, so nothing in it may depend on an address or on the MuJoCo
 version. All of that stands in one table whose address LLVM learns by its name each time the code is loaded:
 ``TABLE`` (64-bit words) holds the address of the Python function that reads configurations, the struct offsets, the
-rows of the laws (identifier, init, force, commit, guards) and the addresses of the configurations read so far.
+rows of the laws (identifier, init, force, commit, guards, length of a state) and the addresses of the configurations read
 """
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
@@ -22,6 +22,7 @@ import llvmlite.binding
 import mujoco
 from llvmlite import ir
 from numba import carray, types  # pyright: ignore[reportPrivateImportUsage]
+from numba.core import cgutils
 from numba.extending import intrinsic
 
 from stochfric_mb.compile import compiled
@@ -72,10 +73,10 @@ CONTACT_SIZE = 32
 """Place of sizeof(mjContact) in the table."""
 READER, EXPLAINER = 0, 48
 """Places of the addresses of the Python functions that read a configuration and say what is wrong with one."""
-LAW_ROWS, LAW_WIDTH, N_LAWS = 64, 5, 256
+LAW_ROWS, LAW_WIDTH, N_LAWS = 64, 6, 256
 """First place, width and number of the law rows."""
-INIT, FORCE, COMMIT, GUARD = 8, 16, 24, 32
-"""Where a law's functions stand in its row [byte]; its identifier stands first."""
+INIT, FORCE, COMMIT, GUARD, N_STATE = 8, 16, 24, 32, 40
+"""Where a law's functions and the number of its state's entries stand in its row [byte]; its identifier stands first."""
 CONFIGURATIONS, N_CONFIGURATIONS = LAW_ROWS + LAW_WIDTH * N_LAWS, 4096
 """First place and number of the configuration addresses, by hash."""
 FURTHER_FIELDS = (
@@ -104,6 +105,13 @@ FURTHER_FIELDS = (
     ("mjData", "sensordata"),
     ("mjModel", "signature"),
     ("mjModel", "geom_condim"),
+    ("mjModel", "body_dofnum"),
+    ("mjModel", "body_dofadr"),
+    ("mjModel", "body_parentid"),
+    ("mjModel", "dof_parentid"),
+    ("mjData", "cdof"),
+    ("mjData", "efc_force"),
+    ("mjContact", "dim"),
 )
 """More struct fields, for joints, tendons and the callback; the constants below are their places in the table."""
 FURTHER = CONFIGURATIONS + N_CONFIGURATIONS
@@ -111,8 +119,8 @@ FURTHER = CONFIGURATIONS + N_CONFIGURATIONS
     M_INTEGRATOR, M_NPLUGIN, M_PLUGIN, M_JOINT_DOF, M_JOINT_QPOS, M_DOF_TREE, M_TENDON_NNZ, M_TENDON_ADDRESS,
     M_TENDON_COLUMN, D_TREE_ASLEEP, D_TENDON_J, D_TENDON_LENGTH, D_NEFC, D_QACC, D_QFRC_BIAS, M_NU, D_QFRC_ACTUATOR,
     M_JOINT_TYPE, D_ROW_STATE, M_NSENSOR, M_SENSOR_PLUGIN, M_SENSOR_ADDRESS, D_SENSORDATA,
-    M_SIGNATURE, M_GEOM_CONDIM,
-) = range(FURTHER, FURTHER + 25)  # fmt: skip
+    M_SIGNATURE, M_GEOM_CONDIM, M_BODY_DOFS, M_BODY_DOF, M_BODY_PARENT, M_DOF_PARENT, D_CDOF, D_EFC_FORCE, C_DIM,
+) = range(FURTHER, FURTHER + 32)  # fmt: skip
 JOINTS_SLOT, CALLBACK_BEFORE, CALLBACK_ROWS, CALLBACK_COUNT, CALLBACK_MESSAGE = range(FURTHER + 32, FURTHER + 37)
 """MuJoCo's number of the joints' plugin; the callback installed before, and the friction contexts that are active."""
 SOLVER_FIELDS = (
@@ -164,7 +172,6 @@ def _external(name: str, result: Any, *arguments: Any) -> Any:
 
 mj_applyFT = _external("mj_applyFT", types.void, _I64, _I64, _I64, _I64, _I64, _I32, _I64)  # noqa: N816
 mj_contactForce = _external("mj_contactForce", types.void, _I64, _I64, _I32, _I64)  # noqa: N816
-mj_jac = _external("mj_jac", types.void, _I64, _I64, _I64, _I64, _I64, _I32)
 mj_solveM = _external("mj_solveM", types.void, _I64, _I64, _I64, _I64, _I32)  # noqa: N816
 mj_isSparse = _external("mj_isSparse", _I32, _I64)  # noqa: N816
 mj_getPluginConfig = _external("mj_getPluginConfig", _I64, _I64, _I32, _I64)  # noqa: N816
@@ -291,6 +298,19 @@ def store_word(typingctx, address, value):
         return context.get_dummy_value()
 
     return types.void(types.intp, types.intp), generate
+
+
+@intrinsic
+def copy_bytes(typingctx, source, target, count):
+    """Copy ``count`` bytes to another place; the two must not overlap."""
+
+    def generate(context, builder, signature, args):
+        byte = ir.IntType(8).as_pointer()
+        source, target = builder.inttoptr(args[0], byte), builder.inttoptr(args[1], byte)
+        cgutils.raw_memcpy(builder, target, source, args[2], 1)
+        return context.get_dummy_value()
+
+    return types.void(types.intp, types.intp, types.intp), generate
 
 
 @intrinsic

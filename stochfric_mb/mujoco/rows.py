@@ -11,8 +11,7 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.answer import MU, SURFACE, U0, V0
-from stochfric_mb.mujoco.contact import add_rows
-from stochfric_mb.mujoco.kinematics import bodies_of, contact_address, displacement, point_of, put
+from stochfric_mb.mujoco.kinematics import add_rows, bodies_of, contact_address, displacement, point_of
 from stochfric_mb.mujoco.switching import coefficients
 
 
@@ -20,7 +19,7 @@ from stochfric_mb.mujoco.switching import coefficients
 def prepare(model, data, places, tangent, normal, numbers, f, work, starting, t, end, h, qvel):
     """Fill the contacts' columns and their numbers at this instant; the first guess of F is that of the step before.
 
-    ``work`` has room for seven rows of generalised coordinates.
+    ``work`` has room for two rows of generalised coordinates.
     """
     nv = len(qvel)
     for q in range(len(places)):
@@ -29,9 +28,8 @@ def prepare(model, data, places, tangent, normal, numbers, f, work, starting, t,
         for j in range(2 * nv):
             work[j] = 0.0
         x, y, z = point_of(contact)
-        put(state + 8 * s.POINT, x, y, z)
-        add_rows(model, data, state, address, body, 1.0, nv, work.ctypes.data)
-        add_rows(model, data, state, address, surface, -1.0, nv, work.ctypes.data)
+        add_rows(model, data, address, body, 1.0, x, y, z, nv, work.ctypes.data)
+        add_rows(model, data, address, surface, -1.0, x, y, z, nv, work.ctypes.data)
         for j in range(nv):
             tangent[j, 2 * q], tangent[j, 2 * q + 1] = work[j], work[nv + j]
         efc_row(model, data, n.int_field(contact, n.C_EFC), normal, q)

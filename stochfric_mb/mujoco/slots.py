@@ -29,13 +29,14 @@ FORCE = CURSOR + CURSOR_SIZE
 TORQUE, COUNTER_FORCE, COUNTER_TORQUE, POINT, OUTPUT = FORCE + 3, FORCE + 6, FORCE + 9, FORCE + 12, FORCE + 15
 COEFFICIENTS = OUTPUT + MAX_STATE
 """Time of the last evaluation of a path along time [s], and its mu_s and mu_k."""
-NEEDS_HOLD, CRITICAL, CRITICAL_STEP = range(COEFFICIENTS + 3, COEFFICIENTS + 6)
-"""A flag; normal force over mass [N/kg] where an explicit step of CRITICAL_STEP [s] is at half its limit."""
-LIMITS, N_LIMITS = COEFFICIENTS + 6, 13
+NEEDS_HOLD, CRITICAL, CRITICAL_STEP, INSTANT = range(COEFFICIENTS + 3, COEFFICIENTS + 7)
+"""A flag; normal force over mass [N/kg] where an explicit step of CRITICAL_STEP [s] is at half its limit;
+canonical time [s] of the last evaluation at a step's start."""
+LIMITS, N_LIMITS = COEFFICIENTS + 7, 13
 """The law's step limit [s] at normal forces over mass of 1e-4, 1e-3, ... 1e8 N/kg."""
 ROWS, MAX_ROW = LIMITS + N_LIMITS, 32
-"""Work space: seven rows of so many generalised coordinates."""
-DESCRIPTOR = ROWS + 7 * MAX_ROW
+"""Work space: four rows of so many generalised coordinates."""
+DESCRIPTOR = ROWS + 4 * MAX_ROW
 """The coefficient descriptor; the two blocks of slots and one row of generalised coordinates follow it."""
 
 # Slot: places in doubles.

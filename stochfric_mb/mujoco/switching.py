@@ -12,8 +12,8 @@ import math
 from stochfric_mb.coefficients.path import CURSOR as CURSOR_SIZE
 from stochfric_mb.coefficients.path import evaluate
 from stochfric_mb.coefficients.processes import TIME
-from stochfric_mb.compile import compiled
-from stochfric_mb.laws.abi import MAX_STATE, call_law
+from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.laws.abi import call_law
 from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
@@ -25,13 +25,13 @@ INSTANT = 5.0e-13
 """Part of a step to which the instant of a switch is found."""
 
 
-@compiled
+@compiled_inline
 def half_step(model):
     """Return half the engine's step [s]."""
     return 0.5 * n.number_field(model, n.M_TIMESTEP)
 
 
-@compiled
+@compiled_inline
 def coefficients(state, t, position, events):
     """Return (mu_s, mu_k) of the instance's path; along time, once for all its contacts."""
     kept = state + 8 * s.COEFFICIENTS
@@ -58,7 +58,7 @@ def coefficients_anew(state, t, position, events):
     )
 
 
-@compiled
+@compiled_inline
 def call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k):
     """Call one of the law's functions on a slot; the result goes to the work space."""
     call_law(
@@ -69,27 +69,25 @@ def call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k):
 
 
 @compiled
-def commit_slot(state, address, t, total, count):
-    """Run the law's commit (init for a new contact) on a current slot.
+def commit_slot(state, address, row, t, total, count):
+    """Run the commit (init for a new contact) of the law in ``row`` on a current slot.
 
     Contacts of one pair share the mass that they feel, in proportion to their normal forces.
     """
     normal_force = n.load(address + 8 * s.NORMAL)
     share = normal_force / total if total > 0.0 else 1.0 / count
     n.store(address + 8 * s.MASS, n.load(address + 8 * s.MASS) * share)
-    row = n.law_row(int(n.load(state + 8 * s.LAW)))
     if row == 0:
         return
     ux, uy = n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
     vx, vy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
     modes = n.load(state + 8 * s.HAS_MODE) != 0.0
-    if n.load(address + 8 * s.LIVE) == 0.0:
-        changed = switch(state, address, n.load_word(row + n.INIT), t, ux, uy, vx, vy)
+    new = n.load(address + 8 * s.LIVE) == 0.0
+    if not new and modes and n.load(address + 8 * s.IMPLICIT_STEP) == 0.0:
+        switch_within(state, address, row, t)
+    changed = switch(state, address, row, n.INIT if new else n.COMMIT, t, ux, uy, vx, vy)
+    if new:
         n.store(address + 8 * s.EVENTS, 0.0)
-    else:
-        if modes and n.load(address + 8 * s.IMPLICIT_STEP) == 0.0:
-            switch_within(state, address, row, t)
-        changed = switch(state, address, n.load_word(row + n.COMMIT), t, ux, uy, vx, vy)
     mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
     n.store(address + 8 * s.MU_S, mu_s)
     n.store(address + 8 * s.MU_K, mu_k)
@@ -99,32 +97,30 @@ def commit_slot(state, address, t, total, count):
         keep_guards(state, address)
 
 
-@compiled
+@compiled_inline
 def keep_guards(state, address):
     """Copy the guards from the work space to the slot, for the search in the time that follows."""
     for j in range(GUARDS):
         n.store(address + 8 * (s.START_GUARDS + j), n.load(state + 8 * (s.OUTPUT + j)))
 
 
-@compiled
+@compiled_inline
 def guards_at(state, address, row, t, ux, uy, vx, vy):
     """Write the law's guards at this instant to the work space."""
     mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
     call(state, address, n.load_word(row + n.GUARD), t, ux, uy, vx, vy, mu_s, mu_k)
 
 
-@compiled
-def switch(state, address, function, t, ux, uy, vx, vy):
-    """Give a slot the law state that ``function`` (init or commit) returns; return whether it is another one.
+@compiled_inline
+def switch(state, address, row, function, t, ux, uy, vx, vy):
+    """Give a slot the law state that ``function`` of its row (init or commit) returns; return whether it is another one.
 
     Stick phases that begin are counted.
     """
     changed = n.load(address + 8 * s.LIVE) == 0.0
-    for j in range(MAX_STATE):  # a law writes the entries that it has
-        n.store(state + 8 * (s.OUTPUT + j), 0.0)
     mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
-    call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k)
-    for j in range(MAX_STATE):
+    call(state, address, n.load_word(row + function), t, ux, uy, vx, vy, mu_s, mu_k)
+    for j in range(n.load_word(row + n.N_STATE)):
         new = n.load(state + 8 * (s.OUTPUT + j))
         changed = changed or n.load(address + 8 * (s.STATE + j)) != new
         n.store(address + 8 * (s.STATE + j), new)
@@ -139,26 +135,35 @@ def switch(state, address, function, t, ux, uy, vx, vy):
     return changed
 
 
-@compiled
+@compiled_inline
 def switch_within(state, address, row, t):
     """Let a law with modes switch where it should have within the step that has just ended.
 
     Where one of the law's guards has changed sign, ``commit`` runs with the state there, by the cubic through both
     ends of the step: what the law remembers of a switch then does not depend on where the step ended.
     """
+    if guard_crossed(state, address, row, t, 1.0):
+        switch_at_crossings(state, address, row, t)
+    else:
+        keep_guards(state, address)
+
+
+@compiled
+def switch_at_crossings(state, address, row, t):
+    """Switch the law where its guards cross zero within the step, one of which does."""
     before = n.load(address + 8 * s.BEFORE)
     start = 0.0
     for _ in range(SWITCHES):
-        if not guard_crossed(state, address, row, t, 1.0):
-            keep_guards(state, address)
-            return
         end = first_crossing(state, address, row, t, start)
         ux, uy, vx, vy = between(address, t, end)
         now = before + end * (t - before)
-        switch(state, address, n.load_word(row + n.COMMIT), now, ux, uy, vx, vy)
+        switch(state, address, row, n.COMMIT, now, ux, uy, vx, vy)
         guards_at(state, address, row, now, ux, uy, vx, vy)
         keep_guards(state, address)
         start = end
+        if not guard_crossed(state, address, row, t, 1.0):
+            keep_guards(state, address)
+            return
 
 
 @compiled
@@ -207,22 +212,23 @@ def between(address, t, part):
     )
 
 
-@compiled
+@compiled_inline
 def guard_crossed(state, address, row, t, part):
     """Return whether a guard that was positive at the start of the search is not positive at a part of the step."""
     return least_guard(state, address, row, t, part) <= 0.0
 
 
-@compiled
+@compiled_inline
 def least_guard(state, address, row, t, part):
     """Return the least of the guards that were positive at the start of the search, at a part of the step."""
     if part == 1.0:
-        ux, uy = n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
-        guards_at(state, address, row, t, ux, uy, n.load(address + 8 * s.VX), n.load(address + 8 * s.VY))
+        now, ux, uy = t, n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
+        vx, vy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
     else:
         ux, uy, vx, vy = between(address, t, part)
         before = n.load(address + 8 * s.BEFORE)
-        guards_at(state, address, row, before + part * (t - before), ux, uy, vx, vy)
+        now = before + part * (t - before)
+    guards_at(state, address, row, now, ux, uy, vx, vy)
     least = math.inf
     for j in range(GUARDS):
         if n.load(address + 8 * (s.START_GUARDS + j)) > 0.0:
