@@ -18,6 +18,7 @@ from typing import Any
 
 from stochfric_mb.errors import InputError
 from stochfric_mb.exudyn.expression import FUNCTIONS, Value, apply, choose, hypot, known
+from stochfric_mb.laws.plane import length
 
 _BINARY = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div", ast.Pow: "pow"}
 _COMPARE = {ast.Lt: "lt", ast.LtE: "le", ast.Gt: "gt", ast.GtE: "ge", ast.Eq: "eq", ast.NotEq: "ne"}
@@ -194,7 +195,7 @@ class _Frame:
             return _NOTHING
         function, arguments = self.value(node.func, names), [self.value(a, names) for a in node.args]
         name = getattr(function, "__name__", "")
-        if function is math.hypot and len(arguments) == 2:
+        if function in (math.hypot, length) and len(arguments) == 2:
             return hypot(*arguments)
         if function in (min, max):
             return functools.reduce(functools.partial(apply, name), arguments)

@@ -7,12 +7,11 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from typing import ClassVar
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.laws.contract import Law
-from stochfric_mb.laws.plane import clipped, slip_direction
+from stochfric_mb.laws.plane import clipped, length, slip_direction
 
 STICK = 0.0
 SLIP = 1.0
@@ -38,10 +37,10 @@ class Coulomb(Law):
 @compiled
 def init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the state at the start: sliding if v is not zero, otherwise what the holding force allows."""
-    speed = math.hypot(vx, vy)
+    speed = length(vx, vy)
     if speed > 0.0:
         return SLIP, vx / speed, vy / speed
-    hold = math.hypot(hx, hy)
+    hold = length(hx, hy)
     if hold > mu_s * normal_force:
         return SLIP, hx / hold, hy / hold
     return STICK, 0.0, 0.0
@@ -59,13 +58,13 @@ def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx
 @compiled
 def commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the state after an accepted step: break-away above mu_s N, stick when v turns over below it."""
-    hold = math.hypot(hx, hy)
+    hold = length(hx, hy)
     if state[0] == STICK:
         if hold > mu_s * normal_force:
             return SLIP, hx / hold, hy / hold
         return STICK, 0.0, 0.0
     if vx * state[1] + vy * state[2] > 0.0:
-        speed = math.hypot(vx, vy)
+        speed = length(vx, vy)
         return SLIP, vx / speed, vy / speed
     if hold > mu_s * normal_force:
         return SLIP, hx / hold, hy / hold
@@ -76,5 +75,5 @@ def commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, h
 def guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the distances to break-away (stuck) and to turning over (sliding)."""
     if state[0] == STICK:
-        return mu_s * normal_force - math.hypot(hx, hy), 1.0, 1.0, 1.0, 1.0, 1.0
+        return mu_s * normal_force - length(hx, hy), 1.0, 1.0, 1.0, 1.0, 1.0
     return vx * state[1] + vy * state[2], 1.0, 1.0, 1.0, 1.0, 1.0

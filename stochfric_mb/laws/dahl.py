@@ -13,6 +13,7 @@ from typing import ClassVar
 from stochfric_mb.compile import compiled
 from stochfric_mb.errors import require_number
 from stochfric_mb.laws.contract import Law
+from stochfric_mb.laws.plane import length
 
 
 @dataclasses.dataclass(frozen=True)
@@ -52,7 +53,7 @@ class Dahl(Law):
 @compiled
 def flow(vx, vy, normal_force, zx, zy, mu_s, mu_k, p):
     """Return the force [N] and the rate of the bristle deflection [m/s]."""
-    fade = p[2] * math.hypot(vx, vy) / mu_k
+    fade = p[2] * length(vx, vy) / mu_k
     return p[2] * zx * normal_force, p[2] * zy * normal_force, vx - fade * zx, vy - fade * zy
 
 
@@ -61,7 +62,7 @@ def deflection(ux, uy, state, mu_k, p):
     """Return the bristle deflection [m] after the straight path since the last commit."""
     dx = ux - state[0]
     dy = uy - state[1]
-    path = math.hypot(dx, dy)
+    path = length(dx, dy)
     if path <= 0.0:
         return state[2], state[3]
     full = mu_k / p[2]

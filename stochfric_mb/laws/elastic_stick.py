@@ -13,7 +13,7 @@ from typing import ClassVar
 from stochfric_mb.compile import compiled
 from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.laws.contract import Law
-from stochfric_mb.laws.plane import clipped, slip_direction
+from stochfric_mb.laws.plane import clipped, length, slip_direction
 
 STICK = 0.0
 SLIP_PEAK = 1.0
@@ -106,7 +106,7 @@ def deflection_limit(mu_s, p):
 @compiled
 def init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the state at the start: sliding if abs(v) > v_s, otherwise stuck with z = 0."""
-    speed = math.hypot(vx, vy)
+    speed = length(vx, vy)
     if speed > p[4]:
         return SLIP, ux, uy, vx / speed, vy / speed
     return STICK, ux, uy, 0.0, 0.0
@@ -134,7 +134,7 @@ def commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, h
     """Return the state after an accepted step: break-away, clip or re-stick as the class docstring says."""
     if normal_force <= 0.0:
         return init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, p)
-    speed = math.hypot(vx, vy)
+    speed = length(vx, vy)
     if state[0] == STICK:
         return _commit_stick(ux, uy, vx, vy, speed, state, mu_s, p)
     ahead = vx * state[3] + vy * state[4]
@@ -150,7 +150,7 @@ def _commit_stick(ux, uy, vx, vy, speed, state, mu_s, p):
     """Return the state of a contact that was stuck: still stuck, clipped, or broken away along z."""
     zx = ux - state[1]
     zy = uy - state[2]
-    z = math.hypot(zx, zy)
+    z = length(zx, zy)
     limit = deflection_limit(mu_s, p)
     if z < limit:
         return STICK, state[1], state[2], 0.0, 0.0
@@ -174,7 +174,7 @@ def _restick(ux, uy, vx, vy, normal_force, state, mu_s, effective_mass, p):
 @compiled
 def guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the distances to break-away and to the cap (stuck), to v_s and to turning over (sliding)."""
-    speed = math.hypot(vx, vy)
+    speed = length(vx, vy)
     if state[0] == STICK:
         zx = ux - state[1]
         zy = uy - state[2]
@@ -182,8 +182,8 @@ def guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, h
         c = stick_damping(normal_force, effective_mass, p)
         limit = deflection_limit(mu_s, p)
         wx, wy = clipped(zx, zy, limit)
-        cap = mu_s * normal_force - math.hypot(k * wx + c * vx, k * wy + c * vy)
-        return limit - math.hypot(zx, zy), cap, -cap, 1.0, 1.0, 1.0
+        cap = mu_s * normal_force - length(k * wx + c * vx, k * wy + c * vy)
+        return limit - length(zx, zy), cap, -cap, 1.0, 1.0, 1.0
     ahead = vx * state[3] + vy * state[4]
     if state[0] == SLIP_PEAK:
         return ahead, p[4] - speed, 1.0, 1.0, 1.0, 1.0

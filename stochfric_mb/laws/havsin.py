@@ -13,7 +13,7 @@ from typing import ClassVar
 from stochfric_mb.compile import compiled
 from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.laws.contract import Law
-from stochfric_mb.laws.plane import along
+from stochfric_mb.laws.plane import along, length
 from stochfric_mb.laws.stateless import commit, init
 
 __all__ = ["Havsin", "coefficient", "commit", "force", "guards", "haversine_step", "init"]
@@ -76,12 +76,12 @@ def coefficient(speed, mu_s, mu_k, v_s, v_d):
 @compiled
 def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the friction force [N], mu(abs(v)) N along v."""
-    mu = coefficient(math.hypot(vx, vy), mu_s, mu_k, p[2], p[3])
+    mu = coefficient(length(vx, vy), mu_s, mu_k, p[2], p[3])
     return along(mu * normal_force, vx, vy)
 
 
 @compiled
 def guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the kinks in curvature: v = 0, v_s and v_d, from both sides."""
-    speed = math.hypot(vx, vy)
+    speed = length(vx, vy)
     return vx, -vx, speed - p[2], p[2] - speed, speed - p[3], p[3] - speed

@@ -7,13 +7,12 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from typing import ClassVar
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.errors import require_number
 from stochfric_mb.laws.contract import Law
-from stochfric_mb.laws.plane import clipped, slip_direction
+from stochfric_mb.laws.plane import clipped, length, slip_direction
 
 STICK = 0.0
 ZONE = 1.0
@@ -49,10 +48,10 @@ class Karnopp(Law):
 @compiled
 def init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the state at the start: sliding if abs(v) > v_s, otherwise what the holding force allows."""
-    speed = math.hypot(vx, vy)
+    speed = length(vx, vy)
     if speed > p[2]:
         return SLIP, vx / speed, vy / speed
-    hold = math.hypot(hx, hy)
+    hold = length(hx, hy)
     if hold > mu_s * normal_force:
         return ZONE, hx / hold, hy / hold
     return STICK, 0.0, 0.0
@@ -70,11 +69,11 @@ def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx
 @compiled
 def commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the state after an accepted step: by speed alone, and in the zone by the holding force."""
-    speed = math.hypot(vx, vy)
+    speed = length(vx, vy)
     sliding = speed >= p[2] if state[0] == ZONE else speed > p[2]
     if state[0] != STICK and sliding:
         return SLIP, vx / speed, vy / speed
-    hold = math.hypot(hx, hy)
+    hold = length(hx, hy)
     if hold > mu_s * normal_force:
         return ZONE, hx / hold, hy / hold
     return STICK, 0.0, 0.0
@@ -83,8 +82,8 @@ def commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, h
 @compiled
 def guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the distances to break-away, to the edge of the zone, and back into it."""
-    speed = math.hypot(vx, vy)
-    slack = mu_s * normal_force - math.hypot(hx, hy)
+    speed = length(vx, vy)
+    slack = mu_s * normal_force - length(hx, hy)
     if state[0] == STICK:
         return slack, 1.0, 1.0, 1.0, 1.0, 1.0
     if state[0] == ZONE:

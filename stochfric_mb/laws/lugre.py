@@ -13,6 +13,7 @@ from typing import ClassVar
 from stochfric_mb.compile import compiled
 from stochfric_mb.errors import require_number
 from stochfric_mb.laws.contract import Law
+from stochfric_mb.laws.plane import length
 
 
 @dataclasses.dataclass(frozen=True)
@@ -75,7 +76,7 @@ def steady_coefficient(speed, mu_s, mu_k, stribeck_velocity):
 @compiled
 def flow(vx, vy, normal_force, zx, zy, mu_s, mu_k, p):
     """Return the force [N] and the rate of the bristle deflection [m/s]."""
-    speed = math.hypot(vx, vy)
+    speed = length(vx, vy)
     fade = p[3] * speed / steady_coefficient(speed, mu_s, mu_k, p[2])
     wx = vx - fade * zx
     wy = vy - fade * zy
@@ -89,7 +90,7 @@ def deflection(t, ux, uy, state, mu_s, mu_k, p):
     """Return the bristle deflection [m] after the straight path since the last commit, g at the mean velocity."""
     dx = ux - state[1]
     dy = uy - state[2]
-    path = math.hypot(dx, dy)
+    path = length(dx, dy)
     if path <= 0.0 or t <= state[0]:
         return state[3], state[4]
     full = steady_coefficient(path / (t - state[0]), mu_s, mu_k, p[2]) / p[3]

@@ -7,13 +7,12 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from typing import ClassVar
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.laws.contract import Law
-from stochfric_mb.laws.plane import along
+from stochfric_mb.laws.plane import along, length
 from stochfric_mb.laws.stateless import commit, init
 
 __all__ = ["PiecewiseLinear", "coefficient", "commit", "force", "guards", "init"]
@@ -67,12 +66,12 @@ def coefficient(speed, mu_s, mu_k, v_s, v_d):
 @compiled
 def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the friction force [N], mu(abs(v)) N along v."""
-    mu = coefficient(math.hypot(vx, vy), mu_s, mu_k, p[2], p[3])
+    mu = coefficient(length(vx, vy), mu_s, mu_k, p[2], p[3])
     return along(mu * normal_force, vx, vy)
 
 
 @compiled
 def guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the kinks at v_s and v_d, from both sides."""
-    speed = math.hypot(vx, vy)
+    speed = length(vx, vy)
     return speed - p[2], p[2] - speed, speed - p[3], p[3] - speed, 1.0, 1.0

@@ -13,7 +13,7 @@ from typing import ClassVar
 from stochfric_mb.compile import compiled
 from stochfric_mb.errors import require_number
 from stochfric_mb.laws.contract import Law
-from stochfric_mb.laws.plane import along
+from stochfric_mb.laws.plane import along, length
 from stochfric_mb.laws.stateless import commit, init
 
 __all__ = ["Tanh", "commit", "force", "guards", "init"]
@@ -52,7 +52,7 @@ class Tanh(Law):
 @compiled
 def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the friction force [N], mu_k tanh(abs(v)/v_s) N along v."""
-    return along(mu_k * math.tanh(math.hypot(vx, vy) / p[2]) * normal_force, vx, vy)
+    return along(mu_k * math.tanh(length(vx, vy) / p[2]) * normal_force, vx, vy)
 
 
 @compiled

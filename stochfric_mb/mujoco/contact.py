@@ -19,6 +19,7 @@ import numpy as np
 
 from stochfric_mb.coefficients.path import canonical_time
 from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.laws.plane import length
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.kinematics import (
@@ -139,7 +140,7 @@ def _tangent_mass(model, data, contact, address, body, surface, nv, rows):
         a += n.load(rows + j) * n.load(rows + j + 16 * nv)
         b += n.load(rows + j + 8 * nv) * n.load(rows + j + 24 * nv)
         c += n.load(rows + j) * n.load(rows + j + 24 * nv)
-    largest = 0.5 * (a + b) + math.hypot(0.5 * (a - b), c)
+    largest = 0.5 * (a + b) + length(0.5 * (a - b), c)
     return 1.0 / largest if largest > 0.0 else 0.0
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 
 from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.laws.plane import length
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 
@@ -251,7 +252,7 @@ def displacement(data, address, body, surface, t, vx, vy):
     mx, my = 0.5 * step * (vx + wx), 0.5 * step * (vy + wy)
     far = (dx - mx) * (dx - mx) + (dy - my) * (dy - my)
     if far > NEAR * NEAR:
-        allowed = JUMP * step * (math.hypot(vx, vy) + math.hypot(wx, wy)) + NEAR
+        allowed = JUMP * step * (length(vx, vy) + length(wx, wy)) + NEAR
         if not far <= allowed * allowed:
             return mx, my
     return dx, dy

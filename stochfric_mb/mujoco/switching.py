@@ -15,6 +15,7 @@ from stochfric_mb.coefficients.processes import TIME
 from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.laws.abi import call_law
 from stochfric_mb.laws.contract import GUARDS
+from stochfric_mb.laws.plane import length
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.kinematics import put
@@ -128,7 +129,7 @@ def switch(state, address, row, function, t, ux, uy, vx, vy):
     if n.load(state + 8 * s.HAS_MODE) != 0.0:
         stuck = 1.0 if n.load(address + 8 * s.STATE) == 0.0 else 0.0
     else:
-        stuck = 1.0 if math.hypot(vx, vy) <= n.load(state + 8 * s.STICK_SPEED) else 0.0
+        stuck = 1.0 if length(vx, vy) <= n.load(state + 8 * s.STICK_SPEED) else 0.0
     n.store(address + 8 * s.STICK, stuck)
     if stuck > was:
         n.store(address + 8 * s.EVENTS, n.load(address + 8 * s.EVENTS) + 1.0)
