@@ -121,8 +121,9 @@ FURTHER = CONFIGURATIONS + N_CONFIGURATIONS
     M_JOINT_TYPE, D_ROW_STATE, M_NSENSOR, M_SENSOR_PLUGIN, M_SENSOR_ADDRESS, D_SENSORDATA,
     M_SIGNATURE, M_GEOM_CONDIM, M_BODY_DOFS, M_BODY_DOF, M_BODY_PARENT, M_DOF_PARENT, D_CDOF, D_EFC_FORCE, C_DIM,
 ) = range(FURTHER, FURTHER + 32)  # fmt: skip
-JOINTS_SLOT, CALLBACK_BEFORE, CALLBACK_ROWS, CALLBACK_COUNT, CALLBACK_MESSAGE = range(FURTHER + 32, FURTHER + 37)
-"""MuJoCo's number of the joints' plugin; the callback installed before, and the friction contexts that are active."""
+JOINTS_SLOT, CALLBACK_BEFORE, CALLBACK_ROWS, CALLBACK_SOLVER, CALLBACK_MESSAGE = range(FURTHER + 32, FURTHER + 37)
+"""MuJoCo's number of the joints' plugin; the callback installed before, the friction contexts' rows, their implicit mode's
+solution, and what is said of copies."""
 SOLVER_FIELDS = (
     ("mjModel", "opt.solver"),
     ("mjModel", "opt.noslip_iterations"),
