@@ -43,12 +43,14 @@ from stochfric_mb.mujoco.config import (
     configuration,
     record_of,
 )
-from stochfric_mb.mujoco.options import check_options
+from stochfric_mb.mujoco.options import NO_PASSIVE_FORCES, SWITCHED_OFF, check_options
 from stochfric_mb.mujoco.plugin import UNSET, register
 from stochfric_mb.mujoco.reading import Reading
 from stochfric_mb.mujoco.takeover import geoms_of, switches_of
 
 _lock = threading.Lock()
+_switched_off: dict[tuple[int, str, int], tuple[int, int]] = {}
+"""(model's address, array, place) -> (contexts that need 1 there, the model's own value)."""
 
 
 class ContactWarning(UserWarning):
@@ -88,6 +90,10 @@ class friction:  # noqa: N801  (a context, used like a function)
         Warns:
             IntegratorWarning: the model uses the ``discrete`` integrator.
         """
+        if not isinstance(model, mujoco.MjModel):
+            raise InputError(f"model is a {type(model).__name__}; compile it first, or use add_friction(spec, ...)")
+        if not isinstance(pairs, Mapping):
+            raise InputError(f"pairs is a {type(pairs).__name__}; write {{(body's geom, counter-surface's geom): law, ...}}")
         if data.model is not model and data.model._address != model._address:
             raise InputError("data belongs to another model; pass the model that it was made with")
         check_options(model.opt.disableflags, model.opt.integrator)
@@ -101,7 +107,6 @@ class friction:  # noqa: N801  (a context, used like a function)
             state[s.GEOM_BODY], state[s.GEOM_SURFACE] = self._pairs[names]
             self._states[names] = state
         self._implicit = mode != "explicit"
-        self._kept: list[tuple[Any, int, int]] = []
         self._places: list[int] = []
 
     def __enter__(self) -> friction:
@@ -114,8 +119,7 @@ class friction:  # noqa: N801  (a context, used like a function)
             for names, state in self._states.items():
                 geoms, plan = self._pairs[names], self._plans[names]
                 for array, place in plan:
-                    self._kept.append((array, place, int(array[place])))
-                    array[place] = 1
+                    _switch_off(self._model, array, place)
                 place = int(np.flatnonzero(ROWS[:, MODEL] == 0)[0])
                 own = (-1, -1) if len(plan) == 1 else geoms
                 ROWS[place, 1:] = (
@@ -130,16 +134,19 @@ class friction:  # noqa: N801  (a context, used like a function)
         """Put the model and ``mjcb_passive`` back as they were.
 
         Raises:
-            SimulationError: someone replaced ``mjcb_passive`` within the context, which switched the friction off.
+            SimulationError: someone replaced ``mjcb_passive`` or disabled passive forces within the context, which switched the
+                friction off.
         """
         with _lock:
             ROWS[self._places, MODEL] = 0
-            for array, place, value in reversed(self._kept):
-                array[place] = value
-            self._kept, self._places = [], []
+            for array, place in [switch for plan in self._plans.values() for switch in plan] if self._places else []:
+                _switch_back(self._model, array, place)
+            self._places = []
             replaced = _uninstall()
         if error is None:
             self._warn_untouched()
+            if self._model.opt.disableflags & NO_PASSIVE_FORCES == NO_PASSIVE_FORCES:
+                raise SimulationError(f"passive forces were disabled while friction(...) was active: {SWITCHED_OFF}")
         if replaced and error is None:
             raise SimulationError(
                 "mjcb_passive was replaced while friction(...) was active, which switched the friction off; set your callback "
@@ -208,6 +215,23 @@ def _require_free(model: mujoco.MjModel, data: mujoco.MjData, pairs: Mapping[tup
 def _state_geoms(address: int) -> set[int]:
     state = (ctypes.c_double * (s.GEOM_SURFACE + 1)).from_address(address)
     return {int(state[s.GEOM_BODY]), int(state[s.GEOM_SURFACE])}
+
+
+def _switch_off(model: mujoco.MjModel, array: str, place: int) -> None:
+    """Write 1 to an integer of the model, and remember what was there."""
+    numbers = getattr(model, array)
+    count, own = _switched_off.get((model._address, array, place), (0, int(numbers[place])))
+    _switched_off[model._address, array, place] = count + 1, own
+    numbers[place] = 1
+
+
+def _switch_back(model: mujoco.MjModel, array: str, place: int) -> None:
+    """Put back what `_switch_off` found, with the last context that needs it."""
+    count, own = _switched_off.pop((model._address, array, place))
+    if count > 1:
+        _switched_off[model._address, array, place] = count - 1, own
+    else:
+        getattr(model, array)[place] = own
 
 
 def _pointer() -> ctypes.c_void_p:

@@ -20,6 +20,8 @@ def geoms_of(model: mujoco.MjModel, names: tuple[str, str]) -> tuple[int, int]:
     """
     if isinstance(names, str) or len(names) != 2:
         raise InputError(f"{names!r} is not a pair; give (body's geom, counter-surface's geom)")
+    if "*" in names:
+        raise InputError(f"{names!r}: a compiled model's pairs are named one by one; use add_friction(spec, ...) for '*'")
     known = [model.geom(i).name for i in range(model.ngeom) if model.geom(i).name]
     body, surface = (model.geom(require_name("geom", name, known)).id for name in names)
     if model.body_weldid[model.geom_bodyid[body]] == model.body_weldid[model.geom_bodyid[surface]]:
@@ -27,15 +29,15 @@ def geoms_of(model: mujoco.MjModel, names: tuple[str, str]) -> tuple[int, int]:
     return body, surface
 
 
-def switches_of(model: mujoco.MjModel, geoms: tuple[int, int], names: tuple[str, str]) -> list[tuple[Any, int]]:
-    """Return the integers of the model that must be 1 for the pair to have no native friction.
+def switches_of(model: mujoco.MjModel, geoms: tuple[int, int], names: tuple[str, str]) -> list[tuple[str, int]]:
+    """Return the integers of the model (array, place) that must be 1 for the pair to have no native friction.
 
     Raises:
         InputError: the geoms never touch, or other contacts would change too.
     """
     for i in range(model.npair):
         if {int(model.pair_geom1[i]), int(model.pair_geom2[i])} == set(geoms):
-            return [(model.pair_dim, i)]
+            return [("pair_dim", i)]
     if not _may_touch(model, *geoms):
         raise InputError(
             f"geoms {names!r} never touch: their contype and conaffinity exclude each other and there is no pair of them; "
@@ -53,7 +55,7 @@ def switches_of(model: mujoco.MjModel, geoms: tuple[int, int], names: tuple[str,
                     f"{model.geom(other).name or f'geom {other}'!r}; name the pair in the model (<contact><pair .../>) or use "
                     "add_friction(spec, ...)"
                 )
-    return [(model.geom_condim, geom) for geom in geoms]
+    return [("geom_condim", geom) for geom in geoms]
 
 
 def _may_touch(model: mujoco.MjModel, a: int, b: int) -> bool:

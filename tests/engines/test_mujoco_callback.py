@@ -14,7 +14,9 @@ import stochfric_mb.mujoco as engine  # noqa: E402
 from stochfric_mb.coefficients import Knots  # noqa: E402
 from stochfric_mb.errors import InputError, SimulationError  # noqa: E402
 from stochfric_mb.friction import Friction  # noqa: E402
+from stochfric_mb.laws.coulomb import Coulomb  # noqa: E402
 from stochfric_mb.laws.elastic_stick import ElasticStick  # noqa: E402
+from stochfric_mb.laws.havsin import Havsin  # noqa: E402
 from stochfric_mb.mujoco import native  # noqa: E402
 
 G = 9.81
@@ -63,6 +65,28 @@ def test_a_sliding_box_is_braked_as_with_the_plugin(integrator):
         assert data.qvel[0] == pytest.approx(1.0 - 0.6 * G * 0.1, rel=2e-3)  # landing, as with the plugin
         mujoco.mj_step(model, data, nstep=5000)
         assert data.qpos[0] == pytest.approx(1.0 / (2.0 * 0.6 * G), rel=2e-3)
+
+
+# Steps of 2 ms are beyond every explicit limit here, and Coulomb has no explicit mode at all.
+@pytest.mark.parametrize("law", [LAW, Havsin(mu_s=0.8, mu_k=0.6), Coulomb(mu_s=0.8, mu_k=0.6)], ids=lambda law: law.kind)
+@pytest.mark.parametrize("integrator", ["RK4", "Euler"])
+def test_long_steps_are_implicit_as_with_the_plugin(integrator, law):
+    angle, end = math.radians(20.0), []
+    spec = mujoco.MjSpec.from_string(
+        BOX.format(dt=2e-3, integrator=integrator, gx=G * math.sin(angle), gz=-G * math.cos(angle), wall=3)
+    )
+    engine.add_friction(spec, PAIR, law)
+    with_plugin = spec.compile()
+    for model in (box(angle=angle, dt=2e-3, integrator=integrator)[0], with_plugin):
+        data = mujoco.MjData(model)
+        data.qvel[0] = 1.0
+        pairs = {} if model is with_plugin else {PAIR: law}
+        with engine.friction(model, data, pairs):
+            mujoco.mj_step(model, data, nstep=400)
+        end.append(data.qpos[:3].copy())
+    # Apart from MuJoCo's solver (tolerance 1e-8), which starts from different guesses, the two are the same.
+    assert end[0] == pytest.approx(end[1], abs=1e-8)
+    assert 0.2 < end[0][0] < 0.3  # v^2/(2 (0.6 cos - sin) g) is 0.23 m
 
 
 @pytest.mark.parametrize("integrator", ["RK4", "Euler"])
@@ -141,6 +165,46 @@ def test_contexts_may_end_in_any_order():
     assert installed() is None
 
 
+def test_native_friction_comes_back_with_the_last_context_of_a_model():
+    model, a = box()
+    first = engine.friction(model, a, {PAIR: LAW})
+    second = engine.friction(model, mujoco.MjData(model), {PAIR: LAW})
+    first.__enter__()
+    second.__enter__()
+    first.__exit__(None, None, None)
+    assert model.geom("box").condim == 1
+    second.__exit__(None, None, None)
+    assert (model.geom_condim == 3).all()
+
+
+def test_passive_forces_that_are_switched_off_within_are_reported():
+    model, data = box()
+    both = mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER
+    context = engine.friction(model, data, {PAIR: LAW})
+    context.__enter__()
+    model.opt.disableflags = both
+    mujoco.mj_step(model, data)
+    with pytest.raises(SimulationError, match="disabled while"):
+        context.__exit__(None, None, None)
+    assert (model.geom_condim == 3).all()
+
+
+def test_an_exception_puts_everything_back():
+    model, data = box()
+
+    def broken(model, data):
+        raise ValueError("broken")
+
+    mujoco.set_mjcb_passive(broken)
+    try:
+        with pytest.raises(ValueError, match="broken"), engine.friction(model, data, {PAIR: LAW}):
+            mujoco.mj_step(model, data)
+        assert mujoco.get_mjcb_passive() is broken
+    finally:
+        mujoco.set_mjcb_passive(None)
+    assert (model.geom_condim == 3).all()
+
+
 def test_copies_and_batches_are_refused():
     batch = pytest.importorskip("mujoco.batch")
     model, data = box()
@@ -201,6 +265,14 @@ def test_what_cannot_work_is_refused():
         engine.friction(model, data, {("box", "lamp"): LAW})
     with pytest.raises(InputError, match="is not a pair"):
         engine.friction(model, data, {"box": LAW})
+    with pytest.raises(InputError, match="named one by one"):
+        engine.friction(model, data, {("*", "floor"): LAW})
+    with pytest.raises(InputError, match="pairs is a list"):
+        engine.friction(model, data, [(PAIR, LAW)])
+    with pytest.raises(InputError, match="model is a MjSpec; compile it first"):
+        engine.friction(mujoco.MjSpec(), data, {PAIR: LAW})
+    with pytest.raises(InputError, match="explicit mode cannot know"):
+        engine.friction(model, data, {PAIR: Coulomb(mu_s=0.8, mu_k=0.6)}, mode="explicit")
     narrow, narrows = box(wall=1)
     with pytest.raises(InputError, match="without that of 'box' and 'wall'"):
         engine.friction(narrow, narrows, {PAIR: LAW})
