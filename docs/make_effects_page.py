@@ -67,7 +67,7 @@ def filled(page: str, name: str, table: str) -> str:
 
 def main() -> None:
     """Write the tables of the page anew."""
-    moving = [kind for kind in EFFECTS if effect_class(kind).group != "sensor"]
+    moving = [kind for kind in EFFECTS if effect_class(kind).group != "sensor" and not effect_class(kind).reads]
     page = PAGE.read_text(encoding="utf-8")
     page = filled(page, "effects", effects_table())
     page = filled(page, "agreement", agreement_table([None, *moving]))

@@ -59,6 +59,7 @@ class Scenario(Generic[M]):
         require_number("simulation.duration", self.duration, above=0.0, unit="s")
         require_number("simulation.output_step", self.output_step, above=0.0, unit="s")
         combined_process(self.effects, self.process)
+        _require_measured(self.effects, self.mechanism)
         n = self.duration / self.output_step
         if abs(n - round(n)) > 1.0e-6 * n or round(n) < 1:
             raise InputError(
@@ -298,6 +299,17 @@ def _need(table: Mapping[str, Any], name: str, key: str) -> Any:
     if key not in table:
         raise InputError(f"key {name}.{key} is missing; add it to [{name}]")
     return table[key]
+
+
+def _require_measured(effects: Sequence[Effect], mechanism: Any) -> None:
+    """Return if no effect reads what is measured at a rig and has no place in the simulation of a mechanism."""
+    if isinstance(mechanism, BeltBox):
+        for effect in effects:
+            if effect.reads:
+                raise InputError(
+                    f"effect {effect.kind!r} reads a measured {effect.reads[0]}, which a simulated {mechanism.kind} does not "
+                    "have; leave it out, or let friction change with time: friction_drift"
+                )
 
 
 def _effects(tables: Any) -> tuple[Effect, ...]:

@@ -61,7 +61,7 @@ def scenario_toml(scenario: Scenario[Any]) -> str:
 
 
 def mjcf(scenario: Scenario[Any]) -> str:
-    """Return an MJCF model with the friction of a scenario in its joints (plugin ``stochfric.dof``).
+    """Return an MJCF model with the friction of a scenario in its joints (plugin ``stochfric.dof``) or pair.
 
     Viscous friction becomes the joint's damping. Effects that neither can carry are listed in a comment at the top.
 
@@ -83,15 +83,19 @@ def mjcf(scenario: Scenario[Any]) -> str:
         raise InputError(f"mechanism {mechanism.kind!r} has no joint; its augmented.toml can be run by itself")
     law = ElasticStick(mu_s=scenario.law.mu_s, mu_k=scenario.law.mu_k, e_lim=PRESLIDING)
     viscous = sum(e.coefficient for e in scenario.effects if e.kind == "viscous_friction")  # type: ignore[attr-defined]
-    tendons = getattr(mechanism, "tendons", ())
+    tendons, pairs = getattr(mechanism, "tendons", ()), getattr(mechanism, "pairs", {})
+    carried = CARRIED if not pairs else CARRIED[1:]
     for place, load in loads.items():
+        if place in pairs:
+            attach.add_friction(spec, pairs[place].geoms, law)
+            continue
         tied = place in tendons
         attach.add_friction(spec, attach.Tendon(place) if tied else attach.Joint(place), law, normal_force=load)
         if not acts_in or place in acts_in:
             element = next(j for j in (spec.tendons if tied else spec.joints) if j.name == place)
             _damp(element, viscous)
     spec.compile()
-    left = [e.kind for e in scenario.effects if e.kind not in CARRIED]
+    left = [e.kind for e in scenario.effects if e.kind not in carried]
     note = (
         f"\n<!-- not in this file, since neither damping nor the plugin's laws hold it: {', '.join(left)} -->\n"
         if left

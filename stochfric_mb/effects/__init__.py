@@ -29,6 +29,8 @@ EFFECTS: dict[str, tuple[str, str] | type[Effect]] = {
     "presliding_compliance": ("stochfric_mb.effects.presliding_compliance", "PreslidingCompliance"),
     "position_dependent_friction": ("stochfric_mb.effects.position_dependent_friction", "PositionDependentFriction"),
     "friction_drift": ("stochfric_mb.effects.friction_drift", "FrictionDrift"),
+    "distance_drift": ("stochfric_mb.effects.distance_drift", "DistanceDrift"),
+    "temperature_drift": ("stochfric_mb.effects.temperature_drift", "TemperatureDrift"),
     "normal_load_ripple": ("stochfric_mb.effects.normal_load_ripple", "NormalLoadRipple"),
     "belt_speed_ripple": ("stochfric_mb.effects.belt_speed_ripple", "BeltSpeedRipple"),
     "nonlinear_stiffness": ("stochfric_mb.effects.nonlinear_stiffness", "NonlinearStiffness"),

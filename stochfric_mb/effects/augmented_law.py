@@ -137,7 +137,8 @@ def augmented_law(
 def _model(law: Law, mechanism: BeltBox, effects: Sequence[Effect], address: tuple[int, int]) -> Any:
     native = native_law(law.kind)
     inner_p = _parameters.setdefault(law, law.parameters())
-    rows: list[tuple[int, float, float, float]] = []  # order (-1: around), address, place of p, place of the memory
+    # order (below 0: around, unknowns last, since they follow what others do there), address, place of p, of the memory
+    rows: list[tuple[int, float, float, float]] = []
     p: list[float] = []
     rest: list[float] = []
     start = np.array([mechanism.initial_position]), np.array([mechanism.initial_velocity])
@@ -145,7 +146,7 @@ def _model(law: Law, mechanism: BeltBox, effects: Sequence[Effect], address: tup
         functions = native_effect(type(effect))
         place, memory = len(p), len(rest)
         if functions.surroundings:
-            rows.append((-1, functions.surroundings, place, memory))
+            rows.append((-1 if effect.n_memory else -2, functions.surroundings, place, memory))
         if functions.friction:
             rows.append((effect.order, functions.friction, place, memory))
         p += effect.parameters().tolist()
@@ -155,7 +156,7 @@ def _model(law: Law, mechanism: BeltBox, effects: Sequence[Effect], address: tup
         raise InputError(f"the effects {kinds} have {len(rest)} unknowns of their own; engines have room for {MAX_MEMORY}")
     rows.sort(key=lambda row: row[0])
     first_p = TABLE + 3 * len(rows)
-    around = sum(row[0] == -1 for row in rows)
+    around = sum(row[0] < 0 for row in rows)
     shortest = min(effect.shortest_time(abs(mechanism.belt_velocity)) for effect in effects)
     header = [
         native.init, native.force, native.commit, native.guards, inner_p.ctypes.data,

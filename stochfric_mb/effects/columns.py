@@ -48,6 +48,7 @@ def surroundings_along(
 
     Unknowns of the effects' own are integrated anew, the body moving on a cubic between samples.
     """
+    effects = sorted(effects, key=lambda effect: effect.n_memory > 0)  # unknowns follow what the others do
     shortest = min(effect.shortest_time(abs(mechanism.belt_velocity)) for effect in effects)
     n_memory = sum(effect.n_memory for effect in effects)
     first = trajectory.position[:1], trajectory.velocity[:1]

@@ -9,7 +9,8 @@ written in plain Python with `math` alone, so that the same source is compiled o
 called from compiled and from interpreted solvers. All four arguments are arrays of floats:
 
 - ``world``: the numbers below. ``surroundings`` of all effects come first, then the ``friction`` of all, in rising
-  `Effect.order`; each reads what stands there and adds to it or multiplies it.
+  `Effect.order`; each reads what stands there and adds to it or multiplies it. Among ``surroundings`` those with unknowns
+  of their own come last.
 - ``memory``, ``rates``: the effect's own `Effect.n_memory` unknowns of a differential equation, and where it writes
   their derivatives.
 - ``p``: its parameters in the order of the class's fields (a choice as its index).
@@ -85,7 +86,11 @@ VISCOUS_FORCE = 20
 """Friction force beside mu_k N, along v_rel [N]; changed by ``friction``."""
 SLIP_TIME = 21
 """Time since break-away [s], 0 in stick."""
-WORLD = 22
+TRAVELLED = 22
+"""Distance slid since the record began, whichever way [m]: measured, or kept by the effect that asks for it."""
+TEMPERATURE = 23
+"""Temperature in the unit of its record, where one was measured."""
+WORLD = 24
 """Number of entries."""
 
 
@@ -105,6 +110,8 @@ class Effect:
     """Place of ``friction`` among effects: 1 adds to mu_s or mu_k, 2 mixes them, 3 multiplies both."""
     n_memory: ClassVar[int] = 0
     """Number of unknowns of the effect's own differential equation."""
+    reads: ClassVar[tuple[str, ...]] = ()
+    """Measured channels without which the effect means nothing."""
     shows_on: ClassVar[str] = ""
     """Where in a record it shows, in a word or two, such as "relative velocity"."""
     shows: ClassVar[str] = ""

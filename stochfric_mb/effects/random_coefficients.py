@@ -8,10 +8,13 @@ from typing import ClassVar
 from stochfric_mb.coefficients import Knots, PerEvent, Process
 from stochfric_mb.effects.contract import Effect, choice, parameter
 
+FOREVER = 1.0e12
+"""Distance between knots of which a run sees the first one alone [s]."""
+
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class RandomCoefficients(Effect):
-    """Independent normal pairs (mu_s, mu_k), one per knot in time or one per stick phase.
+    """Independent normal pairs (mu_s, mu_k), one per knot in time, one per stick phase, or one per run.
 
     The effect is the scenario's coefficient process; it is not evaluated with the other effects.
 
@@ -19,17 +22,19 @@ class RandomCoefficients(Effect):
     doi 10.1007/s12206-015-0808-4, section 2.2.
     """
 
-    process: str = choice("when a new pair is drawn", ("knots", "per_event"))
-    """When a new pair is drawn: "knots" (every ``spacing`` seconds, linear between) or "per_event" (every stick)."""
+    process: str = choice("when a new pair is drawn", ("knots", "per_event", "per_run"))
+    """When a new pair is drawn: "knots" (every ``spacing`` seconds, linear between), "per_event" (every stick) or "per_run"."""
     sigma_s: float = parameter("-", "standard deviation of mu_s", scale=0.015, low=0.0)
     """Standard deviation of mu_s [-]."""
     sigma_k: float = parameter("-", "standard deviation of mu_k", scale=0.02, low=0.0)
     """Standard deviation of mu_k [-]."""
     spacing: float = parameter("s", "distance between knots", scale=0.01, low=0.0, strict=True, default=0.01)
-    """Distance between knots [s]; not used by "per_event"."""
+    """Distance between knots [s]; not used by the others."""
 
     kind: ClassVar[str] = "random_coefficients"
-    equation: ClassVar[str] = "(mu_s, mu_k) normal, a new pair every `spacing` seconds (knots) or every stick (per_event)"
+    equation: ClassVar[str] = (
+        "(mu_s, mu_k) normal, a new pair every `spacing` seconds (knots), stick (per_event) or run (per_run)"
+    )
     source: ClassVar[str] = "Kang, Choi and Yoo 2015, section 2.2"
     group: ClassVar[str] = "randomness"
     shows_on: ClassVar[str] = "scatter"
@@ -39,4 +44,6 @@ class RandomCoefficients(Effect):
         """Return the coefficient process that the effect sets."""
         if self.process == "knots":
             return Knots(sigma_s=self.sigma_s, sigma_k=self.sigma_k, spacing=self.spacing)
+        if self.process == "per_run":
+            return Knots(sigma_s=self.sigma_s, sigma_k=self.sigma_k, spacing=FOREVER)
         return PerEvent(sigma_s=self.sigma_s, sigma_k=self.sigma_k)

@@ -96,6 +96,7 @@ def assemble(entry: RunEntry, *, rotational: bool) -> Run:
         units={k: units.get(k, "") for k in (*channels, *covariates)},
         constants=dict(table.constants),
         sample_interval=grid.interval,
+        source=str(entry.file),
         notes=tuple(notes),
     )
 

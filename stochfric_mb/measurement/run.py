@@ -40,6 +40,8 @@ class Run:
     """Single numbers that the file holds beside its columns, in its own units."""
     sample_interval: float
     """Distance between samples [s]."""
+    source: str = ""
+    """File that the run, or the record of which it is a piece, was read from; empty: none."""
     notes: tuple[str, ...] = ()
     """What a reader of results should know: interpolation, constant channels, columns left out."""
 

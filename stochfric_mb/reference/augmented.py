@@ -345,7 +345,7 @@ def _set_effects(run: Any, effects: Sequence[Effect], places: Places) -> None:
     if len(effects) > m.MAX_EFFECTS:
         raise InputError(f"{len(effects)} effects; there is room for {m.MAX_EFFECTS}: leave some out")
     offset = memory = 0
-    around: list[tuple[int, int, int]] = []
+    around: list[tuple[bool, tuple[int, int, int]]] = []
     friction: list[tuple[int, tuple[int, int, int]]] = []
     for i, effect in enumerate(effects):
         p = effect.parameters()
@@ -363,14 +363,15 @@ def _set_effects(run: Any, effects: Sequence[Effect], places: Places) -> None:
             run.p[offset : offset + len(p)] = p
             places |= {f"effects.{i}.{name}": [("p", offset + j)] for j, name in enumerate(names)}
             if native.surroundings:
-                around.append((native.surroundings, offset, memory))
+                around.append((effect.n_memory > 0, (native.surroundings, offset, memory)))
             if native.friction:
                 friction.append((effect.order, (native.friction, offset, memory)))
             offset += len(p)
             memory += effect.n_memory
+    around.sort(key=lambda item: item[0])  # unknowns follow what the others do around the contact
     friction.sort(key=lambda item: item[0])
     run.counts[:] = len(around), len(friction), memory
-    for i, entry in enumerate(around):
+    for i, (_, entry) in enumerate(around):
         run.around[i] = entry
     for i, (_, entry) in enumerate(friction):
         run.friction[i] = entry

@@ -32,6 +32,7 @@ METRICS = {
     "crps_one_cycle": "error of forecasts one cycle ahead (CRPS; without scatter, the mean absolute error)",
     "closed_loop_voltage": "error of the simulated closed loop: root mean square of the voltage's, over that of the voltage",
     "closed_loop_drive": "error of the simulated closed loop: root mean square of what the controller gives, over its size",
+    "crps_friction": "error of forecasts of friction while the joint slides that know how far runs scatter (CRPS)",
     "inverse_dynamics_sliding": "error of the driving force that the model asks for while the joint slides (root mean square)",
 }
 """Metric -> what it is, in words; other metrics are told by their names."""

@@ -82,6 +82,9 @@ class Box:
         if e := self.get("friction_drift"):
             tau = e["time_constant"]
             g *= 1 + e["rate"] * (t if math.isinf(tau) else tau * (1 - math.exp(-t / tau)))
+        if e := self.get("distance_drift"):  # the box never overtakes the belt, so that all of the way is one way
+            far = e["settling_distance"]
+            g *= 1 + e["rate"] * far * (1 - math.exp(-abs(travel - x) / far))
         if e := self.get("direction_asymmetry"):
             g *= 1 + e["asymmetry"] * (side < 0)
         if e := self.get("load_dependence"):

@@ -25,6 +25,7 @@ CASES = {
         "amplitude_3": 0.005, "phase_3": -0.5,
     },
     "friction_drift": {"rate": 0.01, "time_constant": 4.0},
+    "distance_drift": {"rate": 5.0, "settling_distance": 0.02},
     "normal_load_ripple": {"amplitude": 0.05, "frequency": 3.3, "phase": 0.3},
     "belt_speed_ripple": {"amplitude": 0.1, "frequency": 1.7, "phase": -0.4},
     "nonlinear_stiffness": {"cubic": 1.0e8, "quadratic": -3.0e5},
@@ -83,7 +84,7 @@ def test_position_axis() -> None:
 def test_cases_cover_the_effects_that_move_the_box() -> None:
     from stochfric_mb.effects import EFFECTS, effect_class
 
-    covered_elsewhere = {"impacts", "presliding_compliance"}
+    covered_elsewhere = {"impacts", "presliding_compliance", "temperature_drift"}  # the last needs a record of a temperature
     moving = {k for k in EFFECTS if effect_class(k).group not in ("sensor", "randomness")}
     assert moving == set(CASES) | covered_elsewhere
     for kind, values in CASES.items():

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet, least_speed, slides, slipped
-from stochfric_mb.discovery.joints.windows import Window, chosen_window, noise_level
+from stochfric_mb.discovery.joints.conditions import distance_before, known_factors, temperature_of
+from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet, distance_slid, least_speed, slides, slipped
+from stochfric_mb.discovery.joints.windows import Window, chosen_window, narrowest, noise_level
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Cascade, HingePendulum, PrismaticJoint
@@ -86,6 +87,11 @@ def position_of(run: Run) -> Array:
     raise InputError(f"run {run.name!r} has neither position nor velocity; a driven joint needs its motion")
 
 
+def motion_velocity(run: Run) -> Array:
+    """Return the velocity of a run through its narrowest window [m/s or rad/s], shape (count,)."""
+    return narrowest(run).through(position_of(run), 1)
+
+
 def nuisances_of(scenario: Scenario, joint: Joint) -> list[Nuisance]:
     """Return the numbers of the mechanism that data may correct, with their priors."""
     found: list[Nuisance] = []
@@ -103,7 +109,9 @@ def believed_friction(scenario: Scenario, load: float) -> float:
     return scenario.law.mu_k * load
 
 
-def sheet_of(run: Run, scenario: Scenario, *, delay: float = 0.0, samples: int | None = None) -> Sheet:
+def sheet_of(
+    run: Run, scenario: Scenario, *, delay: float = 0.0, samples: int | None = None, runs: Sequence[Run] = ()
+) -> Sheet:
     """Return a run of a prismatic joint or hinge pendulum as a sheet.
 
     Args:
@@ -111,6 +119,7 @@ def sheet_of(run: Run, scenario: Scenario, *, delay: float = 0.0, samples: int |
         scenario: the model believed so far.
         delay: by how much the position comes after the driving force in the record [s]; compensated here.
         samples: half width of the window [samples]; None: chosen from the noise.
+        runs: all runs of the dataset; pieces of the same record that come before have slid already.
 
     Raises:
         InputError: a channel is missing, or the run is too short.
@@ -142,6 +151,7 @@ def sheet_of(run: Run, scenario: Scenario, *, delay: float = 0.0, samples: int |
     least = least_speed(velocity, window.gain(1) * noise_level(q))
     position = window.through(q)
     load = transmitted_load(run, joint, window)
+    before = distance_before(run, runs, motion_velocity)
     return Sheet(
         run=run.name,
         role=run.role,
@@ -157,7 +167,9 @@ def sheet_of(run: Run, scenario: Scenario, *, delay: float = 0.0, samples: int |
         columns={k: v for k, v in columns.items() if k != "drive"},
         sliding=slides(window, velocity, least),
         noise=float(np.sqrt(sum((window.gain(d) * s) ** 2 for d, s in noise.items()))),
-        factors=known_factors(run, window, velocity, load),
+        factors=known_factors(run, window, position, velocity, load, before + distance_slid(velocity, h)),
+        before=before,
+        temperature=temperature_of(run, window),
     )
 
 
@@ -194,23 +206,6 @@ def transmitted_load(run: Run, joint: Joint, window: Window) -> Array:
             joint.torque_gain * window.through(run.channels["voltage"]) - joint.damping * window.through(position_of(run), 1)
         )
     return np.abs(window.through(run.channels["torque"]))
-
-
-def known_factors(run: Run, window: Window, velocity: Array, load: Array) -> dict[str, Array]:
-    """Return the conditions that friction may depend on, at the centres of the windows."""
-    at = window.centres
-    found = {
-        "direction": np.sign(velocity[at]),
-        "speed": np.abs(velocity[at]),
-        "position": window.through(position_of(run))[at],
-        "load": load[at],
-        "time": run.time[at],
-    }
-    if "temperature" in run.channels:
-        found["temperature"] = window.through(run.channels["temperature"])[at]
-    for key, value in run.constants.items():
-        found[key] = np.full(len(at), value)
-    return found
 
 
 def _channel(run: Run, name: str) -> Array:

@@ -26,11 +26,17 @@ class Span:
     duration: float
     """Longest record [s]."""
     load: float
-    """Median load that the joint transmits [N or N m]; 0: not known, or it does not vary."""
+    """Median load that the joint transmits, or normal force of a contact [N or N m]; 0: not known, or it does not vary."""
     both_ways: bool
     """Whether it slides in both directions."""
     friction: float
     """Believed friction [N or N m]."""
+    distance: float
+    """Longest distance slid in a record [m or rad]."""
+    temperature: tuple[float, float] | None
+    """Middle of the temperatures and what they span; None: not measured, or constant."""
+    contact: bool
+    """Whether the place is a contact, whose normal force is known."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -52,7 +58,8 @@ def span_of(sheets: Sequence[Sheet], friction: float) -> Span:
     at = [s.window.centres[s.sliding] for s in sheets]
     speed = np.concatenate([np.abs(s.velocity[c]) for s, c in zip(sheets, at, strict=True)])
     position = np.concatenate([s.position[c] for s, c in zip(sheets, at, strict=True)])
-    load = np.concatenate([s.load[c] for s, c in zip(sheets, at, strict=True)])
+    carried = [s.load if s.normal_force is None else s.normal_force for s in sheets]
+    load = np.concatenate([x[c] for x, c in zip(carried, at, strict=True)])
     direction = np.concatenate([np.sign(s.velocity[c]) for s, c in zip(sheets, at, strict=True)])
     varies = load.std() > 0.05 * max(float(np.mean(load)), 1.0e-12)
     return Span(
@@ -62,7 +69,19 @@ def span_of(sheets: Sequence[Sheet], friction: float) -> Span:
         load=float(np.median(load)) if varies else 0.0,
         both_ways=0.05 < float(np.mean(direction > 0.0)) < 0.95,
         friction=friction,
+        distance=max(float(s.travelled[-1]) for s in sheets),
+        temperature=_temperatures(sheets),
+        contact=any(s.normal_force is not None for s in sheets),
     )
+
+
+def _temperatures(sheets: Sequence[Sheet]) -> tuple[float, float] | None:
+    seen = [s.temperature for s in sheets if s.temperature is not None]
+    if len(seen) < len(sheets):
+        return None
+    every = np.concatenate(seen)
+    low, high = float(every.min()), float(every.max())
+    return (0.5 * (low + high), high - low) if high > low else None
 
 
 def candidates(span: Span, believed: Sequence[Effect], load: float) -> list[Candidate]:
@@ -99,6 +118,9 @@ def _quadratic(span: Span, load: float) -> Candidate:
 def _load(span: Span, load: float) -> Candidate | None:
     if not span.load:
         return None
+    if span.contact:  # mu_k holds at the believed load, and the exponent is asked for
+        powers = tuple(make_effect("load_dependence", exponent=x, reference_load=load) for x in (-0.3, 0.3))
+        return Candidate("load_dependence", powers, "normal force", 1)
     starts = tuple(make_effect("load_dependence", exponent=1.0, reference_load=part * span.load) for part in (0.3, 1.0, 4.0))
     return Candidate("load_dependence", starts, "load", 1)
 
@@ -126,8 +148,20 @@ def _drift(span: Span, load: float) -> Candidate:
     return Candidate("friction_drift", (make_effect("friction_drift", rate=0.01 / span.duration),), "time", 1)
 
 
+def _travelled(span: Span, load: float) -> Candidate:
+    return Candidate("distance_drift", (make_effect("distance_drift", rate=0.01 / span.distance),), "distance slid", 1)
+
+
+def _warmed(span: Span, load: float) -> Candidate | None:
+    if span.temperature is None:
+        return None
+    middle, width = span.temperature
+    start = make_effect("temperature_drift", rate=0.01 / width, reference_temperature=middle)
+    return Candidate("temperature_drift", (start,), "temperature", 1)
+
+
 _STARTS: tuple[Callable[[Span, float], Candidate | None], ...] = (
-    _viscous, _weakening, _quadratic, _load, _asymmetry, _position, _lag, _drift,
+    _viscous, _weakening, _quadratic, _load, _asymmetry, _position, _lag, _drift, _travelled, _warmed,
 )  # fmt: skip
 
 

@@ -9,8 +9,9 @@ import numpy.typing as npt
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.discovery.joints.balance import position_of
-from stochfric_mb.discovery.joints.fitting import JointModel
 from stochfric_mb.discovery.joints.friction import chain, resistance
+from stochfric_mb.discovery.joints.model import JointModel
+from stochfric_mb.effects import contract as e
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Cascade, PrismaticJoint
@@ -23,7 +24,9 @@ FIRST = 15
 """Samples from which the first position is taken."""
 
 
-def closed_loop(run: Run, joint: PrismaticJoint, model: JointModel, controller: Cascade) -> tuple[Array, Array]:
+def closed_loop(
+    run: Run, joint: PrismaticJoint, model: JointModel, controller: Cascade, before: float = 0.0
+) -> tuple[Array, Array]:
     """Return voltage [V] and position [m] that the joint and its controller give for the reference of a run, shape (n,).
 
     Semi-implicit Euler with friction that holds: where the friction available can stop the mass within a step, it does.
@@ -33,6 +36,7 @@ def closed_loop(run: Run, joint: PrismaticJoint, model: JointModel, controller: 
         joint: mass, gain and offset are those of ``model`` where it has corrected them.
         model: friction and corrections.
         controller: the cascade.
+        before: distance slid in pieces of the same record that came before [m].
 
     Raises:
         InputError: the run has no such reference.
@@ -42,6 +46,7 @@ def closed_loop(run: Run, joint: PrismaticJoint, model: JointModel, controller: 
         raise InputError(f"run {run.name!r} has no covariate {controller.reference!r} for the controller (it has: {given})")
     reference = np.ascontiguousarray(run.covariates[controller.reference])
     q = position_of(run)
+    temperature = run.channels.get("temperature", np.zeros(len(q)))
     value = {
         name: model.nuisances.get(name, float(getattr(joint, name))) for name in ("mass", "damping", "offset", "force_gain")
     }
@@ -57,7 +62,7 @@ def closed_loop(run: Run, joint: PrismaticJoint, model: JointModel, controller: 
     voltage, position = np.empty(len(q)), np.empty(len(q))
     _march(
         links.numbers, links.calls, links.parameters, plant, loop, reference, float(run.time[0]), run.sample_interval,
-        start, rate, voltage, position,
+        start, rate, before, temperature, voltage, position,
     )  # fmt: skip
     return voltage, position
 
@@ -69,8 +74,10 @@ def _voltage(run: Run) -> Array:
 
 
 @compiled
-def _march(numbers, calls, parameters, plant, loop, reference, start, interval, q, v, voltage, position):
-    world = np.zeros(32)
+def _march(
+    numbers, calls, parameters, plant, loop, reference, start, interval, q, v, travelled, temperature, voltage, position
+):
+    world = np.zeros(e.WORLD)
     memory = np.zeros(8)
     mass, damping, offset, gain = plant[0], plant[1], plant[2], plant[3]
     h = interval / FINER
@@ -87,8 +94,11 @@ def _march(numbers, calls, parameters, plant, loop, reference, start, interval, 
             side = np.sign(v) if v != 0.0 else np.sign(free)
             if side not in (0.0, before):
                 turned, before = q, side
-            friction = resistance(numbers, calls, parameters, world, memory, t, q, v, 0.0, abs(q - turned), side)
+            friction = resistance(
+                numbers, calls, parameters, world, memory, t, q, v, 0.0, abs(q - turned), side, travelled, temperature[i], 1.0
+            )
             v = free - h * friction / mass
             if v * side < 0.0:  # friction stops a mass, it does not turn it
                 v = 0.0
             q += h * v
+            travelled += h * abs(v)

@@ -24,9 +24,14 @@ EFFECTS = {
     "load": ("load_dependence",),
     "position": ("position_dependent_friction", "nonlinear_stiffness"),
     "time": ("friction_drift",),
-    "temperature": ("friction_drift",),
+    "distance": ("distance_drift",),
+    "temperature": ("temperature_drift",),
 }
 """Condition -> effects that answer to it."""
+CLOCKS = ("time", "distance", "temperature")
+"""Conditions that mostly grow together: for friction that drifts the fits are asked which of them it was."""
+DRIFTS = tuple(kind for clock in CLOCKS for kind in EFFECTS[clock])
+"""Effects that answer to them."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -93,9 +98,20 @@ def _explained(cause: Array, result: Array) -> float:
     return float(between / result.var())
 
 
+def spoken_of(pairs: Sequence[Confounded], found: Sequence[str]) -> list[Confounded]:
+    """Return the confounded pairs that matter: that time and distance grew together does where friction drifts.
+
+    Args:
+        pairs: conditions that went together.
+        found: kinds of the effects found.
+    """
+    drifts = any(kind in DRIFTS for kind in found)
+    return [p for p in pairs if p.explained >= TOGETHER and (drifts or {p.first, p.second} != {"time", "distance"})]
+
+
 def stand_ins(kind: str, pairs: Sequence[Confounded]) -> tuple[str, ...]:
     """Return the effects that could pass for ``kind`` because its condition went together with theirs."""
-    own = [c for c, kinds in EFFECTS.items() if kind in kinds]
+    own = [c for c, kinds in EFFECTS.items() if kind in kinds and c not in CLOCKS]
     others = [
         p.second if p.first in own else p.first
         for p in pairs

@@ -8,11 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from stochfric_mb.discovery.joints.augmented import BESIDE, augmented, believed_delay, believed_scatter
 from stochfric_mb.discovery.joints.balance import nuisances_of, sheet_of
-from stochfric_mb.discovery.joints.fitting import JointModel
+from stochfric_mb.discovery.joints.model import JointModel
 from stochfric_mb.discovery.joints.outcome import JointOutcome, PlaceOutcome
 from stochfric_mb.discovery.joints.pictures import friction_picture
 from stochfric_mb.discovery.joints.randomness import dependence, stroke_scatter
+from stochfric_mb.discovery.joints.run_scatter import Forecasts, crps_of, run_scatter
 from stochfric_mb.discovery.joints.scores import noise_floor, score
 from stochfric_mb.discovery.joints.selection import Selected, Selector
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
@@ -20,7 +22,6 @@ from stochfric_mb.discovery.joints.simulated import simulated
 from stochfric_mb.discovery.joints.timing import Timing, timing
 from stochfric_mb.discovery.joints.verdict import verdict
 from stochfric_mb.discovery.result import Result
-from stochfric_mb.effects import make_effect
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.signs import SEGMENTS, probable_sign_error
@@ -32,10 +33,6 @@ FEWEST = 8
 """Fewest windows of sliding in the runs of a role: fewer say nothing about friction."""
 CONTROLLED = {Cascade.kind: PrismaticJoint.kind, ProportionalDerivative.kind: Mjcf.kind}
 """Controller -> the mechanism that it drives."""
-RANDOM = "random_coefficients"
-"""Effect of friction that is drawn anew for each stroke."""
-BESIDE = ("sensor", "randomness")
-"""Groups of effects that are no part of the mean friction."""
 
 
 def discover_joint(dataset: Dataset, *, progress: Progress | None = None) -> Result:
@@ -61,7 +58,7 @@ def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> Join
         return spring_slider_outcome(dataset, tell)
     _require_controller(dataset.scenario)
     if isinstance(mechanism, Mjcf):
-        from stochfric_mb.discovery.joints.mjcf import mjcf_sheets
+        from stochfric_mb.discovery.joints.mjcf_load import mjcf_sheets
 
         return _outcome(dataset, tell, mjcf_sheets(dataset))
     if isinstance(mechanism, PrismaticJoint | HingePendulum):
@@ -100,7 +97,7 @@ class _Plain:
 
     def sheets(self, place: str, role: str, delay: float, samples: int | None = None) -> list[Sheet]:
         runs = self.dataset.fit if role == "fit" else self.dataset.test
-        return [sheet_of(r, self.dataset.scenario, delay=delay, samples=samples) for r in runs]
+        return [sheet_of(r, self.dataset.scenario, delay=delay, samples=samples, runs=self.dataset.runs) for r in runs]
 
 
 def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
@@ -182,13 +179,22 @@ def _place(
         scores["recalibrated"] = score(undelayed, early, nuisances, dataset.test, scenario)
     final = selected.final.model
     # where something without a name is missing from the mean, strokes differ for that
-    random = None if selected.unknown else stroke_scatter(final, fit_sheets, nuisances, believed_scatter(scenario))
-    floor = noise_floor(final, test_sheets, nuisances)
+    random = None if selected.unknown else stroke_scatter(final, fit_sheets, nuisances, believed_scatter(scenario, "per_event"))
+    noise = floor = noise_floor(final, test_sheets, nuisances)
     if random is not None and random.accounted:
         floor = float(np.hypot(floor, random.sigma * _rms_dependence(final, test_sheets)))
-    thing = "tendon" if name in getattr(scenario.mechanism, "tendons", ()) else "joint"
+    kinds = {"tendon": getattr(scenario.mechanism, "tendons", ()), "pair": getattr(scenario.mechanism, "pairs", ())}
+    thing = next((kind for kind, names in kinds.items() if name in names), "joint")
+    runs = None if selected.unknown else run_scatter(final, fit_sheets, nuisances, believed_scatter(scenario, "per_run"))
+    forecasts = None
+    if runs is not None and runs.accounted:
+        models = (believed, runs.believed), (selected.recalibrated.model, runs.believed), (final, runs.foreseen)
+        each = [crps_of(m, test_sheets, nuisances, noise, sigma) for m, sigma in models]
+        forecasts = Forecasts(*(score for score, _ in each), floor=each[-1][1])
     seen = tuple(fit_sheets), tuple(test_sheets)
-    return PlaceOutcome(name, selected, tuple(nuisances), believed, *seen, scores, floor, thing, random, undelayed)
+    return PlaceOutcome(
+        name, selected, tuple(nuisances), believed, *seen, scores, floor, thing, random, runs, forecasts, undelayed
+    )
 
 
 def _require_sliding(sheets: Sequence[Sheet], name: str, role: str) -> None:
@@ -218,10 +224,9 @@ def _best_friction(source: Any, scenario: Scenario[Any]) -> float:
 
 def _believed(scenario: Scenario[Any], place: str, nuisances: Sequence[Nuisance], load: float) -> JointModel:
     acts_in = getattr(scenario.mechanism, "effects_in", ())
-    if acts_in and place not in acts_in:
-        return JointModel(scenario.law, (), {n.name: n.value for n in nuisances}, load)
-    own = tuple(e for e in scenario.effects if e.group not in BESIDE)
-    return JointModel(scenario.law, own, {n.name: n.value for n in nuisances}, load)
+    own = () if acts_in and place not in acts_in else tuple(e for e in scenario.effects if e.group not in BESIDE)
+    contact = place in getattr(scenario.mechanism, "pairs", ())
+    return JointModel(scenario.law, own, {n.name: n.value for n in nuisances}, load, contact)
 
 
 def _models(believed: JointModel, selected: Selected) -> dict[str, JointModel]:
@@ -257,52 +262,6 @@ def _run_notes(dataset: Dataset) -> list[str]:
     ]
 
 
-def believed_scatter(scenario: Scenario[Any]) -> float:
-    """Return the standard deviation of mu_k from stroke to stroke that the scenario declares [-]."""
-    return float(np.sqrt(sum(e.to_dict()["sigma_k"] ** 2 for e in scenario.effects if e.kind == RANDOM)))
-
-
 def _rms_dependence(model: JointModel, sheets: Sequence[Sheet]) -> float:
     """Return the change of friction with mu_k, rms over the windows of sliding [N or N m]."""
     return float(np.sqrt(np.mean(np.concatenate([dependence(model, s)[s.sliding] for s in sheets]) ** 2)))
-
-
-def believed_delay(scenario: Scenario[Any]) -> float:
-    """Return by how much the scenario says that positions are late [s]."""
-    return sum(e.to_dict()["delay"] for e in scenario.effects if e.kind == "sensor_delay")
-
-
-def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], found: Timing | None) -> Scenario[Any]:
-    """Return the scenario with what was found; of several joints, the first one's effects, in that joint."""
-    model = places[0].selected.final.model
-    effects = list(model.effects)
-    random = places[0].random
-    drawn = random is not None and random.named
-    left = ("sensor_delay", RANDOM) if drawn else ("sensor_delay",)
-    effects += [e for e in scenario.effects if e.group in BESIDE and e.kind not in left]
-    if random is not None and drawn:
-        sigma_s = random.sigma * model.law.mu_s / model.law.mu_k
-        effects.append(make_effect(RANDOM, process="per_event", sigma_s=sigma_s, sigma_k=random.sigma))
-    delay = believed_delay(scenario) + (found.seconds if found is not None and found.named else 0.0)
-    if delay > 0.0:  # one that comes before has no effect of its own, and stays a finding
-        effects.append(make_effect("sensor_delay", delay=delay))
-    return dataclasses.replace(
-        scenario,
-        mechanism=_corrected(scenario.mechanism, places),
-        law=model.law,
-        effects=tuple(effects),
-        title=f"{scenario.title}, augmented by discovery",
-    )
-
-
-def _corrected(mechanism: Any, places: Sequence[PlaceOutcome]) -> Any:
-    models = {p.place: p.selected.final.model for p in places}
-    if not isinstance(mechanism, Mjcf):
-        return dataclasses.replace(mechanism, **models[""].nuisances)
-    from stochfric_mb.discovery.joints.mjcf_columns import corrected
-
-    first = places[0].selected.final.model.law.mu_k
-    # one law serves all joints: where friction differs, the loads do
-    friction = {name: load * models[name].law.mu_k / first for name, load in mechanism.friction.items()}
-    known = corrected(mechanism, {name: model.nuisances for name, model in models.items()})
-    return dataclasses.replace(known, friction=friction, effects_in=(places[0].place,))

@@ -18,10 +18,12 @@ FrictionFunction = Callable[..., float]
 
 
 def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint: str = "") -> FrictionFunction:
-    """Return ``force(t, q, v, load=0.0)``: the friction on a joint along +q [N or N m].
+    """Return ``force(t, q, v, load=0.0, travelled=0.0, temperature=0.0)``: the friction on a joint along +q [N or N m].
 
     F = -R(abs(v)) tanh(v/smoothing_velocity) with the scenario's law and effects in R: what multi-step integrators can take.
-    Friction does not hold at rest then; it creeps at a part of ``smoothing_velocity``.
+    Friction does not hold at rest then; it creeps at a part of ``smoothing_velocity``. ``load`` is what the joint transmits
+    (at a pair of geoms: its normal force), ``travelled`` the distance slid and ``temperature`` the measured one, for effects
+    that ask for them.
 
     Args:
         scenario: a scenario of a driven joint.
@@ -39,12 +41,29 @@ def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint:
     place = joint or next(iter(loads))
     acts_in = getattr(mechanism, "effects_in", ())
     effects = scenario.effects if not acts_in or place in acts_in else ()
-    links = chain(scenario.law, effects, loads[place])
+    contact, believed = place in getattr(mechanism, "pairs", {}), loads[place]
+    links = chain(scenario.law, effects, believed, contact=contact)
     world, memory = np.zeros(WORLD), np.zeros(8)
 
-    def force(t: float, q: float, v: float, load: float = 0.0) -> float:
+    def force(t: float, q: float, v: float, load: float = 0.0, travelled: float = 0.0, temperature: float = 0.0) -> float:
         side = 1.0 if v >= 0.0 else -1.0
-        against = resistance(links.numbers, links.calls, links.parameters, world, memory, t, q, v, load, 0.0, side)
+        pressed = load / believed if contact else 1.0
+        against = resistance(
+            links.numbers,
+            links.calls,
+            links.parameters,
+            world,
+            memory,
+            t,
+            q,
+            v,
+            load,
+            0.0,
+            side,
+            travelled,
+            temperature,
+            pressed,
+        )
         return -side * float(against) * math.tanh(v / smoothing_velocity)
 
     return force

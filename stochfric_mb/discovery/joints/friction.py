@@ -30,15 +30,22 @@ class Chain:
     """Law and effects in the form that compiled code takes."""
 
     numbers: Array
-    """mu_s, mu_k, believed load, reference load or 0, shape (4,)."""
+    """mu_s, mu_k, believed load, reference load of a joint whose friction depends on what it transmits, or 0; shape (4,)."""
     calls: npt.NDArray[np.int64]
     """Address of ``surroundings`` and of ``friction`` (0: none) and offset of the parameters, shape (n_effects, 3)."""
     parameters: Array
     """Parameters of all effects, one after the other."""
 
 
-def chain(law: Law, effects: Sequence[Effect], load: float) -> Chain:
-    """Return law and effects, in the order in which effects act, for a joint with the believed ``load`` [N or N m]."""
+def chain(law: Law, effects: Sequence[Effect], load: float, *, contact: bool = False) -> Chain:
+    """Return law and effects, in the order in which effects act.
+
+    Args:
+        law: the law.
+        effects: what is added to it.
+        load: believed load of the joint [N or N m].
+        contact: whether the place is a contact, whose normal force is known along the motion.
+    """
     ordered = sorted((x for x in effects if x.group != "sensor"), key=lambda x: x.order)
     calls = np.zeros((len(ordered), 3), dtype=np.int64)
     parameters: list[float] = []
@@ -46,7 +53,8 @@ def chain(law: Law, effects: Sequence[Effect], load: float) -> Chain:
         native = native_effect(type(effect))
         row[:] = native.surroundings, native.friction, len(parameters)
         parameters += list(effect.parameters())
-    reference = next((x.reference_load for x in ordered if x.kind == "load_dependence"), 0.0)  # type: ignore[attr-defined]
+    loaded = [] if contact else [x for x in ordered if x.kind == "load_dependence"]
+    reference = next((x.reference_load for x in loaded), 0.0)  # type: ignore[attr-defined]
     return Chain(np.array([law.mu_s, law.mu_k, load, reference]), calls, np.array([*parameters, 0.0]))
 
 
@@ -59,42 +67,54 @@ def friction_along(sheet: Sheet, law: Law, effects: Sequence[Effect], load: floa
         effects: what is added to it.
         load: believed load [N or N m].
     """
-    links = chain(law, effects, load)
-    force = np.empty(len(sheet.time))
+    links = chain(law, effects, load, contact=sheet.normal_force is not None)
+    n = len(sheet.time)
+    pressed = np.ones(n) if sheet.normal_force is None else sheet.normal_force / load
+    temperature = np.zeros(n) if sheet.temperature is None else sheet.temperature
+    force = np.empty(n)
     along(
-        links.numbers, links.calls, links.parameters, sheet.time, sheet.position, sheet.velocity, sheet.load, sheet.slip, force
-    )
+        links.numbers, links.calls, links.parameters, sheet.time, sheet.position, sheet.velocity, sheet.load, sheet.slip,
+        sheet.travelled, temperature, pressed, force,
+    )  # fmt: skip
     return sheet.window.at_centres(force)
 
 
 @compiled
-def along(numbers, calls, parameters, time, position, velocity, load, slip, force):
+def along(numbers, calls, parameters, time, position, velocity, load, slip, travelled, temperature, pressed, force):
     """Fill ``force`` with the friction against the motion at each sample."""
     world = np.zeros(e.WORLD)
     memory = np.zeros(8)
     for i in range(len(time)):
         force[i] = resistance(
-            numbers, calls, parameters, world, memory, time[i], position[i], velocity[i], load[i], slip[i], np.sign(velocity[i])
-        )
+            numbers, calls, parameters, world, memory, time[i], position[i], velocity[i], load[i], slip[i],
+            np.sign(velocity[i]), travelled[i], temperature[i], pressed[i],
+        )  # fmt: skip
 
 
 @compiled
-def resistance(numbers, calls, parameters, world, memory, time, position, velocity, load, slip, side):
-    """Return the force against the motion at one instant; ``side`` is the direction of the motion: 1, -1 or 0."""
+def resistance(
+    numbers, calls, parameters, world, memory, time, position, velocity, load, slip, side, travelled, temperature, pressed
+):
+    """Return the force against the motion at one instant.
+
+    ``side`` is the direction of the motion, 1, -1 or 0, and ``pressed`` the normal force of a contact over its believed load;
+    1 for a joint.
+    """
     world[:] = 0.0
     world[e.TIME], world[e.POSITION], world[e.VELOCITY] = time, position, velocity
-    around = numbers[3] + load if numbers[3] > 0.0 else numbers[2]
+    base = numbers[2] * pressed
+    around = numbers[3] + load if numbers[3] > 0.0 else base
     world[e.NORMAL_FORCE] = around
     p = parameters.ctypes.data
     for k in range(len(calls)):
         if calls[k, 0] != 0:
             call_effect(calls[k, 0], world.ctypes.data, memory.ctypes.data, memory.ctypes.data, p + 8 * calls[k, 2])
-    ripple = world[e.NORMAL_FORCE] / around
+    ripple = world[e.NORMAL_FORCE] / around if around > 0.0 else 1.0
     # v_rel is counter-surface minus body: the counter-surface rests
     world[e.DIRECTION], world[e.SPEED], world[e.BELT_POSITION] = -side, abs(velocity), -position
-    world[e.SLIP] = slip
+    world[e.SLIP], world[e.TRAVELLED], world[e.TEMPERATURE] = slip, travelled, temperature
     world[e.MU_S], world[e.MU_K] = numbers[0], numbers[1]
     for k in range(len(calls)):
         if calls[k, 1] != 0:
             call_effect(calls[k, 1], world.ctypes.data, memory.ctypes.data, memory.ctypes.data, p + 8 * calls[k, 2])
-    return side * (world[e.MU_K] * numbers[2] * ripple + world[e.VISCOUS_FORCE]) - world[e.LOAD]
+    return side * (world[e.MU_K] * base * ripple + world[e.VISCOUS_FORCE]) - world[e.LOAD]

@@ -11,7 +11,8 @@ import numpy.typing as npt
 from scipy.stats import wilcoxon
 
 from stochfric_mb.discovery.joints.evidence import FEWEST
-from stochfric_mb.discovery.joints.fitting import JointModel, fit
+from stochfric_mb.discovery.joints.fitting import fit
+from stochfric_mb.discovery.joints.model import JointModel
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
 
 Masks = list[npt.NDArray[np.bool_]]
@@ -37,11 +38,11 @@ class LeftOut:
     """Number of the parts."""
 
 
-def blocks(sheets: Sequence[Sheet]) -> list[Masks]:
-    """Return stretches of the runs, one after the other, of equally many windows of sliding."""
+def blocks(sheets: Sequence[Sheet], count: int = BLOCKS) -> list[Masks]:
+    """Return ``count`` stretches of the runs, one after the other, of equally many windows of sliding."""
     sliding = np.concatenate([s.sliding for s in sheets])
-    number = np.cumsum(sliding) * BLOCKS // (int(sliding.sum()) + 1)
-    return [_split((number == k) & sliding, sheets) for k in range(BLOCKS)]
+    number = np.cumsum(sliding) * count // (int(sliding.sum()) + 1)
+    return [_split((number == k) & sliding, sheets) for k in range(count)]
 
 
 def strokes(sheets: Sequence[Sheet]) -> list[Masks]:

@@ -3,9 +3,9 @@
 Positions, rates and accelerations come through one window in weak form; the driving forces pass the same window. Friction of
 the model's own (``frictionloss``) is left out: it is what is looked for.
 
-A place is a joint or a tendon: a direction J(q) in which friction F acts on the joints as J F. With the forces r that the
-joints have left, the balance of a place is (J r)/(J J) = F; for a joint J is a unit vector. What other places take of r is
-taken from their models.
+A place is a joint, a tendon or a pair of geoms: a direction J(q) in which friction F acts on the joints as J F. With the
+forces r that the joints have left, the balance of a place is (J r)/(J J) = F; for a joint J is a unit vector, and at a pair
+the normal force is part of the balance (`mjcf_pairs`). What other places take of r is taken from their models.
 """
 
 # pyright: reportAttributeAccessIssue=false
@@ -14,22 +14,23 @@ taken from their models.
 from __future__ import annotations
 
 import dataclasses
-import importlib
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.joints.fitting import JointModel
+from stochfric_mb.discovery.joints.conditions import known_factors, temperature_of
 from stochfric_mb.discovery.joints.friction import friction_along
-from stochfric_mb.discovery.joints.mjcf_columns import column, drive_of, require_loops
-from stochfric_mb.discovery.joints.mjcf_model import by_mass, effective_inertia, inverse, scale_masses, tendon_along
-from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet, least_speed, slides, slipped
-from stochfric_mb.discovery.joints.windows import Window, chosen_window, noise_level
-from stochfric_mb.errors import InputError, MissingEngineError, require_name
-from stochfric_mb.measurement.dataset import Dataset
+from stochfric_mb.discovery.joints.mjcf_columns import column, drive_of, position_of_joint
+from stochfric_mb.discovery.joints.mjcf_model import by_mass, effective_inertia, inverse
+from stochfric_mb.discovery.joints.mjcf_pairs import over_samples
+from stochfric_mb.discovery.joints.mjcf_path import Path, Rig
+from stochfric_mb.discovery.joints.model import JointModel
+from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet, distance_slid, least_speed, slides, slipped
+from stochfric_mb.discovery.joints.windows import Window, chosen_window, narrowest, noise_level
+from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.mechanisms import Mjcf, ProportionalDerivative
+from stochfric_mb.mechanisms import ProportionalDerivative
 
 Array = npt.NDArray[np.float64]
 
@@ -37,89 +38,24 @@ CORRECTED = {"mass": "-", "armature": "-", "gain": "-", "damping": "-", "offset"
 """What data may correct: factors on masses, armature, drive and damping of the joint, and an offset of its drive."""
 OF_TENDONS = ("mass", "armature", "gain", "offset")
 """The same at a tendon, which has no damping of its own here."""
+OF_PAIRS = ("mass", "armature", "offset")
+"""The same at a pair, which nothing drives but through the joints."""
+LIFTED = 0.05
+"""Normal force over the believed one below which a pair is not taken to slide on its surface [-]."""
 HELD = 0.5
 """How much later than its sample a drive acts that is held until the next one, on average [periods]."""
 
 
-def mjcf_sheets(dataset: Dataset) -> MjcfSource:
-    """Return the sheets of a dataset whose mechanism is an MJCF model.
-
-    Raises:
-        InputError: the file, a joint, a tendon or a channel is unknown or unsuitable.
-        MissingEngineError: MuJoCo is not installed.
-    """
-    try:
-        mujoco: Any = importlib.import_module("mujoco")
-    except ImportError:
-        raise MissingEngineError("mechanism 'mjcf' needs MuJoCo; run: pip install 'stochfric_mb[mujoco]'") from None
-    mechanism: Mjcf = dataset.scenario.mechanism
-    try:
-        model = mujoco.MjModel.from_xml_path(str(mechanism.file))
-    except ValueError as error:
-        raise InputError(f"mechanism.file = {str(mechanism.file)!r} cannot be read: {error}") from None
-    model.dof_frictionloss[:] = 0.0
-    model.tendon_frictionloss[:] = 0.0
-    scale_masses(mujoco, model, mechanism.factors.get("mass", 1.0))
-    model.dof_armature *= mechanism.factors.get("armature", 1.0)
-    names = [mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, i) for i in range(model.njnt)]
-    tendons = [mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_TENDON, i) for i in range(model.ntendon)]
-    for joint in mechanism.positions:
-        require_name(f"joint (a joint of {mechanism.file.name})", joint, names)
-    for tendon in mechanism.tendons:
-        require_name(f"tendon (a tendon of {mechanism.file.name})", tendon, tendons)
-    missing = [n for n in names if n not in mechanism.positions]
-    if missing or model.nq != model.nv:
-        raise InputError(
-            f"{mechanism.file.name}: joints {', '.join(map(str, missing)) or 'with quaternions'} have no measured position; "
-            "every joint needs one in mechanism.positions, hinge or slide"
-        )
-    require_loops(dataset)
-    return MjcfSource(dataset, mechanism, mujoco, model, tuple(names), tuple(tendons))
-
-
 @dataclasses.dataclass(frozen=True)
-class Path:
-    """The motion along a place in one run, and its direction among the joints."""
-
-    position: Array
-    """Position through the window [m or rad], shape (count,)."""
-    velocity: Array
-    """Velocity in weak form [m/s or rad/s], shape (count,)."""
-    load: Array
-    """Load that the place transmits [N or N m], shape (count,)."""
-    direction: Array
-    """J at the centres, shape (n_centres, n_joints)."""
-
-    @property
-    def weights(self) -> Array:
-        """Return J/(J J), shape (n_centres, n_joints)."""
-        return self.direction / np.sum(self.direction**2, axis=1, keepdims=True)
-
-
-@dataclasses.dataclass(frozen=True)
-class MjcfSource:
+class MjcfSource(Rig):
     """The sheets of an MJCF model, made when asked for."""
 
-    dataset: Dataset
-    """The dataset."""
-    mechanism: Mjcf
-    """Its mechanism."""
-    mujoco: Any
-    """The engine."""
-    model: Any
-    """The compiled model, without friction of its own."""
-    names: tuple[str, ...]
-    """Joints in the order of their degrees of freedom."""
-    tendons: tuple[str, ...]
-    """Tendons in the order of the model."""
-    remembered: dict[tuple[Any, ...], Any] = dataclasses.field(default_factory=dict[Any, Any])
-    """What was computed for a run and a window."""
     known: dict[str, JointModel] = dataclasses.field(default_factory=dict[str, JointModel])
     """Place -> what has been found of its friction, which other places are then judged beside."""
 
     @property
     def places(self) -> list[tuple[str, float]]:
-        """Joints and tendons in which friction is sought, and their loads."""
+        """Joints, tendons or pair in which friction is sought, and their loads."""
         return list(self.mechanism.friction.items())
 
     def nuisances(self, place: str) -> list[Nuisance]:
@@ -127,10 +63,13 @@ class MjcfSource:
         spread = self.dataset.scenario.uncertainty
         found: list[Nuisance] = []
         for name, unit in CORRECTED.items():
-            if spread.get(name, 0.0) > 0.0 and (place in self.names or name in OF_TENDONS):
+            if spread.get(name, 0.0) > 0.0 and name in self._corrected(place):
                 value, low = (0.0, -np.inf) if name == "offset" else (1.0, 0.0)
                 found.append(Nuisance(name, value, spread[name], unit, low))
         return found
+
+    def _corrected(self, place: str) -> Sequence[str]:
+        return OF_PAIRS if place in self.mechanism.pairs else OF_TENDONS if place in self.tendons else tuple(CORRECTED)
 
     def coupled(self, place: str) -> bool:
         """Return whether friction elsewhere enters the balance of a place."""
@@ -163,13 +102,13 @@ class MjcfSource:
         """Return the noise of the balance of a place: derivative -> standard deviation."""
         key = ("noise", run.name, place)
         if key not in self.remembered:
-            narrow = Window(8 * run.sample_interval, run.sample_interval, len(run.time))
+            narrow = narrowest(run)
             weights = np.abs(self.path(run, place, narrow).weights).mean(axis=0)
             inertia = effective_inertia(self.mujoco, self.model)
             noise: dict[int, float] = {0: 0.0, 2: 0.0}
             for weight, size, joint in zip(weights, inertia, self.names, strict=True):
                 noise[0] = float(np.hypot(noise[0], weight * _level(drive_of(run, self.mechanism, joint))))
-                noise[2] = float(np.hypot(noise[2], weight * size * noise_level(column(run, self.mechanism.positions[joint]))))
+                noise[2] = float(np.hypot(noise[2], weight * size * _level(position_of_joint(run, self.mechanism, joint))))
             if place in self.tendons:
                 noise[0] = float(np.hypot(noise[0], _level(drive_of(run, self.mechanism, place))))
             self.remembered[key] = noise
@@ -188,6 +127,7 @@ class MjcfSource:
             left = left - offset * self.path(run, name, window).direction
         left = left - self._friction_elsewhere(run, place, window)
         own_damping = damped + self.model.dof_damping * motion[1]
+        least = self._least(run, place, window, path)
         columns = {
             "mass": np.sum(weights * mass, axis=1),
             "armature": np.sum(weights * (self.model.dof_armature * motion[2]), axis=1),
@@ -195,8 +135,16 @@ class MjcfSource:
             "damping": np.sum(weights * own_damping, axis=1),
             "offset": np.ones(len(at)),
         }
-        least = self._least(run, place, window, path)
+        sliding = slides(window, path.velocity, least) & self._others_slide(run, place, window)
+        load, normal = path.load, None
+        if path.part is not None:
+            load = normal = self._normal_force(run, place, window, left)
+            if path.normal_weights is None:  # a measured force is taken out of the balance; another one is solved with friction
+                left = left + normal[at, None] * path.part
+            sliding &= normal[at] > LIFTED * self.mechanism.friction[place]
         noise = self._noise(run, place)
+        before = float(self.travelled(run, place)[0])
+        travelled = before + distance_slid(path.velocity, run.sample_interval)
         return Sheet(
             run=run.name,
             role=run.role,
@@ -206,23 +154,34 @@ class MjcfSource:
             time=run.time,
             position=path.position,
             velocity=path.velocity,
-            load=path.load,
+            load=load,
             slip=slipped(path.position, path.velocity, least),
             driven=own + np.sum(weights * left, axis=1),
             columns=columns,
-            sliding=slides(window, path.velocity, least) & self._others_slide(run, place, window),
+            sliding=sliding,
             noise=float(np.hypot(window.gain(0) * noise[0], window.gain(2) * noise[2])),
-            factors=_factors(run, window, path.velocity, path.position, path.load),
+            factors=known_factors(run, window, path.position, path.velocity, load, travelled),
+            before=before,
+            temperature=temperature_of(run, window),
+            normal_force=normal,
         )
+
+    def _normal_force(self, run: Run, place: str, window: Window, left: Array) -> Array:
+        """Return the normal force in a pair [N], shape (count,): measured, or from what the joints have left."""
+        rows = self.path(run, place, window).normal_weights
+        if rows is None:
+            measured = column(run, self.mechanism.pairs[place].normal_force)
+            return np.maximum(window.through(measured), 0.0)
+        return over_samples(np.maximum(np.sum(rows * left, axis=1), 0.0), window.centres, len(run.time))
 
     def _least(self, run: Run, place: str, window: Window, path: Path) -> float:
         """Return the speed above which a place surely slides [m/s or rad/s]."""
-        each = [noise_level(column(run, self.mechanism.positions[n])) for n in self.names]
+        each = [_level(position_of_joint(run, self.mechanism, n)) for n in self.names]
         seen = float(np.linalg.norm(np.abs(path.direction).mean(axis=0) * each))
         return least_speed(path.velocity, window.gain(1) * seen)
 
     def _rotates(self, place: str) -> bool:
-        if place in self.tendons:
+        if place not in self.names:
             return False
         return bool(self.model.jnt_type[self.names.index(place)] == self.mujoco.mjtJoint.mjJNT_HINGE)
 
@@ -264,30 +223,6 @@ class MjcfSource:
                 known &= slides(window, path.velocity, self._least(run, name, window, path))
         return known
 
-    def path(self, run: Run, place: str, window: Window) -> Path:
-        """Return the motion along a joint or tendon in a run."""
-        key = ("path", run.name, place, window.half_width)
-        if key not in self.remembered:
-            self.remembered[key] = self._path(run, place, window)
-        return self.remembered[key]
-
-    def _path(self, run: Run, place: str, window: Window) -> Path:
-        drive = drive_of(run, self.mechanism, place)
-        if place in self.names:
-            q = column(run, self.mechanism.positions[place])
-            position, velocity = window.through(q), window.through(q, 1)
-            direction = np.zeros((len(window.centres), len(self.names)))
-            direction[:, self.names.index(place)] = 1.0
-        else:
-            rows = [column(run, self.mechanism.positions[n]) for n in self.names]
-            joints = np.column_stack([window.through(x) for x in rows])
-            rates = np.column_stack([window.through(x, 1) for x in rows])
-            position, all_along = tendon_along(self.mujoco, self.model, self.tendons.index(place), joints)
-            velocity = np.sum(all_along * rates, axis=1)
-            direction = all_along[window.centres]
-        load = np.abs(window.through(drive) - self.mechanism.damping.get(place, 0.0) * velocity)
-        return Path(position, velocity, load, direction)
-
     def _dynamics(self, run: Run, window: Window) -> tuple[tuple[Array, Array, Array], Array, Array]:
         """Return motion at the centres, forces that it needs, and their change with a factor on all masses.
 
@@ -295,8 +230,7 @@ class MjcfSource:
         """
         key = ("dynamics", run.name, window.half_width)
         if key not in self.remembered:
-            rows = [column(run, self.mechanism.positions[name]) for name in self.names]
-            q, v, a = (np.column_stack([window.through(x, d)[window.centres] for x in rows]) for d in (0, 1, 2))
+            q, v, a = (self.joints(run, window, d)[window.centres] for d in (0, 1, 2))
             needed = inverse(self.mujoco, self.model, (q, v, a))
             self.remembered[key] = (q, v, a), needed, by_mass(self.mujoco, self.model, (q, v, a), needed)
         return self.remembered[key]
@@ -314,17 +248,3 @@ def _motion(run: Run, window: Window, path: Path, least: float) -> Sheet:
         velocity=path.velocity, load=path.load, slip=slipped(path.position, path.velocity, least), driven=none, columns={},
         sliding=none > 0.0, noise=0.0, factors={},
     )  # fmt: skip
-
-
-def _factors(run: Run, window: Window, velocity: Array, position: Array, load: Array) -> dict[str, Array]:
-    at = window.centres
-    found = {
-        "direction": np.sign(velocity[at]),
-        "speed": np.abs(velocity[at]),
-        "position": position[at],
-        "load": load[at],
-        "time": run.time[at],
-    }
-    if "temperature" in run.channels:
-        found["temperature"] = window.through(run.channels["temperature"])[at]
-    return found | {key: np.full(len(at), value) for key, value in run.constants.items()}

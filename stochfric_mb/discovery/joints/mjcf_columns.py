@@ -69,6 +69,12 @@ def drive_of(run: Run, mechanism: Mjcf, place: str) -> Array:
     return force
 
 
+def position_of_joint(run: Run, mechanism: Mjcf, joint: str) -> Array:
+    """Return the measured position of a joint, or the number at which it stays [m or rad], shape (count,)."""
+    given = mechanism.positions[joint]
+    return column(run, given) if isinstance(given, str) else np.full(len(run.time), given)
+
+
 def column(run: Run, name: str) -> Array:
     """Return a channel or covariate of a run.
 

@@ -1,8 +1,9 @@
 """Confirmation in the engine: the user's model runs forward with the friction found, and the controller in the loop.
 
-Before each step the friction that is available in each place goes into MuJoCo's own ``frictionloss``, which holds at rest and
-opposes motion. Where a controller drives a joint it acts again, on simulated positions; other joints get their measured drive.
-Without a controller errors would add up along the record, so there the model starts anew from the measured state, `AHEAD`.
+Before each step the friction that is available in each joint or tendon goes into MuJoCo's own ``frictionloss``, which holds
+at rest and opposes motion; in a pair it goes into our plugin's coefficients (`mjcf_places`). Where a controller drives a joint
+it acts again, on simulated positions; other joints get their measured drive. Without a controller errors would add up along
+the record, so there the model starts anew from the measured state, `AHEAD`.
 """
 
 # pyright: reportAttributeAccessIssue=false
@@ -18,14 +19,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.joints.fitting import JointModel
-from stochfric_mb.discovery.joints.friction import chain, resistance
 from stochfric_mb.discovery.joints.mjcf import MjcfSource
-from stochfric_mb.discovery.joints.mjcf_columns import column, corrected, drive_of
+from stochfric_mb.discovery.joints.mjcf_columns import column, corrected, drive_of, position_of_joint
+from stochfric_mb.discovery.joints.mjcf_load import without_friction
 from stochfric_mb.discovery.joints.mjcf_model import scale_masses
+from stochfric_mb.discovery.joints.mjcf_places import pair_direction, place_of
+from stochfric_mb.discovery.joints.model import JointModel
 from stochfric_mb.discovery.joints.scores import AHEAD
-from stochfric_mb.discovery.joints.windows import Window, noise_level
-from stochfric_mb.effects.contract import WORLD
+from stochfric_mb.discovery.joints.windows import narrowest, noise_level
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import JointLoop, ProportionalDerivative
 
@@ -103,8 +104,12 @@ class _Plant:
         self._source, self._models, self._run, self._delay = source, models, run, delay
         mujoco = source.mujoco
         self._mechanism = corrected(source.mechanism, {p: models[p].nuisances for p, _ in source.places})
-        model = copy.copy(source.model)
-        first = models[source.places[0][0]].nuisances
+        name, first = source.places[0][0], models[source.places[0][0]].nuisances
+        if name in source.mechanism.pairs:
+            law = models[name].law
+            model = without_friction(mujoco, source.mechanism, (name, law.mu_s, law.mu_k))
+        else:
+            model = copy.copy(source.model)
         scale_masses(mujoco, model, first.get("mass", 1.0))
         model.dof_armature *= first.get("armature", 1.0)
         for i, name in enumerate(source.names):
@@ -117,9 +122,10 @@ class _Plant:
         model.dof_solimp[:], model.tendon_solimp_fri[:] = HARD, HARD
         self._model, self._data = model, mujoco.MjData(model)
         # through the narrowest window: velocities to start from
-        narrow = Window(8 * run.sample_interval, run.sample_interval, len(run.time))
-        rows = [column(run, source.mechanism.positions[n]) for n in source.names]
-        self._state = tuple(np.column_stack([narrow.through(x, d) for x in rows]) for d in (0, 1))
+        narrow = narrowest(run)
+        self._state = tuple(source.joints(run, narrow, d) for d in (0, 1))
+        rows = [position_of_joint(run, source.mechanism, n) for n in source.names]
+        self._stays = np.array([not isinstance(source.mechanism.positions[n], str) for n in source.names])
         self.start, self.end = int(narrow.centres[0]), int(narrow.centres[-1])
         self.measured: Array = np.column_stack(rows)[self.start : self.end]
         """Measured positions, shape (n, n_joints)."""
@@ -132,7 +138,7 @@ class _Plant:
         """Return positions, shape (n, n_joints), and what each controller gives, shape (n,)."""
         mujoco, model, data, run = self._source.mujoco, self._model, self._data, self._run
         n, h = self.end - self.start, run.sample_interval
-        places = [_Place(self._source, p, load, self._models[p], run) for p, load in self._source.places]
+        places = [place_of(self._source, p, load, self._models[p], run) for p, load in self._source.places]
         period = getattr(self._source.dataset.scenario.controller, "period", 0.0)
         hold = max(1, round(period / h * self._steps)) if period > 0.0 else 1
         drives = {p: self._late(drive_of(run, self._mechanism, p)) for p in self._mechanism.drives}
@@ -143,7 +149,7 @@ class _Plant:
             if i % again == 0:
                 self._start(self.start + i)
                 for place in places:
-                    place.start(data)
+                    place.start(data, self.start + i)
             positions[i] = data.qpos
             for k in range(self._steps):
                 if (i * self._steps + k) % hold == 0:
@@ -157,10 +163,9 @@ class _Plant:
                     self._push(place, force)
                 for place, force in self._mechanism.offset.items():
                     self._push(place, -force)
+                now = float(run.time[self.start + i]) + k * model.opt.timestep
                 for place in places:
-                    place.set(
-                        model, data, float(run.time[self.start + i]) + k * model.opt.timestep, forces, drives, self.start + i
-                    )
+                    place.set(model, data, now, forces, drives, self.start + i)
                 mujoco.mj_step(model, data)
         return positions, given
 
@@ -169,15 +174,20 @@ class _Plant:
         return np.interp(at, np.arange(len(drive)), drive)
 
     def _start(self, sample: int) -> None:
-        mujoco, data = self._source.mujoco, self._data
+        mujoco, data, stays = self._source.mujoco, self._data, self._stays
+        before = data.qpos.copy(), data.qvel.copy()
         mujoco.mj_resetData(self._model, data)
         data.qpos[:], data.qvel[:] = self._state[0][sample], self._state[1][sample]
+        if sample > self.start:  # what is held by a contact has found its place
+            data.qpos[stays], data.qvel[stays] = before[0][stays], before[1][stays]
         mujoco.mj_forward(self._model, data)
 
     def _push(self, place: str, force: float) -> None:
-        """Add a force along a joint or tendon."""
+        """Add a force along a joint, tendon or pair."""
         if place in self._source.names:
             self._data.qfrc_applied[self._source.names.index(place)] += force
+        elif place in self._source.mechanism.pairs:
+            self._data.qfrc_applied[:] += force * pair_direction(self._source, self._model, self._data, place)
         else:
             self._data.qfrc_applied[:] += force * direction(self._source, self._model, self._data, place)
 
@@ -199,59 +209,6 @@ class _Plant:
             return u, u * float(ratio[sample])
 
         return control
-
-
-class _Place:
-    """Friction in one joint or tendon while the model runs."""
-
-    def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> None:
-        self._source, self._name, self._links = source, name, chain(model.law, model.effects, load)
-        self._joint = name in source.names
-        self._number = (source.names if self._joint else source.tendons).index(name)
-        self._world, self._memory = np.zeros(WORLD), np.zeros(8)
-        self._gain = model.nuisances.get("gain", 1.0)
-        self._damping = source.mechanism.damping.get(name, 0.0)
-        self._turned, self._side = 0.0, 0.0
-
-    def _seen(self, data: Any) -> tuple[float, float]:
-        if self._joint:
-            return float(data.qpos[self._number]), float(data.qvel[self._number])
-        return float(data.ten_length[self._number]), float(data.ten_velocity[self._number])
-
-    def start(self, data: Any) -> None:
-        """Begin a stroke where the model is."""
-        q, v = self._seen(data)
-        self._turned, self._side = q, 1.0 if v >= 0.0 else -1.0
-
-    def set(
-        self, model: Any, data: Any, t: float, forces: Mapping[str, float], drives: Mapping[str, Array], sample: int
-    ) -> None:
-        """Give the engine the friction that is available now."""
-        q, v = self._seen(data)
-        side = 1.0 if v > 0.0 else -1.0 if v < 0.0 else self._side
-        if side != self._side:
-            self._turned, self._side = q, side
-        drive = forces.get(self._name, float(drives[self._name][sample]) if self._name in drives else 0.0)
-        # the load that friction knows of is that of the drive as believed, as in the fits
-        load = abs(drive / self._gain - self._damping * v)
-        links = self._links
-        against = side * float(
-            resistance(
-                links.numbers,
-                links.calls,
-                links.parameters,
-                self._world,
-                self._memory,
-                t,
-                q,
-                v,
-                load,
-                abs(q - self._turned),
-                side,
-            )
-        )
-        loss = model.dof_frictionloss if self._joint else model.tendon_frictionloss
-        loss[self._number] = max(against, 1.0e-9)
 
 
 def direction(source: MjcfSource, model: Any, data: Any, tendon: str) -> Array:

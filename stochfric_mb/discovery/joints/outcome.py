@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 
-from stochfric_mb.discovery.joints.fitting import JointModel
+from stochfric_mb.discovery.joints.model import JointModel
 from stochfric_mb.discovery.joints.pictures import Picture
 from stochfric_mb.discovery.joints.randomness import StrokeScatter
+from stochfric_mb.discovery.joints.run_scatter import Forecasts, RunScatter
 from stochfric_mb.discovery.joints.scores import Score
 from stochfric_mb.discovery.joints.selection import Selected
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
@@ -38,6 +39,10 @@ class PlaceOutcome:
     """What the place is: a joint, or a tendon."""
     random: StrokeScatter | None = None
     """Scatter of friction from stroke to stroke; None: too few strokes."""
+    runs: RunScatter | None = None
+    """Scatter of friction from run to run; None: too few runs."""
+    forecasts: Forecasts | None = None
+    """Errors of forecasts that allow for that scatter; None where there is none."""
     undelayed: JointModel | None = None
     """The recalibrated model without the delay that was found; None: none was."""
 

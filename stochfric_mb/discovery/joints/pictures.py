@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.joints.fitting import JointModel
 from stochfric_mb.discovery.joints.friction import friction_along
+from stochfric_mb.discovery.joints.model import JointModel
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
 
 Array = npt.NDArray[np.float64]

@@ -17,8 +17,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.stats import chi2
 
-from stochfric_mb.discovery.joints.fitting import PER_STROKE, JointModel
+from stochfric_mb.discovery.joints.fitting import PER_STROKE
 from stochfric_mb.discovery.joints.friction import friction_along
+from stochfric_mb.discovery.joints.model import JointModel
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
 
 Array = npt.NDArray[np.float64]
@@ -136,11 +137,11 @@ def stroke_scatter(
     # noise as slow as a stroke shows in how its halves differ: independent ones would make this the variance of delta
     variance = np.maximum(float(np.mean(within)) / np.array(precision), float(np.mean(halves)))
     grid = np.r_[0.0, np.sqrt(np.median(variance)) * np.logspace(-2.0, 2.5, 200)]
-    deviance = np.array([_deviance(s, delta, variance, groups) for s in grid])
+    deviance = np.array([deviance_of(s, delta, variance, groups) for s in grid])
     best = int(np.argmin(deviance))
     sigma = float(grid[best])
     inside = grid[deviance < deviance[best] + CONFIDENCE]
-    fall = _deviance(believed, delta, variance, groups) - float(deviance[best]) if sigma > believed else 0.0
+    fall = deviance_of(believed, delta, variance, groups) - float(deviance[best]) if sigma > believed else 0.0
     force = sigma * float(np.sqrt(np.mean(forces)))
     left = max(1.0 - force**2 / float(np.mean(squares)), 0.0)
     return StrokeScatter(
@@ -190,7 +191,7 @@ def _means(delta: Array, variance: Array, groups: npt.NDArray[np.int64]) -> tupl
     return (np.bincount(groups, delta / variance) / weight)[groups], weight
 
 
-def _deviance(sigma: float, delta: Array, variance: Array, groups: npt.NDArray[np.int64]) -> float:
+def deviance_of(sigma: float, delta: Array, variance: Array, groups: npt.NDArray[np.int64]) -> float:
     """Return -2 log restricted likelihood of a scatter ``sigma``, up to a constant."""
     total = sigma**2 + variance
     mean, weight = _means(delta, total, groups)

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.joints.closed_loop import closed_loop
-from stochfric_mb.discovery.joints.fitting import JointModel
+from stochfric_mb.discovery.joints.model import JointModel
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
 from stochfric_mb.discovery.joints.windows import noise_level
 from stochfric_mb.measurement.run import Run
@@ -46,20 +46,27 @@ def score(
     """Return the errors of ``model`` on ``sheets``, which belong to ``runs``."""
     rest = [model.remainder(s, nuisances) for s in sheets]
     sliding = np.concatenate([r[s.sliding] for r, s in zip(rest, sheets, strict=True)])
-    return Score(_rms(sliding), _rms(np.concatenate(rest)), loop_error(model, runs, scenario))
+    return Score(_rms(sliding), _rms(np.concatenate(rest)), loop_error(model, runs, scenario, [s.before for s in sheets]))
 
 
-def loop_error(model: JointModel, runs: Sequence[Run], scenario: Scenario) -> float | None:
-    """Return the relative error of the simulated controller's voltage [-]; None where there is no controller."""
+def loop_error(model: JointModel, runs: Sequence[Run], scenario: Scenario, before: Sequence[float]) -> float | None:
+    """Return the relative error of the simulated controller's voltage [-]; None where there is no controller.
+
+    Args:
+        model: friction and corrections.
+        runs: what is simulated again.
+        scenario: holds mechanism and controller.
+        before: distance slid in earlier pieces of each run's record [m].
+    """
     controller = scenario.controller
     if not isinstance(controller, Cascade):
         return None
     wrong = right = 0.0
-    for run in runs:
+    for run, slid in zip(runs, before, strict=True):
         joint = run.mechanism(scenario)
         if not isinstance(joint, PrismaticJoint):
             return None
-        voltage, _ = closed_loop(run, joint, model, controller)
+        voltage, _ = closed_loop(run, joint, model, controller, slid)
         late = round(SETTLED / controller.position_gain / run.sample_interval)
         measured = run.channels["voltage"][late:]
         wrong += float(np.sum((voltage[late:] - measured) ** 2))

@@ -11,8 +11,10 @@ from scipy.stats import f as fisher
 
 from stochfric_mb.discovery.joints.candidates import COMPETITORS, Candidate, Competitor, candidates, span_of
 from stochfric_mb.discovery.joints.evidence import scatter, settings_of, whitened
-from stochfric_mb.discovery.joints.fitting import JointFit, JointModel, fit, predicted_rms, prior_rows
+from stochfric_mb.discovery.joints.fitting import JointFit, fit, prior_rows, prior_weight
+from stochfric_mb.discovery.joints.gains import predicted_rms
 from stochfric_mb.discovery.joints.left_out import LeftOut, blocks, compared, strokes
+from stochfric_mb.discovery.joints.model import JointModel
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
 
 Array = npt.NDArray[np.float64]
@@ -25,8 +27,9 @@ PLAIN = 0.1
 """The same for a competitor without a name: that something is missing is said where it is plain to see."""
 BETTER = 0.5
 """Least share of the blocks that must get better: an effect that shows in one place only is one that was fitted to it."""
-CHANCE = 0.01
-"""Without that score an effect is taken where strokes left out, one by one, say so with no more chance than this of error."""
+CHANCE = 0.05
+"""Without that score an effect is taken where strokes left out, one by one, say so with no more chance than this of error,
+the kinds that were tried counted, and where each half of the record foretells the other better with it."""
 FEWEST_STROKES = 8
 """Fewest strokes that can."""
 TIE = 10.0
@@ -103,7 +106,7 @@ class Selector:
         self._tell = progress or (lambda _: None)
         self._settings = settings_of(sheets)
         first = fit(start, sheets, nuisances, noise=_typical(sheets))
-        self._noise = _weight(first)
+        self._noise = prior_weight(first)
         self.recalibrated = self._fit(start)
 
     def _fit(self, model: JointModel, evaluations: int = 12) -> JointFit:
@@ -122,7 +125,7 @@ class Selector:
                 break
             found.append(stage.trials[0])
             current = stage.trials[0].fit
-            self._noise = _weight(current)
+            self._noise = prior_weight(current)
             current, found = self._re_examined(current, found)
         final = self._fit(current.model)
         unknown = self._unknown(stages[-1]) if not stages[-1].accepted else ""
@@ -149,8 +152,15 @@ class Selector:
         repeats = None
         if not enough and len(parts := strokes(self._sheets)) >= FEWEST_STROKES:
             repeats = compared(*models, self._sheets, self._nuisances, self._noise, parts)
-            enough = repeats.gain > MATERIAL and repeats.p_value < CHANCE
+            repeats = dataclasses.replace(repeats, p_value=min(1.0, repeats.p_value * len(trials)))
+            enough = repeats.gain > MATERIAL and repeats.p_value < CHANCE and self._foretold(*models)
         return Stage(current, tuple(trials), tuple(rivals), inside, repeats, enough)
+
+    def _foretold(self, plain: JointModel, richer: JointModel) -> bool:
+        """Return whether each half of the record, left out, is foretold better by the richer model by a material part."""
+        halves = blocks(self._sheets, 2)
+        seen = [compared(plain, richer, self._sheets, self._nuisances, self._noise, [half]) for half in halves]
+        return min(s.gain for s in seen) > MATERIAL
 
     def _best(self, current: JointFit, candidate: Candidate) -> JointFit:
         starts = sorted(candidate.starts, key=lambda e: predicted_rms(current.model, e, self._sheets, current))
@@ -287,9 +297,3 @@ def _padded(columns: Array, rows: int) -> Array:
 
 def _typical(sheets: Sequence[Sheet]) -> float:
     return float(np.std(np.concatenate([s.driven[s.sliding] for s in sheets])))
-
-
-def _weight(fitted: JointFit) -> float:
-    """Return the deviation per window for which a prior counts as one independent window."""
-    n = sum(map(len, fitted.remainders))
-    return fitted.rms * float(np.sqrt(n / max(fitted.independent, 1.0)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Mapping
 
 import numpy as np
@@ -71,6 +72,28 @@ class Sheet:
     """Noise to be expected on ``driven`` from white noise of the channels [N or N m]."""
     factors: Mapping[str, Array]
     """Known conditions for the search of confounding, such as temperature, shape (n_centres,)."""
+    before: float = 0.0
+    """Distance slid in the pieces of the same record that come before this one [m or rad]."""
+    temperature: Array | None = None
+    """Measured temperature in the unit of its channel, shape (count,); None: none was."""
+    normal_force: Array | None = None
+    """Normal force of a contact [N], shape (count,), >= 0; None: the believed load, which stays."""
+
+    @functools.cached_property
+    def travelled(self) -> Array:
+        """Distance slid since the record began, whichever way [m or rad], shape (count,)."""
+        return self.before + distance_slid(self.velocity, float(self.time[1] - self.time[0]))
+
+
+def distance_slid(velocity: Array, interval: float) -> Array:
+    """Return the distance moved since the first sample, whichever way [m or rad], shape as ``velocity``.
+
+    Args:
+        velocity: velocity in weak form, so that noise at rest hardly counts [m/s or rad/s].
+        interval: distance between samples [s].
+    """
+    speed = np.abs(velocity)
+    return np.r_[0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]))] * interval
 
 
 def slipped(position: Array, velocity: Array, least: float) -> Array:

@@ -8,12 +8,12 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from stochfric_mb.discovery.joints.fitting import JointModel
+from stochfric_mb.discovery.joints.model import JointModel
 from stochfric_mb.discovery.joints.outcome import PlaceOutcome
 from stochfric_mb.discovery.joints.scores import loop_floor
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.mechanisms import HingePendulum, Mjcf, PrismaticJoint
-from stochfric_mb.mechanisms.mjcf import Drive
+from stochfric_mb.mechanisms.mjcf_parts import Drive
 
 JOINT = "joint"
 """Name of the joint of a slide or hinge in its MJCF."""

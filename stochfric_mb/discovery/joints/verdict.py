@@ -8,28 +8,18 @@ from typing import Any
 
 import numpy as np
 
-from stochfric_mb.discovery.intervals import interval
-from stochfric_mb.discovery.joints.confounding import TOGETHER, Confounded, confounded, stand_ins
+from stochfric_mb.discovery.joints.confounding import DRIFTS, Confounded, confounded, spoken_of, stand_ins
 from stochfric_mb.discovery.joints.evidence import scatter, settings_of
-from stochfric_mb.discovery.joints.fitting import JointFit, hidden_share
+from stochfric_mb.discovery.joints.gains import hidden_share
+from stochfric_mb.discovery.joints.numbers import believed, parameters
 from stochfric_mb.discovery.joints.outcome import PlaceOutcome
 from stochfric_mb.discovery.joints.scores import AHEAD
 from stochfric_mb.discovery.joints.timing import NAMED as SURE
 from stochfric_mb.discovery.joints.timing import Timing
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.effects import effect_kinds
-from stochfric_mb.effects.contract import Effect
 from stochfric_mb.measurement.dataset import Dataset
 
-ROTATIONAL = {
-    "N": "N m", "m": "rad", "m/s": "rad/s", "N s/m": "N m s/rad", "N s^2/m^2": "N m s^2/rad^2",
-}  # fmt: skip
-"""Unit of a parameter where friction acts along a line -> where it acts about an axis."""
-FACTORS = {
-    "mass": "mass_factor", "armature": "armature_factor", "gain": "drive_factor", "damping": "damping_factor",
-    "offset": "drive_offset",
-}  # fmt: skip
-"""Correction of a named joint -> its name in the result, where the scenario's own numbers are tables of joints."""
 IMITATED = 0.99
 """Part of an effect's change of friction that other numbers imitate, from which it cannot be identified [-]."""
 PLAIN = 14.0
@@ -45,7 +35,7 @@ def verdict(
     pairs = confounded(places[0].fit)
     effects = [_delay(timing)] if timing is not None and timing.named else []
     for place in places:
-        effects += _found(place, pairs) + _drawn(place)
+        effects += _found(place, pairs) + _drawn(place) + _drawn_by_run(place)
     unknown = next((p for p in places if p.selected.unknown and not effects), None)
     kind = "effect" if effects else "unknown" if unknown is not None else "none"
     where = None
@@ -60,11 +50,11 @@ def verdict(
         gap=_gap(places, loop_floor),
         not_identifiable=_unseen(places),
         next_experiment=_advice(pairs, places),
-        believed={f"{p.place}.{k}" if len(places) > 1 else k: v for p in places for k, v in _believed(p).items()},
+        believed={f"{p.place}.{k}" if len(places) > 1 else k: v for p in places for k, v in believed(p).items()},
         notes=(
             *_forward_notes(places[0]),
             *_timing_notes(timing),
-            *(str(p) for p in pairs if p.explained >= TOGETHER),
+            *map(str, spoken_of(pairs, [e.kind for e in effects])),
             *notes,
             *_remarks(places),
         ),
@@ -98,9 +88,10 @@ def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
             chance = stage.strokes.p_value
             text += (
                 f" On strokes left out, one by one, it falls by {100.0 * stage.strokes.gain:.0f} %, in "
-                f"{round(stage.strokes.better * stage.strokes.parts)} of {stage.strokes.parts}; it is named for that."
+                f"{round(stage.strokes.better * stage.strokes.parts)} of {stage.strokes.parts}, and each half of the record "
+                "foretells the other better; it is named for that."
             )
-        numbers = _parameters(fit, first + i, effect, rotates=place.fit[0].unit == "N m")
+        numbers = parameters(place, first + i)
         found.append(Found(effect.kind, others, Where(axis, text), numbers, trial.score, chance))
     return found
 
@@ -118,36 +109,21 @@ def _drawn(place: PlaceOutcome) -> list[Found]:
     return [Found("random_coefficients", (), Where("stroke", text), {"sigma_k": size}, seen.score, seen.p_value)]
 
 
+def _drawn_by_run(place: PlaceOutcome) -> list[Found]:
+    """Return the finding that friction is drawn anew for each run, if it is one."""
+    seen = place.runs
+    if seen is None or not seen.named:
+        return []
+    text = (
+        f"Friction differs from run to run{_at(place)} by {100.0 * seen.share:.1f} % (standard deviation, {seen.runs} runs), "
+        "more than the scatter of their strokes explains; no run says it of another."
+    )
+    size = Interval(seen.sigma, seen.low, seen.high, "-")
+    return [Found("random_coefficients", (), Where("run", text), {"sigma_k": size}, seen.score, seen.p_value)]
+
+
 def _at(place: PlaceOutcome) -> str:
     return f" in {place.thing} {place.place}" if place.place else ""
-
-
-def _parameters(fit: JointFit, owner: int, effect: Effect, *, rotates: bool) -> dict[str, Interval]:
-    found: dict[str, Interval] = {}
-    for field in dataclasses.fields(effect):
-        straight = str(field.metadata.get("unit", "-"))
-        unit = ROTATIONAL.get(straight, straight) if rotates else straight
-        value = getattr(effect, field.name)
-        if not isinstance(value, int | float) or not np.isfinite(value):
-            continue
-        deviation = fit.deviation(owner, field.name)
-        if deviation < 1.0e-6 * abs(value):  # not known that well: nothing in these data depends on it
-            continue
-        if np.isfinite(deviation):
-            found[field.name] = interval(value, deviation, unit, field.metadata["low"], field.metadata["high"])
-        elif value != field.default:
-            found[field.name] = Interval(value, value, value, unit)
-    return found
-
-
-def _believed(place: PlaceOutcome) -> dict[str, Interval]:
-    fit = place.selected.final
-    found: dict[str, Interval] = {}
-    for knob, value in zip(fit.knobs, fit.values, strict=True):
-        if knob.owner < 0:
-            name = FACTORS.get(knob.name, knob.name) if place.place else knob.name
-            found[name] = interval(float(value), fit.deviation(knob.owner, knob.name), knob.unit, knob.low, knob.high)
-    return found
 
 
 def _ranking(places: Sequence[PlaceOutcome], timing: Timing | None) -> tuple[tuple[str, float], ...]:
@@ -165,6 +141,12 @@ def _ranking(places: Sequence[PlaceOutcome], timing: Timing | None) -> tuple[tup
 def _gap(places: Sequence[PlaceOutcome], loop_floor: float | None) -> Gap:
     place = places[0]
     before, middle, after = (place.scores[k] for k in ("baseline", "recalibrated", "augmented"))
+    if place.forecasts is not None:
+        seen = place.forecasts
+        return Gap(
+            "crps_friction", place.fit[0].unit, True, seen.baseline, seen.recalibrated, seen.augmented, seen.floor,
+            "the same forecasts of data that the model gives itself; its noise from differences between neighbouring windows",
+        )  # fmt: skip
     if before.loop is not None and middle.loop is not None and after.loop is not None and loop_floor is not None:
         metric = "closed_loop_drive" if middle.forward is not None else "closed_loop_voltage"
         return Gap(
@@ -193,19 +175,22 @@ def _imitated(place: PlaceOutcome) -> list[str]:
 def _unseen(places: Sequence[PlaceOutcome]) -> tuple[str, ...]:
     seen = {t.candidate.kind for p in places for s in p.selected.stages for t in s.trials}
     seen |= {e.kind for p in places for e in p.believed.effects} | {"sensor_delay"}
-    seen |= {"random_coefficients"} if any(p.random is not None for p in places) else set()
+    seen |= {"random_coefficients"} if any(p.random is not None or p.runs is not None for p in places) else set()
     seen -= {kind for p in places for kind in _imitated(p)}
     return tuple(k for k in effect_kinds() if k not in seen and k not in NO_BELT)
 
 
 def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
-    worst = [p for p in pairs if "position" not in (p.first, p.second) and "time" not in (p.first, p.second)]
+    quiet = ("position", "time", "distance")
+    worst = [p for p in pairs if p.first not in quiet and p.second not in quiet]
     if worst:
         first, second = worst[0].first, worst[0].second
         return f"Vary {first} and {second} apart: repeat the experiment with the {second} that each {first} has not had yet."
     same = [(t.candidate.kind, e) for p in places for t, e in zip(p.selected.found, p.selected.equivalents, strict=True) if e]
     if same:
         kind, others = same[0]
+        if kind in DRIFTS:
+            return f"To tell {kind} from {', '.join(others)}: pauses, strokes of other lengths, and a start from warm."
         return f"To tell {kind} from {', '.join(others)}: more speeds, both directions at each, and a second load."
     return "Rest before break-away, for what rest does to friction; slow reversals, for presliding; a second load."
 
@@ -254,7 +239,7 @@ def _between_settings(place: PlaceOutcome) -> list[str]:
     fit, settings = place.selected.final, settings_of(place.fit)
     rest, n = np.concatenate(fit.remainders), max(place.selected.final.independent, 4.0)
     seen, none = scatter(rest, settings, n), scatter(rest, settings, n, ratios=np.zeros(1))
-    if none.deviance - seen.deviance < PLAIN:
+    if none.deviance - seen.deviance < PLAIN or (place.runs is not None and place.runs.accounted):
         return []
     return [
         f"{seen.between:.2g} {place.fit[0].unit} of what is left{_at(place)} stay the same in all strokes of a run in one "
@@ -271,6 +256,7 @@ def _details(places: Sequence[PlaceOutcome], timing: Timing | None, pairs: Seque
                 "place": p.place,
                 "held_out": {k: dataclasses.asdict(v) for k, v in p.scores.items()},
                 "floor": p.floor,
+                "runs": dataclasses.asdict(p.runs) if p.runs is not None else None,
                 "strokes": dataclasses.asdict(p.random) if p.random is not None else None,
                 "half_width": [s.window.half_width for s in p.fit],
                 "independent_windows": p.selected.final.independent,

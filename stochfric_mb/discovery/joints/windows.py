@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from numpy.lib.stride_tricks import sliding_window_view
 
+from stochfric_mb.measurement.run import Run
 from stochfric_mb.measurement.smoothing import smooth, window
 
 Array = npt.NDArray[np.float64]
@@ -64,6 +65,11 @@ class Window:
     def gain(self, derivative: int) -> float:
         """Return by how much white noise is multiplied on its way through [1/s^derivative]."""
         return float(np.linalg.norm(window(self.half_width, self.interval, derivative=derivative)))
+
+
+def narrowest(run: Run) -> Window:
+    """Return the narrowest window that a run is seen through."""
+    return Window(HALF_WIDTHS[0] * run.sample_interval, run.sample_interval, len(run.time))
 
 
 def noise_level(signal: Array) -> float:

@@ -47,7 +47,7 @@ def tables(name, **changes):
         ("two_joint_arm", {"mechanism__drives": {"elbow": {"columns": []}}}, "give a channel"),
         ("two_joint_arm", {"mechanism__factors": {"size": 1.0}}, "Known: armature, mass"),
         ("two_joint_arm", {"mechanism__files": "x"}, "did you mean 'file'"),
-        ("two_joint_arm", {"mechanism__pairs": {"box/floor": 1.0}}, "not in contact pairs"),
+        ("two_joint_arm", {"mechanism__pairs": {"foot": 1.0}}, "names no two geoms"),
         ("two_joint_arm", {"mechanism__tendons": "cable"}, "is not a list of names"),
         ("two_joint_arm", {"controller__joints": {}}, "controller.joints names no joint"),
         ("two_joint_arm", {"controller__joints": {"elbow": {"position_gain": 1.0}}}, "reference is missing"),

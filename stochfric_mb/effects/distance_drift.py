@@ -1,0 +1,56 @@
+"""Distance drift: coefficients that change with the distance slid (wear, run-in)."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import ClassVar
+
+from stochfric_mb.effects.contract import BELT_VELOCITY, MU_K, MU_S, TRAVELLED, VELOCITY, Effect, parameter
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class DistanceDrift(Effect):
+    """mu_k (and mu_s, by its share) times 1 + rate d (1 - exp(-s/d)), d = settling_distance; 1 + rate s for an infinite one.
+
+    s is the distance slid since the record began, whichever way.
+
+    Reference: P. J. Blau, Tribology International 38, 2005, 1007-1012, doi 10.1016/j.triboint.2005.07.020.
+    """
+
+    rate: float = parameter("1/m", "relative change per distance slid, at first", scale=1.0e-2)
+    """Relative change per distance slid, at first [1/m]."""
+    settling_distance: float = parameter(
+        "m", "distance in which the change settles", scale=1.0, low=0.0, strict=True, infinite=True, default=math.inf
+    )
+    """Distance in which the change settles [m]."""
+    static_share: float = parameter("-", "share of the change that mu_s takes", scale=1.0, default=1.0)
+    """Share of the change that mu_s takes [-]: 1, both coefficients alike; 0, mu_k alone."""
+
+    kind: ClassVar[str] = "distance_drift"
+    equation: ClassVar[str] = (
+        "mu_k times 1 + rate d (1 - exp(-s/d)), s slid, d = settling_distance; 1 + rate s if it is infinite; mu_s by its share"
+    )
+    source: ClassVar[str] = "Blau 2005 (running-in of frictional contacts)"
+    group: ClassVar[str] = "friction varies"
+    shows_on: ClassVar[str] = "slid distance"
+    shows: ClassVar[str] = "friction drifts with the distance slid"
+    order: ClassVar[int] = 3
+    n_memory: ClassVar[int] = 1
+
+
+def surroundings(world, memory, rates, p):
+    """Keep the distance slid."""
+    rates[0] = abs(world[BELT_VELOCITY] - world[VELOCITY])
+    world[TRAVELLED] = memory[0]
+
+
+def friction(world, memory, rates, p):
+    """Multiply both coefficients by the drift."""
+    grown = world[TRAVELLED] if p[1] > 1.0e300 else -p[1] * math.expm1(-world[TRAVELLED] / p[1])
+    world[MU_S] *= 1.0 + p[0] * p[2] * grown
+    world[MU_K] *= 1.0 + p[0] * grown

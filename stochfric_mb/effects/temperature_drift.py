@@ -1,0 +1,44 @@
+"""Temperature drift: coefficients that change with a measured temperature."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import dataclasses
+from typing import ClassVar
+
+from stochfric_mb.effects.contract import MU_K, MU_S, TEMPERATURE, Effect, parameter
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class TemperatureDrift(Effect):
+    """mu_k (and mu_s, by its share) times 1 + rate (T - reference_temperature).
+
+    Reference: A. C. Bittencourt, S. Gunnarsson, J. Dyn. Sys., Meas., Control 134, 2012, 051013, doi 10.1115/1.4006589
+    (friction of robot joints against temperature).
+    """
+
+    rate: float = parameter("1/K", "relative change per kelvin", scale=1.0e-2)
+    """Relative change per kelvin [1/K]."""
+    reference_temperature: float = parameter("degC", "temperature at which nothing changes", scale=10.0, default=20.0)
+    """Temperature at which nothing changes [degC, or K where that is the unit of the record]."""
+    static_share: float = parameter("-", "share of the change that mu_s takes", scale=1.0, default=1.0)
+    """Share of the change that mu_s takes [-]: 1, both coefficients alike; 0, mu_k alone."""
+
+    kind: ClassVar[str] = "temperature_drift"
+    equation: ClassVar[str] = "mu_k times 1 + rate (T - reference_temperature), mu_s by its share"
+    source: ClassVar[str] = "Bittencourt and Gunnarsson 2012 (friction of robot joints)"
+    group: ClassVar[str] = "friction varies"
+    shows_on: ClassVar[str] = "temperature"
+    shows: ClassVar[str] = "friction drifts with temperature"
+    order: ClassVar[int] = 3
+    reads: ClassVar[tuple[str, ...]] = ("temperature",)
+
+
+def friction(world, memory, rates, p):
+    """Multiply both coefficients by the drift."""
+    changed = p[0] * (world[TEMPERATURE] - p[1])
+    world[MU_S] *= 1.0 + p[2] * changed
+    world[MU_K] *= 1.0 + changed
