@@ -364,6 +364,7 @@ def apply(model, data, state, warm):
         n.store(target, math.nan)
         return
     geom, other = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
+    current, count = slot(state, 1, 0), int(n.load(state + 8 * s.N_CURRENT))
     k = 0
     last_body, last_surface = -1, -1
     for i in range(n.int_field(data, n.D_NCON)):
@@ -371,7 +372,10 @@ def apply(model, data, state, warm):
         sign = side(contact, geom, other)
         if sign == 0:
             continue
-        address = slot_at_stage(model, data, state, i, sign, t, k, warm)
+        if starting:  # `begin` has just gone through the same contacts
+            address = current + 8 * s.SLOT * k if k < count else 0
+        else:
+            address = slot_at_stage(model, data, state, i, sign, t, k, warm)
         k += 1
         if address == 0:
             continue
