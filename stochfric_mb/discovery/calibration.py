@@ -109,7 +109,8 @@ def _simulated(
     scatter = make_effect("random_coefficients", process="per_event", sigma_s=sigma_s, sigma_k=sigma_k)
     system = augmented_system(box, law, [scatter], seed=repeat + 1)
     step = 1.0 / record.rate
-    start = system.march(Start(-4.0, 0.0, box.belt_velocity, stick=True), step, round(4.0 * record.rate)).end
+    first = Start(-slips.settling, 0.0, box.belt_velocity, stick=True)
+    start = system.march(first, step, round(slips.settling * record.rate)).end
     motion = system.march(start, step / FINER, len(record.time) * FINER)
     position = motion.position[FINER - 1 :: FINER]
     time = np.asarray(start.time + step * np.arange(1, len(position) + 1), dtype=np.float64)

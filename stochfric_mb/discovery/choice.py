@@ -92,7 +92,7 @@ def choose(
     shape = max((c.score for c in candidates if c.name in family + SHAPES), default=-np.inf)
     rest = max((c.score for c in candidates if c.name not in family + SHAPES), default=-np.inf)
     if before is not None and shape >= NAME and shape >= rest:
-        outcome = _by_simulation(study, model, n_terms, effects, shape, family, cases, before, details)
+        outcome = _by_simulation(study, model, n_terms, effects, family, cases, before, details)
         if outcome is not None:
             return outcome
         # simulation does not bear the shape out: what remains are effects that change from slip to slip
@@ -119,13 +119,15 @@ def _by_simulation(
     model: Model,
     n_terms: int,
     effects: Sequence[Candidate],
-    shape: float,
     family: tuple[str, ...],
     cases: Sequence[Case],
     before: Confirmed,
     details: dict[str, object],
 ) -> Chosen | Where | None:
-    trials = [c for c in effects if c.name in family and c.score > max(WORTH_SIMULATING * shape, SELECT / 2.0)][:MOST_SIMULATED]
+    mine = [c for c in effects if c.name in family]
+    # over the best effect, not the shape: where none comes near it the marks are too far from linear to choose by
+    least = max(WORTH_SIMULATING * mine[0].score if mine else 0.0, SELECT / 2.0)
+    trials = [c for c in mine if c.score > least][:MOST_SIMULATED]
     tried = [(c, confirm(cases, with_candidate(model, c, study.pool, n_terms), study.uncertainty)) for c in trials]
     rounds = sum(key.startswith("confirmation") for key in details)
     tried.sort(key=lambda t: t[1].criterion)

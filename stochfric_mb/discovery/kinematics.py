@@ -209,6 +209,7 @@ def _step_stays(study: Study, setting: dict[str, float]) -> bool:
 def _line(study: Study, details: dict[str, object]) -> Where | None:
     """Return where the noise has a line; None if it has none."""
     frequency, amplitude, strength = max((s.line for s in study.pool.slips), key=lambda line: line[2])
+    frequency, amplitude = frequency * study.size.of("Hz"), amplitude * study.size.length
     details["noise_line"] = {"frequency": frequency, "amplitude": amplitude, "strength": strength}
     if strength < LINE:
         return None

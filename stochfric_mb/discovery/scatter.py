@@ -18,8 +18,6 @@ FARTHEST = 0.15
 SAMPLES, SAMPLES_OF_WANDER = 3, 8
 """Simulations of a run that are averaged: the scatter of 50 independent slips is known to 10 %, but a wander has only a
 few independent values in a run, and its scatter in a single one may well be half or twice the process's."""
-SETTLING = 4.0
-"""Simulated time before the record that is not looked at [s]."""
 
 
 def matched(model: Model, pool: Pool, *, rounds: int = 3) -> Model:
@@ -80,8 +78,8 @@ def shown_by(model: Model, like: Slips, generator: np.random.Generator, *, sampl
     record = like.record
     step = 1.0 / record.rate
     system = model.system(record, seed=seed, sample=sample)
-    first = Start(record.time[0] - SETTLING, 0.0, record.stated.belt_velocity, stick=True)
-    start = system.march(first, step, round(SETTLING * record.rate)).end
+    first = Start(record.time[0] - like.settling, 0.0, record.stated.belt_velocity, stick=True)
+    start = system.march(first, step, round(like.settling * record.rate)).end
     position = system.march(start, step, len(record.time)).position
     for effect in model.effects_in(record.name):
         if effect.group == "sensor":

@@ -29,6 +29,8 @@ N_FEATURES = 1 + N_MOMENTS
 N_NODES = 32
 """Gauss nodes on a slip at which its trajectory is given."""
 NODES, WEIGHTS = legendre.leggauss(N_NODES)
+SETTLING = 4.0
+"""Time before a record that is simulated at least and not looked at [s]."""
 _DEGREE = 9
 _STIFF, _SOFT = 0.06, 3.0
 """Standard deviation of an edge's cubic term over half the record's range: constant force believed, or a changing one."""
@@ -97,6 +99,14 @@ class Slips:
 
     def __len__(self) -> int:
         return len(self.onset_time)
+
+    @property
+    def settling(self) -> float:
+        """Time [s] that a simulation of the run takes from the belt's zero to where its cycles are typical."""
+        if len(self) < 2:
+            return SETTLING
+        first = abs(float(np.median(self.onset_position))) / self.record.mechanism.belt_velocity
+        return max(SETTLING, first + 2.0 * float(np.median(np.diff(self.onset_time))))
 
     @property
     def features(self) -> Array:

@@ -15,6 +15,7 @@ from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.pool import Pool, make_pool
 from stochfric_mb.discovery.record import Record, make_record
 from stochfric_mb.discovery.regression import DAMPING, Regression, Solution, Terms, believed
+from stochfric_mb.discovery.size import Size
 from stochfric_mb.discovery.slips import Slips, extract
 from stochfric_mb.discovery.sticking import Sticking, analyse, ceiling
 from stochfric_mb.errors import InputError
@@ -50,7 +51,9 @@ class Study:
     """Everything measured from the fit runs, before a decision."""
 
     dataset: Dataset
-    """The data set."""
+    """The data set, in units of the rig's size."""
+    size: Size
+    """These units."""
     model: Model
     """The model as believed, with mu_s and mu_k as stated."""
     uncertainty: Mapping[str, float]
@@ -93,8 +96,8 @@ def record_of(run: Run, dataset: Dataset) -> Record:
     return make_record(run.name, run.time, run.channels["position"], mechanism)
 
 
-def study(dataset: Dataset, *, progress: Progress = lambda _: None) -> Study | None:
-    """Return what the fit runs tell; None where no run has slips enough to tell anything."""
+def study(dataset: Dataset, size: Size, *, progress: Progress = lambda _: None) -> Study | None:
+    """Return what the fit runs of a data set in units of ``size`` tell; None where no run has slips enough to tell anything."""
     model = believed_model(dataset.scenario)
     progress("slips")
     records = tuple(record_of(run, dataset) for run in dataset.fit)
@@ -106,6 +109,7 @@ def study(dataset: Dataset, *, progress: Progress = lambda _: None) -> Study | N
     pool, solution = _calibrated(usable, dataset.scenario.uncertainty)
     return Study(
         dataset=dataset,
+        size=size,
         model=model,
         uncertainty=dataset.scenario.uncertainty,
         records=records,
@@ -121,7 +125,6 @@ def study(dataset: Dataset, *, progress: Progress = lambda _: None) -> Study | N
 
 def _calibrated(usable: Sequence[Slips], uncertainty: Mapping[str, float]) -> tuple[Pool, Solution]:
     """Return the slips with the bias of their features taken out, at the damping that they show, and their fit."""
-
 
     def at(damping: float) -> tuple[Pool, Solution, float]:
         pool = make_pool(usable, [calibrate(s, seed=11 + i, damping=damping) for i, s in enumerate(usable)])

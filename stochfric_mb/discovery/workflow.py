@@ -21,6 +21,8 @@ from stochfric_mb.discovery.refit import Fit, refit, with_deviations
 from stochfric_mb.discovery.refusal import refusal
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.discovery.scatter import matched
+from stochfric_mb.discovery.size import USUAL, Size
+from stochfric_mb.discovery.slips import Slips
 from stochfric_mb.discovery.study import EVERYTHING, Channels, Progress, Study, slips_of_run, study
 from stochfric_mb.effects import Effect
 from stochfric_mb.measurement.dataset import Dataset
@@ -75,9 +77,11 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     Raises:
         InputError: a run without a position, or a law that cannot be believed here.
     """
-    found = study(dataset, progress=progress)
+    size = Size.of_rig(dataset.scenario.mechanism)
+    given, dataset = dataset, size.reduced(dataset)
+    found = study(dataset, size, progress=progress)
     if found is None:
-        return _too_few(dataset)
+        return _too_few(given)
     decision = decide(found, channels=channels, progress=progress)
     progress("recalibration")
     believed = found.model
@@ -88,11 +92,11 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     if channels.confirmation and (poor := unexplained(found, decision, recalibrated.model, augmented)) is not None:
         decision, fit, augmented = poor, None, recalibrated.model
     progress("held-out runs")
-    slips = [s for s in (slips_of_run(r, dataset) for r in dataset.test) if len(s) >= 2]
-    runs = held_out(slips, phased=phased(augmented))
+    runs = held_out(_held_out_slips(dataset), phased=phased(augmented))
     augmented = settled(augmented, runs)
     decision, fit, augmented = _borne_out(decision, fit, augmented, found, recalibrated, runs)
     gap = gap_of(believed, recalibrated.model, augmented, runs) if sum(map(len, runs.second)) else None
+    gap = None if gap is None else gap.times(size.length)
     notes = _notes(found, decision, gap)
     result = Result(
         verdict=decision.verdict,  # pyright: ignore[reportArgumentType]  # one of three words
@@ -107,8 +111,16 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
         power=smallest(found) if decision.verdict == "none" else {},
         details=decision.details,
     )
-    scenario = augmented_scenario(dataset, augmented)
-    return Outcome(result, scenario, dataset, found, decision, (believed, recalibrated.model, augmented), runs)
+    models = (size.restored(believed), size.restored(recalibrated.model), size.restored(augmented))
+    scenario = augmented_scenario(given, models[2])
+    if not size.usual:
+        # what is shown is in SI units
+        found, runs = study(given, USUAL), held_out(_held_out_slips(given), phased=phased(augmented))
+    return Outcome(result, scenario, given, found, decision, models, runs)
+
+
+def _held_out_slips(dataset: Dataset) -> list[Slips]:
+    return [s for s in (slips_of_run(r, dataset) for r in dataset.test) if len(s) >= 2]
 
 
 def augmented_scenario(dataset: Dataset, model: Model) -> Scenario:
@@ -177,12 +189,14 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
     runs = HeldOut(found.pool.slips[:2], tuple(windows), tuple(windows))
     before, after = mean_score(recalibrated, runs), mean_score(augmented, runs)
     floor = min(floor_of(augmented, runs), after)
-    reducible = before - floor
+    reducible, unit = before - floor, found.size.length
     if not kinds:
-        decision.details["explained"] = {"before": before, "floor": floor}
-        return _missed(decision, before, floor) if reducible > MISSED * before else None
+        decision.details["explained"] = {"before": before * unit, "floor": floor * unit}
+        return _missed(decision, before * unit, floor * unit) if reducible > MISSED * before else None
     share = (before - after) / reducible if reducible > LEAST_REDUCIBLE * before else 1.0
-    decision.details["explained"] = {"before": before, "after": after, "floor": floor, "share": share}
+    decision.details["explained"] = {
+        "before": before * unit, "after": after * unit, "floor": floor * unit, "share": share
+    }  # fmt: skip
     lenient = augmented.random or "sensor_step" in kinds
     if share >= (EXPLAINED_RANDOM if lenient else EXPLAINED):
         return None
@@ -228,7 +242,7 @@ def _borne_out(
         idle = bool(fewer.named) and last.kind not in RANDOM and seen is not None and not seen.better
         if seen is None or not (seen.worse or idle):
             break
-        dropped[last.kind] = dataclasses.asdict(seen)
+        dropped[last.kind] = {name: error * found.size.length for name, error in dataclasses.asdict(seen).items()}
         decision, fit, augmented = fewer, refitted, before
     if not dropped:
         return decision, fit, augmented
@@ -266,7 +280,8 @@ def _found(named: Named, fit: Fit | None, model: Model, found: Study) -> Found:
             deviation = float(deviations[0]) if deviations else 0.0
         if field.name.startswith("sigma"):
             deviation = value / np.sqrt(2.0 * independent)
-        parameters[field.name] = interval(value, deviation, about["unit"], about["low"], about["high"])
+        unit = found.size.of(about["unit"])
+        parameters[field.name] = interval(value * unit, deviation * unit, about["unit"], about["low"], about["high"])
     p_value = float(chi2_distribution.sf(max(named.score, 0.0), max(len(parameters), 1)))
     return Found(named.kind, named.class_, named.where, parameters, float(named.score), p_value)
 
@@ -287,7 +302,8 @@ def _intervals(fit: Fit, found: Study) -> dict[str, Interval]:
     for knob, value, deviation in zip(fit.knobs, fit.values, fit.deviations, strict=True):
         stated = getattr(box, knob.name, 0.0) if knob.name in CORRECTED else 0.0
         number, doubt = (stated * (1.0 + value), stated * deviation) if stated else (value, deviation)
-        rows[knob.name] = interval(number, doubt, UNITS.get(knob.name, "-"), low=0.0)
+        unit = UNITS.get(knob.name, "-")
+        rows[knob.name] = interval(number * found.size.of(unit), doubt * found.size.of(unit), unit, low=0.0)
     return rows
 
 
@@ -297,7 +313,8 @@ def _notes(found: Study, decision: Decision, gap: Gap | None) -> tuple[str, ...]
         notes.append(f"{found.outliers:.2e} of the samples were outliers and were replaced by a running median")
     colour = max((s.noise for s in found.pool.slips), key=lambda n: n.coloured)
     if colour.coloured > 0.0:
-        notes.append(f"the sensor's noise is coloured: {colour.coloured:.2g} m with a memory of {colour.memory:.2f} a sample")
+        size = colour.coloured * found.size.length
+        notes.append(f"the sensor's noise is coloured: {size:.2g} m with a memory of {colour.memory:.2f} a sample")
     if (belt := belt_speed(found)) is not None:
         notes.append(belt.note)
     dropped: Any = decision.details.get("not_borne_out", {})

@@ -184,7 +184,7 @@ def apart(
 
     return [
         Hypothesis(kind, [slips.column(static, kinetic)], (), alike),
-        Hypothesis(kind, [slips.column(static, None), slips.column(None, kinetic)], (), each),
+        Hypothesis(kind, [slips.column(static, None), slips.column(None, kinetic)], (), each, variant="apart"),
     ]
 
 
