@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -79,13 +79,29 @@ def _show(content: Mapping[str, Any]) -> None:
     click.echo(f"{content['model']}: {about}")
     rows = content["rows"]
     if not rows:
-        click.echo("No touching pair, joint or tendon has friction: nothing to check")
+        seen = f"No pair that touches within {content['settle']:g} s, no joint and no tendon has friction"
+        click.echo(f"{seen}: nothing to check (see --settle and --keyframe)")
     else:
         print_table(HEAD, [line for row in rows for line in _lines(row)], title=TITLE)
         click.echo(LEGEND)
         print_cards([(row["name"], [(row["kind"], row["advice"])]) for row in rows], title="What to change")
+        _show_imports(rows)
     for note in content["notes"]:
         click.echo(f"Note: {note}")
+
+
+def _show_imports(rows: Sequence[Mapping[str, Any]]) -> None:
+    """Say where the names in the advice come from."""
+    from stochfric_mb.laws import law_class
+
+    taken = [row for row in rows if "add_friction(" in row["advice"]]
+    if not taken:
+        return
+    names = ["add_friction", *dict.fromkeys(row["kind"].capitalize() for row in taken if row["kind"] != "contact")]
+    laws = {law_class(row["law"]["kind"]) for row in taken}
+    click.echo(f"In Python: from stochfric_mb.mujoco import {', '.join(names)}")
+    for law in sorted(laws, key=lambda law: law.__name__):
+        click.echo(f"           from {law.__module__} import {law.__name__}")
 
 
 def _lines(row: Mapping[str, Any]) -> list[list[str]]:

@@ -41,9 +41,8 @@ def _located(path: Path) -> Path:
     for file in bundled:
         if file.is_file():
             return file
-    raise InputError(
-        f"{path}: no such file; give an MJCF (.xml), URDF or binary (.mjb) model, or a bundled one: incline, belt_box"
-    )
+    what = "a folder" if path.is_dir() else "no such file"
+    raise InputError(f"{path}: {what}; give an MJCF (.xml), URDF or binary (.mjb) model, or a bundled one: incline, belt_box")
 
 
 def _compiled(spec: mujoco.MjSpec, what: str) -> mujoco.MjModel:
