@@ -35,8 +35,9 @@ def seconds_per_step(model, data):
     return (time.process_time() - began) / STEPS
 
 
-# One Euler step has one evaluation in which to pay for the commit, a Runge-Kutta step has four.
-@pytest.mark.parametrize(("integrator", "limit"), [("RK4", 1.1), ("EULER", 1.3)])
+# One Euler step has one evaluation in which to pay for the commit (1.00 to 1.06 measured), a Runge-Kutta step has four
+# (0.91 to 0.98); the limits leave room for what a shared machine scatters.
+@pytest.mark.parametrize(("integrator", "limit"), [("RK4", 1.05), ("EULER", 1.15)])
 @pytest.mark.parametrize("law", ["elastic_stick", "havsin"])
 def test_cost_against_native_friction(benchmark, law, integrator, limit):
     kind = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator}")
