@@ -30,7 +30,7 @@ LOCKED = 0.9
 """Share of a ripple's score that alternation from slip to slip must reach to be believed in its place [-]."""
 WORTH_SIMULATING = 0.1
 """Share of the best score from which on a candidate is simulated [-]."""
-MOST_SIMULATED = 7
+MOST_SIMULATED = 8
 """Candidates that are simulated in one round."""
 
 IN_SLIP = (
