@@ -149,24 +149,40 @@ def test_a_field_along_the_belt_is_followed() -> None:
     np.testing.assert_allclose(np.column_stack([run.mu_s, run.mu_k]), own, atol=1e-9)  # u to 1e-16 m of 1e-4 m
 
 
+# Located, RK44's errors at the scenarios' own laws and steps are what location leaves (next test): its order shows with a
+# softer contact, at steps beyond the scenarios' output step.
+SOFT = {"e_lim": 1e-4}
+SLOW = {"v_s": 1e-3, "v_d": 4e-3}
+
+
 @pytest.mark.parametrize(
-    ("law", "steps", "solver", "locate", "least"),
+    ("law", "changes", "steps", "solver", "locate", "least"),
     [
-        # located switches are followed by quarter steps, which help large steps most: errors are 2e-11 to 4e-10 m here, which
-        # is what location leaves (measured 1.3), and GeneralizedAlpha is second order from 0.1 ms on (1.8)
-        ("elastic_stick", (1e-3, 5e-4, 2e-4), "rk44", True, 1.0),
-        ("elastic_stick", (1e-4, 5e-5, 2.5e-5), "generalized_alpha", True, 1.6),
-        ("havsin", (5e-5, 4e-5, 2e-5, 1e-5), "rk44", True, 2.0),  # measured 2.5, at errors below 1e-12 m
-        ("havsin", (5e-5, 4e-5, 2e-5, 1e-5), "rk44", False, 2.8),  # measured 3.1
-        ("havsin", (5e-5, 4e-5, 2e-5, 1e-5), "generalized_alpha", False, 1.7),  # measured 2.0
-        ("havsin", (5e-5, 4e-5, 2e-5, 1e-5), "velocity_verlet", True, 0.8),  # measured 1.0
+        ("elastic_stick", SOFT, (6e-3, 3e-3, 2e-3, 1.5e-3), "rk44", True, 3.0),  # measured 3.5, errors 1e-7 to 9e-10 m
+        ("elastic_stick", {}, (1e-4, 5e-5, 2.5e-5), "generalized_alpha", True, 1.6),  # second order from 0.1 ms on: 1.8
+        ("havsin", SLOW, (5e-4, 2.5e-4, 2e-4, 1e-4, 5e-5), "rk44", True, 3.0),  # measured 3.5, errors 5e-10 to 1e-13 m
+        ("havsin", {}, (5e-5, 4e-5, 2e-5, 1e-5), "rk44", False, 2.8),  # measured 3.1
+        ("havsin", {}, (5e-5, 4e-5, 2e-5, 1e-5), "generalized_alpha", False, 1.7),  # measured 2.0
+        ("havsin", {}, (5e-5, 4e-5, 2e-5, 1e-5), "velocity_verlet", True, 0.8),  # measured 1.0
     ],
 )
-def test_order_of_convergence(law: str, steps: tuple[float, ...], solver: str, locate: bool, least: float) -> None:
-    s = scenario(law=law)
+def test_order_of_convergence(
+    law: str, changes: dict[str, float], steps: tuple[float, ...], solver: str, locate: bool, least: float
+) -> None:
+    s = scenario(law=law, duration=1.998)
+    s = dataclasses.replace(s, law=dataclasses.replace(s.law, **changes), output_step=max(1e-3, *steps))
     exact = reference.simulate(s, seed=1)
     errors = [rms_error(simulate(s, seed=1, dt=dt, solver=solver, locate=locate), exact) for dt in steps]
     assert order(steps, errors) > least
+
+
+@pytest.mark.parametrize("dt", [1e-3, 5e-4, 2e-4])
+def test_location_leaves_less_than_a_nanometre(dt: float) -> None:
+    s = scenario()
+    run = simulate(s, seed=1, dt=dt, solver="rk44", locate=True)
+    # Measured 3.5e-10, 1.2e-10 and 4e-11 m. Steps that end wherever they end leave 1e-7 m at each of these steps: a switch
+    # that is seen up to a step late, with the box at belt speed, 2.5 mm/s.
+    assert rms_error(run, reference.simulate(s, seed=1)) < 1e-9
 
 
 def test_location_beats_plain_steps() -> None:
