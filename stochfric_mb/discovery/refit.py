@@ -142,11 +142,11 @@ def _slope(change: Callable[[float], Array], first: float, most: float) -> Array
         return np.zeros_like(change(0.0))
     below, above = 0.0, most
     step = float(np.clip(first, LEAST_STEP, most))
+    moved = change(step)
     for _ in range(MOST_STEPS):
-        moved = change(step)
         size = float(np.linalg.norm(moved))
         if 1.0 / ALIKE <= size <= ALIKE or (size < 1.0 and step >= most):
-            return moved / step
+            break
         if size < 1.0:
             below = step
         else:
@@ -156,8 +156,10 @@ def _slope(change: Callable[[float], Array], first: float, most: float) -> Array
             step = min(guess, most)
         else:
             step = float(np.sqrt(max(below, LEAST_STEP) * above))
-    # errors jump there: no farther can the number be off, but no nearer is it known
-    return moved / (step * max(size, 1.0))
+        moved = change(step)
+    # where errors jump the number can be off no farther than the step, but no nearer is it known
+    size = float(np.linalg.norm(moved))
+    return moved / (step * (size if size > ALIKE else 1.0))
 
 
 class _Misfit:
