@@ -12,7 +12,7 @@ import numpy as np
 
 from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.recall import recalled
-from stochfric_mb.discovery.record import Array, Record
+from stochfric_mb.discovery.record import Array, Noise, Record
 from stochfric_mb.discovery.slips import Slips
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.statistics import crps
@@ -23,6 +23,8 @@ REACH = 1.05
 """Length of a forecast in typical cycles [-]."""
 MEMBERS = 30
 """Members of the ensemble of a random model."""
+STAND_INS = 10
+"""Members that stand in for a measurement."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -112,5 +114,30 @@ def score(model: Model, windows: Windows) -> Array:
         return np.zeros(0)
     if not model.random:
         return np.abs(forecasts(model, windows) - windows.targets).mean(axis=1)
-    members = np.stack([forecasts(model, windows, sample=s + 1) for s in range(MEMBERS)])
-    return crps(windows.targets, members).mean(axis=1)
+    return crps(windows.targets, _members(model, windows)).mean(axis=1)
+
+
+def expected_score(model: Model, windows: Windows, noise: Noise) -> Array:
+    """Return the CRPS that each forecast of a random model would have on average if the model were true [m], shape (n,).
+
+    Members of its ensemble take the place of what was measured, each with the sensor's noise, and are scored by the
+    others: a single record of the model would miss as much as its chances happen to make it miss.
+    """
+    if len(windows) == 0:
+        return np.zeros(0)
+    members = _members(model, windows)
+    generator = np.random.default_rng(0)
+    outliers = [e for e in model.effects_in(windows.record.name) if e.kind == "sensor_outliers"]
+    scores: list[Array] = []
+    for chosen in range(0, MEMBERS, MEMBERS // STAND_INS):
+        shown = members[chosen]
+        for effect in outliers:
+            shown = np.stack([effect.measure(t, p, generator) for t, p in zip(windows.times(), shown, strict=True)])
+        shown = shown + np.stack([noise.draw(N_OUTPUTS, generator) for _ in shown])
+        scores.append(crps(shown, np.delete(members, chosen, axis=0)).mean(axis=1))
+    return np.mean(scores, axis=0)
+
+
+def _members(model: Model, windows: Windows) -> Array:
+    """Return the forecasts of a random model's ensemble [m], shape (MEMBERS, n, N_OUTPUTS)."""
+    return np.stack([forecasts(model, windows, sample=s + 1) for s in range(MEMBERS)])

@@ -13,7 +13,7 @@ import numpy as np
 
 from stochfric_mb.discovery.calibration import calibrate
 from stochfric_mb.discovery.competitors import step_times, steps
-from stochfric_mb.discovery.forecast import Windows, score, windows_of
+from stochfric_mb.discovery.forecast import Windows, expected_score, score, windows_of
 from stochfric_mb.discovery.model import OWN_TO_RUN, Model
 from stochfric_mb.discovery.naming import with_steps
 from stochfric_mb.discovery.pool import make_pool
@@ -126,7 +126,12 @@ def mean_score(model: Model, runs: HeldOut) -> float:
 
 
 def floor_of(model: Model, runs: HeldOut) -> float:
-    """Return what the model scores on runs simulated from itself with the noise of the records [m]."""
+    """Return what the model scores on runs simulated from itself with the noise of the records [m]; a random one on average."""
+    if model.random:
+        noises = {s.record.name: s.noise for s in runs.slips}
+        typical = next(iter(noises.values()))
+        expected = [expected_score(model, w, noises.get(w.record.name, typical)) for w in runs.second]
+        return float(np.concatenate(expected).mean()) if sum(map(len, expected)) else float("nan")
     scores = [score(model, windows_of(simulated_slips(model, s, sample=7 + i))) for i, s in enumerate(runs.slips)]
     joined = np.concatenate(scores) if scores else np.zeros(0)
     return float(joined.mean()) if len(joined) else float("nan")
