@@ -14,10 +14,10 @@ import numpy as np
 from stochfric_mb.discovery.calibration import calibrate
 from stochfric_mb.discovery.competitors import step_times, steps
 from stochfric_mb.discovery.forecast import Windows, expected_score, score, windows_of
-from stochfric_mb.discovery.model import OWN_TO_RUN, Model
+from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.naming import with_steps
+from stochfric_mb.discovery.phases import in_phase
 from stochfric_mb.discovery.pool import make_pool
-from stochfric_mb.discovery.refit import refit
 from stochfric_mb.discovery.regression import Regression, believed
 from stochfric_mb.discovery.result import Gap
 from stochfric_mb.discovery.scatter import simulated_slips
@@ -25,8 +25,6 @@ from stochfric_mb.discovery.slips import Slips
 
 START = np.array([-3.0, -3.0, -4.0])
 """Logarithms of the scatter at which a step is looked for [ln N]."""
-PHASES = 4
-"""Starts of the search for a phase."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,20 +66,9 @@ def settled(model: Model, runs: HeldOut) -> Model:
     for windows in runs.first:
         if len(windows) == 0:
             continue
-        best, cost = None, np.inf
-        for start in np.arange(PHASES) * 2.0 * np.pi / PHASES:
-            before = calm.own.get(windows.record.name, ({},) * len(calm.effects))
-            values = tuple(
-                dict(b) | ({"phase": float(start)} if hasattr(e, "phase") else {})
-                for e, b in zip(calm.effects, before, strict=True)
-            )
-            trial = dataclasses.replace(calm, own=dict(calm.own) | {windows.record.name: values})
-            fit = refit(trial, [windows], {}, only=OWN_TO_RUN, evaluations=12, most=10)
-            if fit.cost < cost:
-                best, cost = fit.model.own[windows.record.name], fit.cost
-        assert best is not None
+        found = in_phase(calm, windows).own[windows.record.name]
         full: list[dict[str, float]] = [{} for _ in model.effects]
-        for place, values in zip(kept, best, strict=True):
+        for place, values in zip(kept, found, strict=True):
             full[place] = dict(values)
         own[windows.record.name] = tuple(full)
     return dataclasses.replace(model, own=own)

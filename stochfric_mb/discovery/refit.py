@@ -89,6 +89,13 @@ def refit(
     return Fit(adjusted(model, misfit.knobs, values), misfit.knobs, values, deviations, alone, float(found.cost))
 
 
+def cost_of(model: Model, windows: Sequence[Windows], *, most: int = MOST_WINDOWS) -> float:
+    """Return the robust sum of squares that a model as it is leaves of forecasts [-]; compare with `Fit.cost`."""
+    misfit = _Misfit(model, windows, {}, (), most)
+    squares = (misfit.errors(np.zeros(0)) / TYPICAL) ** 2
+    return float(TYPICAL**2 * np.sum(np.sqrt(1.0 + squares) - 1.0))
+
+
 def with_deviations(fit: Fit, windows: Sequence[Windows], uncertainty: Mapping[str, float], *, most: int = MOST_WINDOWS) -> Fit:
     """Return the fit with standard deviations from differences as wide as what the forecasts leave open.
 
