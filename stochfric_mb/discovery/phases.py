@@ -72,6 +72,6 @@ def _shifted(model: Model, run: str, pattern: dict[int, int], angle: float) -> M
     for i, order in pattern.items():
         for harmonic, name in enumerate(OWN_TO_RUN, start=1):
             if hasattr(model.effects[i], name):
-                start = float(own[i].get(name, getattr(model.effects[i], name)))
+                start = own[i][name] if name in own[i] else getattr(model.effects[i], name)
                 own[i][name] = start + harmonic * order * angle
     return dataclasses.replace(model, own=dict(model.own) | {run: tuple(own)})
