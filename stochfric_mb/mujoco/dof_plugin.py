@@ -21,6 +21,7 @@ from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import config, dof
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
+from stochfric_mb.mujoco.coordinates import KIND, LOAD, OBJECT
 from stochfric_mb.mujoco.options import CHECKER, options_allow, require_passive_forces
 from stochfric_mb.mujoco.plugin import UNSET, register
 from stochfric_mb.mujoco.registration import register_plugin
@@ -172,9 +173,9 @@ def _reset(model, state, plugin_data, instance):
     for j in range(s.DESCRIPTOR + n_descriptor + 2 * s.SLOT):
         n.store(state + 8 * j, 0.0)
     kind, number = object_of(model, instance)
-    n.store(state + 8 * dof.KIND, float(kind))
-    n.store(state + 8 * dof.OBJECT, float(number))
-    n.store(state + 8 * dof.LOAD, number_of(text_of(model, instance, NORMAL_FORCE)))
+    n.store(state + 8 * KIND, float(kind))
+    n.store(state + 8 * OBJECT, float(number))
+    n.store(state + 8 * LOAD, number_of(text_of(model, instance, NORMAL_FORCE)))
     n.store(state + 8 * s.LAW, n.load(record + 8 * config.R_LAW))
     n.store(state + 8 * s.SEED, float(config.parse_integer(text_of(model, instance, SEED), 0)))
     n.store(state + 8 * s.SAMPLE, float(config.parse_integer(text_of(model, instance, SAMPLE), 0)))

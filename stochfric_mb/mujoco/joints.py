@@ -14,7 +14,7 @@ import numpy as np
 from stochfric_mb.errors import InputError, require_name, require_number
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
-from stochfric_mb.mujoco import config, dof
+from stochfric_mb.mujoco import config, coordinates
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.dof_plugin import NAME, register_joints, require_no_hold
 from stochfric_mb.mujoco.reading import Reading
@@ -96,8 +96,8 @@ def joint_reading(model: mujoco.MjModel, state: np.ndarray[Any, Any]) -> list[Re
         return []
     first = s.DESCRIPTOR + int(state[s.N_DESCRIPTOR]) + s.SLOT
     row = state[first : first + s.SLOT]
-    kind = mujoco.mjtObj.mjOBJ_TENDON if state[dof.KIND] else mujoco.mjtObj.mjOBJ_JOINT
-    name = mujoco.mj_id2name(model, kind, int(state[dof.OBJECT]))
+    kind = mujoco.mjtObj.mjOBJ_TENDON if state[coordinates.KIND] else mujoco.mjtObj.mjOBJ_JOINT
+    name = mujoco.mj_id2name(model, kind, int(state[coordinates.OBJECT]))
     return [
         Reading(
             time=float(state[s.EVALUATED]),

@@ -17,7 +17,7 @@ from stochfric_mb.laws import law_class
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.attach import friction_instances
 from stochfric_mb.mujoco.config import friction_of
-from stochfric_mb.mujoco.dof import LOAD
+from stochfric_mb.mujoco.coordinates import LOAD
 from stochfric_mb.mujoco.joints import joint_instances
 from stochfric_mb.mujoco.native import plugin_text
 from stochfric_mb.mujoco.plugin import UNSET
