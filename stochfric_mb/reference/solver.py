@@ -17,6 +17,7 @@ from stochfric_mb.laws import Law
 from stochfric_mb.laws.abi import native_law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference import adaptive, coulomb
+from stochfric_mb.reference.problem import N_EVENTS, N_STEPS, NOW, STATUS, Problem, new_run
 from stochfric_mb.trajectory import Array, Trajectory
 
 METHODS = ("auto", "closed_form", "adaptive")
@@ -73,7 +74,7 @@ def solve(
         run = _start(problem, law, state, law_state, start_time)
         before = time.perf_counter()
         rows, events = _march(problem, run, outputs, progress)
-        seconds, n_steps = time.perf_counter() - before, int(run.clock[adaptive.N_STEPS])
+        seconds, n_steps = time.perf_counter() - before, int(run.clock[N_STEPS])
         final = run.state[: max(len(law.state_names), 1)].tolist()
         hook = "event-located DOP853"
     else:
@@ -118,7 +119,7 @@ def _initial_state(mechanism: BeltBox, given: Sequence[float] | None) -> tuple[f
     return require_number("initial position", given[0], unit="m"), require_number("initial velocity", given[1], unit="m/s")
 
 
-def _problem(mechanism: BeltBox, law: Law, path: CoefficientPath, rtol: float, state: tuple[float, float]) -> adaptive.Problem:
+def _problem(mechanism: BeltBox, law: Law, path: CoefficientPath, rtol: float, state: tuple[float, float]) -> Problem:
     """Return the compiled solver's view of the problem."""
     native = native_law(law.kind)
     natural = math.sqrt(mechanism.stiffness / mechanism.mass)
@@ -126,7 +127,7 @@ def _problem(mechanism: BeltBox, law: Law, path: CoefficientPath, rtol: float, s
     static = law.mu_s * mechanism.normal_force / mechanism.stiffness
     length = static + abs(mechanism.excitation_amplitude) + abs(state[0])
     speed = natural * length + abs(mechanism.belt_velocity) + abs(state[1])
-    return adaptive.Problem(
+    return Problem(
         init=native.init,
         force=native.force,
         commit=native.commit,
@@ -157,13 +158,13 @@ def _problem(mechanism: BeltBox, law: Law, path: CoefficientPath, rtol: float, s
 
 
 def _start(
-    problem: adaptive.Problem,
+    problem: Problem,
     law: Law,
     state: tuple[float, float],
     law_state: Sequence[float] | None,
     start_time: float,
 ) -> Any:
-    run = adaptive.new_run()
+    run = new_run()
     run.y[:2] = state
     if law_state is not None:
         n = max(len(law.state_names), 1)
@@ -174,26 +175,24 @@ def _start(
     return run
 
 
-def _march(
-    problem: adaptive.Problem, run: Any, outputs: Array, progress: Callable[[float], None] | None
-) -> tuple[Array, Array]:
+def _march(problem: Problem, run: Any, outputs: Array, progress: Callable[[float], None] | None) -> tuple[Array, Array]:
     """Return the rows and the events of the whole run, in chunks so that it can report and be interrupted."""
     rows = np.empty((len(outputs), 6))
     events: list[Array] = []
     for first in range(0, len(outputs), CHUNK):
         part = slice(first, first + CHUNK)
         log = adaptive.march(problem, run, outputs[part], rows[part])
-        events.append(log[: int(run.clock[adaptive.N_EVENTS])])
-        if run.clock[adaptive.STATUS] != adaptive.OK:
+        events.append(log[: int(run.clock[N_EVENTS])])
+        if run.clock[STATUS] != adaptive.OK:
             raise SimulationError(_breakdown(run))
         if progress is not None:
-            progress(float(run.clock[adaptive.NOW]))
+            progress(float(run.clock[NOW]))
     return rows, np.concatenate(events)
 
 
 def _breakdown(run: Any) -> str:
-    where = f"after t = {run.clock[adaptive.NOW]:.9g} s, at x = {run.y[0]:.6g} m and velocity {run.y[1]:.6g} m/s"
-    if run.clock[adaptive.STATUS] == adaptive.NOT_FINITE:
+    where = f"after t = {run.clock[NOW]:.9g} s, at x = {run.y[0]:.6g} m and velocity {run.y[1]:.6g} m/s"
+    if run.clock[STATUS] == adaptive.NOT_FINITE:
         return f"the solution is not finite {where}; the law returned no finite force there: check its parameters"
     return (
         f"more than {adaptive.MAX_STEPS_PER_LEG} steps between two outputs {where}; the law is too stiff for an "
