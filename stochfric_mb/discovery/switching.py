@@ -97,9 +97,9 @@ def switching(regression: Regression, residuals: Array) -> Switching:
 
 
 def _levels(pool: Pool, values: Array, finest: Array) -> tuple[float, np.ndarray]:
-    """Return the distance of two levels over their width, and which slips are at the upper one."""
+    """Return the distance of two levels over their width in a typical run, and which slips are at the upper one."""
     upper = np.zeros(len(values), dtype=bool)
-    distances, widths, weights = list[float](), list[Array](), list[int]()
+    distances, weights = list[float](), list[int]()
     for run in range(pool.n_runs):
         rows = np.flatnonzero(pool.kept & (pool.run == run))
         if len(rows) < 4:
@@ -107,12 +107,14 @@ def _levels(pool: Pool, values: Array, finest: Array) -> tuple[float, np.ndarray
         mine = values[rows]
         low, high = _halves(np.sort(mine))
         upper[rows] = np.abs(mine - np.median(high)) < np.abs(mine - np.median(low))
-        distances.append(float(np.median(high) - np.median(low)))
-        widths += [np.maximum(np.abs(part - np.median(part)), 0.67 * finest[run]) for part in (low, high)]
+        away = np.concatenate([np.abs(part - np.median(part)) for part in (low, high)])
+        width = 1.4826 * float(np.median(np.maximum(away, 0.67 * finest[run])))
+        # run by run: in a run whose slips are locked to a ripple all are alike, which tells nothing of the others
+        distances.append(float(np.median(high) - np.median(low)) / width)
         weights.append(len(rows))
     if sum(weights) < FEWEST:
         return 0.0, upper
-    return float(np.median(distances) / (1.4826 * np.median(np.concatenate(widths)))), upper
+    return float(np.median(distances)), upper
 
 
 def _halves(values: Array) -> tuple[Array, Array]:
