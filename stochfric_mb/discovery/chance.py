@@ -9,9 +9,11 @@ import numpy as np
 
 from stochfric_mb.discovery.calibration import robust_deviation
 from stochfric_mb.discovery.choice import NAME
-from stochfric_mb.discovery.randomness import Randomness
-from stochfric_mb.discovery.regression import Solution
+from stochfric_mb.discovery.pool import make_pool
+from stochfric_mb.discovery.randomness import Randomness, randomness
+from stochfric_mb.discovery.regression import Regression, Solution, believed
 from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.scatter import simulated_slips
 from stochfric_mb.discovery.study import Study
 from stochfric_mb.discovery.switching import Switching
 
@@ -29,6 +31,8 @@ FEWEST_KICKED, MOST_KICKED = 0.05, 0.35
 FEWEST_ALIKE, ALIKE = 4, 0.3
 """Slips that stand out by the same, and their share of those that do, from which on friction has a second level; amounts
 that are spread evenly over a tenth of the force would put one in thirty so close together [-]."""
+MORE_MEMORY = 2.0**0.5 * MEMORY
+"""The same beyond that of a declared process, which one simulation tells with as large an error [-]."""
 TOGETHER = 0.5
 """Correlation of stick and slip above which the scatter is not that of two independent coefficients [-]: of 24 slips with
 independent ones 1 in 80 reaches it, of 48 1 in 3000."""
@@ -98,8 +102,27 @@ def chance(
     mu_s, mu_k = study.solution.coefficients[:2]
     if not _scatters(study, scatter, solution, named, max(sigma_s, sigma_k) / mu_s):
         return None
-    if levels.where is not None:
-        return levels.where
+    if levels.where is not None or (scatter.wander > NAME and scatter.wander_of == "offset"):
+        return levels.where or _offset(study, scatter)
+    declared = study.model.process is not None
+    if not declared or scatter.correlation > _declared(study).correlation + MORE_MEMORY:
+        memory = _memory(scatter, mu_s, mu_k)
+        if memory is not None or declared:
+            return memory
+    else:
+        return None
+    if scatter.together > TOGETHER:
+        return Where("scatter, in stick and slip alike", "a force or a load of irregular course acts in stick and slip alike")
+    strongest = max(scatter.static, scatter.kinetic)
+    within = scatter.within > CERTAIN and scatter.within > 0.05 * strongest
+    values: dict[str, float | str] = {
+        "process": "knots" if within else "per_event", "sigma_s": float(sigma_s), "sigma_k": float(sigma_k)
+    }  # fmt: skip
+    return Chance("random_coefficients", strongest, values)
+
+
+def _memory(scatter: Randomness, mu_s: float, mu_k: float) -> Chance | Where | None:
+    """Return what a scatter with a memory is; None where it has none."""
     if (scatter.wander > NAME and scatter.correlation > MEMORY) or scatter.wander > 5.0 * NAME:
         share = max(scatter.wander_share, 1.0e-3)
         return Chance(
@@ -107,19 +130,27 @@ def chance(
             scatter.wander,
             {"sigma_s": float(share * mu_s), "sigma_k": float(share * mu_k), "correlation_time": float(scatter.wander_time)},
         )
-    where = None
     if scatter.correlation > 2.0 * MEMORY:
-        where = Where("scatter, time", "friction varies from slip to slip with a memory that no known random process has")
-    elif study.model.process is None and scatter.together > TOGETHER:
-        where = Where("scatter, in stick and slip alike", "a force or a load of irregular course acts in stick and slip alike")
-    if where is not None or study.model.process is not None:
-        return where
-    strongest = max(scatter.static, scatter.kinetic)
-    within = scatter.within > CERTAIN and scatter.within > 0.05 * strongest
-    values: dict[str, float | str] = {
-        "process": "knots" if within else "per_event", "sigma_s": float(sigma_s), "sigma_k": float(sigma_k)
-    }  # fmt: skip
-    return Chance("random_coefficients", strongest, values)
+        return Where("scatter, time", "friction varies from slip to slip with a memory that no known random process has")
+    return None
+
+
+def _declared(study: Study) -> Randomness:
+    """Return what the scatter would tell if the declared process were all that is random."""
+    slips = [simulated_slips(study.model, s, sample=i) for i, s in enumerate(study.pool.slips)]
+    pool = make_pool(slips, study.pool.calibrations)
+    regression = Regression(pool)
+    terms = believed(pool, dict(study.uncertainty))
+    return randomness(regression, terms, regression.fit(terms, study.solution.scatter))
+
+
+def _offset(study: Study, scatter: Randomness) -> Where | None:
+    """Return where a force wanders that is the same in stick and slip; None where it is a sensor's zero, within its noise."""
+    pool = study.pool
+    away = scatter.wander_share * float(np.median(pool.static)) / study.records[0].mechanism.stiffness
+    if away < max(s.noise.deviation for s in pool.slips):
+        return None
+    return Where("time", f"the same in stick and slip, a force or the sensor's zero wanders by {away:.2g} m")
 
 
 def _scatters(study: Study, scatter: Randomness, solution: Solution, named: Sequence[str], share: float) -> bool:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery.competitors import SOFTENING
 from stochfric_mb.discovery.confirmation import Case, Confirmed, confirm
 from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.naming import PERIODIC, with_candidate
@@ -23,15 +24,24 @@ OUTDONE = 0.5
 CLASS, CLASS_SHARE = 12.0, 0.03
 """Effects whose score is within this, or this share, of the best are of one class with it [-]."""
 CONFIRMED_CLASS = 10.0
-"""Effects whose simulated criterion is within this of the best are of one class with it [-]."""
+"""Effects whose simulated criterion, in units of the best one's own misfit, is within this of the best are of one class with
+it [-]."""
 LACK, LACK_SHARE = 25.0, 0.35
 """A simulated candidate is refused if chi^2 stays this far above its freedom and above this share of the believed model's."""
+DRIFTS = ("friction_drift", "sensor_drift")
+"""Effects that a stiffness which drifts may be taken for."""
+BEATEN = 15.0
+"""Score by which it must beat them, or `CLASS_SHARE` [-]."""
 LOCKED = 0.9
 """Share of a ripple's score that alternation from slip to slip must reach to be believed in its place [-]."""
 WORTH_SIMULATING = 0.1
-"""Share of the best score from which on a candidate is simulated [-]."""
+"""Share of the best effect's score from which on a candidate is simulated [-]."""
 MOST_SIMULATED = 8
-"""Candidates that are simulated in one round."""
+"""Candidates that are simulated in the first round."""
+MOST_SIMULATED_LATER = 4
+"""The same in what an effect leaves, where the best marks can be trusted: what is left is weak."""
+REFUTED = "shapes_refuted"
+"""Name under which the details hold that simulating effects which shape every slip alike has not borne them out."""
 
 IN_SLIP = (
     "velocity_weakening", "viscous_friction", "frictional_lag", "nonlinear_stiffness", "quadratic_damping", "backlash",
@@ -92,9 +102,12 @@ def choose(
     shape = max((c.score for c in candidates if c.name in family + SHAPES), default=-np.inf)
     rest = max((c.score for c in candidates if c.name not in family + SHAPES), default=-np.inf)
     if before is not None and shape >= NAME and shape >= rest:
-        outcome = _by_simulation(study, model, n_terms, effects, family, cases, before, details)
-        if outcome is not None:
-            return outcome
+        # refuted once, shapes stay refuted: the slips that simulated ones are compared with are the same
+        if REFUTED not in details:
+            outcome = _by_simulation(study, model, n_terms, effects, family, cases, before, details)
+            if outcome is not None:
+                return outcome
+            details[REFUTED] = True
         # simulation does not bear the shape out: what remains are effects that change from slip to slip
         effects = [c for c in effects if c.name not in family and c.score > WORTH_SIMULATING * shape]
         others = [c for c in others if c.name not in SHAPES]
@@ -104,6 +117,9 @@ def choose(
         return Where(other.axis, f"the disagreement lives on the axis: {other.axis}; no known effect explains it")
     if best is None or best.score < NAME:
         return None
+    softer = next((c for c in others if c.name == SOFTENING), None)
+    if softer is not None and best.name in DRIFTS and softer.score > best.score + max(BEATEN, CLASS_SHARE * best.score):
+        return Where(softer.axis, "the spring, not the friction, drifts in the course of a run")
     parity = next((c for c in others if c.name == "parity"), None)
     if parity is not None and best.name in PERIODIC and parity.score > LOCKED * best.score:
         return Where(
@@ -127,10 +143,11 @@ def _by_simulation(
     mine = [c for c in effects if c.name in family]
     # over the best effect, not the shape: where none comes near it the marks are too far from linear to choose by
     least = max(WORTH_SIMULATING * mine[0].score if mine else 0.0, SELECT / 2.0)
-    trials = [c for c in mine if c.score > least][:MOST_SIMULATED]
-    tried = [(c, confirm(cases, with_candidate(model, c, study.pool, n_terms), study.uncertainty)) for c in trials]
     rounds = sum(key.startswith("confirmation") for key in details)
-    tried.sort(key=lambda t: t[1].criterion)
+    trials = [c for c in mine if c.score > least][: MOST_SIMULATED_LATER if rounds else MOST_SIMULATED]
+    tried = [(c, confirm(cases, with_candidate(model, c, study.pool, n_terms), study.uncertainty)) for c in trials]
+    spread = _spread([f for _, f in tried])
+    tried.sort(key=lambda t: t[1].scaled(spread))
     # of several variants of an effect the best one counts
     details[f"confirmation_{rounds + 1}"] = {c.name: [f.chi2, f.criterion] for c, f in reversed(tried)} | {
         "believed": [before.chi2, before.criterion]
@@ -145,6 +162,15 @@ def _by_simulation(
             "shape of the friction force within a slip",
             f"no known effect explains the force within the slips; {best.name} comes closest",
         )
-    near = fitted.criterion + CONFIRMED_CLASS
-    class_ = tuple(dict.fromkeys(c.name for c, f in tried[1:] if f.criterion < near and c.name != best.name))
+    near = fitted.scaled(spread) + CONFIRMED_CLASS
+    class_ = tuple(dict.fromkeys(c.name for c, f in tried[1:] if f.scaled(spread) < near and c.name != best.name))
     return Chosen(best, class_, fitted.model, fitted, True)
+
+
+def _spread(confirmed: Sequence[Confirmed]) -> float:
+    """Return chi^2 over its freedom of the best candidate, at least 1: what the forms of all candidates miss.
+
+    Where no form is exact, differences of chi^2 tell of the forms, not of the kinds; the noise in which kinds are compared
+    is then the misfit itself (quasi-likelihood: D. R. Anderson, K. P. Burnham, G. C. White, Ecology 75, 1994, 1780-1793).
+    """
+    return max(min((f.chi2 / max(f.freedom, 1) for f in confirmed), default=1.0), 1.0)

@@ -11,7 +11,12 @@ import numpy as np
 
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.record import Array
-from stochfric_mb.effects.marks import Columns
+from stochfric_mb.effects.marks import Columns, Hypothesis
+
+SOFTENING = "softening"
+"""Competitor of effects that drift, in as few numbers as they."""
+SETTLING = np.geomspace(0.03, 1.0, 22)
+"""Times in which its drift settles, over the length of the record [-]."""
 
 
 def step_times(pool: Pool) -> Array:
@@ -25,6 +30,20 @@ def steps(pool: Pool, run: int, *, multiplied: bool) -> list[Array]:
     stiffness = pool.per_run(lambda s: s.record.mechanism.stiffness)
     static, kinetic = (pool.static, pool.kinetic) if multiplied else (stiffness * pool.direction,) * 2
     return [pool.column(static * (pool.onset_time > t) * mine, kinetic * (pool.mean_time > t) * mine) for t in step_times(pool)]
+
+
+def softening(pool: Pool) -> list[Hypothesis]:
+    """Return a stiffness that drifts in each run, along the same courses as the effect of friction that drifts."""
+    last = pool.duration
+    stiffness = pool.per_run(lambda s: s.record.mechanism.stiffness)
+    found: list[Hypothesis] = []
+    for tau in (np.inf, *(share * last for share in SETTLING)):
+        grown = [t / last if np.isinf(tau) else -np.expm1(-t / tau) for t in (pool.onset_time, pool.mean_time)]
+        columns = [
+            pool.column(-stiffness * pool.typical_onset * grown[0], -(stiffness * grown[1])[:, None] * pool.typical_position)
+        ]
+        found.append(Hypothesis(SOFTENING, columns, (float(tau),)))
+    return found
 
 
 def competitors(pool: Pool) -> dict[str, tuple[str, Sequence[Array]]]:

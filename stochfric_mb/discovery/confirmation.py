@@ -15,7 +15,7 @@ import numpy as np
 
 from stochfric_mb.discovery.calibration import damped
 from stochfric_mb.discovery.least_squares import minimised
-from stochfric_mb.discovery.model import Knob, Model, adjusted, knobs_of
+from stochfric_mb.discovery.model import FREED, Knob, Model, adjusted, knobs_of
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.recall import recalled
 from stochfric_mb.discovery.record import Array, Record
@@ -29,6 +29,7 @@ TYPICAL_SLIPS, LOOKED_AT = 6, 10
 """Slips compared at an operating point with a known excitation, chosen from this many as those most like each other."""
 STRENGTHS = (
     "amplitude", "coefficient", "distance", "cubic", "gap", "mass_ratio", "rate", "exponent", "asymmetry", "time_constant",
+    "quadratic",
 )  # fmt: skip
 """Parameters that measure how strong an effect is."""
 LEVELLINGS = 2
@@ -72,14 +73,18 @@ class Confirmed:
     chi2: float
     """Misfit, priors included [-]."""
     n_parameters: int
-    """Parameters of the effects."""
+    """Parameters of the effects, and those of the believed model that they leave open."""
     freedom: int
     """Features less parameters."""
 
     @property
     def criterion(self) -> float:
         """chi^2 + p ln 60: lower is better, whatever the record's length."""
-        return self.chi2 + self.n_parameters * np.log(60.0)
+        return self.scaled(1.0)
+
+    def scaled(self, spread: float) -> float:
+        """Return the criterion with chi^2 in units of ``spread``, what the forms of all candidates miss [-]."""
+        return self.chi2 / spread + self.n_parameters * np.log(60.0)
 
 
 def cases_of(pool: Pool, model: Model) -> list[Case]:
@@ -163,7 +168,11 @@ def _case(
 
 
 def predict(model: Model, case: Case) -> Array | None:
-    """Return the features that the model predicts for a case [N], shape (N_FEATURES,); None where it does not slip so."""
+    """Return the features that the model predicts for a case [N], shape (N_FEATURES,); None where it does not slip so.
+
+    A declared scatter is left out: medians are compared, and one draw of it is not the median.
+    """
+    model = dataclasses.replace(model, process=None)
     record = case.record
     box = record.mechanism
     margin = 3.3 / record.angular_frequency
@@ -232,7 +241,9 @@ def confirm(cases: Sequence[Case], candidate: Model, uncertainty: Mapping[str, f
         ftol=1.0e-3,
         x_scale="jac",
     )
-    n_parameters = sum(k.effect >= 0 for k in knobs)
+    # what of the believed model an effect leaves open is a number of its own, too
+    freed = {name for e in candidate.effects for name in FREED.get(e.kind, ())}
+    n_parameters = sum(k.effect >= 0 or k.name in freed for k in knobs)
     return Confirmed(
         tuple(e.kind for e in candidate.effects),
         adjusted(candidate, knobs, start + scale * found.x),
@@ -253,18 +264,19 @@ def _levels_away(model: Model, cases: Sequence[Case]) -> dict[str, float]:
 
 
 def _starts(candidate: Model, knobs: Sequence[Knob], scale: Array) -> list[Array]:
-    """Return where a fit may start: as screened, and with the last effect several times weaker."""
+    """Return where a fit may start: as screened, and with the last effect, and what it leaves open, several times weaker."""
     starts = [np.zeros(len(knobs))]
     if not candidate.effects:
         return starts
     last = len(candidate.effects) - 1
-    for i, knob in enumerate(knobs):
-        if knob.effect == last and knob.name in STRENGTHS and knob.value != 0.0:
-            for share in (0.5, 0.2, 0.05):
-                weaker = np.zeros(len(knobs))
-                weaker[i] = (share - 1.0) * knob.value / scale[i]
-                starts.append(weaker)
-    return starts
+    freed = FREED.get(candidate.effects[last].kind, ())
+    strong = [k.effect == last and k.name in STRENGTHS and k.value != 0.0 for k in knobs]
+    if not any(strong):
+        return starts
+    # a stiffness that was freed for a curved spring would, without its curve, be of another rig
+    along = np.array([s or (k.effect < 0 and k.name in freed) for s, k in zip(strong, knobs, strict=True)])
+    values = np.array([k.value for k in knobs])
+    return starts + [np.where(along, (share - 1.0) * values / scale, 0.0) for share in (0.5, 0.2, 0.05)]
 
 
 def _step(knob: Knob, load: float) -> float:

@@ -10,17 +10,18 @@ import numpy as np
 from stochfric_mb.discovery.belt import belt_speed
 from stochfric_mb.discovery.chance import MEMORY, chance, kicks
 from stochfric_mb.discovery.choice import IN_SLIP, IN_TIME, NAME, SELECT, SHAPES, Chosen, choose
-from stochfric_mb.discovery.confirmation import cases_of, confirm
+from stochfric_mb.discovery.confirmation import Case, Confirmed, cases_of, confirm
 from stochfric_mb.discovery.innovations import left_over
 from stochfric_mb.discovery.kinematics import kinematics, with_kinematic
 from stochfric_mb.discovery.model import Model
-from stochfric_mb.discovery.naming import PERIODIC, as_harmonic
+from stochfric_mb.discovery.naming import PERIODIC, as_harmonic, with_candidate
 from stochfric_mb.discovery.randomness import Randomness, randomness
 from stochfric_mb.discovery.record import Array
 from stochfric_mb.discovery.refit import refit
 from stochfric_mb.discovery.regression import Regression, Solution, Terms, believed
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.screening import Candidate, screen
+from stochfric_mb.discovery.sensor_zero import seen_step, steady
 from stochfric_mb.discovery.study import EVERYTHING, Channels, Progress, Study
 from stochfric_mb.discovery.switching import JUMPS, SWITCHES, in_step, switching
 from stochfric_mb.discovery.where import where_of
@@ -138,13 +139,13 @@ class _Search:
         self.stalled = False
         self.in_forces = not named
         self.kept: list[Array] = []
+        self.cases: list[Case] = []
+        self.confirmed: Confirmed | None = None
         if any(n.kind in ("belt_speed_ripple", "presliding_compliance") for n in named):
             self._take_out()
 
     def run(self) -> Decision:
         """Return the decision."""
-        cases = cases_of(self.pool, self.model) if self.confirmation else []
-        confirmed = confirm(cases, self.model, self.study.uncertainty) if cases else None
         first = 0.0
         for round_ in range(MOST_ROUNDS):
             kinds = [n.kind for n in self.named]
@@ -157,18 +158,18 @@ class _Search:
                 self.ranking = tuple(_scores(candidates).items())
                 first = candidates[0].score
             self.details[f"round_{round_ + 1}"] = _scores(candidates[:8])
+            if round_ == 0 and (step := seen_step(candidates, self.details)) is not None:
+                self._add(Chosen(step, (), with_candidate(self.model, step, self.pool, self._n_terms), None, False))
+                continue
             if candidates[0].score < max(NAME if round_ == 0 else SELECT, SECOND * first if round_ else 0.0):
                 break
-            if round_ == 0 and not self.named:
-                if self._wanders(candidates):
-                    break
-                sudden = self._sudden(candidates)
-                if sudden is not None and kicks(self.study) is None:
-                    return self._unknown(sudden)
-                if sudden is not None:
-                    break
+            if round_ == 0 and not self.named and (of_chance := self._of_chance(candidates)) is not False:
+                if isinstance(of_chance, Where):
+                    return self._unknown(of_chance)
+                break
             self.progress("confirmation")
-            outcome = choose(self.study, self.model, self.terms, candidates, cases, confirmed, self.details)
+            self._look_at(candidates)
+            outcome = choose(self.study, self.model, self.terms, candidates, self.cases, self.confirmed, self.details)
             if isinstance(outcome, Where):
                 if not self.named:
                     return self._unknown(outcome)
@@ -177,11 +178,28 @@ class _Search:
                 break
             if outcome is None or not self._stands_alone(outcome, candidates):
                 break
-            confirmed = outcome.confirmed
+            self.confirmed = outcome.confirmed
             self._add(outcome)
             if self.stalled:
                 break
         return self._chance()
+
+    @property
+    def _n_terms(self) -> int:
+        return self.terms.columns.shape[2]
+
+    def _look_at(self, candidates: Sequence[Candidate]) -> None:
+        """Take the slips that simulated ones are compared with, if that has not been done."""
+        if self.confirmation and not self.cases:
+            self.cases = cases_of(steady(self.pool, candidates, self.kept, self.solution), self.model)
+            self.confirmed = confirm(self.cases, self.model, self.study.uncertainty) if self.cases else None
+
+    def _of_chance(self, candidates: Sequence[Candidate]) -> Where | bool:
+        """Return whether no effect is to be named before friction that wanders or is kicked, or where it switches."""
+        if self._wanders(candidates):
+            return True
+        sudden = self._sudden(candidates)
+        return False if sudden is None else True if kicks(self.study) is not None else sudden
 
     def _wanders(self, candidates: Sequence[Candidate]) -> bool:
         """Return whether a winner on the axis of time is better told as a random wander."""
@@ -235,7 +253,7 @@ class _Search:
     def _add(self, chosen: Chosen) -> None:
         """Take an effect into the model, and out of the features."""
         kind = chosen.candidate.name
-        harmonic = as_harmonic(self.model, chosen.candidate, self.study.pool, self.terms.columns.shape[2])
+        harmonic = as_harmonic(self.model, chosen.candidate, self.study.pool, self._n_terms)
         if harmonic is not None:
             self.model = harmonic
         elif any(n.kind == kind for n in self.named):

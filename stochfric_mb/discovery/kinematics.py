@@ -30,6 +30,8 @@ CREEP = {
 """Ways in which a stuck box may creep -> axis and sentence."""
 ELSE = ("stick", "in stick the box does not follow the belt, in a way that no known effect explains")
 """The same where none of them explains enough."""
+STEP_SEEN = "step_in_stick"
+"""Name under which the details hold the score of a step that stands in a stick phase and stays."""
 LEAST_OUTLIERS = 5.0e-5
 """Share of outliers from which on they are named [-]."""
 OUTSHINES = 10.0
@@ -37,6 +39,9 @@ OUTSHINES = 10.0
 that rings is seen in the first few periods after each re-stick, a line all along [-]."""
 LINE = 60.0
 """Strength of a line in the noise at which it is no chance [-]; the largest of 64 without a line stays below 10."""
+
+LOUD_LINE = 1.0
+"""Variance of such a line over that of the rest of the noise below which it is part of the noise [-]."""
 
 
 def with_kinematic(study: Study, model: Model, kind: str, values: dict[str, float]) -> Model:
@@ -135,6 +140,8 @@ def _in_stick(study: Study, details: dict[str, object]) -> Blamed | Where:
         forced = any(r.mechanism.excitation_amplitude for r in study.records)
         if sticking.scores["sensor_step"] > max(NAME, 0.2 * sticking.excess) and not forced:
             details["single_moments"] = sticking.scores["sensor_step"]
+    if score > NAME and best == "sensor_step":
+        details[STEP_SEEN] = score
     if score <= NAME or best in ("sensor_drift", "sensor_step"):
         return line if line is not None and score <= NAME else []
     if best in CREEP or score < 0.75 * sticking.excess - 60.0:
@@ -211,7 +218,8 @@ def _line(study: Study, details: dict[str, object]) -> Where | None:
     frequency, amplitude, strength = max((s.line for s in study.pool.slips), key=lambda line: line[2])
     frequency, amplitude = frequency * study.size.of("Hz"), amplitude * study.size.length
     details["noise_line"] = {"frequency": frequency, "amplitude": amplitude, "strength": strength}
-    if strength < LINE:
+    variance = max(s.noise.deviation for s in study.pool.slips) ** 2
+    if strength < LINE or amplitude**2 / 2.0 < LOUD_LINE * max(variance - amplitude**2 / 2.0, 0.0):
         return None
     return Where(
         "frequency, sensor", f"the position holds a vibration of {frequency:.3g} Hz and {amplitude:.2g} m, in stick too"

@@ -18,7 +18,10 @@ from stochfric_mb.reference.augmented import AugmentedSystem, augmented_system
 
 CORRECTED = ("stiffness", "mass", "damping")
 """Parameters of the mechanism that recalibration may correct."""
-NOT_FITTED = ("reference_load", "spacing", "fraction", "size", "time", "duration", "high", "low", "static_share", "share_below")
+NOT_FITTED = (
+    "reference_load", "spacing", "fraction", "size", "time", "duration", "high", "low", "static_share", "share_below",
+    "shape_exponent",
+)  # fmt: skip
 """Parameters of effects that forecasts cannot fit, or that are fixed by what they mean."""
 REACH = 0.25
 """How far a fit may move the coefficients, over mu_s [-]: further off, a forecast that never slips would look good."""
@@ -167,8 +170,8 @@ def _bounds(kind: str, name: str, value: float, about: Mapping[str, Any]) -> tup
 
 
 def _shared(name: str, value: float) -> bool:
-    """Return whether a share is to be fitted: where it is neither none nor all."""
-    return name in ("static_share", "share_below") and value not in (0.0, 1.0)
+    """Return whether a share is to be fitted: where it is neither none nor all; an exponent, where it is not the plain one."""
+    return name in ("static_share", "share_below", "shape_exponent") and value not in (0.0, 1.0)
 
 
 def adjusted(model: Model, knobs: Sequence[Knob], values: Array) -> Model:

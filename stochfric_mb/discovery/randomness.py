@@ -23,11 +23,13 @@ class Randomness:
     correlation: float
     """Correlation of the scatter from one slip to the next over its standard error [-]."""
     wander: float
-    """Score of a slow common wander of both forces [-]."""
+    """Score of a slow wander of the forces [-]."""
     wander_share: float
     """Standard deviation of the wander over the mean friction [-]."""
     wander_time: float
     """Its correlation time [s]."""
+    wander_of: str
+    """What wanders, a key of `MODES`: "both" coefficients, "mu_s", "mu_k", or an "offset", the same force in stick and slip."""
     together: float
     """Correlation of the onset force with the mean force of the slip that follows [-]."""
 
@@ -42,8 +44,9 @@ def randomness(regression: Regression, terms: Terms, solution: Solution) -> Rand
 
     rest = regression.residuals(terms, solution)[:, :2]
     correlation = _correlation(regression, rest)
-    wander, share, time = _wander(regression, rest, solution) if correlation > WORTH_A_LOOK else (0.0, 0.0, 1.0)
-    return Randomness(ratio(0), ratio(1), ratio(2), correlation, wander, share, time, _together(regression, rest))
+    nothing = (0.0, 0.0, 1.0, "both")
+    wander, share, time, what = _wander(regression, rest, solution) if correlation > WORTH_A_LOOK else nothing
+    return Randomness(ratio(0), ratio(1), ratio(2), correlation, wander, share, time, what, _together(regression, rest))
 
 
 def _together(regression: Regression, rest: Array) -> float:
@@ -69,22 +72,22 @@ def _correlation(regression: Regression, rest: Array) -> float:
 
 WORTH_A_LOOK = 2.0
 """Correlation over its standard error below which no wander is looked for [-]."""
-MODES = ((1.0, 1.0), (1.0, 0.0), (0.0, 1.0))
-"""Wander of both coefficients together, of mu_s alone, of mu_k alone."""
-SHARES = (0.003, 0.008, 0.02, 0.04, 0.08)
-"""Strengths of wander that are tried, over the mean friction [-]."""
+MODES = ("both", "mu_s", "mu_k", "offset")
+"""Wander of both coefficients together, of mu_s alone, of mu_k alone, and of a force that is the same in stick and slip."""
+SHARES = (0.001, 0.003, 0.008, 0.02, 0.04, 0.08)
+"""Strengths of wander that are tried, over the mean friction, that of an offset over the force at break-away [-]."""
 TIMES = (0.7, 1.5, 3.0, 6.0, 15.0)
 """Correlation times that are tried, in cycles [-]."""
 REMAINING = (1.0, 0.2, 0.02, 0.0)
 """Shares of the independent scatter that may remain [-]."""
 
 
-def _wander(regression: Regression, rest: Array, solution: Solution) -> tuple[float, float, float]:
-    """Return (score, strength, correlation time) of an Ornstein-Uhlenbeck factor on both forces."""
+def _wander(regression: Regression, rest: Array, solution: Solution) -> tuple[float, float, float, str]:
+    """Return (score, strength, correlation time, what wanders) of an Ornstein-Uhlenbeck process on the forces."""
     pool = regression.pool
     static, kinetic = np.exp(2.0 * solution.scatter[:2])
     cycle = float(np.median([np.median(np.diff(s.onset_time)) for s in pool.slips]))
-    runs: list[tuple[Array, list[Array], Array, Array]] = []
+    runs: list[tuple[Array, dict[str, Array], Array, Array]] = []
     for r in range(pool.n_runs):
         rows = np.flatnonzero((pool.run == r) & pool.kept)
         if len(rows) < 4:
@@ -96,10 +99,16 @@ def _wander(regression: Regression, rest: Array, solution: Solution) -> tuple[fl
         time = np.r_[pool.onset_time[rows], pool.mean_time[rows]]
         value = np.r_[rest[rows, 0], rest[rows, 1]]
         apart = np.abs(time[:, None] - time[None])
-        levels = [np.r_[a * pool.static[rows], b * pool.kinetic[rows]] for a, b in MODES]
-        runs.append((np.stack([measured, own]), [v[:, None] * v[None] for v in levels], apart, value))
+        static_level, kinetic_level, none = pool.static[rows], pool.kinetic[rows], np.zeros(n)
+        levels = {
+            "both": np.r_[static_level, kinetic_level],
+            "mu_s": np.r_[static_level, none],
+            "mu_k": np.r_[none, kinetic_level],
+            "offset": np.r_[static_level, static_level],
+        }
+        runs.append((np.stack([measured, own]), {m: v[:, None] * v[None] for m, v in levels.items()}, apart, value))
 
-    def cost(remaining: float, share: float, duration: float, mode: int = 0) -> float:
+    def cost(remaining: float, share: float, duration: float, mode: str = "both") -> float:
         total = 0.0
         for diagonal, levels, apart, value in runs:
             matrix = np.diag(diagonal[0] + remaining * diagonal[1])
@@ -111,17 +120,18 @@ def _wander(regression: Regression, rest: Array, solution: Solution) -> tuple[fl
         return total
 
     plain = min(cost(a, 0.0, 1.0) for a in (1.3, 1.0, 0.7))
-    best = (plain, 0.0, cycle)
+    best = (plain, 0.0, cycle, "both")
     for share in SHARES:
         for count in TIMES:
             for remaining in REMAINING:
-                for mode in range(len(MODES)):
+                for mode in MODES:
                     trial = cost(remaining, share, count * cycle, mode)
                     if trial < best[0]:
-                        best = (trial, share, count * cycle)
+                        best = (trial, share, count * cycle, mode)
     n = len(rest)
     return (
         2.0 * (plain - best[0]) - 2.0 * np.log(max(n, 2)) - 2.0 * np.log(len(SHARES) * len(TIMES) * len(MODES)),
         best[1],
         best[2],
+        best[3],
     )

@@ -153,10 +153,14 @@ def line_in(residuals: list[Array], rate: float) -> tuple[float, float, float]:
         return 0.0, 0.0, 0.0
     window = np.hanning(LINE_WINDOW)
     power = np.mean([np.abs(np.fft.rfft(window * (p - p.mean()))) ** 2 for p in pieces], axis=0)
-    ratio = power / np.maximum(median_filter(power, 15, mode="nearest"), 1.0e-300)
+    around = median_filter(power, 15, mode="nearest")
+    ratio = power / np.maximum(around, 1.0e-300)
     ratio[:4] = 0.0
     best = int(np.argmax(ratio))
-    amplitude = 2.0 * math.sqrt(float(power[best])) / window.sum()
+    # all of the main lobe: a line that falls between two frequencies stands in both
+    lobe = slice(max(best - 2, 0), best + 3)
+    above = float(np.maximum(power[lobe] - around[lobe], 0.0).sum())
+    amplitude = 2.0 * math.sqrt(above / (LINE_WINDOW * float(window @ window)))
     return best * rate / LINE_WINDOW, amplitude, float((ratio[best] - 1.0) * math.sqrt(len(pieces)))
 
 

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from stochfric_mb.discovery.competitors import competitors, step_times, steps
+from stochfric_mb.discovery.competitors import SOFTENING, competitors, softening, step_times, steps
 from stochfric_mb.discovery.hypotheses import hypotheses_in, waves_in
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.regression import Regression, Solution, Terms
@@ -75,6 +75,8 @@ def screen(
         families.append((kind, "", [best_one], looked_at))
     for name, (axis, columns) in competitors(pool).items():
         families.append((name, axis, [Hypothesis(name, list(columns))], 1))
+    softer = softening(pool)
+    families.append((SOFTENING, "stiffness, time within the run", softer, len(softer)))
     for kind, axis, multiplied in (("friction_step", "abrupt change of the friction", True), ("sensor_step", "", False)):
         if kind not in without:
             step = _step(pool, regression, terms, solution, kind, multiplied=multiplied)

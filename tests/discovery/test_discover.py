@@ -21,6 +21,7 @@ SEED = 4
 CLEAR = (
     Case("none.wrong_parameters", "one_free", 1.0, SEED),
     Case("none.coloured_noise", "belt_speeds", 1.0, SEED),
+    Case("none.declared_scatter", "one_forced", 1.0, SEED),
     Case("velocity_weakening.exponential", "several", 1.0, SEED),
     Case("viscous_friction.proportional", "normal_loads", 1.0, SEED),
     Case("position_dependent_friction.sinusoidal", "belt_speeds", 1.0, SEED),

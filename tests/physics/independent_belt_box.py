@@ -101,7 +101,7 @@ class Box:
         speed = max(side * (self.belt(t)[0] - v), 0.0)
         mu_k = self.mu_k
         if e := self.get("velocity_weakening"):
-            mu_k += e["amplitude"] * math.exp(-speed / e["decay_velocity"])
+            mu_k += e["amplitude"] * math.exp(-((speed / e["decay_velocity"]) ** e.get("shape_exponent", 1.0)))
         if e := self.get("frictional_lag"):
             mu_s = self.static(t, x, travel, side, dwell) / self.factor(t, x, travel, side)
             mu_k += (mu_s - mu_k) * math.exp(-slip / e.get("distance", math.inf) - slip_time / e.get("time_constant", math.inf))

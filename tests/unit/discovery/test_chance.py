@@ -63,9 +63,9 @@ def test_none_single_ones_or_half_of_the_slips_are_not_kicked(count):
     assert kicks(study(onset)) is None
 
 
-def scatter(**changes: float) -> Randomness:
+def scatter(**changes: float | str) -> Randomness:
     plain = {"static": 900.0, "kinetic": 900.0, "within": 0.0, "correlation": 0.0, "wander": 0.0, "wander_share": 0.05}
-    return Randomness(**(plain | {"wander_time": 3.0, "together": 0.0} | changes))
+    return Randomness(**(plain | {"wander_time": 3.0, "wander_of": "both", "together": 0.0} | changes))
 
 
 def called(levels: Switching = CALM, **changes: float) -> Chance | Where | None:
@@ -95,6 +95,16 @@ def test_switching_has_no_name_however_it_wanders():
     levels = Switching(separation=80.0, changes=10.0, regular=False, jumps=20, still=0.7)
     assert called(levels, correlation=5.0, wander=80.0) is levels.where
     assert levels.where is not None
+
+
+@pytest.mark.parametrize(("noise", "verdict"), [(5.0e-6, Where), (5.0e-5, None)])
+def test_a_force_that_wanders_alike_in_stick_and_slip_is_no_coefficient_and_may_be_the_sensor(noise, verdict):
+    one = study(np.zeros(N * RUNS))
+    one.pool.slips = [SimpleNamespace(onset_time=s.onset_time, noise=SimpleNamespace(deviation=noise)) for s in one.pool.slips]
+    one.records = [SimpleNamespace(mechanism=SimpleNamespace(stiffness=4000.0))]
+    wander = scatter(correlation=5.0, wander=80.0, wander_of="offset", wander_share=0.01)  # 0.08 N, 20 um
+    found = chance(one, wander, CALM, one.solution, [])
+    assert found is None if verdict is None else isinstance(found, verdict)
 
 
 def test_noise_is_nothing():
