@@ -10,8 +10,9 @@ from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from exudyn.itemInterface import CoordinateSpringDamper
 
 from stochfric_mb.errors import InputError, require_number
-from stochfric_mb.exudyn import stepping as at
+from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
+from stochfric_mb.exudyn.contact_force import force_at
 from stochfric_mb.exudyn.normal import Normal, as_normal
 from stochfric_mb.exudyn.plane import PlaneContact
 from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, ForceExpression, force_expression, lower
@@ -157,7 +158,7 @@ class CoordinateContact(FrictionContact):
     def _called(self, mbs: Any, t: float, item: Any, displacement: float, velocity: float, *_: Any) -> float:
         """Return minus the friction [N]: the user function of a law that calls others by their addresses."""
         surface = float(self._numbers[at.SURFACE_VELOCITY])
-        return -at.force_at(t, surface * t - displacement, surface - velocity, self.where)
+        return -force_at(t, surface * t - displacement, surface - velocity, self.where)
 
     def _function(self, force: Any) -> Any:
         """Return the symbolic user function: the connector's force is what pulls marker 1 back, minus the friction."""

@@ -12,10 +12,11 @@ from exudyn.itemInterface import SensorUserFunction
 
 from stochfric_mb.coefficients.path import CoefficientPath
 from stochfric_mb.errors import InputError, SimulationError, require_number
-from stochfric_mb.exudyn import stepping as at
+from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.hooks import Hooks
 from stochfric_mb.exudyn.location import locate
 from stochfric_mb.exudyn.normal import NO_REACTION, Normal, is_explicit
+from stochfric_mb.exudyn.stepping import CHANGED, FETCH, LOST, RECORDED, RESTARTED, WATCH, advance, proceed
 from stochfric_mb.exudyn.symbolic import NORMAL_LINE, live_names, symbolic
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
@@ -156,9 +157,9 @@ class FrictionContact:
         self._words[at.STARTED] = 0
         if self._normal.changes and not self._normal.reaction:  # implicit solvers ask for the force before the first step
             self._read_normal(start)
-        at.proceed(start, self.where)
+        proceed(start, self.where)
         locate(start, self.where)  # compiled now rather than in the middle of a run
-        at.advance(start, self.where)
+        advance(start, self.where)
         self._pass_on()
         self._words[[at.STARTED, at.NEXT_RECORD]] = 0
 
@@ -178,28 +179,28 @@ class FrictionContact:
     def settle(self, t: float, bits: int) -> bool:
         """Do what `stepping.advance` asks for at time t [s]; return whether a step may have to be watched, or no more."""
         was_unsure = self._unsure
-        if bits & at.FETCH:
+        if bits & FETCH:
             if not self._words[at.STARTED] or not 0.0 < t - self._numbers[at.T] <= self._numbers[at.REACH]:
                 self.connect()
             if self._words[at.ASK_FIRST]:
                 self._read_motion()
             if self._normal.changes:
                 self._read_normal(t)
-            bits = at.proceed(t, self.where)
-            self._unsure = bool(bits & at.RESTARTED) and self._normal.reaction
-        if bits & at.LOST:
+            bits = proceed(t, self.where)
+            self._unsure = bool(bits & RESTARTED) and self._normal.reaction
+        if bits & LOST:
             raise SimulationError(
                 f"a step that ends at t = {t:g} s crosses more than one knot of the coefficients; "
                 "use a step below their spacing"
             )
-        if bits & at.RESTARTED:
+        if bits & RESTARTED:
             self._pass_on()
-        if bits & at.RECORDED:
+        if bits & RECORDED:
             row = self._words.item(at.NEXT_RECORD) - 1
             self._records[row, 3], self._records[row, 10] = self._forces()
-        if bits & at.CHANGED:
+        if bits & CHANGED:
             self._pass_on()
-        return bool(bits & (at.WATCH | at.RESTARTED)) or was_unsure
+        return bool(bits & (WATCH | RESTARTED)) or was_unsure
 
     def refine(self) -> bool:
         """Take the normal force of the trial step where no earlier one is known; return whether it must be repeated."""

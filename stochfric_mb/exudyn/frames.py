@@ -15,7 +15,8 @@ import numpy as np
 from numba import carray  # pyright: ignore[reportPrivateImportUsage]
 
 from stochfric_mb.compile import compiled
-from stochfric_mb.exudyn import stepping as at
+from stochfric_mb.exudyn import layout as at
+from stochfric_mb.exudyn.contact_force import force_now
 
 MARKER_0, MARKER_1, SPACE = 0, 1, 2
 """What the plane turns with."""
@@ -59,7 +60,7 @@ def _frame(markers, frame):
 
 @compiled
 def take_motion(markers, address, frame, radius):
-    """Put the motion of the two markers, shape (2 MARKER,), where `stepping.kinematics` reads it."""
+    """Put the motion of the two markers, shape (2 MARKER,), where `contact_force.kinematics` reads it."""
     words = carray(at.words_from(address), (at.N_WORDS,))  # pyright: ignore[reportCallIssue]
     numbers = carray(at.numbers_from(words[at.NUMBERS]), (words[at.N_NUMBERS],))  # pyright: ignore[reportCallIssue]
     rotation, omega = _frame(markers, frame)
@@ -85,7 +86,7 @@ def push(t, markers, address, frame, radius, out):
     take_motion(markers, address, frame, radius)
     words = carray(at.words_from(address), (at.N_WORDS,))  # pyright: ignore[reportCallIssue]
     numbers = carray(at.numbers_from(words[at.NUMBERS]), (words[at.N_NUMBERS],))  # pyright: ignore[reportCallIssue]
-    at.force_now(t, address, out.ctypes.data)
+    force_now(t, address, out.ctypes.data)
     rotation, _ = _frame(markers, frame)
     axes = [numbers[at.AXIS_1 : at.AXIS_1 + 3], numbers[at.AXIS_2 : at.AXIS_2 + 3], numbers[at.NORMAL : at.NORMAL + 3]]
     n = _turned(rotation, axes[2])

@@ -10,7 +10,7 @@ from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from exudyn.itemInterface import LinearSpringDamper, MarkerBodyRigid, TorsionalSpringDamper
 
 from stochfric_mb.errors import InputError, require_number
-from stochfric_mb.exudyn import stepping as at
+from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.attach import bind_own, line_expression
 from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
 from stochfric_mb.exudyn.normal import Normal, ReactionNormal, as_normal

@@ -9,9 +9,10 @@ import numpy as np
 from exudyn.itemInterface import LoadCoordinate, LoadForceVector
 
 from stochfric_mb.errors import InputError, require_number
-from stochfric_mb.exudyn import stepping as at
+from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.attach import bind_coordinates, bind_own, coordinate_index, marker_kind
 from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
+from stochfric_mb.exudyn.contact_force import force_now
 from stochfric_mb.exudyn.normal import Normal, as_normal
 from stochfric_mb.exudyn.plane import set_plane
 from stochfric_mb.friction import Friction
@@ -73,7 +74,7 @@ class _Load(FrictionContact):
     def _forces(self) -> tuple[float, float]:
         if self._words[at.ASK_FIRST]:
             self._read_motion()
-        at.force_now(float(self._mbs.systemData.GetTime()), self.where, self._into)
+        force_now(float(self._mbs.systemData.GetTime()), self.where, self._into)
         return float(self._out[0]), float(self._out[1])
 
 
@@ -87,7 +88,7 @@ class CoordinateLoad(_Load):
         self._marker, self._own, self._zero = marker, np.zeros(4), np.zeros(1)
         self._numbers[at.SURFACE_VELOCITY] = require_number("surface_velocity", surface_velocity, unit="m/s")
         bind_own(self._words, self._own)
-        force_now, where, into, out = at.force_now, self.where, self._into, self._out
+        where, into, out = self.where, self._into, self._out
 
         def load_function(mbs: Any, t: float, load: float) -> float:
             force_now(t, where, into)
@@ -133,7 +134,7 @@ class PositionLoad(_Load):
         self._distance = self._numbers[at.DISTANCE : at.DISTANCE + 3]
         self._rate = self._numbers[at.RATE : at.RATE + 3]
         self._axes = self._numbers[at.AXIS_1 : at.AXIS_1 + 6].reshape(2, 3)
-        force_now, where, into, tangential = at.force_now, self.where, self._into, self._out[:2]
+        where, into, tangential = self.where, self._into, self._out[:2]
 
         def load_function(mbs: Any, t: float, loadVector: Any) -> Any:
             self._read_motion()

@@ -7,7 +7,9 @@ import math
 from numba import carray  # pyright: ignore[reportPrivateImportUsage]
 
 from stochfric_mb.compile import compiled
-from stochfric_mb.exudyn import stepping as at
+from stochfric_mb.exudyn import layout as at
+from stochfric_mb.exudyn.contact_force import ask, kinematics, normal_force_at, pair_at
+from stochfric_mb.exudyn.stepping import GRID, settling
 from stochfric_mb.laws.contract import GUARDS
 
 # in parts of the step
@@ -28,19 +30,19 @@ def locate(t, address):
     t_0, step = numbers[at.T], numbers[at.STEP]
     if words[at.STARTED] == 0 or t <= t_0:
         return -1.0
-    n = math.floor((t_0 - numbers[at.START]) / step + at.GRID) + 1.0
+    n = math.floor((t_0 - numbers[at.START]) / step + GRID) + 1.0
     grid = numbers[at.START] + n * step
-    end = min(grid, t_0 + FINE * step) if at.settling(t_0, numbers) else grid
-    if t > end + at.GRID * step:
+    end = min(grid, t_0 + FINE * step) if settling(t_0, numbers) else grid
+    if t > end + GRID * step:
         return end - t_0
-    motion, normal_force = at.kinematics(t, numbers, words), at.normal_force_at(t, numbers, words)
-    pair = at.pair_at(t, motion[0], numbers, words)
-    at.ask(words[at.GUARD], t, motion, normal_force, pair, numbers, at.NEW)
+    motion, normal_force = kinematics(t, numbers, words), normal_force_at(t, numbers, words)
+    pair = pair_at(t, motion[0], numbers, words)
+    ask(words[at.GUARD], t, motion, normal_force, pair, numbers, at.NEW)
     first = 2.0
     for i in range(GUARDS):
         if numbers[at.GUARDS_BEFORE + i] > 0.0 and numbers[at.NEW + i] <= 0.0:
             first = min(first, _crossing(i, t, motion, normal_force, numbers, words))
-            at.ask(words[at.GUARD], t, motion, normal_force, pair, numbers, at.NEW)
+            ask(words[at.GUARD], t, motion, normal_force, pair, numbers, at.NEW)
     h = t - t_0
     if first > 1.0 or (1.0 - first) * h <= TOLERANCE * step or h <= 2.0 * SHORTEST * step:
         return -1.0
@@ -58,8 +60,8 @@ def _crossing(i, t, motion, normal_force, numbers, words):
         x, v_x = _between(s, h, numbers[at.U], numbers[at.V], ux, vx)
         y, v_y = _between(s, h, numbers[at.U_2], numbers[at.V_2], uy, vy)
         n = numbers[at.NORMAL_FORCE] + s * (normal_force - numbers[at.NORMAL_FORCE])
-        pair = at.pair_at(t_0 + s * h, x, numbers, words)
-        at.ask(words[at.GUARD], t_0 + s * h, (x, y, v_x, v_y), n, pair, numbers, at.NEW)
+        pair = pair_at(t_0 + s * h, x, numbers, words)
+        ask(words[at.GUARD], t_0 + s * h, (x, y, v_x, v_y), n, pair, numbers, at.NEW)
         if numbers[at.NEW + i] > 0.0:
             low = s
         else:

@@ -11,7 +11,7 @@ from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from exudyn.itemInterface import CartesianSpringDamper
 
 from stochfric_mb.errors import InputError, require_number
-from stochfric_mb.exudyn import stepping as at
+from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
 from stochfric_mb.exudyn.expression import Value, apply, choose, variable
 from stochfric_mb.exudyn.normal import ConstantNormal, Normal
@@ -149,7 +149,7 @@ def set_plane(
 
 
 def penalty_expression(numbers: Any) -> Value:
-    """Return the unilateral normal force of `stepping.penalty` as an expression."""
+    """Return the unilateral normal force of `contact_force.penalty` as an expression."""
     n = numbers[at.NORMAL : at.NORMAL + 3]
     depth = apply("sub", float(numbers[at.TOUCH]), along(n, list(map(variable, _DISTANCE))))
     closing = apply("mul", float(numbers[at.DAMPING]), along(n, list(map(variable, _RATE))))
@@ -158,7 +158,7 @@ def penalty_expression(numbers: Any) -> Value:
 
 
 def relative_motion(numbers: Any) -> tuple[Value, Value, Value, Value]:
-    """Return displacement and velocity along the first axis, then along the second, as `stepping.kinematics` has them."""
+    """Return displacement and velocity along the first axis, then along the second, as `contact_force.kinematics` has them."""
     result: list[Value] = []
     for axis, speed in ((at.AXIS_1, at.SURFACE_VELOCITY), (at.AXIS_2, at.SURFACE_VELOCITY_2)):
         e, w = numbers[axis : axis + 3], float(numbers[speed])

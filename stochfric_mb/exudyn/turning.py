@@ -10,7 +10,7 @@ from exudyn.itemInterface import CartesianSpringDamper, LoadTorqueVector, Marker
 
 from stochfric_mb.errors import InputError, require_name, require_number
 from stochfric_mb.exudyn import frames
-from stochfric_mb.exudyn import stepping as at
+from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
 from stochfric_mb.exudyn.normal import ConstantNormal, Normal
 from stochfric_mb.exudyn.plane import set_plane

@@ -1,0 +1,141 @@
+"""A contact as it is now, from the engine's coordinates: its motion, its normal force, its coefficients, the law's force."""
+
+from __future__ import annotations
+
+from numba import carray  # pyright: ignore[reportPrivateImportUsage]
+
+from stochfric_mb.coefficients.path import CURSOR, canonical_time, evaluate
+from stochfric_mb.compile import compiled
+from stochfric_mb.exudyn.layout import (
+    AXIS_1,
+    AXIS_2,
+    CONTACT,
+    CURSOR_AT,
+    DAMPING,
+    DISTANCE,
+    EVENTS,
+    FORCE,
+    LAW,
+    LIVE,
+    MASS,
+    N_LAW,
+    N_NUMBERS,
+    N_STATE,
+    N_WORDS,
+    NEW,
+    NORMAL,
+    NUMBERS,
+    PENALTY,
+    PLANE,
+    POSITION_0,
+    POSITION_1,
+    RADIUS,
+    RATE,
+    SAMPLE,
+    SEED,
+    SPIN,
+    SPIN_BEFORE,
+    SPUN,
+    STEP,
+    STIFFNESS,
+    SURFACE_VELOCITY,
+    SURFACE_VELOCITY_2,
+    TOUCH,
+    VELOCITY_0,
+    VELOCITY_1,
+    T,
+    number_at,
+    numbers_from,
+    words_from,
+)
+from stochfric_mb.laws.abi import call_law
+
+
+@compiled
+def dot(numbers, a, b):
+    """Return the product of the vectors at ``numbers[a:]`` and ``numbers[b:]``."""
+    return numbers[a] * numbers[b] + numbers[a + 1] * numbers[b + 1] + numbers[a + 2] * numbers[b + 2]
+
+
+@compiled
+def spun(t, i, numbers):
+    """Return the displacement [m] that turning has added by time t along axis i, by the trapezoidal rule in the step."""
+    return numbers[SPUN + i] + 0.5 * (t - numbers[T]) * (numbers[SPIN_BEFORE + i] + numbers[SPIN + i])
+
+
+@compiled
+def kinematics(t, numbers, words):
+    """Return relative displacements [m] and velocities [m/s], counter-surface minus body, from the engine's coordinates."""
+    w = numbers[SURFACE_VELOCITY]
+    if words[PLANE] == 1:
+        w_2 = numbers[SURFACE_VELOCITY_2]
+        dx, dy = dot(numbers, AXIS_1, DISTANCE) + spun(t, 0, numbers), dot(numbers, AXIS_2, DISTANCE) + spun(t, 1, numbers)
+        vx, vy = dot(numbers, AXIS_1, RATE) + numbers[SPIN], dot(numbers, AXIS_2, RATE) + numbers[SPIN + 1]
+        return w * t - dx, w_2 * t - dy, w - vx, w_2 - vy
+    d = number_at(words[POSITION_1]) - number_at(words[POSITION_0])  # pyright: ignore[reportCallIssue]
+    v = number_at(words[VELOCITY_1]) - number_at(words[VELOCITY_0])  # pyright: ignore[reportCallIssue]
+    return w * t - numbers[RADIUS] * d, 0.0, w - numbers[RADIUS] * v, 0.0
+
+
+@compiled
+def normal_force_at(t, numbers, words):
+    """Return the normal force [N] that the engine uses at time t: penalty, or the line on from the last step."""
+    if words[PENALTY] == 1:
+        return penalty(numbers)
+    line = LIVE + words[N_STATE] + 2
+    return max(numbers[line] + numbers[line + 1] * t, 0.0)
+
+
+@compiled
+def penalty(numbers):
+    """Return the unilateral normal force [N] of the penetration, k p + c dp/dt while it is positive and p > 0."""
+    depth = numbers[TOUCH] - dot(numbers, NORMAL, DISTANCE)
+    if depth <= 0.0:
+        return 0.0
+    return max(numbers[STIFFNESS] * depth - numbers[DAMPING] * dot(numbers, NORMAL, RATE), 0.0)
+
+
+@compiled
+def pair_at(t, u, numbers, words):
+    """Return (mu_s, mu_k) [-] at time t and relative displacement u."""
+    descriptor = numbers[LAW + words[N_LAW] :]
+    cursor = numbers[CURSOR_AT : CURSOR_AT + CURSOR]
+    time = canonical_time(t, 0.5 * numbers[STEP])
+    return evaluate(descriptor, cursor, words[SEED], words[SAMPLE], words[CONTACT], time, u, numbers[EVENTS])
+
+
+@compiled
+def ask(address, t, motion, n, pair, numbers, into):
+    """Call a function of the law with the committed state; its output goes to ``numbers[into:]``."""
+    at = numbers.ctypes.data
+    state, p, out = at + 8 * LIVE, at + 8 * LAW, at + 8 * into
+    ux, uy, vx, vy = motion
+    m = numbers[MASS]
+    call_law(address, t, ux, uy, vx, vy, n, pair[0], pair[1], m, 0.0, 0.0, state, p, out)  # pyright: ignore[reportCallIssue]
+
+
+@compiled
+def force_at(t, u, v, address):
+    """Return the friction force [N] at time t [s], displacement u [m] and velocity v [m/s]; nothing is committed."""
+    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    n = normal_force_at(t, numbers, words)
+    ask(words[FORCE], t, (u, 0.0, v, 0.0), n, pair_at(t, u, numbers, words), numbers, NEW)
+    return numbers[NEW]
+
+
+@compiled
+def force_now(t, address, into):
+    """Put the friction force [N] at time t at the doubles ``into``: its two directions and the normal force.
+
+    Coordinates must be in place; nothing is committed.
+    """
+    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    out = carray(numbers_from(into), (3,))  # pyright: ignore[reportCallIssue]
+    out[0], out[1] = 0.0, 0.0
+    motion, out[2] = kinematics(t, numbers, words), normal_force_at(t, numbers, words)
+    if out[2] > 0.0:
+        pair = pair_at(t, motion[0], numbers, words)
+        ask(words[FORCE], t, motion, out[2], pair, numbers, NEW)
+        out[0], out[1] = numbers[NEW], numbers[NEW + 1]

@@ -1,0 +1,115 @@
+"""What stands where in the two arrays of a contact: ``numbers`` (floats) and ``words`` (integers).
+
+The words are addresses, of the law's functions, the engine's coordinates and the path, and counters.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+from stochfric_mb.coefficients.path import CURSOR
+from stochfric_mb.laws.abi import MAX_STATE
+
+# entries of ``numbers``
+T, U, V, U_2, V_2 = 0, 1, 2, 3, 4
+"""Time [s], relative displacement [m] and velocity [m/s], in both directions, at the last accepted step."""
+EVENTS, STUCK, MU_S, MU_K = 5, 6, 7, 8
+"""Stick phases begun so far, whether the contact sticks, and its coefficients, at the last accepted step."""
+NORMAL_FORCE, MASS, STICK_SPEED, HAS_MODE = 9, 10, 11, 12
+"""Normal force [N] at the last accepted step, mass that the contact feels [kg], and two properties of the law."""
+STEP, START = 13, 14
+"""The solver's step [s] and start time [s], which span the grid that steps keep to."""
+WINDOW = 15
+"""Knot in the middle of the engine's window on the path."""
+SAFE, SAFE_WIDTH = 16, 17
+"""Middle and half width of the stretch, of time or displacement, in which the window stays."""
+REACH = 18
+"""Longest time to the next step [s] after which the engine's coordinates are taken to be where they were."""
+SURFACE_VELOCITY, SURFACE_VELOCITY_2 = 19, 20
+"""Velocity of the counter-surface on top of marker 0's, in both directions [m/s]."""
+RADIUS = 21
+"""Length by which a rotation is multiplied to a sliding distance [m/rad]; 1 for displacements."""
+GIVEN_NORMAL, GIVEN_RATE = 22, 23
+"""Normal force [N] now, and its expected rate of change [N/s] in the next step, where something else sets it."""
+STIFFNESS, DAMPING, TOUCH = 24, 25, 26
+"""Normal contact: stiffness [N/m], damping [N s/m], and distance along the normal at which it begins [m]."""
+AXIS_1, AXIS_2, NORMAL = 27, 30, 33
+"""Directions of the tangent plane and its normal, from the counter-surface to the body."""
+DISTANCE, RATE = 36, 39
+"""Position [m] and velocity [m/s] of marker 1 relative to marker 0."""
+SWITCHED = 42
+"""Time of the law's last change of mode [s]."""
+LARGEST_NORMAL = 43
+"""Largest normal force [N] of this simulation."""
+SPIN, SPUN, SPIN_BEFORE = 44, 46, 48
+"""What turning adds to the motion of marker 1 relative to marker 0, along both axes of the plane: velocity [m/s] now,
+displacement [m] up to the last accepted step, and velocity there. 0 for contacts without (see `frames`)."""
+NEW = 50
+"""Scratch for a law's output."""
+GUARDS_BEFORE = NEW + MAX_STATE
+"""The law's guards at the last accepted step."""
+CURSOR_AT = GUARDS_BEFORE + 8
+WINDOW_CURSOR_AT = CURSOR_AT + CURSOR
+"""Cursors on the path: of the coefficients now, and of the engine's window."""
+LIVE = WINDOW_CURSOR_AT + CURSOR
+"""State, pair, line of the normal force and segment, in the order of `symbolic.live_names`, as the engine should have them."""
+N_LIVE_MAX = MAX_STATE + 2 + 2 + 9
+LAW = LIVE + N_LIVE_MAX
+"""The law's parameter vector, then the path's descriptor."""
+
+# entries of ``words``
+NUMBERS, RECORDS = 0, 1
+"""Addresses of the contact's numbers and of its records."""
+COMMIT, GUARD, INIT = 2, 3, 4
+"""Addresses of the law's functions."""
+POSITION_0, POSITION_1, VELOCITY_0, VELOCITY_1 = 5, 6, 7, 8
+"""Addresses of the coordinates of the two markers."""
+N_NUMBERS, N_STATE, N_LAW, SEED, SAMPLE, CONTACT, N_RECORDS, NEXT_RECORD = 9, 10, 11, 12, 13, 14, 15, 16
+STARTED, ASK_FIRST, LOCATING, WATCHING = 17, 18, 19, 20
+"""Whether the contact has begun, its coordinates must be fetched first, steps are located, and one may switch soon."""
+PLANE, PENALTY, FORCE = 21, 22, 23
+"""Whether it slides in a plane, whether the normal force follows from the penetration, address of the law's force."""
+N_WORDS = 24
+
+RECORD_COLUMNS = 11
+"""time, displacement, velocity, friction force, mu_s, mu_k, stick, normal force; second displacement, velocity, force."""
+
+
+@intrinsic
+def number_at(typingctx, address):
+    """Return the double at an address."""
+
+    def generate(context, builder, signature, args):
+        return builder.load(builder.inttoptr(args[0], ir.DoubleType().as_pointer()))
+
+    return types.float64(types.int64), generate
+
+
+@intrinsic
+def numbers_from(typingctx, address):
+    """Return the pointer to the doubles at an address."""
+
+    def generate(context, builder, signature, args):
+        return builder.inttoptr(args[0], ir.DoubleType().as_pointer())
+
+    return types.CPointer(types.float64)(types.int64), generate
+
+
+@intrinsic
+def words_from(typingctx, address):
+    """Return the pointer to the integers at an address."""
+
+    def generate(context, builder, signature, args):
+        return builder.inttoptr(args[0], ir.IntType(64).as_pointer())
+
+    return types.CPointer(types.int64)(types.int64), generate
+
+
+def blank(n_law: int, n_path: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the two arrays of a contact, zero."""
+    numbers, words = np.zeros(LAW + n_law + n_path), np.zeros(N_WORDS, dtype=np.int64)
+    words[[NUMBERS, N_NUMBERS]] = numbers.ctypes.data, len(numbers)
+    return numbers, words
