@@ -30,7 +30,7 @@ def test_units_are_read(unit, expected):
 
 
 def test_every_unit_of_an_effect_is_known():
-    words = {"N", "m", "s", "kg", "Hz", "rad", "1", "-"}
+    words = {"N", "m", "s", "kg", "Hz", "rad", "K", "degC", "1", "-"}
     units = {f.metadata["unit"] for kind in effect_kinds() for f in dataclasses.fields(effect_class(kind))}
     parts = {part.partition("^")[0] for unit in units for part in unit.replace("/", " ").split()}
     assert parts <= words
