@@ -7,6 +7,7 @@ A slide is pushed to and fro. Its mass and its friction coefficient are wrong in
 from __future__ import annotations
 
 import math
+import sys
 
 import mujoco
 import numpy as np
@@ -84,6 +85,8 @@ def rollout(models, datas, control_signal, initial_states, param_dicts=None, **o
 
 def main() -> dict[str, float]:
     """Fit, print, and return the parameters."""
+    if not hasattr(sysid, "optimize"):  # MuJoCo brings the module, but not what it needs
+        sys.exit("mujoco.sysid lacks the packages that it needs; run: pip install 'mujoco[sysid]'")
     believed = spec_with(2.0, 0.2)
     times, pushes, positions = measured(spec_with(**TRUTH).compile())
     model = believed.compile()

@@ -89,7 +89,7 @@ SLIP_TIME = 21
 TRAVELLED = 22
 """Distance slid since the record began, whichever way [m]: measured, or kept by the effect that asks for it."""
 TEMPERATURE = 23
-"""Temperature in the unit of its record, where one was measured."""
+"""Temperature [degC], where one was measured."""
 WORLD = 24
 """Number of entries."""
 

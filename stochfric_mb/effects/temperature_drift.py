@@ -23,7 +23,7 @@ class TemperatureDrift(Effect):
     rate: float = parameter("1/K", "relative change per kelvin", scale=1.0e-2)
     """Relative change per kelvin [1/K]."""
     reference_temperature: float = parameter("degC", "temperature at which nothing changes", scale=10.0, default=20.0)
-    """Temperature at which nothing changes [degC, or K where that is the unit of the record]."""
+    """Temperature at which nothing changes [degC]."""
     static_share: float = parameter("-", "share of the change that mu_s takes", scale=1.0, default=1.0)
     """Share of the change that mu_s takes [-]: 1, both coefficients alike; 0, mu_k alone."""
 

@@ -48,12 +48,13 @@ class RunEntry:
     """Longest distance between samples [s] that is bridged by interpolation; None: four median distances."""
 
 
-def assemble(entry: RunEntry, *, rotational: bool) -> Run:
+def assemble(entry: RunEntry, *, rotational: bool | None) -> Run:
     """Return the run that an entry of a dataset describes, read from its file and checked.
 
     Args:
         entry: the file and how to read it.
-        rotational: whether the scenario's friction acts about an axis: positions in rad, friction in N m.
+        rotational: whether the scenario's friction acts about an axis: positions in rad, friction in N m; None: its joints
+            are of both kinds, and units say which.
 
     Raises:
         InputError: the file or the entry cannot be used; names the file, the key or line, and the remedy.
@@ -177,14 +178,14 @@ def _require_keys(key: str, given: Mapping[str, object], columns: Mapping[str, A
 
 
 def _in_si(
-    entry: RunEntry, columns: Mapping[str, Array], units: Mapping[str, str], *, rotational: bool
+    entry: RunEntry, columns: Mapping[str, Array], units: Mapping[str, str], *, rotational: bool | None
 ) -> tuple[dict[str, Array], dict[str, str]]:
     """Return the columns with known quantities in SI units, and the units."""
     values, found = dict(columns), dict(units)
     for name in (k for k in columns if k in KNOWN):
         quantity = KNOWN[name]
         if name not in units:
-            si = quantity.unit(rotational)
+            si = quantity.units_of(rotational)[0]
             raise InputError(
                 f"{entry.file}: {name} has no unit; write the header as '{name} [{si}]', or give "
                 f'units = {{ {name} = "{si}" }}'

@@ -104,9 +104,9 @@ def _alone(path: Path, scenario: str | Path | Scenario[Any] | None) -> Dataset:
     return Dataset(title=path.name, scenario_path=source, scenario=model, runs=(first, last))
 
 
-def rotates(scenario: Scenario[Any]) -> bool:
-    """Return whether the mechanism's friction acts about an axis: positions are then angles."""
-    return bool(getattr(scenario.mechanism, "rotational", False))
+def rotates(scenario: Scenario[Any]) -> bool | None:
+    """Return whether the mechanism's friction acts about an axis: positions are then angles; None: joints of both kinds."""
+    return getattr(scenario.mechanism, "rotational", False)
 
 
 def _with_sign_note(run: Run, scenario: Scenario[Any]) -> Run:

@@ -19,9 +19,10 @@ class Quantity:
     also: tuple[str, ...] = ()
     """Other units that a file may use, for messages."""
 
-    def unit(self, rotational: bool) -> str:
-        """Return the SI unit, for a mechanism that rotates or one that does not."""
-        return self.rotation if rotational else self.translation
+    def units_of(self, rotational: bool | None) -> tuple[str, ...]:
+        """Return the SI unit, for a mechanism that rotates or one that does not; None: for either motion, each once."""
+        both = tuple(dict.fromkeys((self.translation, self.rotation)))
+        return both if rotational is None else (self.rotation if rotational else self.translation,)
 
 
 _ANGLE = ("deg",)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import functools
 import importlib
 import re
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -19,40 +20,41 @@ from stochfric_mb.measurement.quantities import Quantity
 Array = npt.NDArray[np.float64]
 
 
-def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool) -> tuple[Array, str]:
+def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | None) -> tuple[Array, str]:
     """Return ``values`` in the SI unit of ``quantity``, and that unit; a temperature in K stays in K.
 
     Args:
         values: float64[n] in ``unit``.
         unit: as written in a file: ``mm``, ``N m``, ``m/s^2``, ``m s-1``, ``°C``.
         quantity: what the values are.
-        rotational: whether friction acts about an axis.
+        rotational: whether friction acts about an axis; None: motions of both kinds are there, and the unit says which.
 
     Raises:
         InputError: ``unit`` is unknown, or is a unit of something else.
         MissingEngineError: pint is needed and is not installed.
     """
-    target = quantity.unit(rotational)
-    if unit == target:
-        return values, target
+    targets = quantity.units_of(rotational)
+    if unit in targets:
+        return values, unit
     if quantity.name == "temperature" and unit == "K":
         return values, "K"
     units = _registry()
-    wanted = units.Unit(_spelled(target))
-    given = _parsed(units, unit, quantity, target)
-    if given.dimensionality != wanted.dimensionality or _turns(units, given) != _turns(units, wanted):
-        raise InputError(
-            f"unit {unit!r} is not one of {quantity.name}, which is kept in {target}"
-            f"{_motion(quantity, rotational)}; give {_choices(quantity, target)}"
-        )
-    return np.asarray(units.Quantity(values, given).to(wanted).magnitude, dtype=np.float64), target
+    given = _parsed(units, unit, quantity, targets)
+    for target in targets:
+        wanted = units.Unit(_spelled(target))
+        if _alike(units, given, wanted):
+            return np.asarray(units.Quantity(values, given).to(wanted).magnitude, dtype=np.float64), target
+    raise InputError(
+        f"unit {unit!r} is not one of {quantity.name}, which is kept in {' or '.join(targets)}"
+        f"{_motion(quantity, rotational)}; give {_choices(quantity, targets)}"
+    )
 
 
-def _parsed(units: Any, unit: str, quantity: Quantity, target: str) -> Any:
+def _parsed(units: Any, unit: str, quantity: Quantity, targets: Sequence[str]) -> Any:
     try:
         return units.Unit(_spelled(unit))
     except Exception:  # pint raises errors of many kinds for text that is no unit, AssertionError among them
-        raise InputError(f"unit {unit!r} of {quantity.name} is unknown; give {_choices(quantity, target)}") from None
+        raise InputError(f"unit {unit!r} of {quantity.name} is unknown; give {_choices(quantity, targets)}") from None
 
 
 def _spelled(unit: str) -> str:
@@ -67,14 +69,27 @@ def _turns(units: Any, unit: Any) -> bool:
     return "radian" in str(units.get_root_units(unit)[1])
 
 
-def _motion(quantity: Quantity, rotational: bool) -> str:
-    if quantity.translation == quantity.rotation:
+def _alike(units: Any, one: Any, other: Any) -> bool:
+    """Return whether two units measure the same, an angle being no plain number."""
+    return one.dimensionality == other.dimensionality and _turns(units, one) == _turns(units, other)
+
+
+def _motion(quantity: Quantity, rotational: bool | None) -> str:
+    if quantity.translation == quantity.rotation or rotational is None:
         return ""
     return " (this mechanism rotates)" if rotational else " (this mechanism moves along a line)"
 
 
-def _choices(quantity: Quantity, target: str) -> str:
-    return ", ".join((target, *quantity.also))
+def _choices(quantity: Quantity, targets: Sequence[str]) -> str:
+    """Return the units to choose from: of those that a file may use, the ones of this kind of motion."""
+    units = _registry()
+    wanted = [units.Unit(_spelled(target)) for target in targets]
+    fitting = [
+        name
+        for name in quantity.also
+        if any(_alike(units, units.Unit(_spelled(name.partition(" for ")[0])), w) for w in wanted)
+    ]
+    return ", ".join((*targets, *fitting))
 
 
 @functools.cache

@@ -49,7 +49,7 @@ class Mjcf:
     """Joints and tendons in which the scenario's effects act; empty: all that have friction."""
 
     kind: ClassVar[str] = "mjcf"
-    rotational: ClassVar[bool] = True
+    rotational: ClassVar[bool | None] = None
 
     def __post_init__(self) -> None:
         if not self.friction:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.joints.conditions import distance_before, known_factors, temperature_of
+from stochfric_mb.discovery.joints.conditions import distance_before, known_factors, temperature_through
 from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet, distance_slid, least_speed, slides, slipped
 from stochfric_mb.discovery.joints.windows import Window, chosen_window, narrowest, noise_level
 from stochfric_mb.errors import InputError
@@ -167,9 +167,9 @@ def sheet_of(
         columns={k: v for k, v in columns.items() if k != "drive"},
         sliding=slides(window, velocity, least),
         noise=float(np.sqrt(sum((window.gain(d) * s) ** 2 for d, s in noise.items()))),
-        factors=known_factors(run, window, position, velocity, load, before + distance_slid(velocity, h)),
+        factors=known_factors(run, window, position, velocity, load, before + distance_slid(velocity, window)),
         before=before,
-        temperature=temperature_of(run, window),
+        temperature=temperature_through(run, window),
     )
 
 

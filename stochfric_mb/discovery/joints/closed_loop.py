@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.discovery.joints.balance import position_of
+from stochfric_mb.discovery.joints.conditions import known_temperature
 from stochfric_mb.discovery.joints.friction import chain, resistance
 from stochfric_mb.discovery.joints.model import JointModel
 from stochfric_mb.effects import contract as e
@@ -46,7 +47,7 @@ def closed_loop(
         raise InputError(f"run {run.name!r} has no covariate {controller.reference!r} for the controller (it has: {given})")
     reference = np.ascontiguousarray(run.covariates[controller.reference])
     q = position_of(run)
-    temperature = run.channels.get("temperature", np.zeros(len(q)))
+    temperature = known_temperature(run)
     value = {
         name: model.nuisances.get(name, float(getattr(joint, name))) for name in ("mass", "damping", "offset", "force_gain")
     }

@@ -8,17 +8,33 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.joints.sheet import distance_slid
-from stochfric_mb.discovery.joints.windows import Window
+from stochfric_mb.discovery.joints.windows import Window, narrowest
 from stochfric_mb.measurement.run import Run
 
 Array = npt.NDArray[np.float64]
 
 
-def temperature_of(run: Run, window: Window) -> Array | None:
-    """Return the measured temperature in the unit of its channel, shape (count,); None: there is none."""
+ZERO = 273.15
+"""0 degC [K]."""
+
+
+def temperature_of(run: Run) -> Array | None:
+    """Return the measured temperature [degC], shape (count,), whatever it was recorded in; None: there is none."""
     if "temperature" not in run.channels:
         return None
-    return window.through(run.channels["temperature"])
+    return run.channels["temperature"] - (ZERO if run.units.get("temperature") == "K" else 0.0)
+
+
+def known_temperature(run: Run) -> Array:
+    """Return the measured temperature [degC], shape (count,); zeros where there is none, and no effect that asks for it."""
+    seen = temperature_of(run)
+    return np.zeros(len(run.time)) if seen is None else seen
+
+
+def temperature_through(run: Run, window: Window) -> Array | None:
+    """Return the measured temperature through a window [degC], shape (count,); None: there is none."""
+    seen = temperature_of(run)
+    return None if seen is None else window.held(window.through(seen))
 
 
 def distance_before(run: Run, runs: Sequence[Run], velocity: Callable[[Run], Array]) -> float:
@@ -27,10 +43,10 @@ def distance_before(run: Run, runs: Sequence[Run], velocity: Callable[[Run], Arr
     Args:
         run: the run.
         runs: all runs of its dataset.
-        velocity: velocity of a run, shape (count,).
+        velocity: velocity of a run through its narrowest window, shape (count,).
     """
     earlier = [r for r in runs if run.source and r.source == run.source and r.time[-1] <= run.time[0]]
-    return sum(float(distance_slid(velocity(r), r.sample_interval)[-1]) for r in earlier)
+    return sum(float(distance_slid(velocity(r), narrowest(r))[-1]) for r in earlier)
 
 
 def known_factors(
@@ -55,7 +71,7 @@ def known_factors(
         "time": run.time[at],
         "distance": travelled[at],
     }
-    temperature = temperature_of(run, window)
+    temperature = temperature_through(run, window)
     if temperature is not None:
         found["temperature"] = temperature[at]
     return found | {key: np.full(len(at), value) for key, value in run.constants.items()}

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
-from stochfric_mb.discovery.joints.augmented import BESIDE, augmented, believed_delay, believed_scatter
-from stochfric_mb.discovery.joints.balance import nuisances_of, sheet_of
+from stochfric_mb.discovery.joints.augmented import augmented, believed_delay, believed_scatter
 from stochfric_mb.discovery.joints.model import JointModel
 from stochfric_mb.discovery.joints.outcome import JointOutcome, PlaceOutcome
 from stochfric_mb.discovery.joints.pictures import friction_picture
@@ -17,15 +15,16 @@ from stochfric_mb.discovery.joints.randomness import dependence, stroke_scatter
 from stochfric_mb.discovery.joints.run_scatter import Forecasts, crps_of, run_scatter
 from stochfric_mb.discovery.joints.scores import noise_floor, score
 from stochfric_mb.discovery.joints.selection import Selected, Selector
-from stochfric_mb.discovery.joints.sheet import Nuisance, Sheet
+from stochfric_mb.discovery.joints.sheet import Sheet
+from stochfric_mb.discovery.joints.signs import sign_notes
 from stochfric_mb.discovery.joints.simulated import simulated
+from stochfric_mb.discovery.joints.source import believed_model, source_of
 from stochfric_mb.discovery.joints.timing import Timing, timing
 from stochfric_mb.discovery.joints.verdict import verdict
 from stochfric_mb.discovery.result import Result
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
-from stochfric_mb.measurement.signs import SEGMENTS, probable_sign_error
-from stochfric_mb.mechanisms import Cascade, HingePendulum, Mjcf, PrismaticJoint, ProportionalDerivative, SpringSlider
+from stochfric_mb.mechanisms import Cascade, Mjcf, PrismaticJoint, ProportionalDerivative, SpringSlider
 from stochfric_mb.scenario import Scenario
 
 Progress = Callable[[str], None]
@@ -57,15 +56,7 @@ def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> Join
 
         return spring_slider_outcome(dataset, tell)
     _require_controller(dataset.scenario)
-    if isinstance(mechanism, Mjcf):
-        from stochfric_mb.discovery.joints.mjcf_load import mjcf_sheets
-
-        return _outcome(dataset, tell, mjcf_sheets(dataset))
-    if isinstance(mechanism, PrismaticJoint | HingePendulum):
-        return _outcome(dataset, tell, _Plain(dataset))
-    raise InputError(
-        f"mechanism {mechanism.kind!r} is no driven joint; use prismatic_joint, hinge_pendulum, spring_slider or mjcf"
-    )
+    return _outcome(dataset, tell, source_of(dataset))
 
 
 def _require_controller(scenario: Scenario[Any]) -> None:
@@ -80,24 +71,6 @@ def _require_controller(scenario: Scenario[Any]) -> None:
             f"controller {controller.kind!r} cannot drive mechanism {kind!r}: it drives {CONTROLLED[controller.kind]}; write "
             "the rig as that mechanism, or leave [controller] out"
         )
-
-
-@dataclasses.dataclass(frozen=True)
-class _Plain:
-    """Sheets of the mechanisms that are one joint."""
-
-    dataset: Dataset
-
-    @property
-    def places(self) -> list[tuple[str, float]]:
-        return [("", float(self.dataset.scenario.mechanism.normal_force))]
-
-    def nuisances(self, place: str) -> list[Nuisance]:
-        return nuisances_of(self.dataset.scenario, self.dataset.scenario.mechanism)
-
-    def sheets(self, place: str, role: str, delay: float, samples: int | None = None) -> list[Sheet]:
-        runs = self.dataset.fit if role == "fit" else self.dataset.test
-        return [sheet_of(r, self.dataset.scenario, delay=delay, samples=samples, runs=self.dataset.runs) for r in runs]
 
 
 def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
@@ -161,9 +134,9 @@ def _place(
     scenario = dataset.scenario
     base, delay = delays
     fit_sheets, test_sheets = source.sheets(name, "fit", delay), source.sheets(name, "test", delay)
-    notes += _sign_notes(fit_sheets)
+    notes += sign_notes(dataset, name, load, fit_sheets)
     nuisances = source.nuisances(name)
-    believed = _believed(scenario, name, nuisances, load)
+    believed = believed_model(scenario, name, nuisances, load)
     where = f"{name}: " if name else ""
     selected = Selector(fit_sheets, nuisances, believed, lambda text: tell(where + text)).run()
     tell(f"{where}held-out runs")
@@ -218,37 +191,14 @@ def _best_friction(source: Any, scenario: Scenario[Any]) -> float:
     name, load = source.places[0]
     nuisances = source.nuisances(name)
     base = believed_delay(scenario)
-    stage = Selector(source.sheets(name, "fit", base), nuisances, _believed(scenario, name, nuisances, load)).first()
+    stage = Selector(source.sheets(name, "fit", base), nuisances, believed_model(scenario, name, nuisances, load)).first()
     return stage.trials[0].score if stage.trials else 0.0
-
-
-def _believed(scenario: Scenario[Any], place: str, nuisances: Sequence[Nuisance], load: float) -> JointModel:
-    acts_in = getattr(scenario.mechanism, "effects_in", ())
-    own = () if acts_in and place not in acts_in else tuple(e for e in scenario.effects if e.group not in BESIDE)
-    contact = place in getattr(scenario.mechanism, "pairs", ())
-    return JointModel(scenario.law, own, {n.name: n.value for n in nuisances}, load, contact)
 
 
 def _models(believed: JointModel, selected: Selected) -> dict[str, JointModel]:
     models = {"baseline": believed, "recalibrated": selected.recalibrated.model}
     models |= {f"with {t.candidate.kind}": t.fit.model for t in selected.found}
     return models | {"augmented": selected.final.model}
-
-
-def _sign_notes(sheets: Sequence[Sheet]) -> list[str]:
-    """Return a note for each run whose friction, as inverse dynamics has it, feeds the motion."""
-    notes: list[str] = []
-    for sheet in sheets:
-        resistance, velocity = sheet.driven[sheet.sliding], sheet.velocity[sheet.window.centres][sheet.sliding]
-        if len(resistance) < 2 * SEGMENTS:
-            continue
-        wrong = probable_sign_error(-(resistance - np.median(resistance)), velocity)
-        if wrong is not None:
-            notes.append(
-                f"run {sheet.run}: friction brings in energy ({100 * wrong.created:.0f} % of what it exchanges): the sign of "
-                "the driving force, or of the position, is probably wrong; give sign = { force = -1 }"
-            )
-    return notes
 
 
 def _run_notes(dataset: Dataset) -> list[str]:

@@ -19,9 +19,9 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.joints.conditions import known_factors, temperature_of
+from stochfric_mb.discovery.joints.conditions import known_factors, temperature_through
 from stochfric_mb.discovery.joints.friction import friction_along
-from stochfric_mb.discovery.joints.mjcf_columns import column, drive_of, position_of_joint
+from stochfric_mb.discovery.joints.mjcf_columns import drive_of, in_si, position_of_joint
 from stochfric_mb.discovery.joints.mjcf_model import by_mass, effective_inertia, inverse
 from stochfric_mb.discovery.joints.mjcf_pairs import over_samples
 from stochfric_mb.discovery.joints.mjcf_path import Path, Rig
@@ -144,7 +144,7 @@ class MjcfSource(Rig):
             sliding &= normal[at] > LIFTED * self.mechanism.friction[place]
         noise = self._noise(run, place)
         before = float(self.travelled(run, place)[0])
-        travelled = before + distance_slid(path.velocity, run.sample_interval)
+        travelled = before + distance_slid(path.velocity, window)
         return Sheet(
             run=run.name,
             role=run.role,
@@ -162,7 +162,7 @@ class MjcfSource(Rig):
             noise=float(np.hypot(window.gain(0) * noise[0], window.gain(2) * noise[2])),
             factors=known_factors(run, window, path.position, path.velocity, load, travelled),
             before=before,
-            temperature=temperature_of(run, window),
+            temperature=temperature_through(run, window),
             normal_force=normal,
         )
 
@@ -170,7 +170,7 @@ class MjcfSource(Rig):
         """Return the normal force in a pair [N], shape (count,): measured, or from what the joints have left."""
         rows = self.path(run, place, window).normal_weights
         if rows is None:
-            measured = column(run, self.mechanism.pairs[place].normal_force)
+            measured = in_si(run, self.mechanism.pairs[place].normal_force, "normal_force")
             return np.maximum(window.through(measured), 0.0)
         return over_samples(np.maximum(np.sum(rows * left, axis=1), 0.0), window.centres, len(run.time))
 

@@ -10,7 +10,9 @@ import numpy.typing as npt
 
 from stochfric_mb.errors import InputError, require_name
 from stochfric_mb.measurement.dataset import Dataset
+from stochfric_mb.measurement.quantities import KNOWN
 from stochfric_mb.measurement.run import Run
+from stochfric_mb.measurement.units import to_si
 from stochfric_mb.mechanisms import Mjcf, ProportionalDerivative
 
 Array = npt.NDArray[np.float64]
@@ -72,7 +74,22 @@ def drive_of(run: Run, mechanism: Mjcf, place: str) -> Array:
 def position_of_joint(run: Run, mechanism: Mjcf, joint: str) -> Array:
     """Return the measured position of a joint, or the number at which it stays [m or rad], shape (count,)."""
     given = mechanism.positions[joint]
-    return column(run, given) if isinstance(given, str) else np.full(len(run.time), given)
+    return in_si(run, given, "position") if isinstance(given, str) else np.full(len(run.time), given)
+
+
+def in_si(run: Run, name: str, quantity: str) -> Array:
+    """Return a channel, or a covariate brought from the unit of its header to the SI unit of a quantity.
+
+    Raises:
+        InputError: the run has none of that name, or its unit is none of that quantity.
+    """
+    values, unit = column(run, name), run.units.get(name, "")
+    if name in run.channels or not unit:
+        return values
+    try:
+        return to_si(values, unit, KNOWN[quantity], rotational=None)[0]
+    except InputError as error:
+        raise InputError(f"run {run.name!r}: column {name!r} is used as {quantity}: {error}") from None
 
 
 def column(run: Run, name: str) -> Array:

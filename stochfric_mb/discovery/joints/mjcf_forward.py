@@ -184,6 +184,8 @@ class _Plant:
 
     def _push(self, place: str, force: float) -> None:
         """Add a force along a joint, tendon or pair."""
+        if force == 0.0:
+            return
         if place in self._source.names:
             self._data.qfrc_applied[self._source.names.index(place)] += force
         elif place in self._source.mechanism.pairs:

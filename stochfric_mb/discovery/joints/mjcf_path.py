@@ -15,7 +15,7 @@ from stochfric_mb.discovery.joints.conditions import distance_before
 from stochfric_mb.discovery.joints.mjcf_columns import drive_of, position_of_joint
 from stochfric_mb.discovery.joints.mjcf_model import tendon_along
 from stochfric_mb.discovery.joints.mjcf_pairs import geom_numbers, line, pair_along, two_forces
-from stochfric_mb.discovery.joints.sheet import distance_slid
+from stochfric_mb.discovery.joints.sheet import distance_slid, integrated
 from stochfric_mb.discovery.joints.windows import Window, narrowest
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
@@ -86,7 +86,7 @@ class Rig:
             return self.path(some, place, narrowest(some)).velocity
 
         before = distance_before(run, self.dataset.runs, velocity)
-        return before + distance_slid(velocity(run), run.sample_interval)
+        return before + distance_slid(velocity(run), narrowest(run))
 
     def line(self, place: str) -> Array:
         """Return the direction in which a pair slides, in the surface's axes, shape (3,): the same in all runs."""
@@ -95,8 +95,8 @@ class Rig:
             run = self.dataset.fit[0]
             window = narrowest(run)
             geoms = geom_numbers(self.mujoco, self.shapes, self.mechanism.pairs[place])
-            along = pair_along(self.mujoco, self.shapes, geoms, self.joints(run, window))
-            self.remembered[key] = line(along, self.joints(run, window, 1), place)
+            positions, rates = (self.joints(run, window, d)[window.centres] for d in (0, 1))
+            self.remembered[key] = line(pair_along(self.mujoco, self.shapes, geoms, positions), rates, place)
         return self.remembered[key]
 
     def _of_joint(self, run: Run, place: str, window: Window) -> Path:
@@ -125,9 +125,9 @@ class Rig:
         slide = np.einsum("i,nij->nj", axis, along.slide)
         velocity = np.sum(slide * self.joints(run, window, 1), axis=1)
         # where a body turns its geom stays: what slides by is the integral
-        slid = np.r_[0.0, np.cumsum(0.5 * (velocity[1:] + velocity[:-1]))] * run.sample_interval
-        position = float(axis @ along.place[0]) + slid
         at = window.centres
+        slid = integrated(window.held(velocity), run.sample_interval)
+        position = float(axis @ along.place[at[0]]) + slid - slid[at[0]]
         direction, part = slide[at], along.part[at]
         load = np.zeros(len(position))
         if pair.normal_force:

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import importlib
 from collections.abc import Mapping
 from typing import Any
@@ -12,9 +13,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.discovery.joints.conditions import known_temperature
 from stochfric_mb.discovery.joints.friction import chain, resistance
 from stochfric_mb.discovery.joints.mjcf import MjcfSource
-from stochfric_mb.discovery.joints.mjcf_columns import column
+from stochfric_mb.discovery.joints.mjcf_columns import in_si
 from stochfric_mb.discovery.joints.mjcf_pairs import geom_numbers, touch
 from stochfric_mb.discovery.joints.model import JointModel
 from stochfric_mb.discovery.joints.windows import narrowest
@@ -25,6 +27,8 @@ Array = npt.NDArray[np.float64]
 
 LEAST = 1.0e-9
 """Least friction that the engine is given: none at all would switch it off [N or N m]."""
+MARK_S, MARK_K = 0.123456, 0.0654321
+"""Coefficients by which their places are known."""
 LOOSE = 1.0e-3
 """Normal force over the believed one below which a pair is left as it is [-]."""
 
@@ -48,7 +52,7 @@ class LossPlace:
         self._turned, self._side = 0.0, 0.0
         # conditions as they were: what drifts changes little by an error of the simulation
         self._travelled = source.travelled(run, name)
-        self._temperature = run.channels.get("temperature", np.zeros(len(run.time)))
+        self._temperature = known_temperature(run)
 
     def _seen(self, data: Any) -> tuple[float, float]:
         if self._joint:
@@ -91,12 +95,13 @@ class PairPlace:
         self._more = model.law.mu_s / model.law.mu_k
         self._world, self._memory = np.zeros(WORLD), np.zeros(8)
         self._travelled = source.travelled(run, name)
-        self._temperature = run.channels.get("temperature", np.zeros(len(run.time)))
+        self._temperature = known_temperature(run)
         self._position = source.path(run, name, narrowest(run)).position
         measured = source.mechanism.pairs[name].normal_force
-        self._measured = column(run, measured) if measured else None
+        self._measured = in_si(run, measured, "normal_force") if measured else None
         self._turned, self._side, self._at = 0.0, 0.0, 0.0
         self._attach: Any = importlib.import_module("stochfric_mb.mujoco")
+        self._slots: _Slots | None = None
 
     def start(self, data: Any, sample: int) -> None:
         """Begin a stroke where the model is."""
@@ -126,7 +131,36 @@ class PairPlace:
             )
         )  # fmt: skip
         mu = max(against, LEAST) / pressed
-        self._attach.set_friction(data.plugin_state, model, instance, mu_s=self._more * mu, mu_k=mu)
+        if self._slots is None:
+            self._slots = _Slots.of(self._attach, model, data, instance)
+        self._slots.write(data, self._more * mu, mu)
+
+
+@dataclasses.dataclass(frozen=True)
+class _Slots:
+    """Where the plugin keeps an instance's coefficients, asked once: a model runs for thousands of steps."""
+
+    places: npt.NDArray[np.int64]
+    """What `set_friction` writes to in ``plugin_state``."""
+    values: Array
+    """What it writes there, mu_s and mu_k apart."""
+    mu_s: npt.NDArray[np.bool_]
+    """Which of the places hold mu_s."""
+    mu_k: npt.NDArray[np.bool_]
+    """Which hold mu_k."""
+
+    @classmethod
+    def of(cls, attach: Any, model: Any, data: Any, instance: str) -> _Slots:
+        probe = np.full_like(data.plugin_state, np.nan)
+        attach.set_friction(probe, model, instance, mu_s=MARK_S, mu_k=MARK_K)
+        places = np.flatnonzero(~np.isnan(probe))
+        values = probe[places]
+        return cls(places, values, values == MARK_S, values == MARK_K)
+
+    def write(self, data: Any, mu_s: float, mu_k: float) -> None:
+        values = self.values.copy()
+        values[self.mu_s], values[self.mu_k] = mu_s, mu_k
+        data.plugin_state[self.places] = values
 
 
 def pair_direction(source: MjcfSource, model: Any, data: Any, pair: str) -> Array:

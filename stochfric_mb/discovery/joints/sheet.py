@@ -75,25 +75,29 @@ class Sheet:
     before: float = 0.0
     """Distance slid in the pieces of the same record that come before this one [m or rad]."""
     temperature: Array | None = None
-    """Measured temperature in the unit of its channel, shape (count,); None: none was."""
+    """Measured temperature [degC], shape (count,); None: none was."""
     normal_force: Array | None = None
     """Normal force of a contact [N], shape (count,), >= 0; None: the believed load, which stays."""
 
     @functools.cached_property
     def travelled(self) -> Array:
         """Distance slid since the record began, whichever way [m or rad], shape (count,)."""
-        return self.before + distance_slid(self.velocity, float(self.time[1] - self.time[0]))
+        return self.before + distance_slid(self.velocity, self.window)
 
 
-def distance_slid(velocity: Array, interval: float) -> Array:
-    """Return the distance moved since the first sample, whichever way [m or rad], shape as ``velocity``.
+def distance_slid(velocity: Array, window: Window) -> Array:
+    """Return the distance moved since the first sample, whichever way [m or rad], shape (count,).
 
     Args:
-        velocity: velocity in weak form, so that noise at rest hardly counts [m/s or rad/s].
-        interval: distance between samples [s].
+        velocity: velocity through a window, so that noise at rest hardly counts [m/s or rad/s], shape (count,).
+        window: the window.
     """
-    speed = np.abs(velocity)
-    return np.r_[0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]))] * interval
+    return integrated(np.abs(window.held(velocity)), window.interval)
+
+
+def integrated(values: Array, interval: float) -> Array:
+    """Return the integral of a signal since its first sample, by trapezoids, shape (n,)."""
+    return np.r_[0.0, np.cumsum(0.5 * (values[1:] + values[:-1]))] * interval
 
 
 def slipped(position: Array, velocity: Array, least: float) -> Array:

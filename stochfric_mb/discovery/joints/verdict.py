@@ -52,10 +52,10 @@ def verdict(
         next_experiment=_advice(pairs, places),
         believed={f"{p.place}.{k}" if len(places) > 1 else k: v for p in places for k, v in believed(p).items()},
         notes=(
+            *notes,
             *_forward_notes(places[0]),
             *_timing_notes(timing),
             *map(str, spoken_of(pairs, [e.kind for e in effects])),
-            *notes,
             *_remarks(places),
         ),
         details=_details(places, timing, pairs),

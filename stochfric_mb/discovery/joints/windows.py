@@ -53,6 +53,12 @@ class Window:
         """Return a signal, shape (count,), or a derivative of it through the window, delayed by ``shift`` [s]."""
         return smooth(signal, self.half_width, self.interval, derivative=derivative, shift=shift)
 
+    def held(self, seen: Array) -> Array:
+        """Return what was seen `through` the window, shape (count,), held at both ends, where the window reaches out."""
+        edge = len(self.taps) // 2
+        inside = seen[edge : len(seen) - edge]
+        return np.r_[np.full(edge, inside[0]), inside, np.full(edge, inside[-1])]
+
     def at_centres(self, signal: Array) -> Array:
         """Return the mean of a signal, shape (count,), over each window, shape (n_centres,)."""
         return self.views(signal) @ self.taps

@@ -11,6 +11,7 @@ import pytest
 
 from stochfric_mb.discovery.export import mjcf
 from stochfric_mb.discovery.joints import joint_outcome
+from stochfric_mb.discovery.joints.mjcf_columns import in_si, position_of_joint
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import Dataset, Run
 from stochfric_mb.scenario import any_scenario_from_dict
@@ -168,6 +169,17 @@ def test_the_normal_force_is_that_of_the_record(folder):
         at = sheet.window.centres
         np.testing.assert_allclose(sheet.normal_force[at], truth[at], atol=0.1)
         assert found.result.verdict == "none"
+
+
+def test_columns_in_other_units_are_brought_to_si(folder):
+    run = block_run(constant, 1, "fit")
+    scaled = {**run.covariates, "position": 1e3 * run.covariates["position"], "cell": 1e-3 * run.covariates["cell"]}
+    scaled_run = dataclasses.replace(run, covariates=scaled, units={"position": "mm", "cell": "kN"})
+    mechanism = block_scenario(folder).mechanism
+    np.testing.assert_allclose(position_of_joint(scaled_run, mechanism, "slide"), run.covariates["position"])
+    np.testing.assert_allclose(in_si(scaled_run, "cell", "normal_force"), run.covariates["cell"])
+    with pytest.raises(InputError, match="used as position: unit 'kN'"):
+        in_si(scaled_run, "cell", "position")
 
 
 def test_it_reads_back_and_goes_into_the_model(folder):

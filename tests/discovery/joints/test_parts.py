@@ -116,6 +116,16 @@ def test_a_delay_is_named_first_and_is_not_friction():
     assert result.effects[0].parameters["delay"].value == pytest.approx(0.012, abs=0.001)
 
 
+@pytest.mark.parametrize("channel", ["force", "position"])
+def test_a_wrong_sign_is_pointed_out_where_inertia_outweighs_friction(channel):
+    data = pair(coulomb)
+    runs = [dataclasses.replace(r, channels={**r.channels, channel: -r.channels[channel]}) for r in data.runs]
+    notes = joint_outcome(dataclasses.replace(data, runs=tuple(runs))).result.notes
+    assert "with the drive turned round" in notes[0]
+    assert "sign = { force = -1 }" in notes[0]
+    assert not any("turned round" in note for note in joint_outcome(data).result.notes)
+
+
 def test_the_augmented_scenario_reads_back():
     found = joint_outcome(pair(grease))
     assert any_scenario_from_dict(found.scenario.to_dict()) == found.scenario

@@ -365,3 +365,19 @@ def test_pendulum():
     run = assemble(RunEntry(file=measured("dfki_pendulum/ddp_measured.csv"), name="ddp", units=units), rotational=True)
     assert run.time.size == pytest.approx(3000, abs=2)
     assert run.channels["torque"].std() > 0.1
+
+
+def test_a_model_with_joints_of_both_kinds_takes_lengths_and_angles(tmp_path):
+    pytest.importorskip("pint", reason="units are pint's")
+    t = np.arange(100) * 1e-3
+    for unit, si, factor in (("mm", "m", 1e-3), ("deg", "rad", np.pi / 180.0)):
+        file = tmp_path / f"{unit}.csv"
+        np.savetxt(file, np.column_stack([t, t]), delimiter=",", header=f"time [s],position [{unit}]", comments="")
+        run = assemble(RunEntry(file=file, name="run"), rotational=None)
+        assert run.units["position"] == si
+        np.testing.assert_allclose(run.channels["position"], factor * t)
+    np.savetxt(file, np.column_stack([t, t]), delimiter=",", header="time [s],position [kg]", comments="")
+    with pytest.raises(InputError, match="kept in m or rad; give m, rad, mm, um, deg"):
+        assemble(RunEntry(file=file, name="run"), rotational=None)
+    with pytest.raises(InputError, match=r"moves along a line\); give m, mm, um$"):
+        assemble(RunEntry(file=file, name="run"), rotational=False)
