@@ -17,8 +17,8 @@ LEAST_PRELOAD = 0.01
 """Smallest reference load of a load-dependent joint, over its believed load [-]."""
 INSIDE = 1.0e-6
 """Distance kept from bounds that are themselves forbidden [scales]."""
-GIVEN = ("static_share", "reference_temperature")
-"""Parameters that say where others hold, or what shows at rest only: they stay."""
+GIVEN = ("static_share", "reference_temperature", "shape_exponent")
+"""Parameters that say where others hold, what shows at rest only, or the finer shape of a curve: they stay."""
 
 
 @dataclasses.dataclass(frozen=True)
