@@ -30,7 +30,8 @@ class ElasticStick(Law):
     c = 2 zeta sqrt(k m_eff). Sliding (eq. 6): mu = mu_s up to v_s, beyond it
     mu = mu_k + (mu_s - mu_k) exp(-(v - v_s)/decay_velocity). Break-away when abs(k z) reaches mu_s N with z v > 0
     (with z v <= 0, z is clipped: return mapping); back to stick when v falls to v_s, or turns over before it reached
-    v_s, with the z that keeps the force continuous.
+    v_s, with the z that keeps the force continuous. Up to v_s the force runs along z, which follows the motion like a trailer
+    of length e_lim (on a line: along v); beyond v_s along v.
 
     Reference: Kang, Choi and Yoo 2015, eqs. 3-6, doi 10.1007/s12206-015-0808-4. Misprints: eq. 5 lost its root and
     eq. 6 its superscript; eq. 6 reads mu = a^-(v + b) + mu_k with ln a = 1/decay_velocity and
@@ -123,10 +124,24 @@ def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx
         c = stick_damping(normal_force, effective_mass, p)
         zx, zy = clipped(ux - state[1], uy - state[2], deflection_limit(mu_s, p))
         return clipped(k * zx + c * vx, k * zy + c * vy, mu_s * normal_force)
-    ex, ey = slip_direction(vx, vy, state[3], state[4])
+    if state[0] == SLIP_PEAK:
+        ex, ey = trailing_direction(ux, uy, state)
+    else:
+        ex, ey = slip_direction(vx, vy, state[3], state[4])
     speed = max(vx * ex + vy * ey, 0.0)
     f = slip_coefficient(speed, mu_s, mu_k, p[4], p[5]) * normal_force
     return f * ex, f * ey
+
+
+@compiled
+def trailing_direction(ux, uy, state):
+    """Return the unit vector along z = u - a, which follows the motion; the committed direction where z is zero."""
+    zx = ux - state[1]
+    zy = uy - state[2]
+    z = length(zx, zy)
+    if z > 0.0:
+        return zx / z, zy / z
+    return state[3], state[4]
 
 
 @compiled
@@ -137,12 +152,18 @@ def commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, h
     speed = length(vx, vy)
     if state[0] == STICK:
         return _commit_stick(ux, uy, vx, vy, speed, state, mu_s, p)
-    ahead = vx * state[3] + vy * state[4]
+    ex, ey = state[3], state[4]
+    if state[0] == SLIP_PEAK:
+        ex, ey = trailing_direction(ux, uy, state)
+    ahead = vx * ex + vy * ey
     if ahead > 0.0 and speed > p[4]:
         return SLIP, ux, uy, vx / speed, vy / speed
     if ahead > 0.0 and state[0] == SLIP_PEAK:
-        return SLIP_PEAK, ux, uy, vx / speed, vy / speed
-    return _restick(ux, uy, vx, vy, normal_force, state, mu_s, effective_mass, p)
+        limit = deflection_limit(mu_s, p)
+        return SLIP_PEAK, ux - limit * ex, uy - limit * ey, ex, ey
+    if state[0] == SLIP:
+        ex, ey = slip_direction(vx, vy, ex, ey)
+    return _restick(ux, uy, vx, vy, normal_force, ex, ey, mu_s, effective_mass, p)
 
 
 @compiled
@@ -154,18 +175,19 @@ def _commit_stick(ux, uy, vx, vy, speed, state, mu_s, p):
     limit = deflection_limit(mu_s, p)
     if z < limit:
         return STICK, state[1], state[2], 0.0, 0.0
+    ax, ay = ux - zx * (limit / z), uy - zy * (limit / z)
     if zx * vx + zy * vy > 0.0:
-        mode = SLIP if speed > p[4] else SLIP_PEAK
-        return mode, ux, uy, zx / z, zy / z
-    return STICK, ux - zx * (limit / z), uy - zy * (limit / z), 0.0, 0.0
+        if speed > p[4]:
+            return SLIP, ux, uy, zx / z, zy / z
+        return SLIP_PEAK, ax, ay, zx / z, zy / z
+    return STICK, ax, ay, 0.0, 0.0
 
 
 @compiled
-def _restick(ux, uy, vx, vy, normal_force, state, mu_s, effective_mass, p):
-    """Return the stuck state whose deflection keeps the force continuous: k z = mu_s N d - c v, within the limit."""
+def _restick(ux, uy, vx, vy, normal_force, ex, ey, mu_s, effective_mass, p):
+    """Return the stuck state whose deflection keeps the force continuous: k z = mu_s N e - c v, within the limit."""
     k = stick_stiffness(normal_force, p)
     c = stick_damping(normal_force, effective_mass, p)
-    ex, ey = slip_direction(vx, vy, state[3], state[4])
     cap = mu_s * normal_force
     zx, zy = clipped((cap * ex - c * vx) / k, (cap * ey - c * vy) / k, deflection_limit(mu_s, p))
     return STICK, ux - zx, uy - zy, 0.0, 0.0
@@ -184,7 +206,8 @@ def guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, h
         wx, wy = clipped(zx, zy, limit)
         cap = mu_s * normal_force - length(k * wx + c * vx, k * wy + c * vy)
         return limit - length(zx, zy), cap, -cap, 1.0, 1.0, 1.0
-    ahead = vx * state[3] + vy * state[4]
     if state[0] == SLIP_PEAK:
-        return ahead, p[4] - speed, 1.0, 1.0, 1.0, 1.0
+        ex, ey = trailing_direction(ux, uy, state)
+        return vx * ex + vy * ey, p[4] - speed, 1.0, 1.0, 1.0, 1.0
+    ahead = vx * state[3] + vy * state[4]
     return ahead, speed - p[4], 1.0, 1.0, 1.0, 1.0

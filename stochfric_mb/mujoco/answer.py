@@ -15,8 +15,11 @@ from stochfric_mb.mujoco.switching import call
 
 TURNED = 1.0e-9
 """How far beyond rest a sliding contact is braked, relative to the velocity taken, so that its law sees it turned."""
-U0, V0, SURFACE, MU, FREE = 0, 2, 4, 6, 8
-"""Columns of a contact's numbers: displacement, velocity, surface velocity, coefficients, free velocity."""
+U0, V0, SURFACE, MU, FREE, RESTS = 0, 2, 4, 6, 8, 10
+"""Columns of a contact's numbers: displacement, velocity, surface velocity, coefficients, free velocity; 1 while it is taken
+to come to rest."""
+NUMBERS = 11
+"""How many columns."""
 VX, VY, NORMAL = range(3)
 """Columns of a contact's motion: velocity [m/s] and normal force [N] at the forces so far."""
 

@@ -37,6 +37,7 @@ from stochfric_mb.mujoco.kinematics import (
     surface_velocity,
     to_body,
 )
+from stochfric_mb.mujoco.level import common_overlap, lift, on_face
 from stochfric_mb.mujoco.switching import call, coefficients, commit_slot, half_step
 
 CONTACTS_FULL = 1
@@ -131,7 +132,7 @@ def tangent_mass(model, data, state, contact, address, body, surface):
 def _tangent_mass(model, data, contact, address, body, surface, nv, rows):
     for j in range(2 * nv):
         n.store(rows + 8 * j, 0.0)
-    x, y, z = point_of(contact)
+    x, y, z = point_of(contact, address)
     add_rows(model, data, address, body, 1.0, x, y, z, nv, rows)
     add_rows(model, data, address, surface, -1.0, x, y, z, nv, rows)
     n.mj_solveM(model, data, rows + 16 * nv, rows, np.int32(2))
@@ -145,18 +146,18 @@ def _tangent_mass(model, data, contact, address, body, surface, nv, rows):
 
 
 @compiled_inline
-def clear_push(state, contact):
+def clear_push(state, contact, address):
     """Start a sum of forces and torques about the contact's point."""
     put(state + 8 * s.FORCE, 0.0, 0.0, 0.0)
     put(state + 8 * s.TORQUE, 0.0, 0.0, 0.0)
-    x, y, z = point_of(contact)
+    x, y, z = point_of(contact, address)
     put(state + 8 * s.POINT, x, y, z)
 
 
 @compiled_inline
-def add_push(state, contact, fx, fy, fz):
+def add_push(state, contact, address, fx, fy, fz):
     """Add a force on the body at the contact's point to the sum."""
-    x, y, z = point_of(contact)
+    x, y, z = point_of(contact, address)
     f, m, p = state + 8 * s.FORCE, state + 8 * s.TORQUE, state + 8 * s.POINT
     x, y, z = x - n.load(p), y - n.load(p + 8), z - n.load(p + 16)
     put(f, n.load(f) + fx, n.load(f + 8) + fy, n.load(f + 16) + fz)
@@ -197,6 +198,7 @@ def begin(model, data, state, warm):
     body, surface = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
     committed, current, n_slots = slot(state, 0, 0), slot(state, 1, 0), int(n.load(state + 8 * s.N_SLOTS))
     count, total, sudden, auto = 0, 0.0, False, n.load(state + 8 * s.MODE) == s.AUTO
+    first, low, high = -1, 0.0, 0.0
     for i in range(n.int_field(data, n.D_NCON)):
         contact = contact_address(data, i)
         sign = side(contact, body, surface)
@@ -206,7 +208,10 @@ def begin(model, data, state, warm):
             n.mj_warning(data, np.int32(CONTACTS_FULL), np.int32(count))
             break
         address = current + 8 * s.SLOT * count
-        total += track(model, data, state, i, sign, t, committed, known, address, count, warm)
+        if first < 0 or not on_face(model, data, first, i, body, surface):
+            first = i
+            low, high = common_overlap(model, data, i, body, surface)
+        total += track(model, data, state, i, sign, t, committed, known, address, count, warm, lift(contact, low, high))
         if auto and not sudden:
             sudden = is_sudden(model, data, state, contact, address)
         count += 1
@@ -278,10 +283,10 @@ def critical_ratio(state, step):
 
 
 @compiled
-def track(model, data, state, i, sign, t, committed, known, address, k, warm):
+def track(model, data, state, i, sign, t, committed, known, address, k, warm, height):
     """Fill the kinematics of the current slot at ``address``, the ``k``-th, from contact ``i``; return its normal force [N].
 
-    ``known`` slots at ``committed`` hold what the step before left.
+    ``known`` slots at ``committed`` hold what the step before left; the contact touches ``height`` above its point.
     """
     contact = contact_address(data, i)
     a = n.int_field(contact, n.C_GEOM)
@@ -294,6 +299,7 @@ def track(model, data, state, i, sign, t, committed, known, address, k, warm):
             old = 0
     else:
         normal_force = predicted_normal_force(model, data, contact, warm)
+    n.store(address + 8 * s.LIFT, height)
     fill(model, data, state, contact, sign, t, address, old)
     n.store(address + 8 * s.GEOM_1, a + 1.0)
     n.store(address + 8 * s.GEOM_2, b + 1.0)
@@ -307,7 +313,7 @@ def fill(model, data, state, contact, sign, t, address, old):
     """Fill frame, velocity, displacement, material points and mass of a slot; its law state stays the old one."""
     body, surface = bodies_of(model, contact, sign)
     sx, sy, sz = surface_velocity(contact, sign)
-    vx, vy, vz = relative_velocity(model, data, contact, body, surface, sx, sy, sz)
+    vx, vy, vz = relative_velocity(model, data, contact, address, body, surface, sx, sy, sz)
     ux, uy = n.load(state + 8 * s.ORIGIN), 0.0
     dx, dy = 0.0, 0.0
     step = 0.0
@@ -340,7 +346,7 @@ def fill(model, data, state, contact, sign, t, address, old):
     n.store(address + 8 * s.SX, dot(e1, sx, sy, sz))
     n.store(address + 8 * s.SY, dot(e2, sx, sy, sz))
     n.store(address + 8 * s.SINCE, t)
-    x, y, z = point_of(contact)
+    x, y, z = point_of(contact, address)
     bx, by, bz = to_body(data, body, x, y, z)
     put(address + 8 * s.ON_BODY, bx, by, bz)
     cx, cy, cz = to_body(data, surface, x, y, z)
@@ -383,7 +389,7 @@ def apply(model, data, state, warm):
         if body != last_body or surface != last_surface:
             if last_body >= 0:
                 push(model, data, state, last_body, last_surface, target)
-            clear_push(state, contact)
+            clear_push(state, contact, address)
             last_body, last_surface = body, surface
         apply_contact(model, data, state, contact, sign, body, surface, address, n.load_word(row + n.FORCE), t, starting)
     if last_body >= 0:
@@ -402,7 +408,7 @@ def slot_at_stage(model, data, state, i, sign, t, k, warm):
         return address
     n.store(state + 8 * s.N_CURRENT, count + 1.0)
     address = slot(state, 1, count)
-    normal_force = track(model, data, state, i, sign, t, 0, 0, address, count, warm)
+    normal_force = track(model, data, state, i, sign, t, 0, 0, address, count, warm, 0.0)
     commit_slot(state, address, n.law_row(int(n.load(state + 8 * s.LAW))), t, normal_force, 1)
     n.store(address + 8 * s.LIVE, 0.0)
     return address
@@ -437,7 +443,7 @@ def apply_contact(model, data, state, contact, sign, body, surface, address, for
         mu_s, mu_k = n.load(address + 8 * s.MU_S), n.load(address + 8 * s.MU_K)
     else:
         sx, sy, sz = surface_velocity(contact, sign)
-        wx, wy, wz = relative_velocity(model, data, contact, body, surface, sx, sy, sz)
+        wx, wy, wz = relative_velocity(model, data, contact, address, body, surface, sx, sy, sz)
         vx, vy = dot(e1, wx, wy, wz), dot(e2, wx, wy, wz)
         dx, dy = displacement(data, address, body, surface, t, vx, vy)
         ux, uy = ux + dx, uy + dy
@@ -456,6 +462,7 @@ def apply_contact(model, data, state, contact, sign, body, surface, address, for
     add_push(
         state,
         contact,
+        address,
         fx * n.load(e1) + fy * n.load(e2),
         fx * n.load(e1 + 8) + fy * n.load(e2 + 8),
         fx * n.load(e1 + 16) + fy * n.load(e2 + 16),

@@ -19,7 +19,7 @@ import math
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.answer import MU, NORMAL, V0, VX, VY, add_force, law_at, take
+from stochfric_mb.mujoco.answer import MU, NORMAL, RESTS, TURNED, V0, VX, VY, add_force, law_at, take
 
 STILL = 1.0e-12
 """Velocity left, relative to that which mu_s N takes, at which contacts count as held."""
@@ -28,6 +28,8 @@ DEPENDENT = 1.0e-11
 BELOW, AT_REST = 1.0e-6, 1.0e-3
 """Part of mu_s N that is left to a contact which holds all it can, so that it holds on while N changes by what MuJoCo's
 solver leaves; velocity, relative to that which mu_s N takes, up to which all contacts rest with the others' help."""
+COUPLED = 0.1
+"""Velocity that a force at one contact gives another, relative to its own, from which they move each other."""
 SLIGHT = 1.0e-3
 """Mobility, relative to the largest, of motions that are stopped a little in each step only: it takes so much force that
 what is no motion of rigid bodies at all, but rounding or a change of the contact points, would break the contacts away."""
@@ -40,9 +42,12 @@ def is_held(places, q):
 
 
 @compiled
-def hold_still(places, coupling, numbers, motion, f, response, end, h, space):
-    """Give the held contacts the forces that hold them; return the largest change over mu_s N, -1 if a law forbids it."""
-    want_hold(places, coupling, numbers, motion, f, response, h, space)
+def hold_still(places, coupling, numbers, motion, f, response, end, h, anew, space):
+    """Give the held contacts the forces that hold them; return the largest change over mu_s N, -1 if a law forbids it.
+
+    These are changed as far as needed, or shared ``anew`` by the normal forces.
+    """
+    want_hold(places, coupling, numbers, motion, f, response, h, anew, space)
     allowed, moved = True, 0.0
     for q in range(len(places)):
         if is_held(places, q):
@@ -58,28 +63,76 @@ def hold_still(places, coupling, numbers, motion, f, response, end, h, space):
 
 
 @compiled
-def want_hold(places, coupling, numbers, motion, f, response, h, space):
+def want_hold(places, coupling, numbers, motion, f, response, h, anew, space):
     """Write the forces that would hold the held contacts still to their slots.
 
-    A contact that would have to hold more than mu_s N holds just that, and the others the rest of it; only where they
-    cannot does it want its whole part, with which its law lets it go.
+    Where they cannot hold with each other's help, each wants its whole part, with which its law lets it go.
     """
     m = len(places)
-    index, shares, wants, x = space[:m], space[m : 2 * m], space[2 * m : 3 * m], space[3 * m : 5 * m]
-    total, whole = space[5 * m : 7 * m], space[7 * m : 9 * m]
+    chosen, most, total, whole = space[:m], space[m : 2 * m], space[2 * m : 4 * m], space[4 * m : 6 * m]
     for q in range(m):
+        chosen[q] = 1.0 if is_held(places, q) and motion[q, NORMAL] > 0.0 else 0.0
+        most[q] = numbers[q, MU] * motion[q, NORMAL]
+        kept = not anew or chosen[q] == 0.0
+        total[2 * q], total[2 * q + 1] = f[q, 0] if kept else 0.0, f[q, 1] if kept else 0.0
+    if not hold(coupling, numbers, motion, f, response, h, chosen, most, total, whole, space[6 * m :]):
+        n.move(whole, total)
+    for q in range(m):
+        if is_held(places, q):
+            n.store(places[q, 2] + 8 * s.HOLD_X, total[2 * q])
+            n.store(places[q, 2] + 8 * s.HOLD_Y, total[2 * q + 1])
+
+
+@compiled
+def bring_to_rest(places, coupling, numbers, motion, f, response, end, h, anew, space):
+    """Give the contacts taken to rest the forces that stop them; return the largest change over mu_s N, -1 if they cannot.
+
+    These are changed as far as needed, or shared ``anew`` by the normal forces.
+    """
+    m = len(places)
+    chosen, most, total, whole = space[:m], space[m : 2 * m], space[2 * m : 4 * m], space[4 * m : 6 * m]
+    for q in range(m):
+        chosen[q] = numbers[q, RESTS]
         total[2 * q], total[2 * q + 1] = f[q, 0], f[q, 1]
-        wants[q] = 1.0 if is_held(places, q) and motion[q, NORMAL] > 0.0 else 0.0
+        if chosen[q] != 0.0:
+            if anew:
+                total[2 * q], total[2 * q + 1] = 0.0, 0.0
+            take(places, motion, q)
+            gx, gy = law_at(places[q], end, h, numbers[q], -TURNED * numbers[q, V0], -TURNED * numbers[q, V0 + 1])
+            most[q] = math.sqrt(gx * gx + gy * gy)
+    if not hold(coupling, numbers, motion, f, response, h, chosen, most, total, whole, space[6 * m :]):
+        return -1.0
+    moved = 0.0
+    for q in range(m):
+        if numbers[q, RESTS] != 0.0:
+            x, y = total[2 * q] - f[q, 0], total[2 * q + 1] - f[q, 1]
+            moved = max(moved, math.sqrt(x * x + y * y) / (numbers[q, MU] * motion[q, NORMAL]))
+            add_force(coupling, motion, f, q, x, y)
+    return moved
+
+
+@compiled
+def hold(coupling, numbers, motion, f, response, h, chosen, most, total, whole, space):
+    """Change the forces ``total`` to those that hold the ``chosen`` contacts still; return whether they can.
+
+    A contact that would have to hold more than ``most`` holds just that, and the others the rest of it. ``whole`` gets the
+    forces without such help.
+    """
+    m = len(f)
+    index, parts, wants, x = space[:m], space[m : 2 * m], space[2 * m : 3 * m], space[3 * m : 5 * m]
+    shares = space[5 * m : 7 * m]
+    fill_shares(coupling, motion, shares)
+    n.move(chosen, wants)
     full = False
     for turn in range(m):
         size, enough = 0, math.inf
         for q in range(m):
             if wants[q] != 0.0:
-                index[size], shares[size] = q, share(coupling, motion, q)
+                index[size], parts[size] = q, shares[q]
                 x[2 * size], x[2 * size + 1] = velocity_with(coupling, motion, f, total, q)
                 size += 1
                 enough = min(enough, smallest(numbers, motion, response, q, h))
-        minimise(coupling, index[:size], shares, enough, x, space[9 * m :])
+        minimise(coupling, index[:size], parts, enough, x, space[7 * m :])
         again = False
         for i in range(size):
             q = int(index[i])
@@ -89,21 +142,15 @@ def want_hold(places, coupling, numbers, motion, f, response, h, space):
             n.move(total, whole)
         for i in range(size):
             q = int(index[i])
-            cap = numbers[q, MU] * motion[q, NORMAL]
             force = math.sqrt(total[2 * q] ** 2 + total[2 * q + 1] ** 2)
-            if force > cap:
-                total[2 * q] *= (1.0 - BELOW) * cap / force
-                total[2 * q + 1] *= (1.0 - BELOW) * cap / force
+            if force > most[q]:
+                total[2 * q] *= (1.0 - BELOW) * most[q] / force
+                total[2 * q + 1] *= (1.0 - BELOW) * most[q] / force
                 wants[q] = 0.0
                 again, full = True, True
         if not again:
             break
-    if full and not (helped(wants) and all_rest(places, coupling, numbers, motion, f, response, total, h)):
-        n.move(whole, total)
-    for q in range(m):
-        if is_held(places, q):
-            n.store(places[q, 2] + 8 * s.HOLD_X, total[2 * q])
-            n.store(places[q, 2] + 8 * s.HOLD_Y, total[2 * q + 1])
+    return not full or (helped(wants) and all_rest(coupling, numbers, motion, f, response, chosen, total, h))
 
 
 @compiled
@@ -124,10 +171,10 @@ def velocity_with(coupling, motion, f, total, q):
 
 
 @compiled
-def all_rest(places, coupling, numbers, motion, f, response, total, h):
-    """Return whether the held contacts rest with the forces ``total``."""
-    for q in range(len(places)):
-        if is_held(places, q) and motion[q, NORMAL] > 0.0:
+def all_rest(coupling, numbers, motion, f, response, chosen, total, h):
+    """Return whether the ``chosen`` contacts rest with the forces ``total``."""
+    for q in range(len(f)):
+        if chosen[q] != 0.0:
             vx, vy = velocity_with(coupling, motion, f, total, q)
             if abs(vx) + abs(vy) > AT_REST / STILL * smallest(numbers, motion, response, q, h):
                 return False
@@ -142,11 +189,12 @@ def want_rest(places, coupling, numbers, motion, f, response, h, space):
     """
     m = len(places)
     size = 0
-    index, shares, x = space[:m], space[m : 2 * m], space[2 * m : 4 * m]
+    index, parts, x, shares = space[:m], space[m : 2 * m], space[2 * m : 4 * m], space[4 * m : 6 * m]
+    fill_shares(coupling, motion, shares)
     enough = math.inf
     for q in range(m):
         if n.load(places[q, 3] + 8 * s.NEEDS_HOLD) != 0.0 and motion[q, NORMAL] > 0.0:
-            index[size], shares[size] = q, share(coupling, motion, q)
+            index[size], parts[size] = q, shares[q]
             vx, vy = motion[q, VX] - numbers[q, V0], motion[q, VY] - numbers[q, V0 + 1]
             for p in range(m):
                 if n.load(places[p, 3] + 8 * s.NEEDS_HOLD) != 0.0 and motion[p, NORMAL] > 0.0:
@@ -155,7 +203,7 @@ def want_rest(places, coupling, numbers, motion, f, response, h, space):
             x[2 * size], x[2 * size + 1] = vx, vy
             size += 1
             enough = min(enough, smallest(numbers, motion, response, q, h))
-    minimise(coupling, index[:size], shares, enough, x, space[4 * m :])
+    minimise(coupling, index[:size], parts, enough, x, space[6 * m :])
     for i in range(size):
         q = int(index[i])
         if not is_held(places, q):
@@ -263,19 +311,26 @@ def mobility(coupling, index, shares, y, x, out):
 
 
 @compiled
-def share(coupling, motion, q):
-    """Return the force over the velocity that is the contact's part of what it and those that move with it have to hold.
+def fill_shares(coupling, motion, shares):
+    """Fill the forces over the velocities that are the contacts' parts of what they hold together.
 
-    Its part, by normal forces, is N_q/sum_p |W_qp|/|W_qq| N_p: then N is an eigenvector of the mobilities' sizes so
-    weighted, with eigenvalue 1, and by Perron and Frobenius all contacts together never hold more than there is.
+    They are S_q = N_q/D with D = sum_p |W_qp| N_p, its largest value among the contacts that move each other: contacts of
+    one body share by their normal forces. N is a left eigenvector of |W_qp| N_p/D_p with D as for q alone, of eigenvalue 1,
+    and by Perron and Frobenius all contacts together never hold more than there is.
     """
-    mine, own, total = max(motion[q, NORMAL], 0.0), largest(coupling, q, q), 0.0
-    if not own > 0.0:
-        return 0.0
-    for p in range(len(motion)):
-        if motion[p, NORMAL] > 0.0:
-            total += largest(coupling, q, p) / own * motion[p, NORMAL]
-    return mine / (total * own) if total > 0.0 else 0.0
+    m = len(motion)
+    for q in range(m):
+        shares[q] = 0.0
+        for p in range(m):
+            shares[q] += largest(coupling, q, p) * max(motion[p, NORMAL], 0.0)
+    for q in range(m):
+        most, own = 0.0, largest(coupling, q, q)
+        for p in range(m):
+            if p == q or largest(coupling, q, p) > COUPLED * own:
+                most = max(most, abs(shares[p]))
+        shares[m + q] = max(motion[q, NORMAL], 0.0) / most if most > 0.0 else 0.0
+    for q in range(m):
+        shares[q] = shares[m + q]
 
 
 @compiled

@@ -25,7 +25,7 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.ahead import SWITCH_SPACE, start_guards, switch_ahead
-from stochfric_mb.mujoco.answer import MU
+from stochfric_mb.mujoco.answer import MU, NUMBERS
 from stochfric_mb.mujoco.contact import slot_at_stage, warm_row
 from stochfric_mb.mujoco.kinematics import contact_address, side
 from stochfric_mb.mujoco.responses import (
@@ -158,7 +158,7 @@ def solve(model, data, places, warm):
     kept, base, change = n.stack(data, nv), n.stack(data, nv), n.stack(data, nv)
     tangent, normal = n.stack_table(data, nv, 2 * m), n.stack_table(data, nv, m)
     answer, motion = n.stack_table(data, nv, 2 * m), n.stack_table(data, nv, 2 * m)
-    f, before, numbers = n.stack_table(data, m, 2), n.stack_table(data, m, 2), n.stack_table(data, m, 10)
+    f, before, numbers = n.stack_table(data, m, 2), n.stack_table(data, m, 2), n.stack_table(data, m, NUMBERS)
     at, coupling, response = n.stack_table(data, m, 3), n.stack_table(data, 3 * m, 2 * m), n.stack_table(data, m, 4)
     space = n.stack(data, max(space_needed(m), 2 * rows, 7 * nv, SWITCH_SPACE))
     states = n.stack(data, rows)

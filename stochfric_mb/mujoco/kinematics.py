@@ -73,10 +73,10 @@ def bodies_of(model, contact, sign):
 
 
 @compiled_inline
-def point_of(contact):
-    """Return the contact point (world)."""
-    p = n.field(contact, n.C_POS)
-    return n.load(p), n.load(p + 8), n.load(p + 16)
+def point_of(contact, address):
+    """Return the contact point (world), at the height that the slot at ``address`` has for it."""
+    p, f, lift = n.field(contact, n.C_POS), n.field(contact, n.C_FRAME), n.load(address + 8 * s.LIFT)
+    return n.load(p) + lift * n.load(f), n.load(p + 8) + lift * n.load(f + 8), n.load(p + 16) + lift * n.load(f + 16)
 
 
 @compiled_inline
@@ -163,12 +163,12 @@ def surface_velocity(contact, sign):
 
 
 @compiled_inline
-def relative_velocity(model, data, contact, body, surface, sx, sy, sz):
+def relative_velocity(model, data, contact, address, body, surface, sx, sy, sz):
     """Return the velocity [m/s] of the counter-surface relative to the body at the contact point, in world axes.
 
     (sx, sy, sz) is `surface_velocity`.
     """
-    x, y, z = point_of(contact)
+    x, y, z = point_of(contact, address)
     bx, by, bz = velocity(model, data, body, x, y, z)
     cx, cy, cz = velocity(model, data, surface, x, y, z)
     return cx - bx + sx, cy - by + sy, cz - bz + sz

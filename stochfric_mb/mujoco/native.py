@@ -133,14 +133,15 @@ SOLVER_FIELDS = (
     ("mjData", "efc_state"),
     ("mjData", "efc_aref"),
     ("mjData", "efc_AR"),
+    ("mjContact", "dist"),
 )
-"""Struct fields of the implicit mode; the constants below are their places in the table."""
+"""Struct fields of the implicit mode, and how far apart surfaces are; the constants below are their places in the table."""
 KEYS, N_KEYS = FURTHER + 64, 16
 """First place and number of the addresses of the configuration keys, in the order of `config.ATTRIBUTES`."""
 (
-    M_SOLVER, M_NOSLIP, M_DISABLE, M_DAMPING, D_EFC_TYPE, D_EFC_STATE, D_EFC_AREF, D_EFC_AR,
-) = range(KEYS + N_KEYS, KEYS + N_KEYS + 8)  # fmt: skip
-SOLVER, PREPARER, OPTIONS_CHECKER, NO_PASSIVE_MESSAGE = range(KEYS + N_KEYS + 8, KEYS + N_KEYS + 12)
+    M_SOLVER, M_NOSLIP, M_DISABLE, M_DAMPING, D_EFC_TYPE, D_EFC_STATE, D_EFC_AREF, D_EFC_AR, C_DISTANCE,
+) = range(KEYS + N_KEYS, KEYS + N_KEYS + 9)  # fmt: skip
+SOLVER, PREPARER, OPTIONS_CHECKER, NO_PASSIVE_MESSAGE = range(KEYS + N_KEYS + 9, KEYS + N_KEYS + 13)
 """Places of the addresses of the implicit mode's solution, once it is compiled, and of two Python functions: the one that
 compiles it, and the one that looks at a model's options; and of what is said where passive forces are off."""
 TABLE: Any = (ctypes.c_int64 * (KEYS + 64))()

@@ -12,13 +12,17 @@ import math
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.answer import FREE, MU, U0, VX, VY, add_force, answer, brake, keep_free, law_at, slides, take
+from stochfric_mb.mujoco.answer import FREE, MU, RESTS, U0, VX, VY, add_force, answer, brake, keep_free, law_at, slides, take
 from stochfric_mb.mujoco.holding import is_held
 
-NEWTON_STEPS, HALVINGS = 12, 3
-"""Most steps, whole or halved; most halvings of one."""
+NEWTON_STEPS, TRIALS = 16, 8
+"""Most steps, and most lengths that are tried of one."""
+SHORT = 0.1
+"""Part of its slope at the start of a step at which the potential counts as least."""
 FORCE_TOLERANCE = 1.0e-10
 """Error of a force relative to mu_s N at which the search ends."""
+LEVEL = 1.0e-6
+"""Slope of a law, relative to the largest, that counts as none: difference quotients leave so much."""
 ROUNDING = 4.0e-16
 """Error of a sum, relative to its terms."""
 FLOOR, OWN, KIND, GX, SLOPES = 6, 7, 8, 9, 11
@@ -41,25 +45,26 @@ def newton(places, coupling, numbers, motion, f, response, end, h, close, space)
     slopes = space[at : at + SLOPES * m].reshape(m, SLOPES)
     at += SLOPES * m
     r, best = space[at : at + 2 * m], space[at + 2 * m : at + 4 * m]
+    before, step = space[at + 4 * m : at + 6 * m], space[at + 6 * m : at + 8 * m]
     slopes[:, FLOOR] = 0.0
-    least, halvings = math.inf, 0
+    least, rises = math.inf, True
     for _ in range(NEWTON_STEPS):
         worst = residual(places, numbers, motion, f, response, r, slopes, end, h, close)
+        if worst >= least and not rises:
+            break
+        if worst >= least:
+            worst = shorten(places, coupling, numbers, motion, f, response, before, step, r, slopes, end, h, close)
         if worst <= FORCE_TOLERANCE:
             return True
         if worst < least:
-            least, halvings = worst, 0
+            least = worst
             for q in range(m):
                 best[2 * q], best[2 * q + 1] = f[q, 0], f[q, 1]
-        elif halvings < HALVINGS:  # not so far
-            halvings += 1
-            for q in range(m):
-                add_force(coupling, motion, f, q, 0.5 * (best[2 * q] - f[q, 0]), 0.5 * (best[2 * q + 1] - f[q, 1]))
-            continue
-        else:
-            break
+        n.move(r, before)
+        rises = True
         for q in range(m):
             fill_slopes(places, numbers, motion, response, slopes[q], q, end, h, close)
+            rises = rises and not falls(motion, slopes[q], q)
         for i in range(2 * m):
             q = i // 2
             by_vx, by_vy, by_normal = slopes[q, i % 2], slopes[q, 2 + i % 2], slopes[q, 4 + i % 2]
@@ -71,11 +76,67 @@ def newton(places, coupling, numbers, motion, f, response, end, h, close, space)
         if not eliminate(a, r):
             break
         for q in range(m):
-            add_force(coupling, motion, f, q, -r[2 * q], -r[2 * q + 1])
+            step[2 * q], step[2 * q + 1] = -r[2 * q], -r[2 * q + 1]
+            add_force(coupling, motion, f, q, step[2 * q], step[2 * q + 1])
     if least < math.inf:
         for q in range(m):
             add_force(coupling, motion, f, q, best[2 * q] - f[q, 0], best[2 * q + 1] - f[q, 1])
     return least <= 1.0e3 * FORCE_TOLERANCE
+
+
+@compiled
+def falls(motion, slope, q):
+    """Return whether the contact's law falls with the speed, by its slopes."""
+    if slope[KIND] != FREELY:
+        return False
+    vx, vy = motion[q, VX], motion[q, VY]
+    along = vx * (slope[0] * vx + slope[2] * vy) + vy * (slope[1] * vx + slope[3] * vy)
+    size = math.sqrt(slope[0] ** 2 + slope[1] ** 2 + slope[2] ** 2 + slope[3] ** 2)
+    return along < -LEVEL * size * (vx * vx + vy * vy)
+
+
+@compiled
+def shorten(places, coupling, numbers, motion, f, response, before, step, r, slopes, end, h, close):
+    """Go back on the last ``step`` to where the forces' potential is least; return the error there, as `residual` does.
+
+    Laws that only rise have a convex potential, whose slope along the step is that of the velocities times the errors of
+    the forces, ``before`` and ``r``. False position (Dahlquist and Bjorck, the Illinois method) finds where it is zero.
+    """
+    at_low, at_high = slope_along(coupling, step, before), slope_along(coupling, step, r)
+    worst, least = 0.0, SHORT * abs(at_low)
+    low, high, part, last = 0.0, 1.0, 1.0, 0
+    if not at_low < 0.0 < at_high:
+        return residual(places, numbers, motion, f, response, r, slopes, end, h, close)
+    for _ in range(TRIALS):
+        new = low - at_low * (high - low) / (at_high - at_low)
+        for q in range(len(f)):
+            add_force(coupling, motion, f, q, (new - part) * step[2 * q], (new - part) * step[2 * q + 1])
+        part = new
+        worst = residual(places, numbers, motion, f, response, r, slopes, end, h, close)
+        slope = slope_along(coupling, step, r)
+        if abs(slope) <= least:
+            break
+        if slope < 0.0:
+            low, at_low = part, slope
+            at_high *= 0.5 if last < 0 else 1.0
+            last = -1
+        else:
+            high, at_high = part, slope
+            at_low *= 0.5 if last > 0 else 1.0
+            last = 1
+    return worst
+
+
+@compiled
+def slope_along(coupling, step, errors):
+    """Return the slope of the potential along a step of the forces, from their errors."""
+    total = 0.0
+    for i in range(len(step)):
+        row, fall = coupling[3 * (i // 2) + i % 2], 0.0
+        for j in range(len(step)):
+            fall += row[j] * step[j]
+        total += fall * errors[i]
+    return total
 
 
 @compiled
@@ -89,7 +150,7 @@ def residual(places, numbers, motion, f, response, r, slopes, end, h, close):
         address, state, row, slope = places[q, 2], places[q, 3], numbers[q], slopes[q]
         r[2 * q], r[2 * q + 1] = 0.0, 0.0
         slope[KIND] = NONE
-        if is_held(places, q):
+        if is_held(places, q) or row[RESTS] != 0.0:
             continue
         slope[KIND], braked = FREELY, False
         if close:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.answer import MU, SURFACE, U0, V0
+from stochfric_mb.mujoco.answer import MU, RESTS, SURFACE, U0, V0
 from stochfric_mb.mujoco.kinematics import add_rows, bodies_of, contact_address, displacement, point_of
 from stochfric_mb.mujoco.switching import coefficients
 
@@ -27,7 +27,7 @@ def prepare(model, data, places, tangent, normal, numbers, f, work, starting, t,
         body, surface = bodies_of(model, contact, sign)
         for j in range(2 * nv):
             work[j] = 0.0
-        x, y, z = point_of(contact)
+        x, y, z = point_of(contact, address)
         add_rows(model, data, address, body, 1.0, x, y, z, nv, work.ctypes.data)
         add_rows(model, data, address, surface, -1.0, x, y, z, nv, work.ctypes.data)
         for j in range(nv):
@@ -49,7 +49,7 @@ def prepare(model, data, places, tangent, normal, numbers, f, work, starting, t,
             row[U0 + 1] += dy
             f[q, 0], f[q, 1] = n.load(address + 8 * s.FX), n.load(address + 8 * s.FY)
         mu_s, mu_k = coefficients(state, end, row[U0] + h * vx, n.load(address + 8 * s.EVENTS))
-        row[MU], row[MU + 1] = mu_s, mu_k
+        row[MU], row[MU + 1], row[RESTS] = mu_s, mu_k, 0.0
 
 
 @compiled

@@ -54,9 +54,10 @@ BEFORE = 36
 """Time, displacement and velocity at the commit before: t, ux, uy, vx, vy."""
 START_GUARDS = 41
 """The law's guards at the last switch or commit, for laws with modes."""
-HOLD_X, HOLD_Y, FELT, IMPLICIT_STEP = range(START_GUARDS + GUARDS, START_GUARDS + GUARDS + 4)
-"""Force that would hold the contact still [N]; mass felt by this contact alone [kg]; 1 if its last force was solved."""
-STATE = START_GUARDS + GUARDS + 4
+HOLD_X, HOLD_Y, FELT, IMPLICIT_STEP, LIFT = range(START_GUARDS + GUARDS, START_GUARDS + GUARDS + 5)
+"""Force that would hold the contact still [N]; mass felt by this contact alone [kg]; 1 if its last force was solved; how
+far above MuJoCo's point, along the normal, the contact is taken to touch [m] (see `level`)."""
+STATE = START_GUARDS + GUARDS + 5
 """The law's state."""
 SLOT = STATE + MAX_STATE
 """Length of a slot."""

@@ -86,33 +86,66 @@ def test_solver_options(options):
     assert creep(ElasticStick(0.8, 0.6), 1.0, options=options) < (1e-8 if "solver" in options else 1e-11)
 
 
-@pytest.mark.parametrize("law", [ElasticStick(0.8, 0.6), ElasticStick(0.8, 0.6, e_lim=1e-7), Coulomb(0.8, 0.6)])
-def test_break_away_angle(law):
-    model, data = box(law, SLIDES)
+def break_away_angle(law, joints, size=".05 .05 .05", dt=2e-3, options=""):
+    """Tilt slowly; return the angle [degrees] at which the box goes faster than 5 mm/s, soon after break-away."""
+    height = float(size.split()[2])
+    spec = spec_of(f'type="box" size="{size}"', joints, dt=dt, height=height, options=options)
+    engine.add_friction(spec, ("body", "floor"), law)
+    model = spec.compile()
+    data = mujoco.MjData(model)
     steps(model, data, 0.4)
     angle = 0.0
-    while data.qvel[0] < 5e-3:  # slipping at 1.5 m/s^2, two steps after break-away
-        angle += 0.02 if angle < 37.0 else 2e-3
-        assert angle < 45.0
-        tilt(model, angle)
-        mujoco.mj_step(model, data)
-    assert angle == pytest.approx(math.degrees(math.atan(0.8)), abs=0.05)
-
-
-def test_contacts_of_true_stick_hold_with_each_other_s_help():
-    """On soft ground the lower contacts of a free box carry most; one that has all it can hold leaves the rest to them."""
-    model, data = box(Coulomb(0.8, 0.46))
-    tilt(model, 20.0)
-    steps(model, data, 1.0)
-    angle = 20.0
     while data.qvel[0] < 5e-3:
-        angle += 2e-3
+        angle += dt * (10.0 if angle < 37.0 else 0.5)
         assert angle < 45.0
         tilt(model, angle)
         mujoco.mj_step(model, data)
-    # atan mu_s is 38.66; if each contact broke away by itself, it would be 31.6. The box turns as it is tilted, at 1e-7 m/s
-    # at its contacts, so that one of the upper ones slides at mu_k first: that costs 1.5 degrees.
-    assert 36.5 < angle < 38.71
+    return angle
+
+
+# Elastic stick slides on at mu_s up to v_s = 0.1 mm/s: it takes 0.04 s, 0.02 degrees, to get there.
+STICKING = [Coulomb(0.8, 0.46)] + [ElasticStick(0.8, 0.46, e_lim=e) for e in (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)]
+LIMIT = math.degrees(math.atan(0.8))
+
+
+@pytest.mark.parametrize("law", STICKING)
+@pytest.mark.parametrize("joints", [SLIDES, FREE])
+def test_break_away_angle(law, joints):
+    assert break_away_angle(law, joints) == pytest.approx(LIMIT, abs=0.05)
+
+
+@pytest.mark.parametrize("law", [Coulomb(0.8, 0.46), ElasticStick(0.8, 0.46, e_lim=1e-7)])
+@pytest.mark.parametrize("size", [".1 .05 .03", ".05 .1 .02", ".05 .05 .06"])
+def test_break_away_angle_of_boxes_of_other_proportions(law, size):
+    """The lower contacts carry 4 to 49 times what the upper ones do, and the box turns on its soft ground as it is tilted."""
+    assert break_away_angle(law, FREE, size) == pytest.approx(LIMIT, abs=0.05)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("law", STICKING)
+@pytest.mark.parametrize("options", ['integrator="implicitfast"', 'integrator="RK4"', 'jacobian="sparse"', 'cone="elliptic"'])
+def test_break_away_angle_with_other_options(law, options):
+    assert break_away_angle(law, FREE, options=options) == pytest.approx(LIMIT, abs=0.05)
+
+
+@pytest.mark.parametrize("law", [Coulomb(0.8, 0.46), ElasticStick(0.8, 0.46, e_lim=1e-7)])
+@pytest.mark.parametrize("dt", [5e-4, 1e-3])
+def test_break_away_angle_at_smaller_steps(law, dt):
+    assert break_away_angle(law, FREE, dt=dt) == pytest.approx(LIMIT, abs=0.05)
+
+
+@pytest.mark.parametrize("law", [Coulomb(0.8, 0.46), ElasticStick(0.8, 0.46, e_lim=1e-6)])
+def test_contacts_share_by_their_normal_forces(law):
+    model, data = box(law)
+    steps(model, data, 0.4)
+    for k in range(1, 1501):
+        tilt(model, 0.02 * k)
+        mujoco.mj_step(model, data)
+    (contacts,) = engine.readings(model, data).values()
+    ratios = [math.hypot(*c.force[:2]) / c.normal_force for c in contacts]
+    # True stick by its rule; bristles of one face, which move as one, by their stiffness. The readings' normal forces are
+    # those of the step's end.
+    assert ratios == pytest.approx([math.tan(math.radians(30.0))] * 4, rel=2e-3)
 
 
 # --- sliding and rolling --------------------------------------------------------------------------------------------
