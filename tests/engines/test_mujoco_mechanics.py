@@ -305,3 +305,41 @@ def test_two_instances_hold_one_body_together():
     forces = [c[0].force[0] for c in engine.readings(model, data).values()]
     assert sum(forces) == pytest.approx(-3.0, rel=1e-6)
     assert forces[0] == pytest.approx(forces[1], rel=1e-2)
+
+
+ARM = """<mujoco><option timestep="1e-4" {jacobian}/><worldbody>
+<body name="cart"><joint type="slide" axis="1 0 0"/><joint axis="0 0 1"/><geom name="cart" type="box" size="2 2 .1" mass="3"/>
+  <body pos="0 0 .3"><geom size=".05" mass=".2" contype="0" conaffinity="0"/></body></body>
+<body pos="-.5 .2 .6"><joint axis="0 1 .2"/><joint axis="1 0 0"/><geom type="capsule" size=".04" fromto="0 0 0 .4 0 0"
+  contype="0" conaffinity="0"/>
+  <body pos=".4 0 0"><joint axis="0 1 0"/><geom type="capsule" size=".04" fromto="0 0 0 .1 .1 -.2" contype="0" conaffinity="0"/>
+    <body pos=".1 .1 -.2"><geom name="tip" size=".31"/></body></body></body></worldbody></mujoco>"""
+
+
+# Both bodies move, one of them through a body without joints of its own; a force at the contact feels 1/(J M^-1 J^T).
+@pytest.mark.parametrize("jacobian", ["dense", "sparse"])
+def test_the_mass_felt_is_that_of_the_jacobian(jacobian):
+    spec = mujoco.MjSpec.from_string(ARM.format(jacobian=f'jacobian="{jacobian}"'))
+    engine.add_friction(spec, ("tip", "cart"), ElasticStick(mu_s=0.8, mu_k=0.6), mode="explicit")
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.qpos[:] = [0.1, 0.2, 0.05, -0.1, 0.3]
+    data.qvel[:] = [0.3, -0.2, 0.1, 0.4, -0.5]
+    mujoco.mj_forward(model, data)
+    assert data.ncon == 1  # a sphere on a flat top
+    state = header(model, data, 0)
+    first = slots.DESCRIPTOR + int(state[slots.N_DESCRIPTOR]) + int(state[slots.N_SLOTS]) * slots.SLOT
+    row = state[first : first + slots.SLOT]
+    axes = row[slots.AXIS_1 : slots.AXIS_1 + 6].reshape(2, 3)
+    jacobian_of = {}
+    for name in ("tip", "cart"):
+        rows = np.zeros((3, model.nv))
+        mujoco.mj_jac(model, data, rows, None, data.contact.pos[0], model.geom(name).bodyid[0])
+        jacobian_of[name] = rows
+    rows = axes @ (jacobian_of["tip"] - jacobian_of["cart"])
+    mass = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, mass)
+    felt = 1.0 / np.linalg.eigvalsh(rows @ np.linalg.solve(mass, rows.T)).max()
+    assert row[slots.FELT] == pytest.approx(felt, rel=1e-12)
+    relative = axes @ (jacobian_of["cart"] - jacobian_of["tip"]) @ data.qvel
+    assert row[[slots.VX, slots.VY]] == pytest.approx(relative, abs=1e-13)
