@@ -16,7 +16,9 @@ from stochfric_mb.mechanisms import BeltBox
 Array = npt.NDArray[np.float64]
 
 MEDIAN_WIDTH = 7
-"""Width of the running median against which outliers are seen [samples]."""
+"""Width of the running median against which outliers are seen, at most [samples]."""
+MEDIAN_ANGLE = 0.4
+"""The same as an angle of the natural oscillation, at most [rad]; but at least three samples."""
 SMOOTHING_ANGLE = 0.4
 """Width of the window in which the motion is smoothed, as an angle of the natural oscillation [rad]."""
 LINE_WINDOW = 128
@@ -127,13 +129,16 @@ def make_record(name: str, time: Array, position: Array, mechanism: BeltBox) -> 
             excitation_amplitude=-mechanism.excitation_amplitude,
         )
     noise = white_noise(raw)
-    median = median_filter(raw, MEDIAN_WIDTH, mode="nearest")
+    # no wider than the motion allows: across a corner of few samples a median is far off
+    turn = math.sqrt(mechanism.stiffness / mechanism.mass) * (time[-1] - time[0]) / (len(time) - 1)
+    width = min(MEDIAN_WIDTH, max((int(MEDIAN_ANGLE / turn) - 1) // 2 * 2 + 1, 3))
+    median = median_filter(raw, width, mode="nearest")
     away = np.abs(raw - median)
     # a sensor that smooths or holds its samples has smaller third differences than deviations
     outlier = away > OUTLIER_DEVIATIONS * max(noise, float(np.quantile(away, 0.85)) / 1.44)
     # single samples alone: what lasts longer is motion
-    crowd = np.convolve(outlier.astype(np.float64), np.ones(MEDIAN_WIDTH), mode="same")
-    outlier &= crowd <= MEDIAN_WIDTH // 2
+    crowd = np.convolve(outlier.astype(np.float64), np.ones(width), mode="same")
+    outlier &= crowd <= width // 2
     return Record(name, time, np.where(outlier, median, raw), raw, outlier, noise, mechanism, stated, direction)
 
 

@@ -137,11 +137,13 @@ def extract(record: Record, *, ridge: float | None = None, noise: Noise | None =
         if noise.coloured > 0.0:
             calmer = without_wave(quiet, when) or quiet
             noise = noise_of(without_pattern(calmer) or calmer, record.noise)
-    firm = noise.deviation / (_STIFF * np.ptp(record.position) / 2.0)
+    # a sensor that shows nothing moves by nothing
+    half = 0.5 * float(np.ptp(record.position)) or 1.0
+    firm = noise.deviation / (_STIFF * half)
     if ridge is None:
         misfits = [_edge(record, begin, 1, firm)[3] / noise.deviation**2 for begin, _ in rough[:24]]
         constant = not misfits or np.median(misfits) < _MISFIT_ALLOWED
-        ridge = firm if constant else noise.deviation / (_SOFT * np.ptp(record.position) / 2.0)
+        ridge = firm if constant else noise.deviation / (_SOFT * half)
     edges = [e for e in (_locate(record, a, b, ridge, firm) for a, b in rough) if e[2] - e[0] > 0.5 / record.angular_frequency]
     # two slips may not overlap: a rough slip cut in two can be located twice
     edges = [e for i, e in enumerate(edges) if i == 0 or e[0] > edges[i - 1][2]]

@@ -18,6 +18,7 @@ from stochfric_mb.discovery.regression import DAMPING, Regression, Solution, Ter
 from stochfric_mb.discovery.size import Size
 from stochfric_mb.discovery.slips import Slips, extract
 from stochfric_mb.discovery.sticking import Sticking, analyse, ceiling
+from stochfric_mb.discovery.usable import require_driven
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset, Run
 
@@ -97,7 +98,11 @@ def record_of(run: Run, dataset: Dataset) -> Record:
 
 
 def study(dataset: Dataset, size: Size, *, progress: Progress = lambda _: None) -> Study | None:
-    """Return what the fit runs of a data set in units of ``size`` tell; None where no run has slips enough to tell anything."""
+    """Return what the fit runs of a data set in units of ``size`` tell; None where no run has slips enough to tell anything.
+
+    Raises:
+        InputError: a run without a position, or one in which friction does not drive the box along with the belt.
+    """
     model = believed_model(dataset.scenario)
     progress("slips")
     records = tuple(record_of(run, dataset) for run in dataset.fit)
@@ -105,6 +110,7 @@ def study(dataset: Dataset, size: Size, *, progress: Progress = lambda _: None) 
     usable = [s for s in slips if len(s) >= FEWEST_SLIPS]
     if not usable:
         return None
+    require_driven(usable)
     progress("calibration")
     pool, solution = _calibrated(usable, dataset.scenario.uncertainty)
     return Study(

@@ -24,6 +24,7 @@ from stochfric_mb.discovery.scatter import matched
 from stochfric_mb.discovery.size import USUAL, Size
 from stochfric_mb.discovery.slips import Slips
 from stochfric_mb.discovery.study import EVERYTHING, Channels, Progress, Study, slips_of_run, study
+from stochfric_mb.discovery.usable import require_usable
 from stochfric_mb.effects import Effect
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
@@ -75,8 +76,9 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
         progress: called with the name of each stage as it begins.
 
     Raises:
-        InputError: a run without a position, or a law that cannot be believed here.
+        InputError: a run without a position or that friction cannot be told from, or a law that cannot be believed here.
     """
+    require_usable(dataset)
     size = Size.of_rig(dataset.scenario.mechanism)
     given, dataset = dataset, size.reduced(dataset)
     found = study(dataset, size, progress=progress)
