@@ -13,7 +13,9 @@ from stochfric_mb.discovery.model import Model
 DOUBT = 2.0
 """Standard errors of the mean difference by which forecasts must be worse: chance does that once in 40 times [-]."""
 FAR_OFF = 1.1
-"""Error with an effect, over that without it, from which on it is refused although few forecasts may be to blame [-]."""
+"""Error with an effect, over that without it, from which on it is refused, unless most forecasts are better [-]."""
+MOST = 2.0
+"""Standard deviations of a fair coin by which better forecasts must outnumber worse ones to be most [-]."""
 LEAST_REDUCIBLE = 0.08
 """Reducible error, over the error itself, below which shares of it would be noise over noise [-]."""
 
@@ -31,15 +33,22 @@ class Comparison:
 
     floor: float
     """What the model with it would leave of records that it had made itself [m]."""
+    most_better: bool = False
+    """Whether far more forecasts are better with it than worse."""
 
     @property
     def worse(self) -> bool:
-        """Whether the effect makes the forecasts worse: far off, by more than chance, or where much could be gained."""
+        """Whether the effect makes the forecasts worse: far off, by more than chance, or where much could be gained.
+
+        Where most are better, the mean may be far off for a slip that is missed: a forecast of a box on the verge of slipping
+        says nothing of an effect.
+        """
         if self.with_ <= self.without:
             return False
         chance = DOUBT * self.deviation
         to_gain = self.without - self.floor > LEAST_REDUCIBLE * self.without
-        return self.with_ > FAR_OFF * self.without or self.with_ - self.without > chance or to_gain
+        far_off = self.with_ > FAR_OFF * self.without and not self.most_better
+        return far_off or self.with_ - self.without > chance or to_gain
 
     @property
     def better(self) -> bool:
@@ -54,7 +63,9 @@ def compared(without: Model, with_: Model, runs: HeldOut) -> Comparison | None:
     if n < 3:  # no standard error
         return None
     deviation = float(np.std(second - first, ddof=1) / np.sqrt(n))
-    return Comparison(float(first.mean()), float(second.mean()), deviation, floor_of(with_, runs))
+    better, worse = int(np.count_nonzero(second < first)), int(np.count_nonzero(second > first))
+    most_better = better - worse > MOST * np.sqrt(better + worse)
+    return Comparison(float(first.mean()), float(second.mean()), deviation, floor_of(with_, runs), most_better)
 
 
 def without_last(model: Model, kind: str) -> Model:

@@ -44,6 +44,8 @@ def test_an_effect_that_worsens_forecasts_of_held_out_runs_is_not_named(monkeypa
         (Comparison(5e-6, 5.01e-6, 1e-7, 4.9e-6), False),  # by chance
         (Comparison(5e-6, 5.3e-6, 1e-7, 4.9e-6), True),  # three standard errors
         (Comparison(5e-6, 9e-6, 4e-6, 4.9e-6), True),  # far off, a single forecast may be to blame
+        (Comparison(5e-6, 9e-6, 4e-6, 9e-6, most_better=True), False),  # one slip is missed, the others are better
+        (Comparison(5e-6, 9e-6, 1e-6, 9e-6, most_better=True), True),  # no chance: four standard errors
         (Comparison(5e-6, 5.01e-6, 1e-7, 4e-6), True),  # a fifth to gain, and nothing gained
         (Comparison(5e-6, 4.0e-6, 1e-9, 1e-6), False),
     ],
