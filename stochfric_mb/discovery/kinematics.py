@@ -18,8 +18,6 @@ from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
 
 NAME = 20.0
 """Score at which an effect is named [-]."""
-LEVEL_VISITS = 0.5
-"""Share of the visits to the ceiling that must be level for the sensor to be called clipped [-]."""
 YIELDS = 0.5
 """Share of the evidence for creep that a yielding or ringing contact must reach to be named in its place [-]."""
 CREEP = {
@@ -107,9 +105,9 @@ Blamed = list[tuple[str, float, dict[str, float]]]
 
 def kinematics(study: Study, details: dict[str, object]) -> Blamed | Where:
     """Return the effects that the stick phases and the sensor show, or where they disagree with no known effect."""
-    details["ceiling"] = study.ceiling[0]
-    if study.ceiling[0] > LEVEL_VISITS:
-        return [("sensor_clipping", 100.0 * float(study.ceiling[0]), {"high": float(study.ceiling[1])})]
+    details["ceiling"] = study.range.share
+    if study.range.clipped:
+        return [("sensor_clipping", 100.0 * study.range.share, {"high": study.range.high, "low": study.range.low})]
     found = _delays(study, details) + _outliers(study, details)
     in_stick = _in_stick(study, details)
     return in_stick if isinstance(in_stick, Where) else found + in_stick

@@ -195,37 +195,3 @@ def _belt_error(run: _Phases) -> tuple[float, float]:
     slope, deviation = (run.line @ run.values) / norm, 1.0 / np.sqrt(norm)
     belt = run.slips.record.mechanism.belt_velocity
     return float(slope * run.deviation / belt), float(deviation * run.deviation / belt)
-
-
-def ceiling(slips: Sequence[Slips]) -> tuple[float, float]:
-    """Return how often a record stays flat at its ceiling where the belt carries the box on, and the ceiling [m].
-
-    Counted are the visits to the ceiling in which the record is level, within its noise, for longer than the belt takes
-    to cross the noise; a box that slows down smoothly is not level.
-    """
-    flat, level = 0.0, np.inf
-    for one in slips:
-        record = one.record
-        noise = max(one.noise.deviation, 1.0e-9)
-        top = float(np.quantile(record.raw, 0.9995)) - 2.0 * noise
-        cross = 8.0 * noise / record.mechanism.belt_velocity * record.rate
-        level_visits, visits = 0, 0
-        above = np.flatnonzero(record.raw > top - 4.0 * noise)
-        if len(above) == 0:
-            continue
-        # pieces near the ceiling; gaps of a few samples are noise
-        cuts = np.flatnonzero(np.diff(above) > 8)
-        for first, last in zip(np.r_[above[0], above[cuts + 1]], np.r_[above[cuts], above[-1]], strict=True):
-            visits += 1
-            inner = record.raw[first + int(cross / 2) : last - 2]
-            if len(inner) < max(2.0 * cross, 15):
-                continue
-            thirds = np.array_split(inner, 3)
-            bow = abs(thirds[1].mean() - 0.5 * (thirds[0].mean() + thirds[2].mean()))
-            tilt = abs(thirds[2].mean() - thirds[0].mean())
-            sharp = 4.0 * noise / np.sqrt(len(inner) / 3.0)
-            level_visits += int(bow < sharp and tilt < sharp and inner.std() < 1.5 * noise)
-        share = level_visits / max(visits, 1) if level_visits >= 4 else 0.0
-        if share > flat:
-            flat, level = share, float(np.median(record.raw[record.raw > top]))
-    return flat, level

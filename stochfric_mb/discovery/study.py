@@ -15,9 +15,10 @@ from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.pool import Pool, make_pool
 from stochfric_mb.discovery.record import Record, make_record
 from stochfric_mb.discovery.regression import DAMPING, Regression, Solution, Terms, believed
+from stochfric_mb.discovery.sensor_range import SensorRange, sensor_range
 from stochfric_mb.discovery.size import Size
 from stochfric_mb.discovery.slips import Slips, extract
-from stochfric_mb.discovery.sticking import Sticking, analyse, ceiling
+from stochfric_mb.discovery.sticking import Sticking, analyse
 from stochfric_mb.discovery.usable import require_driven
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset, Run
@@ -71,8 +72,8 @@ class Study:
     """Its fit."""
     sticking: Sticking | None
     """The kinematic channel."""
-    ceiling: tuple[float, float]
-    """Share of the visits to a record's ceiling that are level [-], and the ceiling [m]."""
+    range: SensorRange
+    """The sensor's range, as far as its ends are reached."""
     outliers: float
     """Share of samples that were outliers [-]."""
 
@@ -124,7 +125,7 @@ def study(dataset: Dataset, size: Size, *, progress: Progress = lambda _: None) 
         terms=believed(pool, dict(dataset.scenario.uncertainty)),
         solution=solution,
         sticking=analyse(usable),
-        ceiling=ceiling(usable),
+        range=sensor_range(usable),
         outliers=float(np.mean(np.concatenate([r.outlier for r in records]))),
     )
 
