@@ -42,6 +42,8 @@ from stochfric_mb.mujoco.switching import call, coefficients, commit_slot, half_
 
 CONTACTS_FULL = 1
 """mjWARN_CONTACTFULL."""
+GOLDEN = 0.6180339887498949
+"""Golden ratio: its multiples spread evenly over their fractional parts."""
 SUDDEN = 0.05
 """Change of the normal force in a step, relative to it, with which explicit friction (one step late) will not do."""
 
@@ -182,6 +184,25 @@ def push(model, data, state, body, surface, target):
         n.mj_applyFT(model, data, g, k, p, np.int32(surface), target)
 
 
+@compiled_inline
+def told_by(model, data):
+    """Return a sum that tells the velocities: with weights between 1 and 2, no two alike."""
+    qvel, total, weight = n.pointer_field(data, n.D_QVEL), 0.0, 0.0
+    for j in range(0, 8 * n.int_field(model, n.M_NV), 8):
+        weight += GOLDEN
+        weight -= 1.0 if weight >= 1.0 else 0.0
+        total += (1.0 + weight) * n.load(qvel + j)
+    return total
+
+
+@compiled_inline
+def was_pushed(model, data, state):
+    """Return whether velocities were written since the last step, by more than the law's stick speed."""
+    if n.load(state + 8 * s.FINISHED) == 0.0 or n.load(state + 8 * s.HAS_MODE) == 0.0:
+        return False
+    return abs(told_by(model, data) - n.load(state + 8 * s.VELOCITIES)) > n.load(state + 8 * s.STICK_SPEED)
+
+
 @compiled
 def begin(model, data, state, warm):
     """Make the current slots for a step that starts now, at an accepted state.
@@ -218,8 +239,12 @@ def begin(model, data, state, warm):
     n.store(state + 8 * s.N_CURRENT, float(count))
     star = body < 0 or surface < 0
     row = n.law_row(int(n.load(state + 8 * s.LAW)))
+    pushed = known > 0 and was_pushed(model, data, state)
     for k in range(count):
         address = current + 8 * s.SLOT * k
+        fast = pushed and length(n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)) > n.load(state + 8 * s.STICK_SPEED)
+        if fast and n.load(address + 8 * s.LIVE) != 0.0:  # it slides from here on, whatever it did before
+            n.store(address + 8 * s.LIVE, -1.0)
         pair, among = pair_total(state, address, count) if star else (total, count)
         commit_slot(state, address, row, t, pair, among)
     n.store(state + 8 * s.SOLVED, 1.0 if sudden or beyond_explicit(model, state, count, total, star) else 0.0)
@@ -514,3 +539,5 @@ def finish(model, data, state):
     n.store(state + 8 * s.N_COMMITTED, float(count))
     n.store(state + 8 * s.ADVANCED, n.number_field(data, n.D_TIME))
     n.store(state + 8 * s.STARTED, 0.0)
+    n.store(state + 8 * s.VELOCITIES, told_by(model, data))
+    n.store(state + 8 * s.FINISHED, 1.0)

@@ -29,10 +29,11 @@ FORCE = CURSOR + CURSOR_SIZE
 TORQUE, COUNTER_FORCE, COUNTER_TORQUE, POINT, OUTPUT = FORCE + 3, FORCE + 6, FORCE + 9, FORCE + 12, FORCE + 15
 COEFFICIENTS = OUTPUT + MAX_STATE
 """Time of the last evaluation of a path along time [s], and its mu_s and mu_k."""
-NEEDS_HOLD, CRITICAL, CRITICAL_STEP, INSTANT = range(COEFFICIENTS + 3, COEFFICIENTS + 7)
+NEEDS_HOLD, CRITICAL, CRITICAL_STEP, INSTANT, VELOCITIES, FINISHED = range(COEFFICIENTS + 3, COEFFICIENTS + 9)
 """A flag; normal force over mass [N/kg] where an explicit step of CRITICAL_STEP [s] is at half its limit;
-canonical time [s] of the last evaluation at a step's start."""
-LIMITS, N_LIMITS = COEFFICIENTS + 7, 13
+canonical time [s] of the last evaluation at a step's start; a sum that tells the velocities at the end of the last step,
+and 1 if there is one."""
+LIMITS, N_LIMITS = COEFFICIENTS + 9, 13
 """The law's step limit [s] at normal forces over mass of 1e-4, 1e-3, ... 1e8 N/kg."""
 ROWS, MAX_ROW = LIMITS + N_LIMITS, 32
 """Work space: four rows of so many generalised coordinates."""
@@ -41,7 +42,8 @@ DESCRIPTOR = ROWS + 4 * MAX_ROW
 
 # Slot: places in doubles.
 GEOM_1, GEOM_2, ORDINAL, LIVE = range(4)
-"""Key of the contact (geom ids plus 1, number among equals), and whether it has a law state yet."""
+"""Key of the contact (geom ids plus 1, number among equals), and whether it has a law state: 1, or 0 not yet, or -1 where it
+was given another velocity."""
 NORMAL, MASS, STICK, EVENTS, ENERGY, MU_S, MU_K, SINCE = range(4, 12)
 """Normal force [N], mass felt [kg], stuck flag, stick phases begun, energy dissipated [J], coefficients, time [s]."""
 UX, UY, VX, VY, FX, FY, SX, SY = range(12, 20)

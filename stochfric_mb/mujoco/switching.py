@@ -83,11 +83,12 @@ def commit_slot(state, address, row, t, total, count):
     ux, uy = n.load(address + 8 * s.UX), n.load(address + 8 * s.UY)
     vx, vy = n.load(address + 8 * s.VX), n.load(address + 8 * s.VY)
     modes = n.load(state + 8 * s.HAS_MODE) != 0.0
-    new = n.load(address + 8 * s.LIVE) == 0.0
+    live = n.load(address + 8 * s.LIVE)
+    new = live <= 0.0
     if not new and modes and n.load(address + 8 * s.IMPLICIT_STEP) == 0.0:
         switch_within(state, address, row, t)
     changed = switch(state, address, row, n.INIT if new else n.COMMIT, t, ux, uy, vx, vy)
-    if new:
+    if live == 0.0:
         n.store(address + 8 * s.EVENTS, 0.0)
     mu_s, mu_k = coefficients(state, t, ux, n.load(address + 8 * s.EVENTS))
     n.store(address + 8 * s.MU_S, mu_s)

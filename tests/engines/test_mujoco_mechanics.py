@@ -166,6 +166,16 @@ def test_sliding_in_the_plane(law, heading):
     assert np.hypot(*data.qvel[:2]) < 1e-6  # at rest
 
 
+@pytest.mark.parametrize("mode", ["explicit", "auto", "implicit"])
+@pytest.mark.parametrize("integrator", ["Euler", "RK4"])
+def test_a_stuck_box_that_is_given_a_speed_slides_from_then_on(mode, integrator):
+    model, data = box(ElasticStick(0.8, 0.6, e_lim=1e-4), SLIDES, mode=mode, dt=1e-3, options=f'integrator="{integrator}"')
+    steps(model, data, 1.0)
+    data.qvel[0] = 3.0
+    steps(model, data, 0.3)
+    assert data.qvel[0] == pytest.approx(3.0 - 0.6 * G * 0.3, rel=1e-6)
+
+
 @pytest.mark.parametrize("law", [ElasticStick(0.5, 0.5), Coulomb(0.5, 0.5)])
 def test_a_sphere_goes_from_sliding_to_rolling(law):
     spec = spec_of('type="sphere" size=".1"', FREE, dt=1e-3, height=0.0999)
