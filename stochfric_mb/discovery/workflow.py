@@ -5,46 +5,28 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-import numpy as np
-from scipy.stats import chi2 as chi2_distribution
-
 from stochfric_mb.discovery.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.belt import belt_speed
 from stochfric_mb.discovery.borne_out import LEAST_REDUCIBLE, compared, without_last
 from stochfric_mb.discovery.decision import Decision, Named, decide
-from stochfric_mb.discovery.forecast import Windows
+from stochfric_mb.discovery.explained import NOT_JUDGED, unexplained
 from stochfric_mb.discovery.gap import HeldOut, deterministic, floor_of, gap_of, held_out, mean_score, phased, settled
-from stochfric_mb.discovery.intervals import interval
-from stochfric_mb.discovery.model import CORRECTED, Model
+from stochfric_mb.discovery.model import Model
+from stochfric_mb.discovery.parameters import believed_intervals, found_effect
 from stochfric_mb.discovery.power import smallest
 from stochfric_mb.discovery.refit import Fit, refit, with_deviations
 from stochfric_mb.discovery.refusal import refusal
-from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
+from stochfric_mb.discovery.result import Gap, Result, Where
 from stochfric_mb.discovery.scatter import matched
 from stochfric_mb.discovery.size import USUAL, Size
 from stochfric_mb.discovery.slips import Slips
 from stochfric_mb.discovery.study import EVERYTHING, Channels, Progress, Study, slips_of_run, study
 from stochfric_mb.discovery.usable import require_usable
-from stochfric_mb.effects import Effect
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
 
-NOT_JUDGED = {"sensor_outliers", "sensor_clipping"}
-"""Effects whose worth one-cycle forecasts do not measure."""
 RANDOM = ("random_coefficients", "correlated_coefficients")
 """Effects that are scatter."""
-EXPLAINED, EXPLAINED_RANDOM = 0.65, 0.2
-"""Share of the reducible error of the fit runs' forecasts that named effects must explain; the second one where random
-effects or a step between two slips, whose moment is not known well, are among them [-]."""
-MISSED = 0.5
-"""Reducible error over the error itself above which "none" is no answer [-]: more is wrong with the forecasts than is right.
-Where nothing is missing, noise and declared scatter leave up to a third."""
-GOLDEN = 0.6180339887498949
-"""The ratio whose multiples repeat least."""
-JUDGED_WINDOWS = 24
-"""Forecasts of each run that are judged."""
-UNITS = {"mu_s": "-", "mu_k": "-", "mass": "kg", "stiffness": "N/m", "damping": "N s/m"}
-"""Units of the believed model's fitted parameters."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -102,13 +84,13 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     notes = _notes(found, decision, gap)
     result = Result(
         verdict=decision.verdict,  # pyright: ignore[reportArgumentType]  # one of three words
-        effects=tuple(_found(n, fit, augmented, found) for n in decision.named),
+        effects=tuple(found_effect(n, fit, augmented, found) for n in decision.named),
         where=decision.where,
         ranking=tuple((k, float(s)) for k, s in decision.ranking),
         gap=gap,
         not_identifiable=not_identifiable(found),
         next_experiment=next_experiment(decision, found),
-        believed=_intervals(recalibrated, found),
+        believed=believed_intervals(recalibrated, found),
         notes=notes,
         power=smallest(found) if decision.verdict == "none" else {},
         details=decision.details,
@@ -176,55 +158,6 @@ def _augmented(decision: Decision, found: Study, recalibrated: Fit) -> Fit | Non
     return dataclasses.replace(fit, model=matched(joined, found.pool))
 
 
-def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented: Model) -> Decision | None:
-    """Return the decision "unknown" if the decision explains too little of what the fit runs show; None if enough.
-
-    A name is worth little if the model with the effect forecasts the very runs that it was fitted to hardly better, and
-    so is "none" if a model that explained the runs would forecast them far better than the recalibrated one does.
-    """
-    if decision.verdict == "unknown":
-        return None
-    kinds = {n.kind for n in decision.named}
-    if kinds and kinds <= NOT_JUDGED:
-        return None
-    windows = [_scattered(w, JUDGED_WINDOWS) for w in found.windows if len(w)]
-    runs = HeldOut(found.pool.slips[:2], tuple(windows), tuple(windows))
-    before, after = mean_score(recalibrated, runs), mean_score(augmented, runs)
-    floor = min(floor_of(augmented, runs), after)
-    reducible, unit = before - floor, found.size.length
-    if not kinds:
-        decision.details["explained"] = {"before": before * unit, "floor": floor * unit}
-        return _missed(decision, before * unit, floor * unit) if reducible > MISSED * before else None
-    share = (before - after) / reducible if reducible > LEAST_REDUCIBLE * before else 1.0
-    decision.details["explained"] = {
-        "before": before * unit, "after": after * unit, "floor": floor * unit, "share": share
-    }  # fmt: skip
-    lenient = augmented.random or "sensor_step" in kinds
-    if share >= (EXPLAINED_RANDOM if lenient else EXPLAINED):
-        return None
-    best = decision.named[0]
-    where = Where(
-        best.where.axis,
-        f"{best.kind} comes closest, but explains only {max(share, 0.0):.0%} of what the runs show",
-    )
-    return dataclasses.replace(decision, verdict="unknown", named=(), where=where)
-
-
-def _scattered(windows: Windows, most: int) -> Windows:
-    """Return at most ``most`` windows, spread over the run at no regular intervals: a pattern of slips must not escape."""
-    order = np.argsort(np.arange(len(windows)) * GOLDEN % 1.0, kind="stable")
-    return windows.part(np.sort(order[:most]))
-
-
-def _missed(decision: Decision, before: float, floor: float) -> Decision:
-    where = Where(
-        "forecasts of one cycle",
-        f"no effect stands out in the forces of the slips, but forecasts of the fit runs miss by {before:.2g} m, where the "
-        f"model would miss by {floor:.2g} m if it were true",
-    )
-    return dataclasses.replace(decision, verdict="unknown", where=where)
-
-
 def _borne_out(
     decision: Decision, fit: Fit | None, augmented: Model, found: Study, recalibrated: Fit, runs: HeldOut
 ) -> tuple[Decision, Fit | None, Model]:
@@ -257,56 +190,6 @@ def _borne_out(
         return dataclasses.replace(decision, verdict="none"), fit, augmented
     text = f"{last.kind} comes closest on the fit runs, but makes forecasts of the held-out runs worse"
     return dataclasses.replace(decision, verdict="unknown", where=Where(last.where.axis, text)), fit, augmented
-
-
-def _found(named: Named, fit: Fit | None, model: Model, found: Study) -> Found:
-    parameters: dict[str, Interval] = {}
-    place = next(i for i, e in enumerate(model.effects) if e.kind == named.kind)
-    run = next(iter(model.own), "")
-    effect = model.effects_in(run)[place]
-    # a fit knows the effects that are not random alone
-    fitted = len(deterministic(dataclasses.replace(model, effects=model.effects[:place], own={})).effects)
-    independent = _independent(effect, found)
-    for field in dataclasses.fields(effect):
-        value = getattr(effect, field.name)
-        if isinstance(value, str) or not np.isfinite(value):
-            continue
-        about = field.metadata
-        deviation = 0.0
-        if fit is not None:
-            deviations = [
-                d
-                for k, d in zip(fit.knobs, fit.deviations, strict=True)
-                if (k.name, k.effect) == (field.name, fitted) and k.run in ("", run)
-            ]
-            deviation = float(deviations[0]) if deviations else 0.0
-        if field.name.startswith("sigma"):
-            deviation = value / np.sqrt(2.0 * independent)
-        unit = found.size.of(about["unit"])
-        parameters[field.name] = interval(value * unit, deviation * unit, about["unit"], about["low"], about["high"])
-    p_value = float(chi2_distribution.sf(max(named.score, 0.0), max(len(parameters), 1)))
-    return Found(named.kind, named.class_, named.where, parameters, float(named.score), p_value)
-
-
-def _independent(effect: Effect, found: Study) -> float:
-    """Return of how many independent values of the friction the fit runs tell: slips, or memories of a process that has one."""
-    n_slips = max(found.regression.n, 2)
-    memory = getattr(effect, "correlation_time", 0.0)
-    if memory <= 0.0:
-        return n_slips
-    time = sum(float(s.record.time[-1] - s.record.time[0]) for s in found.pool.slips)
-    return min(n_slips, max(time / (2.0 * memory), 1.0))  # a mean over T knows T/(2 tau) values of an exponential memory
-
-
-def _intervals(fit: Fit, found: Study) -> dict[str, Interval]:
-    box = found.dataset.scenario.mechanism
-    rows: dict[str, Interval] = {}
-    for knob, value, deviation in zip(fit.knobs, fit.values, fit.deviations, strict=True):
-        stated = getattr(box, knob.name, 0.0) if knob.name in CORRECTED else 0.0
-        number, doubt = (stated * (1.0 + value), stated * deviation) if stated else (value, deviation)
-        unit = UNITS.get(knob.name, "-")
-        rows[knob.name] = interval(number * found.size.of(unit), doubt * found.size.of(unit), unit, low=0.0)
-    return rows
 
 
 def _notes(found: Study, decision: Decision, gap: Gap | None) -> tuple[str, ...]:
