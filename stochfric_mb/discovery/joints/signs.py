@@ -54,10 +54,13 @@ def _fits_turned(dataset: Dataset, place: str, load: float, sheets: Sequence[She
 
     Where inertia outweighs friction a wrong sign shows as twice the inertia, not as energy.
     """
+    if place in getattr(dataset.scenario.mechanism, "pairs", ()):
+        return []  # the drives press there, too: with them turned round nothing touches
     found = source_of(_turned(dataset, place))
     nuisances = found.nuisances(place)
     believed = believed_model(dataset.scenario, place, nuisances, load)
-    as_given, turned = (Selector(s, nuisances, believed).recalibrated.rms for s in (sheets, found.sheets(place, "fit", 0.0)))
+    both = sheets, found.sheets(place, "fit", 0.0)
+    as_given, turned = (Selector(s, nuisances, believed).recalibrated.rms for s in both)
     if turned > TURNED * as_given:
         return []
     where = f" at {place}" if place else ""
@@ -69,13 +72,10 @@ def _fits_turned(dataset: Dataset, place: str, load: float, sheets: Sequence[She
 
 
 def _turned(dataset: Dataset, place: str) -> Dataset:
-    """Return the dataset with the drive of a place turned round; at a pair, the drives of all joints."""
+    """Return the dataset with the drive of a place turned round."""
     mechanism: Any = dataset.scenario.mechanism
     if isinstance(mechanism, Mjcf):
-        drives = {
-            n: dataclasses.replace(d, gain=-d.gain) if n == place or place in mechanism.pairs else d
-            for n, d in mechanism.drives.items()
-        }
+        drives = {n: dataclasses.replace(d, gain=-d.gain) if n == place else d for n, d in mechanism.drives.items()}
         scenario = dataclasses.replace(dataset.scenario, mechanism=dataclasses.replace(mechanism, drives=drives))
         return dataclasses.replace(dataset, scenario=scenario)
     return dataclasses.replace(dataset, runs=tuple(map(_turned_run, dataset.runs)))
