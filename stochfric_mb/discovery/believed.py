@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 from stochfric_mb.discovery.model import Model
 from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
 
 LAWS = ("coulomb", "elastic_stick", "stribeck")
 """Laws that the fast simulator takes."""
+USUAL_UNCERTAINTY = {"mass": 0.01, "stiffness": 0.02, "damping": 0.3}
+"""Relative standard deviations of a rig of which nobody said how well it is known [-]: weighed, its spring measured, its
+damping guessed from a decay. To take them for exact would make an effect of every small error."""
+NOT_STATED = "the scenario states no [uncertainty]; taken were " + ", ".join(
+    f"{name} = {value:g}" for name, value in USUAL_UNCERTAINTY.items()
+)
+"""What is said then."""
 
 
 def believed_model(scenario: Scenario) -> Model:
@@ -22,3 +32,10 @@ def believed_model(scenario: Scenario) -> Model:
             "(a regularised law is a Coulomb law that creeps: state the Coulomb law it stands for)"
         )
     return Model(scenario.law, {}, tuple(getattr(scenario, "effects", ())), scenario.process)
+
+
+def assumed(dataset: Dataset) -> Dataset:
+    """Return the data set with usual uncertainties where its scenario states none at all."""
+    if dataset.scenario.uncertainty:
+        return dataset
+    return dataclasses.replace(dataset, scenario=dataclasses.replace(dataset.scenario, uncertainty=USUAL_UNCERTAINTY))

@@ -6,6 +6,7 @@ import dataclasses
 from typing import Any
 
 from stochfric_mb.discovery.advice import next_experiment, not_identifiable
+from stochfric_mb.discovery.believed import NOT_STATED, assumed
 from stochfric_mb.discovery.belt import belt_speed
 from stochfric_mb.discovery.borne_out import LEAST_REDUCIBLE, compared, without_last
 from stochfric_mb.discovery.decision import Decision, Named, decide
@@ -62,7 +63,7 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     """
     require_usable(dataset)
     size = Size.of_rig(dataset.scenario.mechanism)
-    given, dataset = dataset, size.reduced(dataset)
+    given, dataset = dataset, size.reduced(assumed(dataset))
     found = study(dataset, size, progress=progress)
     if found is None:
         return _too_few(given)
@@ -81,7 +82,7 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     decision, fit, augmented = _borne_out(decision, fit, augmented, found, recalibrated, runs)
     gap = gap_of(believed, recalibrated.model, augmented, runs) if sum(map(len, runs.second)) else None
     gap = None if gap is None else gap.times(size.length)
-    notes = _notes(found, decision, gap)
+    notes = (*_notes(found, decision, gap), *([] if given.scenario.uncertainty else [NOT_STATED]))
     result = Result(
         verdict=decision.verdict,  # pyright: ignore[reportArgumentType]  # one of three words
         effects=tuple(found_effect(n, fit, augmented, found) for n in decision.named),
@@ -99,7 +100,7 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     scenario = augmented_scenario(given, models[2])
     if not size.usual:
         # what is shown is in SI units
-        found, runs = study(given, USUAL), held_out(_held_out_slips(given), phased=phased(augmented))
+        found, runs = study(assumed(given), USUAL), held_out(_held_out_slips(given), phased=phased(augmented))
     return Outcome(result, scenario, given, found, decision, models, runs)
 
 

@@ -196,6 +196,15 @@ def test_the_reason_and_the_next_experiment_are_those_of_the_record(record, monk
     assert advice in result.next_experiment
 
 
+def test_without_stated_uncertainties_small_errors_of_the_rig_are_no_effect():
+    # its true mass, stiffness and damping are off by their usual errors
+    dataset = plain()
+    bare = replace(dataset, scenario=replace(dataset.scenario, uncertainty={}))
+    result = discover(bare).result
+    assert result.verdict == "none"
+    assert any("states no [uncertainty]" in note for note in result.notes)
+
+
 def test_wrong_belt_speed_is_a_calibration_and_no_effect():
     result = discover(wrong_belt_speed()).result
     assert result.where.axis == "belt velocity"
