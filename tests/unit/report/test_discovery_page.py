@@ -198,7 +198,7 @@ def test_what_is_named_equivalent_blind_and_next_is_told():
     for part in (
         "these data cannot tell it from viscous friction",
         "0.0512 (0.0490 to 0.0534)",
-        "mu_k(v) = mu_k + amplitude exp(-abs(v)/decay_velocity)",
+        "mu_k(v) = mu_k + amplitude exp(-(abs(v)/decay_velocity)^shape_exponent)",
         "however strong they are: dwell ageing",
         "a run at 2 belt speeds.",
         "8.3e-06 of the samples were outliers.",
