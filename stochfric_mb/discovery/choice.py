@@ -168,10 +168,9 @@ def _by_simulation(
 
 
 def _spread(confirmed: Sequence[Confirmed]) -> float:
-    """Return chi^2 of the best candidate over the number of features, at least 1: what the forms of all candidates miss.
+    """Return chi^2 over its freedom of the best candidate, at least 1: what the forms of all candidates miss.
 
     Where no form is exact, differences of chi^2 tell of the forms, not of the kinds; the noise in which kinds are compared
     is then the misfit itself (quasi-likelihood: D. R. Anderson, K. P. Burnham, G. C. White, Ecology 75, 1994, 1780-1793).
-    Its likeliest value, not the unbiased one: of a single slip's eight features too few are free to tell that.
     """
-    return max(min((f.chi2 / (f.freedom + f.n_parameters + 2) for f in confirmed), default=1.0), 1.0)
+    return max(min((f.chi2 / max(f.freedom, 1) for f in confirmed), default=1.0), 1.0)
