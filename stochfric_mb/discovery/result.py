@@ -77,6 +77,17 @@ class Gap:
         return dataclasses.replace(self, **numbers)
 
     @property
+    def notes(self) -> tuple[str, ...]:
+        """What must be said where the effects do not bring the model closer to the held-out runs."""
+        if self.augmented <= self.recalibrated:
+            return ()
+        unit = "" if self.unit == "-" else f" {self.unit}"
+        return (
+            f"on the held-out runs the augmented model is off by more ({self.augmented:.3g}{unit}) than the recalibrated one "
+            f"({self.recalibrated:.3g}{unit})",
+        )
+
+    @property
     def closed(self) -> float | None:
         """Share of the reducible gap that the effects close; None where there is none."""
         reducible = self.recalibrated - self.floor

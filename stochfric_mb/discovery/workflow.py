@@ -208,12 +208,7 @@ def _notes(found: Study, decision: Decision, gap: Gap | None) -> tuple[str, ...]
         f"{kind} is not borne out by the held-out runs: error {seen['with_']:.3g} m with it, {seen['without']:.3g} m without"
         for kind, seen in dropped.items()
     ]
-    if gap is not None and gap.augmented > gap.recalibrated:
-        notes.append(
-            f"on the held-out runs the augmented model forecasts worse ({gap.augmented:.3g} m) than the recalibrated one "
-            f"({gap.recalibrated:.3g} m)"
-        )
-    return tuple(notes)
+    return (*notes, *(gap.notes if gap is not None else ()))
 
 
 def _too_few(dataset: Dataset) -> Outcome:

@@ -173,7 +173,10 @@ def _result(
         not_identifiable=tuple(k for k in effect_kinds() if k not in scores and k != "sensor_delay"),
         next_experiment="Steps down as well as up, and hold tests: they tell ageing with time from slip with distance.",
         believed=_numbers(plain),
-        notes=("the load point's speed is taken through a window; the machine's stiffness is fitted",),
+        notes=(
+            *gap.notes,
+            "the load point's speed is taken through a window; the machine's stiffness is fitted",
+        ),
         details={
             "laws": {
                 f.law.kind or "constant": {

@@ -42,16 +42,18 @@ def verdict(
     if unknown is not None:
         axis = unknown.selected.unknown
         where = Where(axis, f"What is missing depends on {axis}{_at(unknown)}; no known effect explains it.")
+    gap = _gap(places, loop_floor)
     return Result(
         verdict=kind,
         effects=tuple(effects),
         where=where,
         ranking=_ranking(places, timing),
-        gap=_gap(places, loop_floor),
+        gap=gap,
         not_identifiable=_unseen(places),
         next_experiment=_advice(pairs, places),
         believed={f"{p.place}.{k}" if len(places) > 1 else k: v for p in places for k, v in believed(p).items()},
         notes=(
+            *gap.notes,
             *notes,
             *_forward_notes(places[0]),
             *_timing_notes(timing),
