@@ -25,9 +25,11 @@ REMAINING_SCATTER = 0.1
 """Share of the believed model's scatter that must remain with the effects in for it to be called random [-]."""
 LEAST_SHARE = 0.004
 """Scatter over the friction itself below which, beside a named effect, it is what the effect's form leaves [-]."""
-FEWEST_KICKED, MOST_KICKED = 0.05, 0.35
-"""Share of slips that stand out for which kicks are the reason [-]; one of thirty may do so by accident (see `pool`)."""
-
+FEWEST_KICKED, MOST_KICKED = 0.05, 0.45
+"""Share of cycles with a slip that stands out, or a jump in stick, for which kicks are the reason [-]; one slip of thirty may
+stand out by accident (see `pool`)."""
+FEWEST_FAR = 3
+"""Slips that must stand out: jumps in stick alone say too little of the force that makes them."""
 FEWEST_ALIKE, ALIKE = 4, 0.3
 """Slips that stand out by the same, and their share of those that do, from which on friction has a second level; amounts
 that are spread evenly over a tenth of the force would put one in thirty so close together [-]."""
@@ -63,27 +65,33 @@ def kicked(study: Study) -> tuple[np.ndarray, float]:
 
 
 def _repeated(study: Study) -> bool:
-    """Return whether many of the slips that stand out do so by the same share: a kick comes at any phase of the stick."""
+    """Return whether many of the slips that stand out do so by the same share: a kick comes at any phase of the stick.
+
+    Kicks in stick take as much off the mean force of the slip that they set off, but set it off at any force of the spring.
+    """
     pool = study.pool
-    for column, level in enumerate((pool.static, pool.kinetic)):
-        share = pool.features[:, column] / level
-        for r in range(pool.n_runs):
-            share[pool.run == r] -= np.median(share[pool.run == r])
-        spread = robust_deviation(share)
-        far = np.sort(share[np.abs(share) > max(8.0 * spread, 0.02)])
-        alike = max((int(np.searchsorted(far, v + 3.0 * spread, "right")) - i for i, v in enumerate(far)), default=0)
-        if alike >= FEWEST_ALIKE and alike > ALIKE * len(far):
-            return True
-    return False
+    shares = np.stack([pool.features[:, 0] / pool.static, pool.features[:, 1] / pool.kinetic], axis=1)
+    for r in range(pool.n_runs):
+        shares[pool.run == r] -= np.median(shares[pool.run == r], axis=0)
+    spread = np.array([robust_deviation(shares[:, 0]), robust_deviation(shares[:, 1])])
+    static, kinetic = (np.abs(shares) > np.maximum(8.0 * spread, 0.02)).T
+    groups = (np.sort(shares[static, 0]), 3.0 * spread[0]), (np.sort(shares[kinetic & ~static, 1]), 3.0 * spread[1])
+    most = max(FEWEST_ALIKE, ALIKE * int(np.count_nonzero(static | kinetic)))
+    near = [int(np.searchsorted(far, value + width, "right")) - i for far, width in groups for i, value in enumerate(far)]
+    return any(count >= most for count in near)
 
 
 def kicks(study: Study) -> Chance | None:
-    """Return impacts if a few slips, and only a few, stand out, each by its own amount, and not at a regular count."""
+    """Return impacts if a few slips, and only a few, stand out, each by its own amount, and not at a regular count.
+
+    A kick that is too weak to set off a slip moves the stuck box a little: a jump within a stick phase counts as well.
+    """
     far, force = kicked(study)
-    share = float(far.mean())
-    if not FEWEST_KICKED < share < MOST_KICKED or _repeated(study):
-        return None
     pool = study.pool
+    jumps = study.sticking.jumps if study.sticking is not None else 0
+    share = (int(far.sum()) + jumps) / len(far)
+    if far.sum() < FEWEST_FAR or not FEWEST_KICKED < share < MOST_KICKED or _repeated(study):
+        return None
     gaps = np.concatenate([np.diff(np.flatnonzero(far[pool.run == r])) for r in range(pool.n_runs)])
     if len(gaps) >= 4 and np.mean(gaps == np.median(gaps)) > 0.8:
         return None

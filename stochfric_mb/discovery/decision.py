@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from stochfric_mb.discovery.belt import belt_speed
-from stochfric_mb.discovery.chance import MEMORY, chance, kicks
+from stochfric_mb.discovery.chance import MEMORY, chance, kicked, kicks
 from stochfric_mb.discovery.choice import IN_SLIP, IN_TIME, NAME, SELECT, SHAPES, Chosen, choose
 from stochfric_mb.discovery.confirmation import Case, Confirmed, cases_of, confirm
 from stochfric_mb.discovery.innovations import left_over
@@ -191,15 +191,23 @@ class _Search:
     def _look_at(self, candidates: Sequence[Candidate]) -> None:
         """Take the slips that simulated ones are compared with, if that has not been done."""
         if self.confirmation and not self.cases:
-            self.cases = cases_of(steady(self.pool, candidates, self.kept, self.solution), self.model)
+            self.cases = cases_of(steady(self.regression, self.terms, candidates, self.kept, self.solution), self.model)
             self.confirmed = confirm(self.cases, self.model, self.study.uncertainty) if self.cases else None
 
     def _of_chance(self, candidates: Sequence[Candidate]) -> Where | bool:
         """Return whether no effect is to be named before friction that wanders or is kicked, or where it switches."""
-        if self._wanders(candidates):
+        if self._wanders(candidates) or self._kicked_up(candidates[0]):
             return True
         sudden = self._sudden(candidates)
         return False if sudden is None else True if kicks(self.study) is not None else sudden
+
+    def _kicked_up(self, winner: Candidate) -> bool:
+        """Return whether a winner stands on slips alone that kicks set apart: without them hardly anything speaks for it."""
+        if kicks(self.study) is None:
+            return False
+        others = Regression(dataclasses.replace(self.pool, kept=self.pool.kept & ~kicked(self.study)[0]))
+        scatter = others.fit(self.terms, self.solution.scatter).scatter
+        return 2.0 * float(others.gains(self.terms, scatter, [winner.hypothesis.columns])[0]) < NAME
 
     def _wanders(self, candidates: Sequence[Candidate]) -> bool:
         """Return whether a winner on the axis of time is better told as a random wander."""
