@@ -9,8 +9,9 @@ import numpy as np
 
 from stochfric_mb.discovery.calibration import robust_deviation
 from stochfric_mb.discovery.choice import NAME
-from stochfric_mb.discovery.pool import make_pool
+from stochfric_mb.discovery.pool import Pool, make_pool
 from stochfric_mb.discovery.randomness import Randomness, randomness
+from stochfric_mb.discovery.record import Array
 from stochfric_mb.discovery.regression import Regression, Solution, believed
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.scatter import simulated_slips
@@ -28,6 +29,12 @@ LEAST_SHARE = 0.004
 FEWEST_KICKED, MOST_KICKED = 0.05, 0.45
 """Share of cycles with a slip that stands out, or a jump in stick, for which kicks are the reason [-]; one slip of thirty may
 stand out by accident (see `pool`)."""
+STRAY = 8.0
+"""Robust deviations beyond which a slip is an accident [-]."""
+ONE_SIDED = 1.0
+"""Mean of the impulses over their deviation from which on they come from one side [-]."""
+UNSEEN = 1.5
+"""Kicks from both sides, over those that are seen [-]."""
 FEWEST_FAR = 3
 """Slips that must stand out: jumps in stick alone say too little of the force that makes them."""
 FEWEST_ALIKE, ALIKE = 4, 0.3
@@ -52,16 +59,31 @@ class Chance:
     """Its parameters."""
 
 
-def kicked(study: Study) -> tuple[np.ndarray, float]:
-    """Return which slips stand out from all others of their run, and by how much [N]: in onset force, or in the slip."""
+def stray(pool: Pool, residuals: Array) -> np.ndarray:
+    """Return which slips that count are far from all others of their run, in onset force or in the slip, however little it is.
+
+    Args:
+        pool: the slips.
+        residuals: what a model leaves of their features [N], shape (n, N_FEATURES).
+    """
+    far = np.zeros(len(residuals), dtype=bool)
+    for r in range(pool.n_runs):
+        mine = np.flatnonzero(pool.kept & (pool.run == r))
+        for column in (0, 1) if len(mine) else ():
+            away = residuals[mine, column] - np.median(residuals[mine, column])
+            far[mine] |= np.abs(away) > STRAY * robust_deviation(away)
+    return far
+
+
+def kicked(study: Study) -> np.ndarray:
+    """Return which slips stand out from all others of their run: in onset force, or in the slip."""
     pool = study.pool
     forces = pool.features[:, :2].copy()
     for r in range(pool.n_runs):
         forces[pool.run == r] -= np.median(forces[pool.run == r], axis=0)
     spread = np.array([robust_deviation(forces[:, 0]), robust_deviation(forces[:, 1])])
-    limit = np.maximum(8.0 * spread, 0.02 * float(np.median(pool.static)))
-    far = np.asarray((np.abs(forces) > limit).any(axis=1))
-    return far, float(np.median(np.abs(forces[far]).max(axis=1))) if far.any() else 0.0
+    limit = np.maximum(STRAY * spread, 0.02 * float(np.median(pool.static)))
+    return np.asarray((np.abs(forces) > limit).any(axis=1))
 
 
 def _repeated(study: Study) -> bool:
@@ -74,7 +96,7 @@ def _repeated(study: Study) -> bool:
     for r in range(pool.n_runs):
         shares[pool.run == r] -= np.median(shares[pool.run == r], axis=0)
     spread = np.array([robust_deviation(shares[:, 0]), robust_deviation(shares[:, 1])])
-    static, kinetic = (np.abs(shares) > np.maximum(8.0 * spread, 0.02)).T
+    static, kinetic = (np.abs(shares) > np.maximum(STRAY * spread, 0.02)).T
     groups = (np.sort(shares[static, 0]), 3.0 * spread[0]), (np.sort(shares[kinetic & ~static, 1]), 3.0 * spread[1])
     most = max(FEWEST_ALIKE, ALIKE * int(np.count_nonzero(static | kinetic)))
     near = [int(np.searchsorted(far, value + width, "right")) - i for far, width in groups for i, value in enumerate(far)]
@@ -86,7 +108,7 @@ def kicks(study: Study) -> Chance | None:
 
     A kick that is too weak to set off a slip moves the stuck box a little: a jump within a stick phase counts as well.
     """
-    far, force = kicked(study)
+    far = kicked(study)
     pool = study.pool
     jumps = study.sticking.jumps if study.sticking is not None else 0
     share = (int(far.sum()) + jumps) / len(far)
@@ -96,9 +118,23 @@ def kicks(study: Study) -> Chance | None:
     if len(gaps) >= 4 and np.mean(gaps == np.median(gaps)) > 0.8:
         return None
     cycle = float(np.median([np.median(np.diff(s.onset_time)) for s in pool.slips]))
-    # a kick in slip changes its mean force by the impulse over the slip's duration; one in stick adds to the spring
-    impulse = force * float(np.median(pool.restick_time - pool.onset_time))
-    return Chance("impacts", 400.0 * share, {"rate": 1.5 * share / cycle, "impulse": impulse})
+    impulses = _impulses(study, far)
+    mean, deviation = float(impulses.mean()), float(impulses.std(ddof=1))
+    if abs(mean) < ONE_SIDED * deviation:
+        mean, deviation = 0.0, float(np.sqrt(np.mean(impulses**2)))
+    # of kicks from both sides those that push the stuck box on with the belt set off no slip
+    unseen = UNSEEN if mean == 0.0 else 1.0
+    return Chance("impacts", 400.0 * share, {"rate": unseen * share / cycle, "impulse": deviation, "mean": mean})
+
+
+def _impulses(study: Study, far: np.ndarray) -> Array:
+    """Return the impulses of kicks [N s]: in slip they change the mean force by the impulse over the slip's duration."""
+    pool = study.pool
+    kinetic = pool.features[:, 1].copy()
+    for r in range(pool.n_runs):
+        kinetic[pool.run == r] -= np.median(kinetic[pool.run == r])
+    direction = pool.per_run(lambda s: float(s.record.direction))
+    return np.asarray((direction * kinetic * (pool.restick_time - pool.onset_time))[far], dtype=np.float64)
 
 
 def chance(

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from stochfric_mb.discovery.belt import belt_speed
-from stochfric_mb.discovery.chance import MEMORY, chance, kicked, kicks
+from stochfric_mb.discovery.chance import FEWEST_KICKED, MEMORY, chance, kicked, kicks, stray
 from stochfric_mb.discovery.choice import IN_SLIP, IN_TIME, NAME, SELECT, SHAPES, Chosen, choose
 from stochfric_mb.discovery.confirmation import Case, Confirmed, cases_of, confirm
 from stochfric_mb.discovery.innovations import left_over
@@ -45,6 +45,8 @@ MOST_ROUNDS = 5
 """Rounds of the search: harmonics of a named ripple take rounds of their own."""
 FITTED_TO_FORECASTS = (*PERIODIC, "friction_drift", "sensor_drift")
 """Effects that change in the course of a run: fitted to forecasts as soon as they are named."""
+MAY_WANDER = (*PERIODIC, "friction_drift", "sensor_step", "random_coefficients", "correlated_coefficients")
+"""Effects in the course of time that a wander may be taken for."""
 LINEAR = ("sensor_delay", "sensor_drift", "sensor_step")
 """Effects that stay regressors: a simulated slip does not show what the sensor adds."""
 
@@ -102,6 +104,22 @@ def decide(study: Study, *, channels: Channels = EVERYTHING, progress: Progress 
         return Decision("effect", tuple(named), None, model, (), None, details)
     progress("screening")
     return _Search(study, model, named, details, progress, channels.confirmation).run()
+
+
+def of_wander(study: Study, refuted: Decision) -> Decision | None:
+    """Return the decision that friction wanders, where effects in the course of time explain too little; None if it does not.
+
+    Twelve numbers of a ripple with harmonics may follow any wander of a short record; they do not forecast it.
+
+    Args:
+        study: what was measured.
+        refuted: a decision whose effects were not borne out by forecasts of the fit runs.
+    """
+    if not refuted.named or any(n.kind not in MAY_WANDER for n in refuted.named):
+        return None
+    found = _Search(study, _levels(study.model, study), [], dict(refuted.details), lambda _: None, confirmation=False)
+    decision = dataclasses.replace(found.by_chance(), ranking=refuted.ranking)
+    return decision if [n.kind for n in decision.named] == ["correlated_coefficients"] else None
 
 
 def _levels(model: Model, study: Study) -> Model:
@@ -182,7 +200,7 @@ class _Search:
             self._add(outcome)
             if self.stalled:
                 break
-        return self._chance()
+        return self.by_chance()
 
     @property
     def _n_terms(self) -> int:
@@ -205,7 +223,7 @@ class _Search:
         """Return whether a winner stands on slips alone that kicks set apart: without them hardly anything speaks for it."""
         if kicks(self.study) is None:
             return False
-        others = Regression(dataclasses.replace(self.pool, kept=self.pool.kept & ~kicked(self.study)[0]))
+        others = Regression(dataclasses.replace(self.pool, kept=self.pool.kept & ~kicked(self.study)))
         scatter = others.fit(self.terms, self.solution.scatter).scatter
         return 2.0 * float(others.gains(self.terms, scatter, [winner.hypothesis.columns])[0]) < NAME
 
@@ -291,8 +309,9 @@ class _Search:
         self.terms = believed(self.pool, dict(self.study.uncertainty)).plus(self.kept)
         self.solution = self.regression.fit(self.terms, self.solution.scatter)
 
-    def _chance(self) -> Decision:
+    def by_chance(self) -> Decision:
         """Look for what is random, last of all."""
+        self._without_accidents()
         scatter = randomness(self.regression, self.terms, self.solution)
         self.details["randomness"] = dataclasses.asdict(scatter)
         kinds = [n.kind for n in self.named]
@@ -316,6 +335,14 @@ class _Search:
             self.named.append(Named(found.kind, (), found.score, where_of(found.kind)))
         verdict = "effect" if self.named else "none"
         return Decision(verdict, tuple(self.named), None, self.model, self.ranking, scatter, self.details)
+
+    def _without_accidents(self) -> None:
+        """Leave out the slips that stand far out, where they are too few for kicks: two of a hundred are no scatter."""
+        far = stray(self.pool, self.regression.residuals(self.terms, self.solution))
+        if 0.0 < far.sum() < FEWEST_KICKED * self.pool.kept.sum():
+            self.pool = dataclasses.replace(self.pool, kept=self.pool.kept & ~far)
+            self.regression = Regression(self.pool)
+            self.solution = self.regression.fit(self.terms, self.solution.scatter)
 
     def _unknown(self, where: Where, scatter: Randomness | None = None) -> Decision:
         return Decision("unknown", (), where, _levels(self.study.model, self.study), self.ranking, scatter, self.details)

@@ -49,7 +49,7 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
     windows = [_scattered(w, JUDGED_WINDOWS) for w in found.windows if len(w)]
     runs = HeldOut(found.pool.slips[:2], tuple(windows), tuple(windows))
     before, after = mean_score(recalibrated, runs), mean_score(augmented, runs)
-    floor = min(floor_of(augmented, runs), after)
+    floor = min(floor_of(augmented, runs, recalibrated), after)
     reducible, unit = before - floor, found.size.length
     if not kinds:
         decision.details["explained"] = {"before": before * unit, "floor": floor * unit}

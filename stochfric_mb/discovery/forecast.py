@@ -117,15 +117,23 @@ def score(model: Model, windows: Windows) -> Array:
     return crps(windows.targets, _members(model, windows)).mean(axis=1)
 
 
-def expected_score(model: Model, windows: Windows, noise: Noise) -> Array:
-    """Return the CRPS that each forecast of a random model would have on average if the model were true [m], shape (n,).
+def expected_scores(model: Model, plain: Model, windows: Windows, noise: Noise) -> Array:
+    """Return the scores that each forecast of two models would have on average if the first one were true [m], shape (2, n).
 
     Members of its ensemble take the place of what was measured, each with the sensor's noise, and are scored by the
     others: a single record of the model would miss as much as its chances happen to make it miss.
+
+    Args:
+        model: a random model.
+        plain: one without its random effects.
+        windows: the forecasts.
+        noise: of the sensor.
     """
     if len(windows) == 0:
-        return np.zeros(0)
+        return np.zeros((2, 0))
     members = _members(model, windows)
+    others = _members(plain, windows) if plain.random else None
+    single = forecasts(plain, windows)
     generator = np.random.default_rng(0)
     outliers = [e for e in model.effects_in(windows.record.name) if e.kind == "sensor_outliers"]
     scores: list[Array] = []
@@ -134,7 +142,9 @@ def expected_score(model: Model, windows: Windows, noise: Noise) -> Array:
         for effect in outliers:
             shown = np.stack([effect.measure(t, p, generator) for t, p in zip(windows.times(), shown, strict=True)])
         shown = shown + np.stack([noise.draw(N_OUTPUTS, generator) for _ in shown])
-        scores.append(crps(shown, np.delete(members, chosen, axis=0)).mean(axis=1))
+        own = crps(shown, np.delete(members, chosen, axis=0)).mean(axis=1)
+        beside = np.abs(shown - single) if others is None else crps(shown, others)
+        scores.append(np.stack([own, beside.mean(axis=1)]))
     return np.mean(scores, axis=0)
 
 

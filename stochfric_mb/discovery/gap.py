@@ -13,7 +13,7 @@ import numpy as np
 
 from stochfric_mb.discovery.calibration import calibrate
 from stochfric_mb.discovery.competitors import step_times, steps
-from stochfric_mb.discovery.forecast import Windows, expected_score, score, windows_of
+from stochfric_mb.discovery.forecast import Windows, expected_scores, score, windows_of
 from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.naming import with_steps
 from stochfric_mb.discovery.phases import in_phase
@@ -112,13 +112,26 @@ def mean_score(model: Model, runs: HeldOut) -> float:
     return float(scores.mean()) if len(scores) else float("nan")
 
 
-def floor_of(model: Model, runs: HeldOut) -> float:
-    """Return what the model scores on runs simulated from itself with the noise of the records [m]; a random one on average."""
+def floor_of(model: Model, runs: HeldOut, plain: Model | None = None) -> float:
+    """Return what the model scores on runs simulated from itself with the noise of the records [m]; a random one on average.
+
+    Args:
+        model: the model.
+        runs: the runs whose place the simulated ones take.
+        plain: a model without what is random in it. If it is given, the floor of a model with impacts is that of records as
+            eventful as these: what the plain one misses of them, times how much less the model misses of its own records.
+            A record with twice as many kicks as usual leaves twice as much to miss, whatever the model.
+    """
     if model.random:
         noises = {s.record.name: s.noise for s in runs.slips}
         typical = next(iter(noises.values()))
-        expected = [expected_score(model, w, noises.get(w.record.name, typical)) for w in runs.second]
-        return float(np.concatenate(expected).mean()) if sum(map(len, expected)) else float("nan")
+        eventful = plain is not None and any(e.kind == "impacts" for e in model.effects)
+        beside = plain if plain is not None and eventful else model
+        expected = [expected_scores(model, beside, w, noises.get(w.record.name, typical)) for w in runs.second]
+        if not sum(map(len, runs.second)):
+            return float("nan")
+        own, others = np.concatenate(expected, axis=1).mean(axis=1)
+        return mean_score(beside, runs) * float(own / others) if eventful else float(own)
     scores = [score(model, windows_of(simulated_slips(model, s, sample=7 + i))) for i, s in enumerate(runs.slips)]
     joined = np.concatenate(scores) if scores else np.zeros(0)
     return float(joined.mean()) if len(joined) else float("nan")
@@ -129,5 +142,5 @@ def gap_of(believed: Model, recalibrated: Model, augmented: Model, runs: HeldOut
     before = mean_score(recalibrated, runs)
     after = mean_score(augmented, runs) if augmented is not recalibrated else before
     # a score that was reached on real data is itself a bound of the floor
-    floor = min(floor_of(augmented, runs), after)
+    floor = min(floor_of(augmented, runs, recalibrated), after)
     return Gap("crps_one_cycle", "m", True, mean_score(believed, runs), before, after, floor)

@@ -20,7 +20,7 @@ CORRECTED = ("stiffness", "mass", "damping")
 """Parameters of the mechanism that recalibration may correct."""
 NOT_FITTED = (
     "reference_load", "spacing", "fraction", "size", "time", "duration", "high", "low", "static_share", "share_below",
-    "shape_exponent",
+    "shape_exponent", "adhesion",
 )  # fmt: skip
 """Parameters of effects that forecasts cannot fit, or that are fixed by what they mean."""
 REACH = 0.25
@@ -170,8 +170,8 @@ def _bounds(kind: str, name: str, value: float, about: Mapping[str, Any]) -> tup
 
 
 def _shared(name: str, value: float) -> bool:
-    """Return whether a share is to be fitted: where it is neither none nor all; an exponent, where it is not the plain one."""
-    return name in ("static_share", "share_below", "shape_exponent") and value not in (0.0, 1.0)
+    """Return whether a number that singles out a form is to be fitted: where it is neither none nor all nor the plain one."""
+    return name in ("static_share", "share_below", "shape_exponent", "adhesion") and value not in (0.0, 1.0)
 
 
 def adjusted(model: Model, knobs: Sequence[Knob], values: Array) -> Model:

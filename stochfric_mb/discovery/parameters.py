@@ -51,6 +51,8 @@ def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> F
             deviation = float(deviations[0]) if deviations else 0.0
         if field.name.startswith("sigma") or (effect.kind, field.name) == ("impacts", "impulse"):
             deviation = value / np.sqrt(2.0 * independent)
+        if (effect.kind, field.name) == ("impacts", "mean"):
+            deviation = getattr(effect, "impulse", 0.0) / np.sqrt(independent)
         if (effect.kind, field.name) == ("impacts", "rate"):
             deviation = value / np.sqrt(independent)
         unit = found.size.of(about["unit"])

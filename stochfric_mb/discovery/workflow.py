@@ -9,7 +9,7 @@ from stochfric_mb.discovery.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.believed import NOT_STATED, assumed
 from stochfric_mb.discovery.belt import belt_speed
 from stochfric_mb.discovery.borne_out import LEAST_REDUCIBLE, compared, without_last
-from stochfric_mb.discovery.decision import Decision, Named, decide
+from stochfric_mb.discovery.decision import Decision, Named, decide, of_wander
 from stochfric_mb.discovery.explained import NOT_JUDGED, unexplained
 from stochfric_mb.discovery.gap import HeldOut, deterministic, floor_of, gap_of, held_out, mean_score, phased, settled
 from stochfric_mb.discovery.model import Model
@@ -75,7 +75,11 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     fit = _augmented(decision, found, recalibrated)
     augmented = fit.model if fit is not None else recalibrated.model
     if channels.confirmation and (poor := unexplained(found, decision, recalibrated.model, augmented)) is not None:
-        decision, fit, augmented = poor, None, recalibrated.model
+        refuted, decision, fit, augmented = decision, poor, None, recalibrated.model
+        if (wander := of_wander(found, refuted)) is not None:
+            tried = _augmented(wander, found, recalibrated)
+            if tried is not None and unexplained(found, wander, recalibrated.model, tried.model) is None:
+                decision, fit, augmented = wander, tried, tried.model
     progress("held-out runs")
     runs = held_out(_held_out_slips(dataset), phased=phased(augmented))
     augmented = settled(augmented, runs)

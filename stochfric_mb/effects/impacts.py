@@ -22,7 +22,7 @@ MOST = 20
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Impacts(Effect):
-    """A Poisson process of pulses, each of normal size, mean 0 and standard deviation ``impulse``.
+    """A Poisson process of pulses, each of normal size, mean ``mean`` and standard deviation ``impulse``.
 
     A pulse has the shape (J/duration) (1 - cos(2 pi tau/duration)), 0 <= tau <= duration. In each mean interval 1/rate
     the number of impacts is Poisson with mean 1 and their times are uniform, which is a Poisson process; numbers, times
@@ -37,6 +37,8 @@ class Impacts(Effect):
     """Standard deviation of an impact's impulse [N s]."""
     duration: float = parameter("s", "duration of an impact", scale=2.0e-3, low=0.0, strict=True, default=2.0e-3)
     """Duration of an impact [s], at most 1/rate."""
+    mean: float = parameter("N s", "mean of an impact's impulse", scale=0.02, default=0.0)
+    """Mean of an impact's impulse [N s]: 0, blows from both sides."""
 
     kind: ClassVar[str] = "impacts"
     equation: ClassVar[str] = "further force: Poisson pulses (J/duration) (1 - cos(2 pi tau/duration)), J normal"
@@ -73,4 +75,4 @@ def surroundings(world, memory, rates, p):
             tau = world[TIME] - (interval + moment) / p[0]
             if 0.0 < tau < p[2]:
                 size, _ = normals(int(world[SEED]), int(world[SAMPLE]), ADDRESS, interval, 2 * i)
-                world[LOAD] += p[1] * size / p[2] * (1.0 - math.cos(2.0 * math.pi * tau / p[2]))
+                world[LOAD] += (p[3] + p[1] * size) / p[2] * (1.0 - math.cos(2.0 * math.pi * tau / p[2]))

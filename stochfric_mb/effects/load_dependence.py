@@ -12,14 +12,20 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import MU_K, MU_S, NORMAL_FORCE, Effect, parameter
-from stochfric_mb.effects.marks import Hypothesis, Slips, apart
+from stochfric_mb.effects.marks import Array, Hypothesis, Slips, apart
+
+MOST_ADHESIVE = 0.9
+"""Largest share of the friction at the reference load that a fit may begin with [-]."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class LoadDependence(Effect):
-    """mu_s and mu_k times (N/reference_load)^exponent; elastic contact of a sphere has exponent -1/3.
+    """mu_s and mu_k times (N/N_0)^exponent (1 + A/N)/(1 + A/N_0), with the reference load N_0 and the adhesion A.
 
-    Reference: J. F. Archard, Proc. R. Soc. A 243, 1957, 190-205, doi 10.1098/rspa.1957.0214.
+    Elastic contact of a sphere has exponent -1/3; surfaces that adhere rub as if pressed together by A more.
+
+    References: J. F. Archard, Proc. R. Soc. A 243, 1957, 190-205, doi 10.1098/rspa.1957.0214; B. V. Derjaguin, Z. Phys. 88,
+    1934, 661-675, doi 10.1007/BF01333114 (adhesion).
     """
 
     exponent: float = parameter("-", "exponent of the normal force", scale=0.2, low=-2.0, high=2.0)
@@ -28,10 +34,15 @@ class LoadDependence(Effect):
     """Normal force at which nothing changes [N]."""
     static_share: float = parameter("-", "exponent of mu_s over that of mu_k", scale=1.0, default=1.0)
     """Exponent of mu_s over that of mu_k [-]: 1, both coefficients alike; 0, mu_k alone."""
+    adhesion: float = parameter("N", "force by which the surfaces attract each other", scale=5.0, low=0.0, default=0.0)
+    """Force by which the surfaces attract each other [N]; it acts on both coefficients alike."""
 
     kind: ClassVar[str] = "load_dependence"
-    equation: ClassVar[str] = "mu_k times (N/reference_load)^exponent, mu_s times (N/reference_load)^(static_share exponent)"
-    source: ClassVar[str] = "Bowden and Tabor 1950; Archard 1957"
+    equation: ClassVar[str] = (
+        "mu_k times (N/reference_load)^exponent, mu_s times (N/reference_load)^(static_share exponent), "
+        "both times (1 + adhesion/N)/(1 + adhesion/reference_load)"
+    )
+    source: ClassVar[str] = "Derjaguin 1934; Bowden and Tabor 1950; Archard 1957"
     group: ClassVar[str] = "friction law"
     shows_on: ClassVar[str] = "normal load"
     shows: ClassVar[str] = "friction is not proportional to the normal load"
@@ -39,17 +50,26 @@ class LoadDependence(Effect):
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
-        """Return ln(N/N_0) times the friction, where the load differs between runs."""
+        """Return ln(N/N_0) and, as another form, N_0/N - 1 times the friction, where the load differs between runs."""
         if np.ptp(slips.normal_force) < 0.05 * slips.normal_force.mean():
             return []
         reference = float(slips.normal_force[0])
         change = np.log(slips.normal_force / reference)
         more = {"reference_load": reference}
-        return apart(cls.kind, slips.static * change, slips.kinetic * change, slips, "exponent", more)[:1]
+        power = apart(cls.kind, slips.static * change, slips.kinetic * change, slips, "exponent", more)[:1]
+        less = reference / slips.normal_force - 1.0
+
+        def adhesive(b: Array) -> dict[str, float]:
+            share = float(np.clip(b[0], 0.0, MOST_ADHESIVE))
+            return more | {"exponent": 0.0, "adhesion": reference * share / (1.0 - share)}
+
+        column = slips.column(slips.static * less, slips.kinetic * less)
+        return [*power, Hypothesis(cls.kind, [column], (), adhesive, variant="adhesion")]
 
 
 def friction(world, memory, rates, p):
-    """Multiply both coefficients by the power of the load."""
+    """Multiply both coefficients by the power of the load and by what adhesion adds."""
     if world[NORMAL_FORCE] > 0.0:
-        world[MU_S] *= (world[NORMAL_FORCE] / p[1]) ** (p[0] * p[2])
-        world[MU_K] *= (world[NORMAL_FORCE] / p[1]) ** p[0]
+        more = (1.0 + p[3] / world[NORMAL_FORCE]) / (1.0 + p[3] / p[1])
+        world[MU_S] *= more * (world[NORMAL_FORCE] / p[1]) ** (p[0] * p[2])
+        world[MU_K] *= more * (world[NORMAL_FORCE] / p[1]) ** p[0]

@@ -88,7 +88,8 @@ class Box:
         if e := self.get("direction_asymmetry"):
             g *= 1 + e["asymmetry"] * (side < 0)
         if e := self.get("load_dependence"):
-            g *= (self.normal(t) / e["reference_load"]) ** e["exponent"]
+            load, stuck = self.normal(t), e.get("adhesion", 0.0)
+            g *= (load / e["reference_load"]) ** e["exponent"] * (1 + stuck / load) / (1 + stuck / e["reference_load"])
         return g
 
     def static(self, t, x, travel, side, dwell):

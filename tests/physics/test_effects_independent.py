@@ -19,7 +19,7 @@ CASES = {
     "dwell_ageing": {"rate": 0.02, "time_constant": 0.1},
     "frictional_lag": {"distance": 1.0e-4},
     "direction_asymmetry": {"asymmetry": -0.1},
-    "load_dependence": {"exponent": -0.2, "reference_load": 10.0},
+    "load_dependence": {"exponent": -0.2, "reference_load": 10.0, "adhesion": 4.0},
     "position_dependent_friction": {
         "amplitude": 0.04, "wavelength": 0.01, "phase": 0.7, "axis": "belt", "amplitude_2": 0.01, "phase_2": 1.0,
         "amplitude_3": 0.005, "phase_3": -0.5,

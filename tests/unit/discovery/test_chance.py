@@ -15,12 +15,13 @@ STATIC, KINETIC = 8.0, 5.0
 CALM = Switching(separation=3.0, changes=10.0, regular=False, jumps=0, still=1.0)
 
 
-def study(onset: np.ndarray) -> SimpleNamespace:
-    """Slips whose onset force [N] is off by ``onset``, with a little noise; as much of a study as chance needs."""
+def study(onset: np.ndarray, in_slip: np.ndarray | float = 0.0, jumps: int = 0) -> SimpleNamespace:
+    """Slips whose onset force and mean force [N] are off, with a little noise; as much of a study as chance needs."""
     generator = np.random.default_rng(1)
     features = np.zeros((N * RUNS, 8))
     features[:, :2] = np.array([STATIC, KINETIC]) + 0.01 * generator.standard_normal((N * RUNS, 2))
     features[:, 0] += onset
+    features[:, 1] += in_slip
     times = np.tile(1.1 * np.arange(N), RUNS)
     pool = SimpleNamespace(
         features=features,
@@ -32,9 +33,12 @@ def study(onset: np.ndarray) -> SimpleNamespace:
         onset_time=times,
         restick_time=times + 0.1,
         normal_force=np.full(N * RUNS, 13.0),
+        per_run=lambda _: np.ones(N * RUNS),  # the belt's direction
     )
     solution = SimpleNamespace(coefficients=np.array([0.6, 0.4]), scatter=np.log([0.3, 0.2, 0.01]))
-    return SimpleNamespace(pool=pool, solution=solution, model=SimpleNamespace(process=None))
+    return SimpleNamespace(
+        pool=pool, solution=solution, model=SimpleNamespace(process=None), sticking=SimpleNamespace(jumps=jumps)
+    )
 
 
 def struck(count: int) -> np.ndarray:
@@ -44,10 +48,33 @@ def struck(count: int) -> np.ndarray:
 def test_slips_that_stand_out_by_their_own_amounts_are_kicked():
     onset = np.zeros(N * RUNS)
     onset[struck(12)] = -np.random.default_rng(3).uniform(0.5, 5.0, 12)
-    found = kicks(study(onset))
+    in_slip = np.where(onset < 0.0, -0.4, 0.0)  # blows of 0.04 N s against the belt, felt over slips of 0.1 s
+    found = kicks(study(onset, in_slip))
     assert found is not None
     assert found.kind == "impacts"
+    assert found.values["rate"] == pytest.approx(12 / 80 / 1.1)
+    assert found.values["mean"] == pytest.approx(-0.04, abs=3e-4)  # 0.01 N of noise in 12 forces, over 0.1 s
+    assert found.values["impulse"] == pytest.approx(1e-3, rel=0.65)  # that noise; 11 degrees of freedom, 3 deviations
+
+
+def test_kicks_from_both_sides_have_no_mean_and_some_are_not_seen():
+    onset, in_slip = np.zeros(N * RUNS), np.zeros(N * RUNS)
+    at = struck(12)
+    onset[at] = -np.random.default_rng(3).uniform(0.5, 5.0, 12)
+    in_slip[at] = 0.4 * np.resize([1.0, -1.0], 12)
+    found = kicks(study(onset, in_slip))
+    assert found is not None
+    assert found.values["mean"] == 0.0
+    assert found.values["impulse"] == pytest.approx(0.04, rel=0.05)
     assert found.values["rate"] == pytest.approx(1.5 * 12 / 80 / 1.1)
+
+
+def test_jumps_in_stick_count_beside_slips_that_stand_out():
+    onset = np.zeros(N * RUNS)
+    onset[struck(3)] = [-0.7, -2.0, -4.0]
+    assert kicks(study(onset)) is None
+    assert kicks(study(onset, jumps=5)) is not None
+    assert kicks(study(np.zeros(N * RUNS), jumps=20)) is None  # nothing but jumps: of what force, nobody knows
 
 
 def test_slips_that_stand_out_by_the_same_amount_are_at_a_second_level():
