@@ -48,6 +48,8 @@ IN_SLIP = (
     "second_mode",
 )  # fmt: skip
 """Effects that shape every slip alike: told apart by simulating them."""
+LATE = "sensor_delay"
+"""Where slips keep step with a known force, a late sensor shapes every slip alike, too."""
 BETWEEN_POINTS = ("dwell_ageing", "direction_asymmetry", "load_dependence")
 """Effects that differ between operating points: simulated too where there are several."""
 SHAPES = ("slip_shape", "position")
@@ -100,6 +102,9 @@ def choose(
     effects = [c for c in candidates if c.is_effect]
     others = [c for c in candidates if not c.is_effect]
     shape = max((c.score for c in candidates if c.name in family + SHAPES), default=-np.inf)
+    if any(c.name == LATE and OUTDONE * c.score < shape for c in candidates):
+        family += (LATE,)
+        shape = max(shape, *(c.score for c in candidates if c.name == LATE))
     rest = max((c.score for c in candidates if c.name not in family + SHAPES), default=-np.inf)
     if before is not None and shape >= NAME and shape >= rest:
         # refuted once, shapes stay refuted: the slips that simulated ones are compared with are the same

@@ -182,7 +182,7 @@ def predict(model: Model, case: Case) -> Array | None:
     system = model.system(record)
     memory = recalled(system, record, np.array([time]), np.array([position]), since=REMEMBERED)
     start = Start(
-        time, position, record.stated.belt_velocity, True, max(case.onset[2] - ahead, 0.0),
+        time - model.late, position, record.stated.belt_velocity, True, max(case.onset[2] - ahead, 0.0),
         memory=None if memory is None else tuple(memory[0]),
     )  # fmt: skip
     # room for a break-away that comes late by a fifth of the static deflection
@@ -195,7 +195,7 @@ def predict(model: Model, case: Case) -> Array | None:
     position = record.direction * motion.position
     if not np.isfinite(position).all():
         return None
-    time = start.time + np.arange(1, count + 1) / record.rate
+    time = start.time + model.late + np.arange(1, count + 1) / record.rate
     simulated = dataclasses.replace(record, time=time, position=position, raw=position, outlier=np.zeros(count, dtype=bool))
     slips = extract(simulated, ridge=case.ridge)
     if len(slips) < 1:

@@ -15,6 +15,7 @@ from stochfric_mb.discovery.innovations import left_over
 from stochfric_mb.discovery.kinematics import kinematics, with_kinematic
 from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.naming import PERIODIC, as_harmonic, with_candidate
+from stochfric_mb.discovery.on_time import driven, on_time, with_delay, without_delay
 from stochfric_mb.discovery.randomness import Randomness, randomness
 from stochfric_mb.discovery.record import Array
 from stochfric_mb.discovery.refit import refit
@@ -47,7 +48,7 @@ FITTED_TO_FORECASTS = (*PERIODIC, "friction_drift", "sensor_drift")
 """Effects that change in the course of a run: fitted to forecasts as soon as they are named."""
 MAY_WANDER = (*PERIODIC, "friction_drift", "sensor_step", "random_coefficients", "correlated_coefficients")
 """Effects in the course of time that a wander may be taken for."""
-LINEAR = ("sensor_delay", "sensor_drift", "sensor_step")
+LINEAR = ("sensor_drift", "sensor_step")
 """Effects that stay regressors: a simulated slip does not show what the sensor adds."""
 
 
@@ -96,14 +97,21 @@ def decide(study: Study, *, channels: Channels = EVERYTHING, progress: Progress 
     if isinstance(blamed, Where):
         return Decision("unknown", (), blamed, model, (), None, details)
     named: list[Named] = []
+    late: float | None = None
     for kind, score, values in blamed:
         named.append(Named(kind, (), score, where_of(kind)))
+        if kind == "sensor_delay" and driven(study):
+            # forces are looked at on time
+            late = values["delay"]
+            study = on_time(study, late)
+            model = _levels(study.model, study)
+            continue
         model = with_kinematic(study, model, kind, values)
     if any(n.kind == "sensor_clipping" for n in named):
         # a clipped record says too little of the forces
-        return Decision("effect", tuple(named), None, model, (), None, details)
+        return Decision("effect", tuple(named), None, model if late is None else with_delay(model, late), (), None, details)
     progress("screening")
-    return _Search(study, model, named, details, progress, channels.confirmation).run()
+    return _Search(study, model, named, details, progress, channels.confirmation, late).run()
 
 
 def of_wander(study: Study, refuted: Decision) -> Decision | None:
@@ -147,9 +155,10 @@ class _Search:
         details: dict[str, object],
         progress: Progress,
         confirmation: bool,
+        late: float | None = None,
     ) -> None:
         self.study, self.model, self.named, self.details, self.progress = study, model, named, details, progress
-        self.confirmation = confirmation
+        self.confirmation, self.late = confirmation, late
         self.pool, self.regression = study.pool, study.regression
         self.terms: Terms = study.terms
         self.solution: Solution = study.solution
@@ -289,6 +298,9 @@ class _Search:
             self.named.append(Named(kind, chosen.class_, chosen.candidate.score, where_of(kind)))
         self.progress("what is left")
         before = _scatter(self.solution)
+        if kind == "sensor_delay":
+            self._put_on_time()
+            return
         if kind in LINEAR:
             self.kept += chosen.candidate.hypothesis.columns
         if kind in FITTED_TO_FORECASTS or chosen.simulated:
@@ -297,6 +309,14 @@ class _Search:
             self.model = fit.model
         self._take_out()
         self.stalled |= kind in PERIODIC and _scatter(self.solution) > STALLED * before
+
+    def _put_on_time(self) -> None:
+        """Go on with the records put on time, by the delay that their forecasts show."""
+        fit = refit(self.model, self.study.windows, self.study.uncertainty, most=12, evaluations=20)
+        self.model, self.late = without_delay(fit.model), fit.model.late
+        self.study = on_time(self.study, self.late)
+        self.cases, self.confirmed = [], None
+        self._take_out()
 
     def _take_out(self) -> None:
         """Go on with what the model leaves of the features."""
@@ -334,7 +354,8 @@ class _Search:
             self.model = self.model.plus(make_effect(found.kind, **found.values))
             self.named.append(Named(found.kind, (), found.score, where_of(found.kind)))
         verdict = "effect" if self.named else "none"
-        return Decision(verdict, tuple(self.named), None, self.model, self.ranking, scatter, self.details)
+        model = self.model if self.late is None else with_delay(self.model, self.late)
+        return Decision(verdict, tuple(self.named), None, model, self.ranking, scatter, self.details)
 
     def _without_accidents(self) -> None:
         """Leave out the slips that stand far out, where they are too few for kicks: two of a hundred are no scatter."""

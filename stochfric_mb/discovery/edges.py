@@ -18,8 +18,15 @@ import numpy as np
 
 from stochfric_mb.compile import compiled
 
-GRID = 28
-"""Places at which the edge is first looked for."""
+NEAR = (0.41, 0.246)
+"""How far into stick and slip an edge is looked for at first, as angles of the natural oscillation [rad]."""
+FAR = (1.0, 0.85)
+"""The same where it comes out at an end of these places: noise that stays for a few samples can hide a slip's first or last
+ones from the smoothed velocity. Into the slip, a fifth of the samples used must remain."""
+PITCH = 0.0234
+"""Distance of the places [rad]."""
+LAST = 4
+"""Places that are the end of them: a slip that begins further on is best told as a gentler one from before, not just there."""
 
 
 @compiled
@@ -46,11 +53,8 @@ def _misfit(time, position, edge, belt, side, frequency, ridge):
 
 
 @compiled
-def locate_edge(position, time, belt, index, side, frequency, n_stick, n_slip, ridge):
-    """Return (t_e [s], x_e [m], a [m], mean squared misfit [m^2]) of the edge near sample ``index``.
-
-    ``n_stick`` and ``n_slip`` are the samples used on either side; ``ridge`` is the weight that holds b small.
-    """
+def _located(time, position, belt, index, side, frequency, n_stick, n_slip, ridge, reach):
+    """Return the edge as `locate_edge` does, within ``reach`` of ``index``, and whether it lies at an end of the places."""
     if side > 0:
         first, last = max(index - n_stick, 0), min(index + n_slip, len(position))
     else:
@@ -58,14 +62,14 @@ def locate_edge(position, time, belt, index, side, frequency, n_stick, n_slip, r
     t0, x0 = time[index], position[index]
     near_time = time[first:last] - t0
     near = position[first:last] - x0
-    reach = 0.41 / frequency
-    pitch = 1.6 * reach / GRID
-    best, edge = np.inf, 0.0
-    for j in range(GRID):
-        trial = (-reach + pitch * j) * side
+    pitch = PITCH / frequency
+    places = int((reach[0] + reach[1]) / PITCH)
+    best, edge, place = np.inf, 0.0, 0
+    for j in range(places):
+        trial = (-reach[0] / frequency + pitch * j) * side
         misfit, _ = _misfit(near_time, near, trial, belt, side, frequency, ridge)
         if misfit < best:
-            best, edge = misfit, trial
+            best, edge, place = misfit, trial, j
     pitch /= 2.0
     for _ in range(4):
         left = _misfit(near_time, near, edge - pitch, belt, side, frequency, ridge)[0]
@@ -78,4 +82,23 @@ def locate_edge(position, time, belt, index, side, frequency, n_stick, n_slip, r
             edge += pitch * (-1.0 if left < right else 1.0)
         pitch /= 2.0
     misfit, fitted = _misfit(near_time, near, edge, belt, side, frequency, ridge)
-    return t0 + edge, x0 + fitted[0], fitted[1], misfit / max(last - first - 4, 1)
+    return t0 + edge, x0 + fitted[0], fitted[1], misfit / max(last - first - 4, 1), not LAST <= place < places - LAST
+
+
+@compiled
+def locate_edge(position, time, belt, index, side, frequency, n_stick, n_slip, ridge):
+    """Return (t_e [s], x_e [m], a [m], mean squared misfit [m^2]) of the edge near sample ``index``.
+
+    ``n_stick`` and ``n_slip`` are the samples used on either side; ``ridge`` is the weight that holds b small.
+    """
+    first = _located(time, position, belt, index, side, frequency, n_stick, n_slip, ridge, NEAR)
+    if not first[4]:
+        return first[0], first[1], first[2], first[3]
+    far = _located(time, position, belt, index, side, frequency, n_stick, n_slip, ridge, FAR)
+    centre = index + round((far[0] - time[index]) / (time[1] - time[0]))
+    if not n_slip <= centre < len(position) - n_slip:
+        return first[0], first[1], first[2], first[3]
+    # at its right place the samples used lie about it as about any other
+    again = _located(time, position, belt, centre, side, frequency, n_stick, n_slip, ridge, NEAR)
+    kept = first if again[4] else again
+    return kept[0], kept[1], kept[2], kept[3]

@@ -96,8 +96,7 @@ def forecasts(model: Model, windows: Windows, *, sample: int = 0) -> Array:
     true = shown.copy()
     for effect in effects:
         true -= effect.measure(times, shown, generator) - shown if effect.kind in ("sensor_drift", "sensor_step") else 0.0
-    late = sum(e.delay for e in effects if e.kind == "sensor_delay")  # pyright: ignore[reportAttributeAccessIssue]
-    starts = np.stack([times - late, true, np.full(len(times), belt), np.ones(len(times)), dwell], axis=1)
+    starts = np.stack([times - model.late, true, np.full(len(times), belt), np.ones(len(times)), dwell], axis=1)
     try:
         paths = system.forecasts(starts, windows.stride / record.rate, N_OUTPUTS, recalled(system, record, starts[:, 0], true))
     except SimulationError:

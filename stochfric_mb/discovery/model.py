@@ -85,6 +85,11 @@ class Model:
         return dataclasses.replace(self, effects=(*self.effects, *effects), own=own)
 
     @property
+    def late(self) -> float:
+        """By how much its sensor is late [s]."""
+        return float(sum(e.delay for e in self.effects if e.kind == "sensor_delay"))  # pyright: ignore[reportAttributeAccessIssue]
+
+    @property
     def random(self) -> bool:
         """Whether its friction is random."""
         return self.process is not None or any(e.coefficient_process() is not None or e.kind == "impacts" for e in self.effects)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.signal import savgol_filter
+from scipy.signal import savgol_coeffs, savgol_filter
 
-from stochfric_mb.discovery.record import Array, Record
+from stochfric_mb.discovery.record import Array, Noise, Record
 
 SMOOTHING_ANGLE = 0.55
 """Width of the smoothing window as an angle of the natural oscillation [rad]."""
@@ -15,16 +15,33 @@ ENTER_NOISE, LEAVE_NOISE = 8.0, 4.0
 """The same, at least, as multiples of the velocity's noise [-]."""
 
 
-def relative_velocity(record: Record) -> tuple[Array, float]:
-    """Return the smoothed relative velocity v_b - x' [m/s], shape (n,), and the standard deviation of its noise."""
+def relative_velocity(record: Record, noise: Noise | None = None) -> tuple[Array, float]:
+    """Return the smoothed relative velocity v_b - x' [m/s], shape (n,), and the standard deviation of its noise.
+
+    Args:
+        record: the record.
+        noise: its noise, where that is known; a colour, which third differences do not show, makes the velocity noisier.
+    """
     width = max(record.samples(SMOOTHING_ANGLE) | 1, 5)
     velocity = np.asarray(savgol_filter(record.position, width, 2, deriv=1, delta=1.0 / record.rate), dtype=np.float64)
-    return record.mechanism.belt_velocity - velocity, float(record.noise * np.sqrt(12.0 / width**3) * record.rate)
+    deviation = float(record.noise * np.sqrt(12.0 / width**3))
+    if noise is not None and noise.coloured > 0.0:
+        slope = savgol_coeffs(width, 2, deriv=1)
+        place = np.arange(width)
+        correlation = noise.memory ** np.abs(place[:, None] - place)
+        coloured = noise.coloured**2 * float(slope @ correlation @ slope)
+        deviation = max(deviation, float(np.sqrt(noise.white**2 * float(slope @ slope) + coloured)))
+    return record.mechanism.belt_velocity - velocity, deviation * record.rate
 
 
-def slips_of(record: Record) -> list[tuple[int, int]]:
-    """Return the slips of a record as pairs of sample numbers (break-away, re-stick), rough to a few samples."""
-    relative, deviation = relative_velocity(record)
+def slips_of(record: Record, noise: Noise | None = None) -> list[tuple[int, int]]:
+    """Return the slips of a record as pairs of sample numbers (break-away, re-stick), rough to a few samples.
+
+    Args:
+        record: the record.
+        noise: its noise, where that is known.
+    """
+    relative, deviation = relative_velocity(record, noise)
     belt = record.mechanism.belt_velocity
     enter = max(ENTER_NOISE * deviation, ENTER * belt)
     leave = max(LEAVE_NOISE * deviation, LEAVE * belt)

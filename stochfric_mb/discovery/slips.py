@@ -130,13 +130,15 @@ def extract(record: Record, *, ridge: float | None = None, noise: Noise | None =
         ridge: how firmly the force at break-away is believed to be constant; chosen from the data if not given.
         noise: the noise that edges are located in; that of the stick phases if not given.
     """
-    rough = list(_inside(record, slips_of(record)))
+    rough = list(_inside(record, slips_of(record, noise)))
     quiet, when = _quiet(record, rough)
     if noise is None:
         noise = noise_of(quiet, record.noise)
         if noise.coloured > 0.0:
             calmer = without_wave(quiet, when) or quiet
             noise = noise_of(without_pattern(calmer) or calmer, record.noise)
+            # such noise can pass for a slip's first or last samples
+            rough = list(_inside(record, slips_of(record, noise)))
     # a sensor that shows nothing moves by nothing
     half = 0.5 * float(np.ptp(record.position)) or 1.0
     firm = noise.deviation / (_STIFF * half)

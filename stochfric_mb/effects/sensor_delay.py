@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from stochfric_mb.effects.contract import Array, Effect, parameter
 from stochfric_mb.effects.marks import Hypothesis, Slips
+
+PHASES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2)
+"""Angles by which the known force may have moved on [rad]; 0: by so little that its rate tells."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -34,16 +37,23 @@ class SensorDelay(Effect):
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
-        """Return minus the rate of the known force, if any: a late record compares with a force that has moved on."""
+        """Return what the known force, if any, has moved on by, over the delay: a late record is compared with it."""
         if not any(s.record.mechanism.excitation_amplitude for s in slips.slips):
             return []
-        onset = np.zeros(len(slips.run))
-        nodes = np.zeros_like(slips.node_time)
-        for run, one in enumerate(slips.slips):
-            mine = slips.run == run
-            box = one.record.mechanism
-            w = box.excitation_angular_frequency
-            scale = box.stiffness * box.excitation_amplitude * w
-            onset[mine] = scale * np.sin(w * slips.onset_time[mine])
-            nodes[mine] = scale * np.sin(w * slips.node_time[mine])
-        return [Hypothesis(cls.kind, [slips.column(onset, nodes)], (), lambda b: {"delay": float(b[0])})]
+        found: list[Hypothesis] = []
+        for phase in PHASES:
+            onset, nodes = np.zeros(len(slips.run)), np.zeros_like(slips.node_time)
+            for run, one in enumerate(slips.slips):
+                mine = slips.run == run
+                for values, time in ((onset, slips.onset_time), (nodes, slips.node_time)):
+                    values[mine] = _moved_on(one.record.mechanism, time[mine], phase)
+            found.append(Hypothesis(cls.kind, [slips.column(onset, nodes)], (phase,), lambda b: {"delay": float(b[0])}))
+        return found
+
+
+def _moved_on(box: Any, time: Array, phase: float) -> Array:
+    """Return k u_0 (cos(W t - phase) - cos W t) over the delay phase/W [N/s]."""
+    force, w = box.stiffness * box.excitation_amplitude, box.excitation_angular_frequency
+    if phase == 0.0:
+        return force * w * np.sin(w * time)
+    return force * w / phase * (np.cos(w * time - phase) - np.cos(w * time))

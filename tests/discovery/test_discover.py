@@ -37,6 +37,8 @@ CLEAR = (
     Case("frictional_lag.slip_distance", "one_free", 0.5, 52),  # noise hides where its slips begin
     Case("load_dependence.power_of_load", "normal_loads", 1.0, SEED),  # not steps of the sensor
     Case("impacts.hammer", "one_free", 1.0, 63),  # every blow in stick takes the same off the slip that it sets off
+    Case("none.coloured_noise", "one_forced", 0.5, 90),  # noise that passes for the first and last samples of slips
+    Case("sensor_delay.pure_delay", "one_forced_fast", 1.0, 90),  # known from the velocity, and late for a known force
 )
 COUNTED = 0.1
 """Share of the error that is reducible where something is missing [-]."""
@@ -114,6 +116,15 @@ def test_clear_cases_are_answered_rightly_and_the_gap_closes(case):
     assert (reducible >= COUNTED) == (result.verdict != "none")  # what is missing costs more than a tenth, at strength 1
     if result.verdict == "effect":
         assert gap.closed >= CLOSED
+
+
+def test_a_delay_is_told_without_a_velocity_by_the_known_force():
+    truth, dataset = made(Case("sensor_delay.pure_delay", "one_forced_fast", 1.0, 90))
+    runs = tuple(replace(run, channels={"position": run.channels["position"]}) for run in dataset.runs)
+    result = discover(replace(dataset, runs=runs)).result
+    assert [effect.kind for effect in result.effects] == ["sensor_delay"]
+    assert result.effects[0].parameters["delay"].value == pytest.approx(truth["effect_parameters"][0]["delay"], abs=1e-3)
+    assert result.gap.closed >= CLOSED
 
 
 def test_same_dataset_same_bytes():

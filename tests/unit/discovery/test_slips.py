@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import legendre
 
+from stochfric_mb.discovery.edges import locate_edge
 from stochfric_mb.discovery.record import make_record
 from stochfric_mb.discovery.slips import N_MOMENTS, NODES, extract, legendre_coefficients
 from stochfric_mb.mechanisms import BeltBox
@@ -76,6 +77,29 @@ def test_slip_force_is_the_kinetic_friction_and_constant(slips):
 def test_noise_of_the_stick_phases_is_seen(slips):
     assert slips.noise.deviation == pytest.approx(NOISE, rel=4.0 / (2.0 * 40000) ** 0.5 + 0.01)
     assert slips.noise.coloured == 0.0
+
+
+@pytest.mark.parametrize("off", [-0.02, 0.0, 0.02])
+@pytest.mark.parametrize("side", [1, -1], ids=["break-away", "re-stick"])
+def test_an_edge_is_found_from_further_off_than_the_first_places_reach(side: int, off: float):
+    """They reach 16 ms into the stick and 10 ms into the slip."""
+    time = np.arange(2001) * 1e-3
+    true = 0.6543 if side > 0 else 0.6543 + SLIP
+    index = round((true + off) / 1e-3)
+    firm = 0.1  # as extraction has it where the force is constant
+    edge, position, _, _ = locate_edge(
+        stick_slip(time, 0.6543),
+        time,
+        BOX.belt_velocity,
+        index,
+        side,
+        OMEGA,
+        round(3.06e3 / OMEGA),
+        round(1.07e3 / OMEGA),
+        firm,
+    )
+    assert edge == pytest.approx(true, abs=1e-4)  # a tenth of a sample
+    assert position == pytest.approx(stick_slip(np.array([true + 1e-9]), 0.6543)[0], abs=BOX.belt_velocity * 1e-4)
 
 
 def test_motion_without_slip_gives_no_slips():
