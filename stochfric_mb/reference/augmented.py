@@ -225,6 +225,8 @@ class AugmentedSystem:
     ) -> npt.NDArray[np.float64]:
         """Return positions [m] at step (1, ..., count) after each start, shape (k, count), in one compiled call.
 
+        Coefficients drawn from event to event are drawn anew for each start, so that forecasts do not share their luck.
+
         Args:
             starts: shape (k, 5) or (k, 6): time [s], position [m], velocity [m/s], stick (0 or 1), dwell [s] and, if
                 given, slip [m]; springs start at rest.

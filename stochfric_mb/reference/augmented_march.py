@@ -23,6 +23,8 @@ ENDLESS_SWITCHES = 5
 """Switches per output, on average, beyond which a contact chatters without end."""
 RESTART = 2.0e-4
 """First step after a switch [s]."""
+APART = 1000.0
+"""Draws at break-aways and re-sticks between those of two forecasts [-]: more than one forecast uses."""
 MEMORY_TOLERANCE = 1.0e-7
 """Local error of an effect's memory, relative to its size."""
 SHORTEST = 1.0e-12
@@ -386,14 +388,14 @@ def recall(r, time, position, velocity, memory, out):
 
 @compiled
 def forecasts(r, d, starts, memories, step, count, out):
-    """Fill ``out`` (k, count) with positions from each start; return the worst status."""
+    """Fill ``out`` (k, count) with positions from each start, each with draws of its own; return the worst status."""
     worst = OK
     row = np.empty((count, 1))
     for k in range(len(starts)):
         for j in range(r.counts[2]):
             r.y[2 + j] = memories[k, j]
         s = starts[k]
-        begin(r, d, s[0], s[1], s[2], s[3] != 0.0, s[4], s[5], 0.0, 0.0, math.nan)
+        begin(r, d, s[0], s[1], s[2], s[3] != 0.0, s[4], s[5], 0.0, APART * k, math.nan)
         march(r, d, step, count, row, True)
         worst = max(worst, r.clock[m.STATUS])
         for i in range(count):
