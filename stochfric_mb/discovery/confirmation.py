@@ -19,7 +19,7 @@ from stochfric_mb.discovery.model import FREED, Knob, Model, adjusted, knobs_of
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.recall import recalled
 from stochfric_mb.discovery.record import Array, Record
-from stochfric_mb.discovery.slips import N_FEATURES, Slips, extract
+from stochfric_mb.discovery.slips import N_FEATURES, Slips, features_near
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.reference.augmented import Start
 
@@ -56,8 +56,8 @@ class Case:
     """Features of the data [N], shape (N_FEATURES,)."""
     whitening: Array
     """Inverse Cholesky factor of their covariance [1/N], shape (N_FEATURES, N_FEATURES)."""
-    ridge: float
-    """Ridge of the extraction."""
+    ridges: tuple[float, float]
+    """Ridges of the edges of the data, break-aways and re-sticks: those of a simulation are located as firmly [-]."""
     offset: Array
     """What the extraction adds to the truth in the believed model [N], shape (N_FEATURES,)."""
 
@@ -155,7 +155,7 @@ def _case(
     load = slips.record.mechanism.normal_force
     floor = (FLOOR * 0.5 * load * np.r_[0.2, 0.5, np.ones(N_FEATURES - 2)]) ** 2
     whitening = np.asarray(np.linalg.inv(np.linalg.cholesky(covariance + np.diag(floor))), dtype=np.float64)
-    case = Case(slips.record, onset, length, features, whitening, slips.ridge, np.zeros(N_FEATURES))
+    case = Case(slips.record, onset, length, features, whitening, (slips.ridge, slips.firm), np.zeros(N_FEATURES))
     plain = model.with_law(features[0] / load, min(features[1], 0.99 * features[0]) / load)
     plain = dataclasses.replace(plain, corrections={}, effects=(), process=None, own={})
     # at the damping at which the bias of the features was found
@@ -197,11 +197,7 @@ def predict(model: Model, case: Case) -> Array | None:
         return None
     time = start.time + model.late + np.arange(1, count + 1) / record.rate
     simulated = dataclasses.replace(record, time=time, position=position, raw=position, outlier=np.zeros(count, dtype=bool))
-    slips = extract(simulated, ridge=case.ridge)
-    if len(slips) < 1:
-        return None
-    nearest = int(np.argmin(np.abs(slips.onset_time - case.onset[0])))
-    return np.r_[slips.onset_force[nearest], slips.moments[nearest]]
+    return features_near(simulated, case.onset[0], ridge=case.ridges[0], firm=case.ridges[1])
 
 
 def confirm(cases: Sequence[Case], candidate: Model, uncertainty: Mapping[str, float], *, evaluations: int = 20) -> Confirmed:

@@ -77,7 +77,8 @@ def _predicted(slips: Slips, model: Model, dwell: Array, count: int | None = Non
         stuck = (typical - previous[i]) / belt if i else float(dwell[i])
         case = Case(
             slips.record, (float(expected), typical, max(stuck, 0.02)),
-            float(np.median(slips.restick_time - slips.onset_time)), slips.features[i], ANY, slips.ridge, np.zeros(N_FEATURES),
+            float(np.median(slips.restick_time - slips.onset_time)), slips.features[i], ANY, (slips.ridge, slips.firm),
+            np.zeros(N_FEATURES),
         )  # fmt: skip
         found = predict(model, case)
         rows.append(np.full(N_FEATURES, np.nan) if found is None else found)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
-from scipy.signal import savgol_coeffs, savgol_filter
+from scipy.signal import savgol_coeffs
 
 from stochfric_mb.discovery.record import Array, Noise, Record
 
@@ -23,7 +25,7 @@ def relative_velocity(record: Record, noise: Noise | None = None) -> tuple[Array
         noise: its noise, where that is known; a colour, which third differences do not show, makes the velocity noisier.
     """
     width = max(record.samples(SMOOTHING_ANGLE) | 1, 5)
-    velocity = np.asarray(savgol_filter(record.position, width, 2, deriv=1, delta=1.0 / record.rate), dtype=np.float64)
+    velocity = _slopes(record.position, width) * record.rate
     deviation = float(record.noise * np.sqrt(12.0 / width**3))
     if noise is not None and noise.coloured > 0.0:
         slope = savgol_coeffs(width, 2, deriv=1)
@@ -32,6 +34,20 @@ def relative_velocity(record: Record, noise: Noise | None = None) -> tuple[Array
         coloured = noise.coloured**2 * float(slope @ correlation @ slope)
         deviation = max(deviation, float(np.sqrt(noise.white**2 * float(slope @ slope) + coloured)))
     return record.mechanism.belt_velocity - velocity, deviation * record.rate
+
+
+def _slopes(values: Array, width: int) -> Array:
+    """Return the slopes of parabolas through ``width`` samples around each [1/sample]; at the ends, of the outermost one."""
+    first, middle, last = _weights(width)
+    return np.concatenate((first @ values[:width], np.correlate(values, middle, mode="valid"), last @ values[-width:]))
+
+
+@functools.lru_cache(maxsize=8)
+def _weights(width: int) -> tuple[Array, Array, Array]:
+    """Return the weights of the samples of a window in the slopes before, at and after its middle."""
+    half = width // 2
+    rows = [np.asarray(savgol_coeffs(width, 2, deriv=1, pos=p, use="dot"), dtype=np.float64) for p in range(width)]
+    return np.array(rows[:half]), rows[half], np.array(rows[half + 1 :])
 
 
 def slips_of(record: Record, noise: Noise | None = None) -> list[tuple[int, int]]:

@@ -13,6 +13,7 @@ from __future__ import annotations
 import dataclasses
 import itertools
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
@@ -37,9 +38,22 @@ _STIFF, _SOFT = 0.06, 3.0
 _MISFIT_ALLOWED = 1.6
 """Median squared misfit over noise variance above which the force at break-away is taken to change."""
 _ORDERS = np.arange(N_MOMENTS)
-_P = [np.eye(N_MOMENTS)[q] for q in range(N_MOMENTS)]
-_DP = [legendre.legder(p) if q else np.zeros(1) for q, p in enumerate(_P)]
-_DDP = [legendre.legder(p, 2) if q > 1 else np.zeros(1) for q, p in enumerate(_P)]
+_AT_BEGIN = (-1.0) ** _ORDERS
+"""P_q(-1)."""
+_SLOPE_AT_END = 0.5 * _ORDERS * (_ORDERS + 1)
+"""P_q'(1), and -P_q'(-1) P_q(-1)."""
+
+
+def _derived(times: int) -> Array:
+    """Return the Legendre series of derivatives of P_0, P_1, ..., one in a column, shape (N_MOMENTS, N_MOMENTS)."""
+    series = legendre.legder(np.eye(N_MOMENTS), times)
+    return np.asarray(np.pad(series, ((0, N_MOMENTS - len(series)), (0, 0))), dtype=np.float64)
+
+
+_FIRST, _SECOND = _derived(1), _derived(2)
+_AT_NODES = legendre.legvander(NODES, N_MOMENTS - 1)
+_END_SLOPES = np.stack([chebyshev.chebval(s, chebyshev.chebder(np.eye(_DEGREE + 1))) for s in (-1.0, 1.0)])
+"""Slopes of Chebyshev polynomials at both ends of the slip, shape (2, _DEGREE + 1)."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -74,6 +88,8 @@ class Slips:
     """Strongest line of the noise: frequency [Hz], amplitude [m], strength [-]."""
     ridge: float
     """Ridge of the break-aways' cubic term, see `edges` [-]."""
+    firm: float
+    """The same of the re-sticks [-]."""
     onset_time: Array
     """Break-away [s]."""
     onset_position: Array
@@ -114,7 +130,7 @@ class Slips:
         return np.c_[self.onset_force, self.moments]
 
 
-_PROJECTION = WEIGHTS[:, None] * np.stack([legendre.legval(NODES, p) for p in _P], axis=1) * (2 * _ORDERS + 1) / 2.0
+_PROJECTION = WEIGHTS[:, None] * _AT_NODES * (2 * _ORDERS + 1) / 2.0
 
 
 def legendre_coefficients(values: Array) -> Array:
@@ -146,22 +162,37 @@ def extract(record: Record, *, ridge: float | None = None, noise: Noise | None =
         misfits = [_edge(record, begin, 1, firm)[3] / noise.deviation**2 for begin, _ in rough[:24]]
         constant = not misfits or np.median(misfits) < _MISFIT_ALLOWED
         ridge = firm if constant else noise.deviation / (_SOFT * half)
-    edges = [e for e in (_locate(record, a, b, ridge, firm) for a, b in rough) if e[2] - e[0] > 0.5 / record.angular_frequency]
-    # two slips may not overlap: a rough slip cut in two can be located twice
-    edges = [e for i, e in enumerate(edges) if i == 0 or e[0] > edges[i - 1][2]]
-    table = np.array(edges).reshape(-1, 4)
+    table = _edges(record, rough, ridge, firm)
     onset_time, onset_position, restick_time, restick_position = table.T
     moments = np.empty((len(table), N_MOMENTS))
     nodes = np.empty((4, len(table), N_NODES))
     for i, edge in enumerate(table):
-        nodes[:, i], moments[i] = _slip(record, edge)
-    box = record.mechanism
-    force = box.stiffness * onset_position + box.damping * box.belt_velocity - record.excitation(onset_time)
+        u, time, position = _samples(record, edge)
+        moments[i] = _moments(record, edge, u, time, position)
+        nodes[:, i] = _smooth(u, position, edge[2] - edge[0], record.mechanism.belt_velocity, edge[0])
     return Slips(
-        record, noise, line_in(quiet, record.rate), ridge,
-        onset_time, onset_position, restick_time, restick_position, force, moments,
+        record, noise, line_in(quiet, record.rate), ridge, firm,
+        onset_time, onset_position, restick_time, restick_position, _onset_force(record, onset_time, onset_position), moments,
         nodes[0], nodes[1], nodes[2], nodes[3], _stick(record, table),
     )  # fmt: skip
+
+
+def features_near(record: Record, time: float, *, ridge: float, firm: float) -> Array | None:
+    """Return the features of the slip that begins nearest to ``time`` [N], shape (N_FEATURES,); None where there is no slip.
+
+    What `extract` says of it, for simulated slips: nothing else is worked out.
+
+    Args:
+        record: some slips without noise.
+        time: where the slip is expected to begin [s].
+        ridge: how firmly the force at break-away is believed to be constant.
+        firm: the same at re-stick.
+    """
+    table = _edges(record, list(_inside(record, slips_of(record))), ridge, firm)
+    if len(table) == 0:
+        return None
+    edge = table[int(np.argmin(np.abs(table[:, 0] - time)))]
+    return np.r_[_onset_force(record, edge[0], edge[1]), _moments(record, edge, *_samples(record, edge))]
 
 
 def _inside(record: Record, slips: list[tuple[int, int]]) -> Iterator[tuple[int, int]]:
@@ -173,10 +204,24 @@ def _inside(record: Record, slips: list[tuple[int, int]]) -> Iterator[tuple[int,
 
 
 def _edge(record: Record, index: int, side: int, ridge: float) -> tuple[float, float, float, float]:
+    box = record.mechanism
     return locate_edge(
-        record.position, record.time, record.mechanism.belt_velocity, index, side, record.angular_frequency,
-        record.samples(3.06), record.samples(1.07), ridge,
+        record.position, record.time, box.belt_velocity, index, side, record.angular_frequency,
+        record.samples(3.06), record.samples(1.07), ridge, box.excitation_amplitude, box.excitation_angular_frequency,
     )  # fmt: skip
+
+
+def _edges(record: Record, rough: list[tuple[int, int]], ridge: float, firm: float) -> Array:
+    """Return break-away (time [s], position [m]) and re-stick of the slips, shape (n, 4)."""
+    edges = [e for e in (_locate(record, a, b, ridge, firm) for a, b in rough) if e[2] - e[0] > 0.5 / record.angular_frequency]
+    # two slips may not overlap: a rough slip cut in two can be located twice
+    return np.array([e for i, e in enumerate(edges) if i == 0 or e[0] > edges[i - 1][2]]).reshape(-1, 4)
+
+
+def _onset_force(record: Record, time: Any, position: Any) -> Any:
+    """Return the force at break-away [N]."""
+    box = record.mechanism
+    return box.stiffness * position + box.damping * box.belt_velocity - record.excitation(time)
 
 
 def _locate(record: Record, begin: int, end: int, ridge: float, firm: float) -> tuple[float, float, float, float]:
@@ -200,34 +245,33 @@ def _quiet(record: Record, rough: list[tuple[int, int]]) -> tuple[list[Array], l
     return phases, times
 
 
-def _slip(record: Record, edge: Array) -> tuple[Array, Array]:
-    """Return the trajectory at the Gauss nodes, shape (4, N_NODES), and the coefficients of the friction force."""
-    box = record.mechanism
+def _samples(record: Record, edge: Array) -> tuple[Array, Array, Array]:
+    """Return the place u in the slip [-], time [s] and position [m] of its samples, edges included."""
     begin, x_begin, end, x_end = edge
     first, last = np.searchsorted(record.time, (begin, end))
-    time = np.r_[begin, record.time[first:last], end]
-    position = np.r_[x_begin, record.position[first:last], x_end]
+    time = np.concatenate(([begin], record.time[first:last], [end]))
+    position = np.concatenate(([x_begin], record.position[first:last], [x_end]))
+    return 2.0 * (time - begin) / (end - begin) - 1.0, time, position
+
+
+def _moments(record: Record, edge: Array, u: Array, time: Array, position: Array) -> Array:
+    """Return the coefficients of the friction force in a slip [N], shape (N_MOMENTS,)."""
+    box = record.mechanism
+    begin, x_begin, end, x_end = edge
     duration = end - begin
-    u = 2.0 * (time - begin) / duration - 1.0
-    trajectory = _smooth(u, position, duration, box.belt_velocity, begin)
     rate = 2.0 / duration
-    forcing = record.excitation(trajectory[0])
-    moments = np.empty(N_MOMENTS)
-    for q in range(N_MOMENTS):
-        sign = (-1.0) ** q
-        ends = (
-            box.mass * box.belt_velocity * (1.0 - sign)
-            - box.mass * rate * (legendre.legval(1.0, _DP[q]) * x_end - legendre.legval(-1.0, _DP[q]) * x_begin)
-            + box.damping * (x_end - sign * x_begin)
-        )
-        kernel = (
-            box.mass * rate**2 * legendre.legval(u, _DDP[q])
-            - box.damping * rate * legendre.legval(u, _DP[q])
-            + box.stiffness * legendre.legval(u, _P[q])
-        )
-        known = np.sum(WEIGHTS * legendre.legval(NODES, _P[q]) * forcing) * duration / 2.0
-        moments[q] = (ends + np.trapezoid(kernel * position, time) - known) * (2 * q + 1) / duration
-    return trajectory, moments
+    ends = (
+        box.mass * box.belt_velocity * (1.0 - _AT_BEGIN)
+        - box.mass * rate * _SLOPE_AT_END * (x_end + _AT_BEGIN * x_begin)
+        + box.damping * (x_end - _AT_BEGIN * x_begin)
+    )
+    series = box.mass * rate**2 * _SECOND - box.damping * rate * _FIRST + box.stiffness * np.eye(N_MOMENTS)
+    steps = np.diff(time)
+    weights = 0.5 * (np.append(steps, 0.0) + np.append(0.0, steps))
+    kernel = (weights * position) @ legendre.legvander(u, N_MOMENTS - 1) @ series
+    forcing = record.excitation(begin + (NODES + 1.0) * duration / 2.0)
+    known = (WEIGHTS * forcing) @ _AT_NODES * duration / 2.0
+    return np.asarray((ends + kernel - known) * (2 * _ORDERS + 1) / duration, dtype=np.float64)
 
 
 def _smooth(u: Array, position: Array, duration: float, belt: float, begin: float) -> Array:
@@ -235,8 +279,7 @@ def _smooth(u: Array, position: Array, duration: float, belt: float, begin: floa
     weight = np.ones(len(u))
     weight[0] = weight[-1] = 20.0
     scale = duration / 20.0
-    slopes = np.stack([[chebyshev.chebval(s, chebyshev.chebder(row)) for row in np.eye(_DEGREE + 1)] for s in (-1.0, 1.0)])
-    matrix = np.r_[chebyshev.chebvander(u, _DEGREE) * weight[:, None], slopes * (2.0 / duration) * scale * 20.0]
+    matrix = np.r_[chebyshev.chebvander(u, _DEGREE) * weight[:, None], _END_SLOPES * (2.0 / duration) * scale * 20.0]
     right = np.r_[position * weight, np.full(2, belt) * scale * 20.0]
     series = np.linalg.lstsq(matrix, right, rcond=None)[0]
     first, second = chebyshev.chebder(series), chebyshev.chebder(series, 2)

@@ -8,8 +8,10 @@ from numpy.polynomial import legendre
 
 from stochfric_mb.discovery.edges import locate_edge
 from stochfric_mb.discovery.record import make_record
-from stochfric_mb.discovery.slips import N_MOMENTS, NODES, extract, legendre_coefficients
+from stochfric_mb.discovery.slips import N_MOMENTS, NODES, extract, features_near, legendre_coefficients
+from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.reference.augmented import Start, augmented_system
 
 BOX = BeltBox(mass=6.08, damping=0.0, stiffness=3956.0, normal_force=13.0, belt_velocity=2.5e-3)
 MU_S, MU_K = 0.8, 0.46
@@ -120,3 +122,32 @@ def test_coefficients_of_many_functions_at_once():
     together = legendre_coefficients(functions)
     assert together.shape == (3, 2, N_MOMENTS)
     np.testing.assert_allclose(together[2, 1], legendre_coefficients(functions[2, 1]), atol=1e-13)
+
+
+@pytest.mark.parametrize("frequency", [13.8, 18.7, 1.0001 * math.sqrt(5610.0 / 5.632)])
+def test_an_excitation_does_not_move_the_edges(frequency):
+    """Kang 2015, Table 2, undamped, once near resonance: unbiased, though the force changes quickly at both edges."""
+    box = BeltBox(
+        mass=5.632, damping=0.0, stiffness=5610.0, normal_force=14.0, belt_velocity=1e-3, excitation_amplitude=0.5e-3,
+        excitation_angular_frequency=frequency,
+    )  # fmt: skip
+    system = augmented_system(box, make_law("coulomb", mu_s=0.8, mu_k=0.55))
+    motion = system.march(Start(0.0, 0.0, box.belt_velocity, stick=True), 1e-3, 60000)
+    position = motion.position + NOISE * np.random.default_rng(5).standard_normal(len(motion.time))
+    found = extract(make_record("run", motion.time, position, box))
+    assert len(found) > 20
+    for times, switch in ((found.onset_time, 1.0), (found.restick_time, 0.0)):
+        true = motion.events[motion.events[:, 1] == switch, 0]
+        error = times - true[np.argmin(np.abs(times[:, None] - true), axis=1)]
+        assert abs(error.mean()) < 4.0 * error.std() / len(error) ** 0.5
+    # the quadrature, which calibration takes out, shows in the higher orders
+    low = found.moments[:, :4]
+    away = np.abs(low.mean(axis=0) - 0.55 * box.normal_force * np.eye(4)[0])
+    assert np.all(away < 4.0 * np.std(low, axis=0) / len(found) ** 0.5), away
+
+
+def test_the_features_of_one_slip_are_those_of_the_extraction(slips):
+    found = features_near(slips.record, slips.onset_time[3] + 0.1, ridge=slips.ridge, firm=slips.firm)
+    np.testing.assert_array_equal(found, slips.features[3])
+    quiet = make_record("still", slips.record.time[:500], np.zeros(500), BOX)
+    assert features_near(quiet, 0.2, ridge=slips.ridge, firm=slips.firm) is None
