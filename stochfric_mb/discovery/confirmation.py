@@ -25,8 +25,12 @@ from stochfric_mb.reference.augmented import Start
 
 FLOOR = 1.0e-3
 """Error of the features that is always allowed, over the normal force [-]: numerics are never discovered."""
-TYPICAL_SLIPS, LOOKED_AT = 6, 10
-"""Slips compared at an operating point with a known excitation, chosen from this many as those most like each other."""
+LOOKED_AT = 120
+"""Most slips looked at at an operating point with a known excitation."""
+PART, MOST_PARTS = 0.3, 4
+"""Phases at which slips begin that one of them stands for [rad], and most parts that they are divided into."""
+ANY = np.eye(N_FEATURES)
+"""Whitening of features that are not compared."""
 STRENGTHS = (
     "amplitude", "coefficient", "distance", "cubic", "gap", "mass_ratio", "rate", "exponent", "asymmetry", "time_constant",
     "quadratic",
@@ -107,10 +111,7 @@ def _free(pool: Pool, model: Model, rows: np.ndarray, runs: Sequence[int]) -> Ca
     features = pool.features[rows]
     slips = pool.slips[runs[0]]
     centre = np.median(features, axis=0)
-    # the variance of a median is pi/2 that of a mean
-    covariance = pool.calibrations[runs[0]].covariance * 1.57 / len(rows)
-    scatter = np.var(features, axis=0) * 1.57 / len(rows)
-    covariance = covariance + np.diag(np.maximum(scatter - np.diag(covariance), 0.0))
+    covariance = _of_median(pool.calibrations[runs[0]].covariance, features)
     middle = float(slips.onset_time[len(slips) // 2])
     onset = (middle, float(np.median(slips.onset_position)), float(np.median(pool.dwell[rows])))
     length = float(np.median(pool.restick_time[rows] - pool.onset_time[rows]))
@@ -118,29 +119,65 @@ def _free(pool: Pool, model: Model, rows: np.ndarray, runs: Sequence[int]) -> Ca
 
 
 def _forced(pool: Pool, model: Model, rows: np.ndarray) -> list[Case]:
+    """Return one case for each part of the excitation's cycle in which slips begin.
+
+    Slips that begin at nearly the same phase differ little: one of them stands for all, with the median of what the
+    believed model misses in each.
+    """
     chosen = rows[np.unique(np.linspace(0, len(rows) - 1, LOOKED_AT).round().astype(int))]
-    cases: list[Case] = []
-    errors: list[Array] = []
     plain = dataclasses.replace(model, corrections={}, effects=(), process=None, own={})
+    onsets: list[tuple[float, float, float]] = []
+    lengths = pool.restick_time - pool.onset_time
+    predictions: list[Array] = []
+    kept: list[int] = []
     for i in chosen:
         slips = pool.slips[pool.run[i]]
         k = i - int(np.flatnonzero(pool.run == pool.run[i])[0])
         onset = (float(slips.onset_time[k]), float(slips.onset_position[k]), float(pool.dwell[i]))
-        length = float(slips.restick_time[k] - slips.onset_time[k])
-        calibration = pool.calibrations[pool.run[i]]
-        case = _case(model, slips, onset, length, pool.features[i], calibration.covariance, calibration.damping)
-        predicted = predict(plain, case)
+        bare = Case(
+            slips.record, onset, float(lengths[i]), pool.features[i], ANY, (slips.ridge, slips.firm), np.zeros(N_FEATURES)
+        )
+        predicted = predict(plain, bare)
         if predicted is not None:
-            cases.append(case)
-            errors.append(case.features - predicted)
-    if len(cases) <= TYPICAL_SLIPS:
-        return cases
-    # a slip that the believed model misses quite differently from the others is an odd one
-    table = np.array(errors)
-    odd = np.linalg.norm(
-        (table - np.median(table, axis=0)) / (1.48 * np.median(np.abs(table - np.median(table, axis=0)), axis=0) + 1e-9), axis=1
-    )
-    return [cases[i] for i in sorted(np.argsort(odd, kind="stable")[:TYPICAL_SLIPS])]
+            onsets.append(onset)
+            predictions.append(predicted)
+            kept.append(int(i))
+    if not kept:
+        return []
+    frequency = pool.slips[pool.run[kept[0]]].record.mechanism.excitation_angular_frequency
+    cases: list[Case] = []
+    for part in _parts(frequency * np.array([o[0] for o in onsets])):
+        middle = part[len(part) // 2]
+        mine = np.array(kept)[part]
+        slips = pool.slips[pool.run[kept[middle]]]
+        missed = pool.features[mine] - np.array(predictions)[part]
+        calibration = pool.calibrations[pool.run[kept[middle]]]
+        covariance = _of_median(calibration.covariance, missed)
+        features = predictions[middle] + np.median(missed, axis=0)
+        length = float(np.median(lengths[mine]))
+        cases.append(_case(model, slips, onsets[middle], length, features, covariance, calibration.damping))
+    return cases
+
+
+def _parts(phase: Array) -> list[np.ndarray]:
+    """Return the numbers of the slips in each part of the cycle, by the phases at which they begin [rad], in their order."""
+    turn = 2.0 * np.pi
+    order = np.argsort(phase % turn, kind="stable")
+    placed = (phase % turn)[order]
+    gaps = np.diff(np.r_[placed, placed[0] + turn])
+    first = (int(np.argmax(gaps)) + 1) % len(order)
+    order = np.roll(order, -first)
+    width = turn - float(gaps.max())
+    count = int(np.clip(np.ceil(width / PART), 1, min(MOST_PARTS, max(len(order) // 3, 1))))
+    return [p for p in np.array_split(order, count) if len(p)]
+
+
+def _of_median(covariance: Array, values: Array) -> Array:
+    """Return the covariance of a median of ``values``, shape (n, N_FEATURES), that err by ``covariance`` and may scatter more."""
+    # the variance of a median is pi/2 that of a mean
+    share = 1.57 / len(values)
+    scatter = share * np.var(values, axis=0)
+    return share * covariance + np.diag(np.maximum(scatter - np.diag(share * covariance), 0.0))
 
 
 def _case(
