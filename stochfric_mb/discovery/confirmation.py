@@ -173,7 +173,7 @@ def _parts(phase: Array) -> list[np.ndarray]:
 
 
 def _of_median(covariance: Array, values: Array) -> Array:
-    """Return the covariance of a median of ``values``, shape (n, N_FEATURES), that err by ``covariance`` and may scatter more."""
+    """Return the covariance of a median of n ``values``, which err by ``covariance`` and may scatter more, shape as its."""
     # the variance of a median is pi/2 that of a mean
     share = 1.57 / len(values)
     scatter = share * np.var(values, axis=0)
