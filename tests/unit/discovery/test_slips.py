@@ -99,6 +99,8 @@ def test_an_edge_is_found_from_further_off_than_the_first_places_reach(side: int
         round(3.06e3 / OMEGA),
         round(1.07e3 / OMEGA),
         firm,
+        0.0,
+        0.0,
     )
     assert edge == pytest.approx(true, abs=1e-4)  # a tenth of a sample
     assert position == pytest.approx(stick_slip(np.array([true + 1e-9]), 0.6543)[0], abs=BOX.belt_velocity * 1e-4)
