@@ -90,14 +90,17 @@ def _repeated(study: Study) -> bool:
     """Return whether many of the slips that stand out do so by the same share: a kick comes at any phase of the stick.
 
     Kicks in stick take as much off the mean force of the slip that they set off, but set it off at any force of the spring.
+    Equal kicks in slip change its mean force by as much, too, but its shape by when they came; another level leaves the shape.
     """
     pool = study.pool
-    shares = np.stack([pool.features[:, 0] / pool.static, pool.features[:, 1] / pool.kinetic], axis=1)
+    levels = np.stack([pool.static, pool.kinetic, pool.kinetic, pool.kinetic], axis=1)
+    shares = pool.features[:, :4] / levels
     for r in range(pool.n_runs):
         shares[pool.run == r] -= np.median(shares[pool.run == r], axis=0)
-    spread = np.array([robust_deviation(shares[:, 0]), robust_deviation(shares[:, 1])])
-    static, kinetic = (np.abs(shares) > np.maximum(STRAY * spread, 0.02)).T
-    groups = (np.sort(shares[static, 0]), 3.0 * spread[0]), (np.sort(shares[kinetic & ~static, 1]), 3.0 * spread[1])
+    spread = np.array([robust_deviation(column) for column in shares.T])
+    static, kinetic = (np.abs(shares[:, :2]) > np.maximum(STRAY * spread[:2], 0.02)).T
+    level = kinetic & ~static & (np.abs(shares[:, 2:]) < STRAY * spread[2:]).all(axis=1)
+    groups = (np.sort(shares[static, 0]), 3.0 * spread[0]), (np.sort(shares[level, 1]), 3.0 * spread[1])
     most = max(FEWEST_ALIKE, ALIKE * int(np.count_nonzero(static | kinetic)))
     near = [int(np.searchsorted(far, value + width, "right")) - i for far, width in groups for i, value in enumerate(far)]
     return any(count >= most for count in near)

@@ -305,9 +305,14 @@ class _Search:
             self.kept += chosen.candidate.hypothesis.columns
         if kind in FITTED_TO_FORECASTS or chosen.simulated:
             # a simulated fit knows the features alone, whose bias by noise is that of the believed model
+            screened = self.model
             fit = refit(self.model, self.study.windows, self.study.uncertainty, most=12, evaluations=20)
             self.model = fit.model
-        self._take_out()
+            self._take_out()
+            if not chosen.simulated and (self.stalled or _scatter(self.solution) > LEFT_OVER * before):
+                self._take_out_better(screened)
+        else:
+            self._take_out()
         self.stalled |= kind in PERIODIC and _scatter(self.solution) > STALLED * before
 
     def _put_on_time(self) -> None:
@@ -328,6 +333,15 @@ class _Search:
         self.regression = Regression(self.pool)
         self.terms = believed(self.pool, dict(self.study.uncertainty)).plus(self.kept)
         self.solution = self.regression.fit(self.terms, self.solution.scatter)
+
+    def _take_out_better(self, other: Model) -> None:
+        """Go on with what another model leaves, if it leaves less: forecasts that jump between slips may lead a fit astray."""
+        fitted, left, stalled = self.model, _scatter(self.solution), self.stalled
+        self.model, self.stalled = other, False
+        self._take_out()
+        if self.stalled or (not stalled and _scatter(self.solution) > left):
+            self.model, self.stalled = fitted, stalled
+            self._take_out()
 
     def by_chance(self) -> Decision:
         """Look for what is random, last of all."""
