@@ -64,6 +64,8 @@ class Named:
     """Evidence [-]."""
     where: Where
     """Where it shows."""
+    before: Model | None = None
+    """The model without it, as it stood when it was found."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -99,7 +101,7 @@ def decide(study: Study, *, channels: Channels = EVERYTHING, progress: Progress 
     named: list[Named] = []
     late: float | None = None
     for kind, score, values in blamed:
-        named.append(Named(kind, (), score, where_of(kind)))
+        named.append(Named(kind, (), score, where_of(kind), model if late is None else with_delay(model, late)))
         if kind == "sensor_delay" and driven(study):
             # forces are looked at on time
             late = values["delay"]
@@ -294,8 +296,8 @@ class _Search:
         elif any(n.kind == kind for n in self.named):
             self.model = chosen.model
         else:
+            self.named.append(Named(kind, chosen.class_, chosen.candidate.score, where_of(kind), self._timed()))
             self.model = chosen.model
-            self.named.append(Named(kind, chosen.class_, chosen.candidate.score, where_of(kind)))
         self.progress("what is left")
         before = _scatter(self.solution)
         if kind == "sensor_delay":
@@ -368,8 +370,11 @@ class _Search:
             self.model = self.model.plus(make_effect(found.kind, **found.values))
             self.named.append(Named(found.kind, (), found.score, where_of(found.kind)))
         verdict = "effect" if self.named else "none"
-        model = self.model if self.late is None else with_delay(self.model, self.late)
-        return Decision(verdict, tuple(self.named), None, model, self.ranking, scatter, self.details)
+        return Decision(verdict, tuple(self.named), None, self._timed(), self.ranking, scatter, self.details)
+
+    def _timed(self) -> Model:
+        """Return the model so far with the sensor's delay, if the records were put on time."""
+        return self.model if self.late is None else with_delay(self.model, self.late)
 
     def _without_accidents(self) -> None:
         """Leave out the slips that stand far out, where they are too few for kicks: two of a hundred are no scatter."""

@@ -18,8 +18,9 @@ from stochfric_mb.discovery.slips import Slips, StickSamples
 ACCIDENT, MOST_ACCIDENTS = 3.0, 0.25
 """Misfit of a stick phase over that of the others from which on it is an accident, and the share of the phases that may
 be; more of them are the rule [-]. Of phases of noise that is slower than a tenth of them 1 in 100 is set aside."""
-
-
+RINGS = 0.15
+"""Share of the evidence for a contact that rings and yields that its ringing alone must have [-]: a box that creeps lags behind
+the belt as one on a yielding contact does, but hardly rings when it sticks again."""
 JUMP = 30.0
 """Fall of chi^2 by a step within one stick phase from which on it is a jump [-]; of 200 phases of noise, none of 100 runs has
 one."""
@@ -106,6 +107,10 @@ def analyse(slips: Sequence[Slips]) -> Sticking | None:
     best = int(np.argmax(gains))
     scores["presliding_compliance"] = float(gains[best]) - 2 * n * log_n - 2.0 * np.log(len(ringing))
     settings["presliding_compliance"] = {"angular_frequency": float(ringing[best][0]), "damping_ratio": ringing[best][1]}
+    # a contact whose stiffness changes with its load follows the belt at one speed no longer
+    yields = gain(lambda run: [*_ringing(run, *ringing[best]), *_yielding(run)]) - 5 * n * log_n - 2.0 * np.log(len(ringing))
+    if scores["presliding_compliance"] > RINGS * yields:
+        scores["presliding_compliance"] = max(scores["presliding_compliance"], yields)
 
     def hats(column: Array, places: Sequence[float]) -> list[Array]:
         return [np.clip(1.0 - np.abs(column - p) / 0.05, 0.0, 1.0) for p in places]

@@ -74,12 +74,8 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     progress("refit")
     fit = _augmented(decision, found, recalibrated)
     augmented = fit.model if fit is not None else recalibrated.model
-    if channels.confirmation and (poor := unexplained(found, decision, recalibrated.model, augmented)) is not None:
-        refuted, decision, fit, augmented = decision, poor, None, recalibrated.model
-        if (wander := of_wander(found, refuted)) is not None:
-            tried = _augmented(wander, found, recalibrated)
-            if tried is not None and unexplained(found, wander, recalibrated.model, tried.model) is None:
-                decision, fit, augmented = wander, tried, tried.model
+    if channels.confirmation:
+        decision, fit, augmented = _explaining(decision, fit, augmented, found, recalibrated)
     progress("held-out runs")
     runs = held_out(_held_out_slips(dataset), phased=phased(augmented))
     augmented = settled(augmented, runs)
@@ -161,6 +157,29 @@ def _augmented(decision: Decision, found: Study, recalibrated: Fit) -> Fit | Non
         own[run] = tuple(full)
     joined = Model(fit.model.law, fit.model.corrections, tuple(effects), model.process, own)
     return dataclasses.replace(fit, model=matched(joined, found.pool))
+
+
+def _explaining(
+    decision: Decision, fit: Fit | None, augmented: Model, found: Study, recalibrated: Fit
+) -> tuple[Decision, Fit | None, Model]:
+    """Return the decision and its model as far as they explain the fit runs.
+
+    What the first effect's form leaves may look like another effect, which in a fit of both takes the first one along.
+    """
+    poor = unexplained(found, decision, recalibrated.model, augmented)
+    if poor is None:
+        return decision, fit, augmented
+    fewer = decision
+    while len(fewer.named) > 1 and (before := fewer.named[-1].before) is not None:
+        fewer = dataclasses.replace(fewer, named=fewer.named[:-1], model=before)
+        refitted = _augmented(fewer, found, recalibrated)
+        if refitted is not None and unexplained(found, fewer, recalibrated.model, refitted.model) is None:
+            return fewer, refitted, refitted.model
+    if (wander := of_wander(found, decision)) is not None:
+        tried = _augmented(wander, found, recalibrated)
+        if tried is not None and unexplained(found, wander, recalibrated.model, tried.model) is None:
+            return wander, tried, tried.model
+    return poor, None, recalibrated.model
 
 
 def _borne_out(
