@@ -10,6 +10,9 @@ from stochfric_mb.discovery.study import Study
 
 DECIDES: dict[frozenset[str], str] = {
     frozenset({"position_dependent_friction", "normal_load_ripple"}): "a run at a second belt speed (or a normal-force sensor)",
+    frozenset({"position_dependent_friction", "nonlinear_stiffness"}): "a quasi-static load test of the spring",
+    frozenset({"position_dependent_friction", "backlash"}): "a quasi-static load test of the spring",
+    frozenset({"harmonic_force", "nonlinear_stiffness"}): "a run at a second belt speed",
     frozenset({"position_dependent_friction", "harmonic_force"}): "a run at a second normal load",
     frozenset({"normal_load_ripple", "harmonic_force"}): "a run at a second normal load, or a normal-force sensor",
     frozenset({"viscous_friction", "quadratic_damping"}): "runs at other belt speeds and normal loads",

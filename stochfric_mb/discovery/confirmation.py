@@ -15,7 +15,7 @@ import numpy as np
 
 from stochfric_mb.discovery.calibration import damped
 from stochfric_mb.discovery.least_squares import minimised
-from stochfric_mb.discovery.model import FREED, Knob, Model, adjusted, knobs_of
+from stochfric_mb.discovery.model import FREED, TUNED, Knob, Model, adjusted, knobs_of
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.recall import recalled
 from stochfric_mb.discovery.record import Array, Record
@@ -237,9 +237,28 @@ def predict(model: Model, case: Case) -> Array | None:
     return features_near(simulated, case.onset[0], ridge=case.ridges[0], firm=case.ridges[1])
 
 
-def confirm(cases: Sequence[Case], candidate: Model, uncertainty: Mapping[str, float], *, evaluations: int = 20) -> Confirmed:
-    """Return the candidate with its numbers fitted to the features of ``cases``."""
-    knobs = [k for k in knobs_of(candidate, uncertainty) if not k.run]
+def confirm(
+    cases: Sequence[Case],
+    candidate: Model,
+    uncertainty: Mapping[str, float],
+    *,
+    evaluations: int = 20,
+    entrained: bool = False,
+) -> Confirmed:
+    """Return the candidate with its numbers fitted to the features of ``cases``.
+
+    Args:
+        cases: slips to be predicted.
+        candidate: the model.
+        uncertainty: relative standard deviations of what is believed.
+        evaluations: most Gauss-Newton steps.
+        entrained: whether the last effect is a wave to which the slips keep: what they leave open is its phase, not its
+            frequency.
+    """
+    last = len(candidate.effects) - 1
+    runs = list(dict.fromkeys(case.record.name for case in cases)) if entrained else []
+    knobs = [k for k in knobs_of(candidate, uncertainty, runs) if not k.run or k.effect == last]
+    knobs = [k for k in knobs if not (entrained and k.effect == last and k.name in TUNED)]
     load = cases[0].record.mechanism.normal_force
     start = np.array([k.value for k in knobs])
     scale = np.array([_step(k, load) for k in knobs])

@@ -165,7 +165,7 @@ class _Search:
         self.terms: Terms = study.terms
         self.solution: Solution = study.solution
         self.ranking: tuple[tuple[str, float], ...] = ()
-        self.stalled = False
+        self.stalled = self.any_shape = False
         self.in_forces = not named
         self.kept: list[Array] = []
         self.cases: list[Case] = []
@@ -241,7 +241,7 @@ class _Search:
     def _wanders(self, candidates: Sequence[Candidate]) -> bool:
         """Return whether a winner on the axis of time is better told as a random wander."""
         winner = candidates[0]
-        if winner.name not in (*IN_TIME, *PERIODIC, "sensor_step"):
+        if winner.name not in (*IN_TIME, "sensor_step") and not winner.is_wave:
             return False
         drifts = max((c.score for c in candidates if c.name in ("friction_drift", "sensor_drift")), default=-np.inf)
         scatter = randomness(self.regression, self.terms, self.solution)
@@ -266,7 +266,7 @@ class _Search:
 
     def _counts(self, ripple: Candidate) -> bool:
         """Return whether a ripple is one of the slips' number, not of time or place."""
-        if ripple.name not in PERIODIC:
+        if not ripple.is_wave:
             return False
         along_belt = ripple.name == "position_dependent_friction"
         main = float(ripple.hypothesis.setting[0])
@@ -279,7 +279,7 @@ class _Search:
         Where simulating them does not bear such shapes out, they are what the features leave of every slip, and an effect
         that has nothing but a likeness to them is not there.
         """
-        shapes = [c for c in candidates if c.name in IN_SLIP + SHAPES and c.score > chosen.candidate.score]
+        shapes = [c for c in candidates if (c.name in IN_SLIP + SHAPES or c.any_shape) and c.score > chosen.candidate.score]
         if chosen.simulated or not shapes:
             return True
         beside = self.terms.plus([column for c in shapes[:2] for column in c.hypothesis.columns])
@@ -298,6 +298,7 @@ class _Search:
         else:
             self.named.append(Named(kind, chosen.class_, chosen.candidate.score, where_of(kind), self._timed()))
             self.model = chosen.model
+        self.any_shape |= chosen.candidate.any_shape
         self.progress("what is left")
         before = _scatter(self.solution)
         if kind == "sensor_delay":
@@ -315,7 +316,7 @@ class _Search:
                 self._take_out_better(screened)
         else:
             self._take_out()
-        self.stalled |= kind in PERIODIC and _scatter(self.solution) > STALLED * before
+        self.stalled |= chosen.candidate.is_wave and not chosen.simulated and _scatter(self.solution) > STALLED * before
 
     def _put_on_time(self) -> None:
         """Go on with the records put on time, by the delay that their forecasts show."""
@@ -327,7 +328,7 @@ class _Search:
 
     def _take_out(self) -> None:
         """Go on with what the model leaves of the features."""
-        left = left_over(self.study.pool, self.model, anew=any(n.kind in IN_SLIP for n in self.named))
+        left = left_over(self.study.pool, self.model, anew=any(n.kind in IN_SLIP for n in self.named) or self.any_shape)
         if left.kept.sum() < LEAST_KEPT * self.pool.kept.sum():
             self.stalled = True
             return

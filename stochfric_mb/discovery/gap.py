@@ -52,7 +52,7 @@ def held_out(slips: Sequence[Slips], *, phased: bool) -> HeldOut:
 
 def phased(model: Model) -> bool:
     """Return whether the model has phases that each run has its own value of."""
-    return any(hasattr(e, "phase") for e in model.effects)
+    return any(e.own_to_run for e in model.effects)
 
 
 def settled(model: Model, runs: HeldOut) -> Model:

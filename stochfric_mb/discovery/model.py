@@ -12,6 +12,7 @@ import numpy as np
 from stochfric_mb.coefficients import Process
 from stochfric_mb.discovery.record import Array, Record
 from stochfric_mb.effects import Effect
+from stochfric_mb.effects.contract import PHASES
 from stochfric_mb.laws import Law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference.augmented import AugmentedSystem, augmented_system
@@ -38,8 +39,6 @@ TUNED, TUNING = ("frequency", "wavelength"), 0.02
 """Parameters of effects that small changes of tell upon, and a natural step over their size [-]."""
 MOST_TUNED, FARTHEST = 2.0, 30.0
 """Factors by which a fit may change these, and other scales of length, time and speed: beyond, simulations take forever."""
-OWN_TO_RUN = ("phase", "phase_2", "phase_3")
-"""Parameters of effects that each run has its own value of: records start anywhere."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -55,7 +54,7 @@ class Model:
     process: Process | None = None
     """Process of the coefficients, where the scenario declares one."""
     own: Mapping[str, tuple[Mapping[str, float], ...]] = dataclasses.field(default_factory=dict[str, Any])
-    """Run -> values of `OWN_TO_RUN` parameters, one mapping an effect."""
+    """Run -> values of the parameters that are its own (`Effect.own_to_run`), one mapping an effect."""
 
     def mechanism(self, stated: BeltBox) -> BeltBox:
         """Return a run's mechanism with the corrections applied."""
@@ -146,9 +145,9 @@ def knobs_of(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str]
             value = getattr(effect, field.name)
             if "choices" in meta or not np.isfinite(value) or (field.name in NOT_FITTED and not _shared(field.name, value)):
                 continue
-            if field.name in OWN_TO_RUN:
-                if field.name != "phase" and not getattr(effect, field.name.replace("phase", "amplitude")):
-                    continue
+            if field.name in PHASES and field.name != "phase" and not getattr(effect, field.name.replace("phase", "amplitude")):
+                continue
+            if field.name in effect.own_to_run:
                 for run in runs:
                     own = model.own.get(run, ({},) * len(model.effects))[i].get(field.name, value)
                     knobs.append(Knob(field.name, own, 0.3, np.inf, -np.inf, np.inf, i, run))

@@ -29,7 +29,7 @@ def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int)
         n_terms: coefficients of the regression before the candidate's own.
     """
     coefficients = candidate.solution.coefficients[n_terms:]
-    if candidate.name in PERIODIC:
+    if candidate.is_wave:
         return _periodic(model, candidate, pool, coefficients)
     if candidate.name == "sensor_step":
         sizes = coefficients.reshape(pool.n_runs, -1)
@@ -68,12 +68,15 @@ def with_steps(model: Model, steps: Mapping[str, tuple[float, float]], place: in
     return dataclasses.replace(model, own=own)
 
 
-def _bounded(kind: str, values: dict[str, float]) -> Effect:
+def _bounded(kind: str, values: Mapping[str, float | str]) -> Effect:
     """Return the effect with its values moved into their bounds."""
     cls = effect_class(kind)
     about = {f.name: f.metadata for f in dataclasses.fields(cls)}
-    kept = {}
+    kept: dict[str, float | str] = {}
     for name, value in values.items():
+        if isinstance(value, str):
+            kept[name] = value
+            continue
         inside = 1.0e-3 * about[name]["scale"] if about[name]["strict"] else 0.0
         kept[name] = float(np.clip(value, about[name]["low"] + inside, about[name]["high"] - inside))
     return make_effect(kind, **kept)
@@ -113,9 +116,9 @@ def as_harmonic(model: Model, candidate: Candidate, pool: Pool, n_terms: int) ->
 
     A ripple that is not a sine, such as a square one, leaves multiples of its frequency behind.
     """
-    if candidate.name not in PERIODIC:
+    if not candidate.is_wave:
         return None
-    held = next((e for e in model.effects if e.kind in PERIODIC), None)
+    held = next((e for e in model.effects if e.kind in PERIODIC and e.own_to_run), None)
     if held is None:
         return None
     belt = float(pool.belt_velocity.min())

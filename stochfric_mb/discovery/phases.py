@@ -11,9 +11,10 @@ import dataclasses
 import numpy as np
 
 from stochfric_mb.discovery.forecast import Windows
-from stochfric_mb.discovery.model import OWN_TO_RUN, Model
+from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.refit import Fit, cost_of, refit
 from stochfric_mb.effects import Effect
+from stochfric_mb.effects.contract import PHASES
 
 SHIFTS = 24
 """Shifts of a pattern that are tried, over its period."""
@@ -40,7 +41,7 @@ def in_phase(model: Model, windows: Windows) -> Model:
         shifted = [_shifted(t, run, pattern, 2.0 * np.pi * s / SHIFTS) for t in trials for s in range(SHIFTS)]
         costs = np.array([cost_of(t, [windows], most=MOST) for t in shifted])
         trials = [shifted[i] for i in np.argsort(costs, kind="stable")[:FOLLOWED]]
-    fits: list[Fit] = [refit(t, [windows], {}, only=OWN_TO_RUN, evaluations=12, most=MOST) for t in trials]
+    fits: list[Fit] = [refit(t, [windows], {}, only=PHASES, evaluations=12, most=MOST) for t in trials]
     return min(fits, key=lambda f: f.cost).model
 
 
@@ -48,7 +49,7 @@ def _patterns(model: Model) -> list[dict[int, int]]:
     """Return the patterns among the effects: each maps the numbers of its effects to their orders."""
     patterns: list[dict[int, int]] = []
     for i, effect in enumerate(model.effects):
-        if not hasattr(effect, "phase"):
+        if not effect.own_to_run:
             continue
         for pattern in patterns:
             first = model.effects[next(iter(pattern))]
@@ -70,7 +71,7 @@ def _shifted(model: Model, run: str, pattern: dict[int, int], angle: float) -> M
     """Return the model with a pattern shifted in a run by an angle of its fundamental [rad]."""
     own = [dict(values) for values in model.own[run]]
     for i, order in pattern.items():
-        for harmonic, name in enumerate(OWN_TO_RUN, start=1):
+        for harmonic, name in enumerate(PHASES, start=1):
             if hasattr(model.effects[i], name):
                 start = own[i][name] if name in own[i] else getattr(model.effects[i], name)
                 own[i][name] = start + harmonic * order * angle

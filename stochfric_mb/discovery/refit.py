@@ -72,7 +72,7 @@ def refit(
         model: where the fit starts.
         windows: forecasts, run by run.
         uncertainty: relative standard deviations of what is believed.
-        only: names of the knobs that may move; all of them if not given.
+        only: names of the knobs, of single runs, that may move; all of them if not given.
         evaluations: most Gauss-Newton steps.
         most: forecasts used in each run.
     """
@@ -178,7 +178,7 @@ class _Misfit:
         self.model = model
         self.windows = [thinned(w, most) for w in windows if len(w)]
         runs = [w.record.name for w in self.windows]
-        self.knobs = [k for k in knobs_of(model, uncertainty, runs) if only is None or k.name in only]
+        self.knobs = [k for k in knobs_of(model, uncertainty, runs) if only is None or (k.name in only and k.run)]
         self.start = np.array([k.value for k in self.knobs])
         self.scale = np.array([k.scale for k in self.knobs])
         self.low = (np.array([k.low for k in self.knobs]) - self.start) / self.scale - 1.0e-9

@@ -15,7 +15,7 @@ from stochfric_mb.discovery.hypotheses import hypotheses_in, waves_in
 from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.regression import Regression, Solution, Terms
 from stochfric_mb.discovery.waves import best_wave
-from stochfric_mb.effects.marks import Hypothesis
+from stochfric_mb.effects.marks import ENTRAINED, WAVE, Hypothesis
 
 POSITIVE = (
     "velocity_weakening", "viscous_friction", "frictional_lag", "dwell_ageing", "quadratic_damping", "backlash", "second_mode",
@@ -47,6 +47,16 @@ class Candidate:
     def is_effect(self) -> bool:
         """Whether it names physics."""
         return not self.axis
+
+    @property
+    def is_wave(self) -> bool:
+        """Whether it is periodic in time or along the belt, with a phase of its own in each run."""
+        return self.hypothesis.variant in (WAVE, ENTRAINED)
+
+    @property
+    def any_shape(self) -> bool:
+        """Whether it can give slips nearly any shape, the same to all: friction along the stroke."""
+        return self.name == "position_dependent_friction" and not self.is_wave
 
     def start(self, terms: int) -> dict[str, float]:
         """Return parameter values where a fit of the effect may start; ``terms``: number of coefficients before its own."""

@@ -17,7 +17,7 @@ from stochfric_mb.discovery.pool import Pool
 from stochfric_mb.discovery.record import Array
 from stochfric_mb.discovery.regression import Part, Regression, Terms
 from stochfric_mb.discovery.slips import N_FEATURES, legendre_coefficients
-from stochfric_mb.effects.marks import Hypothesis, Wave
+from stochfric_mb.effects.marks import WAVE, Hypothesis, Wave
 
 HARMONICS = 3
 """Harmonics of a wave that is no sine."""
@@ -113,7 +113,7 @@ def best_wave(
             best = max(best, (score, float(close[np.argmax(fine)]), harmonics))
     _, frequency, harmonics = best
     columns = wave_columns(pool, wave, frequency, harmonics)
-    return Hypothesis(kind, columns, (wave.setting(frequency), float(harmonics))), looked_at
+    return Hypothesis(kind, columns, (wave.setting(frequency), float(harmonics)), variant=WAVE), looked_at
 
 
 def _gains(pool: Pool, wave: Wave, parts: list[Part], grid: Array, harmonics: int) -> Array:

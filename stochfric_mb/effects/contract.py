@@ -38,6 +38,8 @@ if TYPE_CHECKING:
 
 Array = npt.NDArray[np.float64]
 
+PHASES = ("phase", "phase_2", "phase_3")
+"""Parameters of effects that hang on where their zero of time or place is."""
 GROUPS = ("randomness", "friction law", "friction varies", "mechanism", "sensor")
 """What effects are grouped by."""
 
@@ -120,6 +122,11 @@ class Effect:
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
             _check(f"{self.kind}.{field.name}", getattr(self, field.name), field)
+
+    @property
+    def own_to_run(self) -> tuple[str, ...]:
+        """Parameters that each run has its own value of: phases, since records start anywhere."""
+        return tuple(f.name for f in dataclasses.fields(self) if f.name in PHASES)
 
     def parameters(self) -> Array:
         """Return the parameter vector ``p``, shape (n_fields,), in the order of the fields."""

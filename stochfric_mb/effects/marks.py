@@ -130,6 +130,12 @@ class Slips(Protocol):
         ...
 
 
+WAVE = "wave"
+"""Variant of the hypothesis of a wave, see `Wave`."""
+ENTRAINED = "entrained wave"
+"""Variant of that of a wave to which the slips keep, so that it shapes all of them alike."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Hypothesis:
     """One way in which an effect may be present."""

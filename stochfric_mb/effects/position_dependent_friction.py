@@ -7,13 +7,18 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 from typing import ClassVar
 
 import numpy as np
 
 from stochfric_mb.effects.contract import BELT_POSITION, MU_K, MU_S, POSITION, Effect, choice, parameter
-from stochfric_mb.effects.marks import Slips, Wave, friction_at, times
+from stochfric_mb.effects.marks import Array, Hypothesis, Slips, Wave, friction_at, times
+
+STROKES = (0.5, 0.7, 1.0, 1.4, 2.0)
+"""Wavelengths along the stroke that are looked for, over the length of the stroke [-]: a longer wave is a slope, which a
+stiffness that is off leaves as well."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -50,10 +55,41 @@ class PositionDependentFriction(Effect):
     shows: ClassVar[str] = "friction varies along the belt"
     order: ClassVar[int] = 3
 
+    @property
+    def own_to_run(self) -> tuple[str, ...]:
+        """The phases along the belt; the stroke is the same in all runs."""
+        return super().own_to_run if self.axis == "belt" else ()
+
     def shortest_time(self, speed: float) -> float:
         """Return the time [s] in which the contact passes the shortest wavelength that acts."""
         harmonic = 3.0 if self.amplitude_3 != 0.0 else 2.0 if self.amplitude_2 != 0.0 else 1.0
         return self.wavelength / (harmonic * speed) if speed > 0.0 else math.inf
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return friction that is modulated along the stroke, by one harmonic or two."""
+        place = slips.direction[:, None] * np.concatenate([slips.typical_onset[:, None], slips.typical_position], axis=1)
+        force = friction_at(slips)
+        length = float(np.ptp(np.abs(place)))
+
+        def start(b: Array, wavelength: float) -> dict[str, float | str]:
+            size, phase = np.hypot(b[0::2], b[1::2]), np.arctan2(-b[1::2], b[0::2])
+            found: dict[str, float | str] = {"wavelength": wavelength, "axis": "position"}
+            for h in range(len(size)):
+                more = "" if h == 0 else f"_{h + 1}"
+                found |= {f"amplitude{more}": float(size[h]), f"phase{more}": float(phase[h])}
+            return found
+
+        found: list[Hypothesis] = []
+        for wavelength in (length * np.array(STROKES)).tolist():
+            for harmonics, variant in ((1, "stroke"), (2, "stroke with an overtone")):
+                waves = [
+                    wave(2.0 * math.pi * (h + 1) / wavelength * place) for h in range(harmonics) for wave in (np.cos, np.sin)
+                ]
+                columns = [slips.column(force[:, 0] * w[:, 0], force[:, 1:] * w[:, 1:]) for w in waves]
+                setting, begin = (wavelength, float(harmonics)), functools.partial(start, wavelength=wavelength)
+                found.append(Hypothesis(cls.kind, columns, setting, begin, variant=variant))
+        return found
 
     @classmethod
     def wave(cls, slips: Slips) -> Wave:

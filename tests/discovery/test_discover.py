@@ -36,6 +36,9 @@ CLEAR = (
     Case("backlash.one_sided", "reversed_belt", 1.0, SEED),
     Case("frictional_lag.slip_distance", "one_free", 0.5, 52),  # noise hides where its slips begin
     Case("load_dependence.power_of_load", "normal_loads", 1.0, SEED),  # not steps of the sensor
+    Case("position_dependent_friction.worn_stroke", "one_free", 1.0, 63),  # all slips cover the same stroke
+    Case("harmonic_force.fast_sine", "one_free", 1.0, 90),  # the slips keep to its rhythm, all alike
+    Case("presliding_compliance.hardening", "one_free", 1.0, 62),  # its ringing is no decaying sine
     Case("impacts.hammer", "one_free", 1.0, 63),  # every blow in stick takes the same off the slip that it sets off
     Case("none.coloured_noise", "one_forced", 0.5, 90),  # noise that passes for the first and last samples of slips
     Case("sensor_delay.pure_delay", "one_forced_fast", 1.0, 90),  # known from the velocity, and late for a known force

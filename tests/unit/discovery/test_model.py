@@ -65,3 +65,11 @@ def test_added_effect_starts_without_values_of_its_own(model):
     assert [values[-1] for values in more.own.values()] == [{}, {}]
     assert more.effects_in("run_2.csv")[1] == dataclasses.replace(model.effects[1], phase=-2.0)
     assert more.effects_in("unheard_of.csv") == more.effects
+
+
+def test_phases_along_the_belt_are_each_runs_own_those_along_the_stroke_are_not():
+    law = make_law("coulomb", mu_s=0.8, mu_k=0.46)
+    for axis, runs in (("belt", RUNS), ("position", ("",))):
+        pattern = make_effect("position_dependent_friction", amplitude=0.1, wavelength=2e-3, axis=axis)
+        phases = [knob.run for knob in knobs_of(Model(law, {}, (pattern,)), UNCERTAINTY, RUNS) if knob.name == "phase"]
+        assert phases == list(runs)
