@@ -12,7 +12,7 @@ from stochfric_mb.discovery.chance import FEWEST_KICKED, MEMORY, chance, kicked,
 from stochfric_mb.discovery.choice import IN_SLIP, IN_TIME, NAME, SELECT, SHAPES, Chosen, choose
 from stochfric_mb.discovery.confirmation import Case, Confirmed, cases_of, confirm
 from stochfric_mb.discovery.innovations import left_over
-from stochfric_mb.discovery.kinematics import kinematics, with_kinematic
+from stochfric_mb.discovery.kinematics import delay_deviation, kinematics, with_kinematic
 from stochfric_mb.discovery.model import Model
 from stochfric_mb.discovery.naming import PERIODIC, as_harmonic, with_candidate
 from stochfric_mb.discovery.on_time import driven, on_time, with_delay, without_delay
@@ -107,8 +107,11 @@ def decide(study: Study, *, channels: Channels = EVERYTHING, progress: Progress 
             late = values["delay"]
             study = on_time(study, late)
             model = _levels(study.model, study)
-            continue
-        model = with_kinematic(study, model, kind, values)
+        else:
+            model = with_kinematic(study, model, kind, values)
+        if kind == "sensor_delay":
+            # a velocity tells it far better than forecasts, and no forecast tells it where no known force acts
+            model = dataclasses.replace(model, measured={"delay": delay_deviation(details)})
     if any(n.kind == "sensor_clipping" for n in named):
         # a clipped record says too little of the forces
         return Decision("effect", tuple(named), None, model if late is None else with_delay(model, late), (), None, details)

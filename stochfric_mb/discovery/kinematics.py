@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
+from typing import cast
 
 import numpy as np
 
@@ -195,6 +197,11 @@ def _delays(study: Study, details: dict[str, object]) -> list[tuple[str, float, 
     if seconds < max(5.0 * doubt, 0.5 * study.dataset.fit[0].sample_interval):
         return []
     return [("sensor_delay", float(min((seconds / max(doubt, 1.0e-6)) ** 2, 1.0e4)), {"delay": seconds})]
+
+
+def delay_deviation(details: Mapping[str, object]) -> float:
+    """Return the standard deviation of the delay that a velocity channel told [s]."""
+    return float(cast("dict[str, float]", details["delay"])["deviation"])
 
 
 def _step_stays(study: Study, setting: dict[str, float]) -> bool:

@@ -55,6 +55,8 @@ class Model:
     """Process of the coefficients, where the scenario declares one."""
     own: Mapping[str, tuple[Mapping[str, float], ...]] = dataclasses.field(default_factory=dict[str, Any])
     """Run -> values of the parameters that are its own (`Effect.own_to_run`), one mapping an effect."""
+    measured: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
+    """Parameter of an effect that neither forces nor forecasts told, and that no fit may move -> its standard deviation."""
 
     def mechanism(self, stated: BeltBox) -> BeltBox:
         """Return a run's mechanism with the corrections applied."""
@@ -143,7 +145,12 @@ def knobs_of(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str]
         for field in dataclasses.fields(effect):
             meta = field.metadata
             value = getattr(effect, field.name)
-            if "choices" in meta or not np.isfinite(value) or (field.name in NOT_FITTED and not _shared(field.name, value)):
+            if (
+                field.name in model.measured
+                or "choices" in meta
+                or not np.isfinite(value)
+                or (field.name in NOT_FITTED and not _shared(field.name, value))
+            ):
                 continue
             if field.name in PHASES and field.name != "phase" and not getattr(effect, field.name.replace("phase", "amplitude")):
                 continue

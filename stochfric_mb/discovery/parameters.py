@@ -48,7 +48,7 @@ def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> F
                 for k, d in zip(fit.knobs, fit.deviations, strict=True)
                 if (k.name, k.effect) == (field.name, fitted) and k.run in ("", run)
             ]
-            deviation = float(deviations[0]) if deviations else 0.0
+            deviation = float(deviations[0]) if deviations else model.measured.get(field.name, 0.0)
         if field.name.startswith("sigma") or (effect.kind, field.name) == ("impacts", "impulse"):
             deviation = value / np.sqrt(2.0 * independent)
         if (effect.kind, field.name) == ("impacts", "mean"):

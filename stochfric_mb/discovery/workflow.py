@@ -155,7 +155,7 @@ def _augmented(decision: Decision, found: Study, recalibrated: Fit) -> Fit | Non
         for place, value in zip(places, values, strict=True):
             full[place] = dict(value)
         own[run] = tuple(full)
-    joined = Model(fit.model.law, fit.model.corrections, tuple(effects), model.process, own)
+    joined = Model(fit.model.law, fit.model.corrections, tuple(effects), model.process, own, model.measured)
     return dataclasses.replace(fit, model=matched(joined, found.pool))
 
 

@@ -130,6 +130,15 @@ def test_a_delay_is_told_without_a_velocity_by_the_known_force():
     assert result.gap.closed >= CLOSED
 
 
+def test_a_delay_that_a_velocity_tells_is_not_moved_by_forecasts():
+    """Without a known force forecasts say nothing of it."""
+    truth, dataset = made(Case("sensor_delay.buffered", "one_free", 0.5, 7))
+    delay = discover(dataset).result.effects[0].parameters["delay"]
+    deviation = (delay.high - delay.low) / 3.92
+    assert deviation < 1e-4  # a tenth of a sample
+    assert delay.value == pytest.approx(truth["effect_parameters"][0]["delay"], abs=4.0 * deviation)
+
+
 def test_same_dataset_same_bytes():
     dataset = made(CLEAR[7])[1]
     first, second = (discover(dataset).result.to_json() for _ in range(2))
