@@ -37,9 +37,10 @@ UNSEEN = 1.5
 """Kicks from both sides, over those that are seen [-]."""
 FEWEST_FAR = 3
 """Slips that must stand out: jumps in stick alone say too little of the force that makes them."""
-FEWEST_ALIKE, ALIKE = 4, 0.3
-"""Slips that stand out by the same, and their share of those that do, from which on friction has a second level; amounts
-that are spread evenly over a tenth of the force would put one in thirty so close together [-]."""
+FEWEST_ALIKE, ALIKE, LEVEL = 4, 0.3, 0.01
+"""Slips that stand out by the same, their share of those that do, from which on friction has a second level, and how far apart
+the same may be [-]: a level that is reached in a ramp is known to no better, and amounts that are spread evenly over a tenth of
+the force would put one in ten so close together."""
 MORE_MEMORY = 2.0**0.5 * MEMORY
 """The same beyond that of a declared process, which one simulation tells with as large an error [-]."""
 TOGETHER = 0.5
@@ -100,7 +101,8 @@ def _repeated(study: Study) -> bool:
     spread = np.array([robust_deviation(column) for column in shares.T])
     static, kinetic = (np.abs(shares[:, :2]) > np.maximum(STRAY * spread[:2], 0.02)).T
     level = kinetic & ~static & (np.abs(shares[:, 2:]) < STRAY * spread[2:]).all(axis=1)
-    groups = (np.sort(shares[static, 0]), 3.0 * spread[0]), (np.sort(shares[level, 1]), 3.0 * spread[1])
+    widths = np.maximum(3.0 * spread, LEVEL)
+    groups = (np.sort(shares[static, 0]), widths[0]), (np.sort(shares[level, 1]), widths[1])
     most = max(FEWEST_ALIKE, ALIKE * int(np.count_nonzero(static | kinetic)))
     near = [int(np.searchsorted(far, value + width, "right")) - i for far, width in groups for i, value in enumerate(far)]
     return any(count >= most for count in near)

@@ -231,7 +231,8 @@ class _Search:
         if self._wanders(candidates) or self._kicked_up(candidates[0]):
             return True
         sudden = self._sudden(candidates)
-        return False if sudden is None else True if kicks(self.study) is not None else sudden
+        # slips that stand out beside an effect in all the others are accidents, or edges that noise hides
+        return False if sudden is None or kicks(self.study) is not None else sudden
 
     def _kicked_up(self, winner: Candidate) -> bool:
         """Return whether a winner stands on slips alone that kicks set apart: without them hardly anything speaks for it."""

@@ -16,6 +16,8 @@ from stochfric_mb.discovery.study import Study
 
 NOT_JUDGED = {"sensor_outliers", "sensor_clipping"}
 """Effects whose worth one-cycle forecasts do not measure."""
+RANDOM = {"random_coefficients", "correlated_coefficients"}
+"""Effects that are scatter."""
 EXPLAINED, EXPLAINED_RANDOM = 0.65, 0.2
 """Share of the reducible error of the fit runs' forecasts that named effects must explain; the second one where random
 effects or a step between two slips, whose moment is not known well, are among them [-]."""
@@ -43,13 +45,12 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
     kinds = {n.kind for n in decision.named}
     if kinds and kinds <= NOT_JUDGED:
         return None
-    if kinds == {"impacts"} and not _thrown_off(recalibrated, found):
-        # edges that noise has hidden stand out of the forces as kicks do, but leave the motion as forecast
-        return dataclasses.replace(decision, verdict="none", named=())
     windows = [_scattered(w, JUDGED_WINDOWS) for w in found.windows if len(w)]
     runs = HeldOut(found.pool.slips[:2], tuple(windows), tuple(windows))
     before, after = mean_score(recalibrated, runs), mean_score(augmented, runs)
-    floor = min(floor_of(augmented, runs, recalibrated), after)
+    if _unfelt(kinds, recalibrated, found, runs, before):
+        return dataclasses.replace(decision, verdict="none", named=())
+    floor = min(floor_of(augmented, runs, recalibrated if "impacts" in kinds else None), after)
     reducible, unit = before - floor, found.size.length
     if not kinds:
         decision.details["explained"] = {"before": before * unit, "floor": floor * unit}
@@ -67,6 +68,16 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
         f"{best.kind} comes closest, but explains only {max(share, 0.0):.0%} of what the runs show",
     )
     return dataclasses.replace(decision, verdict="unknown", named=(), where=where)
+
+
+def _unfelt(kinds: set[str], recalibrated: Model, found: Study, runs: HeldOut, before: float) -> bool:
+    """Return whether what is random stands out of the forces alone, and leaves the motion as forecast without it.
+
+    Edges that noise has hidden stand out as kicks do, and a scatter of the forces may be smaller than any forecast feels.
+    """
+    if kinds == {"impacts"}:
+        return not _thrown_off(recalibrated, found)
+    return bool(kinds) and kinds <= RANDOM and before - floor_of(recalibrated, runs) <= LEAST_REDUCIBLE * before
 
 
 def _thrown_off(model: Model, found: Study) -> bool:

@@ -118,20 +118,19 @@ def floor_of(model: Model, runs: HeldOut, plain: Model | None = None) -> float:
     Args:
         model: the model.
         runs: the runs whose place the simulated ones take.
-        plain: a model without what is random in it. If it is given, the floor of a model with impacts is that of records as
+        plain: a model without what is random in it. If it is given, the floor of a random model is that of records as
             eventful as these: what the plain one misses of them, times how much less the model misses of its own records.
             A record with twice as many kicks as usual leaves twice as much to miss, whatever the model.
     """
     if model.random:
         noises = {s.record.name: s.noise for s in runs.slips}
         typical = next(iter(noises.values()))
-        eventful = plain is not None and any(e.kind == "impacts" for e in model.effects)
-        beside = plain if plain is not None and eventful else model
+        beside = model if plain is None else plain
         expected = [expected_scores(model, beside, w, noises.get(w.record.name, typical)) for w in runs.second]
         if not sum(map(len, runs.second)):
             return float("nan")
         own, others = np.concatenate(expected, axis=1).mean(axis=1)
-        return mean_score(beside, runs) * float(own / others) if eventful else float(own)
+        return mean_score(beside, runs) * float(own / others) if plain is not None else float(own)
     scores = [score(model, windows_of(simulated_slips(model, s, sample=7 + i))) for i, s in enumerate(runs.slips)]
     joined = np.concatenate(scores) if scores else np.zeros(0)
     return float(joined.mean()) if len(joined) else float("nan")
