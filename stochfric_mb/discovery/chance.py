@@ -35,6 +35,8 @@ ONE_SIDED = 1.0
 """Mean of the impulses over their deviation from which on they come from one side [-]."""
 UNSEEN = 1.5
 """Kicks from both sides, over those that are seen [-]."""
+SLIDING = 0.1
+"""Distance of an onset force from the kinetic force, over that of a usual break-away, below which nothing has stuck [-]."""
 FEWEST_FAR = 3
 """Slips that must stand out: jumps in stick alone say too little of the force that makes them."""
 FEWEST_ALIKE, ALIKE, LEVEL = 4, 0.3, 0.01
@@ -84,7 +86,15 @@ def kicked(study: Study) -> np.ndarray:
         forces[pool.run == r] -= np.median(forces[pool.run == r], axis=0)
     spread = np.array([robust_deviation(forces[:, 0]), robust_deviation(forces[:, 1])])
     limit = np.maximum(STRAY * spread, 0.02 * float(np.median(pool.static)))
-    return np.asarray((np.abs(forces) > limit).any(axis=1))
+    return np.asarray((np.abs(forces) > limit).any(axis=1)) & ~_sliding(pool)
+
+
+def _sliding(pool: Pool) -> np.ndarray:
+    """Return which slips are none: the box, kicked loose, slides on, and swings about what kinetic friction holds.
+
+    Where its swing comes near the belt's speed it seems to stick for a moment, and to break away at the kinetic force.
+    """
+    return np.asarray(np.abs(pool.features[:, 0] - pool.kinetic) < SLIDING * (pool.static - pool.kinetic))
 
 
 def _repeated(study: Study) -> bool:
@@ -99,7 +109,7 @@ def _repeated(study: Study) -> bool:
     for r in range(pool.n_runs):
         shares[pool.run == r] -= np.median(shares[pool.run == r], axis=0)
     spread = np.array([robust_deviation(column) for column in shares.T])
-    static, kinetic = (np.abs(shares[:, :2]) > np.maximum(STRAY * spread[:2], 0.02)).T
+    static, kinetic = ((np.abs(shares[:, :2]) > np.maximum(STRAY * spread[:2], 0.02)) & ~_sliding(pool)[:, None]).T
     level = kinetic & ~static & (np.abs(shares[:, 2:]) < STRAY * spread[2:]).all(axis=1)
     widths = np.maximum(3.0 * spread, LEVEL)
     groups = (np.sort(shares[static, 0]), widths[0]), (np.sort(shares[level, 1]), widths[1])
