@@ -172,6 +172,8 @@ def _bounds(kind: str, name: str, value: float, about: Mapping[str, Any]) -> tup
     low, high = about["low"] + inside, about["high"] - inside
     if name == "elastic_limit":
         return about["low"] + SHORTEST_LIMIT, about["high"] - SHORTEST_LIMIT
+    if (kind, name) == ("velocity_weakening", "amplitude"):
+        return min(value, 0.0), high  # a friction that rises with the speed is viscous
     if (kind, name) == ("second_mode", "damping_ratio"):
         return low, max(MOST_DAMPED, value)
     if about["strict"] and value > 0.0:

@@ -267,7 +267,10 @@ class AugmentedSystem:
     def _require_sane(self, status: float, t: float) -> None:
         if status == augmented_march.OK:
             return
-        what = "switches without end" if status == augmented_march.ENDLESS else "is not finite"
+        what = {
+            augmented_march.ENDLESS: "switches without end",
+            augmented_march.TOO_STIFF: f"needs more than {augmented_march.MOST_STEPS} steps per output",
+        }.get(status, "is not finite")
         kinds = ", ".join(effect.kind for effect in self.effects) or "none"
         raise SimulationError(f"the motion {what} at t = {t:g} s (effects: {kinds}); check the parameters")
 
