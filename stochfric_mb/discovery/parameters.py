@@ -12,7 +12,7 @@ from stochfric_mb.discovery.gap import deterministic
 from stochfric_mb.discovery.intervals import interval
 from stochfric_mb.discovery.model import CORRECTED, Model
 from stochfric_mb.discovery.refit import Fit
-from stochfric_mb.discovery.result import Found, Interval
+from stochfric_mb.discovery.result import Found, Interval, Where
 from stochfric_mb.discovery.study import Study
 from stochfric_mb.effects import Effect
 
@@ -58,7 +58,7 @@ def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> F
         unit = found.size.of(about["unit"])
         parameters[field.name] = interval(value * unit, deviation * unit, about["unit"], about["low"], about["high"])
     p_value = float(chi2_distribution.sf(max(named.score, 0.0), max(len(parameters), 1)))
-    return Found(named.kind, named.class_, named.where, parameters, float(named.score), p_value)
+    return Found(named.kind, named.class_, Where(*effect.appears()), parameters, float(named.score), p_value)
 
 
 def _independent(effect: Effect, found: Study) -> float:

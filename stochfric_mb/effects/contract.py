@@ -136,6 +136,10 @@ class Effect:
         """Return the effect as an ``[[effects]]`` table of a scenario."""
         return {"kind": self.kind} | {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
 
+    def appears(self) -> tuple[str, str]:
+        """Return the axis on which this effect, with its parameters, shows in a record, and a sentence that says how."""
+        return self.shows_on or self.kind, self.shows or f"{self.kind} explains the disagreement"
+
     def coefficient_process(self) -> Process | None:
         """Return the coefficient process that the effect sets; None if it sets none."""
         return None

@@ -55,6 +55,10 @@ class PositionDependentFriction(Effect):
     shows: ClassVar[str] = "friction varies along the belt"
     order: ClassVar[int] = 3
 
+    def appears(self) -> tuple[str, str]:
+        """Return belt or stroke, whichever the friction varies along."""
+        return ("position of the box", "friction varies along the stroke") if self.axis == "position" else super().appears()
+
     @property
     def own_to_run(self) -> tuple[str, ...]:
         """The phases along the belt; the stroke is the same in all runs."""
