@@ -130,12 +130,12 @@ def _errors(scenario: Scenario, run: Run, starts: list[tuple[int, int, float]]) 
         e.coefficient_process() is not None or e.kind == "impacts" for e in scenario.effects
     )
     scores = []
-    for start in starts:
+    for window, start in enumerate(starts):
         first, last, _ = start
+        # forecasts that shared their draws from event to event would share their luck
+        samples = range(MEMBERS * window, MEMBERS * (window + 1) if random else MEMBERS * window + 1)
         chosen = np.unique(np.linspace(first + 1, last, OUTPUTS).round().astype(int))
-        paths = np.stack(
-            [_path(scenario, run, start, sample)[chosen - first - 1] for sample in range(MEMBERS if random else 1)]
-        )
+        paths = np.stack([_path(scenario, run, start, sample)[chosen - first - 1] for sample in samples])
         score = np.abs(paths - run.position[chosen]).mean(axis=0)
         if random:
             apart = np.abs(paths[:, None] - paths[None, :]).sum(axis=(0, 1))

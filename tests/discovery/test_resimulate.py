@@ -37,7 +37,10 @@ def test_the_file_alone_closes_what_the_result_claims(case, tmp_path):
     outcome = answer(case, tmp_path)
     assert outcome.result.verdict == "effect"
     again = rescored(tmp_path / "rig", tmp_path / "out")
-    assert again.closed == pytest.approx(outcome.result.gap.closed, abs=SCATTER)
+    claimed = outcome.result.gap.closed
+    assert again.closed >= claimed - SCATTER
+    # a claim ends at 1, where the model scores what the floor is; another ensemble's luck may go beyond
+    assert claimed == 1.0 or again.closed <= claimed + SCATTER
 
 
 def test_a_file_without_its_effect_closes_nothing(tmp_path):
