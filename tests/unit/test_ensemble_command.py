@@ -90,7 +90,7 @@ def test_other_endings_are_refused(tmp_path):
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT for one process")
 def test_an_interrupt_keeps_the_parts_and_says_how_to_go_on(tmp_path):
     out = tmp_path / "ens.nc"
-    words = ["kang2015_table1", "--n-runs", "4000", "--output-times", "5,10", "--workers", "1", "--out", str(out)]
+    words = ["kang2015_table1", "--n-runs", "20000", "--output-times", "5,10", "--workers", "1", "--out", str(out)]
     process = subprocess.Popen(
         [sys.executable, "-m", "stochfric_mb", "ensemble", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
