@@ -1,4 +1,4 @@
-"""Effects: what a model may lack, one file each; `EFFECTS` is the registry: a new effect is a new file and one line here.
+"""Effects: what a model may lack. A new effect is a new file in `kinds` and one line in the registry `EFFECTS`.
 
 Effects of other packages join by an entry point in the group `GROUP`, name = kind, value = "module:Class".
 """
@@ -17,35 +17,35 @@ from stochfric_mb.errors import InputError, require_fields, require_name
 GROUP = "stochfric_mb.effects"
 """Group of the entry points by which other packages bring effects."""
 
-EFFECTS: dict[str, tuple[str, str] | type[Effect]] = {
-    "random_coefficients": ("stochfric_mb.effects.random_coefficients", "RandomCoefficients"),
-    "correlated_coefficients": ("stochfric_mb.effects.correlated_coefficients", "CorrelatedCoefficients"),
-    "velocity_weakening": ("stochfric_mb.effects.velocity_weakening", "VelocityWeakening"),
-    "viscous_friction": ("stochfric_mb.effects.viscous_friction", "ViscousFriction"),
-    "dwell_ageing": ("stochfric_mb.effects.dwell_ageing", "DwellAgeing"),
-    "frictional_lag": ("stochfric_mb.effects.frictional_lag", "FrictionalLag"),
-    "direction_asymmetry": ("stochfric_mb.effects.direction_asymmetry", "DirectionAsymmetry"),
-    "load_dependence": ("stochfric_mb.effects.load_dependence", "LoadDependence"),
-    "presliding_compliance": ("stochfric_mb.effects.presliding_compliance", "PreslidingCompliance"),
-    "position_dependent_friction": ("stochfric_mb.effects.position_dependent_friction", "PositionDependentFriction"),
-    "friction_drift": ("stochfric_mb.effects.friction_drift", "FrictionDrift"),
-    "distance_drift": ("stochfric_mb.effects.distance_drift", "DistanceDrift"),
-    "temperature_drift": ("stochfric_mb.effects.temperature_drift", "TemperatureDrift"),
-    "normal_load_ripple": ("stochfric_mb.effects.normal_load_ripple", "NormalLoadRipple"),
-    "belt_speed_ripple": ("stochfric_mb.effects.belt_speed_ripple", "BeltSpeedRipple"),
-    "nonlinear_stiffness": ("stochfric_mb.effects.nonlinear_stiffness", "NonlinearStiffness"),
-    "quadratic_damping": ("stochfric_mb.effects.quadratic_damping", "QuadraticDamping"),
-    "backlash": ("stochfric_mb.effects.backlash", "Backlash"),
-    "second_mode": ("stochfric_mb.effects.second_mode", "SecondMode"),
-    "harmonic_force": ("stochfric_mb.effects.harmonic_force", "HarmonicForce"),
-    "impacts": ("stochfric_mb.effects.impacts", "Impacts"),
-    "sensor_drift": ("stochfric_mb.effects.sensor_drift", "SensorDrift"),
-    "sensor_step": ("stochfric_mb.effects.sensor_step", "SensorStep"),
-    "sensor_clipping": ("stochfric_mb.effects.sensor_clipping", "SensorClipping"),
-    "sensor_outliers": ("stochfric_mb.effects.sensor_outliers", "SensorOutliers"),
-    "sensor_delay": ("stochfric_mb.effects.sensor_delay", "SensorDelay"),
+EFFECTS: dict[str, str | type[Effect]] = {
+    "random_coefficients": "RandomCoefficients",
+    "correlated_coefficients": "CorrelatedCoefficients",
+    "velocity_weakening": "VelocityWeakening",
+    "viscous_friction": "ViscousFriction",
+    "dwell_ageing": "DwellAgeing",
+    "frictional_lag": "FrictionalLag",
+    "direction_asymmetry": "DirectionAsymmetry",
+    "load_dependence": "LoadDependence",
+    "presliding_compliance": "PreslidingCompliance",
+    "position_dependent_friction": "PositionDependentFriction",
+    "friction_drift": "FrictionDrift",
+    "distance_drift": "DistanceDrift",
+    "temperature_drift": "TemperatureDrift",
+    "normal_load_ripple": "NormalLoadRipple",
+    "belt_speed_ripple": "BeltSpeedRipple",
+    "nonlinear_stiffness": "NonlinearStiffness",
+    "quadratic_damping": "QuadraticDamping",
+    "backlash": "Backlash",
+    "second_mode": "SecondMode",
+    "harmonic_force": "HarmonicForce",
+    "impacts": "Impacts",
+    "sensor_drift": "SensorDrift",
+    "sensor_step": "SensorStep",
+    "sensor_clipping": "SensorClipping",
+    "sensor_outliers": "SensorOutliers",
+    "sensor_delay": "SensorDelay",
 }
-"""Kind of an effect -> its module and class name, or the class itself if a user registered it."""
+"""Kind of an effect -> the name of its class in the module of that name in `kinds`, or a user's own class."""
 
 __all__ = [
     "EFFECTS",
@@ -73,10 +73,7 @@ def effect_class(kind: str) -> type[Effect]:
     """
     if kind in EFFECTS:
         entry = EFFECTS[kind]
-        if isinstance(entry, tuple):
-            module, name = entry
-            return getattr(importlib.import_module(module), name)
-        return entry
+        return getattr(importlib.import_module(f"{__name__}.kinds.{kind}"), entry) if isinstance(entry, str) else entry
     require_name("effect", kind, effect_kinds())
     cls = _entry_points()[kind].load()
     if not (isinstance(cls, type) and issubclass(cls, Effect) and cls.kind == kind):

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from stochfric_mb.coefficients import Process
 from stochfric_mb.effects.contract import Effect
-from stochfric_mb.effects.presliding_compliance import PreslidingCompliance
+from stochfric_mb.effects.kinds.presliding_compliance import PreslidingCompliance
 from stochfric_mb.errors import InputError
 from stochfric_mb.laws import Law
 from stochfric_mb.laws.elastic_stick import ElasticStick

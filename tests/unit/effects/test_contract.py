@@ -97,7 +97,7 @@ def test_impacts_are_a_poisson_process() -> None:
     """Numbers in disjoint intervals: mean and variance are the mean rate, and impulses have the stated spread."""
     effect = make_effect("impacts", rate=5.0, impulse=0.02, duration=1.0e-4)
     from stochfric_mb.effects import contract as e
-    from stochfric_mb.effects.impacts import MOST, surroundings  # noqa: F401
+    from stochfric_mb.effects.kinds.impacts import MOST, surroundings  # noqa: F401
 
     world, nothing = np.zeros(e.WORLD), np.zeros(1)
     world[e.SEED] = 3

@@ -1,0 +1,1 @@
+"""The effects themselves: one file each, named after its kind."""
