@@ -1,16 +1,13 @@
-"""Files and folders that appear whole or not at all, and trajectories in NetCDF, CSV and Parquet."""
+"""Trajectories in NetCDF, CSV and Parquet."""
 
 from __future__ import annotations
 
-import contextlib
 import csv
 import importlib
+import io
 import json
-import os
 import re
-import shutil
-import tempfile
-from collections.abc import Callable, Generator, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.errors import InputError, MissingEngineError
+from stochfric_mb.outputs import check_target, whole_file
 from stochfric_mb.scenario import Scenario
 from stochfric_mb.trajectory import COLUMNS, MORE_COLUMNS, Trajectory
 
@@ -27,92 +25,6 @@ KNOWN = COLUMNS | MORE_COLUMNS
 
 Array = npt.NDArray[np.float64]
 Attributes = dict[str, Any]
-
-
-# --- whole or not at all ---------------------------------------------------------------------------------------------
-
-
-def check_target(path: str | Path, *, force: bool = False, marker: str | None = None) -> Path:
-    """Return ``path`` once it can be written: nothing there, or ``force``; a missing parent folder is no obstacle.
-
-    Args:
-        path: the file or folder to be written.
-        force: whether what is there may be replaced.
-        marker: for a folder, a file in it that shows that it was written by the same command: a folder without it is
-            never replaced unless it is empty.
-
-    Raises:
-        InputError: it exists, is of the wrong kind, or its folder cannot be written.
-    """
-    path = Path(path)
-    what = "file" if marker is None else "folder"
-    if path.exists() and path.is_dir() != (marker is not None):
-        raise InputError(f"{path} exists and is not a {what}; give another name")
-    if path.exists() and not force:
-        raise InputError(f"{path} exists; give another name, or --force to replace it")
-    if marker is not None and path.exists() and any(path.iterdir()) and not (path / marker).is_file():
-        raise InputError(f"{path} is a folder without {marker}: it was not written by this command and is not replaced")
-    parent = next(p for p in path.absolute().parents if p.exists())
-    if not parent.is_dir() or not os.access(parent, os.W_OK):
-        raise InputError(f"{parent} is not a folder that can be written; give another place for {path.name}")
-    return path
-
-
-@contextlib.contextmanager
-def whole_file(path: Path) -> Generator[Path]:
-    """Give a temporary file beside ``path`` that becomes ``path`` when the block ends, and vanishes when it fails."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".partial", dir=path.parent)
-    os.close(handle)
-    temporary = Path(name)
-    try:
-        yield temporary
-        temporary.chmod(0o666 & ~_umask())
-        temporary.replace(path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
-
-
-@contextlib.contextmanager
-def whole_folder(path: Path) -> Generator[Path]:
-    """Give a temporary folder beside ``path`` that becomes ``path`` when the block ends, and vanishes when it fails.
-
-    A folder that is there already is replaced; it is put back if the replacement fails.
-    """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = Path(tempfile.mkdtemp(prefix=f".{path.name}.", suffix=".partial", dir=path.parent))
-    try:
-        yield temporary
-        temporary.chmod(0o777 & ~_umask())
-        _swap(temporary, path)
-    except BaseException:
-        shutil.rmtree(temporary, ignore_errors=True)
-        raise
-
-
-def _swap(temporary: Path, path: Path) -> None:
-    if not path.exists():
-        temporary.rename(path)
-        return
-    old = temporary.with_suffix(".old")
-    path.rename(old)
-    try:
-        temporary.rename(path)
-    except BaseException:
-        old.rename(path)
-        raise
-    shutil.rmtree(old, ignore_errors=True)
-
-
-def _umask() -> int:
-    """Return the process's file mode mask (which can only be read by setting it)."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
-
-
-# --- trajectories ----------------------------------------------------------------------------------------------------
 
 
 def trajectory_ending(path: str | Path) -> str:
@@ -147,7 +59,7 @@ def write_trajectory(
     ending = trajectory_ending(path)
     target = check_target(path, force=force)
     write = FORMATS[ending][0]
-    with whole_file(target) as temporary:
+    with whole_file(target, replace=force) as temporary:
         write(trajectory.columns(), _attributes(trajectory, scenario), temporary)
     return target
 
@@ -216,7 +128,23 @@ def _write_netcdf(columns: Mapping[str, Array], attributes: Attributes, path: Pa
     }
     time = variables.pop("time")
     dataset: Any = xarray.Dataset(variables, coords={"time": time}, attrs={"Conventions": "CF-1.11"} | attributes)
-    dataset.to_netcdf(path, engine="h5netcdf")
+    write_netcdf(dataset, path)
+
+
+def write_netcdf(dataset: Any, path: Path, *, encoding: Mapping[str, Any] | None = None) -> None:
+    """Write an `xarray.Dataset` as NetCDF 4: built in memory, because the HDF5 library crashes where a disk is full.
+
+    Args:
+        dataset: what to write.
+        path: target.
+        encoding: variable -> how it is packed, as of `xarray.Dataset.to_netcdf`.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
+    content = io.BytesIO()
+    dataset.to_netcdf(content, engine="h5netcdf", encoding=encoding)
+    path.write_bytes(content.getbuffer())
 
 
 def _cf_unit(unit: str) -> str:

@@ -52,12 +52,12 @@ def check(
     from stochfric_mb.commands.progress import display
     from stochfric_mb.engines import ENGINES
     from stochfric_mb.errors import MissingEngineError
-    from stochfric_mb.storage import check_target, whole_file
+    from stochfric_mb.outputs import check_target, claimed, whole_file
 
     target = check_target(Path(out) / "check.json" if Path(out).is_dir() else out, force=force)
     if not ENGINES["mujoco"].installed:
         raise MissingEngineError("mujoco is not installed; run: pip install 'stochfric_mb[mujoco]'")
-    with display() as shown:
+    with display() as shown, claimed(target):
         shown.note("loading mujoco")
         probe = importlib.import_module("stochfric_mb.mujoco.check").check
 
@@ -66,7 +66,7 @@ def check(
             stage=shown.stage,
         )  # fmt: skip
         content = result.to_dict()
-        with whole_file(target) as temporary:
+        with whole_file(target, replace=force) as temporary:
             temporary.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
     _show(content)
     click.echo(str(target))

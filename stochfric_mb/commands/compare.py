@@ -44,19 +44,19 @@ def compare(
     from stochfric_mb import compare as library
     from stochfric_mb.commands.progress import display
     from stochfric_mb.engines import adapter
+    from stochfric_mb.outputs import check_target, claimed, whole_folder
     from stochfric_mb.scenario import load_scenario
-    from stochfric_mb.storage import check_target, whole_folder
 
     target = check_target(out, force=force, marker=MARKER)
     names = engine_names(engines)
-    with display() as shown:
+    with display() as shown, claimed(target):
         shown.note("loading engines")
         for name in names or ():
             adapter(name)
         problem = load_scenario(scenario, law=law, overrides=overrides)
         result = library.compare(problem, engines=names, seed=seed, dt=dt, convergence=convergence, stage=shown.stage)
         shown.note("drawing the report")
-        with whole_folder(target) as folder:
+        with whole_folder(target, replace=force) as folder:
             write(result, folder, command_line())
     _show(result)
     click.echo(f"{target / 'report.html'}")

@@ -31,16 +31,16 @@ MARKER = "result.json"
 def discover(dataset: str, scenario: str | None, out: str, force: bool) -> None:
     """Find where the runs of DATASET and their model disagree, name the missing effect, and show that the gap shrinks."""
     from stochfric_mb.commands.progress import display
-    from stochfric_mb.storage import check_target, whole_folder
+    from stochfric_mb.outputs import check_target, claimed, whole_folder
 
     target = check_target(out, force=force, marker=MARKER)
-    with display() as shown:
+    with display() as shown, claimed(target):
         shown.note("loading")
         from stochfric_mb import discovery as library
 
         outcome = library.discover(dataset, scenario=scenario, progress=shown.note)
         shown.note("drawing the report")
-        with whole_folder(target) as folder:
+        with whole_folder(target, replace=force) as folder:
             # the same data give the same bytes, wherever they are written to
             content = write(outcome, folder, command_line(without=("out", "force")))
     _show(content)

@@ -65,8 +65,8 @@ def ensemble(
     from stochfric_mb.ensemble.job import job
     from stochfric_mb.ensemble.planning import MAX_BYTES
     from stochfric_mb.ensemble.produce import check_memory, checked_workers, produce
+    from stochfric_mb.outputs import check_target
     from stochfric_mb.scenario import load_scenario
-    from stochfric_mb.storage import check_target
 
     target = check_ensemble_target(out, force=force)
     plots = check_target(plots_folder(target), force=force, marker=MARKER) if plot else None
@@ -86,7 +86,7 @@ def ensemble(
         click.get_current_context().exit(INTERRUPTED)
     result, _ = read_ensemble(target)
     if plots is not None:
-        _plot(result, problem, plots)
+        _plot(result, problem, plots, force=force)
     _show(result, done)
 
 
@@ -137,12 +137,12 @@ def _say_how_to_resume(target: Path) -> None:
     )
 
 
-def _plot(result: EnsembleResult, scenario: Scenario, folder: Path) -> None:
+def _plot(result: EnsembleResult, scenario: Scenario, folder: Path, *, force: bool) -> None:
+    from stochfric_mb.outputs import whole_folder
     from stochfric_mb.report.ensemble import figures
-    from stochfric_mb.storage import whole_folder
 
     drawn = figures(result, scenario)
-    with whole_folder(folder) as temporary:
+    with whole_folder(folder, replace=force) as temporary:
         for name, png in drawn.items():
             (temporary / f"{name}.png").write_bytes(png)
     click.echo(f"{folder}: {', '.join(drawn)}")

@@ -33,16 +33,16 @@ def reproduce(study: str, quick: bool, seed: int, out: str, force: bool) -> None
     """Test every claim of STUDY (kang2015) and write numbers, verdicts and a report."""
     require_name("study", study, STUDIES)
     from stochfric_mb.commands.progress import display
-    from stochfric_mb.storage import check_target, whole_folder
+    from stochfric_mb.outputs import check_target, claimed, whole_folder
 
     target = check_target(out, force=force, marker=MARKER)
-    with display() as shown:
+    with display() as shown, claimed(target):
         shown.note("loading")
         from stochfric_mb import reproduction as library
 
         result = library.reproduce(settings=library.QUICK if quick else library.FULL, seed=seed, stage=shown.count)
         shown.note("drawing the report")
-        with whole_folder(target) as folder:
+        with whole_folder(target, replace=force) as folder:
             write(result, folder, command_line())
     _show(result)
     click.echo(f"{target / 'report.html'}")

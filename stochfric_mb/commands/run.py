@@ -30,11 +30,12 @@ def run(
     """Simulate one trajectory of SCENARIO (a TOML file or the name of a bundled one) and write it to a file."""
     from stochfric_mb.commands.progress import display
     from stochfric_mb.engines import adapter
-    from stochfric_mb.storage import check_target, trajectory_ending, write_trajectory
+    from stochfric_mb.outputs import check_target, claimed
+    from stochfric_mb.storage import trajectory_ending, write_trajectory
 
     trajectory_ending(out)
-    check_target(out, force=force)
-    with display() as shown:
+    target = check_target(out, force=force)
+    with display() as shown, claimed(target):
         shown.note(f"loading {engine}")
         problem = _load(scenario, law, overrides)
         module = adapter(engine, effects=problem.effects)

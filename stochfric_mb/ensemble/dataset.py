@@ -20,8 +20,9 @@ from stochfric_mb.ensemble.lanes import BREAK_AWAYS, FIRST, LAST, MU_S_SUM, STIC
 from stochfric_mb.ensemble.result import Block, EnsembleResult
 from stochfric_mb.ensemble.sketch import Sketch
 from stochfric_mb.errors import InputError, MissingEngineError
+from stochfric_mb.outputs import check_target, whole_file, whole_folder
 from stochfric_mb.scenario import Scenario, scenario_from_dict
-from stochfric_mb.storage import check_target, versions, whole_file, whole_folder
+from stochfric_mb.storage import versions, write_netcdf
 
 SCHEMA = "stochfric.ensemble/1"
 NETCDF, ZARR = ".nc", ".zarr"
@@ -93,11 +94,11 @@ def write_ensemble(result: EnsembleResult, path: str | Path, *, scenario: Scenar
     target = check_ensemble_target(path, force=force)
     dataset = to_dataset(result, scenario)
     if ensemble_ending(path) == ZARR:
-        with whole_folder(target) as temporary:
+        with whole_folder(target, replace=force) as temporary:
             dataset.to_zarr(temporary, mode="w", consolidated=False, zarr_format=3)
     else:
-        with whole_file(target) as temporary:
-            dataset.to_netcdf(temporary, engine="h5netcdf", encoding=_compression(dataset))
+        with whole_file(target, replace=force) as temporary:
+            write_netcdf(dataset, temporary, encoding=_compression(dataset))
     return target
 
 
@@ -121,7 +122,7 @@ def write_blocks(
     """
     target = check_ensemble_target(path, force=force)
     chunk = min(max(CHUNK_BYTES // (8 * len(times)), 1), n_runs)
-    with whole_folder(target) as temporary:
+    with whole_folder(target, replace=force) as temporary:
         done = 0
         for runs in _regrouped(blocks, chunk):
             result = EnsembleResult(

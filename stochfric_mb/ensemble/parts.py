@@ -23,7 +23,7 @@ from stochfric_mb.ensemble.job import Job
 from stochfric_mb.ensemble.result import Block, EnsembleResult
 from stochfric_mb.ensemble.sketch import Sketch
 from stochfric_mb.errors import InputError
-from stochfric_mb.storage import whole_file, whole_folder
+from stochfric_mb.outputs import whole_file, whole_folder
 
 SCHEMA = "stochfric.ensemble-parts/1"
 JOB = "job.json"

@@ -27,6 +27,7 @@ from stochfric_mb.ensemble.planning import MAX_BYTES
 from stochfric_mb.ensemble.result import Block
 from stochfric_mb.ensemble.workers import cores, on_this_machine
 from stochfric_mb.errors import InputError
+from stochfric_mb.outputs import claimed
 from stochfric_mb.storage import versions as all_versions
 
 
@@ -80,7 +81,7 @@ def produce(
     workers = checked_workers(workers, scheduler)
     check_memory(job, target, workers, max_bytes)
     description = describe(job)
-    with _source(job, workers, scheduler) as blocks_of:
+    with claimed(target), _source(job, workers, scheduler) as blocks_of:
         parts = open_parts(target, job, force=force)
         resumed = len(parts.finished)
         _compute(parts, blocks_of, progress)
@@ -113,7 +114,8 @@ def memory(job: Job, target: Path, workers: int) -> int:
     if ensemble_ending(target) == ZARR:
         chunk = min(max(CHUNK_BYTES // (8 * p.n_times), 1), p.n_runs)
         return p.bytes_working + 3 * (chunk + p.block) * row  # put together from blocks, cut, and packed
-    return p.bytes_total + 8 * p.n_times * p.n_runs  # xarray copies a variable when it writes it
+    copy = 8 * p.n_times * p.n_runs  # xarray copies a variable when it writes it
+    return p.bytes_total + copy + p.bytes_result  # the file is built in memory
 
 
 def check_memory(job: Job, target: Path, workers: int, max_bytes: int) -> None:

@@ -1,4 +1,4 @@
-"""Files that appear whole or not at all, and trajectories that come back as they went."""
+"""Trajectories that come back as they went."""
 
 import dataclasses
 import tomllib
@@ -7,16 +7,7 @@ import numpy as np
 import pytest
 
 from stochfric_mb import InputError, MissingEngineError, Trajectory, load_scenario
-from stochfric_mb.storage import (
-    FORMATS,
-    SCHEMA,
-    check_target,
-    read_trajectory,
-    trajectory_ending,
-    whole_file,
-    whole_folder,
-    write_trajectory,
-)
+from stochfric_mb.storage import FORMATS, SCHEMA, read_trajectory, trajectory_ending, write_trajectory
 from stochfric_mb.trajectory import COLUMNS
 
 
@@ -144,47 +135,6 @@ def test_a_broken_write_leaves_nothing(tmp_path, trajectory, monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         write_trajectory(trajectory, tmp_path / "run.csv")
     assert list(tmp_path.iterdir()) == []
-
-
-def test_whole_file_keeps_the_old_one_when_it_fails(tmp_path):
-    path = tmp_path / "a.txt"
-    path.write_text("old")
-    with pytest.raises(FileNotFoundError), whole_file(path) as temporary:
-        (temporary.parent / "missing" / "file.txt").write_text("new")
-    assert path.read_text() == "old"
-    assert list(tmp_path.iterdir()) == [path]
-
-
-def test_whole_folder_replaces_or_keeps(tmp_path):
-    path = tmp_path / "out"
-    for text in ("first", "second"):
-        with whole_folder(path) as folder:
-            (folder / f"{text}.txt").write_text(text)
-        assert [p.name for p in path.iterdir()] == [f"{text}.txt"]
-    with pytest.raises(FileNotFoundError), whole_folder(path) as folder:
-        (folder / "missing" / "third.txt").write_text("third")
-    assert [p.name for p in path.iterdir()] == ["second.txt"]
-    assert list(tmp_path.iterdir()) == [path]
-
-
-def test_a_folder_of_others_is_never_replaced(tmp_path):
-    (tmp_path / "thesis.tex").write_text("years of work")
-    with pytest.raises(InputError, match="was not written by this command"):
-        check_target(tmp_path, force=True, marker="compare.json")
-    (tmp_path / "compare.json").write_text("{}")
-    assert check_target(tmp_path, force=True, marker="compare.json") == tmp_path
-    with pytest.raises(InputError, match="--force"):
-        check_target(tmp_path, marker="compare.json")
-
-
-def test_targets_of_the_wrong_kind(tmp_path):
-    (tmp_path / "file").write_text("")
-    with pytest.raises(InputError, match="not a file"):
-        check_target(tmp_path, force=True)
-    with pytest.raises(InputError, match="not a folder"):
-        check_target(tmp_path / "file", force=True, marker="compare.json")
-    with pytest.raises(InputError, match="not a folder that can be written"):
-        check_target(tmp_path / "file" / "run.nc")
 
 
 def test_trajectory_without_attributes_can_be_written(tmp_path, trajectory):
