@@ -14,17 +14,20 @@ import pymunk
 from pymunk._chipmunk_cffi import ffi, lib
 
 from stochfric_mb.coefficients import CoefficientPath, PerEvent
-from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_number
+from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_name, require_number
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.laws.abi import native_law
 from stochfric_mb.pymunk import records as r
 from stochfric_mb.pymunk.handlers import attach, detach
 from stochfric_mb.pymunk.layout import NAMES, address_of, layout
+from stochfric_mb.pymunk.response import steady_force
 
 Shapes = pymunk.Shape | Sequence[pymunk.Shape] | int | str
 """One side of the contacts: a shape, shapes, a collision type, or ``"*"`` for all."""
 ALL_SHAPES = "*"
+BEYOND_LIMIT = ("raise", "cap")
+"""What may be done with a contact whose law is too stiff for the step."""
 MARGIN = 0.5
 """Share of the stability limit that messages recommend."""
 
@@ -53,6 +56,9 @@ class ContactReading:
     """Kinetic coefficient [-]."""
     stick: bool
     """Whether the contact sticks."""
+    rigid: bool
+    """Whether pymunk's own friction solver held it, with the law's cap: always with laws of true stick, and with others where
+    they are too stiff for the step and ``beyond_limit="cap"``."""
     stick_phases: int
     """How often the contact has begun to stick."""
     effective_mass: float
@@ -64,7 +70,9 @@ class ContactReading:
 class ContactFriction:
     """Friction added to a space by `add_friction`; ``remove()`` takes it away."""
 
-    def __init__(self, space: pymunk.Space, friction: Friction, path: CoefficientPath, capacity: int) -> None:
+    def __init__(
+        self, space: pymunk.Space, friction: Friction, path: CoefficientPath, capacity: int, beyond_limit: str = "raise"
+    ) -> None:
         """Hold what the compiled callbacks use; called by `add_friction`."""
         self.space = space
         self.friction = friction
@@ -75,12 +83,16 @@ class ContactFriction:
         self._slots = np.zeros((capacity, r.SLOT))
         self._clock = np.zeros(r.CLOCK_SIZE)
         self._clock[[r.STICK_SPEED, r.LARGEST_LOAD]] = friction.law.stick_speed, math.inf
+        self._clock[r.PEAK_SPEED] = friction.law.stick_speed
         self._sides: list[Any] = []
         self.table[r.PAIRS] = self._pairs.ctypes.data
         self.table[r.SLOTS] = self._slots.ctypes.data
         self.table[r.CLOCK] = self._clock.ctypes.data
         self.table[r.PARAMETERS] = self._parameters.ctypes.data
         self.table[r.DESCRIPTOR] = path.descriptor.ctypes.data
+        if beyond_limit == "cap" and not friction.law.needs_holding_force:
+            self.table[r.CAP_WHEN_STIFF] = 1
+            self._clock[r.PEAK_SPEED] = _peak_speed(friction.law, self.table)
         self.table[r.LAST_STAMP] = lib.cpSpaceGetTimestamp(space._space)
 
     @property
@@ -157,7 +169,8 @@ class ContactFriction:
             limit = law.step_limit(load, 1.0)
             return StabilityError(
                 f"dt = {dt:g} s is beyond the stability limit {limit:.3g} s of the law {law.kind!r} "
-                f"({law.step_limit_formula}) for a contact with N/m_eff = {load:.3g} N/kg; use dt <= {MARGIN * limit:.2g} s"
+                f"({law.step_limit_formula}) for a contact with N/m_eff = {load:.3g} N/kg; use dt <= {MARGIN * limit:.2g} s, "
+                'or add_friction(..., beyond_limit="cap"), with which pymunk\'s own solver holds such contacts'
             )
         if problem & r.OVERFLOW:
             return SimulationError(
@@ -190,6 +203,7 @@ def add_friction(
     seed: int = 0,
     sample: int = 0,
     max_contacts: int = 1024,
+    beyond_limit: str = "raise",
 ) -> ContactFriction:
     """Let a friction law act where ``a`` touches ``b``, instead of pymunk's own friction; the handle that undoes it.
 
@@ -210,14 +224,24 @@ def add_friction(
         seed: first part of the address of the coefficient paths.
         sample: second part.
         max_contacts: most pairs of shapes that may touch at a time.
+        beyond_limit: what becomes of a contact whose law is too stiff for the step, at its load and effective mass. "raise": a
+            `StabilityError`; "cap": for that step pymunk's own solver holds it, with the law's steady friction as its cap
+            (the largest while it holds). Such a contact sticks rigidly: elastic deflection and creep are lost, what it takes to
+            break away and what friction does while it slides are kept.
 
     Raises:
-        InputError: shapes that are not in the space, or sensors.
+        InputError: shapes that are not in the space, or sensors; "cap" with a law that carries effects.
         SimulationError: this build of pymunk has an unknown layout.
     """
     friction = as_friction(friction)
     capacity = int(require_number("max_contacts", max_contacts, low=1.0))
-    handle = ContactFriction(space, friction, friction.path(seed, sample), capacity)
+    require_name("beyond_limit", beyond_limit, BEYOND_LIMIT)
+    if beyond_limit == "cap" and not friction.law.traceable:
+        raise InputError(
+            f'beyond_limit = "cap" needs the steady friction of the law {friction.law.kind}, which effects change as it runs; '
+            'use "raise" and a step within its limit'
+        )
+    handle = ContactFriction(space, friction, friction.path(seed, sample), capacity, beyond_limit)
     listed = [_fill_side(handle, r.SIDE_A, space, a), _fill_side(handle, r.SIDE_B, space, b)]
     if all(listed) and not any(x.body is not y.body for x in listed[0] for y in listed[1]):
         raise InputError("a and b hold no two shapes on different bodies; nothing could touch")
@@ -237,6 +261,16 @@ def largest_load(law: Law, dt: float) -> float:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if law.step_limit(10.0**middle, 1.0) >= dt else (low, middle)
     return 10.0**low
+
+
+def _peak_speed(law: Law, table: npt.NDArray[np.int64]) -> float:
+    """Return the speed [m/s], up to a hundred stick speeds, at which the law's steady friction first has a maximum."""
+    s = np.zeros(r.SLOT)
+    s[[r.MU_S, r.MU_K, r.EFFECTIVE_MASS]] = law.mu_s, law.mu_k, 1.0
+    speeds = law.stick_speed * np.sort(np.append(np.geomspace(1.0e-6, 1.0e2, 241), 1.0 + 1.0e-9))  # a switch lies just beyond 1
+    friction = np.array([steady_force(table, s, v, 0.0, 1.0) for v in speeds])
+    falls = np.flatnonzero(np.diff(friction) <= 0.0)
+    return float(speeds[falls[0] if len(falls) else -1])
 
 
 def _table(friction: Friction, path: CoefficientPath, capacity: int) -> npt.NDArray[np.int64]:
@@ -320,6 +354,7 @@ def _reading(
         mu_s=float(slot[r.MU_S]),
         mu_k=float(slot[r.MU_K]),
         stick=bool(slot[r.STICK]),
+        rigid=bool(slot[r.CAPPED]),
         stick_phases=int(slot[r.EVENTS]),
         effective_mass=float(slot[r.EFFECTIVE_MASS]),
         direction=(float(slot[r.NORMAL_Y]), -float(slot[r.NORMAL_X])),

@@ -6,6 +6,7 @@ import dataclasses
 import math
 import time
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -120,7 +121,7 @@ def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, dt: float | Non
     space.add(belt, box, shape, spring)
     friction, notes = None, list[str]()
     if with_friction:
-        address: dict[str, int] = {"seed": seed, "sample": sample}
+        address: dict[str, Any] = {"seed": seed, "sample": sample}
         step = scenario.checked_step(dt)
         law, notes = running_law(scenario.law, mechanism, scenario.effects, step, substitute=False, **address)
         friction = add_friction(space, shape, belt, Friction(law, scenario.coefficient_process), **address)

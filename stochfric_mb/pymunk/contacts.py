@@ -49,8 +49,12 @@ FAST = 4.0
 """Velocity beyond which a contact cannot stop within a step, in changes of velocity by friction in one step."""
 SLOW = 10.0
 """Velocity up to which a contact's law is stiff, in stick speeds."""
-PATIENCE = 10
-"""Steps in a row beyond the stability limit after which it counts as broken; an impact lasts one."""
+JUMP = 0.1
+"""Change of the force in one step, in mu_s N, beyond which a contact's law is stiff."""
+PATIENCE = 10.0
+"""Stiff steps beyond the stability limit after which it counts as broken; an impact lasts one."""
+RELIEF = 0.5
+"""What any other step takes off their count: an unstable contact is stiff in most steps, a sound one in few."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -155,22 +159,28 @@ def respond(table, clock, s, pair, arbiter, space, dt):
         begin_contact(clock, s)
     else:
         acceleration = move_on(table, s, arbiter, rate, dt)
+    turned = rate * s[r.RATE] < 0.0
     s[r.RATE], s[r.STEP], s[r.PUSH] = rate, dt, 0.0
-    if table[r.HOLDING] == 1:
+    beyond = s[r.NORMAL] > clock[r.LARGEST_LOAD] * s[r.EFFECTIVE_MASS]
+    s[r.CAPPED] = 1.0 if table[r.HOLDING] == 1 or (beyond and table[r.CAP_WHEN_STIFF] == 1) else 0.0
+    if s[r.CAPPED] == 1.0:
         set_cap(table, clock, s, pair[r.CONTACT], first, rate, acceleration, inverse_mass, dt)
         store_double(arbiter + table[r.FRICTION], s[r.CAP])
         return
-    watch_step(table, clock, s)
-    step = 0.0 if first else dt
+    before, step = s[r.FORCE], 0.0 if first else dt
     force = settle(table, clock, s, pair[r.CONTACT], first, rate + 0.5 * step * acceleration, 0.5 * step * inverse_mass)
     if not math.isfinite(force):
         table[r.PROBLEM] |= r.NOT_FINITE
         force = 0.0
+    slow = abs(rate) <= SLOW * clock[r.STICK_SPEED]
     fast = abs(s[r.VELOCITY]) > FAST * dt * inverse_mass * abs(force)
     if (first or fast) and force * rate >= 0.0:
         s[r.CAP] = abs(force) / s[r.NORMAL] if s[r.NORMAL] > 0.0 else abs(law_force(table, s, s[r.VELOCITY], 1.0, 0.0))
         store_double(arbiter + table[r.FRICTION], s[r.CAP])
+        watch_step(table, clock, s, beyond and slow)
         return
+    stiff = slow or turned or abs(force - before) > JUMP * s[r.MU_S] * s[r.NORMAL]
+    watch_step(table, clock, s, beyond and stiff)
     store_double(arbiter + table[r.FRICTION], 0.0)
     apply(table, s, a, b, sign * force * ny, -sign * force * nx, ax, ay, bx, by)
     s[r.PUSH] = force
@@ -229,15 +239,17 @@ def expect_normal(table, s, arbiter, first, acceleration, v_normal, inverse_norm
 
 
 @compiled
-def watch_step(table, clock, s):
-    """Note a contact that stays beyond the stability limit of its law at this step; fast sliding has no limit."""
-    load = s[r.NORMAL] / s[r.EFFECTIVE_MASS]
-    if load <= clock[r.LARGEST_LOAD] or abs(s[r.RATE]) > SLOW * clock[r.STICK_SPEED]:
-        s[r.OVER] = 0.0
+def watch_step(table, clock, s, stiff):
+    """Count a step that is ``stiff`` beyond the stability limit: slow, turned round, or with a force that jumped.
+
+    An unstable contact is fast, since instability makes it so: its speed alone says nothing. Steady sliding has no limit.
+    """
+    if not stiff:
+        s[r.OVER] = max(0.0, s[r.OVER] - RELIEF)
         return
     s[r.OVER] += 1.0
     if s[r.OVER] >= PATIENCE:
-        clock[r.WORST_LOAD] = max(clock[r.WORST_LOAD], load)
+        clock[r.WORST_LOAD] = max(clock[r.WORST_LOAD], s[r.NORMAL] / s[r.EFFECTIVE_MASS])
         table[r.PROBLEM] |= r.UNSTABLE
 
 

@@ -21,8 +21,8 @@ CONTEXT = TABLES + MAX_TABLES
 # --- table ---
 (
     USED, CAPACITY, COUNTER, PAIRS, SLOTS, CLOCK, INIT, FORCE_LAW, COMMIT, GUARD, PARAMETERS, DESCRIPTOR, DESCRIPTOR_SIZE,
-    SEED, SAMPLE, HAS_MODE, PER_EVENT, HOLDING, STATEFUL, LAST_STAMP, PROBLEM, SIDE_A,
-) = range(22)  # fmt: skip
+    SEED, SAMPLE, HAS_MODE, PER_EVENT, HOLDING, STATEFUL, CAP_WHEN_STIFF, LAST_STAMP, PROBLEM, SIDE_A,
+) = range(23)  # fmt: skip
 SIDE_KIND, SIDE_TYPE, SIDE_SIZE, SIDE_ADDRESSES, SIDE_NUMBERS, SIDE = range(6)
 """Which shapes belong to a side: all, those of a collision type, or listed ones (addresses, sorted, with numbers)."""
 SIDE_B = SIDE_A + SIDE
@@ -37,8 +37,9 @@ OVERFLOW, NOT_FINITE, UNSTABLE = 1, 2, 4
 # --- pair: the space's numbers of the two shapes, the number of the contact, when it was last seen ---
 NUMBER_A, NUMBER_B, CONTACT, STAMP, PAIR = range(5)
 
-# --- clock: time, and the largest normal force per effective mass that is stable at the step CHECKED_STEP ---
-NOW, STICK_SPEED, START, CHECKED_STEP, LARGEST_LOAD, WORST_LOAD, CLOCK_SIZE = range(7)
+# --- clock: time, the largest normal force per effective mass that is stable at the step CHECKED_STEP, and the speed at which
+# the law's steady friction is largest (its static cap) ---
+NOW, STICK_SPEED, START, CHECKED_STEP, LARGEST_LOAD, WORST_LOAD, PEAK_SPEED, CLOCK_SIZE = range(8)
 
 # --- slot ---
 # RATE is the relative velocity over the last drift, VELOCITY the one at the time of the force. NORMAL is what is expected
@@ -47,19 +48,21 @@ NOW, STICK_SPEED, START, CHECKED_STEP, LARGEST_LOAD, WORST_LOAD, CLOCK_SIZE = ra
 # ORDER is 1 where pymunk has the body first, otherwise -1. SLOPE is that of the force over velocity, GUARDS_AT.. are the
 # law's guards at the end of the last step, if GUARDS_KNOWN. EXTRA_... are impulses that
 # pymunk applies but does not count where the step size changes: it scales the last step's impulses by the ratio of the
-# steps when it starts from them, not its record of them. OVER counts steps in a row beyond the stability limit, KNOWN is 1 once
+# steps when it starts from them, not its record of them. OVER counts stiff steps beyond the stability limit, CAPPED is 1 where
+# pymunk's own friction got the cap of a law too stiff for the step, KNOWN is 1 once
 # the contact was met.
 (
     DISPLACEMENT, RATE, FORCE, NORMAL, MU_S, MU_K, STICK, EVENTS, CAP, STEP, VELOCITY, EFFECTIVE_MASS, TIME, KNOWN,
     EXTRA_NORMAL, EXTRA_TANGENT, PAST_DISPLACEMENT, PAST_VELOCITY, PAST_MU_S, PAST_MU_K, PAST_ACCELERATION, ISOLATED,
     PUSH, PUSH_X, PUSH_Y, TORQUE_A, TORQUE_B, PENDING, OVER, NORMAL_X, NORMAL_Y, PAST_NORMAL,
-    ORDER, SLOPE, GUARDS_KNOWN,
-) = range(35)  # fmt: skip
-GUARDS_AT = 35
+    ORDER, SLOPE, GUARDS_KNOWN, CAPPED,
+) = range(36)  # fmt: skip
+GUARDS_AT = 36
 STATE = GUARDS_AT + GUARDS
 CURSOR_AT = STATE + MAX_STATE
 OUT = CURSOR_AT + CURSOR
-SLOT = OUT + MAX_STATE
+STEADY = OUT + MAX_STATE
+SLOT = STEADY + MAX_STATE
 
 # --- where the table keeps the engine's layout ---
 _AT = {name: LAYOUT + i for i, name in enumerate(NAMES)}

@@ -25,6 +25,8 @@ from stochfric_mb.pymunk.memory import as_doubles
 
 ENDLESS = 1.0e12
 """A load no friction can hold, in normal forces: it asks a law for its cap."""
+LONG = 1.0
+"""Way after which a law slides steadily [m]: bristles turn over within micrometres."""
 ITERATIONS = 30
 """Most iterations for the velocity at the time of the force."""
 SWITCHES = 4
@@ -56,7 +58,7 @@ def settle(table, clock, s, contact, first, v_free, compliance):
 
 @compiled
 def set_cap(table, clock, s, contact, first, rate, acceleration, inverse_mass, dt):
-    """Set the cap [-] of pymunk's own friction: the law's answer to an endless load.
+    """Set the cap [-] of pymunk's own friction: the law's answer to an endless load, or its steady friction.
 
     ``acceleration`` is the one of the last step without friction; while the contact is held it is carried on to this
     step along a line, so that break-away falls on the step nearest to it.
@@ -76,7 +78,12 @@ def set_cap(table, clock, s, contact, first, rate, acceleration, inverse_mass, d
     remember(table, clock, s, contact, first, s[r.TIME], s[r.DISPLACEMENT], v, s[r.MU_S], s[r.MU_K], load)
     s[r.VELOCITY] = v
     normal = s[r.NORMAL] if s[r.NORMAL] > 0.0 else 1.0
-    s[r.CAP] = abs(law_force(table, s, v, normal, math.copysign(ENDLESS * normal, load))) / normal
+    if table[r.HOLDING] == 1:
+        s[r.CAP] = abs(law_force(table, s, v, normal, math.copysign(ENDLESS * normal, load))) / normal
+    else:
+        stuck = held or (table[r.HAS_MODE] == 1 and s[r.STICK] == 1.0)
+        s[r.CAP] = abs(steady_force(table, s, 0.0 if stuck else abs(v), clock[r.PEAK_SPEED], normal)) / normal
+        s[r.GUARDS_KNOWN] = 0.0
     if not math.isfinite(s[r.CAP]):
         table[r.PROBLEM] |= r.NOT_FINITE
         s[r.CAP] = 0.0
@@ -220,6 +227,32 @@ def coefficients(table, s, contact):
         numba.carray(as_doubles(table[r.DESCRIPTOR]), table[r.DESCRIPTOR_SIZE]), s[r.CURSOR_AT : r.CURSOR_AT + CURSOR],
         table[r.SEED], table[r.SAMPLE], contact, s[r.TIME], s[r.DISPLACEMENT], s[r.EVENTS],
     )  # fmt: skip
+
+
+@compiled
+def steady_force(table, s, speed, peak, normal_force):
+    """Return the friction force [N] of the law in steady sliding at ``speed`` [m/s], at least the speed ``peak``.
+
+    A law with a memory begins there and slides `LONG` metres. Below the speed of its largest steady friction a law holds,
+    so that one is the static cap.
+    """
+    v = max(speed, peak)
+    state = s[r.OUT : r.OUT + MAX_STATE]
+    mass, p = s[r.EFFECTIVE_MASS], table[r.PARAMETERS]
+    mu_s, mu_k = s[r.MU_S], s[r.MU_K]
+    out = s[r.STEADY : r.STEADY + MAX_STATE]
+    call_law(
+        table[r.INIT], 0.0, 0.0, 0.0, v, 0.0, normal_force, mu_s, mu_k, mass, 0.0, 0.0, state.ctypes.data, p, out.ctypes.data
+    )
+    call_law(
+        table[r.COMMIT], LONG / v, LONG, 0.0, v, 0.0, normal_force, mu_s, mu_k, mass, 0.0, 0.0, out.ctypes.data, p,
+        state.ctypes.data,
+    )  # fmt: skip
+    call_law(
+        table[r.FORCE_LAW], LONG / v, LONG, 0.0, v, 0.0, normal_force, mu_s, mu_k, mass, 0.0, 0.0, state.ctypes.data, p,
+        out.ctypes.data,
+    )  # fmt: skip
+    return out[0]
 
 
 @compiled
