@@ -1,11 +1,11 @@
 """Friction of one contact for a solver of one's own: the law, its state and its coefficients behind three calls.
 
-::
-
-    contact = Contact(ElasticStick(mu_s=0.8, mu_k=0.46), effective_mass=6.08, dt=1e-4)
-    contact.start(0.0, u, v, normal_force)  # once
-    f = contact.force(t, u, v, normal_force)  # as often as the solver likes
-    contact.commit(t, u, v, normal_force)  # once per accepted step, nowhere else
+>>> from stochfric_mb import Contact, ElasticStick
+>>> contact = Contact(ElasticStick(mu_s=0.8, mu_k=0.46), effective_mass=2.0, dt=1e-4)
+>>> contact.start(0.0, u=0.0, v=1.0, normal_force=10.0)  # once
+>>> round(contact.force(0.0, u=0.0, v=1.0, normal_force=10.0), 6)  # as often as the solver likes
+4.6
+>>> contact.commit(1e-4, u=1e-4, v=1.0, normal_force=10.0)  # once per accepted step, nowhere else
 
 ``u`` and ``v`` are relative displacement [m] and velocity [m/s], counter-surface minus body; the force [N] that comes
 out acts on the body, along ``+v``.

@@ -15,13 +15,16 @@ import dataclasses
 import importlib
 import importlib.metadata
 import importlib.util
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from stochfric_mb.errors import InputError, MissingEngineError, require_name
 
 if TYPE_CHECKING:
     from stochfric_mb.effects import Effect
+    from stochfric_mb.scenario import Scenario
+    from stochfric_mb.trajectory import Trajectory
 
 
 @dataclasses.dataclass(frozen=True)
@@ -131,3 +134,38 @@ def adapter(name: str, *, effects: Sequence[Effect] = ()) -> Any:
             "[[effects]] tables"
         )
     return module
+
+
+def run(
+    scenario: Scenario | str | Path,
+    *,
+    engine: str = "reference",
+    seed: int = 0,
+    sample: int = 0,
+    dt: float | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Trajectory:
+    """Return one trajectory of a scenario.
+
+    >>> trajectory = run("kang2015_table1", seed=1)
+    >>> f"{trajectory.time[-1]:g} s, {1e3 * trajectory.position.max():.2f} mm at most"
+    '10 s, 2.67 mm at most'
+
+    Args:
+        scenario: what is simulated, or the file or name of a scenario.
+        engine: what computes it, see `installed_engines`.
+        seed: seed of the coefficient path.
+        sample: number of the realisation.
+        dt: step of an engine [s], dividing the output step; `Scenario.default_dt` if not given.
+        progress: called with the simulated time [s] now and then.
+
+    Raises:
+        InputError: a scenario, engine or step that cannot be used.
+        MissingEngineError: the engine is not installed.
+        StabilityError: ``dt`` is beyond the law's stability limit.
+        SimulationError: the run broke down.
+    """
+    from stochfric_mb.scenario import Scenario, load_scenario
+
+    problem = scenario if isinstance(scenario, Scenario) else load_scenario(scenario)
+    return adapter(engine, effects=problem.effects).simulate(problem, seed=seed, sample=sample, dt=dt, progress=progress)

@@ -43,6 +43,11 @@ def require_number(
 ) -> float:
     """Return ``value`` as a float once it is finite and within its bounds.
 
+    >>> require_number("mu_k", -0.1, low=0.0)
+    Traceback (most recent call last):
+    ...
+    stochfric_mb.errors.InputError: mu_k = -0.1 - is out of range: mu_k must be >= 0
+
     Args:
         name: what the message calls the value.
         value: the candidate.

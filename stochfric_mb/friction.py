@@ -11,7 +11,13 @@ from stochfric_mb.laws import Law
 
 @dataclasses.dataclass(frozen=True)
 class Friction:
-    """A law and, if its coefficients are random, their process."""
+    """A law and, if its coefficients are random, their process.
+
+    >>> from stochfric_mb import Coulomb, Knots
+    >>> friction = Friction(Coulomb(mu_s=0.8, mu_k=0.46), Knots(spacing=0.01, sigma_s=0.015, sigma_k=0.023))
+    >>> friction.path(seed=1).at(0.0) == friction.path(seed=1, contact=1).at(0.0)  # contacts are independent
+    False
+    """
 
     law: Law
     """The friction law; its mu_s and mu_k are the means."""

@@ -69,7 +69,13 @@ def break_aways(trajectory: Trajectory, law: Law, mechanism: BeltBox) -> Array:
 
 
 def period(trajectory: Trajectory, law: Law, mechanism: BeltBox) -> float:
-    """Return the mean interval between break-aways [s], NaN where there are fewer than two."""
+    """Return the mean interval between break-aways [s], NaN where there are fewer than two.
+
+    >>> from stochfric_mb import load_scenario, run
+    >>> scenario = load_scenario("kang2015_table1", law="coulomb")
+    >>> f"{period(run(scenario), scenario.law, scenario.mechanism):.3f} s"
+    '0.992 s'
+    """
     times = break_aways(trajectory, law, mechanism)
     return float((times[-1] - times[0]) / (len(times) - 1)) if len(times) > 1 else float("nan")
 

@@ -173,6 +173,10 @@ def bundled_scenarios() -> dict[str, Path]:
 def load_scenario(source: str | Path, *, law: str | None = None, overrides: Sequence[str] = ()) -> Scenario:
     """Read a belt-box's scenario from a file, or by name from those that come with the package.
 
+    >>> scenario = load_scenario("kang2015_table1", law="coulomb", overrides=["mechanism.belt_velocity=1e-3"])
+    >>> scenario.law.kind, scenario.mechanism.belt_velocity, scenario.duration
+    ('coulomb', 0.001, 10.0)
+
     Args:
         source: path of a TOML file, or a name such as ``kang2015_table1``.
         law: kind of law that replaces the scenario's; shared parameters are kept.

@@ -149,6 +149,10 @@ def mean(values: npt.ArrayLike, *, confidence: float = 0.95) -> Estimate:
 def proportion(count: int, n: int, *, confidence: float = 0.95) -> Estimate:
     """Return the proportion count/n with Wilson's interval.
 
+    >>> estimate = proportion(8, 10)
+    >>> round(estimate.low, 4), estimate.value, round(estimate.high, 4)
+    (0.4902, 0.8, 0.9433)
+
     Raises:
         InputError: count is not within 0 .. n, or n < 1.
     """

@@ -30,7 +30,16 @@ MAX_ATTEMPTS = 10_000
 
 
 class CoefficientPath:
-    """One realisation of the coefficients of one contact."""
+    """One realisation of the coefficients of one contact.
+
+    >>> from stochfric_mb import ElasticStick, Knots
+    >>> path = CoefficientPath(Knots(spacing=0.01, sigma_s=0.015, sigma_k=0.023), ElasticStick(mu_s=0.8, mu_k=0.46), seed=1)
+    >>> mu_s, mu_k = path.at(0.005)
+    >>> round(mu_s, 6), round(mu_k, 6)
+    (0.806938, 0.445174)
+    >>> path.at(0.003) == path.at(0.003) != path.at(0.005)  # the address counts, not the order of evaluation
+    True
+    """
 
     def __init__(self, process: Process | None, law: Law, *, seed: int = 0, sample: int = 0, contact: int = 0) -> None:
         """Address a path; without a process it is constant at the law's means.

@@ -11,7 +11,7 @@ from stochfric_mb.commands.options import command_line, engine_names, scenario_o
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from stochfric_mb.compare import Comparison
+    from stochfric_mb.comparison import Comparison
 
 EXAMPLE = """\b
 Example:
@@ -41,7 +41,7 @@ def compare(
     out: str,
 ) -> None:
     """Compare engines with the reference on SCENARIO (a TOML file or the name of a bundled one) and write a report."""
-    from stochfric_mb import compare as library
+    from stochfric_mb import comparison as library
     from stochfric_mb.commands.progress import display
     from stochfric_mb.engines import adapter
     from stochfric_mb.outputs import check_target, claimed, whole_folder

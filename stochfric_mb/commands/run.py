@@ -40,7 +40,7 @@ def run(
         problem = _load(scenario, law, overrides)
         module = adapter(engine, effects=problem.effects)
         if dt is not None:
-            from stochfric_mb.compare import checked_step
+            from stochfric_mb.comparison import checked_step
 
             checked_step(problem, dt)
         progress = shown.stage(engine, problem.duration)

@@ -84,6 +84,9 @@ def effect_class(kind: str) -> type[Effect]:
 def make_effect(kind: str, **values: Any) -> Effect:
     """Return an effect from its kind and the parameters of its class.
 
+    >>> make_effect("dwell_ageing", rate=0.02).appears()
+    ('dwell', 'the force at break-away depends on how long the contact has stuck')
+
     Raises:
         InputError: unknown kind, unknown or missing parameter, or a value out of range.
     """

@@ -65,6 +65,14 @@ def run(
 
     Block size and number of threads change no bit of the result.
 
+    >>> from stochfric_mb import load_scenario
+    >>> result = run(load_scenario("kang2015_table1", law="coulomb"), 100, output_times=[1.0, 2.0])
+    >>> result.position.shape
+    (100, 2)
+    >>> low, high = result.quantiles("position", [0.025, 0.975])[:, 1]
+    >>> f"{1e3 * low:.2f} to {1e3 * high:.2f} mm at 2 s"
+    '2.31 to 2.61 mm at 2 s'
+
     Args:
         scenario: what is simulated.
         n_runs: number of runs, >= 1.

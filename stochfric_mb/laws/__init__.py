@@ -44,6 +44,9 @@ def law_class(kind: str) -> type[Law]:
 def make_law(kind: str, **parameters: Any) -> Law:
     """Return a law from its kind and the parameters of its class.
 
+    >>> make_law("stribeck", mu_s=0.8, mu_k=0.46)
+    Stribeck(mu_s=0.8, mu_k=0.46, stribeck_velocity=0.001, form='exponential')
+
     Raises:
         InputError: unknown kind, unknown or missing parameter, or a value out of range.
     """

@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from stochfric_mb.compare import Comparison
+from stochfric_mb.comparison import Comparison
 from stochfric_mb.metrics import relative_velocity
 from stochfric_mb.report.figures import colour, legend, new_figure, png
 from stochfric_mb.report.page import render

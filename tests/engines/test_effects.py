@@ -99,7 +99,7 @@ def test_samples_have_impacts_of_their_own(engine: str) -> None:
 
 
 def test_comparison_of_an_augmented_scenario() -> None:
-    from stochfric_mb.compare import compare
+    from stochfric_mb.comparison import compare
 
     scenario = _scenario("dwell_ageing", "friction_drift", duration=1.5)
     done = compare(scenario, seed=1, convergence=False)

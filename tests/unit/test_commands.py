@@ -59,8 +59,8 @@ def fake(monkeypatch):
         return types.SimpleNamespace(simulate=simulate)
 
     monkeypatch.setattr(engines, "adapter", adapter)
-    monkeypatch.setattr("stochfric_mb.compare.adapter", adapter)
-    monkeypatch.setattr("stochfric_mb.compare.installed_engines", lambda: ["reference", "mujoco", "exudyn"])
+    monkeypatch.setattr("stochfric_mb.comparison.adapter", adapter)
+    monkeypatch.setattr("stochfric_mb.comparison.installed_engines", lambda: ["reference", "mujoco", "exudyn"])
     return asked
 
 
@@ -207,7 +207,7 @@ def test_ctrl_c_leaves_nothing_behind(fake, monkeypatch, tmp_path):
         return types.SimpleNamespace(simulate=simulate)
 
     monkeypatch.setattr(engines, "adapter", interrupted)
-    monkeypatch.setattr("stochfric_mb.compare.adapter", interrupted)
+    monkeypatch.setattr("stochfric_mb.comparison.adapter", interrupted)
     for words in (["run", SCENARIO, "--out", tmp_path / "run.nc"], ["compare", SCENARIO, "--out", tmp_path / "out"]):
         result = invoke(*words)
         assert result.exit_code == 130
@@ -233,7 +233,7 @@ def test_an_engine_that_fails_is_named(fake, monkeypatch, tmp_path):
 
         return types.SimpleNamespace(simulate=simulate)
 
-    monkeypatch.setattr("stochfric_mb.compare.adapter", broken)
+    monkeypatch.setattr("stochfric_mb.comparison.adapter", broken)
     failing(invoke("compare", SCENARIO, *SHORT, "--out", tmp_path / "out"), "exudyn: x = nan at t = 1 s")
     assert list(tmp_path.iterdir()) == []
 

@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import stochfric_mb
+
 ROOT = Path(__file__).parents[2]
 
 
@@ -28,6 +30,16 @@ def test_importing_the_package_loads_no_compiler_engine_or_plotting():
     code = f"import stochfric_mb, sys; print([m for m in {heavy} if m in sys.modules])"
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert out.stdout.strip() == "[]"
+
+
+def test_the_public_face_is_listed_once_and_loads():
+    lines = [x for x in (ROOT / "stochfric_mb" / "__init__.pyi").read_text(encoding="utf-8").splitlines() if " as " in x]
+    names = [line.rpartition(" as ")[2] for line in lines]
+    assert len(names) == len(set(names))
+    assert set(names) == set(stochfric_mb.__all__)
+    assert {"run", "compare", "discover", "Dataset", "load_scenario"} <= set(names)
+    for name in names:
+        assert getattr(stochfric_mb, name).__name__ == name
 
 
 def test_naming_a_law_compiles_nothing():

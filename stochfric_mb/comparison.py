@@ -5,13 +5,14 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
 from stochfric_mb import metrics
 from stochfric_mb.coefficients.processes import EVENT
 from stochfric_mb.engines import adapter, installed_engines
 from stochfric_mb.errors import InputError, StochfricError, require_number
-from stochfric_mb.scenario import Scenario, fitting_step
+from stochfric_mb.scenario import Scenario, fitting_step, load_scenario
 from stochfric_mb.trajectory import Trajectory
 
 SCHEMA = "stochfric.comparison/1"
@@ -141,7 +142,7 @@ class Comparison:
 
 
 def compare(
-    scenario: Scenario,
+    scenario: Scenario | str | Path,
     *,
     engines: Sequence[str] | None = None,
     seed: int = 0,
@@ -151,8 +152,12 @@ def compare(
 ) -> Comparison:
     """Return how far each engine is from the reference for the same law, seed and coefficient path.
 
+    >>> comparison = compare("kang2015_table1", engines=["pymunk"], convergence=False)
+    >>> comparison.engines[0].rms_position_error < 1e-8
+    True
+
     Args:
-        scenario: what is simulated.
+        scenario: what is simulated, or the file or name of a scenario.
         engines: names of the engines; all that are installed if not given. The reference always runs.
         seed: seed of the coefficient path.
         dt: step of the engines [s], dividing the output step; `Scenario.default_dt` if not given.
@@ -165,6 +170,8 @@ def compare(
         StabilityError: ``dt`` is beyond the law's stability limit.
         SimulationError: an engine failed.
     """
+    if not isinstance(scenario, Scenario):
+        scenario = load_scenario(scenario)
     names = [n for n in dict.fromkeys(installed_engines() if engines is None else engines) if n != "reference"]
     if not names:
         raise InputError(

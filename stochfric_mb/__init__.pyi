@@ -1,0 +1,49 @@
+"""The public face: each name and the module that it comes from."""
+
+from stochfric_mb.coefficients import CoefficientPath as CoefficientPath
+from stochfric_mb.coefficients import Empirical as Empirical
+from stochfric_mb.coefficients import Knots as Knots
+from stochfric_mb.coefficients import Lognormal as Lognormal
+from stochfric_mb.coefficients import Matern as Matern
+from stochfric_mb.coefficients import Normal as Normal
+from stochfric_mb.coefficients import OrnsteinUhlenbeck as OrnsteinUhlenbeck
+from stochfric_mb.coefficients import OutputStep as OutputStep
+from stochfric_mb.coefficients import PerEvent as PerEvent
+from stochfric_mb.coefficients import Spatial as Spatial
+from stochfric_mb.coefficients import TruncatedNormal as TruncatedNormal
+from stochfric_mb.coefficients import Uniform as Uniform
+from stochfric_mb.comparison import compare as compare
+from stochfric_mb.contact import Contact as Contact
+from stochfric_mb.contact import PlaneContact as PlaneContact
+from stochfric_mb.discovery import discover as discover
+from stochfric_mb.effects import Effect as Effect
+from stochfric_mb.effects import make_effect as make_effect
+from stochfric_mb.effects import register_effect as register_effect
+from stochfric_mb.engines import run as run
+from stochfric_mb.errors import InputError as InputError
+from stochfric_mb.errors import MissingEngineError as MissingEngineError
+from stochfric_mb.errors import SimulationError as SimulationError
+from stochfric_mb.errors import StabilityError as StabilityError
+from stochfric_mb.errors import StochfricError as StochfricError
+from stochfric_mb.friction import Friction as Friction
+from stochfric_mb.laws import Law as Law
+from stochfric_mb.laws import make_law as make_law
+from stochfric_mb.laws import register_law as register_law
+from stochfric_mb.laws.coulomb import Coulomb as Coulomb
+from stochfric_mb.laws.dahl import Dahl as Dahl
+from stochfric_mb.laws.elastic_stick import ElasticStick as ElasticStick
+from stochfric_mb.laws.havsin import Havsin as Havsin
+from stochfric_mb.laws.karnopp import Karnopp as Karnopp
+from stochfric_mb.laws.lugre import Lugre as Lugre
+from stochfric_mb.laws.piecewise_linear import PiecewiseLinear as PiecewiseLinear
+from stochfric_mb.laws.smooth import Smooth as Smooth
+from stochfric_mb.laws.stribeck import Stribeck as Stribeck
+from stochfric_mb.laws.tanh import Tanh as Tanh
+from stochfric_mb.measurement import Dataset as Dataset
+from stochfric_mb.measurement import load_dataset as load_dataset
+from stochfric_mb.mechanisms import BeltBox as BeltBox
+from stochfric_mb.scenario import Scenario as Scenario
+from stochfric_mb.scenario import load_scenario as load_scenario
+from stochfric_mb.trajectory import Trajectory as Trajectory
+
+__version__: str
