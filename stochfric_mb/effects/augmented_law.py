@@ -82,6 +82,11 @@ class Augmented(Law):
         return _MODELS[int(self.model)][0]
 
     @property
+    def model_numbers(self) -> Any:
+        """The model's numbers, shape (n,)."""
+        return _MODELS[int(self.model)][1]
+
+    @property
     def stick_speed(self) -> float:
         """That of the law inside [m/s]."""
         return self.inner.stick_speed

@@ -1,0 +1,173 @@
+"""What functions of Python's math, of NumPy and of numba become in C."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numba
+import numpy as np
+
+from stochfric_mb.c.types import BOOL, DOUBLE, INT, UNSIGNED, VOID, Array, Known, Scalar, Value, as_c
+
+PRELUDE = """\
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The whole number that a real stands for; 0 where there is none of 64 bits, so that nothing is undefined. */
+static inline int64_t to_int(double x) { return x > -9.2e18 && x < 9.2e18 ? (int64_t)x : 0; }
+static inline double largest(double a, double b) { return b > a ? b : a; }
+static inline double smallest(double a, double b) { return b < a ? b : a; }
+static inline int64_t largest_int(int64_t a, int64_t b) { return b > a ? b : a; }
+static inline int64_t smallest_int(int64_t a, int64_t b) { return b < a ? b : a; }
+static inline uint64_t bits_of(double x) { uint64_t bits; memcpy(&bits, &x, sizeof bits); return bits; }
+static inline double double_of(uint64_t bits) { double x; memcpy(&x, &bits, sizeof x); return x; }
+static inline double *doubles_at(int64_t address) { return (double *)(intptr_t)address; }
+
+/* x to a whole power, by squaring. */
+static inline double whole_power(double x, int n) {
+    double result = 1.0;
+    for (; n > 0; n >>= 1) {
+        if (n & 1) result *= x;
+        x *= x;
+    }
+    return result;
+}
+"""
+"""What every translation begins with."""
+
+_REAL = (
+    "sqrt",
+    "exp",
+    "log",
+    "sin",
+    "cos",
+    "tan",
+    "asin",
+    "acos",
+    "atan",
+    "sinh",
+    "cosh",
+    "tanh",
+    "erf",
+    "erfc",
+    "log1p",
+    "expm1",
+)
+_MATH: dict[Any, str] = {
+    **{getattr(math, name): name for name in _REAL},
+    **{
+        math.hypot: "hypot",
+        math.copysign: "copysign",
+        math.atan2: "atan2",
+        math.fmod: "fmod",
+        math.pow: "pow",
+    },
+}
+_TESTS: dict[Any, str] = {math.isnan: "isnan", math.isfinite: "isfinite", math.isinf: "isinf"}
+_CONVERSIONS: dict[Any, Scalar] = {
+    float: DOUBLE, numba.float64: DOUBLE, np.float64: DOUBLE, int: INT, numba.int64: INT, np.int64: INT,
+    numba.uint64: UNSIGNED, np.uint64: UNSIGNED, bool: BOOL,
+}  # fmt: skip
+
+_D, _I = DOUBLE, INT
+BY_NAME: dict[tuple[str, str], tuple[str, tuple[Scalar, ...], Any]] = {
+    ("stochfric_mb.coefficients.philox", "bits_of"): ("bits_of", (_D,), UNSIGNED),
+    ("stochfric_mb.coefficients.philox", "double_of"): ("double_of", (UNSIGNED,), DOUBLE),
+    ("stochfric_mb.effects.augmented_law", "_doubles"): ("doubles_at", (_I,), Array(DOUBLE, (None,))),
+    ("stochfric_mb.laws.abi", "call_law"): ("call_law", (_I, *[_D] * 11, *[_I] * 3), VOID),
+    ("stochfric_mb.effects.abi", "call_effect"): ("call_effect", (_I,) * 5, VOID),
+}
+"""Intrinsics written for LLVM (module, name) -> their C name, arguments and result; the last two are dispatchers that
+`stochfric_mb.c.dispatch` writes."""
+
+
+def constructor(known: Known) -> bool:
+    """Return whether an object makes an array."""
+    return known.value in (np.zeros, np.empty)
+
+
+def call(known: Known, args: list[Value]) -> Value | None:
+    """Return what a call of an object that is not one of the package's own functions becomes, None if unknown."""
+    function = known.value
+    if not _hashable(function):
+        return None
+    if function in _BUILT_IN:
+        return _BUILT_IN[function](args)
+    if function in _MATH:
+        return Value(f"{_MATH[function]}({', '.join(as_c(a, DOUBLE) for a in args)})", DOUBLE)
+    if function in _TESTS:
+        return Value(f"({_TESTS[function]}({as_c(args[0], DOUBLE)}) != 0)", BOOL)
+    if function in _CONVERSIONS:
+        return _converted(args[0], _CONVERSIONS[function])
+    return _named(function, args)
+
+
+def _hashable(function: Any) -> bool:
+    try:
+        hash(function)
+    except TypeError:
+        return False
+    return True
+
+
+def _named(function: Any, args: list[Value]) -> Value | None:
+    """Return the call of an intrinsic."""
+    plain: Callable[..., Any] | None = getattr(function, "_defn", None)
+    key = (plain.__module__, plain.__name__) if plain is not None else ("", "")
+    if key not in BY_NAME:
+        return None
+    name, types, result = BY_NAME[key]
+    return Value(f"{name}({', '.join(as_c(a, t) for a, t in zip(args, types, strict=True))})", result)
+
+
+def _converted(value: Value, wanted: Scalar) -> Value:
+    if value.type == wanted:
+        return value
+    if wanted == INT and value.type == DOUBLE:
+        return Value(f"to_int({value.code})", INT)
+    if wanted == UNSIGNED and value.type == DOUBLE:
+        return Value(f"((uint64_t)to_int({value.code}))", UNSIGNED)
+    return Value(as_c(value, wanted), wanted)
+
+
+def _extreme(name: str, args: list[Value]) -> Value:
+    """Return the largest or smallest, a later one only where it is strictly more so, as Python does."""
+    whole = all(a.type == INT for a in args)
+    kind, suffix = (INT, "_int") if whole else (DOUBLE, "")
+    code = as_c(args[0], kind)
+    for other in args[1:]:
+        code = f"{name}{suffix}({code}, {as_c(other, kind)})"
+    return Value(code, kind)
+
+
+def _absolute(args: list[Value]) -> Value:
+    if args[0].type == INT:
+        return Value(f"llabs({args[0].code})", INT)
+    return Value(f"fabs({as_c(args[0], DOUBLE)})", DOUBLE)
+
+
+def _whole(name: str, args: list[Value]) -> Value:
+    return Value(f"to_int({name}({as_c(args[0], DOUBLE)}))", INT)
+
+
+def _length(args: list[Value]) -> Value | None:
+    kind = args[0].type
+    if not isinstance(kind, Array) or kind.shape[0] is None:
+        return None
+    return Value(f"INT64_C({kind.shape[0]})", INT, kind.shape[0])
+
+
+_BUILT_IN: dict[Any, Callable[[list[Value]], Value | None]] = {
+    abs: _absolute,
+    len: _length,
+    max: functools.partial(_extreme, "largest"),
+    min: functools.partial(_extreme, "smallest"),
+    math.floor: functools.partial(_whole, "floor"),
+    math.ceil: functools.partial(_whole, "ceil"),
+}
