@@ -15,6 +15,9 @@ from stochfric_mb.errors import require_number
 from stochfric_mb.laws.contract import Law
 from stochfric_mb.laws.plane import length
 
+AT_REST = 1.0e-4
+"""Speed up to which a contact is born at rest [m/s], that of `Law.stick_speed`."""
+
 
 @dataclasses.dataclass(frozen=True)
 class Dahl(Law):
@@ -74,8 +77,15 @@ def deflection(ux, uy, state, mu_k, p):
 
 @compiled
 def init(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, p):
-    """Return the state at the start: a bristle at rest."""
-    return ux, uy, 0.0, 0.0
+    """Return the state at the start: at rest up to `AT_REST`, beyond it the deflection of steady sliding.
+
+    It takes mu_k/sigma_0 to turn the bristle over, some micrometres: a contact born in motion is through with them at once.
+    """
+    speed = length(vx, vy)
+    if speed <= AT_REST:
+        return ux, uy, 0.0, 0.0
+    full = mu_k / p[2]
+    return ux, uy, full * (vx / speed), full * (vy / speed)
 
 
 @compiled

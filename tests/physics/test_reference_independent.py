@@ -241,7 +241,15 @@ class Memoryless(Automaton):
 
 
 class Bristle(Memoryless):
-    """Dahl and LuGre."""
+    """Dahl and LuGre; faster than 0.1 mm/s, or than the Stribeck velocity, they start with the bristle of steady sliding."""
+
+    def first(self, t, y, mu):
+        law, w = self.law, self.w(y)
+        if law.kind == "dahl":
+            g, slow = mu[1], 1.0e-4
+        else:
+            g, slow = mu[1] + (mu[0] - mu[1]) * math.exp(-((w / law.stribeck_velocity) ** 2)), law.stribeck_velocity
+        return None, [y[0], y[1], 0.0 if abs(w) <= slow else math.copysign(g / law.sigma_0, w)]
 
     def rates(self, mode, t, y, mu):
         law, w, z = self.law, self.w(y), y[2]
