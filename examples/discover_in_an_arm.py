@@ -13,7 +13,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from stochfric_mb.discovery.joints import JointOutcome, joint_outcome
+from stochfric_mb.discovery.driven_joint import JointOutcome, joint_outcome
 from stochfric_mb.measurement import Dataset, Run
 from stochfric_mb.scenario import load_any_scenario
 

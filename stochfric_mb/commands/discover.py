@@ -12,7 +12,7 @@ from stochfric_mb.commands.options import command_line
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from stochfric_mb.discovery.workflow import Outcome
+    from stochfric_mb.discovery.outcome import Outcome
 
 EXAMPLE = """\b
 Example:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from stochfric_mb.discovery.workflow import Outcome
+    from stochfric_mb.discovery.outcome import Outcome
     from stochfric_mb.measurement.dataset import Dataset
     from stochfric_mb.scenario import Scenario
 
@@ -33,13 +33,13 @@ def discover(
     Raises:
         InputError: data or scenario that cannot be used; names file, key or row, rule and remedy.
     """
-    from stochfric_mb.discovery.workflow import discover_belt_box
+    from stochfric_mb.discovery.stick_slip.workflow import discover_belt_box
     from stochfric_mb.measurement.dataset import Dataset, load_dataset
     from stochfric_mb.mechanisms import BeltBox
 
     data = dataset if isinstance(dataset, Dataset) else load_dataset(dataset, scenario)
     if not isinstance(data.scenario.mechanism, BeltBox):
-        from stochfric_mb.discovery.joints import joint_outcome
+        from stochfric_mb.discovery.driven_joint import joint_outcome
 
         return joint_outcome(data, progress=progress)
     return discover_belt_box(data, progress=progress)

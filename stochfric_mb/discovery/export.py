@@ -19,7 +19,7 @@ from stochfric_mb.mechanisms import HingePendulum, Mjcf, PrismaticJoint
 from stochfric_mb.scenario import Scenario
 
 if TYPE_CHECKING:
-    from stochfric_mb.discovery.workflow import Outcome
+    from stochfric_mb.discovery.outcome import Outcome
 
 PRESLIDING = 1.0e-5
 """Presliding displacement of the law that MuJoCo runs [m or rad]: it holds at rest, where Coulomb's law says nothing."""
@@ -156,7 +156,7 @@ def exudyn_snippet(file: str | Path = "augmented.toml") -> str:
     """
     return f'''"""Friction found by discovery, in Exudyn: a user function on a coordinate."""
 from exudyn.itemInterface import CoordinateSpringDamper
-from stochfric_mb.discovery.joints.force import joint_friction
+from stochfric_mb.discovery.driven_joint.simulation.friction_function import joint_friction
 from stochfric_mb.scenario import load_any_scenario
 
 friction = joint_friction(load_any_scenario({str(file)!r}), smoothing_velocity=1e-3)

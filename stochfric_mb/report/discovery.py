@@ -7,7 +7,7 @@ from typing import Any
 
 from markupsafe import Markup
 
-from stochfric_mb.discovery.workflow import Outcome
+from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.report.comparison import UNITS
 from stochfric_mb.report.discovery_pictures import COLOURS, given
 from stochfric_mb.report.page import digits, render

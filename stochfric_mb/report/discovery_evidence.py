@@ -9,16 +9,16 @@ import numpy as np
 import numpy.typing as npt
 from numpy.polynomial import legendre
 
-from stochfric_mb.discovery.forecast import MEMBERS, N_OUTPUTS, Windows, forecasts
-from stochfric_mb.discovery.gap import HeldOut, deterministic
-from stochfric_mb.discovery.innovations import left_over
-from stochfric_mb.discovery.model import Model
-from stochfric_mb.discovery.pool import Pool
-from stochfric_mb.discovery.regression import Regression, believed
-from stochfric_mb.discovery.scatter import simulated_slips
-from stochfric_mb.discovery.slips import NODES, Slips
-from stochfric_mb.discovery.study import Study
-from stochfric_mb.discovery.workflow import Outcome
+from stochfric_mb.discovery.outcome import Outcome
+from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
+from stochfric_mb.discovery.stick_slip.records.pool import Pool
+from stochfric_mb.discovery.stick_slip.records.slips import NODES, Slips
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, believed
+from stochfric_mb.discovery.stick_slip.simulation.forecast import MEMBERS, N_OUTPUTS, Windows, forecasts
+from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, deterministic
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.discovery.stick_slip.simulation.scatter import simulated_slips
+from stochfric_mb.discovery.stick_slip.study import Study
 
 Array = npt.NDArray[np.float64]
 

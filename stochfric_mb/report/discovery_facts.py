@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from stochfric_mb.discovery.decision import NAME, SELECT
+from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.result import Result
-from stochfric_mb.discovery.slips import Slips
-from stochfric_mb.discovery.workflow import Outcome
+from stochfric_mb.discovery.stick_slip.decision.rounds import NAME, SELECT
+from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.effects import effect_class, effect_kinds
 from stochfric_mb.report.discovery_evidence import BAND, EVENTS, Evidence, band
 from stochfric_mb.storage import versions

@@ -13,7 +13,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from stochfric_mb.discovery.forecast import N_OUTPUTS, REACH
+from stochfric_mb.discovery.stick_slip.simulation.forecast import N_OUTPUTS, REACH
 from stochfric_mb.effects import effect_kinds
 from stochfric_mb.report.discovery_evidence import PLACES, Evidence, LeftOver, band
 from stochfric_mb.report.figures import legend, new_figure, png

@@ -12,8 +12,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from stochfric_mb.discovery.study import Channels
-from stochfric_mb.discovery.workflow import discover_belt_box
+from stochfric_mb.discovery.stick_slip.study import Channels
+from stochfric_mb.discovery.stick_slip.workflow import discover_belt_box
 from stochfric_mb.measurement.dataset import load_dataset
 
 from . import judge, plan, suite

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from stochfric_mb.discovery.joints import JointOutcome, joint_outcome
+from stochfric_mb.discovery.driven_joint import JointOutcome, joint_outcome
 from stochfric_mb.measurement import Dataset, load_dataset
 from stochfric_mb.measurement.entries import data_folder
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from stochfric_mb.discovery.joints import joint_outcome
+from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import Dataset
 from stochfric_mb.scenario import load_any_scenario

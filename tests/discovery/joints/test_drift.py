@@ -6,8 +6,8 @@ import importlib.util
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.joints import joint_outcome
-from stochfric_mb.discovery.joints.balance import sheet_of
+from stochfric_mb.discovery.driven_joint import joint_outcome
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import balance_of
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import Dataset, Run
 from stochfric_mb.scenario import any_scenario_from_dict
@@ -150,5 +150,5 @@ def test_kelvin_and_degrees_give_the_same():
         channels={**one.channels, "temperature": one.channels["temperature"] + 273.15},
         units={"temperature": "K"},
     )
-    seen = [sheet_of(r, scenario()).temperature for r in (one, kelvin)]
+    seen = [balance_of(r, scenario()).temperature for r in (one, kelvin)]
     np.testing.assert_allclose(seen[0], seen[1], atol=1e-9)

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.joints.balance import sheet_of
-from stochfric_mb.discovery.joints.evidence import scatter, settings_of, whitened
-from stochfric_mb.discovery.joints.fitting import stroke_count
-from stochfric_mb.discovery.joints.left_out import blocks, strokes
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import balance_of
+from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, strokes
+from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of, whitened
+from stochfric_mb.discovery.driven_joint.fit.fitting import stroke_count
 from tests.discovery.joints.test_parts import coulomb, scenario, sine_run
 
 
@@ -46,19 +46,19 @@ def test_whitening_takes_out_means_where_settings_scatter_without_limit():
 
 
 @pytest.fixture(scope="module")
-def sheets():
-    return [sheet_of(sine_run(coulomb, seed=s), scenario()) for s in (1, 2)]
+def balances():
+    return [balance_of(sine_run(coulomb, seed=s), scenario()) for s in (1, 2)]
 
 
-def test_blocks_and_strokes_are_all_of_the_sliding_once(sheets):
-    for parts in (blocks(sheets), strokes(sheets), strokes(sheets[:1])):
-        for i, sheet in enumerate(sheets[: len(parts[0])]):
+def test_blocks_and_strokes_are_all_of_the_sliding_once(balances):
+    for parts in (blocks(balances), strokes(balances), strokes(balances[:1])):
+        for i, balance in enumerate(balances[: len(parts[0])]):
             times = np.sum([part[i] for part in parts], axis=0)
-            np.testing.assert_array_equal(times, sheet.sliding.astype(int))
+            np.testing.assert_array_equal(times, balance.sliding.astype(int))
 
 
-def test_one_run_is_left_out_by_strokes_and_several_by_their_directions(sheets):
-    assert len(strokes(sheets[:1])) == stroke_count([sheets[0].sliding])
-    assert len(strokes(sheets)) == 4
-    assert len(np.unique(settings_of(sheets))) == 4
-    assert len(np.unique(settings_of(sheets[:1]))) == 1
+def test_one_run_is_left_out_by_strokes_and_several_by_their_directions(balances):
+    assert len(strokes(balances[:1])) == stroke_count([balances[0].sliding])
+    assert len(strokes(balances)) == 4
+    assert len(np.unique(settings_of(balances))) == 4
+    assert len(np.unique(settings_of(balances[:1]))) == 1

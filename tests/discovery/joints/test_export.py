@@ -7,9 +7,9 @@ import tomllib
 import numpy as np
 import pytest
 
+from stochfric_mb.discovery.driven_joint import joint_outcome
+from stochfric_mb.discovery.driven_joint.simulation.friction_function import joint_friction
 from stochfric_mb.discovery.export import exudyn_snippet, files, mjcf, parameter_table, scenario_toml
-from stochfric_mb.discovery.joints import joint_outcome
-from stochfric_mb.discovery.joints.force import joint_friction
 from stochfric_mb.errors import InputError
 from stochfric_mb.scenario import any_scenario_from_dict, load_scenario
 from tests.discovery.joints.test_parts import grease, pair

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from stochfric_mb.discovery.joints import joint_outcome
+from stochfric_mb.discovery.driven_joint import joint_outcome
 from tests.discovery.joints.measured import dataset, kinds, outcome, repeated
 
 

@@ -9,9 +9,9 @@ import functools
 import numpy as np
 import pytest
 
+from stochfric_mb.discovery.driven_joint import joint_outcome
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import in_si, position_of_joint
 from stochfric_mb.discovery.export import mjcf
-from stochfric_mb.discovery.joints import joint_outcome
-from stochfric_mb.discovery.joints.mjcf_columns import in_si, position_of_joint
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import Dataset, Run
 from stochfric_mb.scenario import any_scenario_from_dict
@@ -162,12 +162,12 @@ def test_the_normal_force_is_that_of_the_record(folder):
     """From the joints' balance, and as measured: both are what was written on paper."""
     for pair in ({"geoms": ["block", "rail"]}, {"geoms": ["block", "rail"], "normal_force": "cell"}):
         found = discovered(block_scenario(folder, pairs={"foot": pair}), constant)
-        sheet = found.places[0].fit[0]
+        balance = found.places[0].fit[0]
         rng = np.random.default_rng(1)
-        moved(sheet.time, rng)
-        truth = MASS * G + pressed(sheet.time, rng)
-        at = sheet.window.centres
-        np.testing.assert_allclose(sheet.normal_force[at], truth[at], atol=0.1)
+        moved(balance.time, rng)
+        truth = MASS * G + pressed(balance.time, rng)
+        at = balance.window.centres
+        np.testing.assert_allclose(balance.normal_force[at], truth[at], atol=0.1)
         assert found.result.verdict == "none"
 
 

@@ -5,13 +5,13 @@ import dataclasses
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.joints import joint_outcome
-from stochfric_mb.discovery.joints.balance import sheet_of
-from stochfric_mb.discovery.joints.fitting import independent_count
-from stochfric_mb.discovery.joints.gauss_newton import least_squares
-from stochfric_mb.discovery.joints.rate_and_state import friction_path
-from stochfric_mb.discovery.joints.sheet import slipped
-from stochfric_mb.discovery.joints.windows import Window, chosen_window, noise_level
+from stochfric_mb.discovery.driven_joint import joint_outcome
+from stochfric_mb.discovery.driven_joint.balance.force_balance import slipped
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import balance_of
+from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, chosen_window, noise_level
+from stochfric_mb.discovery.driven_joint.fit.fitting import independent_count
+from stochfric_mb.discovery.inference.gauss_newton import least_squares
+from stochfric_mb.discovery.velocity_step.rate_and_state import friction_path
 from stochfric_mb.errors import InputError
 from stochfric_mb.laws import make_law
 from stochfric_mb.measurement import Dataset, Run
@@ -61,10 +61,10 @@ def coulomb(q, v):
 
 
 def test_the_balance_of_a_known_motion_is_its_friction():
-    sheet = sheet_of(sine_run(coulomb), scenario())
-    side = np.sign(sheet.velocity[sheet.window.centres])
+    balance = balance_of(sine_run(coulomb), scenario())
+    side = np.sign(balance.velocity[balance.window.centres])
     # through a window of 8 ms the inertia of the fastest sine is off by (9 rad/s w)^2/30 = 2e-4 of 9 N, below the noise
-    np.testing.assert_allclose(sheet.driven[sheet.sliding], 2.0 * side[sheet.sliding], atol=6.0 * sheet.noise)
+    np.testing.assert_allclose(balance.driven[balance.sliding], 2.0 * side[balance.sliding], atol=6.0 * balance.noise)
 
 
 def test_coulomb_friction_alone_names_nothing():
@@ -135,7 +135,7 @@ def test_a_missing_channel_is_named():
     run = sine_run(coulomb)
     bare = dataclasses.replace(run, channels={"position": run.channels["position"]})
     with pytest.raises(InputError, match="has no force"):
-        sheet_of(bare, scenario())
+        balance_of(bare, scenario())
 
 
 def settings(friction, zero):
@@ -266,5 +266,5 @@ def test_hinge_pendulum_gravity_is_in_the_balance():
     q = 0.8 * np.sin(2.0 * t)
     torque = 0.25 * (-3.2 * np.sin(2.0 * t)) + 9.81 * 0.5 * np.sin(q)
     run = Run(name="r", role="fit", time=t, channels={"position": q, "torque": torque}, sample_interval=H)
-    sheet = sheet_of(run, scenario(mechanism=joint))
-    np.testing.assert_allclose(sheet.driven, 0.0, atol=1e-3)  # (2 rad/s 8 ms)^2/30 of 5 N m
+    balance = balance_of(run, scenario(mechanism=joint))
+    np.testing.assert_allclose(balance.driven, 0.0, atol=1e-3)  # (2 rad/s 8 ms)^2/30 of 5 N m

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from stochfric_mb.discovery.joints import joint_outcome
+from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.scenario import any_scenario_from_dict
 from tests.discovery.joints.test_parts import coulomb, pair
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from stochfric_mb.discovery.joints import joint_outcome
+from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.effects import make_effect
 from stochfric_mb.measurement import Dataset
 from stochfric_mb.reference import simulate
@@ -107,12 +107,12 @@ def test_a_zero_that_differs_is_no_friction():
 
 def test_crps_of_a_normal_forecast_by_quadrature(found):
     """The closed form that scores forecasts, against the integral that defines it."""
-    from stochfric_mb.discovery.joints.run_scatter import crps_of
+    from stochfric_mb.discovery.driven_joint.decision.run_scatter import crps_of
 
     place = found.places[0]
-    model, sheets = place.selected.final.model, place.test[:1]
-    score, floor = crps_of(model, sheets, place.nuisances, 0.2, 0.0)
-    error = model.remainder(sheets[0], place.nuisances)[sheets[0].sliding]
+    model, balances = place.selected.final.model, place.test[:1]
+    score, floor = crps_of(model, balances, place.nuisances, 0.2, 0.0)
+    error = model.remainder(balances[0], place.nuisances)[balances[0].sliding]
     x = np.linspace(-6.0, 6.0, 24_001)
     integral = [np.trapezoid((norm.cdf(x / 0.2) - (x >= e)) ** 2, x) for e in error[::40]]
     exact = [0.2 * (z * (2 * norm.cdf(z) - 1) + 2 * norm.pdf(z) - 1 / np.sqrt(np.pi)) for z in error[::40] / 0.2]

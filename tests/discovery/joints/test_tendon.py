@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
+from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.discovery.export import mjcf
-from stochfric_mb.discovery.joints import joint_outcome
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import Dataset, Run
 from stochfric_mb.scenario import any_scenario_from_dict

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import norm, truncnorm
 
-from stochfric_mb.discovery.intervals import interval
+from stochfric_mb.discovery.inference.intervals import interval
 
 
 def test_far_from_the_bounds_it_is_the_usual_one():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from stochfric_mb.discovery.least_squares import minimised
+from stochfric_mb.discovery.inference.least_squares import minimised
 
 GOAL = np.array([0.7, -1.3])
 FINENESS = 1e-6

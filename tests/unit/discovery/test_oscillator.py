@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.calibration import calibrate
-from stochfric_mb.discovery.pool import make_pool
-from stochfric_mb.discovery.recall import recalled
-from stochfric_mb.discovery.record import make_record
-from stochfric_mb.discovery.slips import extract
+from stochfric_mb.discovery.stick_slip.records.calibration import calibrate
+from stochfric_mb.discovery.stick_slip.records.pool import make_pool
+from stochfric_mb.discovery.stick_slip.records.record import make_record
+from stochfric_mb.discovery.stick_slip.records.slips import extract
+from stochfric_mb.discovery.stick_slip.simulation.auxiliary_state import auxiliary_state
 from stochfric_mb.effects import make_effect
 from stochfric_mb.effects.oscillator import oscillator_pull
 from stochfric_mb.laws import make_law
@@ -41,7 +41,7 @@ def rig():
 def test_the_memory_is_recalled_from_the_record(rig):
     system, record, table = rig
     at = np.array([8_000, 12_345, 19_000])
-    found = recalled(system, record, record.time[at], table[at, 0])
+    found = auxiliary_state(system, record, record.time[at], table[at, 0])
     ringing = np.abs(table[:, 2] - table[:, 0]).max()
     # begun at rest 8 s before, or 8 s of e^(-z w t): 1e-4 is left; the noise of the record, narrow-banded, gives the rest
     assert np.abs(found[:, 0] - table[at, 2]).max() < 0.03 * ringing
@@ -58,7 +58,7 @@ def test_a_recalled_memory_makes_a_forecast_go_on(rig):
     stuck = np.flatnonzero(motion.stick > 0.5)
     first = int(stuck[stuck > 8_000][300])
     start = [(motion.time[first], motion.position[first], BOX.belt_velocity, 1.0, 0.3)]
-    memory = recalled(system, record, motion.time[[first]], motion.position[[first]])
+    memory = auxiliary_state(system, record, motion.time[[first]], motion.position[[first]])
     known, rest = (system.forecasts(start, 1e-3, 1200, m)[0] for m in (memory, None))
     truth = motion.position[first + 1 : first + 1201]
     assert np.abs(known - truth).mean() < 0.1 * np.abs(rest - truth).mean()
@@ -69,7 +69,7 @@ def test_an_effect_without_memory_has_nothing_to_recall(rig):
     system = augmented_system(
         BOX, make_law("coulomb", mu_s=0.8, mu_k=0.46), [make_effect("quadratic_damping", coefficient=1.0)]
     )
-    assert recalled(system, record, record.time[[5_000]], record.position[[5_000]]) is None
+    assert auxiliary_state(system, record, record.time[[5_000]], record.position[[5_000]]) is None
 
 
 def test_pull_in_the_slips_is_that_of_the_simulation(rig):

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery import refit
-from stochfric_mb.discovery.forecast import N_OUTPUTS, Windows
-from stochfric_mb.discovery.model import Model
-from stochfric_mb.discovery.record import make_record
+from stochfric_mb.discovery.stick_slip.records.record import make_record
+from stochfric_mb.discovery.stick_slip.simulation import refit
+from stochfric_mb.discovery.stick_slip.simulation.forecast import N_OUTPUTS, Windows
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
 

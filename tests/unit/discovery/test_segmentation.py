@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from stochfric_mb.discovery.record import Noise, make_record
-from stochfric_mb.discovery.segmentation import relative_velocity
+from stochfric_mb.discovery.stick_slip.records.record import Noise, make_record
+from stochfric_mb.discovery.stick_slip.records.segmentation import relative_velocity
 from stochfric_mb.mechanisms import BeltBox
 
 BOX = BeltBox(mass=6.08, damping=0.0, stiffness=3956.0, normal_force=13.0, belt_velocity=1.0e-3)

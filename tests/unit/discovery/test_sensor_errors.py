@@ -5,11 +5,11 @@ import dataclasses
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.model import Model
-from stochfric_mb.discovery.record import Noise, make_record
-from stochfric_mb.discovery.scatter import shown_by
-from stochfric_mb.discovery.sensor_errors import errors_by_noise
-from stochfric_mb.discovery.slips import extract
+from stochfric_mb.discovery.stick_slip.records.record import Noise, make_record
+from stochfric_mb.discovery.stick_slip.records.slips import extract
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.discovery.stick_slip.simulation.scatter import shown_by
+from stochfric_mb.discovery.stick_slip.simulation.sensor_errors import errors_by_noise
 from stochfric_mb.effects import make_effect
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox

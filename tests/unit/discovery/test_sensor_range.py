@@ -6,9 +6,9 @@ import math
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.record import make_record
-from stochfric_mb.discovery.sensor_range import sensor_range
-from stochfric_mb.discovery.slips import extract
+from stochfric_mb.discovery.stick_slip.records.record import make_record
+from stochfric_mb.discovery.stick_slip.records.sensor_range import sensor_range
+from stochfric_mb.discovery.stick_slip.records.slips import extract
 from stochfric_mb.effects import make_effect
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox

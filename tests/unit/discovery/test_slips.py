@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from numpy.polynomial import legendre
 
-from stochfric_mb.discovery.edges import locate_edge
-from stochfric_mb.discovery.record import make_record
-from stochfric_mb.discovery.slips import N_MOMENTS, NODES, extract, features_near, legendre_coefficients
+from stochfric_mb.discovery.stick_slip.records.edges import locate_edge
+from stochfric_mb.discovery.stick_slip.records.record import make_record
+from stochfric_mb.discovery.stick_slip.records.slips import N_MOMENTS, NODES, extract, features_near, legendre_coefficients
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference.augmented import Start, augmented_system

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.stick_motion import without_pattern, without_wave
+from stochfric_mb.discovery.stick_slip.records.stick_motion import without_pattern, without_wave
 
 RATE, PHASES, SAMPLES, PAUSE = 1000.0, 40, 600, 350
 FREQUENCY = 2.13

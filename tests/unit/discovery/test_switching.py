@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.switching import JUMPS, SWITCHES, in_step, switching
+from stochfric_mb.discovery.stick_slip.screening.switching import JUMPS, SWITCHES, in_step, switching
 
 N, RUNS, CYCLE = 50, 2, 1.1
 NOISE = 0.003

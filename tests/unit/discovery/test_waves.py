@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.calibration import calibrate
-from stochfric_mb.discovery.hypotheses import waves_in
-from stochfric_mb.discovery.pool import Pool, make_pool
-from stochfric_mb.discovery.record import make_record
-from stochfric_mb.discovery.regression import Regression, Terms, believed
-from stochfric_mb.discovery.slips import extract
-from stochfric_mb.discovery.waves import _gains, best_wave, frequencies, wave_columns
+from stochfric_mb.discovery.stick_slip.records.calibration import calibrate
+from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
+from stochfric_mb.discovery.stick_slip.records.record import make_record
+from stochfric_mb.discovery.stick_slip.records.slips import extract
+from stochfric_mb.discovery.stick_slip.screening.hypotheses import waves_in
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Terms, believed
+from stochfric_mb.discovery.stick_slip.screening.waves import _gains, best_wave, frequencies, wave_columns
 from stochfric_mb.effects import make_effect
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox

@@ -11,8 +11,8 @@ import pytest
 
 from stochfric_mb import load_scenario
 from stochfric_mb.discovery import discover
+from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
-from stochfric_mb.discovery.workflow import Outcome
 from stochfric_mb.effects import make_effect
 from stochfric_mb.measurement.dataset import Dataset, Run
 from stochfric_mb.reference.augmented import Start, augmented_system

@@ -1,0 +1,120 @@
+"""Confounding: conditions that went together in an experiment, so that no analysis can say which of them mattered."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
+
+Array = npt.NDArray[np.float64]
+
+TOGETHER = 0.8
+"""Part of one condition's variance that another explains, from which they are called confounded [-]."""
+PARTLY = 0.5
+"""The same, from which they are called partly confounded."""
+INSIDE = 0.5
+"""Least part of a condition's standard deviation that is within runs, for what it does there to count [-]."""
+EFFECTS = {
+    "direction": ("direction_asymmetry",),
+    "speed": ("viscous_friction", "velocity_weakening", "quadratic_damping"),
+    "load": ("load_dependence",),
+    "position": ("position_dependent_friction", "nonlinear_stiffness"),
+    "time": ("friction_drift",),
+    "distance": ("distance_drift",),
+    "temperature": ("temperature_drift",),
+}
+"""Condition -> effects that answer to it."""
+CLOCKS = ("time", "distance", "temperature")
+"""Conditions that mostly grow together: for friction that drifts the fits are asked which of them it was."""
+DRIFTS = tuple(kind for clock in CLOCKS for kind in EFFECTS[clock])
+"""Effects that answer to them."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Confounded:
+    """Two conditions that went together."""
+
+    first: str
+    """One of them."""
+    second: str
+    """The other."""
+    explained: float
+    """Part of the variance of one that the other explains [-]."""
+
+    def __str__(self) -> str:
+        """Return the finding as a sentence."""
+        word = "are" if self.explained >= TOGETHER else "are partly"
+        return (
+            f"{self.first} and {self.second} {word} confounded here: one explains {100 * self.explained:.0f} % of the other's "
+            "variance"
+        )
+
+
+def confounded(balances: Sequence[ForceBalance]) -> list[Confounded]:
+    """Return the pairs of conditions that went together over the sliding windows of ``balances``, the worst first."""
+    names = list(dict.fromkeys(name for s in balances for name in s.factors))
+    whole = [n for n in names if all(n in s.factors for s in balances)]
+    runs = [{n: s.factors[n][s.sliding] for n in whole} for s in balances if s.sliding.any()]
+    found: list[Confounded] = []
+    for i, first in enumerate(whole):
+        for second in whole[i + 1 :]:
+            share = _together([(r[first], r[second]) for r in runs])
+            if share >= PARTLY:
+                found.append(Confounded(first, second, share))
+    return sorted(found, key=lambda c: -c.explained)
+
+
+def _together(runs: Sequence[tuple[Array, Array]]) -> float:
+    """Return how far two conditions went together: over all runs, or within each run (then the mean over runs).
+
+    The latter says something only where both vary within runs about as much as they do at all.
+    """
+    whole = tuple(np.concatenate([r[k] for r in runs]) for k in (0, 1))
+    inside = [np.concatenate([r[k] - r[k].mean() for r in runs]).std() / max(float(whole[k].std()), 1.0e-300) for k in (0, 1)]
+    within = float(np.mean([_share(*r) for r in runs])) if min(inside) > INSIDE else 0.0
+    return max(_share(*whole), within)
+
+
+def _share(first: Array, second: Array) -> float:
+    if min(_spread(first), _spread(second)) < 1.0e-9:
+        return 0.0
+    return max(_explained(first, second), _explained(second, first))
+
+
+def _spread(values: Array) -> float:
+    return float(np.ptp(values) / max(float(np.max(np.abs(values))), 1.0e-300))
+
+
+def _explained(cause: Array, result: Array) -> float:
+    """Return the part of the variance of ``result`` that is between the levels of ``cause``, at most eight of them."""
+    levels = np.unique(cause)
+    if len(levels) > 8:
+        return float(np.corrcoef(cause, result)[0, 1] ** 2)
+    between = sum(np.mean(cause == x) * (result[cause == x].mean() - result.mean()) ** 2 for x in levels)
+    return float(between / result.var())
+
+
+def spoken_of(pairs: Sequence[Confounded], found: Sequence[str]) -> list[Confounded]:
+    """Return the confounded pairs that matter: that time and distance grew together does where friction drifts.
+
+    Args:
+        pairs: conditions that went together.
+        found: kinds of the effects found.
+    """
+    drifts = any(kind in DRIFTS for kind in found)
+    return [p for p in pairs if p.explained >= TOGETHER and (drifts or {p.first, p.second} != {"time", "distance"})]
+
+
+def stand_ins(kind: str, pairs: Sequence[Confounded]) -> tuple[str, ...]:
+    """Return the effects that could pass for ``kind`` because its condition went together with theirs."""
+    own = [c for c, kinds in EFFECTS.items() if kind in kinds and c not in CLOCKS]
+    others = [
+        p.second if p.first in own else p.first
+        for p in pairs
+        if p.explained >= TOGETHER and own and {p.first, p.second} & set(own)
+    ]
+    return tuple(dict.fromkeys(k for o in others for k in EFFECTS.get(o, ()) if k != kind))

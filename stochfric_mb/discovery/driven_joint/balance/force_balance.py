@@ -1,0 +1,125 @@
+"""A force balance: one run at one joint, as the balance of forces in weak form and the motion along which friction acts."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from collections.abc import Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.driven_joint.balance.weak_form import Window
+
+Array = npt.NDArray[np.float64]
+
+LEAST_SPEED = 0.02
+"""Speed below which a joint is not taken to slide, over its 90 % speed [-]."""
+SURE = 5.0
+"""Least sliding speed in standard deviations of the velocity's noise."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Nuisance:
+    """A number of the believed model that enters the balance linearly."""
+
+    name: str
+    """Its name in the scenario's ``[mechanism]``."""
+    value: float
+    """What is believed."""
+    deviation: float
+    """Standard deviation of that belief, > 0; inf: nothing is believed."""
+    unit: str
+    """Its unit."""
+    low: float = -np.inf
+    """Smallest value that it can have."""
+
+
+@dataclasses.dataclass(frozen=True)
+class ForceBalance:
+    """driven = sum of nuisance columns times (value - believed) + friction, at the centres of windows.
+
+    ``driven`` is the driving force less inertia, gravity and all else that the believed model says, friction left out.
+    """
+
+    run: str
+    """Name of the run."""
+    role: str
+    """``fit`` or ``test``."""
+    place: str
+    """Joint or tendon; empty where there is one only."""
+    unit: str
+    """Unit of forces: N, or N m."""
+    window: Window
+    """The window and its centres."""
+    time: Array
+    """Time since the start of the record [s], shape (count,)."""
+    position: Array
+    """Position through the window [m or rad], shape (count,)."""
+    velocity: Array
+    """Velocity in weak form [m/s or rad/s], shape (count,)."""
+    load: Array
+    """Load that the joint transmits, beyond its believed load [N or N m], shape (count,), >= 0."""
+    slip: Array
+    """Distance since the last reversal [m or rad], shape (count,)."""
+    driven: Array
+    """Force that friction has to take up [N or N m], shape (n_centres,)."""
+    columns: Mapping[str, Array]
+    """Nuisance -> change of the balance per unit of it, shape (n_centres,)."""
+    sliding: npt.NDArray[np.bool_]
+    """Whether the joint slides one way all through the window, shape (n_centres,)."""
+    noise: float
+    """Noise to be expected on ``driven`` from white noise of the channels [N or N m]."""
+    factors: Mapping[str, Array]
+    """Known conditions for the search of confounding, such as temperature, shape (n_centres,)."""
+    before: float = 0.0
+    """Distance slid in the pieces of the same record that come before this one [m or rad]."""
+    temperature: Array | None = None
+    """Measured temperature [degC], shape (count,); None: none was."""
+    normal_force: Array | None = None
+    """Normal force of a contact [N], shape (count,), >= 0; None: the believed load, which stays."""
+
+    @functools.cached_property
+    def travelled(self) -> Array:
+        """Distance slid since the record began, whichever way [m or rad], shape (count,)."""
+        return self.before + distance_slid(self.velocity, self.window)
+
+
+def distance_slid(velocity: Array, window: Window) -> Array:
+    """Return the distance moved since the first sample, whichever way [m or rad], shape (count,).
+
+    Args:
+        velocity: velocity through a window, so that noise at rest hardly counts [m/s or rad/s], shape (count,).
+        window: the window.
+    """
+    return integrated(np.abs(window.held(velocity)), window.interval)
+
+
+def integrated(values: Array, interval: float) -> Array:
+    """Return the integral of a signal since its first sample, by trapezoids, shape (n,)."""
+    return np.r_[0.0, np.cumsum(0.5 * (values[1:] + values[:-1]))] * interval
+
+
+def slipped(position: Array, velocity: Array, least: float) -> Array:
+    """Return the distance moved since the joint last reversed or rested [m or rad], shape as ``position``."""
+    moving = np.abs(velocity) > least
+    direction = np.where(moving, np.sign(velocity), 0.0)
+    starts = np.r_[True, direction[1:] != direction[:-1]]
+    first = np.maximum.accumulate(np.where(starts, np.arange(len(position)), 0))
+    return np.where(moving, np.abs(position - position[first]), 0.0)
+
+
+def least_speed(velocity: Array, noise: float) -> float:
+    """Return the speed above which a joint surely slides.
+
+    Args:
+        velocity: velocity in weak form, shape (n,).
+        noise: standard deviation of its noise.
+    """
+    return max(SURE * noise, LEAST_SPEED * float(np.quantile(np.abs(velocity), 0.9)))
+
+
+def slides(window: Window, velocity: Array, least: float) -> npt.NDArray[np.bool_]:
+    """Return at which centres the joint slides one way all through the window, shape (n_centres,)."""
+    seen = window.views(velocity)
+    return (seen.min(axis=1) > least) | (seen.max(axis=1) < -least)

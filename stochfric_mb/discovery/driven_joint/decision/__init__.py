@@ -1,0 +1,1 @@
+"""Which effects a joint lacks: candidates, selection, scatter, confounding, and the verdict with its numbers."""

@@ -1,0 +1,71 @@
+"""The numbers of a result, with their units and 95 % intervals."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from stochfric_mb.discovery.driven_joint.fit.fitting import prior_weight
+from stochfric_mb.discovery.driven_joint.fit.profiles import profile
+from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.discovery.inference.intervals import interval
+from stochfric_mb.discovery.result import Interval
+
+ROTATIONAL = {
+    "N": "N m", "m": "rad", "m/s": "rad/s", "N s/m": "N m s/rad", "N s^2/m^2": "N m s^2/rad^2",
+}  # fmt: skip
+"""Unit of a parameter where friction acts along a line -> where it acts about an axis."""
+FACTORS = {
+    "mass": "mass_factor", "armature": "armature_factor", "gain": "drive_factor", "damping": "damping_factor",
+    "offset": "drive_offset",
+}  # fmt: skip
+"""Correction of a named joint -> its name in the result, where the scenario's own numbers are tables of joints."""
+WAVE = "position_dependent_friction"
+"""Effect whose numbers trade off against each other where its wave is longer than the stroke."""
+
+
+def parameters(place: PlaceOutcome, owner: int) -> dict[str, Interval]:
+    """Return the numbers of an effect of the final model at a place, its ``owner``-th, with their intervals."""
+    fit, rotates = place.selected.final, place.fit[0].unit == "N m"
+    effect = fit.model.effects[owner]
+    found: dict[str, Interval] = {}
+    for field in dataclasses.fields(effect):
+        straight = str(field.metadata.get("unit", "-"))
+        unit = ROTATIONAL.get(straight, straight) if rotates else straight
+        value = getattr(effect, field.name)
+        if not isinstance(value, int | float) or not np.isfinite(value):
+            continue
+        deviation = fit.deviation(owner, field.name)
+        if deviation < 1.0e-6 * abs(value):  # not known that well: nothing in these data depends on it
+            continue
+        if np.isfinite(deviation):
+            found[field.name] = interval(value, deviation, unit, field.metadata["low"], field.metadata["high"])
+        elif value != field.default:
+            found[field.name] = Interval(value, value, value, unit)
+    if effect.kind == WAVE and found["amplitude"].low <= 0.0 <= found["amplitude"].high:
+        found |= _profiled(place, owner, found)
+    return found
+
+
+def _profiled(place: PlaceOutcome, owner: int, numbers: dict[str, Interval]) -> dict[str, Interval]:
+    """Return amplitude and wavelength of a wave with intervals that do not take the fit as linear in them."""
+    fit, found = place.selected.final, dict[str, Interval]()
+    for name in ("amplitude", "wavelength"):
+        value, unit = numbers[name].value, numbers[name].unit
+        low, high = profile(
+            fit, owner, name, place.fit, place.nuisances, prior_weight(fit), *((0.0, np.inf) if value > 0.0 else (-np.inf, 0.0))
+        )
+        found[name] = Interval(value, low, high, unit)
+    return found
+
+
+def believed(place: PlaceOutcome) -> dict[str, Interval]:
+    """Return the corrected numbers of law and mechanism at a place, with their intervals."""
+    fit = place.selected.final
+    found: dict[str, Interval] = {}
+    for knob, value in zip(fit.knobs, fit.values, strict=True):
+        if knob.owner < 0:
+            name = FACTORS.get(knob.name, knob.name) if place.place else knob.name
+            found[name] = interval(float(value), fit.deviation(knob.owner, knob.name), knob.unit, knob.low, knob.high)
+    return found

@@ -1,0 +1,299 @@
+"""Selection: one effect at a time, by evidence, by what it is worth on blocks left out, and against smooth competitors."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import numpy.typing as npt
+from scipy.stats import f as fisher
+
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.decision.candidates import COMPETITORS, Candidate, Competitor, candidates, span_of
+from stochfric_mb.discovery.driven_joint.decision.cross_validation import LeftOut, blocks, compared, strokes
+from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of, whitened
+from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_rows, prior_weight
+from stochfric_mb.discovery.driven_joint.fit.gains import predicted_rms
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+
+Array = npt.NDArray[np.float64]
+
+NAMED = 20.0
+"""Score above which an effect is named."""
+MATERIAL = 0.05
+"""Least share of the error on left-out blocks that an effect must take away: less is real, perhaps, but no explanation."""
+PLAIN = 0.1
+"""The same for a competitor without a name: that something is missing is said where it is plain to see."""
+BETTER = 0.5
+"""Least share of the blocks that must get better: an effect that shows in one place only is one that was fitted to it."""
+CHANCE = 0.05
+"""Without that score an effect is taken where strokes left out, one by one, say so with no more chance than this of error,
+the kinds that were tried counted, and where each half of the record foretells the other better with it."""
+FEWEST_STROKES = 8
+"""Fewest strokes that can."""
+TIE = 10.0
+"""Difference of scores within which effects cannot be told apart."""
+ALIKE = 0.5
+"""Least part of an effect's evidence that one must have which could stand in for it."""
+MOST = 4
+"""Most effects in one joint: beyond, errors of the first ones would be explained."""
+WIN = (15.0, 0.03)
+"""A competitor wins by that score, or that part of the best named effect's score, whichever is more."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Trial:
+    """A candidate, fitted."""
+
+    candidate: Candidate
+    """The candidate."""
+    fit: JointFit
+    """Model with it."""
+    score: float
+    """2 delta log L - p ln n - 2 ln(tried), n counting independent windows, tried: starting points times kinds."""
+    p_value: float
+    """Chance of that gain without the effect, by Fisher's F on independent windows, times the size of the grid."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Stage:
+    """One step of the selection."""
+
+    before: JointFit
+    """Model before it."""
+    trials: tuple[Trial, ...]
+    """Every candidate, best first."""
+    competitors: tuple[tuple[str, float], ...]
+    """Axis of each smooth competitor, with its score."""
+    blocks: LeftOut
+    """What the best candidate is worth on blocks left out."""
+    strokes: LeftOut | None
+    """What it is worth on strokes left out, where this was asked."""
+    accepted: bool
+    """Whether it was taken into the model."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Selected:
+    """What was found at one joint."""
+
+    recalibrated: JointFit
+    """The believed model with its numbers fitted."""
+    final: JointFit
+    """With the effects found."""
+    found: tuple[Trial, ...]
+    """Effects, as they were when accepted."""
+    equivalents: tuple[tuple[str, ...], ...]
+    """Effects that could stand in the place of each."""
+    stages: tuple[Stage, ...]
+    """The steps."""
+    unknown: str
+    """Axis of what is missing without a name; empty: nothing is."""
+
+
+class Selector:
+    """Selection at one joint."""
+
+    def __init__(
+        self,
+        balances: Sequence[ForceBalance],
+        nuisances: Sequence[Nuisance],
+        start: JointModel,
+        progress: Callable[[str], None] | None = None,
+    ) -> None:
+        self._balances, self._nuisances = list(balances), list(nuisances)
+        self._tell = progress or (lambda _: None)
+        self._settings = settings_of(balances)
+        first = fit(start, balances, nuisances, noise=_typical(balances))
+        self._noise = prior_weight(first)
+        self.recalibrated = self._fit(start)
+
+    def _fit(self, model: JointModel, evaluations: int = 12) -> JointFit:
+        return fit(model, self._balances, self._nuisances, noise=self._noise, evaluations=evaluations)
+
+    def run(self) -> Selected:
+        """Return what was selected."""
+        current = self.recalibrated
+        found: list[Trial] = []
+        stages: list[Stage] = []
+        while len(found) < MOST:
+            self._tell(f"effect {len(found) + 1}")
+            stage = self._stage(current)
+            stages.append(stage)
+            if not stage.accepted:
+                break
+            found.append(stage.trials[0])
+            current = stage.trials[0].fit
+            self._noise = prior_weight(current)
+            current, found = self._re_examined(current, found)
+        final = self._fit(current.model)
+        unknown = self._unknown(stages[-1]) if not stages[-1].accepted else ""
+        return Selected(
+            self.recalibrated, final, tuple(found), tuple(self._equivalents(final, i) for i in range(len(found))),
+            tuple(stages), unknown,
+        )  # fmt: skip
+
+    def first(self) -> Stage:
+        """Return the first step alone."""
+        return self._stage(self.recalibrated)
+
+    def _stage(self, current: JointFit) -> Stage:
+        span = span_of(self._balances, current.model.law.mu_k * current.model.load)
+        fits: list[tuple[Candidate, JointFit]] = []
+        for candidate in candidates(span, current.model.effects, current.model.load):
+            self._tell(candidate.kind)
+            fits.append((candidate, self._best(current, candidate)))
+        trials = self._scored(current, fits)
+        rivals = self._competitors(current, trials[0].fit)
+        models = current.model, trials[0].fit.model
+        inside = compared(*models, self._balances, self._nuisances, self._noise, blocks(self._balances))
+        enough = trials[0].score > NAMED and inside.gain > MATERIAL and inside.better >= BETTER
+        repeats = None
+        if not enough and len(parts := strokes(self._balances)) >= FEWEST_STROKES:
+            repeats = compared(*models, self._balances, self._nuisances, self._noise, parts)
+            repeats = dataclasses.replace(repeats, p_value=min(1.0, repeats.p_value * len(trials)))
+            enough = repeats.gain > MATERIAL and repeats.p_value < CHANCE and self._foretold(*models)
+        return Stage(current, tuple(trials), tuple(rivals), inside, repeats, enough)
+
+    def _foretold(self, plain: JointModel, richer: JointModel) -> bool:
+        """Return whether each half of the record, left out, is foretold better by the richer model by a material part."""
+        halves = blocks(self._balances, 2)
+        seen = [compared(plain, richer, self._balances, self._nuisances, self._noise, [half]) for half in halves]
+        return min(s.gain for s in seen) > MATERIAL
+
+    def _best(self, current: JointFit, candidate: Candidate) -> JointFit:
+        starts = sorted(candidate.starts, key=lambda e: predicted_rms(current.model, e, self._balances, current))
+        fits = [self._fit(current.model.plus(e)) for e in starts[:2]]
+        return min(fits, key=lambda f: f.rms)
+
+    def _scored(self, current: JointFit, fits: Sequence[tuple[Candidate, JointFit]]) -> list[Trial]:
+        # all are judged by the same count of independent windows: that of the best fit
+        best = min((f for _, f in fits), key=lambda f: f.rms)
+        n = max(best.independent, 4.0)
+        trials = [self._trial(current, c, f, best, n, len(fits)) for c, f in fits]
+        return sorted(trials, key=lambda t: -t.score)
+
+    def _trial(self, current: JointFit, candidate: Candidate, fitted: JointFit, best: JointFit, n: float, kinds: int) -> Trial:
+        p, grid = candidate.parameters, len(candidate.starts) * kinds
+        ratio = max((current.rms / fitted.rms) ** 2, 1.0)
+        score = self._evidence(current, fitted, best, n) - p * np.log(n) - 2.0 * np.log(grid)
+        spare = max(n - len(fitted.knobs), 1.0)
+        chance = float(fisher.sf((ratio - 1.0) * spare / p, p, spare))
+        return Trial(candidate, fitted, float(score), min(1.0, chance * grid))
+
+    def _evidence(self, plain: JointFit, richer: JointFit, best: JointFit, n: float) -> float:
+        """Return 2 delta log L of two fits, settings scattering as they do about the best fit there is."""
+        ratio = scatter(np.concatenate(best.remainders), self._settings, n).ratio
+        before, after = (
+            scatter(np.concatenate(f.remainders), self._settings, n, ratios=np.array([ratio])) for f in (plain, richer)
+        )
+        return before.deviance - after.deviance
+
+    def _competitors(self, current: JointFit, best: JointFit) -> list[tuple[str, float]]:
+        n = max(best.independent, 4.0)
+        prior, offsets = prior_rows(current, self._noise)
+        rest = np.concatenate(current.remainders)
+        before = scatter(rest, self._settings, n)
+        kept = adjustable(current)
+        found: list[tuple[str, float]] = []
+        for rival in COMPETITORS:
+            seen = rival.columns(self._balances)
+            columns = np.concatenate([c[s.sliding] for c, s in zip(seen, self._balances, strict=True)])
+            width = columns.shape[1]
+            if width == 0:
+                continue
+            design = np.column_stack([current.jacobian[:, kept], columns])
+            below = np.column_stack([prior[:, kept], np.zeros((len(prior), width))])
+            after = min(self._deviance_without(rest, offsets, design, below, n, ratio) for ratio in {0.0, before.ratio})
+            score = before.deviance - after - width * np.log(n)
+            found.append((rival.axis, float(score)))
+        return sorted(found, key=lambda r: -r[1])
+
+    def _deviance_without(self, rest: Array, offsets: Array, design: Array, below: Array, n: float, ratio: float) -> float:
+        """Return the deviance of what ``design`` leaves, fitted for one ratio of the variances; ``below`` are the priors."""
+        both = np.vstack([whitened(design, self._settings, n, ratio), below])
+        scale = np.maximum(np.linalg.norm(both, axis=0), 1.0e-300)
+        goal = np.r_[whitened(rest[:, None], self._settings, n, ratio)[:, 0], offsets]
+        fitted = np.linalg.lstsq(both / scale, goal, rcond=1.0e-10)[0]
+        return scatter(rest - design / scale @ fitted, self._settings, n).deviance
+
+    def _re_examined(self, current: JointFit, found: list[Trial]) -> tuple[JointFit, list[Trial]]:
+        """Drop effects that later ones have made superfluous."""
+        for trial in found[:-1]:
+            if trial.score < NAMED:  # taken for what it is worth on strokes left out
+                continue
+            kind = trial.candidate.kind
+            without = dataclasses.replace(current.model, effects=tuple(e for e in current.model.effects if e.kind != kind))
+            fitted = self._fit(without)
+            n = max(current.independent, 4.0)
+            score = self._evidence(fitted, current, current, n) - trial.candidate.parameters * np.log(n)
+            if score < NAMED:
+                current, found = fitted, [t for t in found if t.candidate.kind != kind]
+        return current, found
+
+    def _equivalents(self, final: JointFit, number: int) -> tuple[str, ...]:
+        """Return the kinds that could stand in the place of an effect of the final model, within `TIE`."""
+        added = len(final.model.effects) - len(self.recalibrated.model.effects)
+        own = final.model.effects[len(final.model.effects) - added + number]
+        others = tuple(e for e in final.model.effects if e is not own)
+        without = self._fit(dataclasses.replace(final.model, effects=others))
+        span = span_of(self._balances, without.model.law.mu_k * without.model.load)
+        choices = [c for c in candidates(span, others, without.model.load) if c.kind != own.kind]
+        fits = [(c, self._best(without, c)) for c in choices]
+        n = max(final.independent, 4.0)
+        size = {c.kind: c.parameters for c in candidates(span, others, without.model.load)}[own.kind]
+        mine = self._evidence(without, final, final, n)
+        theirs = [(c, self._evidence(without, f, final, n)) for c, f in fits]
+        # one that explains next to nothing stands in for nothing, however close the scores
+        return tuple(
+            c.kind
+            for c, gain in theirs
+            if gain > ALIKE * mine and gain - c.parameters * np.log(n) > mine - size * np.log(n) - TIE
+        )
+
+    def _unknown(self, last: Stage) -> str:
+        """Return the axis along which something is missing that no effect explains; empty if nothing is."""
+        if not last.competitors:
+            return ""
+        axis, score = last.competitors[0]
+        named = last.trials[0].score
+        if score < NAMED + 2.0 * np.log(len(COMPETITORS)) or score < named + max(WIN[0], WIN[1] * abs(named)):
+            return ""
+        rival = next(c for c in COMPETITORS if c.axis == axis)
+        return axis if self._rival_gain(last.before, rival) > PLAIN else ""
+
+    def _rival_gain(self, current: JointFit, rival: Competitor) -> float:
+        """Return by what part a competitor lowers the error on blocks left out."""
+        inside = [s.sliding for s in self._balances]
+        x = np.concatenate([c[m] for c, m in zip(rival.columns(self._balances), inside, strict=True)])
+        prior, offsets = prior_rows(current, self._noise)
+        known = np.vstack([current.jacobian, prior])[:, adjustable(current)]
+        x = np.column_stack([known, _padded(x, len(prior))])
+        y = np.r_[np.concatenate(current.remainders), offsets]
+        before = after = 0.0
+        for block in blocks(self._balances):
+            out = np.r_[np.concatenate([b[m] for b, m in zip(block, inside, strict=True)]), np.zeros(len(prior), dtype=bool)]
+            for design, plain in ((known, True), (x, False)):
+                scale = np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
+                b = np.linalg.lstsq(design[~out] / scale, y[~out], rcond=1.0e-10)[0]
+                error = float(np.sum((y[out] - design[out] / scale @ b) ** 2))
+                before, after = (before + error, after) if plain else (before, after + error)
+        return 1.0 - float(np.sqrt(after / before))
+
+
+def adjustable(fitted: JointFit) -> list[int]:
+    """Return the numbers of a fit that a smooth competitor may move: all but gains.
+
+    With less gain and a potential of its own in the place of gravity there would be less of everything, errors included.
+    """
+    return [i for i, k in enumerate(fitted.knobs) if k.owner != -2 or not k.name.endswith("gain")]
+
+
+def _padded(columns: Array, rows: int) -> Array:
+    """Return ``columns`` with ``rows`` rows of zeros below."""
+    return np.vstack([columns, np.zeros((rows, columns.shape[1]))])
+
+
+def _typical(balances: Sequence[ForceBalance]) -> float:
+    return float(np.std(np.concatenate([s.driven[s.sliding] for s in balances])))

@@ -1,0 +1,85 @@
+"""Signs: friction that brings in energy, and drives that fit the motion when they are turned round."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
+from stochfric_mb.discovery.driven_joint.decision.selection import Selector
+from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
+from stochfric_mb.measurement.dataset import Dataset
+from stochfric_mb.measurement.run import Run
+from stochfric_mb.measurement.signs import SEGMENTS, probable_sign_error
+from stochfric_mb.mechanisms import Mjcf
+
+TURNED = 0.5
+"""Part of the error that is left with the drive turned round, below which its sign is probably wrong."""
+DRIVES = ("force", "torque", "voltage")
+"""Channels that drive a slide or hinge."""
+
+
+def sign_notes(dataset: Dataset, place: str, load: float, balances: Sequence[ForceBalance]) -> list[str]:
+    """Return what looks like a wrong sign at a place: of runs one by one by their energy, of all by the balance of forces.
+
+    Args:
+        dataset: the dataset.
+        place: name of the joint, tendon or pair; empty where there is one only.
+        load: its believed load [N or N m].
+        balances: its runs to learn from.
+    """
+    notes = [note for balance in balances if (note := _brings_energy(balance)) is not None]
+    return notes or _fits_turned(dataset, place, load, balances)
+
+
+def _brings_energy(balance: ForceBalance) -> str | None:
+    """Return a note if friction, as inverse dynamics has it, feeds the motion of a run."""
+    resistance, velocity = balance.driven[balance.sliding], balance.velocity[balance.window.centres][balance.sliding]
+    if len(resistance) < 2 * SEGMENTS:
+        return None
+    wrong = probable_sign_error(-(resistance - np.median(resistance)), velocity)
+    if wrong is None:
+        return None
+    return (
+        f"run {balance.run}: friction brings in energy ({100 * wrong.created:.0f} % of what it exchanges): the sign of "
+        "the driving force, or of the position, is probably wrong; give sign = { force = -1 }"
+    )
+
+
+def _fits_turned(dataset: Dataset, place: str, load: float, balances: Sequence[ForceBalance]) -> list[str]:
+    """Return a note if the believed model explains the motion far better with the drive turned round.
+
+    Where inertia outweighs friction a wrong sign shows as twice the inertia, not as energy.
+    """
+    if place in getattr(dataset.scenario.mechanism, "pairs", ()):
+        return []  # the drives press there, too: with them turned round nothing touches
+    found = source_of(_turned(dataset, place))
+    nuisances = found.nuisances(place)
+    believed = prior_model(dataset.scenario, place, nuisances, load)
+    both = balances, found.balances(place, "fit", 0.0)
+    as_given, turned = (Selector(s, nuisances, believed).recalibrated.rms for s in both)
+    if turned > TURNED * as_given:
+        return []
+    where = f" at {place}" if place else ""
+    return [
+        f"the balance of forces{where} is off by {as_given:.3g} {balances[0].unit} as given, by {turned:.3g} "
+        f"{balances[0].unit} with the drive turned round: the sign of the driving force, or of the position, is probably "
+        "wrong; give sign = { force = -1 }"
+    ]
+
+
+def _turned(dataset: Dataset, place: str) -> Dataset:
+    """Return the dataset with the drive of a place turned round."""
+    mechanism: Any = dataset.scenario.mechanism
+    if isinstance(mechanism, Mjcf):
+        drives = {n: dataclasses.replace(d, gain=-d.gain) if n == place else d for n, d in mechanism.drives.items()}
+        scenario = dataclasses.replace(dataset.scenario, mechanism=dataclasses.replace(mechanism, drives=drives))
+        return dataclasses.replace(dataset, scenario=scenario)
+    return dataclasses.replace(dataset, runs=tuple(map(_turned_run, dataset.runs)))
+
+
+def _turned_run(run: Run) -> Run:
+    return dataclasses.replace(run, channels={k: -v if k in DRIVES else v for k, v in run.channels.items()})

@@ -1,0 +1,280 @@
+"""From what was selected at each joint to the result: names, numbers with intervals, gap, what cannot be told."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from stochfric_mb.discovery.driven_joint.balance.confounding import DRIFTS, Confounded, confounded, spoken_of, stand_ins
+from stochfric_mb.discovery.driven_joint.balance.timing import NAMED as SURE
+from stochfric_mb.discovery.driven_joint.balance.timing import Timing
+from stochfric_mb.discovery.driven_joint.decision.estimates import believed, parameters
+from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
+from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
+from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
+from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
+from stochfric_mb.effects import effect_kinds
+from stochfric_mb.measurement.dataset import Dataset
+
+IMITATED = 0.99
+"""Part of an effect's change of friction that other numbers imitate, from which it cannot be identified [-]."""
+PLAIN = 14.0
+"""Fall of the deviance from which a scatter between settings is spoken of."""
+NO_BELT = ("belt_speed_ripple",)
+"""Effects of a mechanism that a joint does not have."""
+
+
+def verdict(
+    dataset: Dataset, places: Sequence[PlaceOutcome], timing: Timing | None, notes: Sequence[str], loop_floor: float | None
+) -> Result:
+    """Return the result of a dataset."""
+    pairs = confounded(places[0].fit)
+    effects = [_delay(timing)] if timing is not None and timing.named else []
+    for place in places:
+        effects += _found(place, pairs) + _drawn(place) + _drawn_by_run(place)
+    unknown = next((p for p in places if p.selected.unknown and not effects), None)
+    kind = "effect" if effects else "unknown" if unknown is not None else "none"
+    where = None
+    if unknown is not None:
+        axis = unknown.selected.unknown
+        where = Where(axis, f"What is missing depends on {axis}{_at(unknown)}; no known effect explains it.")
+    gap = _gap(places, loop_floor)
+    return Result(
+        verdict=kind,
+        effects=tuple(effects),
+        where=where,
+        ranking=_ranking(places, timing),
+        gap=gap,
+        not_identifiable=_unseen(places),
+        next_experiment=_advice(pairs, places),
+        believed={f"{p.place}.{k}" if len(places) > 1 else k: v for p in places for k, v in believed(p).items()},
+        notes=(
+            *gap.notes,
+            *notes,
+            *_forward_notes(places[0]),
+            *_timing_notes(timing),
+            *map(str, spoken_of(pairs, [e.kind for e in effects])),
+            *_remarks(places),
+        ),
+        details=_details(places, timing, pairs),
+    )
+
+
+def _delay(timing: Timing) -> Found:
+    size = Interval(abs(timing.seconds), min(abs(timing.low), abs(timing.high)), max(abs(timing.low), abs(timing.high)), "s")
+    first = "position" if timing.seconds > 0.0 else "driving force"
+    text = f"The {first} comes {1e3 * size.value:.1f} ms late in the record; this is compensated before friction is judged."
+    chance = float(np.exp(-0.5 * max(timing.score, 0.0)))
+    return Found("sensor_delay", (), Where("time", text), {"delay": size}, timing.score, chance)
+
+
+def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
+    fit = place.selected.final
+    first = len(place.believed.effects)
+    found: list[Found] = []
+    for i, (trial, same) in enumerate(zip(place.selected.found, place.selected.equivalents, strict=True)):
+        effect = fit.model.effects[first + i]
+        others = tuple(dict.fromkeys([*same, *stand_ins(effect.kind, pairs)]))
+        axis = trial.candidate.where
+        stage = next(s for s in place.selected.stages if s.trials[0] is trial)
+        text = (
+            f"Friction depends on {axis}{_at(place)}: the error falls from {stage.before.rms:.4g} to {trial.fit.rms:.4g} "
+            f"{place.fit[0].unit} on the runs that were learned from."
+        )
+        chance = trial.p_value
+        if stage.strokes is not None:
+            chance = stage.strokes.p_value
+            text += (
+                f" On strokes left out, one by one, it falls by {100.0 * stage.strokes.gain:.0f} %, in "
+                f"{round(stage.strokes.better * stage.strokes.parts)} of {stage.strokes.parts}, and each half of the record "
+                "foretells the other better; it is named for that."
+            )
+        numbers = parameters(place, first + i)
+        found.append(Found(effect.kind, others, Where(axis, text), numbers, trial.score, chance))
+    return found
+
+
+def _drawn(place: PlaceOutcome) -> list[Found]:
+    """Return the finding that friction is drawn anew for each stroke, if it is one."""
+    seen = place.random
+    if seen is None or not seen.named:
+        return []
+    text = (
+        f"Friction differs from stroke to stroke{_at(place)} by {100.0 * seen.share:.1f} % (standard deviation, {seen.strokes} "
+        "strokes), more than its scatter within them explains, and each stroke by itself."
+    )
+    size = Interval(seen.sigma, seen.low, seen.high, "-")
+    return [Found("random_coefficients", (), Where("stroke", text), {"sigma_k": size}, seen.score, seen.p_value)]
+
+
+def _drawn_by_run(place: PlaceOutcome) -> list[Found]:
+    """Return the finding that friction is drawn anew for each run, if it is one."""
+    seen = place.runs
+    if seen is None or not seen.named:
+        return []
+    text = (
+        f"Friction differs from run to run{_at(place)} by {100.0 * seen.share:.1f} % (standard deviation, {seen.runs} runs), "
+        "more than the scatter of their strokes explains; no run says it of another."
+    )
+    size = Interval(seen.sigma, seen.low, seen.high, "-")
+    return [Found("random_coefficients", (), Where("run", text), {"sigma_k": size}, seen.score, seen.p_value)]
+
+
+def _at(place: PlaceOutcome) -> str:
+    return f" in {place.thing} {place.place}" if place.place else ""
+
+
+def _ranking(places: Sequence[PlaceOutcome], timing: Timing | None) -> tuple[tuple[str, float], ...]:
+    best: dict[str, float] = {}
+    for place in places:
+        for stage in place.selected.stages:
+            for trial in stage.trials:
+                name = f"{trial.candidate.kind} ({place.place})" if len(places) > 1 else trial.candidate.kind
+                best[name] = max(best.get(name, -np.inf), trial.score)
+    if timing is not None:
+        best["sensor_delay"] = timing.score if timing.named else min(timing.score, 0.0)
+    return tuple(sorted(best.items(), key=lambda item: -item[1]))
+
+
+def _gap(places: Sequence[PlaceOutcome], loop_floor: float | None) -> Gap:
+    place = places[0]
+    before, middle, after = (place.scores[k] for k in ("baseline", "recalibrated", "augmented"))
+    if place.forecasts is not None:
+        seen = place.forecasts
+        return Gap(
+            "crps_friction", place.fit[0].unit, True, seen.baseline, seen.recalibrated, seen.augmented, seen.floor,
+            "the same forecasts of data that the model gives itself; its noise from differences between neighbouring windows",
+        )  # fmt: skip
+    if before.loop is not None and middle.loop is not None and after.loop is not None and loop_floor is not None:
+        metric = "closed_loop_drive" if middle.forward is not None else "closed_loop_voltage"
+        return Gap(
+            metric, "-", True, before.loop, middle.loop, after.loop, loop_floor,
+            f"high-frequency content of the measured {metric.removeprefix('closed_loop_')} (third differences)",
+        )  # fmt: skip
+    return Gap(
+        "inverse_dynamics_sliding", place.fit[0].unit, True, before.sliding, middle.sliding, after.sliding, place.floor,
+        "differences between neighbouring windows that do not overlap"
+        + (", and the scatter from stroke to stroke" if place.random is not None and place.random.accounted else ""),
+    )  # fmt: skip
+
+
+def _imitated(place: PlaceOutcome) -> list[str]:
+    """Return the one-parameter effects, not found, that corrections of the mechanism imitate."""
+    fit = place.selected.final
+    found = {t.candidate.kind for t in place.selected.found}
+    tried = [t.candidate for t in place.selected.stages[0].trials if t.candidate.parameters == 1]
+    return [
+        c.kind
+        for c in tried
+        if c.kind not in found and place.nuisances and hidden_share(c.starts[0], place.fit, fit) > IMITATED
+    ]
+
+
+def _unseen(places: Sequence[PlaceOutcome]) -> tuple[str, ...]:
+    seen = {t.candidate.kind for p in places for s in p.selected.stages for t in s.trials}
+    seen |= {e.kind for p in places for e in p.believed.effects} | {"sensor_delay"}
+    seen |= {"random_coefficients"} if any(p.random is not None or p.runs is not None for p in places) else set()
+    seen -= {kind for p in places for kind in _imitated(p)}
+    return tuple(k for k in effect_kinds() if k not in seen and k not in NO_BELT)
+
+
+def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
+    quiet = ("position", "time", "distance")
+    worst = [p for p in pairs if p.first not in quiet and p.second not in quiet]
+    if worst:
+        first, second = worst[0].first, worst[0].second
+        return f"Vary {first} and {second} apart: repeat the experiment with the {second} that each {first} has not had yet."
+    same = [(t.candidate.kind, e) for p in places for t, e in zip(p.selected.found, p.selected.equivalents, strict=True) if e]
+    if same:
+        kind, others = same[0]
+        if kind in DRIFTS:
+            return f"To tell {kind} from {', '.join(others)}: pauses, strokes of other lengths, and a start from warm."
+        return f"To tell {kind} from {', '.join(others)}: more speeds, both directions at each, and a second load."
+    return "Rest before break-away, for what rest does to friction; slow reversals, for presliding; a second load."
+
+
+def _forward_notes(place: PlaceOutcome) -> list[str]:
+    """Return what forward simulation says."""
+    before, after = (place.scores[k] for k in ("recalibrated", "augmented"))
+    if before.forward is None or after.forward is None:
+        return []
+    how = "with the controller in the loop" if after.loop is not None else f"{AHEAD:g} s at a time from the measured state"
+    unit = "m or rad" if place.place else "m" if place.fit[0].unit == "N" else "rad"
+    return [
+        f"simulated in MuJoCo, {how}, positions of the held-out runs are off by {before.forward:.3g} {unit} recalibrated, by "
+        f"{after.forward:.3g} augmented (rms)"
+    ]
+
+
+def _timing_notes(timing: Timing | None) -> list[str]:
+    if timing is None or timing.named or timing.score < SURE:
+        return []
+    return [
+        f"drive and motion are {1e3 * timing.seconds:.2g} ms apart, no more than sampling or a compliant drive "
+        "explains: not compensated"
+    ]
+
+
+def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
+    remarks: list[str] = []
+    for place in places:
+        for kind in _imitated(place):
+            names = ", ".join(n.name for n in place.nuisances)
+            remarks.append(f"{kind} would look like a correction of {names} here{_at(place)}: if there is any, they hold it")
+        remarks += _between_settings(place)
+        if place.random is not None and place.random.low > 0.0 and not place.random.accounted:
+            how = "wanders" if place.random.wanders else "scatters"
+            share, strokes = 100.0 * place.random.share, place.random.strokes
+            why = "; it goes on across reversals, as slow noise of the drive does" if place.random.slow_noise else ""
+            remarks.append(f"friction {how} by {share:.1f} % from stroke to stroke ({strokes} strokes){_at(place)}{why}")
+        if place.selected.found and place.selected.unknown:
+            remarks.append(f"what remains depends on {place.selected.unknown}{_at(place)}; no known effect explains it")
+    return remarks
+
+
+def _between_settings(place: PlaceOutcome) -> list[str]:
+    """Return a remark if what is left stays the same in a run and direction."""
+    fit, settings = place.selected.final, settings_of(place.fit)
+    rest, n = np.concatenate(fit.remainders), max(place.selected.final.independent, 4.0)
+    seen, none = scatter(rest, settings, n), scatter(rest, settings, n, ratios=np.zeros(1))
+    if none.deviance - seen.deviance < PLAIN or (place.runs is not None and place.runs.accounted):
+        return []
+    return [
+        f"{seen.between:.2g} {place.fit[0].unit} of what is left{_at(place)} stay the same in all strokes of a run in one "
+        f"direction, and differ between these {len(np.unique(settings))} settings: a zero or a law, the data do not say which"
+    ]
+
+
+def _details(places: Sequence[PlaceOutcome], timing: Timing | None, pairs: Sequence[Confounded]) -> dict[str, Any]:
+    return {
+        "timing": dataclasses.asdict(timing) if timing is not None else None,
+        "confounded": [dataclasses.asdict(p) for p in pairs],
+        "places": [
+            {
+                "place": p.place,
+                "held_out": {k: dataclasses.asdict(v) for k, v in p.scores.items()},
+                "floor": p.floor,
+                "runs": dataclasses.asdict(p.runs) if p.runs is not None else None,
+                "strokes": dataclasses.asdict(p.random) if p.random is not None else None,
+                "half_width": [s.window.half_width for s in p.fit],
+                "independent_windows": p.selected.final.independent,
+                "stages": [
+                    {
+                        "before": s.before.rms,
+                        "trials": [[t.candidate.kind, t.score, t.fit.rms] for t in s.trials],
+                        "competitors": [list(c) for c in s.competitors],
+                        "gain_on_blocks_left_out": s.blocks.gain,
+                        "blocks_better": s.blocks.better,
+                        "strokes_left_out": dataclasses.asdict(s.strokes) if s.strokes is not None else None,
+                        "accepted": s.accepted,
+                    }
+                    for s in p.selected.stages
+                ],
+            }
+            for p in places
+        ],
+    }

@@ -1,0 +1,1 @@
+"""Fits of a joint's friction and of the mechanism's numbers to its balances of forces."""

@@ -1,0 +1,120 @@
+"""The friction of a joint along a measured motion, from the law and the effects' own functions.
+
+Friction is mu N along the motion's opposite, N being the believed load of the joint. Where an effect depends on load, the
+contact carries that effect's reference load plus the load that the joint transmits; the reference load is fitted.
+"""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportCallIssue=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.compile import compiled
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
+from stochfric_mb.effects import Effect
+from stochfric_mb.effects import contract as e
+from stochfric_mb.effects.abi import call_effect, native_effect
+from stochfric_mb.laws import Law
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclasses.dataclass(frozen=True)
+class Chain:
+    """Law and effects in the form that compiled code takes."""
+
+    numbers: Array
+    """mu_s, mu_k, believed load, reference load of a joint whose friction depends on what it transmits, or 0; shape (4,)."""
+    calls: npt.NDArray[np.int64]
+    """Address of ``surroundings`` and of ``friction`` (0: none) and offset of the parameters, shape (n_effects, 3)."""
+    parameters: Array
+    """Parameters of all effects, one after the other."""
+
+
+def chain(law: Law, effects: Sequence[Effect], load: float, *, contact: bool = False) -> Chain:
+    """Return law and effects, in the order in which effects act.
+
+    Args:
+        law: the law.
+        effects: what is added to it.
+        load: believed load of the joint [N or N m].
+        contact: whether the place is a contact, whose normal force is known along the motion.
+    """
+    ordered = sorted((x for x in effects if x.group != "sensor"), key=lambda x: x.order)
+    calls = np.zeros((len(ordered), 3), dtype=np.int64)
+    parameters: list[float] = []
+    for row, effect in zip(calls, ordered, strict=True):
+        native = native_effect(type(effect))
+        row[:] = native.surroundings, native.friction, len(parameters)
+        parameters += list(effect.parameters())
+    loaded = [] if contact else [x for x in ordered if x.kind == "load_dependence"]
+    reference = next((x.reference_load for x in loaded), 0.0)  # type: ignore[attr-defined]
+    return Chain(np.array([law.mu_s, law.mu_k, load, reference]), calls, np.array([*parameters, 0.0]))
+
+
+def friction_along(balance: ForceBalance, law: Law, effects: Sequence[Effect], load: float) -> Array:
+    """Return the friction against the motion, seen through the windows of a balance [N or N m], shape (n_centres,).
+
+    Args:
+        balance: the motion.
+        law: its mu_k holds while the joint slides.
+        effects: what is added to it.
+        load: believed load [N or N m].
+    """
+    links = chain(law, effects, load, contact=balance.normal_force is not None)
+    n = len(balance.time)
+    pressed = np.ones(n) if balance.normal_force is None else balance.normal_force / load
+    temperature = np.zeros(n) if balance.temperature is None else balance.temperature
+    force = np.empty(n)
+    along(
+        links.numbers, links.calls, links.parameters, balance.time, balance.position, balance.velocity, balance.load,
+        balance.slip, balance.travelled, temperature, pressed, force,
+    )  # fmt: skip
+    return balance.window.at_centres(force)
+
+
+@compiled
+def along(numbers, calls, parameters, time, position, velocity, load, slip, travelled, temperature, pressed, force):
+    """Fill ``force`` with the friction against the motion at each sample."""
+    world = np.zeros(e.WORLD)
+    memory = np.zeros(8)
+    for i in range(len(time)):
+        force[i] = resistance(
+            numbers, calls, parameters, world, memory, time[i], position[i], velocity[i], load[i], slip[i],
+            np.sign(velocity[i]), travelled[i], temperature[i], pressed[i],
+        )  # fmt: skip
+
+
+@compiled
+def resistance(
+    numbers, calls, parameters, world, memory, time, position, velocity, load, slip, side, travelled, temperature, pressed
+):
+    """Return the force against the motion at one instant.
+
+    ``side`` is the direction of the motion, 1, -1 or 0, and ``pressed`` the normal force of a contact over its believed load;
+    1 for a joint.
+    """
+    world[:] = 0.0
+    world[e.TIME], world[e.POSITION], world[e.VELOCITY] = time, position, velocity
+    base = numbers[2] * pressed
+    around = numbers[3] + load if numbers[3] > 0.0 else base
+    world[e.NORMAL_FORCE] = around
+    p = parameters.ctypes.data
+    for k in range(len(calls)):
+        if calls[k, 0] != 0:
+            call_effect(calls[k, 0], world.ctypes.data, memory.ctypes.data, memory.ctypes.data, p + 8 * calls[k, 2])
+    ripple = world[e.NORMAL_FORCE] / around if around > 0.0 else 1.0
+    # v_rel is counter-surface minus body: the counter-surface rests
+    world[e.DIRECTION], world[e.SPEED], world[e.BELT_POSITION] = -side, abs(velocity), -position
+    world[e.SLIP], world[e.TRAVELLED], world[e.TEMPERATURE] = slip, travelled, temperature
+    world[e.MU_S], world[e.MU_K] = numbers[0], numbers[1]
+    for k in range(len(calls)):
+        if calls[k, 1] != 0:
+            call_effect(calls[k, 1], world.ctypes.data, memory.ctypes.data, memory.ctypes.data, p + 8 * calls[k, 2])
+    return side * (world[e.MU_K] * base * ripple + world[e.VISCOUS_FORCE]) - world[e.LOAD]

@@ -1,0 +1,59 @@
+"""What discovery at joints hands on to reports and exports, beside the result itself."""
+
+from __future__ import annotations
+
+import dataclasses
+
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.balance.timing import Timing
+from stochfric_mb.discovery.driven_joint.decision.run_scatter import Forecasts, RunScatter
+from stochfric_mb.discovery.driven_joint.decision.selection import Selected
+from stochfric_mb.discovery.driven_joint.decision.stroke_scatter import StrokeScatter
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.simulation.pictures import Picture
+from stochfric_mb.discovery.driven_joint.simulation.scores import Score
+from stochfric_mb.discovery.outcome import Outcome
+
+
+@dataclasses.dataclass(frozen=True)
+class PlaceOutcome:
+    """What was found at one joint."""
+
+    place: str
+    """Name of the joint; empty where there is one only."""
+    selected: Selected
+    """The selection, step by step."""
+    nuisances: tuple[Nuisance, ...]
+    """Numbers of the mechanism that were corrected."""
+    believed: JointModel
+    """The model as believed."""
+    fit: tuple[ForceBalance, ...]
+    """Runs that were learned from."""
+    test: tuple[ForceBalance, ...]
+    """Runs that were held out."""
+    scores: dict[str, Score]
+    """``baseline``, ``recalibrated``, ``augmented``, and ``with KIND`` after each effect -> errors on the held-out runs."""
+    floor: float
+    """Noise of the balance on the held-out runs [N or N m]."""
+    thing: str = "joint"
+    """What the place is: a joint, or a tendon."""
+    random: StrokeScatter | None = None
+    """Scatter of friction from stroke to stroke; None: too few strokes."""
+    runs: RunScatter | None = None
+    """Scatter of friction from run to run; None: too few runs."""
+    forecasts: Forecasts | None = None
+    """Errors of forecasts that allow for that scatter; None where there is none."""
+    undelayed: JointModel | None = None
+    """The recalibrated model without the delay that was found; None: none was."""
+
+
+@dataclasses.dataclass(frozen=True)
+class JointOutcome(Outcome):
+    """Everything about one dataset; `Outcome` has the result, the augmented scenario and the dataset."""
+
+    places: tuple[PlaceOutcome, ...] = ()
+    """The joints, those with effects first."""
+    timing: Timing | None = None
+    """Delay between drive and motion; None where none could be looked for."""
+    pictures: tuple[Picture, ...] = ()
+    """Pictures for the report."""

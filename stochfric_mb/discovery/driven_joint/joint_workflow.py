@@ -1,0 +1,219 @@
+"""Discovery at driven joints: timing, then friction effects one by one, then the score on held-out runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
+from stochfric_mb.discovery.driven_joint.balance.timing import Timing, timing
+from stochfric_mb.discovery.driven_joint.decision.run_scatter import Forecasts, crps_of, run_scatter
+from stochfric_mb.discovery.driven_joint.decision.selection import Selected, Selector
+from stochfric_mb.discovery.driven_joint.decision.signs import sign_notes
+from stochfric_mb.discovery.driven_joint.decision.stroke_scatter import dependence, stroke_scatter
+from stochfric_mb.discovery.driven_joint.decision.verdict import verdict
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome, PlaceOutcome
+from stochfric_mb.discovery.driven_joint.simulation.augmented import augmented, believed_delay, believed_scatter
+from stochfric_mb.discovery.driven_joint.simulation.pictures import friction_picture
+from stochfric_mb.discovery.driven_joint.simulation.resimulation import simulated
+from stochfric_mb.discovery.driven_joint.simulation.scores import noise_floor, score
+from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
+from stochfric_mb.discovery.result import Result
+from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.dataset import Dataset
+from stochfric_mb.mechanisms import Cascade, Mjcf, PrismaticJoint, ProportionalDerivative, SpringSlider
+from stochfric_mb.scenario import Scenario
+
+Progress = Callable[[str], None]
+FEWEST = 8
+"""Fewest windows of sliding in the runs of a role: fewer say nothing about friction."""
+CONTROLLED = {Cascade.kind: PrismaticJoint.kind, ProportionalDerivative.kind: Mjcf.kind}
+"""Controller -> the mechanism that it drives."""
+
+
+def discover_joint(dataset: Dataset, *, progress: Progress | None = None) -> Result:
+    """Return what the data of a driven joint say that its model lacks; see `joint_outcome`."""
+    return joint_outcome(dataset, progress=progress).result
+
+
+def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> JointOutcome:
+    """Return the result of a dataset together with what reports and exports need.
+
+    Args:
+        dataset: runs of a prismatic joint, hinge pendulum, spring slider or MJCF model, some of them held out.
+        progress: called with what is being done, now and then.
+
+    Raises:
+        InputError: another mechanism, or a channel is missing.
+    """
+    tell = progress or (lambda _: None)
+    mechanism: Any = dataset.scenario.mechanism
+    if isinstance(mechanism, SpringSlider):
+        from stochfric_mb.discovery.velocity_step.velocity_steps import spring_slider_outcome
+
+        return spring_slider_outcome(dataset, tell)
+    _require_controller(dataset.scenario)
+    return _outcome(dataset, tell, source_of(dataset))
+
+
+def _require_controller(scenario: Scenario[Any]) -> None:
+    """Return if a controller, if any, is one of the mechanism's.
+
+    Raises:
+        InputError: it is not.
+    """
+    controller, kind = scenario.controller, scenario.mechanism.kind
+    if controller is not None and kind != CONTROLLED[controller.kind]:
+        raise InputError(
+            f"controller {controller.kind!r} cannot drive mechanism {kind!r}: it drives {CONTROLLED[controller.kind]}; write "
+            "the rig as that mechanism, or leave [controller] out"
+        )
+
+
+def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
+    for name, _ in source.places:
+        for role in ("fit", "test"):
+            _require_sliding(source.balances(name, role, believed_delay(dataset.scenario)), name, role)
+    found: Timing | None = None
+    base = believed_delay(dataset.scenario)
+    if not isinstance(dataset.scenario.mechanism, PrismaticJoint) or dataset.scenario.mechanism.mass > 0.0:
+        tell("timing")  # a slow prescribed motion has no inertia by which it could be late
+        first = source.places[0][0]
+        found = timing(
+            lambda d, w: source.balances(first, "fit", base + d, w), source.nuisances(first), dataset.fit[0].sample_interval
+        )
+        if found is not None and not found.named and found.material:
+            found = found.against(_best_friction(source, dataset.scenario))
+    more = found.seconds if found is not None and found.named else 0.0
+    notes: list[str] = []
+    places = [_place(dataset, tell, source, name, load, (base, base + more), notes) for name, load in source.places]
+    places = _beside(dataset, tell, source, places, (base, base + more))
+    places.sort(key=_evidence)
+    places, floor = simulated(dataset, tell, source, places, (base, base + more))
+    notes += _run_notes(dataset)
+    result = verdict(dataset, places, found, notes, floor)
+    pictures = tuple(
+        friction_picture(
+            p.place and f"{p.thing} {p.place}", p.test, p.nuisances, p.selected.recalibrated.model, p.selected.final.model
+        )
+        for p in places
+    )
+    scenario = augmented(dataset.scenario, places, found)
+    return JointOutcome(result, scenario, dataset, places=tuple(places), timing=found, pictures=pictures)
+
+
+def _evidence(place: PlaceOutcome) -> float:
+    """Return minus the evidence found at a place, for sorting."""
+    return -sum(max(t.score, 0.0) for t in place.selected.found)
+
+
+def _beside(
+    dataset: Dataset, tell: Progress, source: Any, places: list[PlaceOutcome], delays: tuple[float, float]
+) -> list[PlaceOutcome]:
+    """Return the places anew, judged beside the one with the most evidence, where friction in one enters another's balance."""
+    names = [(p, load) for p, load in source.places if isinstance(dataset.scenario.mechanism, Mjcf) and source.coupled(p)]
+    found = {name: place for (name, _), place in zip(source.places, places, strict=True)}
+    if not names or not any(p.selected.found for p in places):
+        return places
+    first = min(found, key=lambda name: _evidence(found[name]))
+    source.known.update({name: p.selected.recalibrated.model for name, p in found.items()})
+    source.known[first] = found[first].selected.final.model
+    for name, load in names:
+        if name != first:
+            found[name] = _place(dataset, tell, source, name, load, delays, [])
+            source.known[name] = found[name].selected.final.model
+    return [found[name] for name, _ in source.places]
+
+
+def _place(
+    dataset: Dataset, tell: Progress, source: Any, name: str, load: float, delays: tuple[float, float], notes: list[str]
+) -> PlaceOutcome:
+    scenario = dataset.scenario
+    base, delay = delays
+    fit_balances, test_balances = source.balances(name, "fit", delay), source.balances(name, "test", delay)
+    notes += sign_notes(dataset, name, load, fit_balances)
+    nuisances = source.nuisances(name)
+    believed = prior_model(scenario, name, nuisances, load)
+    where = f"{name}: " if name else ""
+    selected = Selector(fit_balances, nuisances, believed, lambda text: tell(where + text)).run()
+    tell(f"{where}held-out runs")
+    scores = {
+        label: score(model, test_balances, nuisances, dataset.test, scenario)
+        for label, model in _models(believed, selected).items()
+    }
+    undelayed = None
+    if delay != base:  # what was believed knows nothing of the delay that was found
+        early = source.balances(name, "test", base)
+        undelayed = Selector(source.balances(name, "fit", base), nuisances, believed).recalibrated.model
+        scores["baseline"] = score(believed, early, nuisances, dataset.test, scenario)
+        scores["recalibrated"] = score(undelayed, early, nuisances, dataset.test, scenario)
+    final = selected.final.model
+    # where something without a name is missing from the mean, strokes differ for that
+    random = (
+        None if selected.unknown else stroke_scatter(final, fit_balances, nuisances, believed_scatter(scenario, "per_event"))
+    )
+    noise = floor = noise_floor(final, test_balances, nuisances)
+    if random is not None and random.accounted:
+        floor = float(np.hypot(floor, random.sigma * _rms_dependence(final, test_balances)))
+    kinds = {"tendon": getattr(scenario.mechanism, "tendons", ()), "pair": getattr(scenario.mechanism, "pairs", ())}
+    thing = next((kind for kind, names in kinds.items() if name in names), "joint")
+    runs = None if selected.unknown else run_scatter(final, fit_balances, nuisances, believed_scatter(scenario, "per_run"))
+    forecasts = None
+    if runs is not None and runs.accounted:
+        models = (believed, runs.believed), (selected.recalibrated.model, runs.believed), (final, runs.foreseen)
+        each = [crps_of(m, test_balances, nuisances, noise, sigma) for m, sigma in models]
+        forecasts = Forecasts(*(score for score, _ in each), floor=each[-1][1])
+    seen = tuple(fit_balances), tuple(test_balances)
+    return PlaceOutcome(
+        name, selected, tuple(nuisances), believed, *seen, scores, floor, thing, random, runs, forecasts, undelayed
+    )
+
+
+def _require_sliding(balances: Sequence[ForceBalance], name: str, role: str) -> None:
+    """Return if the joint slides in the runs of a role.
+
+    Raises:
+        InputError: it hardly does.
+    """
+    windows = sum(int(s.sliding.sum()) for s in balances)
+    if windows < FEWEST:
+        runs = ", ".join(s.run for s in balances)
+        where = f"joint {name!r}" if name else "the joint"
+        raise InputError(
+            f"{where} slides one way in only {windows} windows of the runs with role {role!r} ({runs}); at least {FEWEST} are "
+            "needed: record longer or livelier motion, or check the unit of position"
+        )
+
+
+def _best_friction(source: Any, scenario: Scenario[Any]) -> float:
+    """Return the best score of a friction effect at the first joint, with no further delay compensated."""
+    name, load = source.places[0]
+    nuisances = source.nuisances(name)
+    base = believed_delay(scenario)
+    stage = Selector(source.balances(name, "fit", base), nuisances, prior_model(scenario, name, nuisances, load)).first()
+    return stage.trials[0].score if stage.trials else 0.0
+
+
+def _models(believed: JointModel, selected: Selected) -> dict[str, JointModel]:
+    models = {"baseline": believed, "recalibrated": selected.recalibrated.model}
+    models |= {f"with {t.candidate.kind}": t.fit.model for t in selected.found}
+    return models | {"augmented": selected.final.model}
+
+
+def _run_notes(dataset: Dataset) -> list[str]:
+    """Return what the reader of results should know about the runs; what several runs share is said once."""
+    groups: dict[str, list[str]] = {}
+    for run in dataset.runs:
+        for note in run.notes:
+            groups.setdefault(note.partition(" (")[0], []).append(f"{run.name}: {note}")
+    return [
+        notes[0] if len(notes) == 1 else f"{len(notes)} runs: {kind} (such as {notes[0]})" for kind, notes in groups.items()
+    ]
+
+
+def _rms_dependence(model: JointModel, balances: Sequence[ForceBalance]) -> float:
+    """Return the change of friction with mu_k, rms over the windows of sliding [N or N m]."""
+    return float(np.sqrt(np.mean(np.concatenate([dependence(model, s)[s.sliding] for s in balances]) ** 2)))

@@ -1,0 +1,222 @@
+"""Confirmation in the engine: the user's model runs forward with the friction found, and the controller in the loop.
+
+Before each step the friction that is available in each joint or tendon goes into MuJoCo's own ``frictionloss``, which holds
+at rest and opposes motion; in a pair it goes into our plugin's coefficients (`mjcf_places`). Where a controller drives a joint
+it acts again, on simulated positions; other joints get their measured drive. Without a controller errors would add up along
+the record, so there the model starts anew from the measured state, `AHEAD`.
+"""
+
+# pyright: reportAttributeAccessIssue=false
+# (MuJoCo's bindings are not typed)
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.driven_joint.balance.weak_form import narrowest, noise_level
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import scale_masses
+from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
+from stochfric_mb.discovery.driven_joint.mjcf.loaded_model import without_friction
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import column, corrected, drive_of, position_of_joint
+from stochfric_mb.discovery.driven_joint.mjcf.places import pair_direction, place_of
+from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
+from stochfric_mb.measurement.run import Run
+from stochfric_mb.mechanisms import JointLoop, ProportionalDerivative
+
+Array = npt.NDArray[np.float64]
+Models = Mapping[str, JointModel]
+"""Place -> model of its friction."""
+
+SETTLE = 0.25
+"""Time from which a simulated closed loop is compared: what is wrong in its first state has faded [s]."""
+STIFF = (2.0, 1.0)
+"""Reference time [steps] and damping ratio of the friction constraints: as stiff as the step allows, so that rest is rest."""
+HARD = (0.9999, 0.9999, 0.001, 0.5, 2.0)
+"""Their impedance."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Forward:
+    """Simulated runs against measured ones."""
+
+    position: float
+    """Error of the positions, rms over joints and samples [m or rad]."""
+    drive: float | None
+    """Error of what the controller gives, relative rms [-]; None without a controller."""
+
+
+def forward(source: MjcfSource, models: Models, delay: float) -> Forward:
+    """Return how far the simulated held-out runs are from the measured ones.
+
+    Args:
+        source: the model and the runs.
+        models: friction and corrections of each place.
+        delay: by how much positions come after the driving force in the record [s].
+    """
+    wrong = wrong_drive = drive = 0.0
+    count = 0
+    for run in source.dataset.test:
+        plant = _Plant(source, models, run, delay)
+        position, given = plant.simulated()
+        seen = plant.compared
+        wrong += float(np.sum((position - plant.measured)[seen] ** 2))
+        count += int(seen.sum()) * position.shape[1]
+        for joint, output in given.items():
+            recorded = _output(run, source, joint)[plant.start : plant.end]
+            wrong_drive += float(np.sum((output - recorded)[seen] ** 2))
+            drive += float(np.sum(recorded[seen] ** 2))
+    looped = isinstance(source.dataset.scenario.controller, ProportionalDerivative)
+    return Forward(float(np.sqrt(wrong / count)), float(np.sqrt(wrong_drive / drive)) if looped else None)
+
+
+def drive_floor(source: MjcfSource) -> float:
+    """Return the noise of what the controller gave over its size [-], from third differences."""
+    noise = size = 0.0
+    for run in source.dataset.test:
+        for joint in _loops(source):
+            recorded = _output(run, source, joint)
+            noise += noise_level(recorded) ** 2 * len(recorded)
+            size += float(np.sum(recorded**2))
+    return float(np.sqrt(noise / size))
+
+
+def _loops(source: MjcfSource) -> Mapping[str, JointLoop]:
+    loop = source.dataset.scenario.controller
+    return loop.joints if isinstance(loop, ProportionalDerivative) else {}
+
+
+def _output(run: Run, source: MjcfSource, joint: str) -> Array:
+    """Return what the controller of a joint gave: the first column of its drive."""
+    return column(run, source.mechanism.drives[joint].columns[0])
+
+
+class _Plant:
+    """One run, simulated."""
+
+    def __init__(self, source: MjcfSource, models: Models, run: Run, delay: float) -> None:
+        self._source, self._models, self._run, self._delay = source, models, run, delay
+        mujoco = source.mujoco
+        self._mechanism = corrected(source.mechanism, {p: models[p].nuisances for p, _ in source.places})
+        name, first = source.places[0][0], models[source.places[0][0]].nuisances
+        if name in source.mechanism.pairs:
+            law = models[name].law
+            model = without_friction(mujoco, source.mechanism, (name, law.mu_s, law.mu_k))
+        else:
+            model = copy.copy(source.model)
+        scale_masses(mujoco, model, first.get("mass", 1.0))
+        model.dof_armature *= first.get("armature", 1.0)
+        for i, name in enumerate(source.names):
+            factor = models[name].nuisances.get("damping", 1.0) if name in models else 1.0
+            model.dof_damping[i] = factor * model.dof_damping[i] + self._mechanism.damping.get(name, 0.0)
+        self._steps = max(1, round(run.sample_interval / model.opt.timestep))
+        model.opt.timestep = run.sample_interval / self._steps
+        reference = STIFF[0] * model.opt.timestep, STIFF[1]
+        model.dof_solref[:], model.tendon_solref_fri[:] = reference, reference
+        model.dof_solimp[:], model.tendon_solimp_fri[:] = HARD, HARD
+        self._model, self._data = model, mujoco.MjData(model)
+        # through the narrowest window: velocities to start from
+        narrow = narrowest(run)
+        self._state = tuple(source.joints(run, narrow, d) for d in (0, 1))
+        rows = [position_of_joint(run, source.mechanism, n) for n in source.names]
+        self._stays = np.array([not isinstance(source.mechanism.positions[n], str) for n in source.names])
+        self.start, self.end = int(narrow.centres[0]), int(narrow.centres[-1])
+        self.measured: Array = np.column_stack(rows)[self.start : self.end]
+        """Measured positions, shape (n, n_joints)."""
+        self._controls = {joint: self._control(joint, loop) for joint, loop in _loops(source).items()}
+        late = SETTLE / run.sample_interval if self._controls else 0
+        self.compared: npt.NDArray[np.bool_] = np.arange(len(self.measured)) >= late
+        """Samples that are compared, shape (n,)."""
+
+    def simulated(self) -> tuple[Array, dict[str, Array]]:
+        """Return positions, shape (n, n_joints), and what each controller gives, shape (n,)."""
+        mujoco, model, data, run = self._source.mujoco, self._model, self._data, self._run
+        n, h = self.end - self.start, run.sample_interval
+        places = [place_of(self._source, p, load, self._models[p], run) for p, load in self._source.places]
+        period = getattr(self._source.dataset.scenario.controller, "period", 0.0)
+        hold = max(1, round(period / h * self._steps)) if period > 0.0 else 1
+        drives = {p: self._late(drive_of(run, self._mechanism, p)) for p in self._mechanism.drives}
+        positions, given = np.empty((n, model.nv)), {joint: np.empty(n) for joint in self._controls}
+        again = n if self._controls else max(1, round(AHEAD / h))
+        forces: dict[str, float] = {}
+        for i in range(n):
+            if i % again == 0:
+                self._start(self.start + i)
+                for place in places:
+                    place.start(data, self.start + i)
+            positions[i] = data.qpos
+            for k in range(self._steps):
+                if (i * self._steps + k) % hold == 0:
+                    for joint, control in self._controls.items():
+                        output, forces[joint] = control(self.start + i, k / self._steps, data)
+                        if k == 0:
+                            given[joint][i] = output
+                data.qfrc_applied[:] = 0.0
+                for place, series in drives.items():
+                    force = forces[place] if place in forces else float(series[self.start + i])
+                    self._push(place, force)
+                for place, force in self._mechanism.offset.items():
+                    self._push(place, -force)
+                now = float(run.time[self.start + i]) + k * model.opt.timestep
+                for place in places:
+                    place.set(model, data, now, forces, drives, self.start + i)
+                mujoco.mj_step(model, data)
+        return positions, given
+
+    def _late(self, drive: Array) -> Array:
+        at = np.arange(len(drive)) - self._delay / self._run.sample_interval
+        return np.interp(at, np.arange(len(drive)), drive)
+
+    def _start(self, sample: int) -> None:
+        mujoco, data, stays = self._source.mujoco, self._data, self._stays
+        before = data.qpos.copy(), data.qvel.copy()
+        mujoco.mj_resetData(self._model, data)
+        data.qpos[:], data.qvel[:] = self._state[0][sample], self._state[1][sample]
+        if sample > self.start:  # what is held by a contact has found its place
+            data.qpos[stays], data.qvel[stays] = before[0][stays], before[1][stays]
+        mujoco.mj_forward(self._model, data)
+
+    def _push(self, place: str, force: float) -> None:
+        """Add a force along a joint, tendon or pair."""
+        if force == 0.0:
+            return
+        if place in self._source.names:
+            self._data.qfrc_applied[self._source.names.index(place)] += force
+        elif place in self._source.mechanism.pairs:
+            self._data.qfrc_applied[:] += force * pair_direction(self._source, self._model, self._data, place)
+        else:
+            self._data.qfrc_applied[:] += force * direction(self._source, self._model, self._data, place)
+
+    def _control(self, joint: str, loop: JointLoop) -> Callable[[int, float, Any], tuple[float, float]]:
+        """Return the controller of a joint: sample, part of the interval after it, state -> output, force."""
+        run, source = self._run, self._source
+        factor = run.constants[loop.factor] if loop.factor else 1.0
+        reference, dof = column(run, loop.reference), source.names.index(joint)
+        drive = self._mechanism.drives[joint]
+        ratio = np.full(len(run.time), drive.gain)
+        for name in drive.columns[1:]:
+            ratio = ratio * column(run, name)
+
+        def control(sample: int, part: float, data: Any) -> tuple[float, float]:
+            goal = (1.0 - part) * reference[sample] + part * reference[min(sample + 1, len(reference) - 1)]
+            error = goal - float(data.qpos[dof])
+            u = factor * (loop.position_gain * error - loop.velocity_gain * float(data.qvel[dof]))
+            u = min(max(u, -loop.limit), loop.limit)
+            return u, u * float(ratio[sample])
+
+        return control
+
+
+def direction(source: MjcfSource, model: Any, data: Any, tendon: str) -> Array:
+    """Return how a tendon's length changes with each joint in the present state, shape (n_joints,)."""
+    number = source.tendons.index(tendon)
+    row = np.zeros(model.nv)
+    start, count = int(model.ten_J_rowadr[number]), int(model.ten_J_rownnz[number])
+    row[model.ten_J_colind[start : start + count]] = data.ten_J[start : start + count]
+    return row

@@ -1,0 +1,257 @@
+"""Inverse dynamics of a user's own MuJoCo model, place by place, by ``mj_inverse``.
+
+Positions, rates and accelerations come through one window in weak form; the driving forces pass the same window. Friction of
+the model's own (``frictionloss``) is left out: it is what is looked for.
+
+A place is a joint, a tendon or a pair of geoms: a direction J(q) in which friction F acts on the joints as J F. With the
+forces r that the joints have left, the balance of a place is (J r)/(J J) = F; for a joint J is a unit vector, and at a pair
+the normal force is part of the balance (`mjcf_pairs`). What other places take of r is taken from their models.
+"""
+
+# pyright: reportAttributeAccessIssue=false
+# (MuJoCo's bindings are not typed)
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.driven_joint.balance.conditions import known_factors, temperature_through
+from stochfric_mb.discovery.driven_joint.balance.force_balance import (
+    ForceBalance,
+    Nuisance,
+    distance_slid,
+    least_speed,
+    slides,
+    slipped,
+)
+from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, chosen_window, narrowest, noise_level
+from stochfric_mb.discovery.driven_joint.fit.friction_along import friction_along
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import by_mass, effective_inertia, inverse
+from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import over_samples
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import drive_of, in_si, position_of_joint
+from stochfric_mb.discovery.driven_joint.mjcf.motion import Path, Rig
+from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.run import Run
+from stochfric_mb.mechanisms import ProportionalDerivative
+
+Array = npt.NDArray[np.float64]
+
+CORRECTED = {"mass": "-", "armature": "-", "gain": "-", "damping": "-", "offset": "N or N m"}
+"""What data may correct: factors on masses, armature, drive and damping of the joint, and an offset of its drive."""
+OF_TENDONS = ("mass", "armature", "gain", "offset")
+"""The same at a tendon, which has no damping of its own here."""
+OF_PAIRS = ("mass", "armature", "offset")
+"""The same at a pair, which nothing drives but through the joints."""
+LIFTED = 0.05
+"""Normal force over the believed one below which a pair is not taken to slide on its surface [-]."""
+HELD = 0.5
+"""How much later than its sample a drive acts that is held until the next one, on average [periods]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class MjcfSource(Rig):
+    """The balances of an MJCF model, made when asked for."""
+
+    known: dict[str, JointModel] = dataclasses.field(default_factory=dict[str, JointModel])
+    """Place -> what has been found of its friction, which other places are then judged beside."""
+
+    @property
+    def places(self) -> list[tuple[str, float]]:
+        """Joints, tendons or pair in which friction is sought, and their loads."""
+        return list(self.mechanism.friction.items())
+
+    def nuisances(self, place: str) -> list[Nuisance]:
+        """Return what data may correct, with its priors; a believed value of 1 is a factor."""
+        spread = self.dataset.scenario.uncertainty
+        found: list[Nuisance] = []
+        for name, unit in CORRECTED.items():
+            if spread.get(name, 0.0) > 0.0 and name in self._corrected(place):
+                value, low = (0.0, -np.inf) if name == "offset" else (1.0, 0.0)
+                found.append(Nuisance(name, value, spread[name], unit, low))
+        return found
+
+    def _corrected(self, place: str) -> Sequence[str]:
+        return OF_PAIRS if place in self.mechanism.pairs else OF_TENDONS if place in self.tendons else tuple(CORRECTED)
+
+    def coupled(self, place: str) -> bool:
+        """Return whether friction elsewhere enters the balance of a place."""
+        others = [p for p, _ in self.places if p != place]
+        return any(p in self.tendons for p in ((place, *others) if others else ()))
+
+    def balances(self, place: str, role: str, delay: float, samples: int | None = None) -> list[ForceBalance]:
+        """Return the runs of a role as balances of one place; arguments as of `balance.balance_of`."""
+        runs = self.dataset.fit if role == "fit" else self.dataset.test
+        return [self._balance(run, place, delay, samples) for run in runs]
+
+    def window(self, run: Run, place: str, samples: int | None = None) -> Window:
+        """Return the window through which a place is seen in a run.
+
+        Raises:
+            InputError: the run is too short.
+        """
+        h, count = run.sample_interval, len(run.time)
+        friction = self.dataset.scenario.law.mu_k * self.mechanism.friction[place]
+        window = (
+            Window(samples * h, h, count) if samples is not None else chosen_window(h, count, self._noise(run, place), friction)
+        )
+        if len(window.centres) < 8:
+            raise InputError(
+                f"run {run.name!r}: {count} samples are too few for windows of {window.half_width:.3g} s; record longer"
+            )
+        return window
+
+    def _noise(self, run: Run, place: str) -> dict[int, float]:
+        """Return the noise of the balance of a place: derivative -> standard deviation."""
+        key = ("noise", run.name, place)
+        if key not in self.remembered:
+            narrow = narrowest(run)
+            weights = np.abs(self.path(run, place, narrow).weights).mean(axis=0)
+            inertia = effective_inertia(self.mujoco, self.model)
+            noise: dict[int, float] = {0: 0.0, 2: 0.0}
+            for weight, size, joint in zip(weights, inertia, self.names, strict=True):
+                noise[0] = float(np.hypot(noise[0], weight * _level(drive_of(run, self.mechanism, joint))))
+                noise[2] = float(np.hypot(noise[2], weight * size * _level(position_of_joint(run, self.mechanism, joint))))
+            if place in self.tendons:
+                noise[0] = float(np.hypot(noise[0], _level(drive_of(run, self.mechanism, place))))
+            self.remembered[key] = noise
+        return self.remembered[key]
+
+    def _balance(self, run: Run, place: str, delay: float, samples: int | None) -> ForceBalance:
+        window = self.window(run, place, samples)
+        at = window.centres
+        motion, needed, mass = self._dynamics(run, window)
+        path = self.path(run, place, window)
+        weights = path.weights
+        damped = np.column_stack([self.mechanism.damping.get(n, 0.0) * v for n, v in zip(self.names, motion[1].T, strict=True)])
+        own, others = self._drives(run, place, window, delay)
+        left = others - needed - damped
+        for name, offset in self.mechanism.offset.items():
+            left = left - offset * self.path(run, name, window).direction
+        left = left - self._friction_elsewhere(run, place, window)
+        own_damping = damped + self.model.dof_damping * motion[1]
+        least = self._least(run, place, window, path)
+        columns = {
+            "mass": np.sum(weights * mass, axis=1),
+            "armature": np.sum(weights * (self.model.dof_armature * motion[2]), axis=1),
+            "gain": -own,
+            "damping": np.sum(weights * own_damping, axis=1),
+            "offset": np.ones(len(at)),
+        }
+        sliding = slides(window, path.velocity, least) & self._others_slide(run, place, window)
+        load, normal = path.load, None
+        if path.part is not None:
+            load = normal = self._normal_force(run, place, window, left)
+            if path.normal_weights is None:  # a measured force is taken out of the balance; another one is solved with friction
+                left = left + normal[at, None] * path.part
+            sliding &= normal[at] > LIFTED * self.mechanism.friction[place]
+        noise = self._noise(run, place)
+        before = float(self.travelled(run, place)[0])
+        travelled = before + distance_slid(path.velocity, window)
+        return ForceBalance(
+            run=run.name,
+            role=run.role,
+            place=place if len(self.mechanism.friction) > 1 else "",
+            unit="N m" if self._rotates(place) else "N",
+            window=window,
+            time=run.time,
+            position=path.position,
+            velocity=path.velocity,
+            load=load,
+            slip=slipped(path.position, path.velocity, least),
+            driven=own + np.sum(weights * left, axis=1),
+            columns=columns,
+            sliding=sliding,
+            noise=float(np.hypot(window.gain(0) * noise[0], window.gain(2) * noise[2])),
+            factors=known_factors(run, window, path.position, path.velocity, load, travelled),
+            before=before,
+            temperature=temperature_through(run, window),
+            normal_force=normal,
+        )
+
+    def _normal_force(self, run: Run, place: str, window: Window, left: Array) -> Array:
+        """Return the normal force in a pair [N], shape (count,): measured, or from what the joints have left."""
+        rows = self.path(run, place, window).normal_weights
+        if rows is None:
+            measured = in_si(run, self.mechanism.pairs[place].normal_force, "normal_force")
+            return np.maximum(window.through(measured), 0.0)
+        return over_samples(np.maximum(np.sum(rows * left, axis=1), 0.0), window.centres, len(run.time))
+
+    def _least(self, run: Run, place: str, window: Window, path: Path) -> float:
+        """Return the speed above which a place surely slides [m/s or rad/s]."""
+        each = [_level(position_of_joint(run, self.mechanism, n)) for n in self.names]
+        seen = float(np.linalg.norm(np.abs(path.direction).mean(axis=0) * each))
+        return least_speed(path.velocity, window.gain(1) * seen)
+
+    def _rotates(self, place: str) -> bool:
+        if place not in self.names:
+            return False
+        return bool(self.model.jnt_type[self.names.index(place)] == self.mujoco.mjtJoint.mjJNT_HINGE)
+
+    def _drives(self, run: Run, place: str, window: Window, delay: float) -> tuple[Array, Array]:
+        """Return a place's own drive, shape (n_centres,), and what others put into the joints, shape (n_centres, n_joints)."""
+        loop = self.dataset.scenario.controller
+        own = np.zeros(len(window.centres))
+        others = np.zeros((len(own), len(self.names)))
+        for name in self.mechanism.drives:
+            held = loop.period * HELD if isinstance(loop, ProportionalDerivative) and name in loop.joints else 0.0
+            seen = window.through(drive_of(run, self.mechanism, name), 0, delay + held)[window.centres]
+            if name == place:
+                own = seen
+            else:
+                others += seen[:, None] * self.path(run, name, window).direction
+        return own, others
+
+    def _friction_elsewhere(self, run: Run, place: str, window: Window) -> Array:
+        """Return what friction in other places takes of the joints' forces, shape (n_centres, n_joints)."""
+        taken = np.zeros((len(window.centres), len(self.names)))
+        if not self.coupled(place):
+            return taken
+        for name, load in self.places:
+            if name != place:
+                path = self.path(run, name, window)
+                model = self.known.get(name, JointModel(self.dataset.scenario.law, (), {}, load))
+                least = self._least(run, name, window, path)
+                balance = _motion(run, window, path, least)
+                force = friction_along(balance, model.law, model.effects, model.load)
+                taken += force[:, None] * path.direction
+        return taken
+
+    def _others_slide(self, run: Run, place: str, window: Window) -> npt.NDArray[np.bool_]:
+        """Return at which centres friction that enters from other places is known, since they slide, too."""
+        known = np.ones(len(window.centres), dtype=bool)
+        if self.coupled(place):
+            for name, _ in self.places:
+                path = self.path(run, name, window)
+                known &= slides(window, path.velocity, self._least(run, name, window, path))
+        return known
+
+    def _dynamics(self, run: Run, window: Window) -> tuple[tuple[Array, Array, Array], Array, Array]:
+        """Return motion at the centres, forces that it needs, and their change with a factor on all masses.
+
+        Each is of shape (n_centres, n_joints); the motion is positions, rates and accelerations.
+        """
+        key = ("dynamics", run.name, window.half_width)
+        if key not in self.remembered:
+            q, v, a = (self.joints(run, window, d)[window.centres] for d in (0, 1, 2))
+            needed = inverse(self.mujoco, self.model, (q, v, a))
+            self.remembered[key] = (q, v, a), needed, by_mass(self.mujoco, self.model, (q, v, a), needed)
+        return self.remembered[key]
+
+
+def _level(signal: Array) -> float:
+    return noise_level(signal) if np.ptp(signal) else 0.0
+
+
+def _motion(run: Run, window: Window, path: Path, least: float) -> ForceBalance:
+    """Return a balance of the motion along a place alone."""
+    none = np.zeros(len(window.centres))
+    return ForceBalance(
+        run=run.name, role=run.role, place="", unit="", window=window, time=run.time, position=path.position,
+        velocity=path.velocity, load=path.load, slip=slipped(path.position, path.velocity, least), driven=none, columns={},
+        sliding=none > 0.0, noise=0.0, factors={},
+    )  # fmt: skip

@@ -1,0 +1,170 @@
+"""Friction while a model runs in MuJoCo: in joints and tendons by ``frictionloss``, in a pair by our plugin's coefficients."""
+
+# pyright: reportAttributeAccessIssue=false
+# (MuJoCo's bindings are not typed)
+
+from __future__ import annotations
+
+import dataclasses
+import importlib
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.driven_joint.balance.conditions import known_temperature
+from stochfric_mb.discovery.driven_joint.balance.weak_form import narrowest
+from stochfric_mb.discovery.driven_joint.fit.friction_along import chain, resistance
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import geom_numbers, touch
+from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import in_si
+from stochfric_mb.effects.contract import WORLD
+from stochfric_mb.measurement.run import Run
+
+Array = npt.NDArray[np.float64]
+
+LEAST = 1.0e-9
+"""Least friction that the engine is given: none at all would switch it off [N or N m]."""
+MARK_S, MARK_K = 0.123456, 0.0654321
+"""Coefficients by which their places are known."""
+LOOSE = 1.0e-3
+"""Normal force over the believed one below which a pair is left as it is [-]."""
+
+
+def place_of(source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> LossPlace | PairPlace:
+    """Return friction in a joint, tendon or pair, for one run."""
+    kind = PairPlace if name in source.mechanism.pairs else LossPlace
+    return kind(source, name, load, model, run)
+
+
+class LossPlace:
+    """Friction in one joint or tendon while the model runs: what is available there is MuJoCo's ``frictionloss``."""
+
+    def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> None:
+        self._source, self._name, self._links = source, name, chain(model.law, model.effects, load)
+        self._joint = name in source.names
+        self._number = (source.names if self._joint else source.tendons).index(name)
+        self._world, self._memory = np.zeros(WORLD), np.zeros(8)
+        self._gain = model.nuisances.get("gain", 1.0)
+        self._damping = source.mechanism.damping.get(name, 0.0)
+        self._turned, self._side = 0.0, 0.0
+        # conditions as they were: what drifts changes little by an error of the simulation
+        self._travelled = source.travelled(run, name)
+        self._temperature = known_temperature(run)
+
+    def _seen(self, data: Any) -> tuple[float, float]:
+        if self._joint:
+            return float(data.qpos[self._number]), float(data.qvel[self._number])
+        return float(data.ten_length[self._number]), float(data.ten_velocity[self._number])
+
+    def start(self, data: Any, sample: int) -> None:
+        """Begin a stroke where the model is."""
+        q, v = self._seen(data)
+        self._turned, self._side = q, 1.0 if v >= 0.0 else -1.0
+
+    def set(
+        self, model: Any, data: Any, t: float, forces: Mapping[str, float], drives: Mapping[str, Array], sample: int
+    ) -> None:
+        """Give the engine the friction that is available now."""
+        q, v = self._seen(data)
+        side = 1.0 if v > 0.0 else -1.0 if v < 0.0 else self._side
+        if side != self._side:
+            self._turned, self._side = q, side
+        drive = forces.get(self._name, float(drives[self._name][sample]) if self._name in drives else 0.0)
+        # the load that friction knows of is that of the drive as believed, as in the fits
+        load = abs(drive / self._gain - self._damping * v)
+        links = self._links
+        against = side * float(
+            resistance(
+                links.numbers, links.calls, links.parameters, self._world, self._memory, t, q, v, load,
+                abs(q - self._turned), side, self._travelled[sample], self._temperature[sample], 1.0,
+            )
+        )  # fmt: skip
+        loss = model.dof_frictionloss if self._joint else model.tendon_frictionloss
+        loss[self._number] = max(against, LEAST)
+
+
+class PairPlace:
+    """Friction in a pair while the model runs: our plugin's coefficients are what is available over the normal force."""
+
+    def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> None:
+        self._source, self._name, self._load = source, name, load
+        self._links = chain(model.law, model.effects, load, contact=True)
+        self._more = model.law.mu_s / model.law.mu_k
+        self._world, self._memory = np.zeros(WORLD), np.zeros(8)
+        self._travelled = source.travelled(run, name)
+        self._temperature = known_temperature(run)
+        self._position = source.path(run, name, narrowest(run)).position
+        measured = source.mechanism.pairs[name].normal_force
+        self._measured = in_si(run, measured, "normal_force") if measured else None
+        self._turned, self._side, self._at = 0.0, 0.0, 0.0
+        self._attach: Any = importlib.import_module("stochfric_mb.mujoco")
+        self._slots: _Slots | None = None
+
+    def start(self, data: Any, sample: int) -> None:
+        """Begin a stroke where the model is."""
+        self._at = self._turned = float(self._position[sample])
+        self._side = 0.0
+
+    def set(
+        self, model: Any, data: Any, t: float, forces: Mapping[str, float], drives: Mapping[str, Array], sample: int
+    ) -> None:
+        """Give the plugin the coefficients that friction has now."""
+        found = self._attach.readings(model, data)
+        instance, contacts = next(iter(found.items()))
+        pressed = sum(c.normal_force for c in contacts)
+        if pressed < LOOSE * self._load:
+            return
+        v = float(pair_direction(self._source, model, data, self._name) @ data.qvel)
+        self._at += v * model.opt.timestep
+        side = 1.0 if v > 0.0 else -1.0 if v < 0.0 else self._side
+        if side != self._side:
+            self._turned, self._side = self._at, side
+        normal = pressed if self._measured is None else max(float(self._measured[sample]), 0.0)
+        links = self._links
+        against = side * float(
+            resistance(
+                links.numbers, links.calls, links.parameters, self._world, self._memory, t, self._at, v, normal,
+                abs(self._at - self._turned), side, self._travelled[sample], self._temperature[sample], normal / self._load,
+            )
+        )  # fmt: skip
+        mu = max(against, LEAST) / pressed
+        if self._slots is None:
+            self._slots = _Slots.of(self._attach, model, data, instance)
+        self._slots.write(data, self._more * mu, mu)
+
+
+@dataclasses.dataclass(frozen=True)
+class _Slots:
+    """Where the plugin keeps an instance's coefficients, asked once: a model runs for thousands of steps."""
+
+    places: npt.NDArray[np.int64]
+    """What `set_friction` writes to in ``plugin_state``."""
+    values: Array
+    """What it writes there, mu_s and mu_k apart."""
+    mu_s: npt.NDArray[np.bool_]
+    """Which of the places hold mu_s."""
+    mu_k: npt.NDArray[np.bool_]
+    """Which hold mu_k."""
+
+    @classmethod
+    def of(cls, attach: Any, model: Any, data: Any, instance: str) -> _Slots:
+        probe = np.full_like(data.plugin_state, np.nan)
+        attach.set_friction(probe, model, instance, mu_s=MARK_S, mu_k=MARK_K)
+        places = np.flatnonzero(~np.isnan(probe))
+        values = probe[places]
+        return cls(places, values, values == MARK_S, values == MARK_K)
+
+    def write(self, data: Any, mu_s: float, mu_k: float) -> None:
+        values = self.values.copy()
+        values[self.mu_s], values[self.mu_k] = mu_s, mu_k
+        data.plugin_state[self.places] = values
+
+
+def pair_direction(source: MjcfSource, model: Any, data: Any, pair: str) -> Array:
+    """Return how a pair slides with each joint in the present state, shape (n_joints,); zeros where it does not touch."""
+    geoms = geom_numbers(source.mujoco, model, source.mechanism.pairs[pair])
+    seen = touch(source.mujoco, model, data, *geoms)
+    return np.zeros(model.nv) if seen is None else source.line(pair) @ seen.axes.T @ seen.slide

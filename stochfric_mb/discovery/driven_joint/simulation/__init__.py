@@ -1,0 +1,1 @@
+"""A joint simulated again: closed loop, engines, scores, and the augmented scenario."""

@@ -1,0 +1,73 @@
+"""The scenario of a driven joint with what was found, and what it believed of scatter and delay before."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from stochfric_mb.discovery.driven_joint.balance.timing import Timing
+from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.effects import make_effect
+from stochfric_mb.mechanisms import Mjcf
+from stochfric_mb.scenario import Scenario
+
+RANDOM = "random_coefficients"
+"""Effect of friction that is drawn anew for each stroke or run."""
+BESIDE = ("sensor", "randomness")
+"""Groups of effects that are no part of the mean friction."""
+
+
+def believed_scatter(scenario: Scenario[Any], process: str) -> float:
+    """Return the standard deviation of mu_k that the scenario declares, stroke by stroke or run by run [-]."""
+    declared = [e.to_dict() for e in scenario.effects if e.kind == RANDOM]
+    return float(np.sqrt(sum(e["sigma_k"] ** 2 for e in declared if e["process"] == process)))
+
+
+def believed_delay(scenario: Scenario[Any]) -> float:
+    """Return by how much the scenario says that positions are late [s]."""
+    return sum(e.to_dict()["delay"] for e in scenario.effects if e.kind == "sensor_delay")
+
+
+def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], found: Timing | None) -> Scenario[Any]:
+    """Return the scenario with what was found; of several joints, the first one's effects, in that joint."""
+    model = places[0].selected.final.model
+    effects = list(model.effects)
+    drawn = _drawn(places[0])
+    left = ("sensor_delay", RANDOM) if drawn else ("sensor_delay",)
+    effects += [e for e in scenario.effects if e.group in BESIDE and e.kind not in left]
+    if drawn:
+        sigma, process = max(drawn)  # a model has one such process
+        sigma_s = sigma * model.law.mu_s / model.law.mu_k
+        effects.append(make_effect(RANDOM, process=process, sigma_s=sigma_s, sigma_k=sigma))
+    delay = believed_delay(scenario) + (found.seconds if found is not None and found.named else 0.0)
+    if delay > 0.0:  # one that comes before has no effect of its own, and stays a finding
+        effects.append(make_effect("sensor_delay", delay=delay))
+    return dataclasses.replace(
+        scenario,
+        mechanism=_corrected(scenario.mechanism, places),
+        law=model.law,
+        effects=tuple(effects),
+        title=f"{scenario.title}, augmented by discovery",
+    )
+
+
+def _corrected(mechanism: Any, places: Sequence[PlaceOutcome]) -> Any:
+    models = {p.place: p.selected.final.model for p in places}
+    if not isinstance(mechanism, Mjcf):
+        return dataclasses.replace(mechanism, **models[""].nuisances)
+    from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import corrected
+
+    first = places[0].selected.final.model.law.mu_k
+    # one law serves all joints: where friction differs, the loads do
+    friction = {name: load * models[name].law.mu_k / first for name, load in mechanism.friction.items()}
+    known = corrected(mechanism, {name: model.nuisances for name, model in models.items()})
+    return dataclasses.replace(known, friction=friction, effects_in=(places[0].place,))
+
+
+def _drawn(place: PlaceOutcome) -> list[tuple[float, str]]:
+    """Return the scatter that was found: standard deviation of mu_k, and when it is drawn anew."""
+    found = ((place.random, "per_event"), (place.runs, "per_run"))
+    return [(seen.sigma, process) for seen, process in found if seen is not None and seen.named]

@@ -1,0 +1,105 @@
+"""Confirmation by forward simulation: the joint with its friction, and the controller that was in the loop, run again."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.compile import compiled
+from stochfric_mb.discovery.driven_joint.balance.conditions import known_temperature
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import position_of
+from stochfric_mb.discovery.driven_joint.fit.friction_along import chain, resistance
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.effects import contract as e
+from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.run import Run
+from stochfric_mb.mechanisms import Cascade, PrismaticJoint
+
+Array = npt.NDArray[np.float64]
+
+FINER = 10
+"""Steps of the simulation in one sample; the controller acts once a sample, as the real one did."""
+FIRST = 15
+"""Samples from which the first position is taken."""
+
+
+def closed_loop(
+    run: Run, joint: PrismaticJoint, model: JointModel, controller: Cascade, before: float = 0.0
+) -> tuple[Array, Array]:
+    """Return voltage [V] and position [m] that the joint and its controller give for the reference of a run, shape (n,).
+
+    Semi-implicit Euler with friction that holds: where the friction available can stop the mass within a step, it does.
+
+    Args:
+        run: holds the reference position as a covariate, and the measured voltage for the state at its start.
+        joint: mass, gain and offset are those of ``model`` where it has corrected them.
+        model: friction and corrections.
+        controller: the cascade.
+        before: distance slid in pieces of the same record that came before [m].
+
+    Raises:
+        InputError: the run has no such reference.
+    """
+    if controller.reference not in run.covariates:
+        given = ", ".join(run.covariates)
+        raise InputError(f"run {run.name!r} has no covariate {controller.reference!r} for the controller (it has: {given})")
+    reference = np.ascontiguousarray(run.covariates[controller.reference])
+    q = position_of(run)
+    temperature = known_temperature(run)
+    value = {
+        name: model.nuisances.get(name, float(getattr(joint, name))) for name in ("mass", "damping", "offset", "force_gain")
+    }
+    links = chain(model.law, model.effects, model.load)
+    plant = np.array([value["mass"], value["damping"], value["offset"], value["force_gain"]])
+    loop = np.array([controller.position_gain, controller.velocity_gain, controller.limit])
+    start = float(np.polyfit(np.arange(FIRST), q[:FIRST], 2)[2])
+    # the voltage that the controller gave tells the velocity that it saw
+    u = _voltage(run)[0]
+    rate = controller.position_gain * (reference[0] - start) - u / controller.velocity_gain
+    if abs(u) >= controller.limit:
+        rate = float(np.polyfit(np.arange(FIRST), q[:FIRST], 1)[0]) / run.sample_interval
+    voltage, position = np.empty(len(q)), np.empty(len(q))
+    _march(
+        links.numbers, links.calls, links.parameters, plant, loop, reference, float(run.time[0]), run.sample_interval,
+        start, rate, before, temperature, voltage, position,
+    )  # fmt: skip
+    return voltage, position
+
+
+def _voltage(run: Run) -> Array:
+    if "voltage" not in run.channels:
+        raise InputError(f"run {run.name!r} has no voltage, which its controller gives; name its column with columns")
+    return run.channels["voltage"]
+
+
+@compiled
+def _march(
+    numbers, calls, parameters, plant, loop, reference, start, interval, q, v, travelled, temperature, voltage, position
+):
+    world = np.zeros(e.WORLD)
+    memory = np.zeros(8)
+    mass, damping, offset, gain = plant[0], plant[1], plant[2], plant[3]
+    h = interval / FINER
+    turned = q
+    before = np.sign(v)
+    for i in range(len(reference)):
+        u = loop[1] * (loop[0] * (reference[i] - q) - v)
+        u = min(max(u, -loop[2]), loop[2])
+        voltage[i], position[i] = u, q
+        for k in range(FINER):
+            t = start + i * interval + k * h
+            pushed = gain * u - offset - damping * v
+            free = v + h * pushed / mass
+            side = np.sign(v) if v != 0.0 else np.sign(free)
+            if side not in (0.0, before):
+                turned, before = q, side
+            friction = resistance(
+                numbers, calls, parameters, world, memory, t, q, v, 0.0, abs(q - turned), side, travelled, temperature[i], 1.0
+            )
+            v = free - h * friction / mass
+            if v * side < 0.0:  # friction stops a mass, it does not turn it
+                v = 0.0
+            q += h * v
+            travelled += h * abs(v)

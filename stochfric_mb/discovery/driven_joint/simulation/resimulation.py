@@ -1,0 +1,98 @@
+"""Held-out runs simulated again, with the model as believed, recalibrated, and with what was found."""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib.util
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.discovery.driven_joint.simulation.scores import loop_floor
+from stochfric_mb.measurement.dataset import Dataset
+from stochfric_mb.mechanisms import HingePendulum, Mjcf, PrismaticJoint
+from stochfric_mb.mechanisms.mjcf_parts import Drive
+
+JOINT = "joint"
+"""Name of the joint of a slide or hinge in its MJCF."""
+Models = Mapping[str, JointModel]
+
+
+def simulated(
+    dataset: Dataset, tell: Callable[[str], None], source: Any, places: Sequence[PlaceOutcome], delays: tuple[float, float]
+) -> tuple[list[PlaceOutcome], float | None]:
+    """Return the places with the errors of forward simulation, and the noise of what a controller gives [-].
+
+    Slides and hinges with a cascade are simulated already; one that is slow and prescribed has nothing to simulate.
+
+    Args:
+        dataset: the dataset.
+        tell: called with what is being done.
+        source: balances of the dataset.
+        places: what was found; the first one's scores are completed.
+        delays: delay believed, and the one that is compensated [s].
+    """
+    mechanism = dataset.scenario.mechanism
+    floor = None
+    if dataset.scenario.controller is not None and not isinstance(mechanism, Mjcf):
+        return list(places), loop_floor(dataset.test)
+    if not isinstance(mechanism, Mjcf) and not _moves_freely(dataset):
+        return list(places), None
+    from stochfric_mb.discovery.driven_joint.mjcf.forward import drive_floor, forward
+
+    base, delay = delays
+    names = {p.place or source.places[0][0]: p for p in places}
+    early = any(p.undelayed is not None for p in places)
+    stages: dict[str, tuple[Models, float]] = {
+        "baseline": ({n: p.believed for n, p in names.items()}, base),
+        "recalibrated": ({n: p.undelayed or p.selected.recalibrated.model for n, p in names.items()}, base if early else delay),
+        "augmented": ({n: p.selected.final.model for n, p in names.items()}, delay),
+    }
+    scores = dict(places[0].scores)
+    for label, (models, late) in stages.items():
+        tell(f"forward simulation, {label}")
+        if isinstance(mechanism, Mjcf):
+            seen = forward(source, models, late)
+        else:
+            seen = forward(*as_mjcf(dataset, next(iter(models.values()))), late)
+        scores[label] = dataclasses.replace(scores[label], loop=seen.drive, forward=seen.position)
+    if dataset.scenario.controller is not None:
+        floor = drive_floor(source)
+    return [dataclasses.replace(places[0], scores=scores), *places[1:]], floor
+
+
+def _moves_freely(dataset: Dataset) -> bool:
+    """Return whether a slide or hinge can be run forward: it has inertia, a measured drive only, and the engine is there."""
+    mechanism = dataset.scenario.mechanism
+    driven = isinstance(mechanism, HingePendulum) or (
+        isinstance(mechanism, PrismaticJoint) and mechanism.mass > 0.0 and mechanism.piston_area == 0.0
+    )
+    measured = all("position" in run.channels and not run.settings for run in dataset.test)
+    return driven and measured and importlib.util.find_spec("mujoco") is not None
+
+
+def as_mjcf(dataset: Dataset, model: JointModel) -> tuple[Any, Models]:
+    """Return a slide or hinge with the corrections of ``model`` as a MuJoCo source, and its friction by joint."""
+    from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
+    from stochfric_mb.discovery.export import plain_mjcf
+
+    mujoco: Any = importlib.import_module("mujoco")
+    believed: Any = dataset.scenario.mechanism
+    mechanism = dataclasses.replace(believed, **model.nuisances)
+    name, gain = ("force", "force_gain") if isinstance(mechanism, PrismaticJoint) else ("torque", "torque_gain")
+    factor = getattr(mechanism, gain)
+    drive = Drive(columns=("voltage",), gain=factor) if factor else Drive(columns=(name,))
+    place = Mjcf(
+        file=Path(),
+        friction={JOINT: model.load},
+        positions={JOINT: "position"},
+        drives={JOINT: drive},
+        damping={JOINT: mechanism.damping},
+        offset={JOINT: mechanism.offset},
+    )
+    scenario = dataclasses.replace(dataset.scenario, mechanism=place, controller=None)
+    compiled = mujoco.MjModel.from_xml_string(plain_mjcf(dataclasses.replace(mechanism, damping=0.0)))
+    source = MjcfSource(dataclasses.replace(dataset, scenario=scenario), place, mujoco, compiled, (JOINT,), ())
+    return source, {JOINT: dataclasses.replace(model, nuisances={})}

@@ -1,0 +1,98 @@
+"""How far a joint's model is from data: inverse dynamics, the closed loop simulated again, and the noise floors of both."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.balance.weak_form import noise_level
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.simulation.closed_loop import closed_loop
+from stochfric_mb.measurement.run import Run
+from stochfric_mb.mechanisms import Cascade, PrismaticJoint
+from stochfric_mb.scenario import Scenario
+
+Array = npt.NDArray[np.float64]
+
+SETTLED = 10.0
+"""Time constants of the position loop after which the state at the start, which is not known, plays no part."""
+AHEAD = 0.5
+"""Time after which a simulation without a controller starts again from the measured state [s]."""
+APART = 4
+"""Centres between windows that share no samples that matter."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Score:
+    """Errors of one model on some runs."""
+
+    sliding: float
+    """Inverse dynamics, rms over the windows in which the joint slides one way [N or N m]."""
+    whole: float
+    """Inverse dynamics, rms over all windows, reversals and rest included [N or N m]."""
+    loop: float | None
+    """Voltage, or another drive, of the simulated closed loop against the measured one, relative rms [-]; None without."""
+    forward: float | None = None
+    """Positions of the model run forward in its engine against the measured ones, rms [m or rad]; None where it was not."""
+
+
+def score(
+    model: JointModel, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance], runs: Sequence[Run], scenario: Scenario
+) -> Score:
+    """Return the errors of ``model`` on ``balances``, which belong to ``runs``."""
+    rest = [model.remainder(s, nuisances) for s in balances]
+    sliding = np.concatenate([r[s.sliding] for r, s in zip(rest, balances, strict=True)])
+    return Score(_rms(sliding), _rms(np.concatenate(rest)), loop_error(model, runs, scenario, [s.before for s in balances]))
+
+
+def loop_error(model: JointModel, runs: Sequence[Run], scenario: Scenario, before: Sequence[float]) -> float | None:
+    """Return the relative error of the simulated controller's voltage [-]; None where there is no controller.
+
+    Args:
+        model: friction and corrections.
+        runs: what is simulated again.
+        scenario: holds mechanism and controller.
+        before: distance slid in earlier pieces of each run's record [m].
+    """
+    controller = scenario.controller
+    if not isinstance(controller, Cascade):
+        return None
+    wrong = right = 0.0
+    for run, slid in zip(runs, before, strict=True):
+        joint = run.mechanism(scenario)
+        if not isinstance(joint, PrismaticJoint):
+            return None
+        voltage, _ = closed_loop(run, joint, model, controller, slid)
+        late = round(SETTLED / controller.position_gain / run.sample_interval)
+        measured = run.channels["voltage"][late:]
+        wrong += float(np.sum((voltage[late:] - measured) ** 2))
+        right += float(np.sum(measured**2))
+    return float(np.sqrt(wrong / right))
+
+
+def loop_floor(runs: Sequence[Run]) -> float:
+    """Return the noise of the measured voltage over its size [-], from third differences."""
+    noise = sum(noise_level(r.channels["voltage"]) ** 2 * len(r.time) for r in runs)
+    size = sum(float(np.sum(r.channels["voltage"] ** 2)) for r in runs)
+    return float(np.sqrt(noise / size))
+
+
+def noise_floor(model: JointModel, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]) -> float:
+    """Return the noise of the balance [N or N m]: second differences between windows that do not overlap.
+
+    What friction leaves changes slowly from one window to the next, noise does not (von Neumann 1941).
+    """
+    parts: list[Array] = []
+    for s in balances:
+        r = model.remainder(s, nuisances)
+        inside = s.sliding[: -2 * APART] & s.sliding[APART:-APART] & s.sliding[2 * APART :]
+        parts.append(((r[: -2 * APART] - 2.0 * r[APART:-APART] + r[2 * APART :]) / np.sqrt(6.0))[inside])
+    return _rms(np.concatenate(parts))
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(values**2))) if len(values) else float("nan")

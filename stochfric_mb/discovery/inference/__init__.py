@@ -1,0 +1,1 @@
+"""Shared inference: fits, intervals and comparisons that every channel uses."""

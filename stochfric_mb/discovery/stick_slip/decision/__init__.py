@@ -1,0 +1,1 @@
+"""Which effect is meant: told apart by simulation, checked on fit and held-out runs, or declined."""

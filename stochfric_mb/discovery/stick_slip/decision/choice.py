@@ -1,0 +1,202 @@
+"""One round of the decision: which candidate of the screening is meant, and which cannot be told from it."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, confirm
+from stochfric_mb.discovery.stick_slip.decision.entrainment import entrained
+from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING
+from stochfric_mb.discovery.stick_slip.screening.naming import with_candidate
+from stochfric_mb.discovery.stick_slip.screening.regression import Terms
+from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.effects import effect_class
+
+SELECT, NAME = 14.0, 20.0
+"""Scores at which a candidate is followed up, and at which it is named [-]."""
+OUTDONE = 0.5
+"""A competitor that names no physics wins at once if the best effect has less than this share of its score [-]."""
+CLASS, CLASS_SHARE = 12.0, 0.03
+"""Effects whose score is within this, or this share, of the best are of one class with it [-]."""
+CONFIRMED_CLASS = 10.0
+"""Effects whose simulated criterion, in units of the best one's own misfit, is within this of the best are of one class with
+it [-]."""
+LACK, LACK_SHARE = 25.0, 0.35
+"""A simulated candidate is refused if chi^2 stays this far above its freedom and above this share of the believed model's."""
+DRIFTS = ("friction_drift", "sensor_drift")
+"""Effects that a stiffness which drifts may be taken for."""
+BEATEN = 15.0
+"""Score by which it must beat them, or `CLASS_SHARE` [-]."""
+LOCKED = 0.9
+"""Share of a ripple's score that alternation from slip to slip must reach to be believed in its place [-]."""
+WORTH_SIMULATING = 0.1
+"""Share of the best effect's score from which on a candidate is simulated [-]."""
+MOST_SIMULATED = 8
+"""Candidates that are simulated in the first round."""
+FORM = 0.03
+"""Share of the believed model's misfit that an effect of another form than the simulated one may leave [-]: a sixth of its
+strength. The tests' forms leave 0.016 at most, those of other kinds 0.08 where friction varies along the stroke."""
+MOST_SIMULATED_LATER = 4
+"""The same in what an effect leaves, where the best marks can be trusted: what is left is weak."""
+REFUTED = "shapes_refuted"
+"""Name under which the details hold that simulating effects which shape every slip alike has not borne them out."""
+
+IN_SLIP = (
+    "velocity_weakening", "viscous_friction", "frictional_lag", "nonlinear_stiffness", "quadratic_damping", "backlash",
+    "second_mode",
+)  # fmt: skip
+"""Effects that shape every slip alike: told apart by simulating them."""
+LATE = "sensor_delay"
+"""Where slips keep step with a known force, a late sensor shapes every slip alike, too."""
+BETWEEN_POINTS = ("dwell_ageing", "direction_asymmetry", "load_dependence")
+"""Effects that differ between operating points: simulated too where there are several."""
+SHAPES = ("slip_shape", "position")
+"""Competitors on the axes on which those effects act."""
+IN_TIME = ("time", "time_common", "friction_step", "parity")
+"""Competitors on the axis of time: a random wander may be what they see."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Chosen:
+    """The effect of one round."""
+
+    candidate: Candidate
+    """The candidate."""
+    class_: tuple[str, ...]
+    """Effects that cannot be told from it."""
+    model: Model
+    """The model with it, at numbers to start from."""
+    confirmed: Confirmed | None
+    """Its simulation, if it was simulated; what further effects of its family are compared with."""
+    simulated: bool
+    """Whether its numbers come from simulating."""
+
+
+def choose(
+    study: Study,
+    model: Model,
+    terms: Terms,
+    candidates: Sequence[Candidate],
+    cases: Sequence[Case],
+    before: Confirmed | None,
+    details: dict[str, object],
+) -> Chosen | Where | None:
+    """Return the effect of this round, or where the unknown lives, or None for nothing.
+
+    Args:
+        study: what was measured.
+        model: the model so far.
+        terms: its terms in the regression.
+        candidates: the screening's outcome, best first.
+        cases: slips to be predicted in a confirmation.
+        before: the simulated model so far.
+        details: gets the numbers of the confirmation.
+    """
+    n_terms = terms.columns.shape[2]
+    several = len(cases) > 1 and not cases[0].record.mechanism.excitation_amplitude
+    # an effect of another package says what it marks, not how slips differ: simulating it decides
+    own = tuple(c.name for c in candidates if c.is_effect and not effect_class(c.name).__module__.startswith("stochfric_mb."))
+    family = IN_SLIP + (BETWEEN_POINTS if several else ()) + own
+
+    def shapes(candidate: Candidate) -> bool:
+        """Return whether it is of the family, or a competitor on its axes."""
+        return candidate.name in family + SHAPES or candidate.any_shape
+
+    effects = [c for c in candidates if c.is_effect]
+    others = [c for c in candidates if not c.is_effect]
+    shape = max((c.score for c in candidates if shapes(c)), default=-np.inf)
+    if any(c.name == LATE and OUTDONE * c.score < shape for c in candidates):
+        family += (LATE,)
+        shape = max(shape, *(c.score for c in candidates if c.name == LATE))
+    rest = max((c.score for c in candidates if not shapes(c)), default=-np.inf)
+    if before is not None and shape >= NAME and shape >= rest:
+        # refuted once, shapes stay refuted: the slips that simulated ones are compared with are the same
+        if REFUTED not in details:
+            outcome = _by_simulation(study, model, terms, [c for c in effects if shapes(c)], cases, before, details)
+            if outcome is not None:
+                return outcome
+            details[REFUTED] = True
+        # simulation does not bear the shape out: what remains are effects that change from slip to slip
+        effects = [c for c in effects if not shapes(c) and c.score > WORTH_SIMULATING * shape]
+        others = [c for c in others if c.name not in SHAPES]
+    best = effects[0] if effects else None
+    other = others[0] if others else None
+    if other is not None and other.score >= NAME and (best is None or best.score < OUTDONE * other.score):
+        return Where(other.axis, f"the disagreement lives on the axis: {other.axis}; no known effect explains it")
+    if best is None or best.score < NAME:
+        return None
+    softer = next((c for c in others if c.name == SOFTENING), None)
+    if softer is not None and best.name in DRIFTS and softer.score > best.score + max(BEATEN, CLASS_SHARE * best.score):
+        return Where(softer.axis, "the spring, not the friction, drifts in the course of a run")
+    parity = next((c for c in others if c.name == "parity"), None)
+    if parity is not None and best.is_wave and parity.score > LOCKED * best.score:
+        return Where(
+            parity.axis, "friction alternates from slip to slip: no ripple that has its own frequency stays in step so"
+        )
+    near = best.score - max(CLASS, CLASS_SHARE * best.score)
+    class_ = tuple(dict.fromkeys(c.name for c in effects[1:] if c.score > near and c.name != best.name))
+    return Chosen(best, class_, with_candidate(model, best, study.pool, n_terms), before, False)
+
+
+def _by_simulation(
+    study: Study,
+    model: Model,
+    terms: Terms,
+    mine: Sequence[Candidate],
+    cases: Sequence[Case],
+    before: Confirmed,
+    details: dict[str, object],
+) -> Chosen | Where | None:
+    n_terms = terms.columns.shape[2]
+    # over the best effect, not the shape: where none comes near it the marks are too far from linear to choose by
+    least = max(WORTH_SIMULATING * mine[0].score if mine else 0.0, SELECT / 2.0)
+    rounds = sum(key.startswith("confirmation") for key in details)
+    most = MOST_SIMULATED_LATER if rounds else MOST_SIMULATED
+    worth = [c for c in mine if c.score > least]
+    firm, loose = [c for c in worth if not c.any_shape][:most], [c for c in worth if c.any_shape]
+    tried = [(c, confirm(cases, with_candidate(model, c, study.pool, n_terms), study.uncertainty)) for c in (*firm, *loose)]
+    if not model.effects:
+        tried += entrained(study, model, terms, cases)
+    tried.sort(key=lambda t: t[1].criterion)
+    # of several variants of an effect the best one counts
+    details[f"confirmation_{rounds + 1}"] = {c.name: [f.chi2, f.criterion] for c, f in reversed(tried)} | {
+        "believed": [before.chi2, before.criterion]
+    }
+    if not tried:
+        return None
+    # of names about equally good the one stands first that could have been refuted: hardly any shape refutes the others
+    fits = [t for t in tried if not t[0].any_shape and _adequate(t[1], before)] or tried
+    spread = _spread([f for _, f in fits])
+    best, fitted = min(fits, key=lambda t: t[1].scaled(spread))
+    if before.criterion - fitted.criterion < SELECT:
+        return None
+    if fitted.chi2 > fitted.freedom + LACK and fitted.chi2 > LACK_SHARE * before.chi2:
+        return Where(
+            "shape of the friction force within a slip",
+            f"no known effect explains the force within the slips; {best.name} comes closest",
+        )
+    near = fitted.scaled(spread) + CONFIRMED_CLASS
+    tried.sort(key=lambda t: t[1].scaled(spread))
+    alike = [c for c, f in tried if f.scaled(spread) < near and (_adequate(f, before) or not (c.any_shape or c.is_wave))]
+    class_ = tuple(dict.fromkeys(c.name for c in alike if c.name != best.name))
+    return Chosen(best, class_, fitted.model, fitted, True)
+
+
+def _adequate(fitted: Confirmed, before: Confirmed) -> bool:
+    """Return whether a candidate explains the slips' shape but for what another form of it would."""
+    return fitted.chi2 <= max(fitted.freedom + LACK, FORM * before.chi2)
+
+
+def _spread(confirmed: Sequence[Confirmed]) -> float:
+    """Return chi^2 over its freedom of the best candidate, at least 1: what the forms of all candidates miss.
+
+    Where no form is exact, differences of chi^2 tell of the forms, not of the kinds; the noise in which kinds are compared
+    is then the misfit itself (quasi-likelihood: D. R. Anderson, K. P. Burnham, G. C. White, Ecology 75, 1994, 1780-1793).
+    """
+    return max(min((f.chi2 / max(f.freedom, 1) for f in confirmed), default=1.0), 1.0)

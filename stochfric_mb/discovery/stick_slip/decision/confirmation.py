@@ -1,0 +1,342 @@
+"""Confirmation by indirect inference: simulate a candidate, take the same features from it, compare with the data's.
+
+Each operating point contributes the median features of its slips, or, where the slips differ by a known excitation,
+those of a few typical slips. A candidate is simulated from the middle of a stick through one slip, and the features are
+extracted as from data; the same extraction of the believed model is taken out again, so that its numerical bias
+cancels. mu_s, mu_k, mass, stiffness and damping are refitted with every candidate, within their uncertainty.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.inference.least_squares import minimised
+from stochfric_mb.discovery.stick_slip.records.calibration import damped
+from stochfric_mb.discovery.stick_slip.records.pool import Pool
+from stochfric_mb.discovery.stick_slip.records.record import Array, Record
+from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, features_near
+from stochfric_mb.discovery.stick_slip.simulation.auxiliary_state import auxiliary_state
+from stochfric_mb.discovery.stick_slip.simulation.model import FREED, TUNED, FreeParameter, Model, adjusted, free_parameters
+from stochfric_mb.errors import SimulationError
+from stochfric_mb.reference.augmented import Start
+
+FLOOR = 1.0e-3
+"""Error of the features that is always allowed, over the normal force [-]: numerics are never discovered."""
+LOOKED_AT = 120
+"""Most slips looked at at an operating point with a known excitation."""
+PART, MOST_PARTS = 0.3, 4
+"""Phases at which slips begin that one of them stands for [rad], and most parts that they are divided into."""
+ANY = np.eye(N_FEATURES)
+"""Whitening of features that are not compared."""
+STRENGTHS = (
+    "amplitude", "coefficient", "distance", "cubic", "gap", "mass_ratio", "rate", "exponent", "asymmetry", "time_constant",
+    "quadratic",
+)  # fmt: skip
+"""Parameters that measure how strong an effect is."""
+LEVELLINGS = 2
+"""Times that mu_s and mu_k are moved to their places before a fit begins."""
+DIFFERENCE = 0.01
+"""Step of the derivatives, over a natural step of each number [-]."""
+REMEMBERED = 5.0
+"""Length of the record that what effects with a motion of their own remember is found from [s]."""
+MISSED = 50.0
+"""Deviation that counts for every feature where the candidate does not slip as the data do."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    """One slip to be predicted."""
+
+    record: Record
+    """A run at the operating point."""
+    onset: tuple[float, float, float]
+    """Break-away of the data: time [s], position [m], dwell before it [s]."""
+    length: float
+    """Duration of the slip [s]."""
+    features: Array
+    """Features of the data [N], shape (N_FEATURES,)."""
+    whitening: Array
+    """Inverse Cholesky factor of their covariance [1/N], shape (N_FEATURES, N_FEATURES)."""
+    ridges: tuple[float, float]
+    """Ridges of the edges of the data, break-aways and re-sticks: those of a simulation are located as firmly [-]."""
+    offset: Array
+    """What the extraction adds to the truth in the believed model [N], shape (N_FEATURES,)."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Confirmed:
+    """A candidate, fitted to the features."""
+
+    kinds: tuple[str, ...]
+    """Effects in it."""
+    model: Model
+    """With its numbers fitted."""
+    chi2: float
+    """Misfit, priors included [-]."""
+    n_parameters: int
+    """Parameters of the effects, and those of the believed model that they leave open."""
+    freedom: int
+    """Features less parameters."""
+
+    @property
+    def criterion(self) -> float:
+        """chi^2 + p ln 60: lower is better, whatever the record's length."""
+        return self.scaled(1.0)
+
+    def scaled(self, spread: float) -> float:
+        """Return the criterion with chi^2 in units of ``spread``, what the forms of all candidates miss [-]."""
+        return self.chi2 / spread + self.n_parameters * np.log(60.0)
+
+
+def cases_of(pool: Pool, model: Model) -> list[Case]:
+    """Return the slips to be predicted: one an operating point, a few where an excitation makes them differ."""
+    points: dict[tuple[float, ...], list[int]] = {}
+    for r, slips in enumerate(pool.slips):
+        box = slips.record.mechanism
+        key = (round(box.belt_velocity, 9), round(box.normal_force, 6), box.excitation_amplitude, float(slips.record.direction))
+        points.setdefault(key, []).append(r)
+    cases: list[Case] = []
+    for key, runs in points.items():
+        rows = np.flatnonzero(pool.kept & np.isin(pool.run, runs))
+        if len(rows) < 3:
+            continue
+        cases += _forced(pool, model, rows) if key[2] else [_free(pool, model, rows, runs)]
+    return cases
+
+
+def _free(pool: Pool, model: Model, rows: np.ndarray, runs: Sequence[int]) -> Case:
+    features = pool.features[rows]
+    slips = pool.slips[runs[0]]
+    centre = np.median(features, axis=0)
+    covariance = _of_median(pool.calibrations[runs[0]].covariance, features)
+    middle = float(slips.onset_time[len(slips) // 2])
+    onset = (middle, float(np.median(slips.onset_position)), float(np.median(pool.dwell[rows])))
+    length = float(np.median(pool.restick_time[rows] - pool.onset_time[rows]))
+    return _case(model, slips, onset, length, centre, covariance, pool.calibrations[runs[0]].damping)
+
+
+def _forced(pool: Pool, model: Model, rows: np.ndarray) -> list[Case]:
+    """Return one case for each part of the excitation's cycle in which slips begin.
+
+    Slips that begin at nearly the same phase differ little: one of them stands for all, with the median of what the
+    believed model misses in each.
+    """
+    chosen = rows[np.unique(np.linspace(0, len(rows) - 1, LOOKED_AT).round().astype(int))]
+    plain = dataclasses.replace(model, corrections={}, effects=(), process=None, own={})
+    onsets: list[tuple[float, float, float]] = []
+    lengths = pool.restick_time - pool.onset_time
+    predictions: list[Array] = []
+    kept: list[int] = []
+    for i in chosen:
+        slips = pool.slips[pool.run[i]]
+        k = i - int(np.flatnonzero(pool.run == pool.run[i])[0])
+        onset = (float(slips.onset_time[k]), float(slips.onset_position[k]), float(pool.dwell[i]))
+        bare = Case(
+            slips.record, onset, float(lengths[i]), pool.features[i], ANY, (slips.ridge, slips.firm), np.zeros(N_FEATURES)
+        )
+        predicted = predict(plain, bare)
+        if predicted is not None:
+            onsets.append(onset)
+            predictions.append(predicted)
+            kept.append(int(i))
+    if not kept:
+        return []
+    frequency = pool.slips[pool.run[kept[0]]].record.mechanism.excitation_angular_frequency
+    cases: list[Case] = []
+    for part in _parts(frequency * np.array([o[0] for o in onsets])):
+        middle = part[len(part) // 2]
+        mine = np.array(kept)[part]
+        slips = pool.slips[pool.run[kept[middle]]]
+        missed = pool.features[mine] - np.array(predictions)[part]
+        calibration = pool.calibrations[pool.run[kept[middle]]]
+        covariance = _of_median(calibration.covariance, missed)
+        features = predictions[middle] + np.median(missed, axis=0)
+        length = float(np.median(lengths[mine]))
+        cases.append(_case(model, slips, onsets[middle], length, features, covariance, calibration.damping))
+    return cases
+
+
+def _parts(phase: Array) -> list[np.ndarray]:
+    """Return the numbers of the slips in each part of the cycle, by the phases at which they begin [rad], in their order."""
+    turn = 2.0 * np.pi
+    order = np.argsort(phase % turn, kind="stable")
+    placed = (phase % turn)[order]
+    gaps = np.diff(np.r_[placed, placed[0] + turn])
+    first = (int(np.argmax(gaps)) + 1) % len(order)
+    order = np.roll(order, -first)
+    width = turn - float(gaps.max())
+    count = int(np.clip(np.ceil(width / PART), 1, min(MOST_PARTS, max(len(order) // 3, 1))))
+    return [p for p in np.array_split(order, count) if len(p)]
+
+
+def _of_median(covariance: Array, values: Array) -> Array:
+    """Return the covariance of a median of n ``values``, which err by ``covariance`` and may scatter more, shape as its."""
+    # the variance of a median is pi/2 that of a mean
+    share = 1.57 / len(values)
+    scatter = share * np.var(values, axis=0)
+    return share * covariance + np.diag(np.maximum(scatter - np.diag(share * covariance), 0.0))
+
+
+def _case(
+    model: Model,
+    slips: Slips,
+    onset: tuple[float, float, float],
+    length: float,
+    features: Array,
+    covariance: Array,
+    damping: float,
+) -> Case:
+    load = slips.record.mechanism.normal_force
+    floor = (FLOOR * 0.5 * load * np.r_[0.2, 0.5, np.ones(N_FEATURES - 2)]) ** 2
+    whitening = np.asarray(np.linalg.inv(np.linalg.cholesky(covariance + np.diag(floor))), dtype=np.float64)
+    case = Case(slips.record, onset, length, features, whitening, (slips.ridge, slips.firm), np.zeros(N_FEATURES))
+    plain = model.with_law(features[0] / load, min(features[1], 0.99 * features[0]) / load)
+    plain = dataclasses.replace(plain, corrections={}, effects=(), process=None, own={})
+    # at the damping at which the bias of the features was found
+    predicted = predict(plain, dataclasses.replace(case, record=damped(case.record, damping)))
+    if predicted is None:
+        return case
+    truth = np.zeros(N_FEATURES)
+    truth[0], truth[1] = plain.law.mu_s * load, plain.law.mu_k * load
+    return dataclasses.replace(case, offset=predicted - truth)
+
+
+def predict(model: Model, case: Case) -> Array | None:
+    """Return the features that the model predicts for a case [N], shape (N_FEATURES,); None where it does not slip so.
+
+    A declared scatter is left out: medians are compared, and one draw of it is not the median.
+    """
+    model = dataclasses.replace(model, process=None)
+    record = case.record
+    box = record.mechanism
+    margin = 3.3 / record.angular_frequency
+    # from the middle of the stick, so that a break-away that comes early is not missed
+    ahead = max(margin * 1.2, 0.55 * case.onset[2])
+    time, position = case.onset[0] - ahead, record.direction * (case.onset[1] - box.belt_velocity * ahead)
+    system = model.system(record)
+    memory = auxiliary_state(system, record, np.array([time]), np.array([position]), since=REMEMBERED)
+    start = Start(
+        time - model.late, position, record.stated.belt_velocity, True, max(case.onset[2] - ahead, 0.0),
+        memory=None if memory is None else tuple(memory[0]),
+    )  # fmt: skip
+    # room for a break-away that comes late by a fifth of the static deflection
+    late = 0.2 * abs(case.onset[1]) / box.belt_velocity
+    count = round((ahead + late + 1.6 * case.length + margin) * record.rate)
+    try:
+        motion = system.march(start, 1.0 / record.rate, count)
+    except SimulationError:
+        return None
+    position = record.direction * motion.position
+    if not np.isfinite(position).all():
+        return None
+    time = start.time + model.late + np.arange(1, count + 1) / record.rate
+    simulated = dataclasses.replace(record, time=time, position=position, raw=position, outlier=np.zeros(count, dtype=bool))
+    return features_near(simulated, case.onset[0], ridge=case.ridges[0], firm=case.ridges[1])
+
+
+def confirm(
+    cases: Sequence[Case],
+    candidate: Model,
+    uncertainty: Mapping[str, float],
+    *,
+    evaluations: int = 20,
+    entrained: bool = False,
+) -> Confirmed:
+    """Return the candidate with its numbers fitted to the features of ``cases``.
+
+    Args:
+        cases: slips to be predicted.
+        candidate: the model.
+        uncertainty: relative standard deviations of what is believed.
+        evaluations: most Gauss-Newton steps.
+        entrained: whether the last effect is a wave to which the slips keep: what they leave open is its phase, not its
+            frequency.
+    """
+    last = len(candidate.effects) - 1
+    runs = list(dict.fromkeys(case.record.name for case in cases)) if entrained else []
+    knobs = [k for k in free_parameters(candidate, uncertainty, runs) if not k.run or k.effect == last]
+    knobs = [k for k in knobs if not (entrained and k.effect == last and k.name in TUNED)]
+    load = cases[0].record.mechanism.normal_force
+    start = np.array([k.value for k in knobs])
+    scale = np.array([_step(k, load) for k in knobs])
+    priors = np.array([k.prior for k in knobs])
+    believed = np.where(np.isfinite(priors), 0.0, start)
+    low = np.array([(k.low - v) / s for k, v, s in zip(knobs, start, scale, strict=True)]) - 1.0e-9
+    high = np.array([(k.high - v) / s for k, v, s in zip(knobs, start, scale, strict=True)]) + 1.0e-9
+
+    def errors(step: Array) -> Array:
+        values = start + scale * step
+        trial = adjusted(candidate, knobs, values)
+        parts = [_error(trial, case) for case in cases]
+        return np.concatenate([*parts, (values - believed) / priors])
+
+    def levelled(step: Array) -> Array:
+        """Return the step with mu_s and mu_k moved to where the break-away and the mean force in slip are right."""
+        for _ in range(LEVELLINGS):
+            away = _levels_away(adjusted(candidate, knobs, start + scale * step), cases)
+            step = np.clip(step + np.array([away.get(k.name, 0.0) for k in knobs]) / scale, low, high)
+        return step
+
+    starts = [levelled(np.clip(s, low, high)) for s in _starts(candidate, knobs, scale)]
+    first = min(starts, key=lambda s: float(np.sum(errors(s) ** 2)))
+    found = minimised(
+        errors,
+        first,
+        low,
+        high,
+        difference=DIFFERENCE,
+        max_nfev=evaluations,
+        xtol=1.0e-4,
+        ftol=1.0e-3,
+        x_scale="jac",
+    )
+    # what of the believed model an effect leaves open is a number of its own, too
+    freed = {name for e in candidate.effects for name in FREED.get(e.kind, ())}
+    n_parameters = sum(k.effect >= 0 or k.name in freed for k in knobs)
+    return Confirmed(
+        tuple(e.kind for e in candidate.effects),
+        adjusted(candidate, knobs, start + scale * found.x),
+        float(2.0 * found.cost),
+        n_parameters,
+        N_FEATURES * len(cases) - 2 - n_parameters,
+    )
+
+
+def _levels_away(model: Model, cases: Sequence[Case]) -> dict[str, float]:
+    """Return by how much mu_s and mu_k are too low for the break-away and the mean force in slip, over all cases."""
+    away: list[Array] = []
+    for case in cases:
+        predicted = predict(model, case)
+        if predicted is not None:
+            away.append((case.features - (predicted - case.offset))[:2] / case.record.mechanism.normal_force)
+    return dict(zip(("mu_s", "mu_k"), np.mean(away, axis=0).tolist(), strict=True)) if away else {}
+
+
+def _starts(candidate: Model, knobs: Sequence[FreeParameter], scale: Array) -> list[Array]:
+    """Return where a fit may start: as screened, and with the last effect, and what it leaves open, several times weaker."""
+    starts = [np.zeros(len(knobs))]
+    if not candidate.effects:
+        return starts
+    last = len(candidate.effects) - 1
+    freed = FREED.get(candidate.effects[last].kind, ())
+    strong = [k.effect == last and k.name in STRENGTHS and k.value != 0.0 for k in knobs]
+    if not any(strong):
+        return starts
+    # a stiffness that was freed for a curved spring would, without its curve, be of another rig
+    along = np.array([s or (k.effect < 0 and k.name in freed) for s, k in zip(strong, knobs, strict=True)])
+    values = np.array([k.value for k in knobs])
+    return starts + [np.where(along, (share - 1.0) * values / scale, 0.0) for share in (0.5, 0.2, 0.05)]
+
+
+def _step(knob: FreeParameter, load: float) -> float:
+    return knob.scale if knob.effect >= 0 or knob.name not in ("mu_s", "mu_k") else 0.2 / load
+
+
+def _error(model: Model, case: Case) -> Array:
+    predicted = predict(model, case)
+    if predicted is None:
+        return np.full(N_FEATURES, MISSED)
+    return np.clip(case.whitening @ (case.features - (predicted - case.offset)), -1.0e3, 1.0e3)

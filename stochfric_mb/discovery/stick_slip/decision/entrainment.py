@@ -1,0 +1,104 @@
+"""Waves to which the slips keep: they shape all slips alike, and only simulating them tells them from other shapes.
+
+A wave faster than the slips makes the box break away near its crests, so that each cycle takes a whole number of waves and
+nothing differs from slip to slip. To first order the waves of many orders look alike; simulated, hardly two of them do.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, confirm
+from stochfric_mb.discovery.stick_slip.records.pool import Pool
+from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.screening.hypotheses import waves_in
+from stochfric_mb.discovery.stick_slip.screening.naming import with_candidate
+from stochfric_mb.discovery.stick_slip.screening.regression import Terms
+from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.effects.marks import ENTRAINED, Hypothesis, Wave
+
+REGULAR = 0.03
+"""Scatter of the intervals between slips, over their mean, up to which slips may keep to a wave [-]."""
+FIRST = "harmonic_force"
+"""Kind of wave by which the order is found."""
+ALONG_BELT = "position_dependent_friction"
+"""Kind that runs along the belt: what of the belt passes in slips that are all alike passes along the stroke, too."""
+COARSE = (2, 4, 6, 8)
+"""Orders that are tried first; then the neighbours of the best one."""
+EVALUATIONS = 10
+"""Most Gauss-Newton steps of a trial: a wave has two numbers that no other candidate has."""
+
+Trial = tuple[Candidate, Confirmed]
+
+
+def entrained(study: Study, model: Model, terms: Terms, cases: Sequence[Case]) -> list[Trial]:
+    """Return the best wave of each kind to which the slips may keep, simulated; none where slips come at no regular intervals.
+
+    Args:
+        study: what was measured.
+        model: the believed model.
+        terms: its terms in the regression.
+        cases: slips to be predicted.
+    """
+    rate = _common_rate(study.pool)
+    waves = waves_in(study.pool)
+    if rate is None or FIRST not in waves:
+        return []
+    fastest = 1.0 / float(np.median(study.pool.restick_time - study.pool.onset_time))
+    most = max(round(fastest / rate), 1)
+    tried: dict[int, Trial] = {}
+
+    def attempt(kind: str, order: int) -> Trial:
+        return _tried(kind, waves[kind], order * rate, study, model, terms, cases)
+
+    def best() -> int:
+        return min(tried, key=lambda order: tried[order][1].criterion)
+
+    for order in COARSE:
+        if order <= most:
+            tried[order] = attempt(FIRST, order)
+    if not tried:
+        return []
+    for order in (best() - 1, best() + 1):
+        if 1 <= order <= most and order not in tried:
+            tried[order] = attempt(FIRST, order)
+    return [tried[best()], *(attempt(kind, best()) for kind in waves if kind not in (FIRST, ALONG_BELT))]
+
+
+def _common_rate(pool: Pool) -> float | None:
+    """Return the rate of the slips [Hz], where it is regular and the same in all runs."""
+    intervals = [np.diff(s.onset_time) for s in pool.slips]
+    rates = np.array([1.0 / np.median(i) for i in intervals])
+    irregular = max(float(1.48 * np.median(np.abs(i - np.median(i))) / np.median(i)) for i in intervals)
+    if np.ptp(rates) > REGULAR * rates.mean() or irregular > REGULAR:
+        return None
+    return float(rates.mean())
+
+
+def _tried(kind: str, wave: Wave, frequency: float, study: Study, model: Model, terms: Terms, cases: Sequence[Case]) -> Trial:
+    hypothesis = Hypothesis(kind, _columns(wave, frequency, study.pool), (wave.setting(frequency), 1.0), variant=ENTRAINED)
+    solution = study.regression.solve(terms.plus(hypothesis.columns), study.solution.scatter)
+    cost = len(hypothesis.columns) * float(np.log(study.regression.n))
+    score = 2.0 * float(study.regression.gains(terms, study.solution.scatter, [hypothesis.columns])[0]) - cost
+    candidate = Candidate(kind, "", score, hypothesis, solution)
+    trial = with_candidate(model, candidate, study.pool, terms.columns.shape[2])
+    found = confirm(cases, trial, study.uncertainty, evaluations=EVALUATIONS, entrained=True)
+    # the order is a number, too
+    return candidate, dataclasses.replace(found, n_parameters=found.n_parameters + 1, freedom=found.freedom - 1)
+
+
+def _columns(wave: Wave, frequency: float, pool: Pool) -> list[Array]:
+    """Return cosine and sine in each run as regressors; unlike those of other waves as a whole, since no slip differs."""
+    angle: npt.NDArray[np.complex128] = np.exp(2.0j * np.pi * frequency * wave.place)
+    columns: list[Array] = []
+    for run in range(pool.n_runs):
+        for part in (angle.real, angle.imag):
+            force = wave.weight * part * (pool.run == run)[:, None]
+            columns.append(pool.column(force[:, 0], force[:, 1:]))
+    return columns

@@ -1,0 +1,101 @@
+"""Whether a decision explains what the very runs show that it was made on: their forecasts one cycle ahead are judged."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.decision.held_out_check import LEAST_REDUCIBLE
+from stochfric_mb.discovery.stick_slip.decision.rounds import Decision
+from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, score
+from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of, mean_score
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.discovery.stick_slip.study import Study
+
+NOT_JUDGED = {"sensor_outliers", "sensor_clipping"}
+"""Effects whose worth one-cycle forecasts do not measure."""
+RANDOM = {"random_coefficients", "correlated_coefficients"}
+"""Effects that are scatter."""
+EXPLAINED, EXPLAINED_RANDOM = 0.65, 0.2
+"""Share of the reducible error of the fit runs' forecasts that named effects must explain; the second one where random
+effects or a step between two slips, whose moment is not known well, are among them [-]."""
+MISSED = 0.5
+"""Reducible error over the error itself above which "none" is no answer [-]: more is wrong with the forecasts than is right.
+Where nothing is missing, noise and declared scatter leave up to a third."""
+GOLDEN = 0.6180339887498949
+"""The ratio whose multiples repeat least."""
+JUDGED_WINDOWS = 24
+"""Forecasts of each run that are judged."""
+THROWN_OFF, FEWEST_THROWN_OFF = 3.0, 2
+"""Error of a forecast over that of most from which on something came between, and how many of them kicks leave at least:
+noise alone, however coloured, leaves forecasts that all miss by about the same [-]."""
+
+
+def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented: Model) -> Decision | None:
+    """Return another decision if this one explains too little of what the fit runs show; None if enough.
+
+    A name is worth little if the model with the effect forecasts the very runs that it was fitted to hardly better, and
+    so is "none" if a model that explained the runs would forecast them far better than the recalibrated one does: both
+    become "unknown". Kicks that throw no forecast off are none.
+    """
+    if decision.verdict == "unknown":
+        return None
+    kinds = {n.kind for n in decision.named}
+    if kinds and kinds <= NOT_JUDGED:
+        return None
+    windows = [_scattered(w, JUDGED_WINDOWS) for w in found.windows if len(w)]
+    runs = HeldOut(found.pool.slips[:2], tuple(windows), tuple(windows))
+    before, after = mean_score(recalibrated, runs), mean_score(augmented, runs)
+    if _unfelt(kinds, recalibrated, found, runs, before):
+        return dataclasses.replace(decision, verdict="none", named=())
+    floor = min(floor_of(augmented, runs, recalibrated if "impacts" in kinds else None), after)
+    reducible, unit = before - floor, found.size.length
+    if not kinds:
+        decision.details["explained"] = {"before": before * unit, "floor": floor * unit}
+        return _missed(decision, before * unit, floor * unit) if reducible > MISSED * before else None
+    share = (before - after) / reducible if reducible > LEAST_REDUCIBLE * before else 1.0
+    decision.details["explained"] = {
+        "before": before * unit, "after": after * unit, "floor": floor * unit, "share": share
+    }  # fmt: skip
+    lenient = augmented.random or "sensor_step" in kinds
+    if share >= (EXPLAINED_RANDOM if lenient else EXPLAINED):
+        return None
+    best = decision.named[0]
+    where = Where(
+        best.where.axis,
+        f"{best.kind} comes closest, but explains only {max(share, 0.0):.0%} of what the runs show",
+    )
+    return dataclasses.replace(decision, verdict="unknown", named=(), where=where)
+
+
+def _unfelt(kinds: set[str], recalibrated: Model, found: Study, runs: HeldOut, before: float) -> bool:
+    """Return whether what is random stands out of the forces alone, and leaves the motion as forecast without it.
+
+    Edges that noise has hidden stand out as kicks do, and a scatter of the forces may be smaller than any forecast feels.
+    """
+    if kinds == {"impacts"}:
+        return not _thrown_off(recalibrated, found)
+    return bool(kinds) and kinds <= RANDOM and before - floor_of(recalibrated, runs) <= LEAST_REDUCIBLE * before
+
+
+def _thrown_off(model: Model, found: Study) -> bool:
+    """Return whether some forecasts of the fit runs miss by far more than most."""
+    errors = np.concatenate([score(model, w) for w in found.windows])
+    return bool(np.count_nonzero(errors > THROWN_OFF * np.median(errors)) >= FEWEST_THROWN_OFF)
+
+
+def _scattered(windows: Windows, most: int) -> Windows:
+    """Return at most ``most`` windows, spread over the run at no regular intervals: a pattern of slips must not escape."""
+    order = np.argsort(np.arange(len(windows)) * GOLDEN % 1.0, kind="stable")
+    return windows.part(np.sort(order[:most]))
+
+
+def _missed(decision: Decision, before: float, floor: float) -> Decision:
+    where = Where(
+        "forecasts of one cycle",
+        f"no effect stands out in the forces of the slips, but forecasts of the fit runs miss by {before:.2g} m, where the "
+        f"model would miss by {floor:.2g} m if it were true",
+    )
+    return dataclasses.replace(decision, verdict="unknown", where=where)

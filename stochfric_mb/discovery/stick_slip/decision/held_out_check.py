@@ -1,0 +1,75 @@
+"""Whether held-out runs bear out what the fit runs suggest: an effect that worsens their forecasts is not kept."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from stochfric_mb.discovery.stick_slip.simulation.forecast import score
+from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
+
+DOUBT = 2.0
+"""Standard errors of the mean difference by which forecasts must be worse: chance does that once in 40 times [-]."""
+FAR_OFF = 1.1
+"""Error with an effect, over that without it, from which on it is refused, unless most forecasts are better [-]."""
+MOST = 2.0
+"""Standard deviations of a fair coin by which better forecasts must outnumber worse ones to be most [-]."""
+LEAST_REDUCIBLE = 0.08
+"""Reducible error, over the error itself, below which shares of it would be noise over noise [-]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Comparison:
+    """Forecasts of the same held-out windows by two models."""
+
+    without: float
+    """Mean error of the model without the effect [m]."""
+    with_: float
+    """Mean error of the model with it [m]."""
+    deviation: float
+    """Standard error of the difference [m]."""
+
+    floor: float
+    """What the model with it would leave of records that it had made itself [m]."""
+    most_better: bool = False
+    """Whether far more forecasts are better with it than worse."""
+
+    @property
+    def worse(self) -> bool:
+        """Whether the effect makes the forecasts worse: far off, by more than chance, or where much could be gained.
+
+        Where most are better, the mean may be far off for a slip that is missed: a forecast of a box on the verge of slipping
+        says nothing of an effect.
+        """
+        if self.with_ <= self.without:
+            return False
+        chance = DOUBT * self.deviation
+        to_gain = self.without - self.floor > LEAST_REDUCIBLE * self.without
+        far_off = self.with_ > FAR_OFF * self.without and not self.most_better
+        return far_off or self.with_ - self.without > chance or to_gain
+
+    @property
+    def better(self) -> bool:
+        """Whether the effect makes the forecasts better, by more than chance."""
+        return self.without - self.with_ > DOUBT * self.deviation
+
+
+def compared(without: Model, with_: Model, runs: HeldOut) -> Comparison | None:
+    """Return how two models, phases found already, forecast held-out runs; None where there are too few forecasts."""
+    first, second = (np.concatenate([score(m, w) for w in runs.second]) for m in (without, with_))
+    n = len(first)
+    if n < 3:  # no standard error
+        return None
+    deviation = float(np.std(second - first, ddof=1) / np.sqrt(n))
+    better, worse = int(np.count_nonzero(second < first)), int(np.count_nonzero(second > first))
+    most_better = better - worse > MOST * np.sqrt(better + worse)
+    return Comparison(float(first.mean()), float(second.mean()), deviation, floor_of(with_, runs), most_better)
+
+
+def without_last(model: Model, kind: str) -> Model:
+    """Return the model without its last effect of a kind."""
+    place = max(i for i, e in enumerate(model.effects) if e.kind == kind)
+    own = {run: (*v[:place], *v[place + 1 :]) for run, v in model.own.items()}
+    return dataclasses.replace(model, effects=(*model.effects[:place], *model.effects[place + 1 :]), own=own)

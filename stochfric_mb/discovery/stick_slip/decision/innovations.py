@@ -1,0 +1,85 @@
+"""What a model leaves of every slip: each one predicted by simulation from the stick before it.
+
+For models with effects the regressors are only first-order; a simulated slip is exact. Features of the data, less what
+the model's effects add to those of plain Coulomb friction, are again features of a Coulomb contact if the model is right.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, predict
+from stochfric_mb.discovery.stick_slip.records.calibration import Calibration
+from stochfric_mb.discovery.stick_slip.records.pool import Pool
+from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips
+from stochfric_mb.discovery.stick_slip.simulation.model import FREED, Model
+from stochfric_mb.discovery.stick_slip.simulation.sensor_errors import errors_by_noise
+
+ANY = np.eye(N_FEATURES)
+LEAST_ERROR = 1.0e-4
+"""Error of the features that always remains, over the onset force [-]: it keeps a noiseless record's covariance invertible."""
+
+
+def left_over(pool: Pool, model: Model, *, anew: bool = False) -> Pool:
+    """Return the pool with the effects of ``model`` taken out of its features; slips that it misses are set aside.
+
+    Args:
+        pool: the slips with their features as measured.
+        model: a deterministic model with effects, its numbers fitted.
+        anew: whether its effects change how a slip begins and ends, so that noise makes other errors in its features.
+    """
+    # what an effect freed of the mechanism goes with it
+    freed = {name for effect in model.effects for name in FREED.get(effect.kind, ())}
+    corrections = {name: 0.0 if name in freed else value for name, value in model.corrections.items()}
+    plain = dataclasses.replace(model, effects=(), own={}, corrections=corrections)
+    features = pool.features.copy()
+    kept = pool.kept.copy()
+    calibrations = list(pool.calibrations)
+    for r, slips in enumerate(pool.slips):
+        rows = np.flatnonzero(pool.run == r)
+        with_effects = _predicted(slips, model, pool.dwell[rows])
+        forced = slips.record.mechanism.excitation_amplitude != 0.0
+        one = rows if forced else rows[:1]
+        without = _predicted(slips, plain, pool.dwell[rows], len(one))
+        features[rows] -= with_effects - without
+        if anew:
+            features[rows], calibrations[r] = _calibrated_anew(features[rows], slips, model, plain, calibrations[r])
+        missed = ~np.isfinite(features[rows]).all(axis=1)
+        features[rows[missed]] = pool.features[rows[missed]]
+        kept[rows[missed]] = False
+    return dataclasses.replace(pool, features=features, kept=kept, calibrations=tuple(calibrations))
+
+
+def _calibrated_anew(
+    features: Array, slips: Slips, model: Model, plain: Model, before: Calibration
+) -> tuple[Array, Calibration]:
+    """Return features with the bias by noise that the effects' slips have instead of plain ones, and its covariance."""
+    with_effects, without = errors_by_noise(model, slips), errors_by_noise(plain, slips)
+    if with_effects is None or without is None:
+        return features, before
+    floor = (LEAST_ERROR * float(np.median(slips.onset_force))) ** 2 * np.eye(N_FEATURES)
+    after = dataclasses.replace(before, covariance=with_effects.covariance + floor)
+    return features - (with_effects.bias - without.bias), after
+
+
+def _predicted(slips: Slips, model: Model, dwell: Array, count: int | None = None) -> Array:
+    """Return the features of the slips as the model predicts them [N], shape (count, N_FEATURES); nan where none slips."""
+    rows: list[Array] = []
+    previous = np.r_[np.median(slips.restick_position), slips.restick_position[:-1]]
+    belt = slips.record.mechanism.belt_velocity
+    for i in range(len(slips) if count is None else count):
+        # predicted from the last re-stick alone: the place of this break-away is what is to be predicted
+        typical = float(np.median(slips.onset_position))
+        expected = slips.onset_time[i] + (typical - slips.onset_position[i]) / belt
+        stuck = (typical - previous[i]) / belt if i else float(dwell[i])
+        case = Case(
+            slips.record, (float(expected), typical, max(stuck, 0.02)),
+            float(np.median(slips.restick_time - slips.onset_time)), slips.features[i], ANY, (slips.ridge, slips.firm),
+            np.zeros(N_FEATURES),
+        )  # fmt: skip
+        found = predict(model, case)
+        rows.append(np.full(N_FEATURES, np.nan) if found is None else found)
+    return np.array(rows)

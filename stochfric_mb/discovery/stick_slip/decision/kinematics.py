@@ -1,0 +1,239 @@
+"""What the stick phases and the sensor show by themselves: the first effects to be named, before any force is looked at."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import cast
+
+import numpy as np
+
+from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.records.record import OUTLIER_DEVIATIONS
+from stochfric_mb.discovery.stick_slip.records.stick_phases import Sticking
+from stochfric_mb.discovery.stick_slip.screening.competitors import step_times, steps
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.discovery.stick_slip.simulation.refit import refit
+from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.effects import make_effect
+from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
+
+NAME = 20.0
+"""Score at which an effect is named [-]."""
+YIELDS = 0.5
+"""Share of the evidence for creep that a yielding or ringing contact must reach to be named in its place [-]."""
+CREEP = {
+    "creep_before": ("stick, before the break-away", "the box leaves the belt's motion before it breaks away"),
+    "creep_after": ("stick, after the re-stick", "the box does not follow the belt at once when it sticks again"),
+    "yielding": ("stick", "the box lags behind the belt more and more while it sticks"),
+}
+"""Ways in which a stuck box may creep -> axis and sentence."""
+ELSE = ("stick", "in stick the box does not follow the belt, in a way that no known effect explains")
+"""The same where none of them explains enough."""
+STEP_SEEN = "step_in_stick"
+"""Name under which the details hold the score of a step that stands in a stick phase and stays."""
+LEAST_OUTLIERS = 5.0e-5
+"""Share of outliers from which on they are named [-]."""
+OUTSHINES = 10.0
+"""Evidence of such a line over that of the best effect in stick from which on the line is no trace of the effect: a contact
+that rings is seen in the first few periods after each re-stick, a line all along [-]."""
+LINE = 60.0
+"""Strength of a line in the noise at which it is no chance [-]; the largest of 64 without a line stays below 10."""
+
+LOUD_LINE = 1.0
+"""Variance of such a line over that of the rest of the noise below which it is part of the noise [-]."""
+
+
+def with_kinematic(study: Study, model: Model, kind: str, values: dict[str, float]) -> Model:
+    """Return the model with an effect that the stick phases showed; a ripple's phases and amplitude are fitted at once."""
+    if kind == "belt_speed_ripple":
+        names = [s.record.name for s in study.pool.slips]
+        best: tuple[float, Model] | None = None
+        for amplitude in (0.01, 0.05):
+            own = {
+                name: (*({} for _ in model.effects), {"phase": phase})
+                for name, phase in _ripple_phases(study, values["frequency"])
+            }
+            assert set(own) == set(names)
+            trial = model.plus(make_effect(kind, **(values | {"amplitude": amplitude})))
+            fit = refit(dataclasses.replace(trial, own=own), study.windows, study.uncertainty, most=12, evaluations=20)
+            if best is None or fit.cost < best[0]:
+                best = (fit.cost, fit.model)
+        assert best is not None
+        return best[1]
+    model = model.plus(make_effect(kind, **values))
+    if kind == "presliding_compliance":
+        return _compliant(study, model)
+    return model
+
+
+def _compliant(study: Study, model: Model) -> Model:
+    """Return the model with the elastic limit and damping that forecast best; looked for on a grid first."""
+    place = len(model.effects) - 1
+    first = model.effects[place]
+    best: tuple[float, Model] | None = None
+    for limit in (5.0e-6, 1.5e-5, 5.0e-5, 1.5e-4):
+        for ratio in (0.05, 0.3):
+            effects = (*model.effects[:place], dataclasses.replace(first, elastic_limit=limit, damping_ratio=ratio))
+            trial = dataclasses.replace(model, effects=effects)
+            fit = refit(trial, study.windows, study.uncertainty, most=5, evaluations=4)
+            if best is None or fit.cost < best[0]:
+                best = (fit.cost, fit.model)
+    assert best is not None
+    return refit(best[1], study.windows, study.uncertainty, most=12, evaluations=20).model
+
+
+def _ripple_phases(study: Study, frequency: float) -> list[tuple[str, float]]:
+    """Return run and phase of a ripple of the belt's speed, from what its integral leaves in the stick phases."""
+    found: list[tuple[str, float]] = []
+    for slips in study.pool.slips:
+        samples = slips.stick
+        angle = 2.0 * np.pi * frequency * samples.time
+        count = np.maximum(np.bincount(samples.segment), 1)
+        centred = [
+            c - (np.bincount(samples.segment, c) / count)[samples.segment]
+            for c in (np.cos(angle), np.sin(angle), samples.time, samples.residual)
+        ]
+        a, b, _ = np.linalg.lstsq(np.stack(centred[:3], axis=1), centred[3], rcond=None)[0]
+        # the position is the integral, v_b A/w sin(w t + phase) = v_b A/w (cos w t sin phase + sin w t cos phase)
+        phase = float(np.arctan2(a, b))
+        found.append((slips.record.name, phase))
+    return found
+
+
+Blamed = list[tuple[str, float, dict[str, float]]]
+"""Effects with their scores and parameters."""
+
+
+def kinematics(study: Study, details: dict[str, object]) -> Blamed | Where:
+    """Return the effects that the stick phases and the sensor show, or where they disagree with no known effect."""
+    details["ceiling"] = study.range.share
+    if study.range.clipped:
+        return [("sensor_clipping", 100.0 * study.range.share, {"high": study.range.high, "low": study.range.low})]
+    found = _delays(study, details) + _outliers(study, details)
+    in_stick = _in_stick(study, details)
+    return in_stick if isinstance(in_stick, Where) else found + in_stick
+
+
+def _outliers(study: Study, details: dict[str, object]) -> Blamed:
+    """Return outliers; what only stands out of a smoothed sensor's samples is none."""
+    noise = max(s.noise.deviation for s in study.pool.slips)
+    sizes = np.concatenate([np.abs(r.raw - r.position)[r.outlier] for r in study.records])
+    count = int(np.count_nonzero(sizes > OUTLIER_DEVIATIONS * noise))
+    share = count / sum(len(r.time) for r in study.records)
+    details["outlier_share"] = share
+    if share < LEAST_OUTLIERS or count < 5:
+        return []
+    return [("sensor_outliers", 10.0 * count, {"fraction": share, "size": float(np.sqrt(np.mean(sizes**2)))})]
+
+
+def _in_stick(study: Study, details: dict[str, object]) -> Blamed | Where:
+    """Return what the stick phases show; steps and drifts of the sensor are left to the forces, where their size shows."""
+    sticking = study.sticking
+    if sticking is None:
+        return []
+    details["sticking"] = dict(sticking.scores) | {"excess": sticking.excess, "excess_ratio": sticking.excess_ratio}
+    best, score = _winner(study, sticking)
+    if (line := _line(study, details)) is not None and _gain_of_line(study) > OUTSHINES * score:
+        return line
+    if score <= NAME:
+        forced = any(r.mechanism.excitation_amplitude for r in study.records)
+        if sticking.scores["sensor_step"] > max(NAME, 0.2 * sticking.excess) and not forced:
+            details["single_moments"] = sticking.scores["sensor_step"]
+    if score > NAME and best == "sensor_step":
+        details[STEP_SEEN] = score
+    if score <= NAME or best in ("sensor_drift", "sensor_step"):
+        return line if line is not None and score <= NAME else []
+    if best in CREEP or score < 0.75 * sticking.excess - 60.0:
+        return Where(*CREEP.get(best, ELSE))
+    settings = sticking.settings[best]
+    if best == "belt_speed_ripple":
+        return [(best, score, {"amplitude": 0.01, "frequency": settings["frequency"]})]
+    box = study.records[0].mechanism
+    stiffness = max(settings["angular_frequency"] ** 2 * box.mass - box.stiffness, 0.1 * box.stiffness)
+    limit = float(study.solution.coefficients[0]) * box.normal_force / stiffness
+    return [(best, score, {"elastic_limit": limit, "damping_ratio": settings["damping_ratio"]})]
+
+
+def _winner(study: Study, sticking: Sticking) -> tuple[str, float]:
+    """Return what explains the stick phases best, and its score."""
+    scores = dict(sticking.scores)
+    if not _step_stays(study, sticking.settings["sensor_step"]):
+        scores["sensor_step"] = -np.inf
+    if _driven(study, sticking.settings["belt_speed_ripple"]["frequency"]):
+        # a stuck box that moves with the known force: the contact yields
+        scores["presliding_compliance"] = max(scores["presliding_compliance"], scores.pop("belt_speed_ripple"))
+    best = max(scores, key=lambda k: scores[k])
+    if best in CREEP:
+        rings = scores["presliding_compliance"]
+        if max(scores["yielding"], rings) > YIELDS * scores[best]:
+            return "presliding_compliance", scores[best] + max(rings, 0.0)
+    return best, scores[best]
+
+
+def _driven(study: Study, frequency: float) -> bool:
+    """Return whether a frequency [Hz] is that of the known excitation."""
+    return any(
+        r.mechanism.excitation_amplitude
+        and abs(frequency - r.mechanism.excitation_angular_frequency / (2.0 * np.pi)) < 2.0 / (r.time[-1] - r.time[0])
+        for r in study.records
+    )
+
+
+def _delays(study: Study, details: dict[str, object]) -> list[tuple[str, float, dict[str, float]]]:
+    """Return the delay of the position after a velocity channel, where runs have one and the delay is beyond doubt."""
+    found: list[Delay] = []
+    for run in study.dataset.fit:
+        if "velocity" in run.channels:
+            position = Term(run.channels["position"], 1)
+            width = 0.4 / study.records[0].angular_frequency
+            found.append(estimate_delay(run.channels["velocity"], [position], run.sample_interval, half_width=width))
+    if not found:
+        return []
+    seconds = float(np.mean([d.seconds for d in found]))
+    doubt = float(np.mean([d.high - d.low for d in found])) / 3.92 / np.sqrt(len(found))
+    details["delay"] = {"seconds": seconds, "deviation": doubt}
+    # a velocity that is late, a filtered one, is none of the position's faults
+    if seconds < max(5.0 * doubt, 0.5 * study.dataset.fit[0].sample_interval):
+        return []
+    return [("sensor_delay", float(min((seconds / max(doubt, 1.0e-6)) ** 2, 1.0e4)), {"delay": seconds})]
+
+
+def delay_deviation(details: Mapping[str, object]) -> float:
+    """Return the standard deviation of the delay that a velocity channel told [s]."""
+    return float(cast("dict[str, float]", details["delay"])["deviation"])
+
+
+def _step_stays(study: Study, setting: dict[str, float]) -> bool:
+    """Return whether a jump seen in stick is still there in the forces of the slips that follow."""
+    pool = study.pool
+    place = step_times(pool)
+    for run in range(pool.n_runs):
+        when = setting.get(f"time_{run}")
+        if when is None:
+            continue
+        trials = steps(pool, run, multiplied=False)
+        near = [trials[i] for i in np.flatnonzero(np.abs(place - when) < 1.5 * (place[1] - place[0]))]
+        if near and max(study.regression.gains(study.terms, study.solution.scatter, [[t] for t in near])) > NAME / 2.0:
+            return True
+    return False
+
+
+def _line(study: Study, details: dict[str, object]) -> Where | None:
+    """Return where the noise has a line; None if it has none."""
+    frequency, amplitude, strength = max((s.line for s in study.pool.slips), key=lambda line: line[2])
+    frequency, amplitude = frequency * study.size.of("Hz"), amplitude * study.size.length
+    details["noise_line"] = {"frequency": frequency, "amplitude": amplitude, "strength": strength}
+    variance = max(s.noise.deviation for s in study.pool.slips) ** 2
+    if strength < LINE or amplitude**2 / 2.0 < LOUD_LINE * max(variance - amplitude**2 / 2.0, 0.0):
+        return None
+    return Where(
+        "frequency, sensor", f"the position holds a vibration of {frequency:.3g} Hz and {amplitude:.2g} m, in stick too"
+    )
+
+
+def _gain_of_line(study: Study) -> float:
+    """Return by how much the strongest line lowers chi^2 of the stick phases' samples [-]."""
+    slips = max(study.pool.slips, key=lambda s: s.line[2])
+    count = sum(len(s.stick.time) * s.stick.bin_size for s in study.pool.slips)
+    return count * slips.line[1] ** 2 / 2.0 / slips.noise.deviation**2

@@ -1,0 +1,220 @@
+"""Random friction and random kicks: looked for last, in what all other effects leave."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.decision.choice import NAME
+from stochfric_mb.discovery.stick_slip.records.calibration import robust_deviation
+from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
+from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, believed
+from stochfric_mb.discovery.stick_slip.screening.switching import Switching
+from stochfric_mb.discovery.stick_slip.screening.variance_components import Randomness, randomness
+from stochfric_mb.discovery.stick_slip.simulation.scatter import simulated_slips
+from stochfric_mb.discovery.stick_slip.study import Study
+
+CERTAIN = 30.0
+"""Likelihood ratio at which friction scatters beyond doubt [-]."""
+MEMORY = 3.0
+"""Correlation from slip to slip over its standard error at which the scatter has a memory [-]."""
+REMAINING_SCATTER = 0.1
+"""Share of the believed model's scatter that must remain with the effects in for it to be called random [-]."""
+LEAST_SHARE = 0.004
+"""Scatter over the friction itself below which, beside a named effect, it is what the effect's form leaves [-]."""
+FEWEST_KICKED, MOST_KICKED = 0.05, 0.45
+"""Share of cycles with a slip that stands out, or a jump in stick, for which kicks are the reason [-]; one slip of thirty may
+stand out by accident (see `pool`)."""
+STRAY = 8.0
+"""Robust deviations beyond which a slip is an accident [-]."""
+ONE_SIDED = 1.0
+"""Mean of the impulses over their deviation from which on they come from one side [-]."""
+UNSEEN = 1.5
+"""Kicks from both sides, over those that are seen [-]."""
+SLIDING = 0.1
+"""Distance of an onset force from the kinetic force, over that of a usual break-away, below which nothing has stuck [-]."""
+FEWEST_FAR = 3
+"""Slips that must stand out: jumps in stick alone say too little of the force that makes them."""
+FEWEST_ALIKE, ALIKE, LEVEL = 4, 0.3, 0.01
+"""Slips that stand out by the same, their share of those that do, from which on friction has a second level, and how far apart
+the same may be [-]: a level that is reached in a ramp is known to no better, and amounts that are spread evenly over a tenth of
+the force would put one in ten so close together."""
+MORE_MEMORY = 2.0**0.5 * MEMORY
+"""The same beyond that of a declared process, which one simulation tells with as large an error [-]."""
+TOGETHER = 0.5
+"""Correlation of stick and slip above which the scatter is not that of two independent coefficients [-]: of 24 slips with
+independent ones 1 in 80 reaches it, of 48 1 in 3000."""
+
+
+@dataclasses.dataclass(frozen=True)
+class RandomEffects:
+    """A random effect."""
+
+    kind: str
+    """Its name."""
+    score: float
+    """Evidence [-]."""
+    values: dict[str, float | str]
+    """Its parameters."""
+
+
+def stray(pool: Pool, residuals: Array) -> np.ndarray:
+    """Return which slips that count are far from all others of their run, in onset force or in the slip, however little it is.
+
+    Args:
+        pool: the slips.
+        residuals: what a model leaves of their features [N], shape (n, N_FEATURES).
+    """
+    far = np.zeros(len(residuals), dtype=bool)
+    for r in range(pool.n_runs):
+        mine = np.flatnonzero(pool.kept & (pool.run == r))
+        for column in (0, 1) if len(mine) else ():
+            away = residuals[mine, column] - np.median(residuals[mine, column])
+            far[mine] |= np.abs(away) > STRAY * robust_deviation(away)
+    return far
+
+
+def kicked(study: Study) -> np.ndarray:
+    """Return which slips stand out from all others of their run: in onset force, or in the slip."""
+    pool = study.pool
+    forces = pool.features[:, :2].copy()
+    for r in range(pool.n_runs):
+        forces[pool.run == r] -= np.median(forces[pool.run == r], axis=0)
+    spread = np.array([robust_deviation(forces[:, 0]), robust_deviation(forces[:, 1])])
+    limit = np.maximum(STRAY * spread, 0.02 * float(np.median(pool.static)))
+    return np.asarray((np.abs(forces) > limit).any(axis=1)) & ~_sliding(pool)
+
+
+def _sliding(pool: Pool) -> np.ndarray:
+    """Return which slips are none: the box, kicked loose, slides on, and swings about what kinetic friction holds.
+
+    Where its swing comes near the belt's speed it seems to stick for a moment, and to break away at the kinetic force.
+    """
+    return np.asarray(np.abs(pool.features[:, 0] - pool.kinetic) < SLIDING * (pool.static - pool.kinetic))
+
+
+def _repeated(study: Study) -> bool:
+    """Return whether many of the slips that stand out do so by the same share: a kick comes at any phase of the stick.
+
+    Kicks in stick take as much off the mean force of the slip that they set off, but set it off at any force of the spring.
+    Equal kicks in slip change its mean force by as much, too, but its shape by when they came; another level leaves the shape.
+    """
+    pool = study.pool
+    levels = np.stack([pool.static, pool.kinetic, pool.kinetic, pool.kinetic], axis=1)
+    shares = pool.features[:, :4] / levels
+    for r in range(pool.n_runs):
+        shares[pool.run == r] -= np.median(shares[pool.run == r], axis=0)
+    spread = np.array([robust_deviation(column) for column in shares.T])
+    static, kinetic = ((np.abs(shares[:, :2]) > np.maximum(STRAY * spread[:2], 0.02)) & ~_sliding(pool)[:, None]).T
+    level = kinetic & ~static & (np.abs(shares[:, 2:]) < STRAY * spread[2:]).all(axis=1)
+    widths = np.maximum(3.0 * spread, LEVEL)
+    groups = (np.sort(shares[static, 0]), widths[0]), (np.sort(shares[level, 1]), widths[1])
+    most = max(FEWEST_ALIKE, ALIKE * int(np.count_nonzero(static | kinetic)))
+    near = [int(np.searchsorted(far, value + width, "right")) - i for far, width in groups for i, value in enumerate(far)]
+    return any(count >= most for count in near)
+
+
+def kicks(study: Study) -> RandomEffects | None:
+    """Return impacts if a few slips, and only a few, stand out, each by its own amount, and not at a regular count.
+
+    A kick that is too weak to set off a slip moves the stuck box a little: a jump within a stick phase counts as well.
+    """
+    far = kicked(study)
+    pool = study.pool
+    jumps = study.sticking.jumps if study.sticking is not None else 0
+    share = (int(far.sum()) + jumps) / len(far)
+    if far.sum() < FEWEST_FAR or not FEWEST_KICKED < share < MOST_KICKED or _repeated(study):
+        return None
+    gaps = np.concatenate([np.diff(np.flatnonzero(far[pool.run == r])) for r in range(pool.n_runs)])
+    if len(gaps) >= 4 and np.mean(gaps == np.median(gaps)) > 0.8:
+        return None
+    cycle = float(np.median([np.median(np.diff(s.onset_time)) for s in pool.slips]))
+    impulses = _impulses(study, far)
+    mean, deviation = float(impulses.mean()), float(impulses.std(ddof=1))
+    if abs(mean) < ONE_SIDED * deviation:
+        mean, deviation = 0.0, float(np.sqrt(np.mean(impulses**2)))
+    # of kicks from both sides those that push the stuck box on with the belt set off no slip
+    unseen = UNSEEN if mean == 0.0 else 1.0
+    return RandomEffects("impacts", 400.0 * share, {"rate": unseen * share / cycle, "impulse": deviation, "mean": mean})
+
+
+def _impulses(study: Study, far: np.ndarray) -> Array:
+    """Return the impulses of kicks [N s]: in slip they change the mean force by the impulse over the slip's duration."""
+    pool = study.pool
+    kinetic = pool.features[:, 1].copy()
+    for r in range(pool.n_runs):
+        kinetic[pool.run == r] -= np.median(kinetic[pool.run == r])
+    direction = pool.per_run(lambda s: float(s.record.direction))
+    return np.asarray((direction * kinetic * (pool.restick_time - pool.onset_time))[far], dtype=np.float64)
+
+
+def random_effects(
+    study: Study, scatter: Randomness, levels: Switching, solution: Solution, named: Sequence[str]
+) -> RandomEffects | Where | None:
+    """Return random friction, or where a scatter of no known kind lives, or None."""
+    load = float(np.median(study.pool.normal_force))
+    sigma_s, sigma_k, _ = np.exp(solution.scatter) / load
+    mu_s, mu_k = study.solution.coefficients[:2]
+    if not _scatters(study, scatter, solution, named, max(sigma_s, sigma_k) / mu_s):
+        return None
+    if levels.where is not None or (scatter.wander > NAME and scatter.wander_of == "offset"):
+        return levels.where or _offset(study, scatter)
+    declared = study.model.process is not None
+    if not declared or scatter.correlation > _declared(study).correlation + MORE_MEMORY:
+        memory = _memory(scatter, mu_s, mu_k)
+        if memory is not None or declared:
+            return memory
+    else:
+        return None
+    if scatter.together > TOGETHER:
+        return Where("scatter, in stick and slip alike", "a force or a load of irregular course acts in stick and slip alike")
+    strongest = max(scatter.static, scatter.kinetic)
+    within = scatter.within > CERTAIN and scatter.within > 0.05 * strongest
+    values: dict[str, float | str] = {
+        "process": "knots" if within else "per_event", "sigma_s": float(sigma_s), "sigma_k": float(sigma_k)
+    }  # fmt: skip
+    return RandomEffects("random_coefficients", strongest, values)
+
+
+def _memory(scatter: Randomness, mu_s: float, mu_k: float) -> RandomEffects | Where | None:
+    """Return what a scatter with a memory is; None where it has none."""
+    if (scatter.wander > NAME and scatter.correlation > MEMORY) or scatter.wander > 5.0 * NAME:
+        share = max(scatter.wander_share, 1.0e-3)
+        return RandomEffects(
+            "correlated_coefficients",
+            scatter.wander,
+            {"sigma_s": float(share * mu_s), "sigma_k": float(share * mu_k), "correlation_time": float(scatter.wander_time)},
+        )
+    if scatter.correlation > 2.0 * MEMORY:
+        return Where("scatter, time", "friction varies from slip to slip with a memory that no known random process has")
+    return None
+
+
+def _declared(study: Study) -> Randomness:
+    """Return what the scatter would tell if the declared process were all that is random."""
+    slips = [simulated_slips(study.model, s, sample=i) for i, s in enumerate(study.pool.slips)]
+    pool = make_pool(slips, study.pool.calibrations)
+    regression = Regression(pool)
+    terms = believed(pool, dict(study.uncertainty))
+    return randomness(regression, terms, regression.fit(terms, study.solution.scatter))
+
+
+def _offset(study: Study, scatter: Randomness) -> Where | None:
+    """Return where a force wanders that is the same in stick and slip; None where it is a sensor's zero, within its noise."""
+    pool = study.pool
+    away = scatter.wander_share * float(np.median(pool.static)) / study.records[0].mechanism.stiffness
+    if away < max(s.noise.deviation for s in pool.slips):
+        return None
+    return Where("time", f"the same in stick and slip, a force or the sensor's zero wanders by {away:.2g} m")
+
+
+def _scatters(study: Study, scatter: Randomness, solution: Solution, named: Sequence[str], share: float) -> bool:
+    """Return whether friction scatters beyond doubt, and by more than what the form of a named effect may leave."""
+    if max(scatter.static, scatter.kinetic) <= CERTAIN and scatter.wander <= NAME:
+        return False
+    remaining = np.exp(2.0 * solution.scatter[:2]).sum() / np.exp(2.0 * study.solution.scatter[:2]).sum()
+    return not named or (remaining >= REMAINING_SCATTER and share >= LEAST_SHARE)

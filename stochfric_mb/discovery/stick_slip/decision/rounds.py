@@ -1,0 +1,405 @@
+"""The decision: which effects are named, which cannot be told apart, and when the answer is "none" or "unknown"."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
+from stochfric_mb.discovery.stick_slip.decision.choice import IN_SLIP, IN_TIME, NAME, SELECT, SHAPES, Chosen, choose
+from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, cases_of, confirm
+from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
+from stochfric_mb.discovery.stick_slip.decision.kinematics import delay_deviation, kinematics, with_kinematic
+from stochfric_mb.discovery.stick_slip.decision.random_effects import (
+    FEWEST_KICKED,
+    MEMORY,
+    kicked,
+    kicks,
+    random_effects,
+    stray,
+)
+from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_step, steady
+from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.screening.naming import PERIODIC, as_harmonic, with_candidate
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms, believed
+from stochfric_mb.discovery.stick_slip.screening.screen import Candidate, screen
+from stochfric_mb.discovery.stick_slip.screening.switching import JUMPS, SWITCHES, in_step, switching
+from stochfric_mb.discovery.stick_slip.screening.variance_components import Randomness, randomness
+from stochfric_mb.discovery.stick_slip.simulation.delay_compensation import delay_compensated, driven, with_delay, without_delay
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.discovery.stick_slip.simulation.refit import refit
+from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study
+from stochfric_mb.discovery.stick_slip.where import where_of
+from stochfric_mb.effects import make_effect
+
+SECOND = 0.1
+"""A further effect needs at least this share of the first one's score [-]."""
+MOST_EFFECTS = 3
+"""Effects that are looked for."""
+STALLED = 0.6
+"""Share of the scatter that may remain after a ripple is taken out; if more does, no search for further ones makes sense."""
+LEFT_OVER = 0.35
+"""Share of the scatter that named effects may leave where what is left is of no known kind: as in the forecasts, a name
+must explain the larger part, 65 %."""
+AS_WELL = 0.1
+"""Share of the scatter that an effect may leave which explains two levels as well [-]: a square ripple's fundamental and
+third harmonic leave as much, a ripple fitted to random levels a third or more."""
+LEAST_KEPT = 0.5
+"""Share of the slips that a model with effects must not miss for a search in what it leaves to make sense [-]."""
+MOST_ROUNDS = 5
+"""Rounds of the search: harmonics of a named ripple take rounds of their own."""
+FITTED_TO_FORECASTS = (*PERIODIC, "friction_drift", "sensor_drift")
+"""Effects that change in the course of a run: fitted to forecasts as soon as they are named."""
+MAY_WANDER = (*PERIODIC, "friction_drift", "sensor_step", "random_coefficients", "correlated_coefficients")
+"""Effects in the course of time that a wander may be taken for."""
+LINEAR = ("sensor_drift", "sensor_step")
+"""Effects that stay regressors: a simulated slip does not show what the sensor adds."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Named:
+    """One effect that was decided on."""
+
+    kind: str
+    """Its name."""
+    class_: tuple[str, ...]
+    """Effects that the data cannot tell from it, without itself."""
+    score: float
+    """Evidence [-]."""
+    where: Where
+    """Where it shows."""
+    before: Model | None = None
+    """The model without it, as it stood when it was found."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Decision:
+    """What the fit runs say."""
+
+    verdict: str
+    """"effect", "none" or "unknown"."""
+    named: tuple[Named, ...]
+    """The effects, in the order in which they were found."""
+    where: Where | None
+    """Where an unknown disagreement lives."""
+    model: Model
+    """The model with the effects, at starting values for the refit."""
+    ranking: tuple[tuple[str, float], ...]
+    """Every candidate of the first round with its score."""
+    random: Randomness | None
+    """What the scatter says."""
+    details: dict[str, object]
+    """Numbers behind it."""
+
+
+def decide(study: Study, *, channels: Channels = EVERYTHING, progress: Progress = lambda _: None) -> Decision:
+    """Return what the fit runs say."""
+    details: dict[str, object] = {}
+    model = _levels(study.model, study)
+    blamed = kinematics(study, details) if channels.kinematic else []
+    belt = belt_speed(study)
+    if not blamed and channels.kinematic and belt is not None and belt.too_much:
+        return Decision("unknown", (), belt.where, model, (), None, details)
+    if isinstance(blamed, Where):
+        return Decision("unknown", (), blamed, model, (), None, details)
+    named: list[Named] = []
+    late: float | None = None
+    for kind, score, values in blamed:
+        named.append(Named(kind, (), score, where_of(kind), model if late is None else with_delay(model, late)))
+        if kind == "sensor_delay" and driven(study):
+            # forces are looked at on time
+            late = values["delay"]
+            study = delay_compensated(study, late)
+            model = _levels(study.model, study)
+        else:
+            model = with_kinematic(study, model, kind, values)
+        if kind == "sensor_delay":
+            # a velocity tells it far better than forecasts, and no forecast tells it where no known force acts
+            model = dataclasses.replace(model, measured={"delay": delay_deviation(details)})
+    if any(n.kind == "sensor_clipping" for n in named):
+        # a clipped record says too little of the forces
+        return Decision("effect", tuple(named), None, model if late is None else with_delay(model, late), (), None, details)
+    progress("screening")
+    return _Search(study, model, named, details, progress, channels.confirmation, late).run()
+
+
+def of_wander(study: Study, refuted: Decision) -> Decision | None:
+    """Return the decision that friction wanders, where effects in the course of time explain too little; None if it does not.
+
+    Twelve numbers of a ripple with harmonics may follow any wander of a short record; they do not forecast it.
+
+    Args:
+        study: what was measured.
+        refuted: a decision whose effects were not borne out by forecasts of the fit runs.
+    """
+    if not refuted.named or any(n.kind not in MAY_WANDER for n in refuted.named):
+        return None
+    found = _Search(study, _levels(study.model, study), [], dict(refuted.details), lambda _: None, confirmation=False)
+    decision = dataclasses.replace(found.by_chance(), ranking=refuted.ranking)
+    return decision if [n.kind for n in decision.named] == ["correlated_coefficients"] else None
+
+
+def _levels(model: Model, study: Study) -> Model:
+    """Return the model at the mean coefficients that the regression found."""
+    mu_s, mu_k = study.solution.coefficients[:2]
+    return model.with_law(float(max(mu_s, 1.0e-3)), float(np.clip(mu_k, 1.0e-5, 0.999 * mu_s)))
+
+
+def _scores(candidates: Sequence[Candidate]) -> dict[str, float]:
+    """Return name -> score, best first; of several variants of an effect the best."""
+    found: dict[str, float] = {}
+    for candidate in candidates:
+        found.setdefault(candidate.name, candidate.score)
+    return found
+
+
+class _Search:
+    """The search for effects in the forces of the slips, one after the other."""
+
+    def __init__(
+        self,
+        study: Study,
+        model: Model,
+        named: list[Named],
+        details: dict[str, object],
+        progress: Progress,
+        confirmation: bool,
+        late: float | None = None,
+    ) -> None:
+        self.study, self.model, self.named, self.details, self.progress = study, model, named, details, progress
+        self.confirmation, self.late = confirmation, late
+        self.pool, self.regression = study.pool, study.regression
+        self.terms: Terms = study.terms
+        self.solution: Solution = study.solution
+        self.ranking: tuple[tuple[str, float], ...] = ()
+        self.stalled = self.any_shape = False
+        self.in_forces = not named
+        self.kept: list[Array] = []
+        self.cases: list[Case] = []
+        self.confirmed: Confirmed | None = None
+        if any(n.kind in ("belt_speed_ripple", "presliding_compliance") for n in named):
+            self._take_out()
+
+    def run(self) -> Decision:
+        """Return the decision."""
+        first = 0.0
+        for round_ in range(MOST_ROUNDS):
+            kinds = [n.kind for n in self.named]
+            if len(kinds) >= MOST_EFFECTS:
+                break
+            candidates = screen(
+                self.pool, self.regression, self.terms, self.solution, without=[k for k in kinds if k not in PERIODIC]
+            )
+            if round_ == 0:
+                self.ranking = tuple(_scores(candidates).items())
+                first = candidates[0].score
+            self.details[f"round_{round_ + 1}"] = _scores(candidates[:8])
+            if round_ == 0 and (step := seen_step(candidates, self.details)) is not None:
+                self._add(Chosen(step, (), with_candidate(self.model, step, self.pool, self._n_terms), None, False))
+                continue
+            if candidates[0].score < max(NAME if round_ == 0 else SELECT, SECOND * first if round_ else 0.0):
+                break
+            if round_ == 0 and not self.named and (of_chance := self._of_chance(candidates)) is not False:
+                if isinstance(of_chance, Where):
+                    return self._unknown(of_chance)
+                break
+            self.progress("confirmation")
+            self._look_at(candidates)
+            outcome = choose(self.study, self.model, self.terms, candidates, self.cases, self.confirmed, self.details)
+            if isinstance(outcome, Where):
+                if not self.named:
+                    return self._unknown(outcome)
+                # what was found stands; the rest is noted, not named
+                self.details["left_over"] = dataclasses.asdict(outcome)
+                break
+            if outcome is None or not self._stands_alone(outcome, candidates):
+                break
+            self.confirmed = outcome.confirmed
+            self._add(outcome)
+            if self.stalled:
+                break
+        return self.by_chance()
+
+    @property
+    def _n_terms(self) -> int:
+        return self.terms.columns.shape[2]
+
+    def _look_at(self, candidates: Sequence[Candidate]) -> None:
+        """Take the slips that simulated ones are compared with, if that has not been done."""
+        if self.confirmation and not self.cases:
+            self.cases = cases_of(steady(self.regression, self.terms, candidates, self.kept, self.solution), self.model)
+            self.confirmed = confirm(self.cases, self.model, self.study.uncertainty) if self.cases else None
+
+    def _of_chance(self, candidates: Sequence[Candidate]) -> Where | bool:
+        """Return whether no effect is to be named before friction that wanders or is kicked, or where it switches."""
+        if self._wanders(candidates) or self._kicked_up(candidates[0]):
+            return True
+        sudden = self._sudden(candidates)
+        # slips that stand out beside an effect in all the others are accidents, or edges that noise hides
+        return False if sudden is None or kicks(self.study) is not None else sudden
+
+    def _kicked_up(self, winner: Candidate) -> bool:
+        """Return whether a winner stands on slips alone that kicks set apart: without them hardly anything speaks for it."""
+        if kicks(self.study) is None:
+            return False
+        others = Regression(dataclasses.replace(self.pool, kept=self.pool.kept & ~kicked(self.study)))
+        scatter = others.fit(self.terms, self.solution.scatter).scatter
+        return 2.0 * float(others.gains(self.terms, scatter, [winner.hypothesis.columns])[0]) < NAME
+
+    def _wanders(self, candidates: Sequence[Candidate]) -> bool:
+        """Return whether a winner on the axis of time is better told as a random wander."""
+        winner = candidates[0]
+        if winner.name not in (*IN_TIME, "sensor_step") and not winner.is_wave:
+            return False
+        drifts = max((c.score for c in candidates if c.name in ("friction_drift", "sensor_drift")), default=-np.inf)
+        scatter = randomness(self.regression, self.terms, self.solution)
+        # what names physics has to be beaten; hats on the axis of time name none
+        rival = max(0.5 * winner.score if winner.name in IN_TIME else 1.2 * winner.score, drifts)
+        return scatter.correlation > MEMORY and scatter.wander > rival
+
+    def _sudden(self, candidates: Sequence[Candidate]) -> Where | None:
+        """Return where friction switches, if it does and the best effect does not explain that as well; None if not."""
+        found = switching(self.regression, self.regression.residuals(self.terms, self.solution))
+        self.details["switching"] = dataclasses.asdict(found)
+        best = next((c for c in candidates if c.is_effect), None)
+        if found.two_levels:
+            explained = best is not None and _scatter(best.solution) < AS_WELL * _scatter(self.solution)
+            return None if explained and not (best is not None and self._counts(best)) else SWITCHES
+        if found.where is None:
+            return None
+        if best is not None:
+            with_best = self.terms.plus(best.hypothesis.columns)
+            found = switching(self.regression, self.regression.residuals(with_best, best.solution))
+        return JUMPS if found.at_rest_between_jumps else None
+
+    def _counts(self, ripple: Candidate) -> bool:
+        """Return whether a ripple is one of the slips' number, not of time or place."""
+        if not ripple.is_wave:
+            return False
+        along_belt = ripple.name == "position_dependent_friction"
+        main = float(ripple.hypothesis.setting[0])
+        frequency = float(self.pool.belt_velocity.min()) / main if along_belt else main
+        return in_step(frequency, self.pool, along_belt=along_belt)
+
+    def _stands_alone(self, chosen: Chosen, candidates: Sequence[Candidate]) -> bool:
+        """Return whether an effect outside the family of shapes has evidence beside the shapes that beat it.
+
+        Where simulating them does not bear such shapes out, they are what the features leave of every slip, and an effect
+        that has nothing but a likeness to them is not there.
+        """
+        shapes = [c for c in candidates if (c.name in IN_SLIP + SHAPES or c.any_shape) and c.score > chosen.candidate.score]
+        if chosen.simulated or not shapes:
+            return True
+        beside = self.terms.plus([column for c in shapes[:2] for column in c.hypothesis.columns])
+        own = [chosen.candidate.hypothesis.columns]
+        lost = [float(self.regression.gains(terms, self.solution.scatter, own)[0]) for terms in (self.terms, beside)]
+        return chosen.candidate.score - 2.0 * (lost[0] - lost[1]) >= NAME
+
+    def _add(self, chosen: Chosen) -> None:
+        """Take an effect into the model, and out of the features."""
+        kind = chosen.candidate.name
+        harmonic = as_harmonic(self.model, chosen.candidate, self.study.pool, self._n_terms)
+        if harmonic is not None:
+            self.model = harmonic
+        elif any(n.kind == kind for n in self.named):
+            self.model = chosen.model
+        else:
+            self.named.append(Named(kind, chosen.class_, chosen.candidate.score, where_of(kind), self._timed()))
+            self.model = chosen.model
+        self.any_shape |= chosen.candidate.any_shape
+        self.progress("what is left")
+        before = _scatter(self.solution)
+        if kind == "sensor_delay":
+            self._put_on_time()
+            return
+        if kind in LINEAR:
+            self.kept += chosen.candidate.hypothesis.columns
+        if kind in FITTED_TO_FORECASTS or chosen.simulated:
+            # a simulated fit knows the features alone, whose bias by noise is that of the believed model
+            screened = self.model
+            fit = refit(self.model, self.study.windows, self.study.uncertainty, most=12, evaluations=20)
+            self.model = fit.model
+            self._take_out()
+            if not chosen.simulated and (self.stalled or _scatter(self.solution) > LEFT_OVER * before):
+                self._take_out_better(screened)
+        else:
+            self._take_out()
+        self.stalled |= chosen.candidate.is_wave and not chosen.simulated and _scatter(self.solution) > STALLED * before
+
+    def _put_on_time(self) -> None:
+        """Go on with the records put on time, by the delay that their forecasts show."""
+        fit = refit(self.model, self.study.windows, self.study.uncertainty, most=12, evaluations=20)
+        self.model, self.late = without_delay(fit.model), fit.model.late
+        self.study = delay_compensated(self.study, self.late)
+        self.cases, self.confirmed = [], None
+        self._take_out()
+
+    def _take_out(self) -> None:
+        """Go on with what the model leaves of the features."""
+        left = left_over(self.study.pool, self.model, anew=any(n.kind in IN_SLIP for n in self.named) or self.any_shape)
+        if left.kept.sum() < LEAST_KEPT * self.pool.kept.sum():
+            self.stalled = True
+            return
+        self.pool = left
+        self.regression = Regression(self.pool)
+        self.terms = believed(self.pool, dict(self.study.uncertainty)).plus(self.kept)
+        self.solution = self.regression.fit(self.terms, self.solution.scatter)
+
+    def _take_out_better(self, other: Model) -> None:
+        """Go on with what another model leaves, if it leaves less: forecasts that jump between slips may lead a fit astray."""
+        fitted, left, stalled = self.model, _scatter(self.solution), self.stalled
+        self.model, self.stalled = other, False
+        self._take_out()
+        if self.stalled or (not stalled and _scatter(self.solution) > left):
+            self.model, self.stalled = fitted, stalled
+            self._take_out()
+
+    def by_chance(self) -> Decision:
+        """Look for what is random, last of all."""
+        self._without_accidents()
+        scatter = randomness(self.regression, self.terms, self.solution)
+        self.details["randomness"] = dataclasses.asdict(scatter)
+        kinds = [n.kind for n in self.named]
+        kick = kicks(self.study) if not kinds else None
+        if kick is None and "single_moments" in self.details:
+            where = Where(
+                "stick, single moments", "in stick the box leaves the belt's line at once, and is back after the next slip"
+            )
+            if not self.named:
+                return self._unknown(where, scatter)
+            self.details["left_over"] = dataclasses.asdict(where)
+        levels = switching(self.regression, self.regression.residuals(self.terms, self.solution))
+        found = kick or random_effects(self.study, scatter, levels, self.solution, kinds)
+        if isinstance(found, Where):
+            left = _scatter(self.solution) / _scatter(self.study.solution)
+            if not self.named or (self.in_forces and left > LEFT_OVER):
+                return self._unknown(found, scatter)
+            self.details["left_over"] = dataclasses.asdict(found)
+        elif found is not None:
+            self.model = self.model.plus(make_effect(found.kind, **found.values))
+            self.named.append(Named(found.kind, (), found.score, where_of(found.kind)))
+        verdict = "effect" if self.named else "none"
+        return Decision(verdict, tuple(self.named), None, self._timed(), self.ranking, scatter, self.details)
+
+    def _timed(self) -> Model:
+        """Return the model so far with the sensor's delay, if the records were put on time."""
+        return self.model if self.late is None else with_delay(self.model, self.late)
+
+    def _without_accidents(self) -> None:
+        """Leave out the slips that stand far out, where they are too few for kicks: two of a hundred are no scatter."""
+        far = stray(self.pool, self.regression.residuals(self.terms, self.solution))
+        if 0.0 < far.sum() < FEWEST_KICKED * self.pool.kept.sum():
+            self.pool = dataclasses.replace(self.pool, kept=self.pool.kept & ~far)
+            self.regression = Regression(self.pool)
+            self.solution = self.regression.fit(self.terms, self.solution.scatter)
+
+    def _unknown(self, where: Where, scatter: Randomness | None = None) -> Decision:
+        return Decision("unknown", (), where, _levels(self.study.model, self.study), self.ranking, scatter, self.details)
+
+
+def _scatter(solution: Solution) -> float:
+    """Return the variance of both forces of a slip about a fitted model [N^2]."""
+    return float(np.exp(2.0 * solution.scatter[:2]).sum())

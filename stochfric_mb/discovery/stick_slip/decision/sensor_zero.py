@@ -1,0 +1,73 @@
+"""A sensor whose zero moves, beside other effects: seen first, and out of the way when slips are compared."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.stick_slip.decision.kinematics import NAME, STEP_SEEN
+from stochfric_mb.discovery.stick_slip.records.pool import Pool
+from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
+from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
+
+ZERO_MOVES = ("sensor_drift", "sensor_step")
+"""Effects that change how the slips of one run compare."""
+
+
+def seen_step(candidates: Sequence[Candidate], details: Mapping[str, object]) -> Candidate | None:
+    """Return a step of the sensor that was seen in stick, too: it is there, whatever else the forces hold.
+
+    Args:
+        candidates: the screening's outcome.
+        details: what the stick phases told.
+    """
+    step = next((c for c in candidates if c.name == "sensor_step"), None)
+    return step if STEP_SEEN in details and step is not None and step.score >= NAME else None
+
+
+def steady(
+    regression: Regression, terms: Terms, candidates: Sequence[Candidate], kept: Sequence[Array], solution: Solution
+) -> Pool:
+    """Return the slips less what a sensor whose zero moves adds to their features: medians must be of slips alike.
+
+    Args:
+        regression: fits to the slips.
+        terms: what the model holds so far.
+        candidates: the screening's outcome; a fault of the sensor that may be named is taken out.
+        kept: regressors of faults that are named already, the last terms of ``solution``.
+        solution: the fit of ``terms``.
+    """
+    pool = regression.pool
+    columns, strengths = list(kept), solution.coefficients[len(solution.coefficients) - len(kept) :]
+    fault = next((c for c in candidates if c.name in ZERO_MOVES and c.score >= NAME), None)
+    if fault is not None and (moved := _within_runs(regression, terms, fault, solution)) is not None:
+        columns += fault.hypothesis.columns
+        strengths = np.r_[strengths, moved]
+    if not columns:
+        return pool
+    return dataclasses.replace(pool, features=pool.features - np.stack(columns, axis=2) @ strengths)
+
+
+def _within_runs(regression: Regression, terms: Terms, fault: Candidate, solution: Solution) -> Array | None:
+    """Return the strengths of a fault that changes the slips of one run; None where it stands for what differs between runs.
+
+    A step soon after a run's beginning is almost a level of the run's own, and so is what another load or speed does.
+    """
+    pool = regression.pool
+    levels = [
+        column
+        for run in range(1, pool.n_runs)
+        for column in (pool.column(pool.static * (pool.run == run), None), pool.column(None, pool.kinetic * (pool.run == run)))
+    ]
+    if not levels:
+        return fault.solution.coefficients[-len(fault.hypothesis.columns) :]
+    apart = terms.plus(levels)
+    without = regression.fit(apart, solution.scatter)
+    with_ = regression.fit(apart.plus(fault.hypothesis.columns), without.scatter)
+    penalty = 2.0 * (solution.cost - fault.solution.cost) - fault.score
+    if 2.0 * (without.cost - with_.cost) - penalty < NAME:
+        return None
+    return with_.coefficients[-len(fault.hypothesis.columns) :]

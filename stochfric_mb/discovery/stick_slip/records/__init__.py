@@ -1,0 +1,1 @@
+"""Records of a belt-box: cleaned, cut into stick and slip, and reduced to the features of each slip."""

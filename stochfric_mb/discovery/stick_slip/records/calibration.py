@@ -1,0 +1,138 @@
+"""Bias and covariance of the features at an operating point, from simulating the model as believed.
+
+The baseline is simulated with friction that scatters from event to event about as much as the data do, measured with
+noise of the data's level and colour, and taken through the same extraction; inside the simulation the truth is known.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from stochfric_mb.discovery.stick_slip.records.record import Array, Record, make_record
+from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, extract
+from stochfric_mb.effects import make_effect
+from stochfric_mb.laws import make_law
+from stochfric_mb.reference.augmented import Start, augmented_system
+
+REPEATS = 2
+"""Simulated records for each measured one."""
+FINER = 4
+"""Simulated steps in one sample: what is taken for the truth at a break-away must be sharper than a sample."""
+FEWEST = 15
+"""Simulated slips below which the bias cannot be told."""
+UNKNOWN = np.array([0.03, 0.1, 0.2, 0.3, 0.3, 0.3, 0.3, 0.3])
+"""Standard deviations of the features [N] that are assumed in that case, for forces of about 10 N."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Calibration:
+    """Systematic and random errors of the features at one operating point."""
+
+    bias: Array
+    """Mean error [N], shape (N_FEATURES,)."""
+    slopes: Array
+    """Change of the error with the onset force and with the mean force in slip [-], shape (N_FEATURES, 2)."""
+    reference: tuple[float, float]
+    """Onset force and mean force in slip at which the bias is given [N]."""
+    covariance: Array
+    """Covariance of the error [N^2], shape (N_FEATURES, N_FEATURES)."""
+    damping: float = 1.0
+    """Damping that was simulated, over the believed one [-]."""
+
+    def unbiased(self, features: Array) -> Array:
+        """Return features [N], shape (n, N_FEATURES), less their bias."""
+        away = features[:, :2] - np.asarray(self.reference)
+        return features - self.bias - away @ self.slopes.T
+
+
+def robust_deviation(values: Array) -> float:
+    """Return 1.48 times the median absolute deviation."""
+    return float(1.4826 * np.median(np.abs(values - np.median(values))))
+
+
+def calibrate(slips: Slips, *, seed: int = 11, damping: float = 1.0) -> Calibration:
+    """Return the errors of the features of ``slips``, by simulation.
+
+    Args:
+        slips: the slips of a record.
+        seed: of the simulated measurements.
+        damping: factor on the believed damping [-]. Where the slips are damped far more than believed, the edges are
+            located differently, and the features with them.
+    """
+    static, kinetic = float(np.median(slips.onset_force)), float(np.median(slips.moments[:, 0]))
+    observed: list[Array] = []
+    true: list[Array] = []
+    generator = np.random.default_rng(seed)
+    for repeat in range(REPEATS):
+        measured, truth = _simulated(slips, static, kinetic, damping, repeat, generator)
+        observed.append(measured)
+        true.append(truth)
+    features, forces = np.concatenate(observed), np.concatenate(true)
+    if len(features) < FEWEST:
+        return Calibration(
+            np.zeros(N_FEATURES), np.zeros((N_FEATURES, 2)), (static, kinetic), np.diag((UNKNOWN * static / 10.0) ** 2), damping
+        )
+    error = features.copy()
+    error[:, :2] -= forces
+    design = np.c_[np.ones(len(error)), forces - (static, kinetic)]
+    fitted = np.linalg.lstsq(design, error, rcond=None)[0]
+    rest = error - design @ fitted
+    kept = np.ones(len(error), dtype=bool)
+    for _ in range(3):
+        fitted = np.linalg.lstsq(design[kept], error[kept], rcond=None)[0]
+        rest = error - design @ fitted
+        kept = (np.abs(rest) < 6.0 * 1.48 * np.median(np.abs(rest), axis=0) + 1.0e-6).all(axis=1)
+    # a floor keeps a noiseless record's covariance invertible
+    covariance = np.cov(rest[kept].T) + (1.0e-4 * static) ** 2 * np.eye(N_FEATURES)
+    return Calibration(fitted[0], fitted[1:].T, (static, kinetic), covariance, damping)
+
+
+def damped(record: Record, factor: float) -> Record:
+    """Return a record whose mechanism has ``factor`` times the believed damping."""
+    box, stated = (dataclasses.replace(b, damping=factor * b.damping) for b in (record.mechanism, record.stated))
+    return dataclasses.replace(record, mechanism=box, stated=stated)
+
+
+def _simulated(
+    slips: Slips, static: float, kinetic: float, damping: float, repeat: int, generator: np.random.Generator
+) -> tuple[Array, Array]:
+    """Return features and true (onset force, mean force in slip) [N] of the slips of one simulated record."""
+    record = slips.record
+    box = damped(record, damping).mechanism
+    spread = (0.005 * static, 0.05 * static)
+    sigma_s = float(np.clip(robust_deviation(slips.onset_force), *spread)) / box.normal_force
+    sigma_k = float(np.clip(robust_deviation(slips.moments[:, 0]), *spread)) / box.normal_force
+    kinetic = min(kinetic, 0.98 * static)
+    law = make_law("coulomb", mu_s=static / box.normal_force, mu_k=max(kinetic, 1.0e-3 * static) / box.normal_force)
+    scatter = make_effect("random_coefficients", process="per_event", sigma_s=sigma_s, sigma_k=sigma_k)
+    system = augmented_system(box, law, [scatter], seed=repeat + 1)
+    step = 1.0 / record.rate
+    first = Start(-slips.settling, 0.0, box.belt_velocity, stick=True)
+    start = system.march(first, step, round(slips.settling * record.rate)).end
+    motion = system.march(start, step / FINER, len(record.time) * FINER)
+    position = motion.position[FINER - 1 :: FINER]
+    time = np.asarray(start.time + step * np.arange(1, len(position) + 1), dtype=np.float64)
+    simulated = make_record(record.name, time, position + slips.noise.draw(len(position), generator), box)
+    found = extract(simulated, ridge=slips.ridge)
+    fine = start.time + step / FINER * np.arange(1, len(motion.position) + 1)
+    onsets = np.flatnonzero((motion.stick[:-1] > 0.5) & (motion.stick[1:] < 0.5))
+    resticks = np.flatnonzero((motion.stick[:-1] < 0.5) & (motion.stick[1:] > 0.5))
+    features: list[Array] = []
+    forces: list[Array] = []
+    for i in range(len(found)):
+        if len(onsets) == 0:
+            break
+        onset = onsets[np.argmin(np.abs(fine[onsets] - found.onset_time[i]))]
+        later = resticks[resticks > onset]
+        if len(later) == 0 or abs(fine[onset] - found.onset_time[i]) > 1.0 / record.angular_frequency:
+            continue
+        at = slice(int(onset) + 2, max(int(later[0]) - 1, int(onset) + 3))
+        # the sample before the break-away is on average half a step early
+        late = 0.5 * step / FINER * box.stiffness * box.belt_velocity
+        features.append(found.features[i])
+        forces.append(
+            np.array([float(motion.friction_force[onset]) + late, float(np.mean(motion.friction_force[at]))], dtype=np.float64)
+        )
+    return np.array(features).reshape(-1, N_FEATURES), np.array(forces).reshape(-1, 2)

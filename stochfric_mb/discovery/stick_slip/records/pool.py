@@ -1,0 +1,177 @@
+"""The slips of all records of a data set side by side, with what screening regresses them on."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.stick_slip.records.calibration import Calibration
+from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, N_MOMENTS, Slips, legendre_coefficients
+
+GROSS = 8.0
+"""A slip whose features lie further from its run's medians than this many robust deviations is set aside [-]."""
+STRAY = 6.0
+"""The same for slips that stray by accident, an edge that noise has hidden: calibration leaves out what strays as far [-]."""
+FEW_STRAY, STRAY_SHARE = 2, 0.03
+"""Number of a run's slips, or share of them, that may stray so; friction that varies puts more of them there, or none."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Pool:
+    """All slips; arrays have shape (n,), over the slips of all runs one after the other, unless said otherwise."""
+
+    slips: tuple[Slips, ...]
+    """The slips run by run."""
+    calibrations: tuple[Calibration, ...]
+    """Bias and covariance of the features, run by run."""
+    run: np.ndarray
+    """Number of the run, int64."""
+    features: Array
+    """Onset force and coefficients of the friction force [N], bias taken out, shape (n, N_FEATURES)."""
+    kept: np.ndarray
+    """False for slips set aside as gross outliers."""
+    onset_time: Array
+    """Break-away [s]."""
+    restick_time: Array
+    """Re-stick [s]."""
+    typical_onset: Array
+    """The run's median break-away position [m]."""
+    node_time: Array
+    """Time at the Gauss nodes [s], shape (n, N_NODES)."""
+    node_position: Array
+    """Position there [m]."""
+    node_velocity: Array
+    """Velocity there [m/s]."""
+    node_acceleration: Array
+    """Acceleration there [m/s^2]."""
+    typical_position: Array
+    """The run's median slip, scaled to this slip's onset [m]: an instrument, not driven by this slip's own friction."""
+    normal_force: Array
+    """Normal force [N]."""
+    belt_velocity: Array
+    """Belt velocity [m/s], positive."""
+    direction: Array
+    """-1 in runs with a reversed belt, otherwise 1."""
+    static: Array
+    """The run's median onset force [N]."""
+    kinetic: Array
+    """The run's median mean friction force in slip [N]."""
+    dwell: Array
+    """Time in stick before the break-away, predicted from where the last slip ended [s]: an instrument."""
+
+    @property
+    def n_runs(self) -> int:
+        """Number of runs."""
+        return len(self.slips)
+
+    @property
+    def relative_velocity(self) -> Array:
+        """Speed of the box relative to the belt at the nodes [m/s], shape (n, N_NODES)."""
+        return np.abs(self.belt_velocity[:, None] - self.node_velocity)
+
+    @property
+    def slip_distance(self) -> Array:
+        """Relative displacement since the break-away at the nodes [m], shape (n, N_NODES)."""
+        onset = np.concatenate([s.onset_position for s in self.slips])
+        moved = self.node_position - onset[:, None]
+        return np.maximum(self.belt_velocity[:, None] * (self.node_time - self.onset_time[:, None]) - moved, 0.0)
+
+    @property
+    def mean_time(self) -> Array:
+        """Middle of the slip [s]."""
+        return self.node_time.mean(axis=1)
+
+    @property
+    def duration(self) -> float:
+        """Length of the longest record [s]."""
+        return max(float(s.record.time[-1] - s.record.time[0]) for s in self.slips)
+
+    def per_run(self, value: Callable[[Slips], float]) -> Array:
+        """Return a number of each run, repeated for its slips."""
+        return np.array([value(s) for s in self.slips])[self.run]
+
+    def column(self, at_onset: Array | None, in_slip: Array | None) -> Array:
+        """Return a regressor, shape (n, N_FEATURES), from its force at onset [N] and its force in the slip [N].
+
+        Args:
+            at_onset: shape (n,); None: zero.
+            in_slip: shape (n,) where it is constant in each slip, or (n, N_NODES); None: zero.
+        """
+        column = np.zeros((len(self.run), N_FEATURES))
+        if at_onset is not None:
+            column[:, 0] = at_onset
+        if in_slip is not None:
+            column[:, 1:] = constant(in_slip) if in_slip.ndim == 1 else legendre_coefficients(in_slip)
+        return column
+
+
+def constant(values: Array) -> Array:
+    """Return the coefficients of forces that are constant in each slip, shape (n, N_MOMENTS)."""
+    coefficients = np.zeros((len(values), N_MOMENTS))
+    coefficients[:, 0] = values
+    return coefficients
+
+
+def make_pool(slips: Sequence[Slips], calibrations: Sequence[Calibration]) -> Pool:
+    """Return the slips of all runs side by side, with the bias of their features taken out."""
+    run = np.repeat(np.arange(len(slips)), [len(s) for s in slips])
+    features = np.concatenate([c.unbiased(s.features) for s, c in zip(slips, calibrations, strict=True)])
+
+    def joined(value: Callable[[Slips], Array]) -> Array:
+        return np.concatenate([value(s) for s in slips])
+
+    def repeated(value: Callable[[Slips], float]) -> Array:
+        return np.array([value(s) for s in slips])[run]
+
+    static = repeated(lambda s: float(np.median(s.onset_force)))
+    typical_onset = repeated(lambda s: float(np.median(s.onset_position)))
+    belt = repeated(lambda s: s.record.mechanism.belt_velocity)
+    last_restick = joined(lambda s: np.r_[np.median(s.restick_position), s.restick_position[:-1]])
+    return Pool(
+        slips=tuple(slips),
+        calibrations=tuple(calibrations),
+        run=run,
+        features=features,
+        kept=_kept(features, run, static),
+        onset_time=joined(lambda s: s.onset_time),
+        restick_time=joined(lambda s: s.restick_time),
+        typical_onset=typical_onset,
+        node_time=joined(lambda s: s.node_time),
+        node_position=joined(lambda s: s.node_position),
+        node_velocity=joined(lambda s: s.node_velocity),
+        node_acceleration=joined(lambda s: s.node_acceleration),
+        typical_position=joined(_typical),
+        normal_force=repeated(lambda s: s.record.mechanism.normal_force),
+        belt_velocity=belt,
+        direction=repeated(lambda s: s.record.direction),
+        static=static,
+        kinetic=repeated(lambda s: float(np.median(s.moments[:, 0]))),
+        dwell=np.maximum((typical_onset - last_restick) / belt, 0.01),
+    )
+
+
+def _kept(features: Array, run: np.ndarray, static: Array) -> np.ndarray:
+    centred = np.empty_like(features)
+    spread = np.empty_like(features)
+    for r in np.unique(run):
+        mine = run == r
+        centred[mine] = features[mine] - np.median(features[mine], axis=0)
+        spread[mine] = 1.48 * np.median(np.abs(centred[mine]), axis=0)
+    off = np.asarray((np.abs(centred) > STRAY * spread).any(axis=1))
+    # a scatter of 15 % of the static force is friction that varies, not an outlier
+    gross = np.asarray((np.abs(centred) > np.maximum(GROSS * spread, 0.15 * static[:, None])).any(axis=1))
+    for r in np.unique(run):
+        mine = run == r
+        if off[mine].sum() <= max(FEW_STRAY, STRAY_SHARE * mine.sum()):
+            gross |= off & mine
+    return np.logical_not(gross)
+
+
+def _typical(slips: Slips) -> Array:
+    """Return the median slip of the run, scaled about its centre to each slip's onset, shape (n, N_NODES)."""
+    centre = np.median((slips.onset_position + slips.restick_position) / 2.0)
+    shape = np.median((slips.node_position - centre) / (slips.onset_position - centre)[:, None], axis=0)
+    return centre + (slips.onset_position - centre)[:, None] * shape[None]

@@ -1,0 +1,56 @@
+"""What runs of a belt-box must be for friction to be told from them at all; what is not is refused with its remedy."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.stick_slip.records.slips import Slips
+from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.dataset import Dataset
+
+FEWEST_SAMPLES = 40
+"""Samples in a period of the natural oscillation below which edges cannot be located and corners look like outliers."""
+
+
+def require_usable(dataset: Dataset) -> None:
+    """Require that the belt runs, and that samples are close enough to see how a slip begins.
+
+    Raises:
+        InputError: a belt at rest, or too few samples in a period of the natural oscillation.
+    """
+    for run in (*dataset.fit, *dataset.test):
+        box = run.mechanism(dataset.scenario)
+        if box.belt_velocity == 0.0:
+            raise InputError(
+                f"run {run.name}: belt_velocity is 0 m/s, but friction is told from stick and slip on a belt that runs; "
+                "state the speed at which it ran, in [mechanism] or in the run's set = { belt_velocity = ... }"
+            )
+        natural = math.sqrt(box.stiffness / box.mass) / (2.0 * math.pi)
+        count = 1.0 / (natural * run.sample_interval)
+        if count < FEWEST_SAMPLES:
+            raise InputError(
+                f"run {run.name}: {1.0 / run.sample_interval:.4g} samples a second are {count:.3g} in a period of the natural "
+                f"oscillation ({natural:.3g} Hz by the stated mass and stiffness); at least {FEWEST_SAMPLES} are needed: "
+                f"sample at {math.ceil(FEWEST_SAMPLES * natural)} Hz or faster, or mend mass and stiffness"
+            )
+
+
+def require_driven(slips: Sequence[Slips]) -> None:
+    """Require that friction drives the box along with the belt.
+
+    Raises:
+        InputError: a run whose spring pulls along the belt's motion at break-away, or in slip.
+    """
+    for one in slips:
+        load = one.record.mechanism.normal_force
+        for forces, when in ((one.onset_force, "at break-away"), (one.moments[:, 0], "in slip")):
+            share = float(np.median(forces)) / load
+            if share <= 0.0:
+                raise InputError(
+                    f"run {one.record.name}: friction {when} comes out at {share:.3g} times the normal force, against the "
+                    "belt's motion; give position and belt_velocity the same positive direction (sign = { position = -1 } "
+                    "turns a column round) and count the position from the unstressed spring"
+                )

@@ -1,0 +1,210 @@
+"""The kinematic channel: in stick a rigid contact follows the belt, and whatever else the box does then is seen directly.
+
+The binned stick phases, less each phase's mean and each run's belt velocity, are regressed on what a ripple of the
+belt's speed, ringing after the re-stick, a step of the sensor, a clipped sensor and creep before the break-away would
+leave. Gains are falls of chi^2 with the noise that the data show; scores subtract p ln n and twice ln(grid size).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.stick_slip.records.record import Array, Noise
+from stochfric_mb.discovery.stick_slip.records.slips import Slips, StickSamples
+
+ACCIDENT, MOST_ACCIDENTS = 3.0, 0.25
+"""Misfit of a stick phase over that of the others from which on it is an accident, and the share of the phases that may
+be; more of them are the rule [-]. Of phases of noise that is slower than a tenth of them 1 in 100 is set aside."""
+RINGS = 0.15
+"""Share of the evidence for a contact that rings and yields that its ringing alone must have [-]: a box that creeps lags behind
+the belt as one on a yielding contact does, but hardly rings when it sticks again."""
+JUMP = 30.0
+"""Fall of chi^2 by a step within one stick phase from which on it is a jump [-]; of 200 phases of noise, none of 100 runs has
+one."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Sticking:
+    """What the stick phases tell; scores are falls of chi^2 less what chance and choice give."""
+
+    scores: dict[str, float]
+    """Score of belt_speed_ripple, presliding_compliance, sensor_step, sensor_drift, creep_before, creep_after, yielding."""
+    settings: dict[str, dict[str, float]]
+    """Parameters at the best score."""
+    runs: tuple[tuple[str, float], ...]
+    """Name of each run and its stated belt velocity [m/s], positive, in the order of the next two."""
+    belt_velocity_error: Array
+    """Measured over stated belt velocity, less 1, run by run [-]."""
+    belt_velocity_deviation: Array
+    """Standard deviation of it [-]."""
+    excess: float
+    """chi^2 of the belt's line less its degrees of freedom [-]."""
+    excess_ratio: float
+    """chi^2 over its degrees of freedom [-]."""
+    jumps: int = 0
+    """Stick phases within which the box jumps."""
+
+
+@dataclasses.dataclass(frozen=True)
+class _Phases:
+    """The stick phases of one run, in units of their noise."""
+
+    slips: Slips
+    samples: StickSamples
+    values: Array
+    line: Array
+    deviation: float
+
+    def centred(self, column: Array) -> Array:
+        """Return a column less its mean in each phase."""
+        total = np.bincount(self.samples.segment, column)
+        count = np.bincount(self.samples.segment)
+        return column - (total / np.maximum(count, 1))[self.samples.segment]
+
+    def rest(self, columns: Sequence[Array]) -> Array:
+        """Return the values less the belt's line and the columns."""
+        design = np.stack([self.line, *(self.centred(c) for c in columns)], axis=1)
+        return self.values - design @ np.linalg.lstsq(design, self.values, rcond=1.0e-9)[0]
+
+
+def bin_deviation(noise: Noise, size: int) -> float:
+    """Return the standard deviation of a bin's mean [m], with the coloured part at its long-run strength."""
+    slow = noise.coloured**2 * (1.0 + noise.memory) / (1.0 - noise.memory)
+    return float(np.sqrt((noise.white**2 + slow) / size))
+
+
+def analyse(slips: Sequence[Slips]) -> Sticking | None:
+    """Return what the stick phases of all runs tell; None where there are too few to tell anything."""
+    runs = [_phases(s) for s in slips if len(s.stick.time) >= 50]
+    if not runs:
+        return None
+    # a jump may stand in a single phase; all else that stick shows is there in most of them
+    step, times, jumps = _step(runs, [run.rest([]) for run in runs])
+    runs = [_without_accidents(run) for run in runs]
+    rests = [run.rest([]) for run in runs]
+    chi2 = sum(float(r @ r) for r in rests)
+    freedom = sum(len(run.values) - len(np.unique(run.samples.segment)) - 1 for run in runs)
+    log_n = float(np.log(max(freedom, 2)))
+    scores: dict[str, float] = {}
+    settings: dict[str, dict[str, float]] = {}
+
+    def gain(columns: Callable[[_Phases], Sequence[Array]]) -> float:
+        return sum(float(r @ r) - float(np.sum(run.rest(columns(run)) ** 2)) for run, r in zip(runs, rests, strict=True))
+
+    n = len(runs)
+    duration = max(float(run.slips.record.time[-1] - run.slips.record.time[0]) for run in runs)
+    grid = np.arange(2.0 / duration, 3.0, 1.0 / (4.0 * duration))
+    gains = _ripple_gains(runs, rests, grid)
+    best = int(np.argmax(gains))
+    scores["belt_speed_ripple"] = float(gains[best]) - 2 * n * log_n - 2.0 * np.log(len(grid))
+    settings["belt_speed_ripple"] = {"frequency": float(grid[best])}
+
+    ringing = [(f, z) for f in np.geomspace(1.5, 15.0, 40) * runs[0].slips.record.angular_frequency for z in (0.03, 0.08, 0.2)]
+    gains = np.array([gain(lambda run, w=w, z=z: _ringing(run, w, z)) for w, z in ringing])
+    best = int(np.argmax(gains))
+    scores["presliding_compliance"] = float(gains[best]) - 2 * n * log_n - 2.0 * np.log(len(ringing))
+    settings["presliding_compliance"] = {"angular_frequency": float(ringing[best][0]), "damping_ratio": ringing[best][1]}
+    # a contact whose stiffness changes with its load follows the belt at one speed no longer
+    yields = gain(lambda run: [*_ringing(run, *ringing[best]), *_yielding(run)]) - 5 * n * log_n - 2.0 * np.log(len(ringing))
+    if scores["presliding_compliance"] > RINGS * yields:
+        scores["presliding_compliance"] = max(scores["presliding_compliance"], yields)
+
+    def hats(column: Array, places: Sequence[float]) -> list[Array]:
+        return [np.clip(1.0 - np.abs(column - p) / 0.05, 0.0, 1.0) for p in places]
+
+    scores["creep_before"] = gain(lambda run: hats(run.samples.to_onset, (0.0, 0.05, 0.1, 0.15))) - 4 * n * log_n
+    scores["sensor_drift"] = (
+        gain(lambda run: [np.sqrt(run.samples.time - run.samples.time[0]), run.samples.time**2]) - 2 * n * log_n
+    )
+    scores["yielding"] = gain(_yielding) - 3 * n * log_n
+    scores["creep_after"] = gain(lambda run: hats(run.samples.since_restick, (0.0, 0.05, 0.1))) - 3 * n * log_n
+    scores["sensor_step"] = step - n * (log_n + 2.0 * np.log(max(freedom, 2)))
+    settings["sensor_step"] = {f"time_{i}": t for i, t in enumerate(times)}
+    errors = np.array([_belt_error(run) for run in runs]).T
+    stated = tuple((run.slips.record.name, run.slips.record.mechanism.belt_velocity) for run in runs)
+    return Sticking(scores, settings, stated, errors[0], errors[1], chi2 - freedom, chi2 / max(freedom, 1), jumps)
+
+
+def _phases(slips: Slips) -> _Phases:
+    samples = slips.stick
+    deviation = bin_deviation(slips.noise, samples.bin_size)
+    empty = _Phases(slips, samples, samples.residual, samples.time, deviation)
+    return dataclasses.replace(empty, values=empty.centred(samples.residual / deviation), line=empty.centred(samples.time))
+
+
+def _without_accidents(run: _Phases) -> _Phases:
+    """Return the stick phases without those few that are far more off the belt's line than the others: a kick was in them."""
+    segment, values = run.samples.segment, run.rest([])
+    count = np.maximum(np.bincount(segment), 1)
+    misfit = np.bincount(segment, values**2) / count
+    present = np.bincount(segment) > 0
+    off = present & (misfit > ACCIDENT * float(np.median(misfit[present])))
+    if not off.any() or off.sum() > MOST_ACCIDENTS * present.sum():
+        return run
+    kept = ~off[segment]
+    s = run.samples
+    samples = StickSamples(
+        s.segment[kept], s.time[kept], s.residual[kept], s.since_restick[kept], s.to_onset[kept], s.position[kept], s.bin_size
+    )
+    return dataclasses.replace(run, samples=samples, values=run.values[kept], line=run.line[kept])
+
+
+def _ripple_gains(runs: Sequence[_Phases], rests: Sequence[Array], grid: Array) -> Array:
+    """Return the fall of chi^2 by a cosine and a sine of each frequency, with each run's own phase."""
+    gains = np.zeros(len(grid))
+    for run, rest in zip(runs, rests, strict=True):
+        line = run.line / np.sqrt(run.line @ run.line)
+        for i, frequency in enumerate(grid):
+            angle = 2.0 * np.pi * frequency * run.samples.time
+            a, b = run.centred(np.cos(angle)), run.centred(np.sin(angle))
+            a, b = a - line * (line @ a), b - line * (line @ b)
+            aa, bb, ab, ar, br = a @ a, b @ b, a @ b, a @ rest, b @ rest
+            determinant = aa * bb - ab * ab
+            if determinant > 1.0e-9 * aa * bb:
+                gains[i] += (bb * ar * ar - 2.0 * ab * ar * br + aa * br * br) / determinant
+    return gains
+
+
+def _ringing(run: _Phases, frequency: float, ratio: float) -> list[Array]:
+    since = run.samples.since_restick
+    envelope = np.exp(-ratio * frequency * since)
+    return [envelope * np.cos(frequency * since), envelope * np.sin(frequency * since)]
+
+
+def _yielding(run: _Phases) -> list[Array]:
+    """Return powers of how far the spring has been loaded in the stick phase: a contact that yields lags more and more."""
+    dwell = run.samples.since_restick + run.samples.to_onset
+    loaded = run.samples.since_restick / np.maximum(dwell, 1.0e-9)
+    return [loaded * dwell, loaded**2 * dwell, loaded**4 * dwell]
+
+
+def _step(runs: Sequence[_Phases], rests: Sequence[Array]) -> tuple[float, list[float], int]:
+    """Return the fall of chi^2 by one step within a stick phase of each run, its times [s], and how many phases jump."""
+    total, times, jumps = 0.0, list[float](), 0
+    for run, rest in zip(runs, rests, strict=True):
+        best, when = 0.0, 0.0
+        for segment in np.unique(run.samples.segment):
+            rows = np.flatnonzero(run.samples.segment == segment)
+            n = len(rows)
+            if n < 10:
+                continue
+            k = np.arange(1, n)
+            sums = np.cumsum(rest[rows])
+            gains = (sums[:-1] - sums[-1] * k / n) ** 2 / (k * (n - k) / n)
+            jumps += int(gains.max() > JUMP)
+            if gains.max() > best:
+                best, when = float(gains.max()), float(run.samples.time[rows[int(np.argmax(gains))]])
+        total += best
+        times.append(when)
+    return total, times, jumps
+
+
+def _belt_error(run: _Phases) -> tuple[float, float]:
+    """Return the relative error of the stated belt velocity, and its standard deviation."""
+    norm = run.line @ run.line
+    slope, deviation = (run.line @ run.values) / norm, 1.0 / np.sqrt(norm)
+    belt = run.slips.record.mechanism.belt_velocity
+    return float(slope * run.deviation / belt), float(deviation * run.deviation / belt)

@@ -1,0 +1,143 @@
+"""From a candidate of the screening to effects with numbers, where a fit or a simulation may start."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+
+import numpy as np
+
+from stochfric_mb.discovery.stick_slip.records.pool import Pool
+from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
+from stochfric_mb.discovery.stick_slip.simulation.model import CORRECTED, FREED, MOST_FREED, Model
+from stochfric_mb.effects import Effect, effect_class, make_effect
+
+PERIODIC = ("normal_load_ripple", "harmonic_force", "position_dependent_friction")
+"""Effects whose phase each run has its own value of."""
+HIGHEST_HARMONIC = 9
+"""Order up to which a ripple at a multiple of a named one's frequency is its harmonic: beyond, a multiple is always near."""
+
+
+def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int) -> Model:
+    """Return the model with the candidate's effect added, at the numbers that the screening fitted.
+
+    Args:
+        model: the model so far.
+        candidate: an effect of the screening.
+        pool: the slips.
+        n_terms: coefficients of the regression before the candidate's own.
+    """
+    coefficients = candidate.solution.coefficients[n_terms:]
+    if candidate.is_wave:
+        return _periodic(model, candidate, pool, coefficients)
+    if candidate.name == "sensor_step":
+        sizes = coefficients.reshape(pool.n_runs, -1)
+        times = np.array(candidate.hypothesis.setting).reshape(pool.n_runs, -1)
+        for step in range(sizes.shape[1]):
+            found = {s.record.name: (float(sizes[r, step]), float(times[r, step])) for r, s in enumerate(pool.slips)}
+            model = with_steps(model, found)
+        return model
+    values = candidate.hypothesis.start(coefficients)
+    # a fit begins where screening ended: coefficients and corrections belong to the effect's strength
+    mu_s, mu_k = (max(float(c), 1.0e-3) for c in candidate.solution.coefficients[:2])
+    corrections: dict[str, float] = dict(zip(CORRECTED, map(float, candidate.solution.coefficients[2:5]), strict=True))
+    for name in FREED.get(candidate.name, ()):
+        corrections[name] = float(np.clip(corrections[name] + values.pop(name), -MOST_FREED, MOST_FREED))
+    model = dataclasses.replace(model.with_law(mu_s, mu_k), corrections=corrections)
+    return model.plus(_bounded(candidate.name, values))
+
+
+def with_steps(model: Model, steps: Mapping[str, tuple[float, float]], place: int | None = None) -> Model:
+    """Return the model with each run's own step of the sensor: size [m] and time [s].
+
+    Args:
+        model: the model.
+        steps: run -> size and time.
+        place: number of the effect that is this step; a new one if not given.
+    """
+    if place is None:
+        size, when = next(iter(steps.values()))
+        model = model.plus(make_effect("sensor_step", size=size, time=when))
+        place = len(model.effects) - 1
+    own = dict(model.own)
+    for run, (size, when) in steps.items():
+        values = list(own.get(run, ({},) * len(model.effects)))
+        values[place] = dict(values[place]) | {"size": size, "time": when}
+        own[run] = tuple(values)
+    return dataclasses.replace(model, own=own)
+
+
+def _bounded(kind: str, values: Mapping[str, float | str]) -> Effect:
+    """Return the effect with its values moved into their bounds."""
+    cls = effect_class(kind)
+    about = {f.name: f.metadata for f in dataclasses.fields(cls)}
+    kept: dict[str, float | str] = {}
+    for name, value in values.items():
+        if isinstance(value, str):
+            kept[name] = value
+            continue
+        inside = 1.0e-3 * about[name]["scale"] if about[name]["strict"] else 0.0
+        kept[name] = float(np.clip(value, about[name]["low"] + inside, about[name]["high"] - inside))
+    return make_effect(kind, **kept)
+
+
+def _periodic(model: Model, candidate: Candidate, pool: Pool, coefficients: Array) -> Model:
+    harmonics = int(candidate.hypothesis.setting[-1])
+    main = candidate.hypothesis.setting[0]
+    pairs = coefficients.reshape(pool.n_runs, harmonics, 2)
+    amplitudes = np.hypot(pairs[..., 0], pairs[..., 1]).mean(axis=0)
+    # a cos + b sin = A cos(theta + phase)
+    phases = np.arctan2(-pairs[..., 1], pairs[..., 0])
+    directions = [s.record.direction for s in pool.slips]
+    names = [s.record.name for s in pool.slips]
+    if candidate.name == "position_dependent_friction":
+        # a mirrored run sees the belt coordinate with the opposite sign
+        phases = phases * np.array(directions)[:, None]
+        values = {"amplitude": amplitudes[0], "wavelength": main}
+        values |= {f"amplitude_{h + 1}": amplitudes[h] for h in range(1, harmonics)}
+        effects: list[Effect] = [_bounded(candidate.name, values)]
+        own = [
+            {("phase" if h == 0 else f"phase_{h + 1}"): float(phases[r, h]) for h in range(harmonics)}
+            for r in range(len(names))
+        ]
+        added = [(values_,) for values_ in own]
+    else:
+        large = [h for h in range(harmonics) if h == 0 or amplitudes[h] > 0.1 * amplitudes[0]]
+        effects = [_bounded(candidate.name, {"amplitude": amplitudes[h], "frequency": main * (h + 1)}) for h in large]
+        added = [tuple({"phase": float(phases[r, h])} for h in large) for r in range(len(names))]
+    before = {name: model.own.get(name, ({},) * len(model.effects)) for name in names}
+    own_all = {name: (*before[name], *added[r]) for r, name in enumerate(names)}
+    return dataclasses.replace(model, effects=(*model.effects, *effects), own=own_all)
+
+
+def as_harmonic(model: Model, candidate: Candidate, pool: Pool, n_terms: int) -> Model | None:
+    """Return the model with the candidate as a harmonic of a ripple that it holds; None where it is none.
+
+    A ripple that is not a sine, such as a square one, leaves multiples of its frequency behind.
+    """
+    if not candidate.is_wave:
+        return None
+    held = next((e for e in model.effects if e.kind in PERIODIC and e.own_to_run), None)
+    if held is None:
+        return None
+    belt = float(pool.belt_velocity.min())
+    main, other = _frequency(held, belt), _candidate_frequency(candidate, belt)
+    order = round(other / main)
+    if not 1 <= order <= HIGHEST_HARMONIC or abs(other - order * main) > 2.0 / pool.duration:
+        return None
+    if held.kind == candidate.name:
+        return with_candidate(model, candidate, pool, n_terms)
+    # told by the kind that is held; amplitude and phases are fitted next
+    setting = {"frequency": order * main} if hasattr(held, "frequency") else {"wavelength": belt / (order * main)}
+    small = dataclasses.replace(held, amplitude=0.2 * held.amplitude, **setting)  # pyright: ignore[reportAttributeAccessIssue, reportCallIssue]
+    return model.plus(small)
+
+
+def _frequency(effect: Effect, belt: float) -> float:
+    return float(effect.frequency if hasattr(effect, "frequency") else belt / effect.wavelength)  # pyright: ignore[reportAttributeAccessIssue]
+
+
+def _candidate_frequency(candidate: Candidate, belt: float) -> float:
+    main = float(candidate.hypothesis.setting[0])
+    return belt / main if candidate.name == "position_dependent_friction" else main

@@ -1,0 +1,57 @@
+"""What an experiment could have seen: the smallest strength of each effect that would have been named."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stochfric_mb.discovery.stick_slip.decision.choice import NAME
+from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
+from stochfric_mb.discovery.stick_slip.screening.waves import frequencies, wave_columns
+from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.effects import effect_class
+from stochfric_mb.effects.marks import Hypothesis
+
+LOOKED_AT = 12
+"""Frequencies that stand for all: periodic effects are all alike."""
+
+
+def smallest(study: Study) -> dict[str, float]:
+    """Return effect -> the smallest value of its first parameter that would have been named, in that parameter's unit.
+
+    To first order: the score 2 delta log L - p ln n - 2 ln(grid) reaches the naming score where the coefficient is
+    sqrt(score + penalties) of its standard deviations. Of the hypotheses of a kind the most sensitive one counts.
+    """
+    regression = study.regression
+    found: dict[str, float] = {}
+    families = hypotheses_in(study.pool)
+    periodic = waves_in(study.pool)
+    grid = {kind: len(some) for kind, some in families.items()}
+    every = frequencies(study.pool)
+    for kind, wave in periodic.items():
+        some = every[:: max(len(every) // LOOKED_AT, 1)]
+        families[kind] = [Hypothesis(kind, wave_columns(study.pool, wave, f, 1), (f, 1.0)) for f in some]
+        grid[kind] = len(every)
+    for kind, family in families.items():
+        looked_at = family[:: max(len(family) // LOOKED_AT, 1)]
+        best = np.inf
+        for hypothesis in looked_at:
+            p = len(hypothesis.columns)
+            solution = regression.solve(study.terms.plus(hypothesis.columns), study.solution.scatter)
+            needed = np.sqrt(NAME + p * np.log(regression.n) + 2.0 * np.log(grid[kind]))
+            strengths = needed * solution.deviations[study.terms.columns.shape[2] :]
+            if kind in periodic:
+                # cosine and sine of every run share the evidence
+                best = min(best, float(np.median(strengths) / np.sqrt(study.pool.n_runs)) * _unit(study, kind, "amplitude"))
+                continue
+            values = hypothesis.start(strengths)
+            name, value = next(iter(values.items()), ("", np.inf))
+            best = min(best, abs(value) * _unit(study, kind, name))
+        if np.isfinite(best):
+            found[kind] = best
+    return found
+
+
+def _unit(study: Study, kind: str, name: str) -> float:
+    """Return the unit in which a parameter was studied, over its SI unit [-]."""
+    about = effect_class(kind).__dataclass_fields__.get(name)
+    return study.size.of(about.metadata["unit"]) if about is not None else 1.0

@@ -1,0 +1,146 @@
+"""Screening: which effects would explain what the believed model leaves in the slips, and how much better than chance.
+
+Score = 2 delta log L - p ln n - 2 ln(grid size); found one after the other, each with its own evidence.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.stick_slip.records.pool import Pool
+from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING, competitors, softening, step_times, steps
+from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
+from stochfric_mb.discovery.stick_slip.screening.waves import best_wave
+from stochfric_mb.effects.marks import ENTRAINED, WAVE, Hypothesis
+
+POSITIVE = (
+    "velocity_weakening", "viscous_friction", "frictional_lag", "dwell_ageing", "quadratic_damping", "backlash", "second_mode",
+    "sensor_delay",
+)  # fmt: skip
+"""Effects whose strength cannot be negative."""
+WORTH_A_SECOND = 20.0
+"""Score that a second step of the sensor needs [-]."""
+REFITTED = 14
+"""Candidates, best first at fixed variance components, whose variance components are fitted anew."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Candidate:
+    """The best hypothesis of one kind."""
+
+    name: str
+    """Kind of effect, or name of a competitor that names no physics."""
+    axis: str
+    """Axis on which a competitor's disagreement lives; empty for an effect."""
+    score: float
+    """Score [-]."""
+    hypothesis: Hypothesis
+    """Its regressors."""
+    solution: Solution
+    """The fit with it."""
+
+    @property
+    def is_effect(self) -> bool:
+        """Whether it names physics."""
+        return not self.axis
+
+    @property
+    def is_wave(self) -> bool:
+        """Whether it is periodic in time or along the belt, with a phase of its own in each run."""
+        return self.hypothesis.variant in (WAVE, ENTRAINED)
+
+    @property
+    def any_shape(self) -> bool:
+        """Whether it can give slips nearly any shape, the same to all: friction along the stroke."""
+        return self.name == "position_dependent_friction" and not self.is_wave
+
+    def start(self, terms: int) -> dict[str, float]:
+        """Return parameter values where a fit of the effect may start; ``terms``: number of coefficients before its own."""
+        return self.hypothesis.start(self.solution.coefficients[terms:])
+
+
+def screen(
+    pool: Pool, regression: Regression, terms: Terms, solution: Solution, *, without: Sequence[str] = ()
+) -> list[Candidate]:
+    """Return the best hypothesis of each kind, and of each variant of a kind, best first.
+
+    Args:
+        pool: the slips.
+        regression: fits to them.
+        terms: what the model holds so far.
+        solution: its fit.
+        without: kinds that the model holds already.
+    """
+    log_n = float(np.log(regression.n))
+    families: list[tuple[str, str, list[Hypothesis], int]] = []  # name, axis, hypotheses, size of the grid
+    for kind, found_of in hypotheses_in(pool, without=without).items():
+        for variant in dict.fromkeys(h.variant for h in found_of):
+            families.append((kind, "", [h for h in found_of if h.variant == variant], len(found_of)))
+    for kind, wave in waves_in(pool, without=without).items():
+        best_one, looked_at = best_wave(kind, wave, pool, regression, terms, solution.scatter)
+        families.append((kind, "", [best_one], looked_at))
+    for name, (axis, columns) in competitors(pool).items():
+        families.append((name, axis, [Hypothesis(name, list(columns))], 1))
+    softer = softening(pool)
+    families.append((SOFTENING, "stiffness, time within the run", softer, len(softer)))
+    for kind, axis, multiplied in (("friction_step", "abrupt change of the friction", True), ("sensor_step", "", False)):
+        if kind not in without:
+            step = _step(pool, regression, terms, solution, kind, multiplied=multiplied)
+            families.append((kind, axis, [step], len(step_times(pool)) ** pool.n_runs))
+    rough: list[tuple[float, str, str, Hypothesis, float]] = []
+    for kind, axis, hypotheses, grid in families:
+        gains = regression.gains(terms, solution.scatter, [h.columns for h in hypotheses])
+        cost = np.array([len(h.columns) * log_n for h in hypotheses])
+        order = np.argsort(cost - 2.0 * gains, kind="stable")
+        # a curved hypothesis whose strength comes out negative must not stand before a straight one that is possible
+        best = next((int(j) for j in order if _can_be(kind, hypotheses[j], regression, terms, solution)), int(order[0]))
+        penalty = float(cost[best]) + 2.0 * np.log(grid)
+        rough.append((2.0 * float(gains[best]) - penalty, kind, axis, hypotheses[best], penalty))
+    rough.sort(key=lambda r: -r[0])
+    found: list[Candidate] = []
+    for i, (score, kind, axis, hypothesis, penalty) in enumerate(rough):
+        wider = terms.plus(hypothesis.columns)
+        if i < REFITTED:
+            fitted = regression.fit(wider, solution.scatter)
+            final = 2.0 * (solution.cost - fitted.cost) - penalty
+        else:
+            fitted = regression.solve(wider, solution.scatter)
+            final = score
+        found.append(Candidate(kind, axis, final, hypothesis, fitted))
+    return sorted((c for c in found if _sign_possible(c.name, c.solution, terms)), key=lambda c: -c.score)
+
+
+def _can_be(kind: str, hypothesis: Hypothesis, regression: Regression, terms: Terms, solution: Solution) -> bool:
+    return kind not in POSITIVE or _sign_possible(
+        kind, regression.solve(terms.plus(hypothesis.columns), solution.scatter), terms
+    )
+
+
+def _sign_possible(kind: str, fitted: Solution, terms: Terms) -> bool:
+    """Return whether the fitted strength has a sign that the effect can have, within two standard deviations."""
+    place = terms.columns.shape[2]
+    return kind not in POSITIVE or bool(fitted.coefficients[place] > -2.0 * fitted.deviations[place])
+
+
+def _step(pool: Pool, regression: Regression, terms: Terms, solution: Solution, kind: str, *, multiplied: bool) -> Hypothesis:
+    """Return one step a run, each where it explains most; two of a sensor where the second one explains enough more."""
+    place = step_times(pool)
+    trials = [steps(pool, run, multiplied=multiplied) for run in range(pool.n_runs)]
+    firsts = [int(np.argmax(regression.gains(terms, solution.scatter, [[t] for t in mine]))) for mine in trials]
+    columns = [mine[best] for mine, best in zip(trials, firsts, strict=True)]
+    once = Hypothesis(kind, columns, tuple(float(place[best]) for best in firsts))
+    if multiplied:
+        return once
+    wider = terms.plus(columns)
+    gains = [regression.gains(wider, solution.scatter, [[t] for t in mine]) for mine in trials]
+    worth = 2.0 * sum(float(g.max()) for g in gains) - pool.n_runs * (np.log(regression.n) + 2.0 * np.log(len(place)))
+    if worth < WORTH_A_SECOND:
+        return once
+    seconds = [int(np.argmax(g)) for g in gains]
+    both = [c for mine, a, b in zip(trials, firsts, seconds, strict=True) for c in (mine[a], mine[b])]
+    when = [float(place[i]) for a, b in zip(firsts, seconds, strict=True) for i in (a, b)]
+    return Hypothesis(kind, both, tuple(when))

@@ -1,0 +1,185 @@
+"""Friction that switches: it stays at a level, jumps, and stays again. No effect of the vocabulary does that at random.
+
+Independent draws, a random wander, a drift and a ripple all change from every slip to the next, each in its way; a friction
+that is at rest between jumps is told from them by the slips alone, without a model. Two signs of it are looked for, in
+the onset force and in the mean force in slip:
+
+- two levels: the slips of each run fall into two groups, which lie further apart than any even distribution puts them;
+- jumps: most slips repeat the one before, and some differ from it by far more than that.
+
+Steps of a sensor jump once or twice, and a square ripple at regular intervals of time or belt travel; both have names.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.records.pool import Pool
+from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression
+
+APART = 12.0
+"""Distance of two levels over the robust width of a level from which on they are two [-]: of 400 records of 26 slips,
+normal, even or wandering, cut into two groups at the best place, none reached it, and of 50 along a sine 1 in 100."""
+FEWEST = 24
+"""Slips below which such groups may come about by chance."""
+JUMP = 6.0
+"""Change from one slip to the next over the robust deviation of such changes that is a jump [-]: no normal change in 1e8."""
+FEWEST_JUMPS = 3
+"""Jumps in all runs, below which they may be single accidents."""
+MOST_JUMPS = 0.4
+"""Share of the changes that may be jumps: with more of them, friction does not stay."""
+STEPS_OF_A_SENSOR = 2.0
+"""Changes of level a run that a sensor's steps may make."""
+OUT_OF_STEP = 0.25
+"""Share of the rarer level's slips that a regular alternation may miss [-]; random ones miss half."""
+LONGEST_COUNT = 8
+"""Slips after which a pattern may repeat that goes by their number."""
+RESOLVED = 0.15
+"""Error of a ripple's frequency, in units of one over the record's length: the search's grid has steps of a fifth [-]."""
+PHASES, DUTIES = 24, (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
+"""Phases and shares of the upper level of the alternations that are tried."""
+SWITCHES = Where("scatter, time", "friction switches between two levels, at no regular intervals")
+"""Where friction with two levels disagrees."""
+JUMPS = Where("scatter, time", "friction stays at one level for some slips, jumps, and stays at another")
+"""Where friction that is at rest between jumps disagrees."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Switching:
+    """What the slips tell of levels and jumps; the larger of onset force and mean force in slip."""
+
+    separation: float
+    """Distance of two levels over their width [-]."""
+    changes: float
+    """Changes of level a run [-]."""
+    regular: bool
+    """Whether the levels alternate regularly in time or along the belt."""
+    jumps: int
+    """Changes from one slip to the next that are far larger than most."""
+    still: float
+    """Share of the changes that are none [-]."""
+
+    @property
+    def two_levels(self) -> bool:
+        """Whether friction switches at random between two levels."""
+        return self.separation > APART and self.changes > STEPS_OF_A_SENSOR and not self.regular
+
+    @property
+    def at_rest_between_jumps(self) -> bool:
+        """Whether friction stays where it is most of the time, and jumps."""
+        return self.jumps >= FEWEST_JUMPS and self.still >= 1.0 - MOST_JUMPS
+
+    @property
+    def where(self) -> Where | None:
+        """Where a friction that switches at random disagrees with any that does not; None where it does not switch so."""
+        if self.two_levels:
+            return SWITCHES
+        return JUMPS if self.at_rest_between_jumps and not self.regular else None
+
+
+def switching(regression: Regression, residuals: Array) -> Switching:
+    """Return what residuals of the features [N], shape (n, N_FEATURES), tell of levels and jumps."""
+    pool = regression.pool
+    # what the extraction itself scatters is no change
+    finest = np.stack([np.sqrt(np.diag(c.covariance)[:2]) for c in pool.calibrations])
+    levels = [_levels(pool, residuals[:, c], finest[:, c]) for c in (0, 1)]
+    separation, column = max((levels[c][0], c) for c in (0, 1))
+    upper = levels[column][1]
+    rows = [np.flatnonzero(pool.kept & (pool.run == r)) for r in range(pool.n_runs)]
+    changes = float(np.mean([np.count_nonzero(np.diff(upper[m])) for m in rows]))
+    regular = separation > APART and _regular(pool, upper)
+    jumps, still = max((_jumps(pool, residuals[:, c], finest[:, c]) for c in (0, 1)), key=lambda j: j[0])
+    return Switching(separation, changes, regular, jumps, still)
+
+
+def _levels(pool: Pool, values: Array, finest: Array) -> tuple[float, np.ndarray]:
+    """Return the distance of two levels over their width in a typical run, and which slips are at the upper one."""
+    upper = np.zeros(len(values), dtype=bool)
+    distances, weights = list[float](), list[int]()
+    for run in range(pool.n_runs):
+        rows = np.flatnonzero(pool.kept & (pool.run == run))
+        if len(rows) < 4:
+            continue
+        mine = values[rows]
+        low, high = _halves(np.sort(mine))
+        upper[rows] = np.abs(mine - np.median(high)) < np.abs(mine - np.median(low))
+        away = np.concatenate([np.abs(part - np.median(part)) for part in (low, high)])
+        width = 1.4826 * float(np.median(np.maximum(away, 0.67 * finest[run])))
+        # run by run: in a run whose slips are locked to a ripple all are alike, which tells nothing of the others
+        distances.append(float(np.median(high) - np.median(low)) / width)
+        weights.append(len(rows))
+    if sum(weights) < FEWEST:
+        return 0.0, upper
+    return float(np.median(distances)), upper
+
+
+def _halves(values: Array) -> tuple[Array, Array]:
+    """Return sorted values cut in two where that leaves the least variance within the parts."""
+    n = len(values)
+    count = np.arange(1, n)
+    sums = np.cumsum(values)[:-1]
+    explained = sums**2 / count + (values.sum() - sums) ** 2 / (n - count)
+    cut = int(np.argmax(explained)) + 1
+    return values[:cut], values[cut:]
+
+
+def _jumps(pool: Pool, values: Array, finest: Array) -> tuple[int, float]:
+    """Return the number of jumps, and the share of changes that are none; runs are in units of their own small changes."""
+    changes: list[Array] = []
+    for run in range(pool.n_runs):
+        mine = values[pool.kept & (pool.run == run)]
+        if len(mine) < 4:
+            continue
+        steps = np.abs(np.diff(mine))
+        changes.append(steps / max(1.4826 * float(np.median(steps)), np.sqrt(2.0) * finest[run]))
+    if sum(map(len, changes)) < FEWEST:
+        return 0, 1.0
+    jumped = np.concatenate(changes) > JUMP
+    return int(np.count_nonzero(jumped)), float(1.0 - jumped.mean())
+
+
+def _regular(pool: Pool, upper: np.ndarray) -> bool:
+    """Return whether the levels alternate at regular intervals of time or of belt travel."""
+    rate = max(1.0 / float(np.median(np.diff(s.onset_time))) for s in pool.slips)
+    # short of every other slip: that is no ripple
+    grid = np.arange(2.0 / pool.duration, 0.45 * rate, 0.1 / pool.duration)
+    belt = float(pool.belt_velocity.min())
+    travel = (pool.belt_velocity * pool.onset_time - pool.typical_onset) / belt
+    rows = [np.flatnonzero(pool.kept & (pool.run == r)) for r in range(pool.n_runs)]
+    rarer = sum(min(int(upper[m].sum()), int((~upper[m]).sum())) for m in rows)
+    phases = np.arange(PHASES) / PHASES
+    for place in (pool.onset_time, travel):
+        for duty in DUTIES:
+            missed = np.zeros(len(grid))
+            for m in rows:
+                cycles = grid[:, None, None] * place[m] + phases[:, None]
+                wrong = ((cycles % 1.0 < duty) != upper[m]).sum(axis=2)
+                missed += wrong.min(axis=1)
+            if len(grid) and missed.min() <= OUT_OF_STEP * rarer:
+                return True
+    return False
+
+
+def in_step(frequency: float, pool: Pool, *, along_belt: bool) -> bool:
+    """Return whether a pattern repeats after a whole number of slips, up to `LONGEST_COUNT`, in every run: slips are counted.
+
+    A ripple of another origin has no reason to; of all frequencies up to half the slips' about one in six would by chance.
+
+    Args:
+        frequency: its frequency [Hz]; along the belt the one at the slowest belt.
+        pool: the slips.
+        along_belt: whether it lies on the belt, and is passed faster by a faster belt.
+    """
+    slowest = float(pool.belt_velocity.min())
+    counts: list[set[int]] = []
+    for slips in pool.slips:
+        own = frequency * (slips.record.mechanism.belt_velocity / slowest if along_belt else 1.0)
+        # the mean: where every few slips are harder, their cycles are longer
+        cycle = float(np.mean(np.diff(slips.onset_time)))
+        off = {n: abs(own * cycle * n - round(own * cycle * n)) for n in range(2, LONGEST_COUNT + 1)}
+        counts.append({n for n, miss in off.items() if miss < RESOLVED * n * cycle / pool.duration})
+    return bool(set.intersection(*counts))

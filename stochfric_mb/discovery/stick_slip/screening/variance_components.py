@@ -1,0 +1,137 @@
+"""Is friction random: variance components, their correlation in time, and whether stick and slip scatter together."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.screening.regression import LOWEST, Regression, Solution, Terms
+
+
+@dataclasses.dataclass(frozen=True)
+class Randomness:
+    """What the scatter of the slips tells."""
+
+    static: float
+    """Likelihood ratio of scatter in the onset force: 2 delta log L [-]."""
+    kinetic: float
+    """The same of the mean force in slip."""
+    within: float
+    """The same of white scatter within the slip."""
+    correlation: float
+    """Correlation of the scatter from one slip to the next over its standard error [-]."""
+    wander: float
+    """Score of a slow wander of the forces [-]."""
+    wander_share: float
+    """Standard deviation of the wander over the mean friction [-]."""
+    wander_time: float
+    """Its correlation time [s]."""
+    wander_of: str
+    """What wanders, a key of `MODES`: "both" coefficients, "mu_s", "mu_k", or an "offset", the same force in stick and slip."""
+    together: float
+    """Correlation of the onset force with the mean force of the slip that follows [-]."""
+
+
+def randomness(regression: Regression, terms: Terms, solution: Solution) -> Randomness:
+    """Return what the scatter about a fitted model tells."""
+
+    def ratio(component: int) -> float:
+        without = solution.scatter.copy()
+        without[component] = LOWEST
+        return 2.0 * (regression.solve(terms, without).cost - solution.cost)
+
+    rest = regression.residuals(terms, solution)[:, :2]
+    correlation = _correlation(regression, rest)
+    nothing = (0.0, 0.0, 1.0, "both")
+    wander, share, time, what = _wander(regression, rest, solution) if correlation > WORTH_A_LOOK else nothing
+    return Randomness(ratio(0), ratio(1), ratio(2), correlation, wander, share, time, what, _together(regression, rest))
+
+
+def _together(regression: Regression, rest: Array) -> float:
+    """Return the correlation of the two forces of a slip, each less its mean over the run."""
+    pool = regression.pool
+    parts = [rest[(pool.run == r) & pool.kept] for r in range(pool.n_runs)]
+    first, second = np.concatenate([p - p.mean(axis=0) for p in parts if len(p)]).T
+    return float(first @ second / max(np.sqrt((first @ first) * (second @ second)), 1.0e-30))
+
+
+def _correlation(regression: Regression, rest: Array) -> float:
+    pool = regression.pool
+    total, weight = 0.0, 0
+    for r in range(pool.n_runs):
+        mine = rest[(pool.run == r) & pool.kept].mean(axis=1)
+        if len(mine) < 4:
+            continue
+        mine = mine - mine.mean()
+        total += len(mine) * float(mine[1:] @ mine[:-1]) / max(float(mine @ mine), 1e-30)
+        weight += len(mine)
+    return total / max(weight, 1) * np.sqrt(max(weight, 1))
+
+
+WORTH_A_LOOK = 2.0
+"""Correlation over its standard error below which no wander is looked for [-]."""
+MODES = ("both", "mu_s", "mu_k", "offset")
+"""Wander of both coefficients together, of mu_s alone, of mu_k alone, and of a force that is the same in stick and slip."""
+SHARES = (0.001, 0.003, 0.008, 0.02, 0.04, 0.08)
+"""Strengths of wander that are tried, over the mean friction, that of an offset over the force at break-away [-]."""
+TIMES = (0.7, 1.5, 3.0, 6.0, 15.0)
+"""Correlation times that are tried, in cycles [-]."""
+REMAINING = (1.0, 0.2, 0.02, 0.0)
+"""Shares of the independent scatter that may remain [-]."""
+
+
+def _wander(regression: Regression, rest: Array, solution: Solution) -> tuple[float, float, float, str]:
+    """Return (score, strength, correlation time, what wanders) of an Ornstein-Uhlenbeck process on the forces."""
+    pool = regression.pool
+    static, kinetic = np.exp(2.0 * solution.scatter[:2])
+    cycle = float(np.median([np.median(np.diff(s.onset_time)) for s in pool.slips]))
+    runs: list[tuple[Array, dict[str, Array], Array, Array]] = []
+    for r in range(pool.n_runs):
+        rows = np.flatnonzero((pool.run == r) & pool.kept)
+        if len(rows) < 4:
+            continue
+        n = len(rows)
+        covariance = pool.calibrations[r].covariance
+        measured = np.r_[np.full(n, covariance[0, 0]), np.full(n, covariance[1, 1])]
+        own = np.r_[np.full(n, static), np.full(n, kinetic)]
+        time = np.r_[pool.onset_time[rows], pool.mean_time[rows]]
+        value = np.r_[rest[rows, 0], rest[rows, 1]]
+        apart = np.abs(time[:, None] - time[None])
+        static_level, kinetic_level, none = pool.static[rows], pool.kinetic[rows], np.zeros(n)
+        levels = {
+            "both": np.r_[static_level, kinetic_level],
+            "mu_s": np.r_[static_level, none],
+            "mu_k": np.r_[none, kinetic_level],
+            "offset": np.r_[static_level, static_level],
+        }
+        runs.append((np.stack([measured, own]), {m: v[:, None] * v[None] for m, v in levels.items()}, apart, value))
+
+    def cost(remaining: float, share: float, duration: float, mode: str = "both") -> float:
+        total = 0.0
+        for diagonal, levels, apart, value in runs:
+            matrix = np.diag(diagonal[0] + remaining * diagonal[1])
+            if share > 0.0:
+                matrix = matrix + share**2 * levels[mode] * np.exp(-apart / duration)
+            factor = np.linalg.cholesky(matrix)
+            white = np.linalg.solve(factor, value)
+            total += 0.5 * float(white @ white) + float(np.log(np.diag(factor)).sum())
+        return total
+
+    plain = min(cost(a, 0.0, 1.0) for a in (1.3, 1.0, 0.7))
+    best = (plain, 0.0, cycle, "both")
+    for share in SHARES:
+        for count in TIMES:
+            for remaining in REMAINING:
+                for mode in MODES:
+                    trial = cost(remaining, share, count * cycle, mode)
+                    if trial < best[0]:
+                        best = (trial, share, count * cycle, mode)
+    n = len(rest)
+    return (
+        2.0 * (plain - best[0]) - 2.0 * np.log(max(n, 2)) - 2.0 * np.log(len(SHARES) * len(TIMES) * len(MODES)),
+        best[1],
+        best[2],
+        best[3],
+    )

@@ -1,0 +1,146 @@
+"""Periodic effects: what a wave in time or along the belt would leave in the slips, looked for over a grid of frequencies.
+
+Amplitude and phase of every harmonic are each run's own, so that the columns of a wave are nonzero in one run only; the
+gain of thousands of frequencies is found from small Gram matrices, run by run.
+
+Slow waves count by how they differ from slip to slip: phases of their own must not stand in for levels that differ from
+run to run. Waves faster than the slips make these break away at their crests, all in the same phase, so that nothing
+differs: such waves count as a whole.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.stick_slip.records.pool import Pool
+from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, legendre_coefficients
+from stochfric_mb.discovery.stick_slip.screening.regression import Part, Regression, Terms
+from stochfric_mb.effects.marks import WAVE, Hypothesis, Wave
+
+HARMONICS = 3
+"""Harmonics of a wave that is no sine."""
+SLOW = 1.6
+"""Frequency over the rate of the slips up to which waves are slow [-]; harmonics are looked for in slow ones alone."""
+COARSE, FINE = 3.0, 15.0
+"""Frequencies of the grid, and about its best one, in 1/(length of the record) [-]."""
+SHARE_OF_SHAPE = 0.7
+"""Share of the score of shapes of their own for all runs that a fast wave must reach where the rates of the slips differ: that
+all are fractions of one frequency is then evidence that the score does not count [-]."""
+DIFFERENT = 1.1
+"""Ratio of rates from which on they differ [-]."""
+CHUNK = 64
+"""Frequencies that are looked at together."""
+
+
+def frequencies(pool: Pool, pace: float = 1.0) -> Array:
+    """Return the frequencies at which waves are looked for [Hz]: three waves in a typical record to one wave in a slip."""
+    fastest = 1.0 / float(np.median(pool.restick_time - pool.onset_time))
+    return np.arange(3.0 / (pace * pool.duration), max(fastest, SLOW * _slip_rate(pool)), 1.0 / (COARSE * pool.duration))
+
+
+def _slip_rate(pool: Pool) -> float:
+    return float(np.median(_slip_rates(pool)))
+
+
+def _slip_rates(pool: Pool) -> Array:
+    return np.array([1.0 / np.median(np.diff(s.onset_time)) for s in pool.slips])
+
+
+def wave_columns(pool: Pool, wave: Wave, frequency: float, harmonics: int) -> list[Array]:
+    """Return cosine and sine of every harmonic and run as regressors, each of shape (n, N_FEATURES)."""
+    slow = frequency <= SLOW * _slip_rate(pool)
+    features = _features(wave.place, wave.weight, np.array([frequency]), harmonics)[0]
+    columns: list[Array] = []
+    for run in range(pool.n_runs):
+        mine = (pool.run == run)[:, None]
+        for h in range(harmonics):
+            for part in (features[h].real, features[h].imag):
+                columns.append(mine * (part - part[mine[:, 0]].mean(axis=0) if slow else part))
+    return columns
+
+
+def _features(place: Array, weight: Array, grid: Array, harmonics: int) -> npt.NDArray[np.complex128]:
+    """Return weight exp(2 pi i h f place) as features, shape (len(grid), harmonics, n, N_FEATURES), complex."""
+    first = np.exp(2.0j * np.pi * grid[:, None, None] * place)
+    found = np.empty((len(grid), harmonics, len(place), N_FEATURES), dtype=np.complex128)
+    turned = np.ones_like(first)
+    for h in range(harmonics):
+        turned = turned * first
+        found[:, h, :, 0] = weight[:, 0] * turned[..., 0]
+        found[:, h, :, 1:] = legendre_coefficients(weight[:, 1:] * turned[..., 1:])
+    return found
+
+
+def best_wave(
+    kind: str, wave: Wave, pool: Pool, regression: Regression, terms: Terms, scatter: Array
+) -> tuple[Hypothesis, int]:
+    """Return the best wave of a kind, and how many were looked at.
+
+    Args:
+        kind: a periodic effect.
+        wave: its wave in the pool.
+        pool: the slips.
+        regression: fits to them.
+        terms: what the model holds so far.
+        scatter: logarithms of the variance components.
+    """
+    parts = regression.parts(terms, scatter)
+    cost = 2.0 * pool.n_runs * float(np.log(regression.n))
+    whole = frequencies(pool, wave.pace)
+    # a wave that all slips of a run keep to looks like a shape that they share: it must tell more with less
+    alike = [pool.column(None, None) for _ in range(pool.n_runs * N_FEATURES)]
+    for i, column in enumerate(alike):
+        column[pool.run == i // N_FEATURES, i % N_FEATURES] = 1.0
+    shaped = 2.0 * float(regression.gains(terms, scatter, [alike])[0]) - len(alike) * float(np.log(regression.n))
+    rates = _slip_rates(pool)
+    share = SHARE_OF_SHAPE if rates.max() > DIFFERENT * rates.min() else 1.0
+    limit = SLOW * _slip_rate(pool)
+    slow, fast = whole[whole <= limit], whole[whole > limit]
+    best, looked_at = (-np.inf, float(whole[0]), 1), 0
+    for harmonics, grid in ((1, slow), (HARMONICS, slow), (1, fast)):
+        if len(grid) == 0:
+            continue
+        gains = _gains(pool, wave, parts, grid, harmonics)
+        centre = float(grid[np.argmax(gains)])
+        close = centre + np.arange(-2, 3) / (FINE * pool.duration)
+        close = close[(close <= limit) == (centre <= limit)]
+        fine = _gains(pool, wave, parts, close, harmonics)
+        looked_at += len(grid)
+        score = 2.0 * float(fine.max()) - cost * harmonics
+        if grid is not fast or score > share * shaped:
+            best = max(best, (score, float(close[np.argmax(fine)]), harmonics))
+    _, frequency, harmonics = best
+    columns = wave_columns(pool, wave, frequency, harmonics)
+    return Hypothesis(kind, columns, (wave.setting(frequency), float(harmonics)), variant=WAVE), looked_at
+
+
+def _gains(pool: Pool, wave: Wave, parts: list[Part], grid: Array, harmonics: int) -> Array:
+    """Return by how much waves of the grid's frequencies lower the cost at fixed variance components, shape (len(grid),)."""
+    found = [_some(pool, wave, parts, grid[i : i + CHUNK], harmonics) for i in range(0, len(grid), CHUNK)]
+    return np.concatenate(found)
+
+
+def _some(pool: Pool, wave: Wave, parts: list[Part], grid: Array, harmonics: int) -> Array:
+    width = 2 * harmonics
+    size = width * len(parts)
+    gram = np.zeros((len(grid), size, size))
+    along = np.zeros((len(grid), size))
+    shared = np.zeros((len(grid), parts[0].basis.shape[1], size))
+    for i, part in enumerate(parts):
+        mine = pool.run == part.run
+        features = _features(wave.place[mine], wave.weight[mine], grid, harmonics)
+        if grid[0] <= SLOW * _slip_rate(pool):
+            features -= features.mean(axis=2, keepdims=True)
+        white = (features[:, :, pool.kept[mine]] @ part.inverse.T).reshape(len(grid), harmonics, -1)
+        columns = np.stack([white.real, white.imag], axis=2).reshape(len(grid), width, -1)
+        at = slice(i * width, (i + 1) * width)
+        gram[:, at, at] = columns @ columns.transpose(0, 2, 1)
+        along[:, at] = columns @ part.rest
+        shared[:, :, at] = part.basis.T @ columns.transpose(0, 2, 1)
+    scale = np.sqrt(np.maximum(np.einsum("fii->fi", gram), 1.0e-300))
+    # what of the waves the believed model cannot imitate
+    gram = (gram - shared.transpose(0, 2, 1) @ shared) / (scale[:, :, None] * scale[:, None, :]) + 1.0e-6 * np.eye(size)
+    along /= scale
+    return 0.5 * np.einsum("fi,fi->f", along, np.linalg.solve(gram, along[..., None])[..., 0])

@@ -1,0 +1,208 @@
+"""A model in the making: the believed one, its parameters corrected within their uncertainty, and the effects found so far."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from stochfric_mb.coefficients import Process
+from stochfric_mb.discovery.stick_slip.records.record import Array, Record
+from stochfric_mb.effects import Effect
+from stochfric_mb.effects.contract import PHASES
+from stochfric_mb.laws import Law
+from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.reference.augmented import AugmentedSystem, augmented_system
+
+CORRECTED = ("stiffness", "mass", "damping")
+"""Parameters of the mechanism that recalibration may correct."""
+NOT_FITTED = (
+    "reference_load", "spacing", "fraction", "size", "time", "duration", "high", "low", "static_share", "share_below",
+    "shape_exponent", "adhesion",
+)  # fmt: skip
+"""Parameters of effects that forecasts cannot fit, or that are fixed by what they mean."""
+REACH = 0.25
+"""How far a fit may move the coefficients, over mu_s [-]: further off, a forecast that never slips would look good."""
+FREED = {"second_mode": ("mass",), "nonlinear_stiffness": ("stiffness",)}
+"""Effect -> what is believed of the mechanism less firmly with it: whether the oscillator was weighed with the body, and at
+which deflection the spring was measured, nobody said."""
+MOST_FREED = 0.4
+"""How far that may be off [-]."""
+MOST_DAMPED = 0.1
+"""Damping ratio up to which a second mode is looked for [-]: one that hardly rings could stand for any shape."""
+SHORTEST_LIMIT = 1.0e-6
+"""Smallest elastic limit that a fit may reach [m]: a stiffer contact cannot be told from a rigid one and costs time."""
+TUNED, TUNING = ("frequency", "wavelength"), 0.02
+"""Parameters of effects that small changes of tell upon, and a natural step over their size [-]."""
+MOST_TUNED, FARTHEST = 2.0, 30.0
+"""Factors by which a fit may change these, and other scales of length, time and speed: beyond, simulations take forever."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Model:
+    """What is believed of the rig."""
+
+    law: Law
+    """The friction law with its mean coefficients."""
+    corrections: Mapping[str, float]
+    """Relative corrections of the mechanism's parameters [-], by name."""
+    effects: tuple[Effect, ...] = ()
+    """Effects added to it."""
+    process: Process | None = None
+    """Process of the coefficients, where the scenario declares one."""
+    own: Mapping[str, tuple[Mapping[str, float], ...]] = dataclasses.field(default_factory=dict[str, Any])
+    """Run -> values of the parameters that are its own (`Effect.own_to_run`), one mapping an effect."""
+    measured: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
+    """Parameter of an effect that neither forces nor forecasts told, and that no fit may move -> its standard deviation."""
+
+    def mechanism(self, stated: BeltBox) -> BeltBox:
+        """Return a run's mechanism with the corrections applied."""
+        return dataclasses.replace(
+            stated, **{name: getattr(stated, name) * (1.0 + value) for name, value in self.corrections.items()}
+        )
+
+    def effects_in(self, run: str) -> tuple[Effect, ...]:
+        """Return the effects with the run's own parameters."""
+        if run not in self.own:
+            return self.effects
+        return tuple(dataclasses.replace(e, **dict(v)) for e, v in zip(self.effects, self.own[run], strict=True))
+
+    def system(self, record: Record, *, seed: int = 0, sample: int = 0) -> AugmentedSystem:
+        """Return the simulator of a run; it moves as stated, not mirrored."""
+        return augmented_system(
+            self.mechanism(record.stated), self.law, self.effects_in(record.name), self.process, seed=seed, sample=sample
+        )
+
+    def with_law(self, mu_s: float, mu_k: float) -> Model:
+        """Return the model with other mean coefficients."""
+        return dataclasses.replace(self, law=dataclasses.replace(self.law, mu_s=mu_s, mu_k=min(mu_k, mu_s)))
+
+    def plus(self, *effects: Effect) -> Model:
+        """Return the model with further effects."""
+        own = {run: (*values, *({} for _ in effects)) for run, values in self.own.items()}
+        return dataclasses.replace(self, effects=(*self.effects, *effects), own=own)
+
+    @property
+    def late(self) -> float:
+        """By how much its sensor is late [s]."""
+        return float(sum(e.delay for e in self.effects if e.kind == "sensor_delay"))  # pyright: ignore[reportAttributeAccessIssue]
+
+    @property
+    def random(self) -> bool:
+        """Whether its friction is random."""
+        return self.process is not None or any(e.coefficient_process() is not None or e.kind == "impacts" for e in self.effects)
+
+
+@dataclasses.dataclass(frozen=True)
+class FreeParameter:
+    """One adjustable number of a model."""
+
+    name: str
+    """``mu_s``, ``mu_k``, a name of `CORRECTED`, or a parameter of an effect."""
+    value: float
+    """Where a fit starts."""
+    scale: float
+    """A natural step."""
+    prior: float
+    """Standard deviation of what is believed about it, inf where nothing is."""
+    low: float
+    """Smallest value allowed."""
+    high: float
+    """Largest value allowed."""
+    effect: int = -1
+    """Number of the effect it belongs to, -1 for the believed model."""
+    run: str = ""
+    """Run it belongs to, empty for all."""
+
+
+def free_parameters(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str] = ()) -> list[FreeParameter]:
+    """Return what may be adjusted in a model.
+
+    Args:
+        model: the model; its present values are the start.
+        uncertainty: relative standard deviations of what is believed about the mechanism.
+        runs: runs that have own parameters.
+    """
+    law = model.law
+    knobs = [
+        FreeParameter("mu_s", law.mu_s, 0.02 * law.mu_s, np.inf, law.mu_s * (1.0 - REACH), law.mu_s * (1.0 + REACH)),
+        FreeParameter(
+            "mu_k", law.mu_k, 0.02 * law.mu_s, np.inf, 1.0e-5, max(law.mu_k, min(law.mu_k + REACH * law.mu_s, 0.98 * law.mu_s))
+        ),
+    ]
+    for name in CORRECTED:
+        prior = uncertainty.get(name, 0.0)
+        most = 3.0 * prior
+        if any(name in FREED.get(e.kind, ()) for e in model.effects):
+            most, prior = most + MOST_FREED, math.hypot(prior, MOST_FREED / 2.0)
+        if prior > 0.0:
+            scale = uncertainty.get(name, 0.0) or 0.01
+            knobs.append(FreeParameter(name, model.corrections.get(name, 0.0), scale, prior, max(-0.95, -most), most))
+    for i, effect in enumerate(model.effects):
+        for field in dataclasses.fields(effect):
+            meta = field.metadata
+            value = getattr(effect, field.name)
+            if (
+                field.name in model.measured
+                or "choices" in meta
+                or not np.isfinite(value)
+                or (field.name in NOT_FITTED and not _shared(field.name, value))
+            ):
+                continue
+            if field.name in PHASES and field.name != "phase" and not getattr(effect, field.name.replace("phase", "amplitude")):
+                continue
+            if field.name in effect.own_to_run:
+                for run in runs:
+                    own = model.own.get(run, ({},) * len(model.effects))[i].get(field.name, value)
+                    knobs.append(FreeParameter(field.name, own, 0.3, np.inf, -np.inf, np.inf, i, run))
+            elif not (field.name in ("amplitude_2", "amplitude_3") and value == 0.0):
+                # a frequency that is off by its share of a wave in the whole record changes everything
+                scale = TUNING * value if field.name in TUNED else max(abs(value), 0.05 * meta["scale"])
+                low, high = _bounds(effect.kind, field.name, value, meta)
+                knobs.append(FreeParameter(field.name, value, scale, np.inf, low, high, i))
+    return knobs
+
+
+def _bounds(kind: str, name: str, value: float, about: Mapping[str, Any]) -> tuple[float, float]:
+    """Return the smallest and the largest value that a fit may give a parameter of an effect."""
+    inside = 1.0e-6 * about["scale"] if about["strict"] else 0.0
+    low, high = about["low"] + inside, about["high"] - inside
+    if name == "elastic_limit":
+        return about["low"] + SHORTEST_LIMIT, about["high"] - SHORTEST_LIMIT
+    if (kind, name) == ("velocity_weakening", "amplitude"):
+        return min(value, 0.0), high  # a friction that rises with the speed is viscous
+    if (kind, name) == ("second_mode", "damping_ratio"):
+        return low, max(MOST_DAMPED, value)
+    if about["strict"] and value > 0.0:
+        most = MOST_TUNED if name in TUNED else FARTHEST
+        return max(low, value / most), min(high, value * most)
+    return low, high
+
+
+def _shared(name: str, value: float) -> bool:
+    """Return whether a number that singles out a form is to be fitted: where it is neither none nor all nor the plain one."""
+    return name in ("static_share", "share_below", "shape_exponent", "adhesion") and value not in (0.0, 1.0)
+
+
+def adjusted(model: Model, knobs: Sequence[FreeParameter], values: Array) -> Model:
+    """Return the model with its knobs at ``values``, each kept within its bounds."""
+    corrections = dict(model.corrections)
+    law = {"mu_s": model.law.mu_s, "mu_k": model.law.mu_k}
+    changes: list[dict[str, float]] = [{} for _ in model.effects]
+    own = {run: tuple(dict(v) for v in values_) for run, values_ in model.own.items()}
+    for knob, raw in zip(knobs, values, strict=True):
+        value = float(min(max(raw, knob.low), knob.high))
+        if knob.effect < 0:
+            (law if knob.name in law else corrections)[knob.name] = value
+        elif knob.run:
+            own.setdefault(knob.run, tuple({} for _ in model.effects))[knob.effect][knob.name] = value
+        else:
+            changes[knob.effect][knob.name] = value
+    effects = tuple(dataclasses.replace(e, **c) for e, c in zip(model.effects, changes, strict=True))
+    law["mu_k"] = min(law["mu_k"], law["mu_s"])
+    return dataclasses.replace(
+        model, law=dataclasses.replace(model.law, **law), corrections=corrections, effects=effects, own=own
+    )

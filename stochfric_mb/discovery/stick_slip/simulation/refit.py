@@ -1,0 +1,218 @@
+"""Fits of a model's numbers to one-cycle-ahead forecasts of the runs that are there to be fitted."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.inference.least_squares import minimised
+from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, forecasts
+from stochfric_mb.discovery.stick_slip.simulation.model import FreeParameter, Model, adjusted, free_parameters
+
+MOST_WINDOWS = 16
+"""Forecasts a run that a fit uses, spread over the run."""
+UNIT = 1.0e-5
+"""Size of an error that counts fully [m]; larger ones count by their size, not its square."""
+TYPICAL = 2.0
+"""Errors up to this many units count by their square [-]."""
+CLIP = 60.0
+"""Errors beyond this many units count as this many: a missed slip says no more than that."""
+DIFFERENCE = 0.01
+"""Step of the derivatives in a fit, over a natural step of each number [-]."""
+LEAST_STEP, WIDEST = 1.0e-6, 30.0
+"""Shortest and widest step of the slopes that intervals come from, over a natural step of each number [-]."""
+ALIKE = 3.0
+"""Factor within which two slopes, or a change of the errors and one standard deviation, count as alike [-]."""
+MOST_STEPS = 10
+"""Steps that are tried for such a slope."""
+LEAST_TOLD = 1.0e-8
+"""Smallest information on a combination of numbers, over that on single ones, that is told from none [-]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Fit:
+    """A fitted model."""
+
+    model: Model
+    """The model with its numbers fitted."""
+    knobs: list[FreeParameter]
+    """What was adjusted."""
+    values: Array
+    """Fitted values, shape (len(knobs),)."""
+    deviations: Array
+    """Their standard deviations, shape (len(knobs),)."""
+    alone: Array
+    """What they would be if the others were known, shape (len(knobs),)."""
+    cost: float
+    """Robust sum of squares at the end [-]."""
+
+
+def thinned(windows: Windows, most: int) -> Windows:
+    """Return at most ``most`` windows, spread evenly."""
+    if len(windows) <= most:
+        return windows
+    return windows.part(np.unique(np.linspace(0, len(windows) - 1, most).round().astype(int)))
+
+
+def refit(
+    model: Model,
+    windows: Sequence[Windows],
+    uncertainty: Mapping[str, float],
+    *,
+    only: Sequence[str] | None = None,
+    evaluations: int = 14,
+    most: int = MOST_WINDOWS,
+) -> Fit:
+    """Return the model fitted to forecasts.
+
+    Args:
+        model: where the fit starts.
+        windows: forecasts, run by run.
+        uncertainty: relative standard deviations of what is believed.
+        only: names of the knobs, of single runs, that may move; all of them if not given.
+        evaluations: most Gauss-Newton steps.
+        most: forecasts used in each run.
+    """
+    misfit = _Misfit(model, windows, uncertainty, only, most)
+    found = minimised(
+        misfit.errors, np.zeros(len(misfit.knobs)), misfit.low, misfit.high, difference=DIFFERENCE, loss="soft_l1",
+        f_scale=TYPICAL, max_nfev=evaluations, xtol=1.0e-4, ftol=1.0e-4, x_scale="jac",
+    )  # fmt: skip
+    values = misfit.start + misfit.scale * found.x
+    spread = misfit.spread(2.0 * found.cost)
+    size = np.sqrt((found.jac**2).sum(axis=0))
+    alone = misfit.scale * np.sqrt(spread) / np.maximum(size, np.sqrt(spread) / WIDEST)
+    deviations = misfit.scale * _deviations(found.jac, spread)
+    return Fit(adjusted(model, misfit.knobs, values), misfit.knobs, values, deviations, alone, float(found.cost))
+
+
+def cost_of(model: Model, windows: Sequence[Windows], *, most: int = MOST_WINDOWS) -> float:
+    """Return the robust sum of squares that a model as it is leaves of forecasts [-]; compare with `Fit.cost`."""
+    misfit = _Misfit(model, windows, {}, (), most)
+    squares = (misfit.errors(np.zeros(0)) / TYPICAL) ** 2
+    return float(TYPICAL**2 * np.sum(np.sqrt(1.0 + squares) - 1.0))
+
+
+def with_deviations(fit: Fit, windows: Sequence[Windows], uncertainty: Mapping[str, float], *, most: int = MOST_WINDOWS) -> Fit:
+    """Return the fit with standard deviations from differences as wide as what the forecasts leave open.
+
+    A fit's own differences are small. Where errors jump as a number is changed, a slip missed or a gap's edge passed, or do
+    not change at all until it is changed by more, their slopes say nothing of how far off the number may be.
+
+    Args:
+        fit: a fit of all knobs.
+        windows: the forecasts it was made to.
+        uncertainty: relative standard deviations of what is believed.
+        most: forecasts used in each run.
+    """
+    misfit = _Misfit(fit.model, windows, uncertainty, None, most)
+    here = misfit.errors(np.zeros(len(misfit.knobs)))
+    weight = (1.0 + (here / TYPICAL) ** 2) ** -0.75  # of the loss: SciPy scales its Jacobian so
+    spread = misfit.spread(2.0 * fit.cost)
+    alone = {(k.name, k.effect, k.run): a for k, a in zip(fit.knobs, fit.alone, strict=True)}
+    slopes = np.zeros((len(here), len(misfit.knobs)))
+    for j, knob in enumerate(misfit.knobs):
+        first = alone[knob.name, knob.effect, knob.run] / knob.scale
+
+        def change(step: float, j: int = j) -> Array:
+            at = np.zeros(len(misfit.knobs))
+            at[j] = step
+            return weight * (misfit.errors(at) - here) / np.sqrt(spread)
+
+        sides = [
+            sign * _slope(lambda h, sign=sign, change=change: change(sign * h), first, min(WIDEST, sign * float(bound)))
+            for sign, bound in ((-1.0, misfit.low[j]), (1.0, misfit.high[j]))
+        ]
+        down, up = (float(np.linalg.norm(side)) for side in sides)
+        if min(down, up) == 0.0:  # a bound, or nothing to be seen there
+            slopes[:, j] = sides[0] + sides[1]
+        elif max(down, up) > ALIKE * min(down, up):
+            # a jump on one side says nothing of the other
+            slopes[:, j] = sides[0] if down < up else sides[1]
+        else:
+            slopes[:, j] = 0.5 * (sides[0] + sides[1])
+    return dataclasses.replace(fit, knobs=misfit.knobs, values=misfit.start, deviations=misfit.scale * _deviations(slopes, 1.0))
+
+
+def _slope(change: Callable[[float], Array], first: float, most: float) -> Array:
+    """Return the slope of errors, in standard deviations, over the step at which their change counts about one.
+
+    Args:
+        change: change of the errors over a step, shape (n,).
+        first: step to begin with.
+        most: widest step.
+    """
+    if most <= LEAST_STEP:
+        return np.zeros_like(change(0.0))
+    below, above = 0.0, most
+    step = float(np.clip(first, LEAST_STEP, most))
+    moved = change(step)
+    for _ in range(MOST_STEPS):
+        size = float(np.linalg.norm(moved))
+        if 1.0 / ALIKE <= size <= ALIKE or (size < 1.0 and step >= most):
+            break
+        if size < 1.0:
+            below = step
+        else:
+            above = step
+        guess = step / size if size > 0.0 else most
+        if below < guess < above or (guess >= most and above == most):
+            step = min(guess, most)
+        else:
+            step = float(np.sqrt(max(below, LEAST_STEP) * above))
+        moved = change(step)
+    # where errors jump the number can be off no farther than the step, but no nearer is it known
+    size = float(np.linalg.norm(moved))
+    return moved / (step * (size if size > ALIKE else 1.0))
+
+
+class _Misfit:
+    """What forecasts miss, over the knobs of a model in their natural steps, all 0 at the start."""
+
+    def __init__(
+        self, model: Model, windows: Sequence[Windows], uncertainty: Mapping[str, float], only: Sequence[str] | None, most: int
+    ) -> None:
+        self.model = model
+        self.windows = [thinned(w, most) for w in windows if len(w)]
+        runs = [w.record.name for w in self.windows]
+        self.knobs = [k for k in free_parameters(model, uncertainty, runs) if only is None or (k.name in only and k.run)]
+        self.start = np.array([k.value for k in self.knobs])
+        self.scale = np.array([k.scale for k in self.knobs])
+        self.low = (np.array([k.low for k in self.knobs]) - self.start) / self.scale - 1.0e-9
+        self.high = (np.array([k.high for k in self.knobs]) - self.start) / self.scale + 1.0e-9
+        self._priors = np.array([k.prior for k in self.knobs])
+        self._believed = np.array([0.0 if np.isfinite(k.prior) else k.value for k in self.knobs])
+
+    def errors(self, step: Array) -> Array:
+        """Return the errors of all forecasts, then what is believed and missed, in units of `UNIT` and of beliefs."""
+        values = self.start + self.scale * step
+        trial = adjusted(self.model, self.knobs, values)
+        parts = [
+            np.nan_to_num(np.clip((forecasts(trial, w) - w.targets) / UNIT, -CLIP, CLIP), nan=CLIP).ravel()
+            for w in self.windows
+        ]
+        # priors enter as one observation each; its weight is that of a cycle's worth of independent errors
+        return np.concatenate([*parts, 3.0 * (values - self._believed) / self._priors])
+
+    def spread(self, squares: float) -> float:
+        """Return the variance that errors count with, from their robust sum of squares."""
+        count = sum(w.targets.size for w in self.windows)
+        # the errors of one forecast hang together: a forecast counts as about six independent numbers
+        inflation = count / max(6 * sum(map(len, self.windows)), 1)
+        return max(squares / max(count, 1), 1.0e-12) * inflation
+
+
+def _deviations(slopes: Array, spread: float) -> Array:
+    """Return the standard deviations that slopes leave; a direction that they do not tell is left open, not called certain."""
+    size = np.sqrt((slopes**2).sum(axis=0))
+    told = size > 0.0
+    found = np.full(len(size), WIDEST)
+    if told.any():
+        scaled = slopes[:, told] / size[told]
+        values, vectors = np.linalg.eigh(scaled.T @ scaled)
+        variance = (vectors**2 / np.maximum(values, LEAST_TOLD)).sum(axis=1)
+        found[told] = np.sqrt(spread * variance) / size[told]
+    return found

@@ -1,0 +1,156 @@
+"""What a data set of belt-box runs tells before anything is decided: slips, calibration, regression, stick phases."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from stochfric_mb.discovery.stick_slip.records.calibration import calibrate
+from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
+from stochfric_mb.discovery.stick_slip.records.preconditions import require_driven
+from stochfric_mb.discovery.stick_slip.records.record import Record, make_record
+from stochfric_mb.discovery.stick_slip.records.sensor_range import SensorRange, sensor_range
+from stochfric_mb.discovery.stick_slip.records.slips import Slips, extract
+from stochfric_mb.discovery.stick_slip.records.stick_phases import Sticking, analyse
+from stochfric_mb.discovery.stick_slip.screening.regression import DAMPING, Regression, Solution, Terms, believed
+from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, windows_of
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.discovery.stick_slip.simulation.prior_model import prior_model
+from stochfric_mb.discovery.stick_slip.simulation.scaling import Scaling
+from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.dataset import Dataset, Run
+
+FEWEST_SLIPS = 12
+"""Slips of a run below which it says too little to be used."""
+
+FAR_DAMPED = 3.0
+"""Standard deviations from the damping of a calibration beyond which the features are calibrated again [-]."""
+RECALIBRATIONS = 2
+"""Further calibrations at most."""
+
+Progress = Callable[[str], None]
+
+
+@dataclasses.dataclass(frozen=True)
+class Channels:
+    """Which parts of the method are used; all of them, but for a study of what each is worth."""
+
+    kinematic: bool = True
+    """Whether the stick phases and the sensor are looked at by themselves first."""
+    confirmation: bool = True
+    """Whether candidates are confirmed by simulating them, and names must explain the runs."""
+
+
+EVERYTHING = Channels()
+"""The whole method."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Study:
+    """Everything measured from the fit runs, before a decision."""
+
+    dataset: Dataset
+    """The data set, in units of the rig's size."""
+    size: Scaling
+    """These units."""
+    model: Model
+    """The model as believed, with mu_s and mu_k as stated."""
+    uncertainty: Mapping[str, float]
+    """Relative standard deviations of what is believed."""
+    records: tuple[Record, ...]
+    """Fit runs, cleaned."""
+    pool: Pool
+    """Their slips."""
+    regression: Regression
+    """Fits to them."""
+    terms: Terms
+    """The believed model in the regression."""
+    solution: Solution
+    """Its fit."""
+    sticking: Sticking | None
+    """The kinematic channel."""
+    range: SensorRange
+    """The sensor's range, as far as its ends are reached."""
+    outliers: float
+    """Share of samples that were outliers [-]."""
+
+    @functools.cached_property
+    def windows(self) -> tuple[Windows, ...]:
+        """One-cycle-ahead forecasts of the fit runs."""
+        return tuple(windows_of(s) for s in self.pool.slips)
+
+
+def record_of(run: Run, dataset: Dataset) -> Record:
+    """Return a run as a record.
+
+    Raises:
+        InputError: the run has no position.
+    """
+    if "position" not in run.channels:
+        raise InputError(
+            f"run {run.name}: no column 'position'; discovery on a belt-box needs the position of the box, "
+            "such as a column 'position [m]'"
+        )
+    mechanism = run.mechanism(dataset.scenario)
+    return make_record(run.name, run.time, run.channels["position"], mechanism)
+
+
+def study(dataset: Dataset, size: Scaling, *, progress: Progress = lambda _: None) -> Study | None:
+    """Return what the fit runs of a data set in units of ``size`` tell; None where no run has slips enough to tell anything.
+
+    Raises:
+        InputError: a run without a position, or one in which friction does not drive the box along with the belt.
+    """
+    model = prior_model(dataset.scenario)
+    progress("slips")
+    records = tuple(record_of(run, dataset) for run in dataset.fit)
+    slips = [extract(r) for r in records]
+    usable = [s for s in slips if len(s) >= FEWEST_SLIPS]
+    if not usable:
+        return None
+    require_driven(usable)
+    progress("calibration")
+    pool, solution = _calibrated(usable, dataset.scenario.uncertainty)
+    return Study(
+        dataset=dataset,
+        size=size,
+        model=model,
+        uncertainty=dataset.scenario.uncertainty,
+        records=records,
+        pool=pool,
+        regression=Regression(pool),
+        terms=believed(pool, dict(dataset.scenario.uncertainty)),
+        solution=solution,
+        sticking=analyse(usable),
+        range=sensor_range(usable),
+        outliers=float(np.mean(np.concatenate([r.outlier for r in records]))),
+    )
+
+
+def _calibrated(usable: Sequence[Slips], uncertainty: Mapping[str, float]) -> tuple[Pool, Solution]:
+    """Return the slips with the bias of their features taken out, at the damping that they show, and their fit."""
+
+    def at(damping: float) -> tuple[Pool, Solution, float]:
+        pool = make_pool(usable, [calibrate(s, seed=11 + i, damping=damping) for i, s in enumerate(usable)])
+        terms, regression = believed(pool, dict(uncertainty)), Regression(pool)
+        solution = regression.fit(terms)
+        free = dataclasses.replace(terms, priors=np.r_[terms.priors[:DAMPING], np.inf, terms.priors[DAMPING + 1 :]])
+        shown = regression.solve(free, solution.scatter).coefficients[DAMPING]
+        return pool, solution, max(1.0 + float(shown), 0.0)
+
+    damping, far = 1.0, FAR_DAMPED * uncertainty.get("damping", 0.0)
+    pool, solution, shown = at(damping)
+    for _ in range(RECALIBRATIONS):
+        if abs(shown - damping) <= far:
+            break
+        damping = shown
+        pool, solution, shown = at(damping)
+    return pool, solution
+
+
+def slips_of_run(run: Run, dataset: Dataset) -> Slips:
+    """Return the slips of a run."""
+    return extract(record_of(run, dataset))

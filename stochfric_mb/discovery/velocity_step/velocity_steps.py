@@ -1,0 +1,217 @@
+"""Discovery on velocity-step tests: whether friction only knows its speed, or remembers its past.
+
+The load point's history is an input, known also where friction is held out; fits see friction of the runs to learn from only.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.driven_joint.balance.weak_form import noise_level
+from stochfric_mb.discovery.driven_joint.decision.selection import NAMED, TIE
+from stochfric_mb.discovery.driven_joint.fit.fitting import independent_count
+from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome
+from stochfric_mb.discovery.driven_joint.simulation.pictures import step_picture
+from stochfric_mb.discovery.inference.gauss_newton import least_squares
+from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
+from stochfric_mb.discovery.velocity_step.laws import Law, Track, laws
+from stochfric_mb.effects import effect_kinds, make_effect
+from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.dataset import Dataset
+from stochfric_mb.measurement.run import Run
+from stochfric_mb.measurement.smoothing import smooth
+
+Array = npt.NDArray[np.float64]
+
+HALF_WIDTH = 12
+"""Half width of the window through which the load point's speed is seen [samples]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Fitted:
+    """A law with its numbers."""
+
+    law: Law
+    """The law."""
+    values: Array
+    """Its numbers."""
+    deviations: Array
+    """Their standard deviations."""
+    rest: list[Array]
+    """What it leaves of the runs that were learned from [-]."""
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of what is left [-]."""
+        return float(np.sqrt(np.mean(np.concatenate(self.rest) ** 2)))
+
+
+def spring_slider_outcome(dataset: Dataset, tell: Callable[[str], None]) -> JointOutcome:
+    """Return the result of a dataset of velocity steps.
+
+    Raises:
+        InputError: no position of the load point, or no friction.
+    """
+    tracks = sorted((track_of(r, dataset) for r in dataset.runs), key=lambda t: float(t.run.time[0]))
+    offset = float(tracks[0].slid[0])
+    tracks = [dataclasses.replace(t, slid=t.slid - offset) for t in tracks]
+    reference = float(np.median(tracks[0].speed))
+    fits: list[Fitted] = []
+    for law in laws(reference, dataset.scenario.mechanism.stiffness, dataset.scenario.law.mu_k):
+        tell(law.kind or "constant friction")
+        fits.append(_fit(law, tracks))
+    plain = fits[0]
+    n = max(sum(independent_count(r) for r in min(fits, key=lambda f: f.rms).rest), 4.0)
+    scores = {f.law.kind: _score(plain, f, n) for f in fits[1:]}
+    best = max(fits[1:], key=lambda f: scores[f.law.kind])
+    accepted = scores[best.law.kind] > NAMED
+    result = _result(dataset, tracks, plain, best if accepted else None, fits, scores)
+    models = {"recalibrated": plain} | ({"augmented": best} if accepted else {})
+    series = {n: np.concatenate(f.law.predict(tracks, f.values)) for n, f in models.items()}
+    series = {"data": np.concatenate([t.friction for t in tracks])} | series
+    picture = step_picture(np.concatenate([t.run.time for t in tracks]), series)
+    return JointOutcome(result, _augmented(dataset, best if accepted else plain), dataset, pictures=(picture,))
+
+
+def track_of(run: Run, dataset: Dataset) -> Track:
+    """Return a run as friction against the motion of its load point.
+
+    Raises:
+        InputError: no position of the load point, or no friction.
+    """
+    if "position" not in run.channels:
+        raise InputError(
+            f"run {run.name!r} has no position of the load point; name its column with columns = {{ position = ... }}"
+        )
+    if "friction_coefficient" in run.covariates:
+        friction = run.covariates["friction_coefficient"]
+    elif "friction_force" in run.channels:
+        load = run.channels.get("normal_force", np.full(len(run.time), dataset.scenario.mechanism.normal_force))
+        friction = run.channels["friction_force"] / load
+    else:
+        raise InputError(f"run {run.name!r} has neither friction_coefficient nor friction_force; name its column with columns")
+    h = run.sample_interval
+    x = run.channels["position"]
+    padded = np.r_[2.0 * x[0] - x[HALF_WIDTH + 2 : 0 : -1], x, 2.0 * x[-1] - x[-2 : -HALF_WIDTH - 4 : -1]]
+    inside = slice(HALF_WIDTH + 2, HALF_WIDTH + 2 + len(x))
+    speed = smooth(padded, HALF_WIDTH * h, h, derivative=1)[inside]
+    least = 0.05 * float(np.median(speed))
+    return Track(run, friction, np.maximum(speed, least), x)
+
+
+def _fit(law: Law, tracks: Sequence[Track]) -> Fitted:
+    fits = [_from(law, tracks, np.array(s), 6) for s in law.starts]
+    best = min(fits, key=lambda f: f.rms)
+    return _from(law, tracks, best.values, 30)
+
+
+def _from(law: Law, tracks: Sequence[Track], start: Array, evaluations: int) -> Fitted:
+    scale = np.array(law.scales)
+    learn = [i for i, t in enumerate(tracks) if t.run.role == "fit"]
+
+    def errors(step: Array) -> Array:
+        predicted = law.predict(tracks, start + scale * step)
+        return np.concatenate([tracks[i].friction - predicted[i] for i in learn])
+
+    low = np.minimum((np.array(law.low) - start) / scale, -1.0e-9)
+    steps, jacobian = least_squares(errors, low, np.full(len(start), np.inf), evaluations=evaluations)
+    values = start + scale * steps
+    predicted = law.predict(tracks, values)
+    rest = [tracks[i].friction - predicted[i] for i in learn]
+    n, total = sum(map(len, rest)), sum(independent_count(r) for r in rest)
+    variance = float(np.mean(errors(steps) ** 2)) * n / max(total, 1.0)
+    covariance = np.linalg.pinv(jacobian.T @ jacobian, hermitian=True) * variance
+    return Fitted(law, values, np.sqrt(np.maximum(np.diag(covariance), 0.0)) * scale, rest)
+
+
+def _score(plain: Fitted, richer: Fitted, n: float) -> float:
+    p = len(richer.values) - len(plain.values)
+    return float(n * np.log((plain.rms / richer.rms) ** 2) - p * np.log(n) - 2.0 * np.log(len(richer.law.starts)))
+
+
+def _held_out(fitted: Fitted, tracks: Sequence[Track]) -> float:
+    predicted = fitted.law.predict(tracks, fitted.values)
+    rest = [t.friction - p for t, p in zip(tracks, predicted, strict=True) if t.run.role == "test"]
+    return float(np.sqrt(np.mean(np.concatenate(rest) ** 2)))
+
+
+def _result(
+    dataset: Dataset,
+    tracks: Sequence[Track],
+    plain: Fitted,
+    best: Fitted | None,
+    fits: Sequence[Fitted],
+    scores: dict[str, float],
+) -> Result:
+    test = [t.friction for t in tracks if t.run.role == "test"]
+    floor = float(np.sqrt(np.sum([noise_level(x) ** 2 * len(x) for x in test]) / sum(map(len, test))))
+    believed = float(np.sqrt(np.mean(np.concatenate([x - dataset.scenario.law.mu_k for x in test]) ** 2)))
+    after = _held_out(best or plain, tracks)
+    effects: tuple[Found, ...] = ()
+    if best is not None:
+        kind = best.law.kind
+        same = tuple(k for k, s in scores.items() if k != kind and s > scores[kind] - TIE)
+        text = (
+            f"A constant friction coefficient is off by {plain.rms:.3g} (rms), {kind} by {best.rms:.3g}, on the runs that were "
+            "learned from."
+        )
+        axis = {"frictional_lag": "distance since a change of speed", "friction_drift": "displacement"}.get(kind, "speed")
+        effects = (Found(kind, same, Where(axis, text), _numbers(best), scores[kind], float(np.exp(-0.5 * scores[kind]))),)
+    source = "high-frequency content of the friction coefficient (third differences)"
+    gap = Gap("friction_coefficient", "-", True, believed, _held_out(plain, tracks), after, floor, source)
+    return Result(
+        verdict="effect" if effects else "none",
+        effects=effects,
+        where=None,
+        ranking=tuple(sorted(scores.items(), key=lambda s: -s[1])),
+        gap=gap,
+        not_identifiable=tuple(k for k in effect_kinds() if k not in scores and k != "sensor_delay"),
+        next_experiment="Steps down as well as up, and hold tests: they tell ageing with time from slip with distance.",
+        believed=_numbers(plain),
+        notes=(
+            *gap.notes,
+            "the load point's speed is taken through a window; the machine's stiffness is fitted",
+        ),
+        details={
+            "laws": {
+                f.law.kind or "constant": {
+                    "fit": f.rms,
+                    "held_out": _held_out(f, tracks),
+                    "numbers": dict(zip(f.law.names, f.values.tolist(), strict=True)),
+                }
+                for f in fits
+            }
+        },
+    )
+
+
+def _numbers(fitted: Fitted) -> dict[str, Interval]:
+    found: dict[str, Interval] = {}
+    rows = zip(fitted.law.names, fitted.values, fitted.deviations, fitted.law.units, strict=True)
+    for name, value, deviation, unit in rows:
+        low, high = value - 1.96 * deviation, value + 1.96 * deviation
+        if name.startswith("log_"):
+            middle, least, most = (float(np.exp(min(x, 700.0))) for x in (value, low, high))
+            found[name[4:]] = Interval(middle, least, most, {"log_distance": "m", "log_stiffness": "1/m"}[name])
+        else:
+            found[name] = Interval(float(value), float(low), float(high), unit)
+    return found
+
+
+def _augmented(dataset: Dataset, fitted: Fitted) -> Any:
+    """Return the scenario with what was found: static friction is the peak that a fast step gives, mu_0 + b."""
+    scenario = dataset.scenario
+    numbers = _numbers(fitted)
+    mu = float(numbers["mu_0"].value)
+    if fitted.law.kind != "frictional_lag":
+        return dataclasses.replace(scenario, law=dataclasses.replace(scenario.law, mu_s=mu, mu_k=mu))
+    rise = max(numbers["evolution_effect"].value, 0.0)
+    law = dataclasses.replace(scenario.law, mu_s=mu + rise, mu_k=mu)
+    mechanism = dataclasses.replace(scenario.mechanism, stiffness=numbers["stiffness"].value)
+    effect = make_effect("frictional_lag", distance=numbers["distance"].value)
+    return dataclasses.replace(scenario, law=law, mechanism=mechanism, effects=(effect,))

@@ -1,0 +1,73 @@
+"""What held-out runs do not bear out is not named."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import pytest
+
+from stochfric_mb.discovery import discover
+from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip import workflow
+from stochfric_mb.discovery.stick_slip.decision.held_out_check import Comparison, without_last
+from stochfric_mb.discovery.stick_slip.decision.rounds import Named
+from stochfric_mb.effects import make_effect
+from tests.discovery.test_discover import plain
+
+BOGUS = make_effect("harmonic_force", amplitude=0.5, frequency=0.3)
+
+
+def test_an_effect_that_worsens_forecasts_of_held_out_runs_is_not_named(monkeypatch):
+    """The null case, with a force of 0.5 N put into the decision and left as it is by the refit."""
+    decide = workflow.decide
+
+    def misled(*arguments, **options):
+        decision = decide(*arguments, **options)
+        named = (Named("harmonic_force", (), 100.0, Where("time", "a force")),)
+        return dataclasses.replace(decision, verdict="effect", named=named, model=decision.model.plus(BOGUS))
+
+    def unfitted(decision, found, recalibrated):
+        return dataclasses.replace(recalibrated, model=recalibrated.model.plus(BOGUS)) if decision.named else None
+
+    monkeypatch.setattr(workflow, "decide", misled)
+    monkeypatch.setattr(workflow, "_augmented", unfitted)
+    monkeypatch.setattr(workflow, "unexplained", lambda *_: None)  # it, too, would refuse the force
+    result = discover(plain()).result
+    assert result.verdict == "none"
+    assert not result.effects
+    assert any("harmonic_force is not borne out by the held-out runs" in note for note in result.notes)
+    assert result.gap.augmented == result.gap.recalibrated  # nothing of it is left in the model
+
+
+@pytest.mark.parametrize(
+    ("comparison", "worse"),
+    [
+        (Comparison(5e-6, 5.01e-6, 1e-7, 4.9e-6), False),  # by chance
+        (Comparison(5e-6, 5.3e-6, 1e-7, 4.9e-6), True),  # three standard errors
+        (Comparison(5e-6, 9e-6, 4e-6, 4.9e-6), True),  # far off, a single forecast may be to blame
+        (Comparison(5e-6, 9e-6, 4e-6, 9e-6, most_better=True), False),  # one slip is missed, the others are better
+        (Comparison(5e-6, 9e-6, 1e-6, 9e-6, most_better=True), True),  # no chance: four standard errors
+        (Comparison(5e-6, 5.01e-6, 1e-7, 4e-6), True),  # a fifth to gain, and nothing gained
+        (Comparison(5e-6, 4.0e-6, 1e-9, 1e-6), False),
+    ],
+)
+def test_when_an_effect_makes_forecasts_worse(comparison, worse):
+    assert comparison.worse is worse
+
+
+def test_when_an_effect_makes_forecasts_better():
+    assert Comparison(5e-6, 4.7e-6, 1e-7, 4e-6).better  # three standard errors
+    assert not Comparison(5e-6, 4.9e-6, 1e-7, 4e-6).better  # by chance
+
+
+def test_the_last_of_a_kind_is_taken_out_with_its_own_numbers():
+    first, second = (
+        make_effect("backlash", gap=1e-5, position=1e-3),
+        make_effect("harmonic_force", amplitude=0.1, frequency=1.0),
+    )
+    model = workflow.Model(
+        law=None, corrections={}, effects=(first, second, first), own={"a": ({}, {"phase": 1.0}, {"x": 2.0})}
+    )
+    fewer = without_last(model, "backlash")
+    assert fewer.effects == (first, second)
+    assert fewer.own == {"a": ({}, {"phase": 1.0})}

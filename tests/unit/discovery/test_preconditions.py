@@ -1,0 +1,52 @@
+"""Runs that friction cannot be told from are refused before anything is computed."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from stochfric_mb.discovery.stick_slip.records.preconditions import FEWEST_SAMPLES, require_driven, require_usable
+from stochfric_mb.discovery.stick_slip.records.record import make_record
+from stochfric_mb.errors import InputError
+from stochfric_mb.mechanisms import BeltBox
+
+BOX = {"mass": 4.0, "damping": 0.8, "stiffness": 4.0 * (2.0 * np.pi * 5.0) ** 2, "normal_force": 13.0}
+"""Natural frequency 5 Hz."""
+
+
+def experiment(interval: float, belt: float) -> SimpleNamespace:
+    run = SimpleNamespace(name="a", sample_interval=interval, mechanism=lambda _: BeltBox(**BOX, belt_velocity=belt))
+    return SimpleNamespace(fit=(run,), test=(), scenario=None)
+
+
+def test_as_many_samples_a_period_as_are_needed_will_do():
+    require_usable(experiment(0.999 / (FEWEST_SAMPLES * 5.0), 2e-3))
+
+
+@pytest.mark.parametrize(("interval", "belt", "said"), [(0.01, 2e-3, "200 Hz"), (1e-3, 0.0, "belt_velocity is 0")])
+def test_coarse_samples_and_a_belt_at_rest_are_refused(interval, belt, said):
+    with pytest.raises(InputError, match=said):
+        require_usable(experiment(interval, belt))
+
+
+@pytest.mark.parametrize(("onset", "kinetic"), [(-8.0, -5.0), (8.0, -0.1)])
+def test_friction_against_the_belt_is_a_wrong_sign(onset, kinetic):
+    record = SimpleNamespace(name="a", mechanism=BeltBox(**BOX, belt_velocity=2e-3))
+    slips = SimpleNamespace(record=record, onset_force=np.full(20, onset), moments=np.full((20, 7), kinetic))
+    with pytest.raises(InputError, match="same positive direction"):
+        require_driven([slips])
+
+
+@pytest.mark.parametrize("rate", [200.0, 1000.0])
+def test_corners_of_the_motion_are_no_outliers_however_coarse_the_samples(rate):
+    box = BeltBox(**BOX, belt_velocity=2e-3)
+    time = np.arange(0.0, 20.0, 1.0 / rate)
+    # a stick phase of 0.9 s, and a slip of half a period back
+    phase = time % 1.0
+    position = np.where(phase < 0.9, 2e-3 * phase, 0.9e-3 * (1.0 + np.cos(np.pi * (phase - 0.9) / 0.1)))
+    noisy = position + 5e-6 * np.random.default_rng(1).standard_normal(len(time))
+    record = make_record("a", time, noisy, box)
+    assert not record.outlier.any()
+    spiked = noisy.copy()
+    spiked[1234] += 1e-4
+    assert np.flatnonzero(make_record("a", time, spiked, box).outlier).tolist() == [1234]

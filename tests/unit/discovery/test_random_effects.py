@@ -1,0 +1,149 @@
+"""What scatter is called: kicks, independent draws, a wander, or nothing that has a name."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.decision.random_effects import RandomEffects, kicks, random_effects
+from stochfric_mb.discovery.stick_slip.screening.switching import Switching
+from stochfric_mb.discovery.stick_slip.screening.variance_components import Randomness
+
+N, RUNS = 40, 2
+STATIC, KINETIC = 8.0, 5.0
+CALM = Switching(separation=3.0, changes=10.0, regular=False, jumps=0, still=1.0)
+
+
+def study(onset: np.ndarray, in_slip: np.ndarray | float = 0.0, jumps: int = 0) -> SimpleNamespace:
+    """Slips whose onset force and mean force [N] are off, with a little noise; as much of a study as chance needs."""
+    generator = np.random.default_rng(1)
+    features = np.zeros((N * RUNS, 8))
+    features[:, :2] = np.array([STATIC, KINETIC]) + 0.01 * generator.standard_normal((N * RUNS, 2))
+    features[:, 0] += onset
+    features[:, 1] += in_slip
+    times = np.tile(1.1 * np.arange(N), RUNS)
+    pool = SimpleNamespace(
+        features=features,
+        run=np.repeat(np.arange(RUNS), N),
+        n_runs=RUNS,
+        static=np.full(N * RUNS, STATIC),
+        kinetic=np.full(N * RUNS, KINETIC),
+        slips=[SimpleNamespace(onset_time=1.1 * np.arange(N))] * RUNS,
+        onset_time=times,
+        restick_time=times + 0.1,
+        normal_force=np.full(N * RUNS, 13.0),
+        per_run=lambda _: np.ones(N * RUNS),  # the belt's direction
+    )
+    solution = SimpleNamespace(coefficients=np.array([0.6, 0.4]), scatter=np.log([0.3, 0.2, 0.01]))
+    return SimpleNamespace(
+        pool=pool, solution=solution, model=SimpleNamespace(process=None), sticking=SimpleNamespace(jumps=jumps)
+    )
+
+
+def struck(count: int) -> np.ndarray:
+    return np.random.default_rng(2).choice(N * RUNS, count, replace=False)
+
+
+def test_slips_that_stand_out_by_their_own_amounts_are_kicked():
+    onset = np.zeros(N * RUNS)
+    onset[struck(12)] = -np.random.default_rng(3).uniform(0.5, 2.6, 12)
+    in_slip = np.where(onset < 0.0, -0.4, 0.0)  # blows of 0.04 N s against the belt, felt over slips of 0.1 s
+    found = kicks(study(onset, in_slip))
+    assert found is not None
+    assert found.kind == "impacts"
+    assert found.values["rate"] == pytest.approx(12 / 80 / 1.1)
+    assert found.values["mean"] == pytest.approx(-0.04, abs=3e-4)  # 0.01 N of noise in 12 forces, over 0.1 s
+    assert found.values["impulse"] == pytest.approx(1e-3, rel=0.65)  # that noise; 11 degrees of freedom, 3 deviations
+
+
+def test_kicks_from_both_sides_have_no_mean_and_some_are_not_seen():
+    onset, in_slip = np.zeros(N * RUNS), np.zeros(N * RUNS)
+    at = struck(12)
+    onset[at] = -np.random.default_rng(3).uniform(0.5, 2.6, 12)
+    in_slip[at] = 0.4 * np.resize([1.0, -1.0], 12)
+    found = kicks(study(onset, in_slip))
+    assert found is not None
+    assert found.values["mean"] == 0.0
+    assert found.values["impulse"] == pytest.approx(0.04, rel=0.05)
+    assert found.values["rate"] == pytest.approx(1.5 * 12 / 80 / 1.1)
+
+
+def test_a_box_that_slides_on_about_the_kinetic_force_is_not_kicked_anew():
+    onset = np.zeros(N * RUNS)
+    onset[struck(12)] = -np.random.default_rng(3).uniform(0.5, 2.6, 12)
+    calm = kicks(study(onset))
+    onset[20:32] = KINETIC - STATIC  # for twelve swings it only seems to stick, at the force that kinetic friction holds
+    swinging = kicks(study(onset))
+    assert calm is not None
+    assert swinging is not None
+    assert swinging.values["rate"] <= calm.values["rate"]
+
+
+def test_jumps_in_stick_count_beside_slips_that_stand_out():
+    onset = np.zeros(N * RUNS)
+    onset[struck(3)] = [-0.7, -2.0, -2.5]
+    assert kicks(study(onset)) is None
+    assert kicks(study(onset, jumps=5)) is not None
+    assert kicks(study(np.zeros(N * RUNS), jumps=20)) is None  # nothing but jumps: of what force, nobody knows
+
+
+def test_slips_that_stand_out_by_the_same_amount_are_at_a_second_level():
+    onset = np.zeros(N * RUNS)
+    onset[struck(12)] = -1.1
+    assert kicks(study(onset)) is None
+
+
+@pytest.mark.parametrize("count", [0, 3, 40])
+def test_none_single_ones_or_half_of_the_slips_are_not_kicked(count):
+    onset = np.zeros(N * RUNS)
+    onset[struck(count)] = -np.random.default_rng(3).uniform(0.5, 5.0, count)
+    assert kicks(study(onset)) is None
+
+
+def scatter(**changes: float | str) -> Randomness:
+    plain = {"static": 900.0, "kinetic": 900.0, "within": 0.0, "correlation": 0.0, "wander": 0.0, "wander_share": 0.05}
+    return Randomness(**(plain | {"wander_time": 3.0, "wander_of": "both", "together": 0.0} | changes))
+
+
+def called(levels: Switching = CALM, **changes: float) -> RandomEffects | Where | None:
+    one = study(np.zeros(N * RUNS))
+    return random_effects(one, scatter(**changes), levels, one.solution, [])
+
+
+def test_independent_scatter_is_random_coefficients():
+    found = called()
+    assert isinstance(found, RandomEffects)
+    assert found.kind == "random_coefficients"
+
+
+def test_scatter_that_stick_and_slip_share_without_memory_has_no_name():
+    found = called(together=0.85)
+    assert isinstance(found, Where)
+    assert "stick and slip alike" in found.axis
+
+
+def test_a_wander_may_share_it():
+    found = called(together=0.95, correlation=5.0, wander=80.0)
+    assert isinstance(found, RandomEffects)
+    assert found.kind == "correlated_coefficients"
+
+
+def test_switching_has_no_name_however_it_wanders():
+    levels = Switching(separation=80.0, changes=10.0, regular=False, jumps=20, still=0.7)
+    assert called(levels, correlation=5.0, wander=80.0) is levels.where
+    assert levels.where is not None
+
+
+@pytest.mark.parametrize(("noise", "verdict"), [(5.0e-6, Where), (5.0e-5, None)])
+def test_a_force_that_wanders_alike_in_stick_and_slip_is_no_coefficient_and_may_be_the_sensor(noise, verdict):
+    one = study(np.zeros(N * RUNS))
+    one.pool.slips = [SimpleNamespace(onset_time=s.onset_time, noise=SimpleNamespace(deviation=noise)) for s in one.pool.slips]
+    one.records = [SimpleNamespace(mechanism=SimpleNamespace(stiffness=4000.0))]
+    wander = scatter(correlation=5.0, wander=80.0, wander_of="offset", wander_share=0.01)  # 0.08 N, 20 um
+    found = random_effects(one, wander, CALM, one.solution, [])
+    assert found is None if verdict is None else isinstance(found, verdict)
+
+
+def test_noise_is_nothing():
+    assert called(static=4.0, kinetic=2.0) is None

@@ -1,0 +1,45 @@
+"""The rooms of discovery: small, each with a sentence at its door; and engines imported by name where that is meant alone."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+import stochfric_mb
+
+PACKAGE = Path(stochfric_mb.__file__).parent
+ROOMS = sorted(f.parent for f in (PACKAGE / "discovery").rglob("__init__.py"))
+ENGINES = {"mujoco", "exudyn", "pymunk"}
+BY_NAME = ("discovery/export.py", "discovery/driven_joint/mjcf/", "discovery/driven_joint/simulation/resimulation.py")
+"""Where discovery exports to an engine, or reads a user's own MuJoCo model."""
+ADAPTERS = ("mujoco/", "exudyn/", "pymunk/", "commands/check.py")
+
+
+@pytest.mark.parametrize("room", ROOMS, ids=lambda room: room.name)
+def test_a_room_holds_a_dozen_files_at_most_and_says_what_for(room):
+    files = [f for f in room.glob("*.py") if f.name != "__init__.py"]
+    assert len(files) <= 12
+    assert ast.get_docstring(ast.parse((room / "__init__.py").read_text(encoding="utf-8")))
+
+
+def test_no_two_modules_of_discovery_share_a_name():
+    names = [f.name for f in (PACKAGE / "discovery").rglob("*.py") if f.name != "__init__.py"]
+    assert len(names) == len(set(names))
+
+
+def imported_by_name(file: Path) -> set[str]:
+    """Modules that a file imports by a string, which import rules do not see."""
+    calls = (n for n in ast.walk(ast.parse(file.read_text(encoding="utf-8"))) if isinstance(n, ast.Call) and n.args)
+    named = (c for c in calls if ast.unparse(c.func).split(".")[-1] in ("import_module", "__import__"))
+    return {c.args[0].value for c in named if isinstance(c.args[0], ast.Constant)}
+
+
+def test_engines_are_imported_by_name_where_that_is_meant_alone():
+    found: list[str] = []
+    for file in PACKAGE.rglob("*.py"):
+        place = file.relative_to(PACKAGE).as_posix()
+        parts = {part for name in imported_by_name(file) for part in name.split(".")}
+        if parts & ENGINES and not place.startswith((*BY_NAME, *ADAPTERS)):
+            found.append(place)
+    assert found == []
+    assert imported_by_name(PACKAGE / "discovery/export.py") & ENGINES  # the search finds what is there
