@@ -61,7 +61,7 @@ def assemble(entry: RunEntry, *, rotational: bool | None) -> Run:
         MissingEngineError: a library that reads the file is not installed.
     """
     table = read_table(entry.file, skip_rows=entry.skip_rows)
-    columns, units, notes = _named(entry, table)
+    columns, units, notes = _named(entry, table, any_name=rotational is None)
     _require_keys("units", entry.units, columns, entry)
     _require_keys("sign", entry.sign, columns, entry)
     _require_keys("signed_bits", entry.signed_bits, columns, entry)
@@ -102,8 +102,11 @@ def assemble(entry: RunEntry, *, rotational: bool | None) -> Run:
     )
 
 
-def _named(entry: RunEntry, table: Table) -> tuple[dict[str, Array], dict[str, str], list[str]]:
-    """Return the columns under the names of their quantities, their units, and notes about those left out."""
+def _named(entry: RunEntry, table: Table, *, any_name: bool) -> tuple[dict[str, Array], dict[str, str], list[str]]:
+    """Return the columns under the names of their quantities, their units, and notes about those left out.
+
+    With ``any_name`` no column has to be a known quantity: an MJCF model maps its joints to columns by their names.
+    """
     sources = {quantity: _column(entry, table, quantity, column) for quantity, column in entry.columns.items()}
     taken = set(sources.values())
     notes: list[str] = []
@@ -131,7 +134,7 @@ def _named(entry: RunEntry, table: Table) -> tuple[dict[str, Array], dict[str, s
         del sources[quantity]
     if short:
         notes.append(f"columns {', '.join(map(repr, short))} are not as long as time and are left out")
-    if not any(q in KNOWN for q in sources if q != "time"):
+    if not any_name and not any(q in KNOWN for q in sources if q != "time"):
         raise InputError(
             f"{entry.file}: no column is a known quantity; its columns are {_listed(table)}: name them after "
             f"{', '.join(k for k in KNOWN if k != 'time')}, or with columns = {{ position = ... }}"

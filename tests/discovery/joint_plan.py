@@ -1,0 +1,31 @@
+"""Which driven joints a suite consists of: every form, with mechanisms and strengths that rotate with the seed."""
+
+from collections.abc import Iterable, Iterator
+
+from .joint_generator.case import Case
+from .joint_generator.forms import FORMS
+
+STRENGTHS = (1.0, 0.5)
+
+PAIRS = (
+    "viscous_friction.proportional+direction_asymmetry.coulomb_level",
+    "position_dependent_friction.wave+viscous_friction.saturating",
+    "friction_drift.warming+velocity_weakening.gaussian",
+    "load_dependence.gear+viscous_friction.proportional",
+    "position_dependent_force.cable+viscous_friction.concave",
+    "direction_asymmetry.coulomb_level+random_coefficients.per_stroke",
+    "quadratic_damping.drag+friction_drift.wear",
+)
+"""Two effects at once."""
+
+
+def cases(seeds: Iterable[int]) -> Iterator[Case]:
+    """For each seed every form and pair once, and nulls in two mechanisms."""
+    for seed in seeds:
+        for i, forms in enumerate([*FORMS, *PAIRS]):
+            parts = [FORMS[name] for name in forms.split("+")]
+            designs = [d for d in parts[0].designs if all(d in part.designs for part in parts)]
+            turns = min(2, len(designs)) if parts[0].kind == "none" else 1
+            for turn in range(turns):
+                design = designs[(seed + i + 2 * turn) % len(designs)]
+                yield Case(forms, design, STRENGTHS[(seed + i + seed // len(designs)) % 2], seed)
