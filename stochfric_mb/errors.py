@@ -9,6 +9,7 @@ import dataclasses
 import difflib
 import math
 from collections.abc import Iterable
+from typing import SupportsFloat
 
 
 class StochfricError(Exception):
@@ -60,17 +61,28 @@ def require_number(
     Raises:
         InputError: ``value`` is not a finite number within the bounds.
     """
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        try:
-            value = float(value)  # type: ignore[arg-type]  # NumPy scalars
-        except (TypeError, ValueError):
-            raise InputError(f"{name} = {value!r} is not a number; give a number in [{unit}]") from None
-    number = float(value)
+    if not isinstance(value, SupportsFloat) or type(value).__name__ in ("bool", "bool_"):
+        raise InputError(f"{name} = {value!r} is not a number; give a number in [{unit}]")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
     if not math.isfinite(number):
         raise InputError(f"{name} = {number} is not finite; give a finite number in [{unit}]")
     if number < low or number <= above or number > high or number >= below:
         raise InputError(f"{name} = {number:g} {unit} is out of range: {name} must be {_range(low, high, above, below)}")
     return number
+
+
+def require_text(name: str, value: object) -> str:
+    """Return ``value`` if it is a text.
+
+    Raises:
+        InputError: it is none.
+    """
+    if not isinstance(value, str):
+        raise InputError(f'{name} = {value!r} is not a text; write it in quotes, such as {name.rpartition(".")[2]} = "..."')
+    return value
 
 
 def require_name(what: str, name: str, known: Iterable[str]) -> str:

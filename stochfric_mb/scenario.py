@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Generic, cast
 from stochfric_mb.coefficients import DISTRIBUTIONS, PROCESSES, CoefficientPath, Distribution, OutputStep, Process
 from stochfric_mb.effects import Effect, effect_from_dict
 from stochfric_mb.effects.combine import combined_process, with_compliance
-from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_name, require_number
+from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_name, require_number, require_text
 from stochfric_mb.laws import Law, law_class, make_law
 from stochfric_mb.mechanisms import MECHANISMS, BeltBox, Controller, Mechanism, Mjcf, controller_from_dict
 
@@ -27,6 +27,12 @@ else:
     M = TypeVar("M")
 
 SCHEMA = "stochfric.scenario/1"
+MOST_OUTPUTS = 1.0e8
+"""Most output samples of a simulation [-]: eight columns of them take 6 GiB."""
+MOST_STEPS = 1.0e11
+"""Most steps of an engine [-]: they take more than a day at 1 us a step, which no engine beats."""
+MOST_PERIODS = 1.0e10
+"""Most natural periods [-]: with ten steps each they are as long."""
 _TABLES = (
     "schema", "title", "mechanism", "controller", "law", "coefficients", "effects", "uncertainty", "simulation",
 )  # fmt: skip
@@ -59,8 +65,14 @@ class Scenario(Generic[M]):
         require_number("simulation.duration", self.duration, above=0.0, unit="s")
         require_number("simulation.output_step", self.output_step, above=0.0, unit="s")
         combined_process(self.effects, self.process)
+        _require_few_periods(self.duration, self.mechanism)
         _require_measured(self.effects, self.mechanism)
         n = self.duration / self.output_step
+        if n > MOST_OUTPUTS:
+            raise InputError(
+                f"simulation.duration = {self.duration:g} s holds {n:.3g} samples of output_step = {self.output_step:g} s, "
+                f"over {MOST_OUTPUTS:g}, which need {8 * 8 * n / 2**30:.3g} GiB; shorten the duration, or raise output_step"
+            )
         if abs(n - round(n)) > 1.0e-6 * n or round(n) < 1:
             raise InputError(
                 f"simulation.output_step = {self.output_step:g} s does not divide duration = {self.duration:g} s; "
@@ -104,13 +116,18 @@ class Scenario(Generic[M]):
             InputError: it is not positive or does not divide the output step.
         """
         if dt is None:
-            return self.default_dt()
+            dt = self.default_dt()
         require_number("dt", dt, above=0.0, unit="s")
         limit = self.step_limit()
         if dt > limit:
             raise StabilityError(
                 f"dt = {dt:g} s is beyond the stability limit {limit:.3g} s of the law {self.law.kind!r} "
                 f"({self.law.step_limit_formula}); use dt <= {fitting_step(0.5 * limit, self.output_step):.3g} s"
+            )
+        if self.duration / dt > MOST_STEPS:
+            raise InputError(
+                f"simulation.duration = {self.duration:g} s is {self.duration / dt:.3g} steps of dt = {dt:g} s, which take "
+                "more than a day in any engine; shorten the duration"
             )
         n = self.output_step / dt
         if n < 0.5 or abs(n - round(n)) > 1.0e-6 * n:
@@ -239,7 +256,7 @@ def any_scenario_from_dict(tables: Mapping[str, Any], *, folder: Path = Path()) 
         require_name("key simulation.", key, ("duration", "output_step"))
     numbers = {k: require_number(f"simulation.{k}", _need(simulation, "simulation", k)) for k in ("duration", "output_step")}
     return Scenario(
-        title=str(tables.get("title", "")),
+        title=require_text("title", tables.get("title", "")),
         mechanism=_mechanism(_table(tables, "mechanism"), folder),
         law=law_from_dict(_table(tables, "law")),
         process=process_from_dict(_table(tables, "coefficients"), numbers["output_step"], folder)
@@ -247,7 +264,7 @@ def any_scenario_from_dict(tables: Mapping[str, Any], *, folder: Path = Path()) 
         else None,
         effects=_effects(tables.get("effects", [])),
         controller=controller_from_dict(_table(tables, "controller")) if "controller" in tables else None,
-        uncertainty=_uncertainty(tables.get("uncertainty", {})),
+        uncertainty=_uncertainty(tables),
         **numbers,
     )
 
@@ -294,8 +311,8 @@ def _override(tables: dict[str, Any], setting: str) -> None:
 def _table(tables: Mapping[str, Any], name: str) -> Mapping[str, Any]:
     table = tables.get(name)
     if not isinstance(table, Mapping):
-        needed = "a scenario needs the tables [mechanism], [law] and [simulation]"
-        raise InputError(f"{name} = {table!r}: {needed}; write [{name}]")
+        needed = "" if name in tables else " (a scenario needs the tables [mechanism], [law] and [simulation])"
+        raise InputError(f"{name} = {table!r} is not a table; write [{name}]{needed}")
     return cast(Mapping[str, Any], table)
 
 
@@ -314,6 +331,18 @@ def _require_measured(effects: Sequence[Effect], mechanism: Any) -> None:
                     f"effect {effect.kind!r} reads a measured {effect.reads[0]}, which a simulated {mechanism.kind} does not "
                     "have; leave it out, or let friction change with time: friction_drift"
                 )
+
+
+def _require_few_periods(duration: float, mechanism: Any) -> None:
+    """Return if simulating a belt-box for ``duration`` [s] takes less than a day, whatever the engine."""
+    if not isinstance(mechanism, BeltBox):
+        return
+    periods = duration * math.sqrt(mechanism.stiffness / mechanism.mass) / math.tau
+    if periods > MOST_PERIODS:
+        raise InputError(
+            f"simulation.duration = {duration:g} s holds {periods:.3g} natural periods of the box, which take more than a day "
+            "in any engine; shorten the duration, or correct mass and stiffness"
+        )
 
 
 def _effects(tables: Any) -> tuple[Effect, ...]:
@@ -420,5 +449,6 @@ def _read_column(path: Path, column: Any) -> tuple[float, ...]:
     return tuple(values)
 
 
-def _uncertainty(table: Mapping[str, Any]) -> dict[str, float]:
+def _uncertainty(tables: Mapping[str, Any]) -> dict[str, float]:
+    table: Mapping[str, Any] = _table(tables, "uncertainty") if "uncertainty" in tables else {}
     return {str(k): require_number(f"uncertainty.{k}", v, low=0.0) for k, v in table.items()}

@@ -67,6 +67,7 @@ def assemble(entry: RunEntry, *, rotational: bool | None) -> Run:
     _require_keys("signed_bits", entry.signed_bits, columns, entry)
     for name, bits in entry.signed_bits.items():  # before interpolation, which would mix the two ends of the range
         columns[name] = np.where(columns[name] >= 2.0 ** (bits - 1), columns[name] - 2.0**bits, columns[name])
+    file_units = {name: unit for name, unit in units.items() if name in KNOWN}
     columns, units = _in_si(entry, columns, units, rotational=rotational)
     time = columns.pop("time")
     rows = np.arange(1, time.size + 1, dtype=np.int64) + entry.skip_rows if table.rows is None else table.rows
@@ -95,6 +96,7 @@ def assemble(entry: RunEntry, *, rotational: bool | None) -> Run:
         settings=dict(entry.settings),
         covariates=covariates,
         units={k: units.get(k, "") for k in (*channels, *covariates)},
+        file_units=file_units,
         constants=dict(table.constants),
         sample_interval=grid.interval,
         source=str(entry.file),

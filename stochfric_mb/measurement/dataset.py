@@ -14,6 +14,7 @@ from stochfric_mb.measurement.entries import SCHEMA, run_entries
 from stochfric_mb.measurement.run import Run, apply_settings
 from stochfric_mb.measurement.sampling import MIN_SAMPLES
 from stochfric_mb.measurement.signs import run_sign_error
+from stochfric_mb.measurement.wrong_units import require_plausible
 from stochfric_mb.scenario import Scenario, bundled_scenarios, load_any_scenario
 
 FILE = "dataset.toml"
@@ -80,7 +81,8 @@ def _described(path: Path, scenario: str | Path | Scenario[Any] | None) -> Datas
         raise InputError(f"{path}: {error}") from None
     for entry in entries:
         apply_settings(model, entry.settings, f"{path}: run {entry.name!r}")
-    runs = tuple(_with_sign_note(assemble(entry, rotational=rotates(model)), model) for entry in entries)
+    stated_in = "the scenario" if source is None else str(source)
+    runs = tuple(_checked(assemble(entry, rotational=rotates(model)), model, stated_in) for entry in entries)
     dataset = Dataset(title=str(tables.get("title", "")), scenario_path=source, scenario=model, runs=runs)
     _require_roles(path, dataset)
     return dataset
@@ -91,7 +93,11 @@ def _alone(path: Path, scenario: str | Path | Scenario[Any] | None) -> Dataset:
     if scenario is None:
         raise InputError(f"{path}: a measured file alone says nothing about the rig; give --scenario SCENARIO")
     model, source = _scenario(scenario)
-    whole = _with_sign_note(assemble(RunEntry(file=path, name=path.stem), rotational=rotates(model)), model)
+    whole = _checked(
+        assemble(RunEntry(file=path, name=path.stem), rotational=rotates(model)),
+        model,
+        "the scenario" if source is None else str(source),
+    )
     start, end = float(whole.time[0]), float(whole.time[-1])
     cut = end - HELD_OUT * (end - start)
     first = whole.between(start, cut, name=f"{path.stem} (first two thirds)", role="fit")
@@ -109,8 +115,9 @@ def rotates(scenario: Scenario[Any]) -> bool | None:
     return getattr(scenario.mechanism, "rotational", False)
 
 
-def _with_sign_note(run: Run, scenario: Scenario[Any]) -> Run:
-    """Return the run, with a note if its friction force seems to have the wrong sign."""
+def _checked(run: Run, scenario: Scenario[Any], stated_in: str) -> Run:
+    """Return the run once it is plausible, with a note if its friction force seems to have the wrong sign."""
+    require_plausible(run, scenario, stated_in)
     found = run_sign_error(run, scenario)
     return run if found is None else dataclasses.replace(run, notes=(*run.notes, str(found)))
 

@@ -36,6 +36,8 @@ class Run:
     """Columns of other names: name -> float64[n] in the file's own units."""
     units: Mapping[str, str] = dataclasses.field(default_factory=dict[str, str])
     """Unit of each channel and covariate; empty: the file does not say it."""
+    file_units: Mapping[str, str] = dataclasses.field(default_factory=dict[str, str])
+    """Unit of time and of each channel as its file (or the dataset) says it."""
     constants: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Single numbers that the file holds beside its columns, in its own units."""
     sample_interval: float

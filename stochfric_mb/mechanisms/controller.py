@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, cast
 
-from stochfric_mb.errors import InputError, require_name, require_number
+from stochfric_mb.errors import InputError, require_name, require_number, require_text
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -111,7 +111,7 @@ def _cascade(table: Mapping[str, Any]) -> Cascade:
     fields = [f.name for f in dataclasses.fields(Cascade)]
     _require_keys(table, "controller.", [*fields, "kind"], fields)
     numbers = {k: require_number(f"controller.{k}", table[k]) for k in fields if k != "reference"}
-    return Cascade(reference=str(table["reference"]), **numbers)
+    return Cascade(reference=require_text("controller.reference", table["reference"]), **numbers)
 
 
 def _joints(table: Mapping[str, Any]) -> ProportionalDerivative:
@@ -127,7 +127,7 @@ def _joints(table: Mapping[str, Any]) -> ProportionalDerivative:
         entry = cast(Mapping[str, Any], loop)
         fields = [f.name for f in dataclasses.fields(JointLoop)]
         _require_keys(entry, where, fields, ["position_gain", "reference"])
-        words = {k: str(entry[k]) for k in ("reference", "factor") if k in entry}
+        words = {k: require_text(where + k, entry[k]) for k in ("reference", "factor") if k in entry}
         numbers = {k: require_number(where + k, v) for k, v in entry.items() if k not in ("reference", "factor")}
         found[str(joint)] = JointLoop(**words, **numbers)  # type: ignore[arg-type]
     return ProportionalDerivative(joints=found, period=require_number("controller.period", table.get("period", 0.0)))

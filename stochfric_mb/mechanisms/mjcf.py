@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar
 
-from stochfric_mb.errors import InputError, require_name, require_number
+from stochfric_mb.errors import InputError, require_name, require_number, require_text
 from stochfric_mb.mechanisms.mjcf_parts import (
     Drive,
     Pair,
@@ -102,7 +102,7 @@ class Mjcf:
             if key not in table:
                 raise InputError(f"key mechanism.{key} is missing; add it to [mechanism]")
         return cls(
-            file=(folder / str(table["file"])).resolve(),
+            file=(folder / require_text("mechanism.file", table["file"])).resolve(),
             friction=numbers_of(table, "friction"),
             positions=positions_from(table),
             drives={k: drive_from(k, v) for k, v in table_of(table, "drives").items()},

@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any, cast
 
-from stochfric_mb.errors import InputError, require_name, require_number
+from stochfric_mb.errors import InputError, require_name, require_number, require_text
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -72,7 +72,7 @@ def names_of(table: Mapping[str, Any], key: str) -> tuple[str, ...]:
     value = table.get(key, [])
     if not isinstance(value, list):
         raise InputError(f'mechanism.{key} = {value!r} is not a list of names; write {key} = ["cable"]')
-    return tuple(str(name) for name in cast(list[Any], value))
+    return tuple(require_text(f"mechanism.{key}", name) for name in cast(list[Any], value))
 
 
 def numbers_of(table: Mapping[str, Any], key: str) -> dict[str, float]:
@@ -91,6 +91,6 @@ def drive_from(joint: str, value: Any) -> Drive:
     for key in table:
         require_name(f"key mechanism.drives.{joint}.", key, ("columns", "gain"))
     return Drive(
-        columns=tuple(str(c) for c in cast(list[Any], columns)),
+        columns=tuple(require_text(f"mechanism.drives.{joint}.columns", c) for c in cast(list[Any], columns)),
         gain=require_number(f"mechanism.drives.{joint}.gain", table.get("gain", 1.0)),
     )

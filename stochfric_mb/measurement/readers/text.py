@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import io
+import re
 from collections import Counter
+from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +24,8 @@ DIALECTS: tuple[Dialect, ...] = ((",", "."), (";", "."), (";", ","), ("\t", ".")
 COMMENT = "#"
 MISSING = ("", "nan", "na", "n/a", "null", "none", "-")
 """Fields that stand for a missing value."""
+_DATE = re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d")
+"""How a date in ISO 8601 begins."""
 _LOOK = 40
 """Lines that decide the dialect."""
 _ALIKE = 0.8
@@ -31,13 +35,16 @@ _ALIKE = 0.8
 def read(path: Path, *, skip_rows: int = 0) -> Table:
     """Return the numeric columns of a text file.
 
-    Lines that begin with ``#`` are left out; the last of them is the header if it has as many names as there are columns
-    and no other line is one. A line of words under the header holds the units. Columns without any number are left out.
+    Dates in ISO 8601 become seconds since the first one. Lines that begin with ``#`` are left out; the last of them is the
+    header if it has as many names as there are columns and no other line is one. A line of words under the header holds the
+    units. Columns without any number are left out.
 
     Raises:
         InputError: no table of numbers can be seen in it, or a row is broken; names the line.
     """
     lines = _text(path).splitlines()
+    if not any(map(str.strip, lines)):
+        raise InputError(f"{path}: the file is empty; record again, or leave the run out")
     kept = [(number, line) for number, line in enumerate(lines, start=1) if number > skip_rows and line.strip()]
     comments = [line.lstrip().lstrip(COMMENT) for _, line in kept if line.lstrip().startswith(COMMENT)]
     rows = [(number, line) for number, line in kept if not line.lstrip().startswith(COMMENT)]
@@ -63,6 +70,8 @@ def read(path: Path, *, skip_rows: int = 0) -> Table:
         )
     values = _values(path, body, width, dialect)
     names, units = _names(path, header, width)
+    dated = _dated(body[0][1], dialect)
+    units = units | {names[i]: "s" for i in dated}
     if has_units:
         units = {name: text.strip("[]()") for name, text in zip(names, second, strict=True)} | units
     filled = [i for i in range(width) if np.isfinite(values[:, i]).any() or names[i] in units]
@@ -108,6 +117,11 @@ def _dialect(path: Path, lines: list[str]) -> Dialect:
     return best[1]
 
 
+def _dated(line: str, dialect: Dialect) -> list[int]:
+    """Return the columns that hold dates."""
+    return [i for i, field in enumerate(_fields(line, dialect)) if _DATE.match(field)]
+
+
 def _usual_width(lines: list[str], dialect: Dialect) -> int:
     """Return the number of columns that most lines have."""
     return Counter(len(_fields(line, dialect)) for line in lines).most_common(1)[0][0]
@@ -126,9 +140,15 @@ def _number(field: str, dialect: Dialect) -> float | None:
             return None
         field = field.replace(",", ".")
     try:
-        return float(field)
+        return _seconds(field) if _DATE.match(field) else float(field)
     except ValueError:
         return None
+
+
+def _seconds(date: str) -> float:
+    """Return the time of a date since 1970 [s], of UTC where it names no zone."""
+    when = datetime.fromisoformat(date)
+    return when.replace(tzinfo=when.tzinfo or UTC).timestamp()
 
 
 def _commented_header(comments: list[str], width: int, dialect: Dialect) -> list[str]:
@@ -177,6 +197,8 @@ def _slow_values(path: Path, body: list[tuple[int, str]], width: int, dialect: D
                 values[i, j] = found
             elif field.lower() not in MISSING:
                 words.setdefault(j, (number, field))
+    for j in _dated(body[0][1], dialect):
+        values[:, j] -= values[0, j]
     for j, (number, field) in words.items():
         if np.isfinite(values[:, j]).any():
             raise InputError(f"{path}, line {number}, column {j + 1}: {field!r} is not a number; remove or mend the line")

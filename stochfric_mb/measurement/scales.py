@@ -1,0 +1,164 @@
+"""Wrong units of a belt rig: what the record shows of lengths and times must fit the stated mass, spring and belt.
+
+A box that sticks moves at the belt's speed; it slips for about half a natural period; it moves by about the deflection
+that friction can hold. One wrong unit puts these three off by powers of one factor, which says whose unit it is.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.mechanisms import BeltBox
+
+if TYPE_CHECKING:
+    from stochfric_mb.measurement.run import Run
+
+Array = npt.NDArray[np.float64]
+
+STUCK_SHARE = 0.2
+"""Share of the record that must move at one speed for this to be the speed of stick."""
+STUCK_SPREAD = 0.1
+"""Width of the speeds of that share over their middle [-]: the extremes of a sine hold their fifth in 0.19."""
+SPEED_FITS = math.log10(1.6)
+"""Largest |log10| of stuck speed over belt speed: belts run off their stated speed by some per cent, units by 10 or more."""
+TIME_FITS = (math.log10(0.3), math.log10(5.0))
+"""Range of log10 of the time in slip over half a natural period: 1 to 2 by theory, more for lag and weak springs."""
+LENGTH_FITS = (-2.0, 1.0)
+"""Range of log10 of the range of positions over mu_s N/k: slips are short where mu_k is near mu_s, drifts lengthen it."""
+LAGS = 8
+"""Distances over which slopes are taken: powers of 2 [samples]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Shown:
+    """What the record shows over what the model states, as log10."""
+
+    speed: float
+    """Stuck speed over belt speed."""
+    length: float
+    """Range of positions over mu_s N/k."""
+    time: float | None
+    """Time in slip over half a natural period; None: no slip was seen."""
+
+    def fits(self, cause: Cause | None = None) -> bool:
+        """Return whether the record fits the model, once the unit of ``cause`` is corrected."""
+        speed, length, time = self.speed, self.length, self.time
+        if cause is not None:
+            size = math.log10(cause.factor)
+            speed -= cause.speed * size
+            length -= cause.length * size
+            time = None if time is None else time - cause.time * size
+        return (
+            abs(speed) <= SPEED_FITS
+            and LENGTH_FITS[0] <= length <= LENGTH_FITS[1]
+            and (time is None or TIME_FITS[0] <= time <= TIME_FITS[1])
+        )
+
+
+@dataclasses.dataclass(frozen=True)
+class Cause:
+    """One number or column that is ``factor`` times too large, and the powers of the factor that it leaves."""
+
+    name: str
+    """Channel, or key of ``[mechanism]``."""
+    factor: float
+    """Value over true value [-]."""
+    speed: float
+    """Power in stuck speed over belt speed."""
+    length: float
+    """Power in range over mu_s N/k."""
+    time: float
+    """Power in time in slip over half a natural period."""
+
+
+POWERS: dict[str, tuple[float, float, float]] = {
+    "position": (1.0, 1.0, 0.0),
+    "time": (-1.0, 0.0, 1.0),
+    "belt_velocity": (-1.0, 0.0, 0.0),
+    "stiffness": (0.0, 1.0, 0.5),
+    "mass": (0.0, 0.0, -0.5),
+    "normal_force": (0.0, -1.0, 0.0),
+}
+"""What may have a wrong unit -> powers of its factor in the three ratios: speed, length, time."""
+FACTORS: dict[str, tuple[float, ...]] = {
+    "position": (1e3, 1e-3, 1e6, 1e-6, 1e2, 1e-2, 10.0, 0.1, 1.0 / 0.0254, 0.0254, 25.4, 1.0 / 25.4),
+    "time": (1e3, 1e-3, 1e6, 1e-6, 60.0, 1.0 / 60.0),
+    "belt_velocity": (1e3, 1e-3, 1e6, 1e-6, 1e2, 1e-2, 6e4, 60.0, 1.0 / 60.0),
+    "stiffness": (1e3, 1e-3, 1e6, 1e-6),
+    "mass": (1e3, 1e-3),
+    "normal_force": (1e3, 1e-3),
+}
+"""What may have a wrong unit -> factors between the units in use."""
+
+
+def shown(run: Run, box: BeltBox, mu_s: float) -> Shown | None:
+    """Return what a record shows over what is stated; None where the box cannot be seen to stick on a belt that runs."""
+    position = run.channels.get("position")
+    belt = belt_speed(run, box)
+    if position is None or belt == 0.0:
+        return None
+    stick = stuck_speed(position, run.sample_interval)
+    if stick is None:
+        return None
+    speed, lag = stick
+    low, high = np.quantile(position, (0.005, 0.995))
+    hold = mu_s * box.normal_force / box.stiffness
+    if not (high > low and speed and hold > 0.0):
+        return None
+    slip = slip_time(position, run.sample_interval, speed, lag)
+    half = math.pi * math.sqrt(box.mass / box.stiffness)
+    return Shown(
+        math.log10(abs(speed) / belt), math.log10((high - low) / hold), None if slip is None else math.log10(slip / half)
+    )
+
+
+def belt_speed(run: Run, box: BeltBox) -> float:
+    """Return the belt's speed, as measured or as stated [m/s]; 0: it rests."""
+    measured = run.channels.get("belt_velocity")
+    return abs(box.belt_velocity) if measured is None else abs(float(np.median(measured)))
+
+
+def stuck_speed(position: Array, interval: float) -> tuple[float, int] | None:
+    """Return the speed at which a record moves most of the time [units of position/s], and the lag that shows it [samples].
+
+    Slopes are taken over several distances, because noise blurs short ones and slips long ones: the shortest distance at
+    which a share of `STUCK_SHARE` lies within `STUCK_SPREAD` of one speed decides. None: there is no such speed.
+    """
+    for lag in (2**i for i in range(LAGS)):
+        if 20 * lag > position.size:
+            break
+        slopes = np.sort((position[lag:] - position[:-lag]) / (lag * interval))
+        count = max(int(STUCK_SHARE * slopes.size), 2)
+        widths = slopes[count - 1 :] - slopes[: slopes.size - count + 1]
+        first = int(np.argmin(widths))
+        middle = float(np.median(slopes[first : first + count]))
+        if widths[first] < STUCK_SPREAD * abs(middle):
+            return middle, lag
+    return None
+
+
+def slip_time(position: Array, interval: float, speed: float, lag: int) -> float | None:
+    """Return the median time for which a record leaves the stuck speed for good [s]; None if it never turns back."""
+    slopes = (position[lag:] - position[:-lag]) / (lag * interval)
+    slips = np.concatenate(([False], slopes / speed < 0.0, [False]))
+    edges = np.flatnonzero(np.diff(slips.astype(np.int8)))
+    lengths = edges[1::2] - edges[::2]
+    lengths = lengths[lengths > 0.2 * lengths.max(initial=0)]  # noise turns single samples back
+    return max(float(np.median(lengths)) - lag, 1.0) * interval if lengths.size else None  # windows lengthen slips
+
+
+def likeliest(seen: Shown) -> Cause | None:
+    """Return the one wrong unit that explains best what a record shows; None if it fits, or no single unit explains it."""
+    if seen.fits():
+        return None
+    known = [Cause(name, factor, *POWERS[name]) for name, factors in FACTORS.items() for factor in factors]
+    return min(
+        (cause for cause in known if seen.fits(cause)),
+        key=lambda cause: abs(seen.speed - cause.speed * math.log10(cause.factor)),
+        default=None,
+    )

@@ -1,0 +1,136 @@
+"""Refusal of records that cannot be right: dead channels, velocities that are not those of the positions, wrong units."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.run import Run
+from stochfric_mb.measurement.scales import Array, Cause, Shown, likeliest, shown
+from stochfric_mb.measurement.smoothing import smooth
+from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.scenario import Scenario
+
+CHANNEL_UNITS: dict[str, dict[str, float]] = {
+    "position": {"m": 1.0, "mm": 1e-3, "um": 1e-6, "cm": 1e-2, "in": 0.0254},
+    "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0},
+    "belt_velocity": {"m/s": 1.0, "mm/s": 1e-3, "um/s": 1e-6, "cm/s": 1e-2, "mm/min": 1e-3 / 60.0},
+}
+"""Channel -> units in which it may really be, with their size in SI units."""
+STATED_UNITS: dict[str, dict[str, float]] = {
+    "belt_velocity": CHANNEL_UNITS["belt_velocity"],
+    "stiffness": {"N/m": 1.0, "N/mm": 1e3, "N/um": 1e6},
+    "mass": {"kg": 1.0, "g": 1e-3, "t": 1e3},
+    "normal_force": {"N": 1.0, "kN": 1e3, "mN": 1e-3},
+}
+"""Key of ``[mechanism]`` -> units in which it may have been written, its SI unit first."""
+ALIKE = 0.9
+"""Correlation of a measured velocity with the rate of the position from which the two are of one motion [-]."""
+RATE_FITS = 5.0
+"""Largest factor between them: filters and lag cost less, the nearest wrong unit is off by 6 (rpm for rad/s: 9.5)."""
+HALF_WIDTH = 8
+"""Half the length of the window through which a velocity is taken from a position [samples]."""
+
+
+def require_plausible(run: Run, scenario: Scenario[Any], stated_in: str) -> None:
+    """Return if nothing in a record contradicts what is physical.
+
+    Args:
+        run: the record, in SI units.
+        scenario: the model stated.
+        stated_in: where the model is stated, for messages.
+
+    Raises:
+        InputError: a dead channel, a velocity that is not the rate of the position, or a wrong unit; names file, column,
+            factor and remedy.
+    """
+    _require_alive(run)
+    _require_rate(run)
+    mechanism = run.mechanism(scenario)
+    if isinstance(mechanism, BeltBox) and (seen := shown(run, mechanism, scenario.law.mu_s)) is not None:
+        cause = likeliest(seen)
+        if cause is not None:
+            raise InputError(_wrong_unit(run, mechanism, seen, cause, stated_in))
+
+
+def _require_alive(run: Run) -> None:
+    """Require that position and velocity change; a velocity may be constant where the position agrees."""
+    position, velocity = run.channels.get("position"), run.channels.get("velocity")
+    if position is not None and np.ptp(position) == 0.0:
+        raise InputError(_dead(run, "position", position, "the run"))
+    if velocity is not None and np.ptp(velocity) == 0.0 and not _moves_at(position, float(velocity[0]), run.sample_interval):
+        raise InputError(_dead(run, "velocity", velocity, "the column"))
+
+
+def _dead(run: Run, name: str, values: Array, what: str) -> str:
+    return (
+        f"{run.source}: {name} is {values[0]:g} {run.units.get(name, '')} in all {values.size} samples: a dead channel, or a "
+        f"rig at rest; repair the channel, or leave {what} out"
+    )
+
+
+def _moves_at(position: Array | None, speed: float, interval: float) -> bool:
+    """Return whether a position, if there is one, moves at a constant speed [m/s] that is not 0."""
+    if speed == 0.0 or position is None:
+        return speed != 0.0
+    travel = speed * (position.size - 1) * interval
+    return bool(abs(position[-1] - position[0] - travel) <= 0.1 * abs(travel))
+
+
+def _require_rate(run: Run) -> None:
+    """Require that a measured velocity is of the size of the rate at which the position changes."""
+    position, velocity = run.channels.get("position"), run.channels.get("velocity")
+    if position is None or velocity is None or position.size < 4 * HALF_WIDTH:
+        return
+    inside = slice(HALF_WIDTH + 1, -HALF_WIDTH - 1)
+    h = run.sample_interval
+    rate, speed = smooth(position, HALF_WIDTH * h, h, derivative=1)[inside], velocity[inside]
+    if not (rate.std() > 0.0 and speed.std() > 0.0) or abs(float(np.corrcoef(rate, speed)[0, 1])) < ALIKE:
+        return
+    factor = float(speed.std() / rate.std())
+    if not 1.0 / RATE_FITS <= factor <= RATE_FITS:
+        raise InputError(
+            f"{run.source}: velocity is {_times(factor)} the rate at which position changes: one of the two columns has a "
+            "wrong unit; correct its header, or give units = { velocity = ... } or { position = ... }"
+        )
+
+
+def _wrong_unit(run: Run, box: BeltBox, seen: Shown, cause: Cause, stated_in: str) -> str:
+    """Return where a wrong unit is, what shows it, and what to write."""
+    measured = cause.name in ("position", "time") or cause.name in run.channels
+    if measured:
+        label = run.file_units.get(cause.name, "")
+        sizes = CHANNEL_UNITS[cause.name]
+        really = _unit_of(sizes, sizes.get(label, 1.0) / cause.factor)
+        remedy = f"write its header as '{cause.name} [{really}]', or give units = {{ {cause.name} = \"{really}\" }}"
+        place = f"{run.source}: column {cause.name} [{label}]"
+    else:
+        value = float(getattr(box, cause.name))
+        sizes = STATED_UNITS[cause.name]
+        really = _unit_of(sizes, 1.0 / cause.factor)
+        si = next(iter(sizes))
+        key = f"set.{cause.name}" if cause.name in run.settings else f"mechanism.{cause.name}"
+        remedy = f"write {cause.name} = {value / cause.factor:.6g} ({si})"
+        place = f"{stated_in}: {key} = {value:g} {si} (run {run.name})"
+    return f"{place} is {_times(cause.factor)} what fits: {_evidence(seen)}. It is probably in {really}; {remedy}"
+
+
+def _evidence(seen: Shown) -> str:
+    """Return what of a record contradicts the stated model."""
+    said = [f"the stuck box moves at {10.0**seen.speed:.3g} times the belt's speed"]
+    said.append(f"positions range over {10.0**seen.length:.3g} times mu_s N/k")
+    if seen.time is not None:
+        said.append(f"slips last {10.0**seen.time:.3g} times half a natural period")
+    return ", ".join(said) + " (each should be about 1)"
+
+
+def _unit_of(sizes: dict[str, float], size: float) -> str:
+    """Return the unit of about a size in SI units."""
+    return min(sizes, key=lambda name: abs(math.log(sizes[name] / size)))
+
+
+def _times(factor: float) -> str:
+    return f"{factor:.4g} times" if factor >= 1.0 else f"1/{1.0 / factor:.4g} of"

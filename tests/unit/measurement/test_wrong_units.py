@@ -1,0 +1,117 @@
+"""Records that cannot be right are refused with file, column, factor and remedy; those that can are read."""
+
+import dataclasses
+import datetime
+
+import numpy as np
+import pytest
+
+from stochfric_mb import InputError, load_scenario
+from stochfric_mb.measurement import load_dataset
+from stochfric_mb.reference import simulate
+
+from .files import csv
+
+
+@pytest.fixture(scope="module")
+def truth():
+    return load_scenario("kang2015_table1", overrides=("simulation.duration=20",))
+
+
+@pytest.fixture(scope="module")
+def motion(truth):
+    found = simulate(truth, seed=2)
+    noise = 2e-6 * np.random.default_rng(1).standard_normal(found.time.size)
+    return found.time, found.position + noise
+
+
+def _load(folder, motion, scenario, *, unit="m", scale=1.0, time_unit="s", time_scale=1.0, **more):
+    time, position = motion
+    heads = {f"time__{time_unit}": time * time_scale, f"position__{unit}": position * scale}
+    return load_dataset(csv(folder / "run.csv", **heads, **more), scenario)
+
+
+def _stated(truth, **changes):
+    return dataclasses.replace(truth, mechanism=dataclasses.replace(truth.mechanism, **changes))
+
+
+@pytest.mark.parametrize(("unit", "scale"), [("m", 1.0), ("mm", 1e3), ("um", 1e6)])
+def test_right_units_are_read(tmp_path, motion, truth, unit, scale):
+    assert _load(tmp_path, motion, truth, unit=unit, scale=scale).fit
+
+
+@pytest.mark.parametrize(
+    ("unit", "scale", "really", "factor"),
+    [
+        ("m", 1e3, "mm", "1000 times"),
+        ("um", 1e3, "mm", "1/1000 of"),
+        ("mm", 1.0, "m", "1/1000 of"),
+        ("m", 1e6, "um", "1e+06 times"),
+        ("m", 1 / 0.0254, "in", "39.37 times"),
+    ],
+)
+def test_a_position_in_another_unit_than_its_label(tmp_path, motion, truth, unit, scale, really, factor):
+    with pytest.raises(InputError) as caught:
+        _load(tmp_path, motion, truth, unit=unit, scale=scale)
+    text = str(caught.value)
+    assert text.startswith(f"{tmp_path / 'run.csv'}: column position [{unit}] is {factor} what fits")
+    assert f"write its header as 'position [{really}]'" in text
+
+
+def test_a_time_in_another_unit_than_its_label(tmp_path, motion, truth):
+    with pytest.raises(InputError, match=r"column time \[s\] is 1000 times what fits.*probably in ms"):
+        _load(tmp_path, motion, truth, time_scale=1e3)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "message"),
+    [
+        ("belt_velocity", 2.5, r"mechanism.belt_velocity = 2.5 m/s .* is 1000 times .*in mm/s; write belt_velocity = 0.0025"),
+        ("stiffness", 3.956, r"mechanism.stiffness = 3.956 N/m .* is 1/1000 of .*in N/mm; write stiffness = 3956"),
+        ("mass", 6080.0, r"mechanism.mass = 6080 kg .* is 1000 times .*in g; write mass = 6.08"),
+        ("normal_force", 0.013, r"mechanism.normal_force = 0.013 N .* is 1/1000 of .*in kN; write normal_force = 13"),
+    ],
+)
+def test_a_stated_number_in_another_unit(tmp_path, motion, truth, key, value, message):
+    with pytest.raises(InputError, match=message):
+        _load(tmp_path, motion, _stated(truth, **{key: value}))
+
+
+@pytest.mark.parametrize("factor", [0.7, 1.4])
+@pytest.mark.parametrize("key", ["belt_velocity", "stiffness", "mass", "normal_force"])
+def test_numbers_that_are_merely_wrong_are_left_to_discovery(tmp_path, motion, truth, key, factor):
+    assert _load(tmp_path, motion, _stated(truth, **{key: factor * getattr(truth.mechanism, key)})).fit
+
+
+def test_dead_channels(tmp_path, motion, truth):
+    zero = np.zeros(motion[0].size)
+    with pytest.raises(
+        InputError, match=r"run.csv: velocity is 0 m/s in all 20001 samples: a dead channel.*leave the column out"
+    ):
+        _load(tmp_path, motion, truth, **{"velocity__m/s": zero})
+    with pytest.raises(InputError, match=r"run.csv: position is 0 m in all 20001 samples: a dead channel.*leave the run out"):
+        _load(tmp_path, (motion[0], zero), truth)
+
+
+def test_a_velocity_that_is_not_the_rate_of_the_position(tmp_path, motion, truth):
+    rate = np.gradient(*motion[::-1])
+    smooth = np.convolve(rate, np.ones(15) / 15.0, mode="same")
+    assert _load(tmp_path, motion, truth, **{"velocity__m/s": smooth}).fit
+    with pytest.raises(InputError, match=r"velocity is .* times the rate at which position changes"):
+        _load(tmp_path, motion, truth, **{"velocity__m/s": 1e3 * smooth})
+
+
+def test_an_empty_file(tmp_path, truth):
+    (tmp_path / "run.csv").write_text("\n \n")
+    with pytest.raises(InputError, match=r"run.csv: the file is empty"):
+        load_dataset(tmp_path / "run.csv", truth)
+
+
+@pytest.mark.parametrize("zone", ["", "Z", "+02:00"])
+def test_dates_are_seconds_since_the_first(tmp_path, motion, truth, zone):
+    time, position = (values[:2000] for values in motion)
+    start = datetime.datetime(2026, 3, 28, 23, 59, 59)
+    dates = [(start + datetime.timedelta(seconds=float(t))).isoformat(timespec="microseconds") + zone for t in time]
+    data = load_dataset(csv(tmp_path / "run.csv", time=dates, position__m=position), truth)
+    assert data.fit[0].time[0] == 0.0
+    assert data.fit[0].sample_interval == pytest.approx(1e-3, rel=1e-6)  # dates are read to a microsecond
