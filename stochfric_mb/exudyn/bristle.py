@@ -14,6 +14,10 @@ from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.laws.elastic_stick import ElasticStick
 
+LEAST_DECAY = 1.0e-9
+"""Velocity scale of a fall from mu_s to mu_k at once [m/s]; Exudyn divides by it."""
+_POSITION, _VELOCITY = ("initialCoordinates", "initialDisplacements"), ("initialVelocities", "initialCoordinates_t")
+
 
 def add_bristle(
     mbs: Any,
@@ -31,7 +35,7 @@ def add_bristle(
     """Return Exudyn's bristle (CoordinateSpringDamperExt) with the parameters nearest to an elastic stick.
 
     Stuck: spring mu_s N/e_lim and damper 2 zeta sqrt(k m_eff). Sliding: mu_k + (mu_s - mu_k) exp(-v/decay_velocity), the
-    law's with v_s = 0. The coefficients are those at the middle of each step, or of each stretch of ``hold``, passed in the
+    law's with v_s = 0. It starts sliding where the initial velocity is above v_s, otherwise stuck. The coefficients are those at the middle of each step, or of each stretch of ``hold``, passed in the
     system's PostStep function.
 
     Args:
@@ -58,8 +62,11 @@ def add_bristle(
     n = require_number("normal_force", normal_force, above=0.0, unit="N")
     mass = require_number("effective_mass", effective_mass, above=0.0, unit="kg")
     stiffness = law.mu_s * n / law.e_lim
-    start = _initial_coordinate(mbs, marker1) - _initial_coordinate(mbs, marker0)
-    node = mbs.AddNode(NodeGenericData(initialCoordinates=[0.0, start, 0.0], numberOfDataCoordinates=3))
+    start, speed = (_initial(mbs, marker1, what) - _initial(mbs, marker0, what) for what in (_POSITION, _VELOCITY))
+    mu_s, mu_k = friction.path(seed, sample, contact).at(0.0)
+    slip = (mu_k + (mu_s - mu_k) * math.exp(-abs(speed) / max(law.decay_velocity, LEAST_DECAY))) * n
+    mode = math.copysign(slip, speed) if abs(speed) > law.v_s else 0.0  # implicit solvers take their first step with it
+    node = mbs.AddNode(NodeGenericData(initialCoordinates=[mode, start, 0.0], numberOfDataCoordinates=3))
     connector = CoordinateSpringDamperExt(
         markerNumbers=[marker0, marker1],
         nodeNumber=node,
@@ -67,7 +74,7 @@ def add_bristle(
         staticFrictionOffsetForce=(law.mu_s - law.mu_k) * n,
         stickingStiffness=stiffness,
         stickingDamping=2.0 * law.zeta * math.sqrt(stiffness * mass),
-        exponentialDecayStatic=max(law.decay_velocity, 1.0e-9),
+        exponentialDecayStatic=max(law.decay_velocity, LEAST_DECAY),
         frictionProportionalZone=0.0,
     )
     hold = require_number("hold", hold, low=0.0, unit="s")
@@ -111,9 +118,9 @@ class Bristle:
         self._mbs.SetObjectParameter(self.object, "staticFrictionOffsetForce", (self.mu_s - self.mu_k) * n)
 
 
-def _initial_coordinate(mbs: Any, marker: Any) -> float:
-    """Return the initial value of a marker's coordinate, 0 where the marker is on ground or on no node."""
+def _initial(mbs: Any, marker: Any, names: tuple[str, str]) -> float:
+    """Return the initial value that a node keeps under one of ``names``, 0 where the marker is on ground or on no node."""
     entry = mbs.GetMarker(marker)
     node = mbs.GetNode(entry["nodeNumber"]) if "nodeNumber" in entry else {}
-    values = node.get("initialCoordinates", node.get("initialDisplacements"))
+    values = next((node[name] for name in names if name in node), None)
     return 0.0 if values is None else float(values[entry["coordinate"]])

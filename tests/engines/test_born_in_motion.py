@@ -50,7 +50,7 @@ def test_exudyn(solver: str, dt: float, kind: str) -> None:
 
     from stochfric_mb.exudyn import add_friction, silent_settings, solve_dynamic
 
-    mbs = exudyn.SystemContainer().AddSystem()
+    mbs: Any = exudyn.SystemContainer().AddSystem()
     node = mbs.AddNode(Node1D(referenceCoordinates=[0.0], initialCoordinates=[0.0], initialVelocities=[SPEED]))
     mbs.AddObject(Mass1D(nodeNumber=node, mass=1.0))
     ground = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0))
@@ -70,7 +70,7 @@ def test_pymunk(dt: float, kind: str) -> None:
     space = pymunk.Space()
     space.gravity = (0.0, -GRAVITY)
     floor = pymunk.Segment(space.static_body, (-5.0, 0.0), (5.0, 0.0), 0.0)
-    body = pymunk.Body(1.0, math.inf)
+    body: Any = pymunk.Body(1.0, math.inf)
     body.position, body.velocity = (0.0, 0.05), (SPEED, 0.0)
     box = pymunk.Poly.create_box(body, (0.1, 0.1))
     space.add(floor, body, box)

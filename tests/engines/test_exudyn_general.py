@@ -21,7 +21,9 @@ from exudyn.itemInterface import (
     MarkerBodyPosition,
     MarkerBodyRigid,
     MarkerNodeCoordinate,
+    Mass1D,
     MassPoint,
+    Node1D,
     NodePoint,
     NodePointGround,
     NodeRigidBody2D,
@@ -622,6 +624,24 @@ def test_the_built_in_bristle_with_stochastic_coefficients() -> None:
     assert steady == pytest.approx(braked(add_friction, None), abs=5e-6)
     assert random == pytest.approx(braked(add_friction, process), abs=5e-6)
     assert abs(random - steady) > 5e-6  # the path does its work: measured 9.8 um
+
+
+@pytest.mark.parametrize("solver", ["generalized_alpha", "rk44", "dopri5"])
+@pytest.mark.parametrize("thrown", [1.0, -1.0])
+def test_a_bristle_on_a_moving_body_starts_sliding(thrown: float, solver: str) -> None:
+    mbs = exudyn.SystemContainer().AddSystem()
+    node = mbs.AddNode(Node1D(referenceCoordinates=[0.0], initialCoordinates=[0.1], initialVelocities=[thrown]))
+    mbs.AddObject(Mass1D(nodeNumber=node, mass=1.0))
+    ground = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0))
+    slide = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
+    add_bristle(mbs, ground, slide, make_law("elastic_stick", mu_s=0.4, mu_k=0.3), normal_force=10.0, effective_mass=1.0)
+    mbs.Assemble()
+    solve_dynamic(mbs, silent_settings(1e-3, 1e-3), solver=solver, locate=False)
+    rate = (float(mbs.systemData.GetODE2Coordinates_t()[0]) - thrown) / 1e-3
+    assert rate == pytest.approx(-3.0 * thrown, rel=1e-9)  # mu_k g, from the first step on
+    solve_dynamic(mbs, silent_settings(1e-3, 0.5), solver=solver, locate=False)
+    # v^2/(2 mu_k g), less (mu_s - mu_k)/mu_k (1 mm/s)^2/(2 mu_k g) < 1 um for the rise to mu_s at its end, and 10 um of e_lim
+    assert float(mbs.systemData.GetODE2Coordinates()[0]) - 0.1 == pytest.approx(thrown / 6.0, abs=1.3e-5)
 
 
 def test_a_bristle_holds_its_coefficients_for_as_long_as_told() -> None:
