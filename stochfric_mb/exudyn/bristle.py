@@ -35,8 +35,8 @@ def add_bristle(
     """Return Exudyn's bristle (CoordinateSpringDamperExt) with the parameters nearest to an elastic stick.
 
     Stuck: spring mu_s N/e_lim and damper 2 zeta sqrt(k m_eff). Sliding: mu_k + (mu_s - mu_k) exp(-v/decay_velocity), the
-    law's with v_s = 0. It starts sliding where the initial velocity is above v_s, otherwise stuck. The coefficients are those at the middle of each step, or of each stretch of ``hold``, passed in the
-    system's PostStep function.
+    law's with v_s = 0. It starts sliding where the initial velocity is above v_s, otherwise stuck. The coefficients are those
+    at the middle of each step, or of each stretch of ``hold``, passed in the system's PostStep function.
 
     Args:
         mbs: the system.

@@ -79,4 +79,4 @@ def test_pymunk(dt: float, kind: str) -> None:
         space.step(dt)
         assert all(abs(x.force) <= MU_S * x.normal_force * (1.0 + 1e-9) for x in handle.readings() if x.velocity > 0.1)
     # pymunk drifts before it kicks: v dt/2 further
-    assert body.position.x == pytest.approx(STOP + 0.5 * SPEED * dt, abs=RISE)
+    assert body.position[0] == pytest.approx(STOP + 0.5 * SPEED * dt, abs=RISE)
