@@ -33,6 +33,8 @@ from stochfric_mb.errors import InputError
 from stochfric_mb.laws import Law
 from stochfric_mb.laws.abi import MAX_STATE, call_law, native_law
 from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.numerics.cubic import hermite, slope, value
+from stochfric_mb.numerics.runge_kutta import RK4, advance
 
 # Entries of the model.
 (INIT, FORCE, COMMIT, GUARD, INNER_P, MODED, STICK_SPEED, M, C, K, FOOT, W, VB, SEED, SAMPLE, RESOLUTION, N_AROUND,
@@ -49,6 +51,7 @@ SINCE, BROKE_AT, DWELL, LAST, X, V = range(6, 12)
 the commit."""
 MEMORY = 12
 """The effects' memories at the commit."""
+RK4_A, RK4_B, RK4_C = RK4.a, RK4.b, RK4.c
 INNER = 6
 """Most state entries of the law inside."""
 
@@ -211,29 +214,17 @@ def _recall(q, where, t, x, v, state, w, memory, rates):
     if q[N_MEMORY] == 0.0 or h <= 0.0:
         return
     n = math.ceil(h / q[RESOLUTION])
-    stages = np.zeros((4, MAX_MEMORY))
+    k = np.zeros((len(RK4_B), MAX_MEMORY))
     start = memory.copy()
+    path = hermite(h, state[X], state[V], x, v)
     for i in range(n):
-        for s in range(4):
-            part = 0.0 if s == 0 else 1.0 if s == 3 else 0.5
-            for j in range(MAX_MEMORY):
-                memory[j] = start[j] + (part * h / n * stages[s - 1, j] if s > 0 else 0.0)
-            theta = (i + part) / n
-            rest = 1.0 - theta
-            between = rest * rest * (state[X] * (1.0 + 2.0 * theta) + theta * h * state[V])
-            between += theta * theta * (x * (3.0 - 2.0 * theta) - rest * h * v)
-            speed = (
-                6.0 * theta * rest * (x - state[X]) / h
-                + rest * (1.0 - 3.0 * theta) * state[V]
-                + theta * (3.0 * theta - 2.0) * v
-            )
-            _surround(q, where, state[LAST] + theta * h, between, speed, w, memory, rates)
-            for j in range(MAX_MEMORY):
-                stages[s, j] = rates[j]
-        for j in range(MAX_MEMORY):
-            start[j] += h / n / 6.0 * (stages[0, j] + 2.0 * stages[1, j] + 2.0 * stages[2, j] + stages[3, j])
-    for j in range(MAX_MEMORY):
-        memory[j] = start[j]
+        for s in range(len(RK4_B)):
+            theta = (i + RK4_C[s]) / n
+            advance(RK4_A[s], s, h / n, start, k, 0, MAX_MEMORY, memory)
+            _surround(q, where, state[LAST] + theta * h, value(path, theta), slope(path, theta) / h, w, memory, rates)
+            k[s] = rates
+        advance(RK4_B, len(RK4_B), h / n, start, k, 0, MAX_MEMORY, start)
+    memory[:] = start
 
 
 @compiled

@@ -12,6 +12,8 @@ from stochfric_mb.effects import contract as e
 from stochfric_mb.effects.combine import moving, on_sensor
 from stochfric_mb.effects.contract import Array, Effect
 from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.numerics.cubic import hermite, slope, value
+from stochfric_mb.numerics.runge_kutta import RK4
 from stochfric_mb.trajectory import Trajectory
 
 SENSOR_STREAM = 0x73656E73
@@ -86,21 +88,14 @@ def _advanced(
     h = float(t[1] - t[0])
     n = max(1, math.ceil(h * FINENESS / shortest))
 
-    def rates(theta: float, m: Array) -> Array:
-        rest = 1.0 - theta
-        between = rest**2 * (x[0] * (1.0 + 2.0 * theta) + theta * h * v[0]) + theta**2 * (
-            x[1] * (3.0 - 2.0 * theta) - rest * h * v[1]
-        )
-        slope = 6.0 * theta * rest * (x[1] - x[0]) / h + rest * (1.0 - 3.0 * theta) * v[0] + theta * (3.0 * theta - 2.0) * v[1]
-        return surround(float(t[0]) + theta * h, float(between), float(slope), m)
-
-    d = h / n
+    path = hermite(h, x[0], v[0], x[1], v[1])
+    k = np.zeros((len(RK4.b), len(memory)))
     for i in range(n):
-        k1 = rates(i / n, memory)
-        k2 = rates((i + 0.5) / n, memory + 0.5 * d * k1)
-        k3 = rates((i + 0.5) / n, memory + 0.5 * d * k2)
-        k4 = rates((i + 1.0) / n, memory + d * k3)
-        memory = memory + d / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+        for s, part in enumerate(RK4.c):
+            theta = (i + part) / n
+            stage = memory + h / n * (RK4.a[s] @ k)
+            k[s] = surround(float(t[0]) + theta * h, value(path, theta), slope(path, theta) / h, stage)
+        memory = memory + h / n * (RK4.b @ k)
     return memory
 
 

@@ -14,7 +14,7 @@ from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco import slots as s
 from stochfric_mb.mujoco.contact import slot
 from stochfric_mb.mujoco.dof_root import ALONE, SLOPE, force_at_end, solve_one
-from stochfric_mb.mujoco.elimination import eliminate
+from stochfric_mb.numerics.elimination import eliminate
 
 SWEEPS, HALVINGS = 50, 16
 """Most rounds of the joints in turn, and halvings of a Newton step."""

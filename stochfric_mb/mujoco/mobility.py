@@ -12,7 +12,7 @@ import numpy as np
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco import native as n
 from stochfric_mb.mujoco.coordinates import add_row, along_row
-from stochfric_mb.mujoco.elimination import eliminate
+from stochfric_mb.numerics.elimination import eliminate
 
 QUADRATIC = 1
 """mjCNSTRSTATE_QUADRATIC."""

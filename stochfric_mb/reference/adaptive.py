@@ -27,7 +27,7 @@ from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.reference.events import BREAK_AWAY, STICK, note
 from stochfric_mb.reference.knots import load_first_segment, load_segment, next_belt_segment, since_knot
 from stochfric_mb.reference.law_calls import call, friction, measure_guards, pinned, sticks
-from stochfric_mb.reference.location import bracket, locate
+from stochfric_mb.reference.location import first_crossing, locate
 from stochfric_mb.reference.problem import ALL_GUARDS, EVENTS, HIGH, KNOT, N_EVENTS, N_STEPS, NOW, STATUS, STEP, STUCK
 from stochfric_mb.reference.step import try_step
 
@@ -118,7 +118,7 @@ def _leg(q, run, t_end, log):
             clock[STATUS] = TOO_MANY_STEPS
             break
         clock[N_STEPS] += 1.0
-        lowest, highest = bracket(q, run, t_leg, tau, h)
+        lowest, highest = first_crossing(q, run, t_leg, tau, h)
         located = highest > 0.0
         if located:
             h = locate(q, run, t_leg, tau, lowest, highest)

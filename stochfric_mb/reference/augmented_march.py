@@ -12,6 +12,9 @@ import numpy as np
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.effects import contract as e
+from stochfric_mb.numerics.cubic import hermite, turning_point, value
+from stochfric_mb.numerics.root import bracket, is_wide, narrowed, trial
+from stochfric_mb.numerics.runge_kutta import DOPRI5, RK4, advance, interpolate, weighted
 from stochfric_mb.reference import augmented_model as m
 from stochfric_mb.reference.augmented_model import friction_force, hold, margin, motion, ride, rub, spring_constants, surround
 from stochfric_mb.reference.events import BREAK_AWAY, STICK, note
@@ -32,34 +35,14 @@ MEMORY_TOLERANCE = 1.0e-7
 """Local error of an effect's memory, relative to its size."""
 SHORTEST = 1.0e-12
 """Step [s] that is taken whatever its error: only a jump asks for it."""
+RESOLUTION = 1.0e-13
+"""Time [s] to which a switch is located."""
 COLUMNS = 7
 """x, x', F, stick, N, and the path's mu_s, mu_k."""
 
-# Dormand and Prince 1980: the pair 5(4) with its weights for dense output (Shampine 1986), first-same-as-last.
-A = np.array(
-    [
-        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [1 / 5, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [3 / 40, 9 / 40, 0.0, 0.0, 0.0, 0.0],
-        [44 / 45, -56 / 15, 32 / 9, 0.0, 0.0, 0.0],
-        [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729, 0.0, 0.0],
-        [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0.0],
-        [35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],
-    ]
-)
-B_TIMES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
-ERROR = np.array([-71 / 57600, 0.0, 71 / 16695, -71 / 1920, 17253 / 339200, -22 / 525, 1 / 40])
-DENSE = np.array(
-    [
-        [1.0, -8048581381 / 2820520608, 8663915743 / 2820520608, -12715105075 / 11282082432],
-        [0.0, 0.0, 0.0, 0.0],
-        [0.0, 131558114200 / 32700410799, -68118460800 / 10900136933, 87487479700 / 32700410799],
-        [0.0, -1754552775 / 470086768, 14199869525 / 1410260304, -10690763975 / 1880347072],
-        [0.0, 127303824393 / 49829197408, -318862633887 / 49829197408, 701980252875 / 199316789632],
-        [0.0, -282668133 / 205662961, 2019193451 / 616988883, -1453857185 / 822651844],
-        [0.0, 40617522 / 29380423, -110615467 / 29380423, 69997945 / 29380423],
-    ]
-)
+A, C, DENSE = DOPRI5.a, DOPRI5.c, DOPRI5.dense
+RK4_A, RK4_B, RK4_C = RK4.a, RK4.b, RK4.c
+ERROR = DOPRI5.errors[0]
 
 
 @compiled
@@ -192,22 +175,16 @@ def _try_step(r, d, t, h, fresh):
         _copy(r, r.y, r.probe)
         motion(r, d, t, r.probe, k[0])
     for i in range(1, m.STAGES):
-        for j in range(n):
-            total = 0.0
-            for s in range(i):
-                total += A[i, s] * k[s, j]
-            r.probe[j] = r.y[j] + h * total
+        advance(A[i], i, h, r.y, k, 0, n, r.probe)
         if i == m.STAGES - 1:
             _copy(r, r.probe, r.end)
-        motion(r, d, t + B_TIMES[i] * h, r.probe, k[i])
+        motion(r, d, t + C[i] * h, r.probe, k[i])
     worst = 0.0
     c = r.constants
     for j in range(n):
         if j < 2 and r.clock[m.MODE] == m.STUCK:
             continue
-        difference = 0.0
-        for s in range(m.STAGES):
-            difference += ERROR[s] * k[s, j]
+        difference = weighted(ERROR, m.STAGES, k, j)
         scale = c[m.TOLERANCE]
         if j == 1:
             scale *= math.sqrt(c[m.K] / c[m.M])
@@ -222,15 +199,7 @@ def _try_step(r, d, t, h, fresh):
 @compiled
 def _within(r, part, h):
     """Write the unknowns at the given part of the step tried last into ``r.probe`` (not x, x' of a stuck box)."""
-    n = r.counts[2] + 2
-    stuck = r.clock[m.MODE] == m.STUCK
-    if not stuck or n > 2:
-        for j in range(2 if stuck else 0, n):
-            total = 0.0
-            for s in range(m.STAGES):
-                weight = DENSE[s, 0] + part * (DENSE[s, 1] + part * (DENSE[s, 2] + part * DENSE[s, 3]))
-                total += weight * r.stages[s, j]
-            r.probe[j] = r.y[j] + h * part * total
+    interpolate(DENSE, part, h, r.y, r.stages, 2 if r.clock[m.MODE] == m.STUCK else 0, r.counts[2] + 2, r.probe)
 
 
 @compiled
@@ -251,30 +220,26 @@ def _first_crossing(r, d, t, h):
         first = margin(r, d, t, r.probe)
     middle = _margin_within(r, d, t, 0.5, h)
     if middle < 0.0:
-        return _bisect(r, d, t, h, 0.0, 0.5), middle
+        return _crossing(r, d, t, h, 0.0, first, 0.5, middle), middle
     end = _margin_within(r, d, t, 1.0, h)
-    rise, bend = 4.0 * middle - 3.0 * first - end, 2.0 * (first + end) - 4.0 * middle
-    if bend > 0.0 and -2.0 * bend < rise < 0.0:
-        bottom = -0.5 * rise / bend
-        if first - 0.25 * rise * rise / bend < 0.1 * first and _margin_within(r, d, t, bottom, h) < 0.0:
-            return _bisect(r, d, t, h, 0.0, bottom), middle
+    bottom, foretold = turning_point(0.0, first, 0.5, middle, 1.0, end)
+    if 0.0 < bottom < 1.0 and foretold < 0.1 * first:
+        at_bottom = _margin_within(r, d, t, bottom, h)
+        if at_bottom < 0.0:
+            return _crossing(r, d, t, h, 0.0, first, bottom, at_bottom), middle
     if end < 0.0:
-        return _bisect(r, d, t, h, 0.5, 1.0), end
+        return _crossing(r, d, t, h, 0.5, middle, 1.0, end), end
     return 2.0, end
 
 
 @compiled
-def _bisect(r, d, t, h, low, high):
-    """Return the part of the step at which the margin has turned negative, to 1e-13 s."""
-    while (high - low) * h > 1.0e-13:
-        middle = 0.5 * (low + high)
-        if middle in (low, high):
-            break
-        if _margin_within(r, d, t, middle, h) < 0.0:
-            high = middle
-        else:
-            low = middle
-    return min(high, 0.9999999999999999)
+def _crossing(r, d, t, h, low, at_low, high, at_high):
+    """Return the part of the step at which the margin has turned negative, to `RESOLUTION`."""
+    b = bracket(low, at_low, high, at_high)
+    while is_wide(b, RESOLUTION / h):
+        part = trial(b, RESOLUTION / h)
+        b = narrowed(b, part, _margin_within(r, d, t, part, h))
+    return min(b.negative, 0.9999999999999999)
 
 
 @compiled
@@ -377,18 +342,14 @@ def recall(r, time, position, velocity, memory, out):
         out[0, j] = memory[j]
     for i in range(len(time) - 1):
         h = time[i + 1] - time[i]
-        for s in range(4):
-            part = 0.0 if s == 0 else 1.0 if s == 3 else 0.5
-            rest = 1.0 - part
-            r.probe[0] = rest * rest * (position[i] * (1.0 + 2.0 * part) + part * h * velocity[i]) + part * part * (
-                position[i + 1] * (3.0 - 2.0 * part) - rest * h * velocity[i + 1]
-            )
-            r.probe[1] = rest * velocity[i] + part * velocity[i + 1]
-            for j in range(n):
-                r.probe[2 + j] = r.y[2 + j] + (part * h * k[s - 1, 2 + j] if s > 0 else 0.0)
+        path = hermite(h, position[i], velocity[i], position[i + 1], velocity[i + 1])
+        for s in range(len(RK4_B)):
+            part = RK4_C[s]
+            advance(RK4_A[s], s, h, r.y, k, 2, 2 + n, r.probe)
+            r.probe[0], r.probe[1] = value(path, part), (1.0 - part) * velocity[i] + part * velocity[i + 1]
             surround(r, time[i] + part * h, r.probe, k[s])
+        advance(RK4_B, len(RK4_B), h, r.y, k, 2, 2 + n, r.y)
         for j in range(n):
-            r.y[2 + j] += h / 6.0 * (k[0, 2 + j] + 2.0 * k[1, 2 + j] + 2.0 * k[2, 2 + j] + k[3, 2 + j])
             out[i + 1, j] = r.y[2 + j]
 
 

@@ -19,13 +19,14 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.effects import contract as e
 from stochfric_mb.effects.abi import call_effect
 from stochfric_mb.laws import elastic_stick, stribeck
+from stochfric_mb.numerics.runge_kutta import DOPRI5
 
 MAX_EFFECTS = 24
 MAX_PARAMETERS = 8 * MAX_EFFECTS
 MAX_MEMORY = 8
 UNKNOWNS = 2 + MAX_MEMORY
 """x, x' and the effects' memories."""
-STAGES = 7
+STAGES = len(DOPRI5.b)
 
 # Modes of the contact.
 STUCK, SLIDING, SPRING = 0.0, 1.0, 2.0

@@ -26,12 +26,15 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.laws import Law
 from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.numerics.root import bracket, is_wide, narrowed, trial
 from stochfric_mb.reference.events import BREAK_AWAY, STICK, note
 from stochfric_mb.trajectory import Array
 
 MAX_SWITCHES_PER_LEG = 10_000
 SHORTEST = 1.0e-14
 """Rest of a leg [s] in which nothing is looked for: below the rounding of the forces."""
+RESOLUTION = 1.0e-19
+"""Time [s] to which an event is located within its leg."""
 
 
 class Curve(NamedTuple):
@@ -330,11 +333,11 @@ def first_zero(g, length):
             if here <= 0.0:
                 return low
         if there < 0.0:
-            return _bisect(g, low, high)
+            return _zero(g, low, high)
         if _value(dg, low) < 0.0 and _value(dg, high) > 0.0:
-            bottom = _bisect(dg, high, low)
+            bottom = _zero(dg, high, low)
             if _value(g, bottom) < 0.0:
-                return _bisect(g, low, bottom)
+                return _zero(g, low, bottom)
     return math.inf
 
 
@@ -346,19 +349,16 @@ def _after_start(g, dg, low, high):
     if value > 0.0:
         return ahead, value
     if _value(dg, low) > 0.0 and _value(dg, high) < 0.0:
-        top = _bisect(dg, low, high)
+        top = _zero(dg, low, high)
         return top, _value(g, top)
     return low, value
 
 
 @compiled
-def _bisect(g, positive, negative):
+def _zero(g, positive, negative):
     """Return the zero of g between a time where it is positive and one where it is not, on the latter side."""
-    while True:
-        middle = 0.5 * (positive + negative)
-        if middle in (positive, negative) or abs(positive - negative) < 1.0e-19:
-            return negative
-        if _value(g, middle) > 0.0:
-            positive = middle
-        else:
-            negative = middle
+    b = bracket(positive, _value(g, positive), negative, _value(g, negative))
+    while is_wide(b, RESOLUTION):
+        t = trial(b, RESOLUTION)
+        b = narrowed(b, t, _value(g, t))
+    return b.negative

@@ -9,18 +9,21 @@ from __future__ import annotations
 import math
 
 from stochfric_mb.compile import compiled
+from stochfric_mb.numerics.cubic import hermite, sign_change, turning_point, value
+from stochfric_mb.numerics.root import bracket, is_wide, narrowed, trial
 from stochfric_mb.reference.knots import since_knot
 from stochfric_mb.reference.law_calls import measure_guards
-from stochfric_mb.reference.problem import ALL_GUARDS, CHECKS
+from stochfric_mb.reference.problem import ALL_GUARDS, CHECKS, STAGES
 from stochfric_mb.reference.step import try_step
-from stochfric_mb.reference.tableau import STAGES
 
 RESOLUTION = 1.0e-19
 """Time [s] to which an event is located within its step."""
+SMALLEST = 5.0e-324
+"""What a guard of zero counts as: one has fired where it is negative."""
 
 
 @compiled
-def bracket(q, run, t_leg, tau, h):
+def first_crossing(q, run, t_leg, tau, h):
     """Return (low, high) [s] within the step between which the first armed guard seems to turn negative, or (0, 0)."""
     g = run.table
     for i in range(ALL_GUARDS):
@@ -43,13 +46,9 @@ def bracket(q, run, t_leg, tau, h):
 
 
 @compiled
-def _interpolate(run, theta, h):
-    """Write the cubic through both ends of the step tried last into ``run.probe``, at the part theta."""
-    for j in range(3):
-        a = h * run.stages[0, j]
-        b = h * run.stages[STAGES, j]
-        d = run.end[j] - run.y[j]
-        run.probe[j] = run.y[j] + theta * (a + theta * ((3.0 * d - 2.0 * a - b) + theta * (a + b - 2.0 * d)))
+def _along(run, h, j):
+    """Return the cubic of unknown j through both ends of the step tried last."""
+    return hermite(h, run.y[j], run.stages[0, j], run.end[j], run.stages[STAGES, j])
 
 
 @compiled
@@ -59,16 +58,14 @@ def _check_points(q, run, h):
     They are even parts, and on the cubic the zeros and extrema of v_rel: between them abs(v_rel) is monotone, so that
     no speed limit, however narrow, is stepped over.
     """
-    a = h * run.stages[0, 1]
-    b = h * run.stages[STAGES, 1]
-    d = run.end[1] - run.y[1]
-    w, c1, c2, c3 = q.belt_velocity - run.y[1], -a, -(3.0 * d - 2.0 * a - b), -(a + b - 2.0 * d)
+    v = _along(run, h, 1)
+    v_rel = (q.belt_velocity - v[0], -v[1], -v[2], -v[3])
+    slope = (v_rel[1], 2.0 * v_rel[2], 3.0 * v_rel[3], 0.0)
     n = 0
     run.checks[0] = 0.0
     for c in range(CHECKS):
         low, high = c / CHECKS, (c + 1) / CHECKS
-        zero = _cubic_zero(w, c1, c2, c3, low, high)
-        turn = _cubic_zero(c1, 2.0 * c2, 3.0 * c3, 0.0, low, high)
+        zero, turn = sign_change(v_rel, low, high), sign_change(slope, low, high)
         for theta in (min(zero, turn), max(zero, turn), high):
             if run.checks[n] < theta <= high:
                 n += 1
@@ -77,28 +74,10 @@ def _check_points(q, run, h):
 
 
 @compiled
-def _cubic_zero(c0, c1, c2, c3, low, high):
-    """Return where c0 + c1 s + c2 s^2 + c3 s^3 changes sign between low and high, infinity if it does not."""
-    positive = c0 + low * (c1 + low * (c2 + low * c3)) > 0.0
-    if positive == (c0 + high * (c1 + high * (c2 + high * c3)) > 0.0):
-        return math.inf
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        if (c0 + middle * (c1 + middle * (c2 + middle * c3)) > 0.0) == positive:
-            low = middle
-        else:
-            high = middle
-    return high
-
-
-@compiled
 def _measure_within(q, run, t_leg, tau, theta, h, g):
     """Write the guards at the part theta of the step tried last into ``g``."""
-    if theta == 1.0:
-        for j in range(3):
-            run.probe[j] = run.end[j]
-    else:
-        _interpolate(run, theta, h)
+    for j in range(3):
+        run.probe[j] = run.end[j] if theta == 1.0 else value(_along(run, h, j), theta)
     part = tau + theta * h
     measure_guards(q, run, t_leg + part, since_knot(q, run, t_leg, part), run.probe, g)
 
@@ -113,10 +92,8 @@ def _dip(q, run, t_leg, tau, h, c):
         before, here, after = g[c - 1, i], g[c, i], g[c + 1, i]
         if not (run.armed[i] == 1.0 and 0.0 <= here <= before and here < after):
             continue
-        falling = (here - before) / (t1 - t0)
-        curvature = ((after - here) / (t2 - t1) - falling) / (t2 - t0)
-        theta = 0.5 * (t0 + t1 - falling / curvature)
-        if here - curvature * (theta - t1) ** 2 > 0.5 * here:
+        theta, bottom = turning_point(t0, before, t1, here, t2, after)
+        if bottom > 0.5 * here:
             continue
         _measure_within(q, run, t_leg, tau, theta, h, run.guards)
         if run.guards[i] < 0.0 and (first == 0.0 or theta < first):
@@ -126,35 +103,35 @@ def _dip(q, run, t_leg, tau, h, c):
 
 @compiled
 def locate(q, run, t_leg, tau, low, high):
-    """Return the shortest step h [s] after which an armed guard is negative, by bisection down to rounding.
+    """Return the shortest step h [s] after which an armed guard is negative, down to rounding.
 
     The solution there is in ``run.end``. The bracket rests on an interpolation: if ``low`` is already beyond the
     event, the search starts from nothing; if nothing has crossed after ``high``, the step ``high`` is as good as any
     other and is returned.
     """
-    if low > 0.0 and _crossed(q, run, t_leg, tau, low):
-        low, high = 0.0, low
-    if not _crossed(q, run, t_leg, tau, high):
+    at_low = _least(q, run, t_leg, tau, low) if low > 0.0 else math.inf
+    if at_low < 0.0:
+        low, high, at_low = 0.0, low, math.inf
+    at_high = _least(q, run, t_leg, tau, high)
+    if not at_high < 0.0:
         return high
-    while True:
-        middle = 0.5 * (low + high)
-        if middle <= low or middle >= high or high - low < RESOLUTION:
-            break
-        if _crossed(q, run, t_leg, tau, middle):
-            high = middle
-        else:
-            low = middle
-    _crossed(q, run, t_leg, tau, high)
-    return high
+    b = bracket(low, at_low, high, at_high)
+    while is_wide(b, RESOLUTION):
+        h = trial(b, RESOLUTION)
+        at = _least(q, run, t_leg, tau, h)
+        b = narrowed(b, h, at if at != 0.0 else SMALLEST)
+    _least(q, run, t_leg, tau, b.negative)
+    return b.negative
 
 
 @compiled
-def _crossed(q, run, t_leg, tau, h):
-    """Return whether an armed guard is negative after a step h; the solution there is in ``run.end``."""
+def _least(q, run, t_leg, tau, h):
+    """Return the least armed guard after a step h; the solution there is in ``run.end``."""
     try_step(q, run, t_leg, tau, h)
     part = tau + h
     measure_guards(q, run, t_leg + part, since_knot(q, run, t_leg, part), run.end, run.guards)
-    for i in range(ALL_GUARDS):  # noqa: SIM110  (numba knows no generators)
-        if run.armed[i] == 1.0 and run.guards[i] < 0.0:
-            return True
-    return False
+    least = math.inf
+    for i in range(ALL_GUARDS):
+        if run.armed[i] == 1.0:
+            least = min(least, run.guards[i])
+    return least

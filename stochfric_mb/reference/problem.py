@@ -12,8 +12,10 @@ import numpy as np
 from stochfric_mb.coefficients.path import CURSOR
 from stochfric_mb.laws.abi import MAX_STATE
 from stochfric_mb.laws.contract import GUARDS
-from stochfric_mb.reference.tableau import STAGES
+from stochfric_mb.numerics.runge_kutta import DOP853
 
+STAGES = len(DOP853.b)
+"""Stages of a step; its error estimates use the rates at its end as one more."""
 CHECKS = 4
 """Even parts of a step at whose ends, at least, the guards are looked at."""
 ALL_GUARDS = GUARDS + 4

@@ -9,9 +9,13 @@ from __future__ import annotations
 import math
 
 from stochfric_mb.compile import compiled
+from stochfric_mb.numerics.runge_kutta import DOP853, advance, weighted
 from stochfric_mb.reference.knots import since_knot
 from stochfric_mb.reference.law_calls import friction, holding_force, pinned
-from stochfric_mb.reference.tableau import E3, E5, STAGES, A, B, C
+from stochfric_mb.reference.problem import STAGES
+
+A, B, C = DOP853.a, DOP853.b, DOP853.c
+E5, E3 = DOP853.errors
 
 
 @compiled
@@ -24,18 +28,10 @@ def try_step(q, run, t_leg, tau, h):
         run.end[0], run.end[1], run.end[2] = run.y[0] + q.belt_velocity * h, q.belt_velocity, run.y[2]
         return 0.0
     for i in range(STAGES):
-        for j in range(3):
-            total = 0.0
-            for k in range(i):
-                total += A[i, k] * stages[k, j]
-            run.probe[j] = run.y[j] + h * total
+        advance(A[i], i, h, run.y, stages, 0, 3, run.probe)
         part = tau + C[i] * h
         _rates(q, run, t_leg + part, since_knot(q, run, t_leg, part), run.probe, stages[i])
-    for j in range(3):
-        total = 0.0
-        for k in range(STAGES):
-            total += B[k] * stages[k, j]
-        run.end[j] = run.y[j] + h * total
+    advance(B, STAGES, h, run.y, stages, 0, 3, run.end)
     _rates(q, run, t_leg + (tau + h), since_knot(q, run, t_leg, tau + h), run.end, stages[STAGES])
     return _error(q, run, h)
 
@@ -53,11 +49,7 @@ def _error(q, run, h):
     """Return the largest estimate of the local error over its scale, as in the code DOP853."""
     worst = 0.0
     for j in range(3):
-        e5 = 0.0
-        e3 = 0.0
-        for k in range(STAGES + 1):
-            e5 += E5[k] * run.stages[k, j]
-            e3 += E3[k] * run.stages[k, j]
+        e5, e3 = weighted(E5, STAGES + 1, run.stages, j), weighted(E3, STAGES + 1, run.stages, j)
         size = math.sqrt(e5 * e5 + 0.01 * e3 * e3)
         if size > 0.0:
             worst = max(worst, h * e5 * e5 / size / q.scale[j])

@@ -2,8 +2,7 @@
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
 # pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# pyright: reportCallIssue=false, reportAttributeAccessIssue=false
-# (compiled functions are typed by numba; MuJoCo's bindings are not typed)
+# (compiled functions are typed by numba)
 
 from __future__ import annotations
 
