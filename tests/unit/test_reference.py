@@ -1,9 +1,7 @@
-"""The reference solver: its tableau, its closed form, its interface."""
+"""The reference solver: its closed form, its interface."""
 
 import dataclasses
-import functools
 import math
-from collections import Counter
 
 import numpy as np
 import pytest
@@ -25,65 +23,13 @@ from stochfric_mb import (
     make_law,
 )
 from stochfric_mb.laws import LAWS
-from stochfric_mb.reference import simulate, solve, tableau
+from stochfric_mb.reference import simulate, solve
 from stochfric_mb.reference.coulomb import Curve, first_zero
 
 BOX = BeltBox(mass=6.08, damping=0.768, stiffness=3956.0, normal_force=13.0, belt_velocity=2.5e-3)
 SHAKEN = dataclasses.replace(BOX, excitation_amplitude=0.5e-3, excitation_angular_frequency=18.7)
 KNOTS = Knots(sigma_s=0.015, sigma_k=0.023, spacing=0.01)
 ACCURACY = 1.0e-9  # m, what the reference claims
-
-
-# --- tableau ----------------------------------------------------------------------------------------------------------
-
-
-@functools.cache
-def trees(order):
-    """Return all rooted trees with ``order`` nodes, each the sorted tuple of its branches."""
-    return sorted({tuple(sorted(branches)) for branches in _forests(order - 1, order - 1)})
-
-
-def _forests(nodes, largest):
-    if nodes == 0:
-        return [()]
-    return [
-        (tree, *rest)
-        for size in range(min(nodes, largest), 0, -1)
-        for tree in trees(size)
-        for rest in _forests(nodes - size, size)
-    ]
-
-
-def size(tree):
-    return 1 + sum(size(branch) for branch in tree)
-
-
-def density(tree):
-    return size(tree) * math.prod(density(branch) for branch in tree)
-
-
-def stage_weights(tree):
-    return functools.reduce(np.multiply, (tableau.A @ stage_weights(branch) for branch in tree), np.ones(tableau.STAGES))
-
-
-def test_all_order_conditions_up_to_eight():
-    counts = Counter({order: len(trees(order)) for order in range(1, 9)})
-    assert list(counts.values()) == [1, 1, 2, 4, 9, 20, 48, 115]  # rooted trees
-    for order in range(1, 9):
-        for tree in trees(order):
-            # Hairer, Norsett and Wanner, II.2: b . Phi(tree) = 1/density; the coefficients are rounded doubles of size 10.
-            assert tableau.B @ stage_weights(tree) == pytest.approx(1.0 / density(tree), abs=1.0e-13)
-
-
-def test_the_formula_is_not_of_order_nine():
-    worst = max(abs(tableau.B @ stage_weights(tree) - 1.0 / density(tree)) for tree in trees(9))
-    assert worst > 1.0e-7
-
-
-def test_rows_add_up_and_error_weights_vanish_on_constants():
-    np.testing.assert_allclose(tableau.A.sum(axis=1), tableau.C, rtol=0.0, atol=1.0e-14)
-    assert abs(tableau.E5.sum()) < 1.0e-14
-    assert abs(tableau.E3.sum()) < 1.0e-14
 
 
 # --- closed form ------------------------------------------------------------------------------------------------------
