@@ -192,7 +192,7 @@ def test_a_folder_of_something_else_is_never_replaced(rig, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "where", ["stochfric_mb.discovery.discover", "stochfric_mb.report.discovery.page", "stochfric_mb.storage._swap"]
+    "where", ["stochfric_mb.discovery.discover", "stochfric_mb.report.discovery.page", "stochfric_mb.outputs._swap"]
 )
 def test_ctrl_c_leaves_nothing(rig, tmp_path, monkeypatch, where):
     def interrupted(*_, **__):
