@@ -45,6 +45,17 @@ class Commands(click.Group):
         module, _, name = COMMANDS[cmd_name][0].partition(":")
         return getattr(importlib.import_module(module), name)
 
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> tuple[str | None, click.Command | None, list[str]]:
+        """Return the command that is named first; an unknown one is answered with the nearest and all there are."""
+        if args and args[0] not in COMMANDS and not args[0].startswith("-"):
+            from stochfric_mb.errors import InputError, require_name
+
+            try:
+                require_name("command", args[0], COMMANDS)
+            except InputError as error:
+                raise click.UsageError(str(error), ctx) from None
+        return super().resolve_command(ctx, args)
+
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the table of commands without loading any."""
         with formatter.section("Commands"):

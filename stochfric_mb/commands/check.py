@@ -10,6 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from stochfric_mb.commands import completion
+from stochfric_mb.commands.speech import answer, say, spoken
+from stochfric_mb.errors import InputError
+
 if TYPE_CHECKING:
     from stochfric_mb.mujoco.findings import CheckResult
 
@@ -28,14 +32,17 @@ limit: explicit step limit of our law [s]; -: could not be measured, see notes i
 
 
 @click.command(epilog=EXAMPLE)
-@click.argument("model", metavar="MODEL")
+@spoken
+@click.argument("model", metavar="MODEL", type=click.Path())
 @click.option("--keyframe", metavar="NAME", help="Keyframe to start from, by name or number; default: the initial state.")
 @click.option("--settle", type=float, default=2.0, show_default=True, metavar="S", help="Time left to itself first [s].")
 @click.option("--duration", type=float, default=0.5, show_default=True, metavar="S", help="Time of each hold [s].")
-@click.option("--law", default="elastic_stick", show_default=True, metavar="KIND", help="Our law.")
+@click.option(
+    "--law", shell_complete=completion.laws, default="elastic_stick", show_default=True, metavar="KIND", help="Our law."
+)
 @click.option("--mu-k-ratio", type=float, default=1.0, show_default=True, help="Its mu_k over mu_s, from 0 to 1.")
 @click.option("--most", type=click.IntRange(1), default=12, show_default=True, help="Most contact pairs to probe.")
-@click.option("--out", "--json", default="check.json", show_default=True, metavar="FILE", help="What to write.")
+@click.option("-o", "--out", default="check.json", show_default=True, metavar="FILE", help="What to write.")
 @click.option("--force", is_flag=True, help="Replace what is at --out.")
 def check(
     model: str,
@@ -54,6 +61,7 @@ def check(
     from stochfric_mb.errors import MissingEngineError
     from stochfric_mb.outputs import check_target, claimed, whole_file
 
+    _require_model(model)
     target = check_target(Path(out) / "check.json" if Path(out).is_dir() else out, force=force)
     if not ENGINES["mujoco"].installed:
         raise MissingEngineError("mujoco is not installed; run: pip install 'stochfric_mb[mujoco]'")
@@ -68,26 +76,33 @@ def check(
         content = result.to_dict()
         with whole_file(target, replace=force) as temporary:
             temporary.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    answer(content)
     _show(content)
-    click.echo(str(target))
+    say(str(target))
+
+
+def _require_model(model: str) -> None:
+    """Require that a model that looks like a file is there: what is missing first is said first."""
+    if Path(model).suffix and not Path(model).is_file():
+        raise InputError(f"{model}: no such file; give an MJCF (.xml), URDF or binary (.mjb) model, or a bundled one: incline")
 
 
 def _show(content: Mapping[str, Any]) -> None:
     from stochfric_mb.commands.tables import print_cards, print_table
 
     about = f"timestep {content['timestep']:g} s, {content['integrator']}, {content['cone']} cone"
-    click.echo(f"{content['model']}: {about}")
+    say(f"{content['model']}: {about}")
     rows = content["rows"]
     if not rows:
         seen = f"No pair that touches within {content['settle']:g} s, no joint and no tendon has friction"
-        click.echo(f"{seen}: nothing to check (see --settle and --keyframe)")
+        say(f"{seen}: nothing to check (see --settle and --keyframe)")
     else:
         print_table(HEAD, [line for row in rows for line in _lines(row)], title=TITLE)
-        click.echo(LEGEND)
+        say(LEGEND)
         print_cards([(row["name"], [(row["kind"], row["advice"])]) for row in rows], title="What to change")
         _show_imports(rows)
     for note in content["notes"]:
-        click.echo(f"Note: {note}")
+        say(f"Note: {note}")
 
 
 def _show_imports(rows: Sequence[Mapping[str, Any]]) -> None:
@@ -99,9 +114,9 @@ def _show_imports(rows: Sequence[Mapping[str, Any]]) -> None:
         return
     names = ["add_friction", *dict.fromkeys(row["kind"].capitalize() for row in taken if row["kind"] != "contact")]
     laws = {law_class(row["law"]["kind"]) for row in taken}
-    click.echo(f"In Python: from stochfric_mb.mujoco import {', '.join(names)}")
+    say(f"In Python: from stochfric_mb.mujoco import {', '.join(names)}")
     for law in sorted(laws, key=lambda law: law.__name__):
-        click.echo(f"           from {law.__module__} import {law.__name__}")
+        say(f"           from {law.__module__} import {law.__name__}")
 
 
 def _lines(row: Mapping[str, Any]) -> list[list[str]]:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from stochfric_mb.commands import completion
 from stochfric_mb.commands.options import command_line, engine_names, scenario_options
+from stochfric_mb.commands.speech import answer, say, spoken
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -23,12 +25,18 @@ ERRORS = "Engine minus reference: position, period, stick fraction, coefficients
 
 
 @click.command(epilog=EXAMPLE)
+@spoken
 @scenario_options
-@click.option("--engines", metavar="A,B,...", help="Engines to compare with the reference; default: all that are installed.")
+@click.option(
+    "--engines",
+    metavar="A,B,...",
+    shell_complete=completion.engines,
+    help="Engines to compare with the reference; default: all that are installed.",
+)
 @click.option(
     "--convergence/--no-convergence", default=True, show_default=True, help="Measure the error at four steps as well."
 )
-@click.option("--out", required=True, metavar="DIR", help="Folder for compare.json, report.html and plots.")
+@click.option("-o", "--out", required=True, metavar="DIR", help="Folder for compare.json, report.html and plots.")
 def compare(
     scenario: str,
     seed: int,
@@ -57,19 +65,21 @@ def compare(
         result = library.compare(problem, engines=names, seed=seed, dt=dt, convergence=convergence, stage=shown.stage)
         shown.note("drawing the report")
         with whole_folder(target, replace=force) as folder:
-            write(result, folder, command_line())
+            content = write(result, folder, command_line())
+    answer(content)
     _show(result)
-    click.echo(f"{target / 'report.html'}")
+    say(f"{target / 'report.html'}")
 
 
-def write(comparison: Comparison, folder: Path, command: str) -> None:
-    """Write compare.json, report.html and plots/ of a comparison into an existing folder."""
+def write(comparison: Comparison, folder: Path, command: str) -> dict[str, Any]:
+    """Write compare.json, report.html and plots/ of a comparison into an existing folder; return its numbers."""
     from stochfric_mb.commands.report_folder import write_report
     from stochfric_mb.report.comparison import figures, page
 
     drawn = figures(comparison)
     content = comparison.to_dict() | {"command": command}
     write_report(folder, numbers=MARKER, content=content, plots=drawn, page=page(comparison, drawn, command))
+    return content
 
 
 def _show(comparison: Comparison) -> None:
@@ -90,4 +100,4 @@ def _show(comparison: Comparison) -> None:
     print_table(("engine", "max [um]", "rms [um]", "period [%]", "stick", "path", "us/step"), rows, title=ERRORS)
     for engine in comparison.engines:
         for note in engine.notes:
-            click.echo(f"Note, {engine.name}: {note}")
+            say(f"Note, {engine.name}: {note}")

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from stochfric_mb.commands import completion
 from stochfric_mb.commands.options import command_line
+from stochfric_mb.commands.speech import answer, say, spoken
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -24,9 +26,15 @@ MARKER = "result.json"
 
 
 @click.command(epilog=EXAMPLE)
-@click.argument("dataset")
-@click.option("--scenario", metavar="SCENARIO", help="Model believed so far; needed for a measured file alone.")
-@click.option("--out", required=True, metavar="DIR", help="Folder for report, result and exports.")
+@spoken
+@click.argument("dataset", type=click.Path())
+@click.option(
+    "--scenario",
+    metavar="SCENARIO",
+    shell_complete=completion.scenarios,
+    help="Model believed so far; needed for a measured file alone.",
+)
+@click.option("-o", "--out", required=True, metavar="DIR", help="Folder for report, result and exports.")
 @click.option("--force", is_flag=True, help="Replace what is at --out.")
 def discover(dataset: str, scenario: str | None, out: str, force: bool) -> None:
     """Find where the runs of DATASET and their model disagree, name the missing effect, and show that the gap shrinks."""
@@ -43,8 +51,9 @@ def discover(dataset: str, scenario: str | None, out: str, force: bool) -> None:
         with whole_folder(target, replace=force) as folder:
             # the same data give the same bytes, wherever they are written to
             content = write(outcome, folder, command_line(without=("out", "force")))
+    answer(content)
     _show(content)
-    click.echo(f"{target / 'report.html'}")
+    say(f"{target / 'report.html'}")
 
 
 def write(outcome: Outcome, folder: Path, command: str) -> dict[str, Any]:
@@ -77,9 +86,9 @@ def _show(content: Mapping[str, Any]) -> None:
     from stochfric_mb.commands.tables import print_table
 
     names = ", ".join(e["kind"] for e in content["effects"])
-    click.echo(f"Verdict: {content['verdict']}" + (f" ({names})" if names else ""))
+    say(f"Verdict: {content['verdict']}" + (f" ({names})" if names else ""))
     if content["where"] is not None:
-        click.echo(content["where"]["text"])
+        say(content["where"]["text"])
     rows = [
         [effect["kind"], name, f"{p['value']:.4g}", _interval(p), p["unit"]]
         for effect in content["effects"]
@@ -90,15 +99,15 @@ def _show(content: Mapping[str, Any]) -> None:
         print_table(("effect", "parameter", "value", "95 % interval", "unit"), rows)
     for effect in content["effects"]:
         if effect["equivalent_to"]:
-            click.echo(f"These data cannot tell {effect['kind']} from {', '.join(effect['equivalent_to'])}")
+            say(f"These data cannot tell {effect['kind']} from {', '.join(effect['equivalent_to'])}")
     if (gap := content["gap"]) is not None:
         stages = ("baseline", "recalibrated", "augmented", "floor")
         rows = [[f"{gap[stage]:.3g}" if gap[stage] is not None else "-" for stage in stages]]
         rows[0].append("-" if gap["closed"] is None else f"{100.0 * gap['closed']:.3g} %")
         print_table(("as stated", *stages[1:], "closed"), rows, title=f"{gap['metric']} on held-out runs, in {gap['unit']}")
     for note in content["notes"]:
-        click.echo(f"Note: {note}")
-    click.echo(f"Next experiment: {content['next_experiment']}")
+        say(f"Note: {note}")
+    say(f"Next experiment: {content['next_experiment']}")
 
 
 def _interval(parameter: Mapping[str, Any]) -> str:

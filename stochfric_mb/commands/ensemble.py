@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from stochfric_mb.commands import completion
 from stochfric_mb.commands.options import scenario_options
+from stochfric_mb.commands.speech import answer, say, spoken
 from stochfric_mb.engines import ENGINES
 from stochfric_mb.errors import InputError
 
@@ -31,14 +33,22 @@ LEVELS = (0.05, 0.5, 0.95)
 
 
 @click.command(epilog=EXAMPLE)
+@spoken
 @scenario_options
 @click.option("--n-runs", required=True, type=int, metavar="N", help="Number of runs.")
-@click.option("--engine", default="reference", show_default=True, metavar="|".join(ENGINES), help="What computes them.")
+@click.option(
+    "--engine",
+    shell_complete=completion.engines,
+    default="reference",
+    show_default=True,
+    metavar="|".join(ENGINES),
+    help="What computes them.",
+)
 @click.option("--output-times", metavar="T,...", help="Times that are kept [s]; default: the scenario's output step.")
 @click.option("--statistics-only", is_flag=True, help="Keep means, quantiles and histograms instead of the runs.")
 @click.option("--workers", type=int, metavar="W", help="Threads or processes on this machine; default: all cores.")
 @click.option("--scheduler", metavar="ADDRESS", help="Compute on a Dask cluster instead, such as tcp://host:8786.")
-@click.option("--out", required=True, metavar="FILE", help="What to write: .nc, or .zarr for what is beyond the memory.")
+@click.option("-o", "--out", required=True, metavar="FILE", help="What to write: .nc, or .zarr for what is beyond the memory.")
 @click.option("--plot", is_flag=True, help="Write figures into the folder OUT_plots as well.")
 def ensemble(
     scenario: str,
@@ -75,7 +85,7 @@ def ensemble(
     task = job(problem, n_runs, seed=seed, engine=engine, dt=dt, output_times=times, statistics_only=statistics_only)
     here = checked_workers(workers, scheduler)
     check_memory(task, target, here, MAX_BYTES)
-    click.echo(_plan(task, target, here, scheduler))
+    say(_plan(task, target, here, scheduler))
     try:
         with display() as shown:
             shown.note(f"loading {engine}")
@@ -87,6 +97,7 @@ def ensemble(
     result, _ = read_ensemble(target)
     if plots is not None:
         _plot(result, problem, plots, force=force)
+    answer(lambda: _facts(result, done))
     _show(result, done)
 
 
@@ -145,7 +156,23 @@ def _plot(result: EnsembleResult, scenario: Scenario, folder: Path, *, force: bo
     with whole_folder(folder, replace=force) as temporary:
         for name, png in drawn.items():
             (temporary / f"{name}.png").write_bytes(png)
-    click.echo(f"{folder}: {', '.join(drawn)}")
+    say(f"{folder}: {', '.join(drawn)}")
+
+
+def _facts(result: EnsembleResult, done: Produced) -> dict[str, Any]:
+    """Return what there is to say of an ensemble: its file, what ran, and the events with their intervals."""
+    import dataclasses
+
+    from stochfric_mb.statistics import event_statistics
+
+    def finite(number: float) -> float | None:
+        return number if math.isfinite(number) else None
+
+    events = dataclasses.asdict(event_statistics(result))
+    kept = ("law", "engine", "engine_version", "dt", "seed", "notes")
+    return {"out": str(done.path), "n_runs": result.n_runs, **{k: result.attributes[k] for k in kept}} | {
+        name: None if e is None else {k: finite(float(v)) for k, v in e.items()} for name, e in events.items()
+    }
 
 
 def _show(result: EnsembleResult, done: Produced) -> None:
@@ -171,10 +198,10 @@ def _show(result: EnsembleResult, done: Produced) -> None:
     print_table(("", "mean", "95 % interval"), rows, title="Events")
     about = result.attributes
     for note in about["notes"]:
-        click.echo(f"Note: {note}")
+        say(f"Note: {note}")
     resumed = f", {done.n_resumed} blocks from an interrupted run" if done.n_resumed else ""
     step = f", dt {about['dt']:g} s" if about["dt"] else ""
-    click.echo(
+    say(
         f"{done.path}: {result.n_runs} runs, law {about['law']}, {about['engine']} {about['engine_version']}{step}, seed "
         f"{about['seed']}; {done.seconds:.3g} s{resumed}"
     )

@@ -7,21 +7,33 @@ from typing import Any
 
 import click
 
+from stochfric_mb.commands.speech import answer, say, spoken
+
 EXAMPLE = """\b
 Example:
   stochfric list laws
 """
 
 
+Cards = list[tuple[str, list[tuple[str, str]]]]
+
+
 @click.command("list", epilog=EXAMPLE)
+@spoken
 @click.argument("what", type=click.Choice(["laws", "processes", "effects", "engines"]))
 def list_(what: str) -> None:
     """List what there is: laws, processes, effects or engines, with equation and source."""
     _LISTS[what]()
 
 
-def _laws() -> None:
+def _print(cards: Cards, title: str) -> None:
     from stochfric_mb.commands.tables import print_cards
+
+    answer({title: {name: dict(lines) for name, lines in cards}})
+    print_cards(cards, title=title)
+
+
+def _laws() -> None:
     from stochfric_mb.laws import AXIOMS, LAWS, law_class
 
     cards: list[tuple[str, list[tuple[str, str]]]] = []
@@ -29,10 +41,10 @@ def _laws() -> None:
         cls = law_class(kind)
         lines = [("equation", cls.equation), ("parameters", _parameters(cls)), ("source", cls.source)]
         cards.append((kind, lines + _broken(cls.exceptions)))
-    print_cards(cards, title="Friction laws")
-    click.echo("Every law is tested on these axioms, unless it says that one does not hold:")
+    _print(cards, title="Friction laws")
+    say("Every law is tested on these axioms, unless it says that one does not hold:")
     for name, text in AXIOMS.items():
-        click.echo(f"  {name}: {text}")
+        say(f"  {name}: {text}")
 
 
 def _broken(exceptions: Mapping[str, str]) -> list[tuple[str, str]]:
@@ -43,19 +55,17 @@ def _broken(exceptions: Mapping[str, str]) -> list[tuple[str, str]]:
 
 def _processes() -> None:
     from stochfric_mb.coefficients import PROCESSES
-    from stochfric_mb.commands.tables import print_cards
 
     cards = [
         (kind, [("equation", cls.equation), ("parameters", _parameters(cls)), ("source", cls.source)])
         for kind, cls in PROCESSES.items()
     ]
-    print_cards(cards, title="Coefficient processes")
+    _print(cards, title="Coefficient processes")
 
 
 def _effects() -> None:
     import dataclasses
 
-    from stochfric_mb.commands.tables import print_cards
     from stochfric_mb.effects import GROUPS, effect_class, effect_kinds
 
     classes = sorted(map(effect_class, effect_kinds()), key=lambda cls: GROUPS.index(cls.group))
@@ -71,7 +81,7 @@ def _effects() -> None:
         )
         for cls in classes
     ]
-    print_cards(cards, title="Effects: what may be added to a model")
+    _print(cards, title="Effects: what may be added to a model")
 
 
 def _effect_parameter(field: Any) -> str:
@@ -90,10 +100,12 @@ def _engines() -> None:
     from stochfric_mb.engines import ENGINES
 
     rows = [(e.name, e.version or "not installed", e.hook, e.source) for e in ENGINES.values()]
-    print_table(("engine", "version", "how friction enters", "source"), rows, title="Engines")
+    head = ("engine", "version", "how friction enters", "source")
+    answer({"engines": [dict(zip(head, row, strict=True)) for row in rows]})
+    print_table(head, rows, title="Engines")
     for engine in ENGINES.values():
         if not engine.installed:
-            click.echo(f"{engine.name} is not installed; run: pip install {engine.remedy}")
+            say(f"{engine.name} is not installed; run: pip install {engine.remedy}")
 
 
 def _parameters(cls: type) -> str:

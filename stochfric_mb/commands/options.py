@@ -9,6 +9,7 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
+from stochfric_mb.commands import completion
 from stochfric_mb.engines import ENGINES
 from stochfric_mb.errors import InputError, require_name
 
@@ -20,14 +21,19 @@ def scenario_options(command: Callable[..., Any]) -> Callable[..., Any]:
         click.option(
             "--set", "overrides", multiple=True, metavar="TABLE.KEY=VALUE", help="Override a value of the scenario; repeatable."
         ),
-        click.option("--law", metavar="KIND", help="Replace the scenario's law; shared parameters are kept."),
+        click.option(
+            "--law",
+            metavar="KIND",
+            shell_complete=completion.laws,
+            help="Replace the scenario's law; shared parameters are kept.",
+        ),
         click.option(
             "--dt", type=float, metavar="DT", help="Step of the engine [s]; default 1e-4, or half the law's stability limit."
         ),
         click.option(
             "--seed", type=click.IntRange(0, 2**32 - 1), default=0, show_default=True, help="Seed of the coefficients."
         ),
-        click.argument("scenario"),
+        click.argument("scenario", shell_complete=completion.scenarios),
     ):
         command = option(command)
     return command

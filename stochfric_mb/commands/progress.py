@@ -1,17 +1,26 @@
-"""Progress on stderr: what runs, how far it is, how long it still takes; silent where stderr is no terminal."""
+"""Progress on stderr: what runs, how far it is, how long it still takes; bars on a terminal, lines elsewhere."""
 
 from __future__ import annotations
 
 import contextlib
 import functools
+import math
 import time
 from collections.abc import Callable, Generator
+from typing import Any
 
+import click
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
+from stochfric_mb.commands.speech import Speech, speech
+
 REFRESH = 0.05
 """Least time between two updates of a bar [s]."""
+PATIENCE = 2.0
+"""Time for which a command off a terminal says nothing of its progress [s]: short ones stay silent."""
+EVERY = 10.0
+"""Least time between two lines on one stage off a terminal [s]."""
 
 
 class Display:
@@ -75,10 +84,60 @@ class Display:
         self._finish = functools.partial(self._progress.remove_task, task)
 
 
+class Lines(Display):
+    """Progress in lines with the time since the command began, for logs and pipes."""
+
+    def __init__(self, patience: float) -> None:
+        """Begin; nothing is said in the first ``patience`` seconds."""
+        self._began = time.monotonic()
+        self._patience = patience
+
+    def stage(self, name: str, duration: float) -> Callable[[float], None]:
+        """Begin the run ``name`` over ``duration`` [s]; return what is called with the simulated time [s]."""
+        self.note(name)
+        return self._now_and_then(lambda t: f"{name}: {t:.3g} / {duration:g} s simulated")
+
+    def count(self, name: str, total: int) -> Callable[[int], None]:
+        """Begin to count ``name`` up to ``total``; return what is called with how many are done."""
+        return self._now_and_then(lambda done: f"{done} / {total} {name}")
+
+    def note(self, text: str) -> None:
+        """Say that something begins."""
+        spent = time.monotonic() - self._began
+        if spent >= self._patience:
+            click.echo(f"[{spent:.0f} s] {text}", err=True)
+
+    def _now_and_then(self, text: Callable[[Any], str]) -> Callable[[Any], None]:
+        said = time.monotonic()
+
+        def advance(value: Any) -> None:
+            nonlocal said
+            if time.monotonic() - said >= EVERY:
+                said = time.monotonic()
+                self.note(text(value))
+
+        return advance
+
+
+class Silence(Lines):
+    """No progress at all."""
+
+    def __init__(self) -> None:
+        """Say nothing, ever."""
+        super().__init__(math.inf)
+
+
 @contextlib.contextmanager
 def display() -> Generator[Display]:
-    """Give the display of one command; its bars stay on the screen afterwards."""
+    """Give the display of one command: bars on a terminal, lines elsewhere and with ``-v``, nothing with ``-q``."""
     console = Console(stderr=True)
+    how = speech()
+    if how is Speech.QUIET:
+        yield Silence()
+        return
+    if how is Speech.VERBOSE or not console.is_terminal:
+        yield Lines(0.0 if how is Speech.VERBOSE else PATIENCE)
+        return
     columns = (
         SpinnerColumn(finished_text="[green]✓[/]"),
         TextColumn("{task.description}"),
@@ -88,5 +147,5 @@ def display() -> Generator[Display]:
         TimeRemainingColumn(),
         TextColumn("{task.fields[left]}"),
     )
-    with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as progress:
+    with Progress(*columns, console=console, transient=True) as progress:
         yield Display(progress)

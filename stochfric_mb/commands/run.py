@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from stochfric_mb.commands import completion
 from stochfric_mb.commands.options import scenario_options
+from stochfric_mb.commands.speech import answer, say, spoken
 from stochfric_mb.engines import ENGINES
 
 if TYPE_CHECKING:
@@ -21,9 +24,19 @@ Example:
 
 
 @click.command(epilog=EXAMPLE)
+@spoken
 @scenario_options
-@click.option("--engine", default="reference", show_default=True, metavar="|".join(ENGINES), help="What computes it.")
-@click.option("--out", required=True, metavar="FILE", help="What to write: .nc, .csv or .parquet. Missing folders are made.")
+@click.option(
+    "--engine",
+    shell_complete=completion.engines,
+    default="reference",
+    show_default=True,
+    metavar="|".join(ENGINES),
+    help="What computes it.",
+)
+@click.option(
+    "-o", "--out", required=True, metavar="FILE", help="What to write: .nc, .csv or .parquet. Missing folders are made."
+)
 def run(
     scenario: str, seed: int, dt: float | None, law: str | None, overrides: tuple[str, ...], force: bool, engine: str, out: str
 ) -> None:
@@ -47,7 +60,9 @@ def run(
         trajectory = module.simulate(problem, seed=seed, dt=dt, progress=progress)
         shown.note(f"writing {out}")
         write_trajectory(trajectory, out, scenario=problem, force=force)
-    click.echo(_summary(out, problem, trajectory))
+    facts = _facts(out, problem, trajectory)
+    answer(facts)
+    say(_summary(facts, problem))
 
 
 def _load(scenario: str, law: str | None, overrides: tuple[str, ...]) -> Scenario:
@@ -56,15 +71,25 @@ def _load(scenario: str, law: str | None, overrides: tuple[str, ...]) -> Scenari
     return load_scenario(scenario, law=law, overrides=overrides)
 
 
-def _summary(out: str, scenario: Scenario, trajectory: Trajectory) -> str:
+def _facts(out: str, scenario: Scenario, trajectory: Trajectory) -> dict[str, Any]:
+    """Return what there is to say of a trajectory."""
     from stochfric_mb.metrics import period, stick_fraction
 
     about = trajectory.attributes
     interval = period(trajectory, scenario.law, scenario.mechanism)
+    kept = ("law", "engine", "version", "dt", "seed", "notes")
+    return {"out": out, "n_samples": len(trajectory.time), "duration": scenario.duration, **{k: about[k] for k in kept}} | {
+        "stick_fraction": stick_fraction(trajectory, scenario.law, scenario.mechanism),
+        "period": interval if math.isfinite(interval) else None,
+    }
+
+
+def _summary(facts: Mapping[str, Any], scenario: Scenario) -> str:
+    interval = facts["period"]
     lines = [
-        f"{out}: {len(trajectory.time)} samples over {scenario.duration:g} s, law {about['law']}, "
-        f"{about['engine']} {about['version']}, dt {about['dt']:g} s, seed {about['seed']}",
-        f"stick fraction {stick_fraction(trajectory, scenario.law, scenario.mechanism):.4f}, "
-        + (f"period {interval:.6f} s" if math.isfinite(interval) else "no period: fewer than two break-aways"),
+        f"{facts['out']}: {facts['n_samples']} samples over {scenario.duration:g} s, law {facts['law']}, "
+        f"{facts['engine']} {facts['version']}, dt {facts['dt']:g} s, seed {facts['seed']}",
+        f"stick fraction {facts['stick_fraction']:.4f}, "
+        + ("no period: fewer than two break-aways" if interval is None else f"period {interval:.6f} s"),
     ]
-    return "\n".join([*lines, *(f"Note: {note}" for note in about["notes"])])
+    return "\n".join([*lines, *(f"Note: {note}" for note in facts["notes"])])

@@ -9,12 +9,16 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from stochfric_mb.commands.speech import speaks
+
 WIDTH = 100
 """Width of a table where stdout is no terminal."""
 
 
 def print_table(head: Sequence[str], rows: Sequence[Sequence[str]], *, title: str | None = None) -> None:
     """Print a table; its first column is never broken, the others fold."""
+    if not speaks():
+        return
     console = Console()
     if title is not None:
         console.print(title, style="bold", highlight=False)
@@ -28,10 +32,13 @@ def print_table(head: Sequence[str], rows: Sequence[Sequence[str]], *, title: st
 
 def print_cards(cards: Sequence[tuple[str, Sequence[tuple[str, str]]]], *, title: str) -> None:
     """Print one card each: a name, and lines of what and text; made for texts too long for a table's cells."""
+    if not speaks():
+        return
     console = Console()
     console.print(title, style="bold", highlight=False)
     table = Table("name", "", "", box=box.SIMPLE_HEAD, pad_edge=False, show_header=False)
     table.columns[0].no_wrap = table.columns[1].no_wrap = True
+    table.columns[2].overflow = "fold"  # a formula has no spaces to break at, and is cut otherwise
     for name, lines in cards:
         for number, (what, text) in enumerate(lines):
             table.add_row(Text(name if number == 0 else "", style="bold"), Text(what, style="dim"), Text(text))

@@ -42,8 +42,8 @@ class Shown:
     """Stuck speed over belt speed."""
     length: float
     """Range of positions over mu_s N/k."""
-    time: float | None
-    """Time in slip over half a natural period; None: no slip was seen."""
+    time: float
+    """Time in slip over half a natural period."""
 
     def fits(self, cause: Cause | None = None) -> bool:
         """Return whether the record fits the model, once the unit of ``cause`` is corrected."""
@@ -52,12 +52,8 @@ class Shown:
             size = math.log10(cause.factor)
             speed -= cause.speed * size
             length -= cause.length * size
-            time = None if time is None else time - cause.time * size
-        return (
-            abs(speed) <= SPEED_FITS
-            and LENGTH_FITS[0] <= length <= LENGTH_FITS[1]
-            and (time is None or TIME_FITS[0] <= time <= TIME_FITS[1])
-        )
+            time -= cause.time * size
+        return abs(speed) <= SPEED_FITS and LENGTH_FITS[0] <= length <= LENGTH_FITS[1] and TIME_FITS[0] <= time <= TIME_FITS[1]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -89,7 +85,7 @@ FACTORS: dict[str, tuple[float, ...]] = {
     "position": (1e3, 1e-3, 1e6, 1e-6, 1e2, 1e-2, 10.0, 0.1, 1.0 / 0.0254, 0.0254, 25.4, 1.0 / 25.4),
     "time": (1e3, 1e-3, 1e6, 1e-6, 60.0, 1.0 / 60.0),
     "belt_velocity": (1e3, 1e-3, 1e6, 1e-6, 1e2, 1e-2, 6e4, 60.0, 1.0 / 60.0),
-    "stiffness": (1e3, 1e-3, 1e6, 1e-6),
+    "stiffness": (1e-3, 1e-6),
     "mass": (1e3, 1e-3),
     "normal_force": (1e3, 1e-3),
 }
@@ -97,7 +93,7 @@ FACTORS: dict[str, tuple[float, ...]] = {
 
 
 def shown(run: Run, box: BeltBox, mu_s: float) -> Shown | None:
-    """Return what a record shows over what is stated; None where the box cannot be seen to stick on a belt that runs."""
+    """Return what a record shows over what is stated; None where the box is not seen to stick and slip on a belt that runs."""
     position = run.channels.get("position")
     belt = belt_speed(run, box)
     if position is None or belt == 0.0:
@@ -111,10 +107,10 @@ def shown(run: Run, box: BeltBox, mu_s: float) -> Shown | None:
     if not (high > low and speed and hold > 0.0):
         return None
     slip = slip_time(position, run.sample_interval, speed, lag)
+    if slip is None:
+        return None
     half = math.pi * math.sqrt(box.mass / box.stiffness)
-    return Shown(
-        math.log10(abs(speed) / belt), math.log10((high - low) / hold), None if slip is None else math.log10(slip / half)
-    )
+    return Shown(math.log10(abs(speed) / belt), math.log10((high - low) / hold), math.log10(slip / half))
 
 
 def belt_speed(run: Run, box: BeltBox) -> float:

@@ -83,6 +83,11 @@ def test_numbers_that_are_merely_wrong_are_left_to_discovery(tmp_path, motion, t
     assert _load(tmp_path, motion, _stated(truth, **{key: factor * getattr(truth.mechanism, key)})).fit
 
 
+def test_a_box_that_rides_on_the_belt_throughout_has_no_wrong_unit(tmp_path, motion, truth):
+    time, _ = motion
+    assert _load(tmp_path, (time, truth.mechanism.belt_velocity * time), truth).fit
+
+
 def test_dead_channels(tmp_path, motion, truth):
     zero = np.zeros(motion[0].size)
     with pytest.raises(

@@ -1,0 +1,122 @@
+"""Quiet, verbose, JSON, completion, hints: the command line as a script and a hurried user meet it."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+from click.testing import CliRunner
+
+from stochfric_mb.__main__ import COMMANDS, main
+from stochfric_mb.commands import progress
+from stochfric_mb.commands.speech import Speech
+
+RUN = ["run", "kang2015_table1", "--set", "simulation.duration=0.05"]
+
+
+def invoke(*words):
+    return CliRunner().invoke(main, [str(w) for w in words])
+
+
+@pytest.mark.parametrize(("typed", "meant"), [("comprae", "compare"), ("discovr", "discover"), ("ensembel", "ensemble")])
+def test_a_mistyped_command_is_answered_with_the_nearest(typed, meant):
+    done = invoke(typed)
+    assert done.exit_code == 2
+    assert f"unknown command {typed!r}; did you mean {meant!r}? Known: " in done.stderr
+
+
+def test_quiet_prints_nothing_but_errors(tmp_path):
+    done = invoke(*RUN, "-o", tmp_path / "run.nc", "-q")
+    assert (done.exit_code, done.stdout, done.stderr) == (0, "", "")
+    again = invoke(*RUN, "-o", tmp_path / "run.nc", "-q")
+    assert again.exit_code == 2
+    assert "exists" in again.stderr
+
+
+def test_json_is_all_that_is_on_stdout(tmp_path):
+    done = invoke(*RUN, "-o", tmp_path / "run.nc", "--json")
+    content = json.loads(done.stdout)
+    assert content["out"] == str(tmp_path / "run.nc")
+    assert (content["n_samples"], content["engine"], content["period"]) == (51, "reference", None)
+
+
+@pytest.mark.parametrize("what", ["laws", "processes", "effects", "engines"])
+def test_lists_are_json_too(what):
+    assert len(json.loads(invoke("list", what, "--json").stdout)) == 1
+
+
+def test_verbose_shows_progress_off_a_terminal(tmp_path):
+    done = invoke(*RUN, "-o", tmp_path / "run.nc", "--verbose")
+    assert "[0 s] loading reference" in done.stderr
+    assert "samples over" in done.stdout
+
+
+def test_two_ways_to_speak_do_not_go_together(tmp_path):
+    done = invoke(*RUN, "-o", tmp_path / "run.nc", "-q", "--json")
+    assert done.exit_code == 2
+    assert "--quiet and --json do not go together" in done.stderr or "--json and --quiet do not go together" in done.stderr
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_has_the_same_short_options(name):
+    options = {text for p in main.get_command(None, name).params for text in p.opts}
+    assert {"-q", "-v", "--json"} <= options
+    assert "--out" not in options or "-o" in options
+
+
+def test_lines_of_progress_wait_and_are_rare(monkeypatch, capsys):
+    now = 0.0
+    monkeypatch.setattr(progress.time, "monotonic", lambda: now)
+    lines = progress.Lines(progress.PATIENCE)
+    lines.note("loading")
+    now = 3.0
+    lines.note("screening")
+    advance = lines.stage("mujoco", 10.0)
+    for step in range(100):
+        now = 3.0 + 0.25 * step
+        advance(0.1 * step)
+    said = capsys.readouterr().err.splitlines()
+    assert said[:2] == ["[3 s] screening", "[3 s] mujoco"]
+    assert said[2:] == ["[13 s] mujoco: 4 / 10 s simulated", "[23 s] mujoco: 8 / 10 s simulated"]
+
+
+def test_silence_is_silent(capsys):
+    progress.Silence().note("anything")
+    assert capsys.readouterr().err == ""
+    assert Speech("quiet") is Speech.QUIET
+
+
+@pytest.mark.parametrize(
+    ("words", "completed"),
+    [
+        ("stochfric disc", ["discover"]),
+        ("stochfric run kang2015_table2", ["kang2015_table2_13_8", "kang2015_table2_18_7"]),
+        ("stochfric run x --engine mu", ["mujoco"]),
+        ("stochfric compare x --engines mujoco,ex", ["mujoco,exudyn"]),
+        ("stochfric run x --law elastic", ["elastic_stick"]),
+    ],
+)
+def test_the_shell_completes(words, completed):
+    place = {"COMP_WORDS": words, "COMP_CWORD": str(len(words.split()) - 1), "_STOCHFRIC_COMPLETE": "bash_complete"}
+    code = "from stochfric_mb.__main__ import main; main(prog_name='stochfric')"
+    done = subprocess.run([sys.executable, "-c", code], env=os.environ | place, capture_output=True, text=True, check=False)
+    offered = [line.partition(",")[2] for line in done.stdout.splitlines() if line.startswith("plain,")]
+    assert offered == completed
+
+
+def test_a_missing_model_is_said_first(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "check.json").write_text("{}")  # which would be an error of its own
+    done = invoke("check", "nosuch.xml")
+    assert done.exit_code == 2
+    assert "nosuch.xml: no such file" in done.stderr
+
+
+def test_no_formula_is_cut_at_80_columns():
+    """A table on a terminal of 80 columns folds what it cannot break."""
+    code = "import sys; sys.argv[1:] = ['list', 'effects']; from stochfric_mb.__main__ import main; main()"
+    forced = {"COLUMNS": "80", "FORCE_COLOR": "1", "TERM": "xterm"}
+    done = subprocess.run([sys.executable, "-c", code], env=os.environ | forced, capture_output=True, text=True, check=True)
+    assert "velocity_weakening" in done.stdout
+    assert "…" not in done.stdout
