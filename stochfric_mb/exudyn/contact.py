@@ -14,7 +14,7 @@ from stochfric_mb.coefficients.path import CoefficientPath
 from stochfric_mb.errors import InputError, SimulationError, require_number
 from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.hooks import Hooks
-from stochfric_mb.exudyn.location import locate
+from stochfric_mb.exudyn.location import FINE, locate
 from stochfric_mb.exudyn.normal import NO_REACTION, Normal, is_explicit
 from stochfric_mb.exudyn.stepping import CHANGED, FETCH, LOST, RECORDED, RESTARTED, WATCH, advance, proceed
 from stochfric_mb.exudyn.symbolic import NORMAL_LINE, live_names, symbolic
@@ -24,6 +24,9 @@ from stochfric_mb.laws.abi import MAX_STATE, native_law
 
 OUTPUT = exudyn.OutputVariableType
 INITIAL = exudyn.ConfigurationType.Initial
+REACTION_TOLERANCE, SMALL_REACTION, REPEATS = 1.0e-6, 1.0e-3, 4
+"""How near the normal force of a step must be to the reaction that comes out, of the reaction; of which part of the largest one
+so far where it is smaller; and how often a step is repeated for it."""
 SENSOR_NAMES = ("friction_force", "normal_force", "stick", "mu_s", "mu_k")
 """Entries of a contact's sensor: force [N] (its size where it slides in a plane), normal force [N], 1 or 0, [-], [-]."""
 
@@ -59,6 +62,7 @@ class FrictionContact:
         self._places: list[tuple[int, Any]] = []
         self._given = [math.nan] * len(self._names)
         self._unsure = False
+        self._refined = (math.nan, 0)
         self.where = int(self._words.ctypes.data)
         """Address of the contact for compiled code."""
         self.object: Any = None
@@ -202,12 +206,29 @@ class FrictionContact:
             self._pass_on()
         return bool(bits & (WATCH | RESTARTED)) or was_unsure
 
-    def refine(self) -> bool:
-        """Take the normal force of the trial step where no earlier one is known; return whether it must be repeated."""
-        if not self._unsure:
+    def refine(self, t: float) -> bool:
+        """Let a reaction that is the normal force be the one of the trial step to t [s]; return whether to repeat the step.
+
+        The first step has it constant, all others have it on a line from the reaction at their start.
+        """
+        if not self._normal.reaction:
             return False
-        self._unsure = False
-        self.guess_normal(self._normal.at(0.0))
+        now, numbers = self._normal.at(t), self._numbers
+        at_t, count = self._refined
+        count = count + 1 if t == at_t else 1
+        self._refined = (t, count)
+        line = self._names.index(NORMAL_LINE[0])
+        used = max(self._live[line] + self._live[line + 1] * t, 0.0)
+        settled = abs(now - used) <= REACTION_TOLERANCE * max(now, used, SMALL_REACTION * numbers[at.LARGEST_NORMAL])
+        if settled or count > REPEATS:
+            return False
+        h = t - numbers[at.T]
+        if self._unsure or h <= 0.0:
+            self.guess_normal(now)
+        else:
+            rate = (now - numbers[at.NORMAL_FORCE]) / h
+            self._live[line], self._live[line + 1] = now - rate * t, rate
+            self._pass_on()
         return True
 
     def guess_normal(self, force: float | None) -> None:
@@ -220,11 +241,6 @@ class FrictionContact:
         line = self._names.index(NORMAL_LINE[0])
         self._live[line], self._live[line + 1] = force, 0.0
         self._pass_on()
-
-    @property
-    def unsure(self) -> bool:
-        """Whether the step to come has a normal force that is only guessed."""
-        return self._unsure
 
     def recommended_step(self, t: float) -> float:
         """Return the step [s] that ends at the law's next switch or the next grid point, or -1 to accept this one."""
@@ -287,7 +303,7 @@ class FrictionContact:
         rate = 0.0
         if self._normal.reaction:
             if started and behind > 0.0:
-                rate = (now - numbers[at.NORMAL_FORCE]) / behind
+                rate = (now - numbers[at.NORMAL_FORCE]) / max(behind, FINE * numbers[at.STEP])
         elif (ahead := numbers[at.STEP] or (behind if started else 0.0)) > 0.0:
             rate = (self._normal.at(t + ahead) - now) / ahead
         numbers[[at.GIVEN_NORMAL, at.GIVEN_RATE]] = now, rate

@@ -53,13 +53,8 @@ class Contact(Protocol):
         """Whether the normal force is a reaction, which explicit solvers do not compute."""
         ...
 
-    @property
-    def unsure(self) -> bool:
-        """Whether the step to come has a normal force that is only guessed."""
-        ...
-
-    def refine(self) -> bool:
-        """Take the normal force of the trial step where it was guessed; return whether the step must be repeated."""
+    def refine(self, t: float) -> bool:
+        """Take the reaction of the trial step to t [s] as normal force; return whether the step must be repeated."""
         ...
 
     def guess_normal(self, force: float | None) -> None:
@@ -134,7 +129,7 @@ class Hooks:
         """Put PostNewton in place while it is needed, and take it away otherwise: it costs as much as a step."""
         other = self._other["PostNewton"]
         needed = self._locating and (other is not None or any(c.watched for c in self.contacts))
-        if needed or any(c.unsure for c in self.contacts):
+        if needed or any(c.needs_reactions for c in self.contacts):
             methods.fill(self._mbs, "PostNewton", self._own["PostNewton"])
         else:
             methods.fill(self._mbs, "PostNewton", other or 0)
@@ -160,7 +155,7 @@ class Hooks:
         contacts, other = self.contacts, self._other["PostNewton"]
 
         def post_newton(mbs: Any, t: float) -> list[float]:
-            if sum(contact.refine() for contact in contacts):  # all of them
+            if sum(contact.refine(t) for contact in contacts):  # all of them
                 return [SWITCH_ERROR, -1.0]
             steps = [step for contact in contacts if (step := contact.recommended_step(t)) > 0.0] if self._locating else []
             error, step = (0.0, -1.0) if other is None else other(mbs, t)

@@ -7,6 +7,7 @@ from typing import Any
 import exudyn
 
 from stochfric_mb.errors import InputError, SimulationError, require_name
+from stochfric_mb.exudyn.contact import REPEATS
 from stochfric_mb.exudyn.hooks import SWITCH_ERROR, Hooks
 from stochfric_mb.exudyn.methods import solve
 from stochfric_mb.exudyn.normal import NO_REACTION
@@ -78,6 +79,8 @@ def _settle_settings(mbs: Any, integration: Any, hooks: Hooks, dt: float) -> Non
     integration.newton.modifiedNewtonJacUpdatePerStep = True  # stick is stiff, slip is not: 1 iteration a step instead of 5
     if any(contact.is_load for contact in hooks.contacts) and integration.computeLoadsJacobian == 0:
         integration.computeLoadsJacobian = 2
+    integration.discontinuous.iterationTolerance = 0.1 * SWITCH_ERROR
+    integration.discontinuous.maxIterations = 2 + REPEATS
     if dt > 0.0:
         _settle_location(integration, dt)
         if len(mbs.systemData.GetAECoordinates()):
@@ -92,6 +95,4 @@ def _settle_location(integration: Any, dt: float) -> None:
     integration.adaptiveStepRecoveryIterations = 50
     integration.adaptiveStepIncrease = 1.0e9
     integration.minimumStepSize = min(integration.minimumStepSize, 1.0e-7 * dt)
-    integration.discontinuous.iterationTolerance = 0.1 * SWITCH_ERROR
-    integration.discontinuous.maxIterations = 2
     integration.discontinuous.useRecommendedStepSize = True
