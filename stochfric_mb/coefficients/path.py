@@ -16,9 +16,9 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.coefficients.distributions import transform
+from stochfric_mb.coefficients.distributions import transform, truncated
 from stochfric_mb.coefficients.philox import normals
-from stochfric_mb.coefficients.processes import HEADER, Process
+from stochfric_mb.coefficients.processes import EVENT, HEADER, POSITION, TIME, Process
 from stochfric_mb.compile import compiled
 from stochfric_mb.errors import InputError
 from stochfric_mb.laws.contract import Law
@@ -62,14 +62,34 @@ class CoefficientPath:
         self.descriptor: npt.NDArray[np.float64] = constant_descriptor(law) if process is None else process.descriptor(law)
         self._cursor = np.zeros(CURSOR)
 
-    def at(self, t: float, position: float = 0.0, events: int = 0) -> tuple[float, float]:
-        """Return (mu_s, mu_k) [-] at time t [s], belt position [m] and number of stick phases begun so far."""
-        return evaluate(
-            self.descriptor, self._cursor, self.seed, self.sample, self.contact, float(t), float(position), float(events)
-        )
+    def at(self, t: float, position: float | None = None, events: int | None = None) -> tuple[float, float]:
+        """Return (mu_s, mu_k) [-].
+
+        Args:
+            t: time [s].
+            position: relative displacement (belt position) [m]; needed by processes along the belt alone.
+            events: number of stick phases begun so far; needed by processes by event alone.
+
+        Raises:
+            InputError: the process runs along what was not given.
+        """
+        clock = TIME if self.process is None else self.process.clock
+        if (clock == POSITION and position is None) or (clock == EVENT and events is None):
+            what = (
+                "position, the relative displacement [m]" if clock == POSITION else "events, the number of stick phases begun"
+            )
+            raise InputError(
+                f"process {getattr(self.process, 'kind', '')} does not run along time; give {what}: path.at(t, ...)"
+            )
+        address = (self.seed, self.sample, self.contact)
+        return evaluate(self.descriptor, self._cursor, *address, float(t), float(position or 0.0), float(events or 0))
 
     def at_times(self, times: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Return the pairs at the given times [s], shape (n, 2)."""
+        """Return the pairs of a process along time at the given times [s], shape (n, 2).
+
+        Raises:
+            InputError: the process runs along the belt or by event.
+        """
         return np.array([self.at(float(t)) for t in np.asarray(times, dtype=np.float64)]).reshape(-1, 2)
 
     def pairs(self, n: int, first: int = 0) -> npt.NDArray[np.float64]:
@@ -173,11 +193,14 @@ def _pair_of_normals(descriptor, z_s, z_k):
 
 @compiled
 def _clipped_pair(descriptor, z_s, z_k):
-    """Return the pair clipped into its bounds and to 0 <= mu_k <= mu_s (correlated processes cannot be redrawn)."""
+    """Return the pair clipped to 0 <= mu_k <= mu_s (correlated processes cannot be redrawn); bounds truncate."""
     mu_s, mu_k = _pair_of_normals(descriptor, z_s, z_k)
-    mu_s = max(min(max(mu_s, descriptor[10]), descriptor[11]), 0.0)
-    mu_k = max(min(max(mu_k, descriptor[12]), descriptor[13]), 0.0)
-    return mu_s, min(mu_k, mu_s)
+    if descriptor[10] > -math.inf or descriptor[11] < math.inf:
+        mu_s = truncated(z_s, descriptor[4], descriptor[6], descriptor[10], descriptor[11])
+    if descriptor[12] > -math.inf or descriptor[13] < math.inf:
+        mu_k = truncated(z_k, descriptor[5], descriptor[7], descriptor[12], descriptor[13])
+    mu_s = max(mu_s, 0.0)
+    return mu_s, min(max(mu_k, 0.0), mu_s)
 
 
 @compiled

@@ -116,7 +116,8 @@ def next_pairs(descriptor, cursors, seed, first, knot, a_s, a_k, b_s, b_k):
 def _pairs(descriptor, cursors, seed, first, knot, mu_s, mu_k):
     """Write the pair at ``knot`` of every lane, to the bit the one of a `CoefficientPath`."""
     normal = descriptor[8] == NORMAL_CODE and descriptor[9] == NORMAL_CODE
-    if descriptor[0] > 1.0 and normal and knot > 0:
+    bounded = max(descriptor[10], descriptor[12], -descriptor[11], -descriptor[13]) > -math.inf
+    if descriptor[0] > 1.0 and normal and not bounded and knot > 0:
         _filtered_pairs(descriptor, cursors, seed, first, knot, mu_s, mu_k)
     elif descriptor[0] > 1.0:
         for j in range(LANES):
@@ -168,13 +169,10 @@ def _filtered_pairs(descriptor, cursors, seed, first, knot, mu_s, mu_k):
         _matern_filter(factors, seed, first, knot, f_s, g_s, f_k, g_k)
     for j in range(LANES):
         cursors[j, 6], cursors[j, 7], cursors[j, 8], cursors[j, 9] = f_s[j], g_s[j], f_k[j], g_k[j]
-    low_s, high_s, low_k, high_k = descriptor[10], descriptor[11], descriptor[12], descriptor[13]
     for j in range(LANES):
-        s = descriptor[4] + descriptor[6] * f_s[j]
-        k = descriptor[5] + descriptor[7] * f_k[j]
-        s = max(min(max(s, low_s), high_s), 0.0)
+        s = max(descriptor[4] + descriptor[6] * f_s[j], 0.0)
         mu_s[j] = s
-        mu_k[j] = min(max(min(max(k, low_k), high_k), 0.0), s)
+        mu_k[j] = min(max(descriptor[5] + descriptor[7] * f_k[j], 0.0), s)
 
 
 @compiled
