@@ -6,8 +6,9 @@ any function of ours is called; and a solver's success says little. Systems with
 
 from __future__ import annotations
 
+import contextlib
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import exudyn
@@ -17,6 +18,8 @@ from stochfric_mb.exudyn.reactions import find_reactions
 
 KEY = "stochfric_mb"
 """Where a system's variables hold its hooks."""
+NO_TOLERANCE = 1.0e30
+"""A tolerance that no error estimate exceeds."""
 _SETTERS: dict[str, Callable[[Any, Any], None]] = {}
 """Slot -> Exudyn's own method that fills it."""
 _SOLVE: list[Callable[..., Any]] = []
@@ -33,7 +36,22 @@ def fill(mbs: Any, slot: str, function: Any) -> None:
 
 def solve(mbs: Any, settings: Any, **options: Any) -> bool:
     """Return what Exudyn's SolveDynamic returns, contacts as they are."""
-    return (_SOLVE[0] if _SOLVE else exudyn.MainSystem.SolveDynamic)(mbs, settings, **options)
+    with fixed_steps(settings.timeIntegration):
+        return (_SOLVE[0] if _SOLVE else exudyn.MainSystem.SolveDynamic)(mbs, settings, **options)
+
+
+@contextlib.contextmanager
+def fixed_steps(integration: Any) -> Iterator[None]:
+    """Let no error estimate end a run whose steps are fixed: DOPRI5 gives up at its first step beyond the tolerances."""
+    if integration.automaticStepSize:
+        yield
+        return
+    given = integration.absoluteTolerance, integration.relativeTolerance
+    integration.absoluteTolerance = integration.relativeTolerance = NO_TOLERANCE
+    try:
+        yield
+    finally:
+        integration.absoluteTolerance, integration.relativeTolerance = given
 
 
 def wrap() -> None:
@@ -73,7 +91,8 @@ def _checked(method: Callable[..., Any]) -> Callable[..., Any]:
         outcome.require_step()
         if outcome.implicit:
             find_reactions(mbs, simulationSettings, kind, fresh, solve, hooks.put_aside)
-        success = method(mbs, simulationSettings, solverType, *arguments, **options)
+        with fixed_steps(simulationSettings.timeIntegration):
+            success = method(mbs, simulationSettings, solverType, *arguments, **options)
         if success:
             outcome.require_success(mbs, success)
         return success

@@ -16,15 +16,14 @@ from stochfric_mb.exudyn.reactions import find_reactions
 
 
 def silent_settings(dt: float, duration: float) -> Any:
-    """Return simulation settings for fixed steps that write no file and print nothing."""
+    """Return simulation settings for fixed steps that write no solution file and print nothing; sensors store every step."""
     settings = exudyn.SimulationSettings()
     settings.solution.file.write = False
-    settings.solution.sensors.active = False
+    settings.solution.sensors.writePeriod = dt
     settings.timeIntegration.verboseMode = 0
     settings.timeIntegration.verboseModeFile = 0
     settings.timeIntegration.automaticStepSize = False
     settings.timeIntegration.adaptiveStep = False
-    settings.timeIntegration.absoluteTolerance = settings.timeIntegration.relativeTolerance = 1.0e30  # dopri5 rejects no step
     settings.timeIntegration.endTime = duration
     settings.timeIntegration.numberOfSteps = round(duration / dt)
     return settings

@@ -52,10 +52,10 @@ class System:
         return total
 
 
-def block(velocity: float, mass: float = 1.0) -> tuple[Any, Any, Any, Any]:
-    """Return a system with one sliding mass at x = 0, its node, and the markers of ground and of its coordinate."""
+def block(velocity: float, mass: float = 1.0, *, position: float = 0.0) -> tuple[Any, Any, Any, Any]:
+    """Return a system with one sliding mass, its node, and the markers of ground and of its coordinate."""
     mbs = exudyn.SystemContainer().AddSystem()
-    node = mbs.AddNode(Node1D(referenceCoordinates=[0.0], initialCoordinates=[0.0], initialVelocities=[velocity]))
+    node = mbs.AddNode(Node1D(referenceCoordinates=[0.0], initialCoordinates=[position], initialVelocities=[velocity]))
     mbs.AddObject(Mass1D(nodeNumber=node, mass=mass))
     ground = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0))
     return mbs, node, ground, mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=node, coordinate=0))

@@ -21,9 +21,7 @@ from exudyn.itemInterface import (
     MarkerBodyPosition,
     MarkerBodyRigid,
     MarkerNodeCoordinate,
-    Mass1D,
     MassPoint,
-    Node1D,
     NodePoint,
     NodePointGround,
     NodeRigidBody2D,
@@ -33,6 +31,7 @@ from exudyn.itemInterface import (
     RevoluteJoint2D,
     RevoluteJointZ,
     RigidBody2D,
+    SensorNode,
 )
 from exudyn.rigidBodyUtilities import RotationVector2RotationMatrix
 from exudyn.utilities import InertiaCuboid, RigidBodyInertia
@@ -46,6 +45,7 @@ from stochfric_mb.exudyn.solve import SOLVERS
 from stochfric_mb.friction import Friction
 from stochfric_mb.laws import make_law
 from stochfric_mb.scenario import Scenario, load_scenario
+from tests.engines.exudyn_systems import block
 
 ELASTIC = make_law("elastic_stick", mu_s=0.8, mu_k=0.5, decay_velocity=0.0)
 G = 10.0
@@ -629,11 +629,7 @@ def test_the_built_in_bristle_with_stochastic_coefficients() -> None:
 @pytest.mark.parametrize("solver", ["generalized_alpha", "rk44", "dopri5"])
 @pytest.mark.parametrize("thrown", [1.0, -1.0])
 def test_a_bristle_on_a_moving_body_starts_sliding(thrown: float, solver: str) -> None:
-    mbs = exudyn.SystemContainer().AddSystem()
-    node = mbs.AddNode(Node1D(referenceCoordinates=[0.0], initialCoordinates=[0.1], initialVelocities=[thrown]))
-    mbs.AddObject(Mass1D(nodeNumber=node, mass=1.0))
-    ground = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0))
-    slide = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
+    mbs, _, ground, slide = block(thrown, position=0.1)
     add_bristle(mbs, ground, slide, make_law("elastic_stick", mu_s=0.4, mu_k=0.3), normal_force=10.0, effective_mass=1.0)
     mbs.Assemble()
     solve_dynamic(mbs, silent_settings(1e-3, 1e-3), solver=solver, locate=False)
@@ -686,7 +682,7 @@ def test_force_stick_and_coefficients_are_sensors(route) -> None:
     mbs.Assemble()
     rows = contact.record(s.output_times())
     settings = silent_settings(1e-3, s.duration)
-    settings.solution.sensors.active, settings.solution.sensors.writePeriod = True, s.output_step
+    settings.solution.sensors.writePeriod = s.output_step
     solve_dynamic(mbs, settings, locate=False)
     stored = mbs.GetSensorStoredData(sensor)
     assert len(stored) == len(rows)
@@ -696,6 +692,45 @@ def test_force_stick_and_coefficients_are_sensors(route) -> None:
     same = rows[:, 6] == np.append(rows[1:, 6], rows[-1, 6])  # where the state did not change at this instant
     np.testing.assert_allclose(np.abs(stored[same, 1]), np.abs(rows[same, 3]), rtol=1e-2, atol=1e-2)
     assert 0.0 < stored[:, 3].mean() < 1.0
+
+
+def test_silent_settings_leave_sensors_alone(tmp_path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    mbs, node, ground, slide = block(1.0)
+    contact = add_friction(mbs, ground, slide, ELASTIC, normal_force=10.0, effective_mass=1.0)
+    sensors = [contact.add_sensor(storeInternal=True), mbs.AddSensor(SensorNode(nodeNumber=node, storeInternal=True))]
+    mbs.SetSensorParameter(sensors[1], "outputVariableType", exudyn.OutputVariableType.Coordinates_t)
+    mbs.Assemble()
+    solve_dynamic(mbs, silent_settings(1e-3, 0.1), locate=False)
+    friction, velocity = (mbs.GetSensorStoredData(sensor) for sensor in sensors)
+    np.testing.assert_allclose(velocity[:, 0], np.arange(101) * 1e-3, atol=1e-12)  # every step
+    np.testing.assert_allclose(friction[:, 1], -5.0, rtol=1e-12)  # mu_k N
+    np.testing.assert_allclose(velocity[:, 1], 1.0 - 5.0 * velocity[:, 0], atol=1e-12)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("by", ["solve_dynamic", "SolveDynamic"])
+def test_automatic_steps_keep_to_their_tolerances(by: str) -> None:
+    """A stiff spring, which DOPRI5 at 2 ms misses altogether, with friction of a ten thousandth of its force."""
+    ends = []
+    for automatic in (True, False):
+        mbs, node, ground, slide = block(1.0)
+        mbs.AddObject(CoordinateSpringDamper(markerNumbers=[ground, slide], stiffness=1.0e6))
+        add_friction(mbs, ground, slide, make_law("havsin", mu_s=0.02, mu_k=0.02, v_s=0.5, v_d=0.6), normal_force=1.0,
+                     effective_mass=1.0)  # fmt: skip
+        mbs.Assemble()
+        settings = silent_settings(2e-3, 0.02)
+        settings.timeIntegration.automaticStepSize = automatic
+        given = settings.timeIntegration.relativeTolerance
+        if by == "solve_dynamic":
+            solve_dynamic(mbs, settings, solver="dopri5", locate=False)
+        else:
+            mbs.SolveDynamic(settings, solverType=exudyn.DynamicSolverType.DOPRI5)
+        assert settings.timeIntegration.relativeTolerance == given == 1e-8  # Exudyn's own
+        ends.append(float(mbs.GetNodeOutput(node, exudyn.OutputVariableType.Coordinates)))
+    exact = 1e-3 * math.sin(20.0)  # friction takes 0.02 N over 13 mm of way, 5e-4 of 0.5 J: 0.3 um
+    assert ends[0] == pytest.approx(exact, abs=1e-6)
+    assert abs(ends[1] - exact) > 1e-4  # fixed steps run on, whatever their error
 
 
 def test_a_step_beyond_the_limit_of_the_contact_is_refused() -> None:
