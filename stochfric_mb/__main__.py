@@ -11,11 +11,12 @@ import click
 COMMANDS: dict[str, tuple[str, str]] = {
     "run": ("stochfric_mb.commands.run:run", "Simulate one trajectory and write it to a file."),
     "compare": ("stochfric_mb.commands.compare:compare", "Compare engines with the reference and write a report."),
+    "init": ("stochfric_mb.commands.init:init", "Write a scenario and a dataset for a rig of your own, to fill in."),
     "discover": ("stochfric_mb.commands.discover:discover", "Find the effect that a model lacks, from measured data."),
     "check": ("stochfric_mb.commands.check:check", "Probe the friction of a MuJoCo model and say what to change."),
     "ensemble": ("stochfric_mb.commands.ensemble:ensemble", "Simulate many runs into one dataset; resumes."),
     "reproduce": ("stochfric_mb.commands.reproduce:reproduce", "Test every claim of a published study, with verdicts."),
-    "list": ("stochfric_mb.commands.list:list_", "List laws, processes, effects or engines."),
+    "list": ("stochfric_mb.commands.list:list_", "List scenarios, laws, processes, effects or engines."),
 }
 """Name of a command -> where it lives and what it does; a new command is a new file and one line here."""
 

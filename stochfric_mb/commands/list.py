@@ -20,9 +20,9 @@ Cards = list[tuple[str, list[tuple[str, str]]]]
 
 @click.command("list", epilog=EXAMPLE)
 @spoken
-@click.argument("what", type=click.Choice(["laws", "processes", "effects", "engines"]))
+@click.argument("what", type=click.Choice(["scenarios", "laws", "processes", "effects", "engines"]))
 def list_(what: str) -> None:
-    """List what there is: laws, processes, effects or engines, with equation and source."""
+    """List what there is: bundled scenarios, laws, processes, effects or engines, with equation and source."""
     _LISTS[what]()
 
 
@@ -108,6 +108,20 @@ def _engines() -> None:
             say(f"{engine.name} is not installed; run: pip install {engine.remedy}")
 
 
+def _scenarios() -> None:
+    from stochfric_mb.commands.tables import print_table
+    from stochfric_mb.scenario import bundled_scenarios, load_any_scenario
+
+    head = ("scenario", "mechanism", "law", "title", "data")
+    rows: list[tuple[str, ...]] = []
+    for name, file in bundled_scenarios().items():
+        scenario = load_any_scenario(file)
+        data = "measured" if (file.parent / "dataset.toml").is_file() else ""
+        rows.append((name, scenario.mechanism.kind, scenario.law.kind, scenario.title, data))
+    answer({"scenarios": [dict(zip(head, row, strict=True)) for row in rows]})
+    print_table(head, rows, title="Bundled scenarios")
+
+
 def _parameters(cls: type) -> str:
     """Return the fields of a dataclass with their defaults."""
     import dataclasses
@@ -127,6 +141,7 @@ def _parameter(name: str, default: tuple[object] | None) -> str:
 
 
 _LISTS: dict[str, Callable[[], None]] = {
+    "scenarios": _scenarios,
     "laws": _laws,
     "processes": _processes,
     "effects": _effects,

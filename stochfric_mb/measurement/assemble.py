@@ -25,13 +25,13 @@ class RunEntry:
     """One ``[[runs]]`` entry of a dataset: a file and how to read it."""
 
     file: Path
-    """The measured file."""
+    """The measured file, relative to dataset.toml; `$NAME` and `${NAME}` are replaced by environment variables."""
     name: str
     """Name of the run."""
     role: Role = "fit"
-    """What the run is for."""
+    """`fit`: learned from; `test`: held out, only scored."""
     settings: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
-    """The ``set`` table."""
+    """Keys of `[mechanism]` whose values in this run differ from the scenario's, in SI units."""
     columns: Mapping[str, str | int] = dataclasses.field(default_factory=dict[str, str | int])
     """Quantity -> name of its column in the file, or its number from 0."""
     units: Mapping[str, str] = dataclasses.field(default_factory=dict[str, str])
@@ -43,9 +43,9 @@ class RunEntry:
     skip_rows: int = 0
     """Lines (samples, in other than text files) left out at the start."""
     time_range: tuple[float, float] | None = None
-    """First and last time [s] of the run, in the time of the file; None: all of it."""
+    """First and last time [s] of the run, in the time of the file; all of it if left out."""
     max_gap: float | None = None
-    """Longest distance between samples [s] that is bridged by interpolation; None: four median distances."""
+    """Longest distance between samples [s] that is bridged by interpolation; four median distances if left out."""
 
 
 def assemble(entry: RunEntry, *, rotational: bool | None) -> Run:

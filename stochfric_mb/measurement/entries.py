@@ -17,7 +17,7 @@ DATA = "STOCHFRIC_DATA"
 """Environment variable of the folder with measured data."""
 
 _TABLES = ("schema", "title", "scenario", "runs")
-_RUN = ("file", "name", "role", "set", "columns", "units", "sign", "signed_bits", "skip_rows", "time_range", "max_gap")
+RUN_KEYS = ("file", "name", "role", "set", "columns", "units", "sign", "signed_bits", "skip_rows", "time_range", "max_gap")
 
 
 def run_entries(tables: Mapping[str, Any], folder: Path) -> list[RunEntry]:
@@ -74,7 +74,7 @@ def data_folder() -> Path | None:
 def _entry(run: Mapping[str, Any], number: int, folder: Path) -> RunEntry:
     where = f"runs {number}"
     for key in run:
-        require_name(f"key of {where}", key, _RUN)
+        require_name(f"key of {where}", key, RUN_KEYS)
     for key in ("file", "role"):
         if not isinstance(run.get(key), str):
             raise InputError(f'{where}: {key} = {run.get(key)!r}; write {key} = "{"run.csv" if key == "file" else "fit"}"')

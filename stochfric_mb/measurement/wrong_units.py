@@ -121,8 +121,8 @@ def _wrong_unit(run: Run, box: BeltBox, seen: Shown, cause: Cause, stated_in: st
 def _evidence(seen: Shown) -> str:
     """Return what of a record contradicts the stated model."""
     return (
-        f"the stuck box moves at {10.0**seen.speed:.3g} times the belt's speed, positions range over {10.0**seen.length:.3g} times "
-        f"mu_s N/k, slips last {10.0**seen.time:.3g} times half a natural period (each should be about 1)"
+        f"the stuck box moves at {10.0**seen.speed:.3g} times the belt's speed, positions range over {10.0**seen.length:.3g} "
+        f"times mu_s N/k, slips last {10.0**seen.time:.3g} times half a natural period (each should be about 1)"
     )
 
 
