@@ -95,15 +95,17 @@ class Expressions:
         return Known(found)
 
     def _of_object(self, node: ast.expr, value: Any) -> Anything:
-        if isinstance(value, (bool, np.bool_)):
-            return Value(number(bool(value)), BOOL, bool(value))
         if isinstance(value, np.uint64):
             return Value(f"UINT64_C({int(value)})", UNSIGNED)
-        if isinstance(value, int | np.integer):
-            return Value(number(int(value)), INT, int(value))
-        if isinstance(value, float | np.floating):
-            return Value(number(float(value)), DOUBLE, float(value))
-        if isinstance(value, str | None):
+        if isinstance(value, np.generic):
+            value = value.item()
+        if isinstance(value, bool):
+            return Value(number(value), BOOL, value)
+        if isinstance(value, int):
+            return Value(number(value), INT, value)
+        if isinstance(value, float):
+            return Value(number(value), DOUBLE, value)
+        if value is None or isinstance(value, str):
             raise CannotTranslate(node, f"{ast.unparse(node)} = {value!r} is not a number")
         return Known(value)
 

@@ -1,0 +1,123 @@
+"""What is exported: a friction law with its coefficients, and the mechanism and effects around it where there are any."""
+
+from __future__ import annotations
+
+import dataclasses
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from stochfric_mb.coefficients import Process
+from stochfric_mb.effects import Effect
+from stochfric_mb.effects.augmented_law import Augmented
+from stochfric_mb.effects.carry import running_law
+from stochfric_mb.effects.combine import combined_process, moving, on_sensor
+from stochfric_mb.errors import InputError, require_name
+from stochfric_mb.laws import Law
+from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.scenario import SCHEMA as SCENARIO
+from stochfric_mb.scenario import any_scenario_from_dict, law_from_dict, load_any_scenario, process_from_dict
+
+SCHEMA = "stochfric.friction/1"
+"""Schema of a file that holds friction alone: ``[law]`` and, where coefficients are random, ``[coefficients]``."""
+STAND_IN_STEP = 1.0e-4
+"""Step [s] for which an elastic law is chosen where effects act on a law with true stick."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Exported:
+    """What is exported."""
+
+    law: Law
+    """The law that runs; one with effects inside where there are effects."""
+    process: Process | None = None
+    """How its coefficients vary."""
+    mechanism: BeltBox | None = None
+    """The belt-box that it belongs to; None: a friction element alone."""
+    effects: tuple[Effect, ...] = ()
+    """The effects that act on the motion."""
+    title: str = ""
+    """A line for people."""
+    notes: tuple[str, ...] = ()
+    """What stands in for what, and what was left out."""
+
+    @property
+    def inner(self) -> Law:
+        """The law without effects."""
+        return self.law.inner if isinstance(self.law, Augmented) else self.law
+
+
+def load_exported(source: str | Path, *, law: str | None = None, overrides: Sequence[str] = ()) -> Exported:
+    """Read what is to be exported from a friction file or a scenario.
+
+    Args:
+        source: path of a TOML file, or the name of a bundled scenario.
+        law: kind of law that replaces the file's.
+        overrides: ``table.key=value`` settings that replace the file's.
+
+    Raises:
+        InputError: a file that cannot be used, or friction that cannot be exported; says which part.
+    """
+    path = Path(source)
+    if path.is_file():
+        try:
+            tables = tomllib.loads(path.read_text(encoding="utf-8"))
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise InputError(f"{path}: not a TOML file: {error}") from None
+        if tables.get("schema") == SCHEMA:
+            return _from_friction(tables, path, law=law, overrides=overrides)
+        if tables.get("schema") != SCENARIO:
+            raise InputError(f"{path}: schema = {tables.get('schema')!r}; an export reads {SCHEMA!r} and {SCENARIO!r}")
+    return exported_scenario(load_any_scenario(source, law=law, overrides=overrides))
+
+
+def _from_friction(tables: dict[str, Any], path: Path, *, law: str | None, overrides: Sequence[str]) -> Exported:
+    """Return what a friction file describes, read as the scenario of which it is a part."""
+    for key in tables:
+        require_name("key of a friction file", key, ("schema", "title", "law", "coefficients"))
+    if law is not None or overrides:
+        raise InputError(f"{path}: --law and --set change scenarios; edit the friction file instead")
+    try:
+        table = tables.get("law")
+        if not isinstance(table, Mapping):
+            raise InputError(f"law = {table!r}: a friction file needs the table [law]; write [law]")
+        process = process_from_dict(tables["coefficients"], 1.0e-3, path.parent) if tables.get("coefficients") else None
+        return Exported(law_from_dict(table), process, title=str(tables.get("title", "")))
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def exported_scenario(scenario: Any) -> Exported:
+    """Return what of a scenario is exported: law, coefficients, belt-box and effects.
+
+    Raises:
+        InputError: effects that need another mechanism than a belt-box, or a law that cannot carry them.
+    """
+    process = combined_process(scenario.effects, scenario.process)
+    effects = moving(scenario.effects)
+    notes = [f"{effect.kind} acts on the sensor, not on the motion: left out" for effect in on_sensor(scenario.effects)]
+    mechanism = scenario.mechanism if isinstance(scenario.mechanism, BeltBox) else None
+    for effect in effects:
+        if effect.reads:
+            raise InputError(
+                f"effect {effect.kind!r} reads a measured {effect.reads[0]}, which an exported friction does not have; leave "
+                "it out, or let friction change with time: friction_drift"
+            )
+        if mechanism is None:
+            raise InputError(
+                f"effect {effect.kind!r} acts on a {scenario.mechanism.kind}, which is not exported; remove the [[effects]] "
+                "table to export the law alone, or export a belt_box"
+            )
+    law = scenario.law
+    if mechanism is not None:
+        law, more = running_law(law, mechanism, scenario.effects, STAND_IN_STEP, substitute=False, seed=0, sample=0)
+        notes += more
+    else:
+        notes.append(f"the {scenario.mechanism.kind} is left out: the friction element alone")
+    return Exported(law, process, mechanism, effects, scenario.title, tuple(notes))
+
+
+def from_dict(tables: Mapping[str, Any]) -> Exported:
+    """Return what the content of a scenario file exports."""
+    return exported_scenario(any_scenario_from_dict(tables))

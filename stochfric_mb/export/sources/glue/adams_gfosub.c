@@ -1,0 +1,55 @@
+/* Friction in Adams/Solver (C interface): a GFORCE, as adams_vfosub.c with three torques, which are zero.
+
+       GFORCE/1, I=10, JFLOAT=11, RM=20, FUNCTION=USER(10, 20, 13.0, 0, 0, 1)\, ROUTINE=friction::Gfosub
+
+   PAR: I marker, RM marker (its x-y plane is the plane of contact; it belongs to the counter-surface), normal force [N],
+   seed, sample, number of the contact (below 64). Model units: kg, m, s, N.
+
+   Compiled against a stand-in of slv_c_utils.h, never against or inside Adams. */
+
+#include "slv_c_utils.h"
+#include "stochfric_steps.h"
+
+#define MOST_CONTACTS 64
+
+adams_c_Gfosub Gfosub;
+
+static stochfric_steps contacts[MOST_CONTACTS]; /* Adams keeps no memory for a force: one place for each contact */
+
+void Gfosub(const struct sAdamsGforce *gforce, double time, int dflag, int iflag, double *result) {
+    const int number = (int)gforce->PAR[5];
+    const int markers[3] = {(int)gforce->PAR[0], (int)gforce->PAR[1], (int)gforce->PAR[1]};
+    double displacement[3], velocity[3], force[2] = {0.0, 0.0}, accepted = 0.0;
+    int count, error = 0;
+    for (int i = 0; i < 6; i++) result[i] = 0.0;
+    if (number < 0 || number >= MOST_CONTACTS) {
+        c_errmes(1, "stochfric: the number of the contact, PAR(6), is not in 0..63", gforce->ID, "STOP");
+        return;
+    }
+    stochfric_steps *contact = &contacts[number];
+    c_sysary("TDISP", markers, 3, displacement, &count, &error);
+    c_errmes(error, "stochfric: no displacement of the markers", gforce->ID, "STOP");
+    c_sysary("TVEL", markers, 3, velocity, &count, &error);
+    c_errmes(error, "stochfric: no velocity of the markers", gforce->ID, "STOP");
+    if (iflag || error) {
+        contact->begun = 0;
+        return;
+    }
+    stochfric_contact at = {time, {-displacement[0], -displacement[1]}, {-velocity[0], -velocity[1]}, gforce->PAR[2], {0.0, 0.0}, 0.0};
+    if (!contact->begun) {
+        stochfric_defaults(&contact->friction);
+        contact->friction.seed = (int64_t)gforce->PAR[3];
+        contact->friction.sample = (int64_t)gforce->PAR[4];
+        contact->friction.contact = number;
+    }
+    int status;
+    if (dflag && contact->begun) {
+        status = stochfric_force(&contact->friction, &contact->state, &at, force);
+    } else {
+        c_timget(&accepted);
+        status = stochfric_steps_force(contact, &at, accepted, force);
+    }
+    c_errmes(status, stochfric_message(status), gforce->ID, "STOP");
+    result[0] = force[0];
+    result[1] = force[1];
+}

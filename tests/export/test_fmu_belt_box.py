@@ -1,0 +1,117 @@
+"""The belt-box as an FMU: model exchange and co-simulation against the event-located reference."""
+
+import dataclasses
+import functools
+
+import fmpy
+import numpy as np
+import pytest
+
+from stochfric_mb import reference
+from stochfric_mb.effects import make_effect
+from stochfric_mb.export.exported import exported_scenario
+
+from .fmus import Driven, built, table_1, table_1_fmu
+
+DURATION = 10.0
+LAWS = ("elastic_stick", "havsin", "coulomb", "stribeck", "karnopp", "lugre", "dahl")
+
+
+@functools.cache
+def exact(law):
+    return reference.simulate(table_1(law), seed=1)
+
+
+def error(result, law):
+    run = exact(law)
+    samples = np.round(result["time"] / 1.0e-3).astype(int)
+    return np.max(np.abs(result["position"] - run.position[samples]))
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_model_exchange_follows_the_reference(law):
+    result = fmpy.simulate_fmu(
+        str(table_1_fmu(law, mechanism=True)), fmi_type="ModelExchange", stop_time=DURATION, output_interval=1.0e-3,
+        relative_tolerance=1.0e-9, start_values={"seed": 1}, output=["position", "mu_s"], record_events=False,
+    )  # fmt: skip
+    assert len(result) == 10_001
+    assert error(result, law) <= 1.0e-6  # the accuracy that is promised, over ten slips
+    np.testing.assert_array_equal(result["mu_s"][1:], exact(law).mu_s[1:])
+
+
+def test_model_exchange_of_fmi_3_is_that_of_fmi_2():
+    runs = [
+        fmpy.simulate_fmu(
+            str(table_1_fmu(fmi=fmi, mechanism=True)),
+            fmi_type="ModelExchange",
+            stop_time=2.0,
+            output_interval=1.0e-3,
+            relative_tolerance=1.0e-9,
+            start_values={"seed": 1},
+            output=["position"],
+            record_events=False,
+        )
+        for fmi in (2, 3)
+    ]
+    np.testing.assert_array_equal(runs[0]["position"], runs[1]["position"])
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_co_simulation_follows_the_reference(law, fmi):
+    result = fmpy.simulate_fmu(
+        str(table_1_fmu(law, fmi=fmi, mechanism=True)), fmi_type="CoSimulation", stop_time=DURATION, output_interval=1.0e-3,
+        start_values={"seed": 1}, output=["position", "velocity", "friction_force", "mu_s", "mu_k", "stick"],
+    )  # fmt: skip
+    assert error(result, law) <= 1.0e-6
+    run = exact(law)
+    np.testing.assert_array_equal(result["mu_k"][1:], run.mu_k[1:])
+    assert np.mean(result["stick"][1:] == run.stick[1:]) > 0.999  # a sample may fall between switch and commit
+
+
+def test_error_against_the_communication_step():
+    """The internal step alone sets the error while it is the smaller one; beyond, the communication step does."""
+    errors = {}
+    for h in (2.0e-4, 1.0e-3, 5.0e-3, 1.0e-2):
+        fmu = Driven(table_1_fmu("coulomb", mechanism=True), seed=1, internal_step=1.0)
+        steps = round(1.2 / h)
+        worst = 0.0
+        for i in range(1, steps + 1):
+            fmu.step(h)
+            if round(i * h * 1.0e9) % 1_000_000 == 0:  # the reference has a sample there
+                worst = max(worst, abs(fmu.get("position") - exact("coulomb").position[round(i * h / 1.0e-3)]))
+        fmu.end()
+        errors[h] = worst
+    assert errors[2.0e-4] <= 1.0e-9
+    assert errors[1.0e-2] <= 1.0e-5  # one Runge-Kutta step from knot to knot of the coefficients
+    assert errors[2.0e-4] <= errors[1.0e-2]
+
+
+def test_effects_run_along():
+    scenario = table_1("elastic_stick")
+    changed = dataclasses.replace(
+        scenario,
+        duration=3.0,
+        effects=(
+            make_effect("normal_load_ripple", amplitude=0.05, frequency=1.3),
+            make_effect("harmonic_force", amplitude=0.5, frequency=3.0),
+            make_effect("dwell_ageing", rate=0.01),
+        ),
+    )
+    run = reference.simulate(changed, seed=1)
+    result = fmpy.simulate_fmu(
+        str(built(exported_scenario(changed), 2, True)), fmi_type="CoSimulation", stop_time=3.0, output_interval=1.0e-3,
+        start_values={"seed": 1}, output=["position"],
+    )  # fmt: skip
+    assert np.max(np.abs(result["position"] - run.position)) <= 1.0e-6
+    assert np.max(np.abs(run.position - exact("elastic_stick").position[:3001])) > 1.0e-4  # they matter
+
+
+def test_a_force_from_outside_moves_the_box():
+    fmu = Driven(table_1_fmu("coulomb", mechanism=True), law__mu_s=1e-9, law__mu_k=1e-9, coefficients__sigma_s=0.0,
+                 coefficients__sigma_k=0.0, mechanism__damping=0.0, external_force=10.0)  # fmt: skip
+    for _ in range(200):
+        fmu.step(1.0e-3)
+    omega = np.sqrt(3956.0 / 6.08)
+    assert fmu.get("position") == pytest.approx(10.0 / 3956.0 * (1.0 - np.cos(0.2 * omega)), rel=1e-6)  # mu N = 1e-8 N
+    fmu.end()
