@@ -33,14 +33,20 @@ from numba.core.registry import CPUDispatcher
 from stochfric_mb.sources import source_stamp
 
 
-def compiled(function: Callable[..., Any]) -> Any:
-    """Return ``function`` as a cached numba dispatcher (compiled at its first call, never at import)."""
-    return _Function(function, targetoptions=_OPTIONS)
+def compiled(function: Callable[..., Any], *, parts: str = "") -> Any:
+    """Return ``function`` as a cached numba dispatcher (compiled at its first call, never at import).
+
+    Args:
+        function: what to compile.
+        parts: file whose compiled functions a nested function holds: its stored code is named after that file, and
+            valid while that file is.
+    """
+    return _Function(function, targetoptions=_OPTIONS, parts=parts)
 
 
-def compiled_inline(function: Callable[..., Any]) -> Any:
+def compiled_inline(function: Callable[..., Any], *, parts: str = "") -> Any:
     """Return ``function`` as `compiled` does, but merged into its compiled callers, so that their loops can vectorise."""
-    return _Function(function, targetoptions={**_OPTIONS, "forceinline": True})
+    return _Function(function, targetoptions={**_OPTIONS, "forceinline": True}, parts=parts)
 
 
 def native(function: Callable[..., Any], signature: Any, *, template: str = "") -> Any:
@@ -67,9 +73,9 @@ class _Called(CPUDispatcher):
     compilation.
     """
 
-    def __init__(self, function: Callable[..., Any], options: dict[str, Any]) -> None:
+    def __init__(self, function: Callable[..., Any], options: dict[str, Any], parts: str) -> None:
         super().__init__(function, targetoptions={**options, "no_cpython_wrapper": True, "no_cfunc_wrapper": True})
-        self._cache = _cache(function, variant="merged" if options.get("forceinline") else "called")
+        self._cache = _cache(function, parts=parts, variant="merged" if options.get("forceinline") else "called")
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """Return numba's template of the call, with constants taken as any values of their types."""
@@ -79,10 +85,16 @@ class _Called(CPUDispatcher):
 class _Function(CPUDispatcher):
     """A function as Python sees it; compiled callers get it as `_Called`."""
 
-    def __init__(self, py_func: Callable[..., Any], locals: Any = None, targetoptions: Any = None) -> None:  # noqa: A002
-        self._called = _Called(py_func, targetoptions)
+    def __init__(
+        self,
+        py_func: Callable[..., Any],
+        locals: Any = None,  # noqa: A002
+        targetoptions: Any = None,
+        parts: str = "",
+    ) -> None:
+        self._called = _Called(py_func, targetoptions, parts)
         super().__init__(py_func, locals, targetoptions)
-        self._cache = _cache(py_func)
+        self._cache = _cache(py_func, parts=parts)
 
     @property
     def _numba_type_(self) -> Any:
@@ -98,26 +110,30 @@ class _Function(CPUDispatcher):
         pass
 
 
-def _cache(function: Callable[..., Any], *, template: str = "", variant: str = "") -> _SourceCache:
+def _cache(function: Callable[..., Any], *, template: str = "", parts: str = "", variant: str = "") -> _SourceCache:
     """Return the function's cache, in a temporary folder if neither the package nor the user's folder can be written."""
     try:
-        return _SourceCache(function, template, variant)
+        return _SourceCache(function, template, parts, variant)
     except RuntimeError:
         user = os.getuid() if hasattr(os, "getuid") else "cache"
         numba.config.CACHE_DIR = str(Path(tempfile.gettempdir()) / f"stochfric_mb-{user}")  # type: ignore[attr-defined]
-        return _SourceCache(function, template, variant)
+        return _SourceCache(function, template, parts, variant)
 
 
 class _SourceCache(FunctionCache):
     """numba's cache of one function, in files whose names carry the stamp of all sources that it is made of."""
 
-    def __init__(self, function: Callable[..., Any], template: str, variant: str) -> None:
+    def __init__(self, function: Callable[..., Any], template: str, parts: str, variant: str) -> None:
         super().__init__(function)
-        files = [inspect.getfile(function), template] if template else [inspect.getfile(function)]
-        stamp = source_stamp(*files)
-        self._base, self._short = self._impl.filename_base, stamp[:16]
+        stamp = source_stamp(*(file for file in (inspect.getfile(function), template, parts) if file))
+        owner = f"{Path(parts).stem}." if parts else ""
+        self._base, self._short = owner + self._impl.filename_base, stamp[:16]
         self._cache_file = IndexDataCacheFile(self._cache_path, f"{self._base}.{self._short}{variant}", stamp)
         self._tidy = False
+
+    def _index_key(self, sig: Any, codegen: Any) -> Any:
+        """Return the key without what a nested function holds: the stamp covers it."""
+        return sig, codegen.magic_tuple()
 
     def _save_overload(self, sig: Any, data: Any) -> None:
         super()._save_overload(sig, data)

@@ -14,24 +14,14 @@ rad of the fastest part of the motion long, so that twelve terms of the Taylor s
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+import sys
+from typing import NamedTuple
 
 import numpy as np
 
-from stochfric_mb.coefficients.path import CURSOR
 from stochfric_mb.compile import compiled, compiled_inline
-from stochfric_mb.ensemble.lanes import (
-    LANES,
-    OPEN,
-    TALLIES,
-    aligned,
-    begin,
-    close,
-    first_pairs,
-    next_pairs,
-    note_break_away,
-    note_slip_end,
-)
+from stochfric_mb.ensemble.kernel import kernel
+from stochfric_mb.ensemble.lanes import A_K, A_S, B_K, B_S, LANES, SHARED_ROWS, V, X, note_break_away, note_slip_end
 from stochfric_mb.ensemble.schedule import Array, Schedule, schedule
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.scenario import Scenario
@@ -46,10 +36,10 @@ TABLE_TERMS = 20
 """The same for the tables, whose error would add up over the legs."""
 MAX_SWITCHES = 10_000
 """Most switches within one leg."""
-# Rows of the flat array: position, velocity, 0 (stick) or the direction of sliding, whether the leg has an event, pair
-# at the knot, pair at the next knot
-X, V, MODE, EVENTFUL, A_S, A_K, B_S, B_K = (LANES * i for i in range(8))
-ROWS = 8
+# Rows of the flat array beside the shared ones: 0 (stick) or the direction of sliding, whether the leg has an event, and
+# room for three polynomials
+MODE, EVENTFUL, WORK = (LANES * (SHARED_ROWS + i) for i in range(3))
+ROWS = SHARED_ROWS + 3
 
 
 class Problem(NamedTuple):
@@ -132,67 +122,39 @@ def _response(
     return np.stack([position, velocity], axis=1)
 
 
-@compiled
-def simulate(q: Any, seed: int, first: int, n: int, position: Any, velocity: Any, stick: Any, tallies: Any) -> int:
-    """Run samples ``first`` .. ``first + n - 1``; write (n, n_outputs) arrays and tallies; return 0 or the leg that failed."""
-    for group in range((n + LANES - 1) // LANES):
-        low = group * LANES
-        high = min(low + LANES, n)
-        failed = _group(
-            q, seed, first + low, high - low, position[low:high], velocity[low:high], stick[low:high], tallies[low:high]
-        )
-        if failed > 0:
-            return failed
-    return 0
-
-
-@compiled
-def _group(q, seed, first, n, position, velocity, stick, tallies):
-    """Run one group of lanes."""
-    m = aligned(ROWS * LANES)
-    m[X : X + LANES] = q.position
-    m[V : V + LANES] = q.velocity
-    a_s, a_k, b_s, b_k = (m[A_S : A_S + LANES], m[A_K : A_K + LANES], m[B_S : B_S + LANES], m[B_K : B_K + LANES])
-    tally, pending = np.empty((TALLIES, LANES)), np.empty((OPEN, LANES))
-    cursors = np.zeros((LANES, CURSOR))
-    work = np.empty((3, TERMS))
-    first_pairs(q.descriptor, cursors, seed, first, a_s, a_k, b_s, b_k)
-    body = (
-        q.mass, q.damping, q.stiffness, q.normal_force, q.amplitude, q.frequency, q.belt_velocity, q.least_slip,
-    )  # fmt: skip
-    for j in range(LANES):
-        m[MODE + j] = _first_mode(body, q.position, q.velocity, a_s[j])
-        begin(tally, pending, j, m[MODE + j] == 0.0)
-    if q.legs.output_at_start:
-        _record(0, n, m, position, velocity, stick)
-    knot = 0
-    for i in range(len(q.legs.length)):
-        if q.legs.knot[i] > knot:
-            knot += 1
-            next_pairs(q.descriptor, cursors, seed, first, knot, a_s, a_k, b_s, b_k)
-        leg = (q.legs.start[i], q.legs.length[i], q.legs.from_knot[i], q.legs.to_knot[i])
-        if _calm_leg(body, leg, q.transition[q.legs.kind[i]], q.drive[i], m) > 0:
-            for j in range(LANES):
-                if m[EVENTFUL + j] == 1.0 and not _eventful_leg(body, leg, j, m, tally, pending, work):
-                    return i + 1
-        if q.legs.output[i] >= 0:
-            _record(q.legs.output[i], n, m, position, velocity, stick)
-    end = q.legs.start[-1] + q.legs.length[-1]
-    for j in range(n):
-        close(tally, pending, j, end, q.belt_velocity * end - m[X + j], q.least_slip)
-        tallies[j] = tally[:, j]
-    return 0
-
-
-@compiled
-def _record(output, n, m, position, velocity, stick):
-    for j in range(n):
-        position[j, output] = m[X + j]
-        velocity[j, output] = m[V + j]
-        stick[j, output] = m[MODE + j] == 0.0
-
-
 # body: m, c, k, N, k u_0, W, v_b, least slip; leg: start, length, parts of the way between knots at its start and end
+
+
+@compiled
+def numbers(q):
+    """Return the body."""
+    return q.mass, q.damping, q.stiffness, q.normal_force, q.amplitude, q.frequency, q.belt_velocity, q.least_slip
+
+
+@compiled
+def start(q, m):
+    """Set every lane to stick or to a direction of sliding."""
+    for j in range(LANES):
+        m[MODE + j] = _first_mode(numbers(q), q.position, q.velocity, m[A_S + j])
+
+
+@compiled_inline
+def sticks(q, m, j):
+    """Return whether lane j is stuck."""
+    return m[MODE + j] == 0.0
+
+
+@compiled_inline
+def leg(q, i, body, m, tally, pending):
+    """Move all lanes to the end of leg i; return whether that ended."""
+    this = (q.legs.start[i], q.legs.length[i], q.legs.from_knot[i], q.legs.to_knot[i])
+    if _calm_leg(body, this, q.transition[q.legs.kind[i]], q.drive[i], m) == 0:
+        return True
+    ended = True
+    for j in range(LANES):
+        if m[EVENTFUL + j] == 1.0 and not _eventful_leg(body, this, j, m, tally, pending):
+            ended = False
+    return ended
 
 
 @compiled
@@ -247,7 +209,7 @@ def _calm_leg(body, leg, e, drive, m):
 
 
 @compiled
-def _eventful_leg(body, leg, j, m, tally, pending, work):
+def _eventful_leg(body, leg, j, m, tally, pending):
     """Move lane j to the end of a leg, event by event; return whether that ended."""
     v_b, least_slip = body[6], body[7]
     start, length, w0, w1 = leg
@@ -255,7 +217,8 @@ def _eventful_leg(body, leg, j, m, tally, pending, work):
     d_s, d_k = m[B_S + j] - a_s, m[B_K + j] - a_k
     mu_s, mu_k = a_s + w0 * d_s, a_k + w0 * d_k
     slope_s, slope_k = (w1 - w0) * d_s / length, (w1 - w0) * d_k / length
-    g, dg, motion = work[0], work[1], work[2]
+    g, dg = m[WORK : WORK + TERMS], m[WORK + TERMS : WORK + 2 * TERMS]
+    motion = m[WORK + 2 * TERMS : WORK + 3 * TERMS]
     x, v, s = m[X + j], m[V + j], m[MODE + j]
     tau = 0.0
     for _ in range(MAX_SWITCHES):
@@ -419,3 +382,6 @@ def _bisected(g, n, a, b):
         else:
             b = middle
     return 0.5 * (a + b)
+
+
+simulate = kernel(sys.modules[__name__])

@@ -12,55 +12,34 @@ switch, commit, and on. The deflection needs no equation: z = z_0 + v_b (t - t_0
 from __future__ import annotations
 
 import math
-from typing import Any
+import sys
 
-import numpy as np
-
-from stochfric_mb.coefficients.path import CURSOR
 from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.ensemble.fixed_step import (
-    A_K,
-    A_S,
-    B_K,
-    B_S,
     D_K,
     D_S,
     OLD_V,
-    SHARED_ROWS,
     STAGE_V,
     STAGE_X,
-    V,
-    X,
+    STEP_ROWS,
+    at_start,
     begin_step,
-    changes_to_next_knot,
-    drives,
     end_of_step,
-    finish_stage,
-    note_step,
     passed,
+    stepping,
 )
-from stochfric_mb.ensemble.lanes import (
-    LANES,
-    OPEN,
-    TALLIES,
-    aligned,
-    begin,
-    close,
-    exponential,
-    first_pairs,
-    fma,
-    next_pairs,
-)
+from stochfric_mb.ensemble.kernel import kernel
+from stochfric_mb.ensemble.lanes import A_K, A_S, LANES, V, X, exponential, fma
 from stochfric_mb.laws import elastic_stick as law
 from stochfric_mb.laws.elastic_stick import SLIP, SLIP_PEAK, STICK
+from stochfric_mb.numerics.root import bracket, is_wide, narrowed, trial
 
 # Rows beside the shared ones: position one step before, mode, direction of sliding, deflection + position, whether the
 # lane has passed a switch
-OLD_X, MODE, SIGN, ZX, SWITCHED = (LANES * (SHARED_ROWS + i) for i in range(5))
-ROWS = SHARED_ROWS + 5
+OLD_X, MODE, SIGN, ZX, SWITCHED = (LANES * (STEP_ROWS + i) for i in range(5))
+ROWS = STEP_ROWS + 5
 MAX_SWITCHES = 20
 """Most switches located within one step; after them the rest of it is made in one go."""
-MAX_HALVINGS = 60
 RESOLUTION = 1.0e-10
 """Part of a step to which a switch is located."""
 
@@ -83,72 +62,25 @@ def stick_force(z, v_rel, limit, stiffness, damping, cap):
 
 
 @compiled
-def simulate(q: Any, seed: int, first: int, n: int, position: Any, velocity: Any, stick: Any, tallies: Any) -> int:
-    """Run samples ``first`` .. ``first + n - 1``; write (n, n_outputs) arrays and tallies; return 0."""
-    for group in range((n + LANES - 1) // LANES):
-        low = group * LANES
-        high = min(low + LANES, n)
-        _group(q, seed, first + low, high - low, position[low:high], velocity[low:high], stick[low:high], tallies[low:high])
-    return 0
-
-
-@compiled
-def _group(q, seed, first, n, position, velocity, stick, tallies):
-    """Run one group of lanes."""
-    m = aligned(ROWS * LANES)
-    m[X : X + LANES] = m[STAGE_X : STAGE_X + LANES] = q.position
-    m[V : V + LANES] = m[STAGE_V : STAGE_V + LANES] = q.velocity
-    a_s, a_k, b_s, b_k = (m[A_S : A_S + LANES], m[A_K : A_K + LANES], m[B_S : B_S + LANES], m[B_K : B_K + LANES])
-    tally, pending = np.empty((TALLIES, LANES)), np.empty((OPEN, LANES))
-    cursors = np.zeros((LANES, CURSOR))
-    first_pairs(q.descriptor, cursors, seed, first, a_s, a_k, b_s, b_k)
-    changes_to_next_knot(m)
-    _start(q, m, tally, pending)
-    knot = 0
-    if q.legs.output_at_start:
-        _record(0, n, m, position, velocity, stick)
-    numbers = _numbers(q)
-    body = (q.mass, q.damping, q.stiffness, q.normal_force, q.amplitude, q.frequency, q.belt_velocity)
-    for i in range(len(q.legs.length)):
-        if q.legs.knot[i] > knot:
-            knot += 1
-            next_pairs(q.descriptor, cursors, seed, first, knot, a_s, a_k, b_s, b_k)
-            changes_to_next_knot(m)
-        n_steps = int(q.n_steps[q.legs.kind[i]])
-        h = q.legs.length[i] / n_steps
-        part = (q.legs.to_knot[i] - q.legs.from_knot[i]) / n_steps
-        for step in range(n_steps):
-            t = q.legs.start[i] + step * h
-            w = q.legs.from_knot[i] + step * part
-            switched, crossed = _step(q.amplitude / q.mass, q.frequency, t, h, w, part, numbers, m)
-            if switched > 0:
-                for j in range(LANES):
-                    if m[SWITCHED + j] == 1.0:
-                        _switching_step(body, q.parameters, j, t, h, w, part, m)
-            if switched + crossed > 0:
-                note_step(q, t, h, w, m, tally, pending)
-        if q.legs.output[i] >= 0:
-            _record(q.legs.output[i], n, m, position, velocity, stick)
-    end = q.legs.start[-1] + q.legs.length[-1]
-    for j in range(n):
-        close(tally, pending, j, end, q.belt_velocity * end - m[X + j], q.least_slip)
-        tallies[j] = tally[:, j]
-
-
-@compiled
-def _start(q, m, tally, pending):
+def start(q, m):
     """Set every lane to the law's own state at t = 0."""
+    at_start(m)
     v_rel = q.belt_velocity - q.velocity
     for j in range(LANES):
         s = law.init(
             0.0, 0.0, 0.0, v_rel, 0.0, q.normal_force, m[A_S + j], m[A_K + j], q.mass, 0.0, 0.0, q.parameters
         )  # fmt: skip
         m[MODE + j], m[SIGN + j], m[ZX + j] = s[0], s[3], q.position - s[1]
-        begin(tally, pending, j, abs(v_rel) <= q.stick_speed)
+
+
+@compiled_inline
+def sticks(q, m, j):
+    """Return whether lane j is stuck."""
+    return m[MODE + j] == STICK
 
 
 @compiled
-def _numbers(q):
+def numbers(q):
     """Return v_b, v_s, 1/decay_velocity, e_lim/mean mu_s and the rest per unit of mass: k_stick, c_stick, N, c, k."""
     p = q.parameters
     rate = 1.0 / p[5] if p[5] > 0.0 else 1.0e300
@@ -171,18 +103,8 @@ def _numbers(q):
 # --- all lanes at once ------------------------------------------------------------------------------------------------
 
 
-@compiled
-def _step(amplitude, frequency, t, h, w, part, numbers, m):
-    """Make one step of every lane; return how many have passed a switch, and how many have passed v_s or turned over."""
-    f0, f1, f2 = drives(amplitude, frequency, t, h)
-    _stage(w, 0.0, 0.5 * h, 0.0, f0, numbers, m)
-    _stage(w + 0.5 * part, 0.5 * h, 0.5 * h, 1.0, f1, numbers, m)
-    _stage(w + 0.5 * part, 0.5 * h, h, 1.0, f1, numbers, m)
-    return _last_stage(w, w + part, h, f2, numbers, m)
-
-
 @compiled_inline
-def _acceleration(j, w, tau, drive, numbers, m):
+def acceleration(j, w, tau, drive, numbers, m):
     """Return x'' [m/s^2] of lane j at its stage, ``tau`` after the start of the step."""
     v_b, v_s, rate, reach, k_stick, c_stick, load, damping, stiffness = numbers
     x, v = m[STAGE_X + j], m[STAGE_V + j]
@@ -196,21 +118,14 @@ def _acceleration(j, w, tau, drive, numbers, m):
 
 
 @compiled
-def _stage(w, tau, ahead, middle, drive, numbers, m):
-    """Evaluate an acceleration of every lane, ``tau`` after the start of the step, and go ``ahead`` [s] with it."""
-    for j in range(LANES):
-        finish_stage(j, _acceleration(j, w, tau, drive, numbers, m), ahead, middle, m)
-
-
-@compiled
-def _last_stage(w_old, w, h, drive, numbers, m):
+def finish(w_old, w, h, drive, numbers, m):
     """Evaluate the fourth acceleration, finish the step, and look for switches and for the kink at the cap."""
     v_b, v_s, _, reach, k_stick, c_stick, load, _, _ = numbers
     switched = 0
     crossed = 0
     for j in range(LANES):
         x = m[X + j]
-        x_new, v_new = end_of_step(j, _acceleration(j, w, h, drive, numbers, m), h, m)
+        x_new, v_new = end_of_step(j, acceleration(j, w, h, drive, numbers, m), h, m)
         was, now = v_b - m[V + j], v_b - v_new
         z_old = m[ZX + j] - x
         zx = fma(v_b, h, m[ZX + j])
@@ -234,6 +149,15 @@ def _last_stage(w_old, w, h, drive, numbers, m):
 
 # --- one lane that switches -------------------------------------------------------------------------------------------
 # body: m, c, k, N, k u_0, W, v_b; line: time and mu_s, mu_k at the start of the step, and their slopes; y: x, x', z
+
+
+@compiled
+def switch(q, t, h, w, part, m):
+    """Make the last step again for the lanes that have passed a switch."""
+    body = (q.mass, q.damping, q.stiffness, q.normal_force, q.amplitude, q.frequency, q.belt_velocity)
+    for j in range(LANES):
+        if m[SWITCHED + j] == 1.0:
+            _switching_step(body, q.parameters, j, t, h, w, part, m)
 
 
 @compiled
@@ -283,33 +207,20 @@ def _is_capped(body, p, line, state, tau, y):
 
 @compiled
 def _switch_time(body, p, line, state, tau, rest, y):
-    """Return the time to the switch [s], just past it, or ``rest`` if there is none: false position (Illinois).
+    """Return the time to the switch [s], just past it, or ``rest`` if there is none.
 
     A contact that is at a switch already (a clipped deflection whose limit falls) is committed at the end only.
     """
-    low, high = 0.0, rest
     capped = state[0] == STICK and _is_capped(body, p, line, state, tau, y)
-    at_low = _margin(body, p, line, state, capped, tau, y)
-    at_high = _margin(body, p, line, state, capped, tau + rest, _advance(body, p, line, state, tau, rest, y))
-    if at_low <= 0.0 or at_high > 0.0:
+    at_start = _margin(body, p, line, state, capped, tau, y)
+    at_end = _margin(body, p, line, state, capped, tau + rest, _advance(body, p, line, state, tau, rest, y))
+    if at_start <= 0.0 or at_end > 0.0:
         return rest
-    side = 0
-    for _ in range(MAX_HALVINGS):
-        if high - low <= RESOLUTION * rest or at_high == 0.0:
-            break
-        middle = low + (high - low) * at_low / (at_low - at_high)
-        if not low < middle < high:
-            middle = 0.5 * (low + high)
-        value = _margin(body, p, line, state, capped, tau + middle, _advance(body, p, line, state, tau, middle, y))
-        if value > 0.0:
-            low, at_low = middle, value
-            at_high *= 0.5 if side == 1 else 1.0
-            side = 1
-        else:
-            high, at_high = middle, value
-            at_low *= 0.5 if side == -1 else 1.0
-            side = -1
-    return high
+    b = bracket(0.0, at_start, rest, at_end)
+    while is_wide(b, RESOLUTION * rest):
+        dt = trial(b, RESOLUTION * rest)
+        b = narrowed(b, dt, _margin(body, p, line, state, capped, tau + dt, _advance(body, p, line, state, tau, dt, y)))
+    return b.negative
 
 
 @compiled
@@ -349,9 +260,5 @@ def _branch(mu_s, mu_k, state, p):
     return mu_s, mu_k
 
 
-@compiled
-def _record(output, n, m, position, velocity, stick):
-    for j in range(n):
-        position[j, output] = m[X + j]
-        velocity[j, output] = m[V + j]
-        stick[j, output] = m[MODE + j] == STICK
+leg = stepping(sys.modules[__name__])
+simulate = kernel(sys.modules[__name__])

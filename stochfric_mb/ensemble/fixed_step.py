@@ -13,21 +13,22 @@ For x'' = a(x, x') the formula of Runge and Kutta needs two sums of its four acc
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from types import ModuleType
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from stochfric_mb.compile import compiled, compiled_inline
-from stochfric_mb.ensemble.lanes import LANES, fma, note_crossings
+from stochfric_mb.ensemble.lanes import A_K, A_S, B_K, B_S, LANES, SHARED_ROWS, V, X, fma, note_crossings
 from stochfric_mb.ensemble.schedule import Array, Schedule, schedule
 from stochfric_mb.errors import StabilityError
 from stochfric_mb.scenario import Scenario
 
-# Rows of the flat array: position, velocity, velocity one step before, position and velocity of a stage, sum of the
-# first three accelerations, sum of the second and third, pair at the knot, its change to the next knot, pair there, mu_s
-X, V, OLD_V, STAGE_X, STAGE_V, SUM, MIDDLE, A_S, A_K, D_S, D_K, B_S, B_K, MU = (LANES * i for i in range(14))
-SHARED_ROWS = 14
-"""Rows above; a kernel's own rows follow them."""
+# Rows of the flat array beside the shared ones: velocity one step before, position and velocity of a stage, sum of the first
+# three accelerations, sum of the second and third, change of the pair to the next knot, mu_s
+OLD_V, STAGE_X, STAGE_V, SUM, MIDDLE, D_S, D_K, MU = (LANES * (SHARED_ROWS + i) for i in range(8))
+STEP_ROWS = SHARED_ROWS + 8
+"""Rows so far; a kernel's own rows follow them."""
 
 
 class Problem(NamedTuple):
@@ -104,8 +105,56 @@ def check_step(scenario: Scenario, dt: float) -> None:
         )
 
 
+def stepping(law: ModuleType) -> Any:
+    """Return the ``leg`` of a kernel that steps; its module has, beside `kernel`'s functions, these compiled ones.
+
+    ::
+
+        acceleration(j, w, tau, drive, numbers, m)   x'' of lane j at its stage, tau after the start of the step
+        finish(w_old, w, h, drive, numbers, m)       fourth stage and end of the step of all lanes; returns how many have
+                                                     passed a switch, and how many have passed v_s or turned over
+        switch(q, t, h, w, part, m)                  makes the step again for the lanes that have passed a switch
+
+    ``w`` is the part of the way between knots, ``part`` that of a step, ``drive`` the excitation per unit of mass.
+    """
+    acceleration, finish, switch, file = law.acceleration, law.finish, law.switch, str(law.__file__)
+
+    def stage(w, tau, ahead, middle, drive, numbers, m):
+        for j in range(LANES):
+            finish_stage(j, acceleration(j, w, tau, drive, numbers, m), ahead, middle, m)
+
+    def leg(q, i, numbers, m, tally, pending):
+        _changes_to_next_knot(m)
+        n_steps = int(q.n_steps[q.legs.kind[i]])
+        h = q.legs.length[i] / n_steps
+        part = (q.legs.to_knot[i] - q.legs.from_knot[i]) / n_steps
+        for step in range(n_steps):
+            t = q.legs.start[i] + step * h
+            w = q.legs.from_knot[i] + step * part
+            f0, f1, f2 = _drives(q.amplitude / q.mass, q.frequency, t, h)
+            go(w, 0.0, 0.5 * h, 0.0, f0, numbers, m)
+            go(w + 0.5 * part, 0.5 * h, 0.5 * h, 1.0, f1, numbers, m)
+            go(w + 0.5 * part, 0.5 * h, h, 1.0, f1, numbers, m)
+            switched, crossed = finish(w, w + part, h, f2, numbers, m)
+            if switched > 0:
+                switch(q, t, h, w, part, m)
+            if switched + crossed > 0:
+                _note_step(q, t, h, w, m, tally, pending)
+        return True
+
+    go = compiled(stage, parts=file)
+    return compiled_inline(leg, parts=file)
+
+
 @compiled
-def changes_to_next_knot(m):
+def at_start(m):
+    """Write x and x' at t = 0 into the rows of the stage."""
+    m[STAGE_X : STAGE_X + LANES] = m[X : X + LANES]
+    m[STAGE_V : STAGE_V + LANES] = m[V : V + LANES]
+
+
+@compiled
+def _changes_to_next_knot(m):
     """Write the change of each pair to the next knot."""
     for j in range(LANES):
         m[D_S + j] = m[B_S + j] - m[A_S + j]
@@ -113,7 +162,7 @@ def changes_to_next_knot(m):
 
 
 @compiled_inline
-def drives(amplitude, frequency, t, h):
+def _drives(amplitude, frequency, t, h):
     """Return amplitude cos(frequency t) at the start, the middle and the end of a step."""
     if amplitude == 0.0:
         return 0.0, 0.0, 0.0
@@ -160,7 +209,7 @@ def passed(was, now, v_s):
 
 
 @compiled
-def note_step(q, t, h, w, m, tally, pending):
+def _note_step(q, t, h, w, m, tally, pending):
     """Note what happened within the step from t to t + h; ``w`` is the part of the way between knots at its start."""
     for j in range(LANES):
         m[MU + j] = m[A_S + j] + w * m[D_S + j]

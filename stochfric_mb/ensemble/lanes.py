@@ -32,6 +32,9 @@ _MANTISSA_BITS = np.uint64(52)
 NORMAL_CODE = 0.0
 """Code of the distributions that are mean + sigma z."""
 
+# Rows of a group's flat array: position, velocity, pair at the knot, pair at the next knot; a kernel's own rows follow
+X, V, A_S, A_K, B_S, B_K = (LANES * i for i in range(6))
+SHARED_ROWS = 6
 # Rows of a group's tallies
 BREAK_AWAYS, FIRST, LAST, MU_S_SUM, STICK_TIME = range(5)
 TALLIES = 5
