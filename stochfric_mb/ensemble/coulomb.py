@@ -24,6 +24,7 @@ from stochfric_mb.ensemble.kernel import kernel
 from stochfric_mb.ensemble.lanes import A_K, A_S, B_K, B_S, LANES, SHARED_ROWS, V, X, note_break_away, note_slip_end
 from stochfric_mb.ensemble.schedule import Array, Schedule, schedule
 from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.numerics.first_zero import first_zero_of
 from stochfric_mb.scenario import Scenario
 
 LONGEST_LEG = 0.35
@@ -34,10 +35,12 @@ DIVISORS: Array = np.array([1.0 / ((e + 1) * (e + 2)) for e in range(TERMS)])
 """1/((e + 1) (e + 2)): what turns the e-th coefficient of an acceleration into the next one but two of the position."""
 TABLE_TERMS = 20
 """The same for the tables, whose error would add up over the legs."""
+RESOLUTION = 1.0e-14
+"""Part of a leg to which an event is found [-]: at most 0.35e-14 rad of the motion, which is below the rounding of x."""
 MAX_SWITCHES = 10_000
 """Most switches within one leg."""
 # Rows of the flat array beside the shared ones: 0 (stick) or the direction of sliding, whether the leg has an event, and
-# room for three polynomials
+# room for two polynomials
 MODE, EVENTFUL, WORK = (LANES * (SHARED_ROWS + i) for i in range(3))
 ROWS = SHARED_ROWS + 3
 
@@ -217,14 +220,13 @@ def _eventful_leg(body, leg, j, m, tally, pending):
     d_s, d_k = m[B_S + j] - a_s, m[B_K + j] - a_k
     mu_s, mu_k = a_s + w0 * d_s, a_k + w0 * d_k
     slope_s, slope_k = (w1 - w0) * d_s / length, (w1 - w0) * d_k / length
-    g, dg = m[WORK : WORK + TERMS], m[WORK + TERMS : WORK + 2 * TERMS]
-    motion = m[WORK + 2 * TERMS : WORK + 3 * TERMS]
+    g, motion = m[WORK : WORK + TERMS], m[WORK + TERMS : WORK + 2 * TERMS]
     x, v, s = m[X + j], m[V + j], m[MODE + j]
     tau = 0.0
     for _ in range(MAX_SWITCHES):
         t, rest = start + tau, length - tau
         if s == 0.0:
-            dt, new = _break_away(body, t, x, mu_s + slope_s * tau, slope_s, rest, g, dg)
+            dt, new = _break_away(body, t, x, mu_s + slope_s * tau, slope_s, rest, g)
             dt = min(dt, rest)
             x += v_b * dt
             v = v_b
@@ -233,9 +235,9 @@ def _eventful_leg(body, leg, j, m, tally, pending):
             for e in range(TERMS - 1):
                 g[e] = -s * (e + 1) * motion[e + 1]
             g[0] += s * v_b
-            dt = min(first_zero(g, dg, TERMS - 1, rest), rest)
-            x = _value(motion, TERMS, dt)
-            v = v_b - s * _value(g, TERMS - 1, dt) if dt == rest else v_b
+            dt = min(first_zero((g, TERMS - 1), 0.0, rest), rest)
+            x = value((motion, TERMS), dt)
+            v = v_b - s * value((g, TERMS - 1), dt) if dt == rest else v_b
             new = s
         if dt == rest:
             m[X + j], m[V + j], m[MODE + j] = x, v, s
@@ -272,7 +274,7 @@ def _slip_motion(body, t, x, v, s, mu_k, slope, out):
 
 
 @compiled
-def _break_away(body, t, x, mu_s, slope, length, g, dg):
+def _break_away(body, t, x, mu_s, rate_s, length, g):
     """Return (time to break-away [s], direction); infinity if the contact holds for ``length``."""
     _, damping, stiffness, normal_force, amplitude, frequency, v_b, _ = body
     hold = stiffness * x + damping * v_b
@@ -285,11 +287,11 @@ def _break_away(body, t, x, mu_s, slope, length, g, dg):
             wave = s * amplitude * math.cos(frequency * t)
             next_wave = -s * amplitude * frequency * math.sin(frequency * t)
             n = TERMS
-        g[0], g[1] = mu_s * normal_force - s * hold, slope * normal_force - s * rate
+        g[0], g[1] = mu_s * normal_force - s * hold, rate_s * normal_force - s * rate
         for e in range(n):
             g[e] = wave if e > 1 else g[e] + wave
             wave, next_wave = next_wave, -frequency * frequency * wave * DIVISORS[e]
-        dt = first_zero(g, dg, n, length)
+        dt = first_zero((g, n), 0.0, length)
         if dt < best:
             best, direction = dt, s
     return best, direction
@@ -299,89 +301,24 @@ def _break_away(body, t, x, mu_s, slope, length, g, dg):
 
 
 @compiled_inline
-def _value(g, n, t):
-    """Return g[0] + g[1] t + ... + g[n - 1] t^(n - 1)."""
-    value = g[n - 1]
+def value(g, t):
+    """Return the polynomial with the first n coefficients c at time t; g = (c, n)."""
+    c, n = g
+    total = c[n - 1]
     for e in range(n - 2, -1, -1):
-        value = value * t + g[e]
-    return value
+        total = total * t + c[e]
+    return total
 
 
-@compiled
-def first_zero(g, dg, n, length):
-    """Return the first time in [0, length) after which the polynomial g is negative, or infinity.
-
-    A polynomial that starts at zero and rises counts as positive until it comes back. It has at most one extremum
-    within ``length``; ``dg`` is room for its derivative.
-    """
-    for e in range(n - 1):
-        dg[e] = (e + 1) * g[e + 1]
-    low, here = 0.0, g[0]
-    there, slope = _value(g, n, length), _value(dg, n - 1, length)
-    if here <= 0.0:
-        low, here = _after_start(g, dg, n, length, slope)
-        if here <= 0.0:
-            return 0.0
-    if there < 0.0:
-        return _root(g, dg, n, low, length, here, there)
-    if _value(dg, n - 1, low) < 0.0 and slope > 0.0:
-        bottom = _bisected(dg, n - 1, low, length)
-        there = _value(g, n, bottom)
-        if there < 0.0:
-            return _root(g, dg, n, low, bottom, here, there)
-    return math.inf
+@compiled_inline
+def slope(g, t):
+    """Return its derivative."""
+    c, n = g
+    total = (n - 1) * c[n - 1]
+    for e in range(n - 2, 0, -1):
+        total = total * t + e * c[e]
+    return total
 
 
-@compiled
-def _after_start(g, dg, n, length, slope):
-    """Return a time at which a polynomial that starts at zero has risen above it, and its value; (0, value) if it falls."""
-    ahead = 1.0e-3 * length
-    value = _value(g, n, ahead)
-    if value > 0.0:
-        return ahead, value
-    if dg[0] > 0.0 and slope < 0.0:
-        top = _bisected(dg, n - 1, 0.0, length)
-        return top, _value(g, n, top)
-    return 0.0, min(value, 0.0)
-
-
-@compiled
-def _root(g, dg, n, positive, negative, here, there):
-    """Return the zero of g between a time where it is positive and a later one where it is not, by guarded Newton.
-
-    Newton's error squares: once a step is below 1e-10 of the bracket the next one would be below rounding.
-    """
-    enough = 1.0e-10 * (negative - positive)
-    t = positive + (negative - positive) * (here / (here - there))
-    for _ in range(100):
-        value, slope = g[n - 1], 0.0
-        for e in range(n - 2, -1, -1):
-            slope = slope * t + value
-            value = value * t + g[e]
-        if value > 0.0:
-            positive = t
-        else:
-            negative = t
-        new = t - value / slope if slope < 0.0 else math.inf  # at the bottom of a grazing dip the slope tells nothing
-        if not positive <= new <= negative:
-            new = 0.5 * (positive + negative)
-        elif abs(new - t) <= enough:
-            return new
-        t = new
-    return t
-
-
-@compiled
-def _bisected(g, n, a, b):
-    """Return the zero of g between two times where it has different signs."""
-    rising = _value(g, n, a) < 0.0
-    for _ in range(60):
-        middle = 0.5 * (a + b)
-        if (_value(g, n, middle) < 0.0) == rising:
-            a = middle
-        else:
-            b = middle
-    return 0.5 * (a + b)
-
-
+first_zero = first_zero_of(sys.modules[__name__], RESOLUTION)
 simulate = kernel(sys.modules[__name__])

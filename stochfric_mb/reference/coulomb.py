@@ -15,6 +15,7 @@ routine finds the first zero of such a curve.
 from __future__ import annotations
 
 import math
+import sys
 from typing import NamedTuple
 
 import numpy as np
@@ -26,15 +27,13 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.laws import Law
 from stochfric_mb.mechanisms import BeltBox
-from stochfric_mb.numerics.root import bracket, is_wide, narrowed, trial
+from stochfric_mb.numerics.first_zero import first_zero_of
 from stochfric_mb.reference.events import BREAK_AWAY, STICK, note
 from stochfric_mb.trajectory import Array
 
 MAX_SWITCHES_PER_LEG = 10_000
 SHORTEST = 1.0e-14
 """Rest of a leg [s] in which nothing is looked for: below the rounding of the forces."""
-RESOLUTION = 1.0e-19
-"""Time [s] to which an event is located within its leg."""
 
 
 class Curve(NamedTuple):
@@ -231,8 +230,8 @@ def _leg(o, line, t, length, x, v, mode, log, n_events):
         else:
             curve = _sliding(o, t + tau, x, v, mode, mu_k + slope_k * tau, slope_k)
             dt = first_zero(_slack_of_speed(o, _derivative(curve), mode), rest)
-            x = _value(curve, min(dt, rest))
-            v = o.belt_velocity if dt < rest else _value(_derivative(curve), rest)
+            x = value(curve, min(dt, rest))
+            v = o.belt_velocity if dt < rest else value(_derivative(curve), rest)
             new = mode
         if dt >= rest:
             return x, v, mode, log, n_events, True
@@ -307,12 +306,18 @@ def _break_away(o, t, x, mu_s, slope, rest):
 
 
 @compiled
-def _value(g, tau):
+def value(g, tau):
     """Return g(tau)."""
     ring = math.exp(-g.decay * tau) * (g.cosine * math.cos(g.natural * tau) + g.sine * math.sin(g.natural * tau))
     angle = g.phase + g.forcing * tau
     forced = g.in_phase * math.cos(angle) + g.out_of_phase * math.sin(angle)
     return ring + g.constant + g.slope * tau + forced
+
+
+@compiled
+def slope(g, tau):
+    """Return dg/dtau(tau)."""
+    return value(_derivative(g), tau)
 
 
 @compiled
@@ -324,41 +329,11 @@ def first_zero(g, length):
     """
     fastest = max(g.natural, g.forcing)
     n = max(1, math.ceil(length * fastest / 0.2))
-    dg = _derivative(g)
     for i in range(n):
-        low, high = i * (length / n), (i + 1) * (length / n)
-        here, there = _value(g, low), _value(g, high)
-        if here <= 0.0:
-            low, here = _after_start(g, dg, low, high)
-            if here <= 0.0:
-                return low
-        if there < 0.0:
-            return _zero(g, low, high)
-        if _value(dg, low) < 0.0 and _value(dg, high) > 0.0:
-            bottom = _zero(dg, high, low)
-            if _value(g, bottom) < 0.0:
-                return _zero(g, low, bottom)
+        tau = zero_within(g, i * (length / n), (i + 1) * (length / n))
+        if tau < math.inf:
+            return tau
     return math.inf
 
 
-@compiled
-def _after_start(g, dg, low, high):
-    """Return a time at which a curve that starts at zero has risen above it, with its value; (low, value) if it falls."""
-    ahead = low + 1.0e-3 * (high - low)
-    value = _value(g, ahead)
-    if value > 0.0:
-        return ahead, value
-    if _value(dg, low) > 0.0 and _value(dg, high) < 0.0:
-        top = _zero(dg, low, high)
-        return top, _value(g, top)
-    return low, value
-
-
-@compiled
-def _zero(g, positive, negative):
-    """Return the zero of g between a time where it is positive and one where it is not, on the latter side."""
-    b = bracket(positive, _value(g, positive), negative, _value(g, negative))
-    while is_wide(b, RESOLUTION):
-        t = trial(b, RESOLUTION)
-        b = narrowed(b, t, _value(g, t))
-    return b.negative
+zero_within = first_zero_of(sys.modules[__name__], 0.0)
