@@ -14,6 +14,8 @@ from __future__ import annotations
 import math
 import sys
 
+import numpy as np
+
 from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.ensemble.fixed_step import (
     D_K,
@@ -33,6 +35,9 @@ from stochfric_mb.ensemble.lanes import A_K, A_S, LANES, V, X, exponential, fma
 from stochfric_mb.laws import elastic_stick as law
 from stochfric_mb.laws.elastic_stick import SLIP, SLIP_PEAK, STICK
 from stochfric_mb.numerics.root import bracket, is_wide, narrowed, trial
+from stochfric_mb.numerics.runge_kutta import RK4, advance
+
+A, B, C = RK4.a, RK4.b, RK4.c
 
 # Rows beside the shared ones: position one step before, mode, direction of sliding, deflection + position, whether the
 # lane has passed a switch
@@ -148,106 +153,100 @@ def finish(w_old, w, h, drive, numbers, m):
 
 
 # --- one lane that switches -------------------------------------------------------------------------------------------
-# body: m, c, k, N, k u_0, W, v_b; line: time and mu_s, mu_k at the start of the step, and their slopes; y: x, x', z
+# body: m, c, k, N, k u_0, W, v_b; line: time and mu_s, mu_k at the start of the step, and their slopes; rows of r: x, x', z,
+# the same after a trial step and at a stage of it, and the rates of its four stages
 
 
 @compiled
 def switch(q, t, h, w, part, m):
     """Make the last step again for the lanes that have passed a switch."""
     body = (q.mass, q.damping, q.stiffness, q.normal_force, q.amplitude, q.frequency, q.belt_velocity)
+    r = np.empty((3 + len(B), 3))
     for j in range(LANES):
         if m[SWITCHED + j] == 1.0:
-            _switching_step(body, q.parameters, j, t, h, w, part, m)
+            _switching_step(body, q.parameters, j, t, h, w, part, m, r)
 
 
 @compiled
-def _switching_step(body, p, j, t, h, w, part, m):
+def _switching_step(body, p, j, t, h, w, part, m, r):
     """Make the last step of lane j again, with its switches located and committed by the law."""
     d_s, d_k = m[D_S + j], m[D_K + j]
     line = (t, m[A_S + j] + w * d_s, m[A_K + j] + w * d_k, part * d_s / h, part * d_k / h)
-    y = (m[OLD_X + j], m[OLD_V + j], m[ZX + j] - body[6] * h - m[OLD_X + j])
+    r[0, 0], r[0, 1], r[0, 2] = m[OLD_X + j], m[OLD_V + j], m[ZX + j] - body[6] * h - m[OLD_X + j]
     state = (m[MODE + j], 0.0, 0.0, m[SIGN + j], 0.0)
     tau = 0.0
     for count in range(MAX_SWITCHES + 1):
         dt = h - tau
         if count < MAX_SWITCHES:
-            dt = _switch_time(body, p, line, state, tau, dt, y)
+            dt = _switch_time(body, p, line, state, tau, dt, r)
         last = dt == h - tau
-        y = _advance(body, p, line, state, tau, dt, y)
+        _advance(body, p, line, state, tau, dt, r)
         tau = h if last else tau + dt
         mu_s, mu_k = line[1] + tau * line[3], line[2] + tau * line[4]
-        new = law.commit(t + tau, y[2], 0.0, body[6] - y[1], 0.0, body[3], state, mu_s, mu_k, body[0], 0.0, 0.0, p)
-        y = (y[0], y[1], y[2] - new[1])
+        new = law.commit(t + tau, r[1, 2], 0.0, body[6] - r[1, 1], 0.0, body[3], state, mu_s, mu_k, body[0], 0.0, 0.0, p)
+        r[0] = r[1]
+        r[0, 2] -= new[1]
         state = (new[0], 0.0, 0.0, new[3], 0.0)
         if last:
             break
-    m[X + j] = m[STAGE_X + j] = y[0]
-    m[V + j] = m[STAGE_V + j] = y[1]
-    m[ZX + j] = y[2] + y[0]
+    m[X + j] = m[STAGE_X + j] = r[0, 0]
+    m[V + j] = m[STAGE_V + j] = r[0, 1]
+    m[ZX + j] = r[0, 2] + r[0, 0]
     m[MODE + j], m[SIGN + j] = state[0], state[3]
 
 
 @compiled
-def _margin(body, p, line, state, capped, tau, y):
-    """Return the law's smallest distance to a switch or to the kink at the cap, positive before it."""
+def _guards(body, p, line, state, tau, y):
+    """Return the law's distances to its switches at (x, x', z) = y, positive before them."""
     mu_s, mu_k = line[1] + tau * line[3], line[2] + tau * line[4]
-    g = law.guards(line[0] + tau, y[2], 0.0, body[6] - y[1], 0.0, body[3], state, mu_s, mu_k, body[0], 0.0, 0.0, p)
-    if state[0] == STICK:
-        return min(g[0], g[2] if capped else g[1])
-    return min(g[0], g[1])
+    return law.guards(line[0] + tau, y[2], 0.0, body[6] - y[1], 0.0, body[3], state, mu_s, mu_k, body[0], 0.0, 0.0, p)
 
 
 @compiled
-def _is_capped(body, p, line, state, tau, y):
-    """Return whether the force of a stuck contact has reached its cap."""
-    mu_s, mu_k = line[1] + tau * line[3], line[2] + tau * line[4]
-    g = law.guards(line[0] + tau, y[2], 0.0, body[6] - y[1], 0.0, body[3], state, mu_s, mu_k, body[0], 0.0, 0.0, p)
-    return g[1] <= 0.0
-
-
-@compiled
-def _switch_time(body, p, line, state, tau, rest, y):
-    """Return the time to the switch [s], just past it, or ``rest`` if there is none.
+def _switch_time(body, p, line, state, tau, rest, r):
+    """Return the time to the next switch, or kink at the cap [s], just past it; ``rest`` if there is none.
 
     A contact that is at a switch already (a clipped deflection whose limit falls) is committed at the end only.
     """
-    capped = state[0] == STICK and _is_capped(body, p, line, state, tau, y)
-    at_start = _margin(body, p, line, state, capped, tau, y)
-    at_end = _margin(body, p, line, state, capped, tau + rest, _advance(body, p, line, state, tau, rest, y))
+    g = _guards(body, p, line, state, tau, r[0])
+    second = 1 if state[0] != STICK or g[1] > 0.0 else 2  # the cap is left where it was reached
+    at_start = min(g[0], g[second])
+    at_end = _margin_after(body, p, line, state, tau, rest, second, r)
     if at_start <= 0.0 or at_end > 0.0:
         return rest
     b = bracket(0.0, at_start, rest, at_end)
     while is_wide(b, RESOLUTION * rest):
         dt = trial(b, RESOLUTION * rest)
-        b = narrowed(b, dt, _margin(body, p, line, state, capped, tau + dt, _advance(body, p, line, state, tau, dt, y)))
+        b = narrowed(b, dt, _margin_after(body, p, line, state, tau, dt, second, r))
     return b.negative
 
 
 @compiled
-def _advance(body, p, line, state, tau, dt, y):
-    """Return y a Runge-Kutta step ``dt`` after ``tau`` into the step, with the law's own force."""
-    x, v, z = y
-    half = 0.5 * dt
-    a0 = _single_acceleration(body, p, line, state, tau, x, v, z)
-    x1, v1 = x + half * v, v + half * a0
-    a1 = _single_acceleration(body, p, line, state, tau + half, x1, v1, z + body[6] * half - (x1 - x))
-    x2, v2 = x + half * v1, v + half * a1
-    a2 = _single_acceleration(body, p, line, state, tau + half, x2, v2, z + body[6] * half - (x2 - x))
-    x3, v3 = x + dt * v2, v + dt * a2
-    a3 = _single_acceleration(body, p, line, state, tau + dt, x3, v3, z + body[6] * dt - (x3 - x))
-    x_new = x + dt * v + dt * dt / 6.0 * (a0 + a1 + a2)
-    return x_new, v + dt / 6.0 * (a0 + 2.0 * (a1 + a2) + a3), z + body[6] * dt - (x_new - x)
+def _margin_after(body, p, line, state, tau, dt, second, r):
+    """Return the least distance to a switch a time dt after ``tau``."""
+    _advance(body, p, line, state, tau, dt, r)
+    g = _guards(body, p, line, state, tau + dt, r[1])
+    return min(g[0], g[second])
 
 
 @compiled
-def _single_acceleration(body, p, line, state, tau, x, v, z):
-    """Return x'' [m/s^2] with the law's own force."""
+def _advance(body, p, line, state, tau, dt, r):
+    """Make a Runge-Kutta step ``dt`` after ``tau`` into the step, with the law's own force."""
+    for i in range(len(B)):
+        advance(A[i], i, dt, r[0], r[3:], 0, 3, r[2])
+        _rates(body, p, line, state, tau + C[i] * dt, r[2], r[3 + i])
+    advance(B, len(B), dt, r[0], r[3:], 0, 3, r[1])
+
+
+@compiled
+def _rates(body, p, line, state, tau, y, dy):
+    """Write the derivatives of (x, x', z) = y, with the law's own force."""
     mass, damping, stiffness, normal_force, amplitude, frequency, v_b = body
     t = line[0] + tau
     mu_s, mu_k = _branch(line[1] + tau * line[3], line[2] + tau * line[4], state, p)
-    f, _ = law.force(t, z, 0.0, v_b - v, 0.0, normal_force, state, mu_s, mu_k, mass, 0.0, 0.0, p)
+    f, _ = law.force(t, y[2], 0.0, v_b - y[1], 0.0, normal_force, state, mu_s, mu_k, mass, 0.0, 0.0, p)
     drive = amplitude * math.cos(frequency * t) if amplitude != 0.0 else 0.0
-    return (f + drive - damping * v - stiffness * x) / mass
+    dy[0], dy[1], dy[2] = y[1], (f + drive - damping * y[1] - stiffness * y[0]) / mass, v_b - y[1]
 
 
 @compiled

@@ -100,3 +100,39 @@ def test_processes_that_start_together_agree(package):
     together = [subprocess.Popen(command, **options) for _ in range(3)]
     assert [process.communicate()[0].split()[:2] for process in together] == [["2.0", "42.0"]] * 3
     assert _run(package)[2:] == [1, 1]
+
+
+NESTED = """
+import sys
+import stochfric_mb.left, stochfric_mb.right
+made = stochfric_mb.left.whole, stochfric_mb.right.whole
+print(*(f(1.0) for f in made), *(sum(f.stats.cache_hits.values()) for f in made))
+"""
+
+
+def test_nested_functions_are_kept_for_each_file_whose_functions_they_hold(package):
+    """Two modules fill in one nested function: each has its own stored code, renewed when that module changes."""
+    imports = "from stochfric_mb.compile import compiled\n"
+    text = (
+        "\ndef make(part, file):\n    def whole(x):\n        return 2.0 * part(x)\n\n    return compiled(whole, parts=file)\n"
+    )
+    (package / "frame.py").write_text(imports + text, encoding="utf-8")
+    for name, factor in (("left", 3.0), ("right", 4.0)):
+        text = "from stochfric_mb.compile import compiled\nfrom stochfric_mb.frame import make\n\n@compiled\ndef part(x):\n"
+        (package / f"{name}.py").write_text(
+            f"{text}    return {factor} * x\n\nwhole = make(part, __file__)\n", encoding="utf-8"
+        )
+
+    def run():
+        settings = {**os.environ, "PYTHONPATH": str(package.parent), "PYTHONDONTWRITEBYTECODE": "1"}
+        settings.pop("NUMBA_CACHE_DIR", None)
+        command = [sys.executable, "-c", NESTED]
+        out = subprocess.run(command, capture_output=True, text=True, check=True, env=settings, cwd=package.parent)
+        return [float(word) for word in out.stdout.split()]
+
+    assert run() == [6.0, 8.0, 0, 0]
+    assert run() == [6.0, 8.0, 1, 1]
+    right = package / "right.py"
+    right.write_text(right.read_text(encoding="utf-8").replace("4.0", "5.0"), encoding="utf-8")
+    assert run() == [6.0, 10.0, 1, 0]
+    assert run() == [6.0, 10.0, 1, 1]
