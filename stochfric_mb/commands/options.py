@@ -63,7 +63,7 @@ def command_line(*, without: tuple[str, ...] = ()) -> str:
     words = ["stochfric", str(ctx.info_name)]
     for parameter in ctx.command.params:
         name = str(parameter.name)
-        if name not in without and ctx.get_parameter_source(name) is ParameterSource.COMMANDLINE:
+        if name in ctx.params and name not in without and ctx.get_parameter_source(name) is ParameterSource.COMMANDLINE:
             words += _words(parameter, ctx.params[name])
     return shlex.join(words)
 
@@ -74,4 +74,4 @@ def _words(parameter: click.Parameter, value: Any) -> list[str]:
     if parameter.is_flag:
         return [parameter.opts[0] if value else (parameter.secondary_opts or parameter.opts)[0]]
     values = value if parameter.multiple else (value,)
-    return [word for v in values for word in (parameter.opts[0], str(v))]
+    return [word for v in values for word in (max(parameter.opts, key=len), str(v))]

@@ -5,12 +5,14 @@ import os
 import subprocess
 import sys
 
+import click
 import pytest
 from click.testing import CliRunner
 
 from stochfric_mb.__main__ import COMMANDS, main
 from stochfric_mb.commands import progress
-from stochfric_mb.commands.speech import Speech
+from stochfric_mb.commands.options import command_line
+from stochfric_mb.commands.speech import Speech, spoken
 
 RUN = ["run", "kang2015_table1", "--set", "simulation.duration=0.05"]
 
@@ -39,6 +41,17 @@ def test_json_is_all_that_is_on_stdout(tmp_path):
     content = json.loads(done.stdout)
     assert content["out"] == str(tmp_path / "run.nc")
     assert (content["n_samples"], content["engine"], content["period"]) == (51, "reference", None)
+
+
+def test_how_a_command_speaks_is_no_part_of_the_command_line():
+    @click.command()
+    @spoken
+    @click.option("-o", "--out")
+    def made(out):
+        click.echo(command_line())
+
+    done = CliRunner().invoke(made, ["-v", "--out", "here"])
+    assert done.output.strip() == "stochfric made --out here"
 
 
 @pytest.mark.parametrize("what", ["laws", "processes", "effects", "engines"])
