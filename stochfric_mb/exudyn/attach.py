@@ -38,7 +38,7 @@ def add_friction(
     effective_mass: float | None = None,
     seed: int = 0,
     sample: int = 0,
-    contact: int = 0,
+    contact: int | None = None,
 ) -> FrictionContact:
     """Return the contact that now acts between two markers of an Exudyn system.
 
@@ -73,7 +73,8 @@ def add_friction(
         effective_mass: mass that the contact feels [kg], for laws that need it.
         seed: seed of the path of coefficients.
         sample: number of the sample.
-        contact: number of the contact: contacts with different numbers have independent paths.
+        contact: number of the contact; contacts with different numbers have independent paths. If not given they are numbered
+            0, 1, 2, ... as they are added to the system.
 
     Raises:
         InputError: a law that needs the holding force, a missing effective mass, markers of different or unknown kinds,

@@ -30,7 +30,7 @@ def add_bristle(
     hold: float = 0.0,
     seed: int = 0,
     sample: int = 0,
-    contact: int = 0,
+    contact: int | None = None,
 ) -> Bristle:
     """Return Exudyn's bristle (CoordinateSpringDamperExt) with the parameters nearest to an elastic stick.
 
@@ -48,7 +48,7 @@ def add_bristle(
         hold: time for which coefficients are held [s], >= 0: passing new ones costs as much as all the rest of the bristle.
         seed: seed of the path of coefficients.
         sample: number of the sample.
-        contact: number of the contact.
+        contact: number of the contact; if not given, how many frictions the system had before.
 
     Raises:
         InputError: another law, a process along the surface or along events, or a number out of range.
@@ -63,6 +63,7 @@ def add_bristle(
     mass = require_number("effective_mass", effective_mass, above=0.0, unit="kg")
     stiffness = law.mu_s * n / law.e_lim
     start, speed = (_initial(mbs, marker1, what) - _initial(mbs, marker0, what) for what in (_POSITION, _VELOCITY))
+    contact = Hooks.of(mbs).join() if contact is None else contact
     mu_s, mu_k = friction.path(seed, sample, contact).at(0.0)
     slip = (mu_k + (mu_s - mu_k) * math.exp(-abs(speed) / max(law.decay_velocity, LEAST_DECAY))) * n
     mode = math.copysign(slip, speed) if abs(speed) > law.v_s else 0.0  # implicit solvers take their first step with it

@@ -15,7 +15,7 @@ from stochfric_mb.errors import InputError, SimulationError, require_number
 from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.hooks import Hooks
 from stochfric_mb.exudyn.location import FINE, locate
-from stochfric_mb.exudyn.normal import NO_REACTION, Normal, is_explicit
+from stochfric_mb.exudyn.normal import NO_REACTION, Normal
 from stochfric_mb.exudyn.stepping import CHANGED, FETCH, LOST, RECORDED, RESTARTED, WATCH, advance, proceed
 from stochfric_mb.exudyn.symbolic import NORMAL_LINE, live_names, symbolic
 from stochfric_mb.friction import Friction, as_friction
@@ -42,7 +42,7 @@ class FrictionContact:
         *,
         seed: int,
         sample: int,
-        contact: int,
+        contact: int | None,
         effective_mass: float | None,
     ) -> None:
         """Prepare the memory; the kinds of contact say what the force acts on, then call `_begin`."""
@@ -52,6 +52,10 @@ class FrictionContact:
         mass = _effective_mass(law, effective_mass)
         self._mass_given = effective_mass is not None
         self._mbs, self._normal = mbs, normal
+        self._hooks = Hooks.of(mbs)
+        number = self._hooks.join()
+        self._name = f"stochfric_mb friction {number}"
+        contact = number if contact is None else contact
         self._numbers, self._words = _arrays(law, self.friction.path(seed, sample, contact))
         self._numbers[[at.MASS, at.RADIUS]] = mass, 1.0
         self._numbers[at.NORMAL_FORCE] = self._numbers[at.GIVEN_NORMAL] = 0.0 if normal.changes else normal.at(0.0)
@@ -65,11 +69,15 @@ class FrictionContact:
         self._refined = (math.nan, 0)
         self.where = int(self._words.ctypes.data)
         """Address of the contact for compiled code."""
+        self._markers: tuple[Any, ...] = ()
         self.object: Any = None
         """Index of the object (or load) that carries the force."""
 
     is_load = False
     """Whether the force is a load, which implicit solvers differentiate only where they are told to."""
+
+    _on_load = False
+    """Whether a load carries the force."""
 
     # what the kinds of contact differ in
 
@@ -267,6 +275,36 @@ class FrictionContact:
         self.prepare(dt, start)
         return True
 
+    def find(self) -> bool:
+        """Find the contact's item in the system again, which others that are deleted renumber; False: it is gone."""
+        mbs = self._mbs
+        number = (mbs.GetLoadNumber if self._on_load else mbs.GetObjectNumber)(self._name)
+        if int(number) < 0:
+            return False
+        self.object = number
+        entry = (mbs.GetLoad if self._on_load else mbs.GetObject)(number)
+        markers = entry["markerNumbers"] if "markerNumbers" in entry else [entry["markerNumber"]]
+        if list(map(int, markers)) != list(map(int, self._markers)):
+            self._markers = tuple(markers)
+            self._follow_markers()
+        return True
+
+    def _follow_markers(self) -> None:
+        """Take up new numbers of the markers."""
+
+    def require_friction_at_rest(self) -> None:
+        """Do nothing if the law gives friction without motion.
+
+        Raises:
+            InputError: it gives none: a static solution would have no friction.
+        """
+        law = self.friction.law
+        if not law.state_names:
+            raise InputError(
+                f"law {law.kind} gives friction to a moving contact alone, and a static solution has no velocities: it would "
+                "have no friction; use elastic_stick, lugre or dahl, or let the motion come to rest with SolveDynamic"
+            )
+
     def locate(self, on: bool) -> None:
         """Say whether steps are to end where the law switches."""
         self._words[at.LOCATING] = int(on)
@@ -275,9 +313,9 @@ class FrictionContact:
         """Join the system's hooks; ``names``: the variables that the engine is given after each step."""
         self._places = [(self._names.index(name), self._symbols[name]) for name in names]
         self._words[at.ASK_FIRST] |= int(self._normal.changes)
-        hooks = Hooks.of(self._mbs)
-        hooks.contacts.append(self)
-        hooks.install(locate=False)
+        (self._mbs.SetLoadParameter if self._on_load else self._mbs.SetObjectParameter)(self.object, "name", self._name)
+        self._hooks.contacts.append(self)
+        self._hooks.install(locate=False)
         self.reset()
 
     def _make_symbols(self, names: tuple[str, ...]) -> dict[str, Any]:
@@ -296,7 +334,7 @@ class FrictionContact:
 
     def _read_normal(self, t: float) -> None:
         """Take the normal force at the end of the step, and the rate at which it is likely to change in the next one."""
-        if self._normal.reaction and is_explicit(self._mbs):
+        if self._normal.reaction and self._hooks.explicit:
             raise InputError(NO_REACTION)
         numbers, now = self._numbers, self._normal.at(t)
         started, behind = self._words[at.STARTED], t - numbers[at.T]

@@ -37,6 +37,14 @@ class Contact(Protocol):
         """Start afresh, unless a simulation goes on where it has stopped at the time ``start`` [s]; return which."""
         ...
 
+    def find(self) -> bool:
+        """Find the contact's item in the system again, which others that are deleted renumber; False: it is gone."""
+        ...
+
+    def require_friction_at_rest(self) -> None:
+        """Do nothing if the law gives friction without motion."""
+        ...
+
     def locate(self, on: bool) -> None:
         """Say whether steps are to end where the law switches."""
         ...
@@ -77,8 +85,12 @@ class Hooks:
         """All contacts of the system."""
         self.followers: list[Callable[[float], None]] = []
         """Functions of time [s] called after each accepted step, after the contacts have committed."""
+        self.explicit = False
+        """Whether the solver that runs, or ran last, integrates explicitly, and so computes no reactions."""
+        self.running = False
+        """Whether a solver runs whose contacts have been started."""
         self._mbs = mbs
-        self._locating = False
+        self._locating, self._joined = False, 0
         self._own: dict[str, Callable[..., Any]] = {}
         self._other: dict[str, Callable[..., Any] | None] = {"PostStep": None, "PostNewton": None}
 
@@ -90,6 +102,28 @@ class Hooks:
             methods.wrap()
             hooks = mbs.variables[methods.KEY] = cls(mbs)
         return hooks
+
+    def join(self) -> int:
+        """Return the number of one more friction of the system: 0, 1, 2, ... in the order in which they are added."""
+        self._joined += 1
+        return self._joined - 1
+
+    def find(self) -> bool:
+        """Leave out contacts that were deleted from the system, and find those that moved; return whether any is left."""
+        there = [contact for contact in self.contacts if contact.find()]
+        if len(there) < len(self.contacts):
+            self.contacts[:] = there
+            self.install(locate=self._locating)
+        return bool(there)
+
+    @contextlib.contextmanager
+    def in_progress(self) -> Iterator[None]:
+        """Say while it lasts that a solver runs whose contacts have been started."""
+        before, self.running = self.running, True
+        try:
+            yield
+        finally:
+            self.running = before
 
     def install(self, *, locate: bool) -> None:
         """Take the system's slots, remembering what is there; ``locate``: whether steps end where a law switches."""

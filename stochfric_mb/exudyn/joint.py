@@ -35,7 +35,7 @@ def add_joint_friction(
     effective_mass: float | None = None,
     seed: int = 0,
     sample: int = 0,
-    contact: int = 0,
+    contact: int | None = None,
 ) -> FrictionContact:
     """Return the friction that now acts in a revolute or prismatic joint, against the motion of its second body.
 
@@ -53,7 +53,8 @@ def add_joint_friction(
         effective_mass: mass that the contact feels [kg] (inertia over radius^2), for laws that need it.
         seed: seed of the path of coefficients.
         sample: number of the sample.
-        contact: number of the contact: contacts with different numbers have independent paths.
+        contact: number of the contact; contacts with different numbers have independent paths. If not given they are numbered
+            0, 1, 2, ... as they are added to the system.
 
     Raises:
         InputError: another kind of joint, a GenericJoint that leaves no axis or more than one free, or as `add_friction`.

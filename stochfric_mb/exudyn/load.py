@@ -30,7 +30,7 @@ def add_friction_load(
     effective_mass: float | None = None,
     seed: int = 0,
     sample: int = 0,
-    contact: int = 0,
+    contact: int | None = None,
 ) -> FrictionContact:
     """Return the friction against ground that now acts as a load on one marker.
 
@@ -47,7 +47,8 @@ def add_friction_load(
         effective_mass: mass that the contact feels [kg], for laws that need it.
         seed: seed of the path of coefficients.
         sample: number of the sample.
-        contact: number of the contact: contacts with different numbers have independent paths.
+        contact: number of the contact; contacts with different numbers have independent paths. If not given they are numbered
+            0, 1, 2, ... as they are added to the system.
 
     Raises:
         InputError: a marker of another kind, or as `add_friction`.
@@ -64,7 +65,7 @@ def add_friction_load(
 class _Load(FrictionContact):
     """What both kinds of load share."""
 
-    is_load = True
+    is_load = _on_load = True
 
     def __init__(self, mbs: Any, friction: Law | Friction, normal: Normal, **options: Any) -> None:
         super().__init__(mbs, friction, normal, **options)
@@ -85,7 +86,7 @@ class CoordinateLoad(_Load):
         self, mbs: Any, marker: Any, friction: Law | Friction, normal: Normal, surface_velocity: Any, **options: Any
     ) -> None:
         super().__init__(mbs, friction, normal, **options)
-        self._marker, self._own, self._zero = marker, np.zeros(4), np.zeros(1)
+        self._markers, self._own, self._zero = (marker,), np.zeros(4), np.zeros(1)
         self._numbers[at.SURFACE_VELOCITY] = require_number("surface_velocity", surface_velocity, unit="m/s")
         bind_own(self._words, self._own)
         where, into, out = self.where, self._into, self._out
@@ -100,7 +101,7 @@ class CoordinateLoad(_Load):
     def connect(self) -> None:
         """Find out where the engine keeps the coordinate (again, whenever a simulation starts)."""
         self._words[at.ASK_FIRST] = int(self._normal.changes)
-        bind_coordinates(self._mbs, self._words, self._zero, [-1, coordinate_index(self._mbs, self._marker)])
+        bind_coordinates(self._mbs, self._words, self._zero, [-1, coordinate_index(self._mbs, self._markers[0])])
 
     def reset(self, start: float = 0.0) -> None:
         """Start the contact afresh, at the system's initial displacement and velocity."""
@@ -109,7 +110,7 @@ class CoordinateLoad(_Load):
 
     def _read_motion(self) -> None:
         """Copy the coordinate and its rate, for the time before a simulation starts."""
-        data, i = self._mbs.systemData, coordinate_index(self._mbs, self._marker)
+        data, i = self._mbs.systemData, coordinate_index(self._mbs, self._markers[0])
         if i is not None and 0 <= i < len(data.GetODE2Coordinates()):
             self._own[[1, 3]] = data.GetODE2Coordinates()[i], data.GetODE2Coordinates_t()[i]
 
@@ -130,7 +131,7 @@ class PositionLoad(_Load):
         super().__init__(mbs, friction, normal_force, **options)
         set_plane(self, None, normal, surface_velocity)
         self._words[at.ASK_FIRST] = 1
-        self._marker = marker
+        self._markers = (marker,)
         self._distance = self._numbers[at.DISTANCE : at.DISTANCE + 3]
         self._rate = self._numbers[at.RATE : at.RATE + 3]
         self._axes = self._numbers[at.AXIS_1 : at.AXIS_1 + 6].reshape(2, 3)
@@ -153,5 +154,5 @@ class PositionLoad(_Load):
 
     def _read_motion(self) -> None:
         """Take position and velocity of the marker."""
-        self._distance[:] = self._mbs.GetMarkerOutput(self._marker, OUTPUT.Position)
-        self._rate[:] = self._mbs.GetMarkerOutput(self._marker, OUTPUT.Velocity)
+        self._distance[:] = self._mbs.GetMarkerOutput(self._markers[0], OUTPUT.Position)
+        self._rate[:] = self._mbs.GetMarkerOutput(self._markers[0], OUTPUT.Velocity)

@@ -1,4 +1,4 @@
-"""Three methods of Exudyn's systems, wrapped so that friction survives what a script does with them.
+"""Methods of Exudyn's systems and solvers, wrapped so that friction survives what a script does with them.
 
 A PostStep function of the user's alone would keep contacts from committing; implicit solvers ask for the force once before
 any function of ours is called; and a solver's success says little. Systems without friction are left alone.
@@ -36,8 +36,9 @@ def fill(mbs: Any, slot: str, function: Any) -> None:
 
 def solve(mbs: Any, settings: Any, **options: Any) -> bool:
     """Return what Exudyn's SolveDynamic returns, contacts as they are."""
-    with fixed_steps(settings.timeIntegration):
-        return (_SOLVE[0] if _SOLVE else exudyn.MainSystem.SolveDynamic)(mbs, settings, **options)
+    hooks = mbs.variables[KEY]
+    with hooks.in_progress(), fixed_steps(settings.timeIntegration):
+        return _SOLVE[0](mbs, settings, **options)
 
 
 @contextlib.contextmanager
@@ -63,6 +64,9 @@ def wrap() -> None:
     if not _SOLVE:
         _SOLVE.append(exudyn.MainSystem.SolveDynamic)
         exudyn.MainSystem.SolveDynamic = _checked(_SOLVE[0])
+        for solver in (exudyn.MainSolverExplicit, exudyn.MainSolverImplicitSecondOrder, exudyn.MainSolverStatic):
+            for name in ("SolveSystem", "InitializeSolver"):
+                setattr(solver, name, _started(getattr(solver, name), solver is exudyn.MainSolverStatic))
 
 
 def _chaining(slot: str) -> Callable[[Any, Any], None]:
@@ -81,20 +85,52 @@ def _checked(method: Callable[..., Any]) -> Callable[..., Any]:
     @functools.wraps(method)
     def solve_dynamic(mbs: Any, simulationSettings: Any = None, solverType: Any = None, *arguments: Any, **options: Any) -> Any:
         hooks = mbs.variables.get(KEY)
-        if hooks is None or not hooks.contacts or simulationSettings is None:
+        if hooks is None or hooks.running or simulationSettings is None or not hooks.find():
             return method(mbs, simulationSettings, solverType, *arguments, **options)
         kind = SOLVERS["generalized_alpha"] if solverType is None else solverType
-        name = next((name for name, known in SOLVERS.items() if known == kind), str(kind))
-        outcome = Outcome(hooks.contacts, name, simulationSettings.timeIntegration, masses_needed=False)
-        start = simulationSettings.timeIntegration.startTime
-        fresh = [contact for contact in hooks.contacts if contact.begin(outcome.dt, start)]
-        outcome.require_step()
-        if outcome.implicit:
-            find_reactions(mbs, simulationSettings, kind, fresh, solve, hooks.put_aside)
-        with fixed_steps(simulationSettings.timeIntegration):
+        outcome = _start(mbs, hooks, simulationSettings, kind)
+        with hooks.in_progress(), fixed_steps(simulationSettings.timeIntegration):
             success = method(mbs, simulationSettings, solverType, *arguments, **options)
         if success:
             outcome.require_success(mbs, success)
         return success
 
     return solve_dynamic
+
+
+def _started(method: Any, static: bool) -> Callable[..., Any]:
+    """Return a solver object's method that solves or initialises, with contacts started before it."""
+
+    @functools.wraps(method)
+    def solve_or_initialise(solver: Any, mainSystem: Any, simulationSettings: Any) -> Any:
+        hooks = mainSystem.variables.get(KEY)
+        if hooks is None or hooks.running or not hooks.find():
+            return method(solver, mainSystem, simulationSettings)
+        integration = simulationSettings.timeIntegration
+        outcome = None
+        if static:
+            for contact in hooks.contacts:
+                contact.require_friction_at_rest()
+                contact.prepare(1.0 / max(simulationSettings.staticSolver.numberOfLoadSteps, 1), 0.0)
+        else:
+            outcome = _start(mainSystem, hooks, simulationSettings, integration.solverType)
+        with hooks.in_progress(), fixed_steps(integration):
+            success = method(solver, mainSystem, simulationSettings)
+        if success and outcome is not None and method.__name__ == "SolveSystem":
+            outcome.require_success(mainSystem, success)
+        return success
+
+    return solve_or_initialise
+
+
+def _start(mbs: Any, hooks: Any, settings: Any, kind: Any) -> Outcome:
+    """Start the contacts of a system for one of Exudyn's dynamic solvers; return the checks of its outcome."""
+    name = next((name for name, known in SOLVERS.items() if known == kind), str(kind))
+    outcome = Outcome(hooks.contacts, name, settings.timeIntegration, masses_needed=False)
+    hooks.explicit = not outcome.implicit
+    start = settings.timeIntegration.startTime
+    fresh = [contact for contact in hooks.contacts if contact.begin(outcome.dt, start)]
+    outcome.require_step()
+    if outcome.implicit:
+        find_reactions(mbs, settings, kind, fresh, solve, hooks.put_aside)
+    return outcome

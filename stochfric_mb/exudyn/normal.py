@@ -99,11 +99,6 @@ def as_normal(mbs: Any, normal_force: Any) -> Normal:
     return ConstantNormal(require_number("normal_force", normal_force, above=0.0, unit="N"))
 
 
-def is_explicit(mbs: Any) -> bool:
-    """Return whether the solver that runs now integrates explicitly, and so computes no reactions."""
-    return "Explicit" in type(mbs.sys.get("dynamicSolver")).__name__
-
-
 NO_REACTION = (
     "an explicit solver computes no reactions, Exudyn reports them as 0: a normal force from a constraint needs "
     "solver='generalized_alpha', or give normal_force as a number or a function of time"

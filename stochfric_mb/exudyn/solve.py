@@ -50,6 +50,8 @@ def solve_dynamic(mbs: Any, settings: Any, *, solver: str = "rk44", locate: bool
     require_name("solver", solver, SOLVERS)
     integration = settings.timeIntegration
     hooks = Hooks.of(mbs)
+    hooks.find()
+    hooks.explicit = solver in EXPLICIT
     outcome = Outcome(hooks.contacts, solver, integration)
     dt = outcome.dt
     if solver in EXPLICIT and any(contact.needs_reactions for contact in hooks.contacts):

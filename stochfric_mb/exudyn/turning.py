@@ -46,13 +46,15 @@ class TurningContact(FrictionContact):
         self._words[at.ASK_FIRST] = 1
         self._frame, self._radius = FRAMES[turns_with], radius
         rigid = [has_orientation(mbs, m) for m in markers]
-        self._markers = [with_orientation(mbs, m) if r else m for m, r in zip(markers, rigid, strict=True)]
+        self._markers = tuple(with_orientation(mbs, m) if r else m for m, r in zip(markers, rigid, strict=True))
         self._seen, self._out = np.zeros(2 * frames.MARKER), np.zeros(frames.OUTCOME)
-        self._reads: list[tuple[Any, Any, Any]] = []
-        for marker, turning, seen in zip(self._markers, rigid, self._seen.reshape(2, frames.MARKER), strict=True):
+        self._reads: list[tuple[Any, Any, Any, int]] = []
+        self._gone = False
+        for side, (marker, turning) in enumerate(zip(self._markers, rigid, strict=True)):
+            seen = self._seen.reshape(2, frames.MARKER)[side]
             seen[frames.ROTATION :] = np.eye(3).ravel()
             places = _PLACES + _PLACES_OF_TURNING if turning else _PLACES
-            self._reads += [(seen[place : place + size], marker, output) for place, size, output in places]
+            self._reads += [(seen[place : place + size], marker, output, side) for place, size, output in places]
         self.object = mbs.AddObject(self._connector(all(rigid)))
         self.lever: Any = None
         """Number of the load that is the rest of the torque on marker 0's body; None where it cannot turn."""
@@ -63,7 +65,19 @@ class TurningContact(FrictionContact):
                 )
             )
             self.is_load = True
+            mbs.SetLoadParameter(self.lever, "name", f"{self._name} lever")
         self._begin()
+
+    def find(self) -> bool:
+        """Find object and load again; a load whose object is gone gives no torque any more."""
+        self._gone = not super().find()
+        if self.lever is not None:
+            self.lever = self._mbs.GetLoadNumber(f"{self._name} lever")
+        return not self._gone
+
+    def _follow_markers(self) -> None:
+        """Read the motion of the markers' new numbers."""
+        self._reads = [(into, self._markers[side], variable, side) for into, _, variable, side in self._reads]
 
     @property
     def force(self) -> Any:
@@ -93,7 +107,7 @@ class TurningContact(FrictionContact):
     def _see(self) -> None:
         """Take position, velocity, rotation and angular velocity of both markers."""
         output = self._mbs.GetMarkerOutput
-        for into, marker, variable in self._reads:
+        for into, marker, variable, _ in self._reads:
             into[:] = output(marker, variable)
 
     def _read_motion(self) -> None:
@@ -128,6 +142,8 @@ class TurningContact(FrictionContact):
         push, out = self._push, self._out
 
         def torque(mbs: Any, t: float, load: Any) -> Any:
+            if self._gone:
+                return [0.0] * 3
             push(t)
             return out[frames.LEVER : frames.LEVER + 3]
 

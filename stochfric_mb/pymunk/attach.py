@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from typing import Any
 
 import numpy as np
@@ -23,8 +23,9 @@ from stochfric_mb.pymunk.handlers import attach, detach
 from stochfric_mb.pymunk.layout import NAMES, address_of, layout
 from stochfric_mb.pymunk.response import steady_force
 
-Shapes = pymunk.Shape | Sequence[pymunk.Shape] | int | str
-"""One side of the contacts: a shape, shapes, a collision type, or ``"*"`` for all."""
+Shapes = pymunk.Shape | Sequence[pymunk.Shape] | Set[pymunk.Shape] | int | str
+"""One side of the contacts: a shape, shapes (those of a set in the order in which the space took them in), a collision
+type, or ``"*"`` for all."""
 ALL_SHAPES = "*"
 BEYOND_LIMIT = ("raise", "cap")
 """What may be done with a contact whose law is too stiff for the step."""
@@ -301,11 +302,14 @@ def _fill_side(handle: ContactFriction, side: int, space: pymunk.Space, which: S
         table[side + r.SIDE_KIND] = r.TYPE
         table[side + r.SIDE_TYPE] = which
         return []
-    shapes = list(dict.fromkeys([which] if isinstance(which, pymunk.Shape) else which))
+    given = which if isinstance(which, Sequence | Set) else [which]
+    shapes = list(dict.fromkeys(given))
     if not shapes:
         raise InputError("a and b must hold at least one shape each; the list is empty")
     for shape in shapes:
         _require_solid(shape, space)
+    if isinstance(which, Set):  # such as body.shapes, in no order
+        shapes.sort(key=_number)
     addresses = np.array([address_of(s._shape) for s in shapes], dtype=np.int64)
     numbers = np.argsort(addresses)
     addresses = addresses[numbers]
@@ -319,7 +323,10 @@ def _fill_side(handle: ContactFriction, side: int, space: pymunk.Space, which: S
 
 def _require_solid(shape: pymunk.Shape, space: pymunk.Space) -> None:
     if not isinstance(shape, pymunk.Shape):  # pyright: ignore[reportUnnecessaryIsInstance]  # callers may not be typed
-        raise InputError(f"{shape!r} is no pymunk shape; give a shape, shapes, a collision type, or {ALL_SHAPES!r}")
+        raise InputError(
+            f"{shape!r} is no pymunk shape; friction acts where shapes touch: give a shape, shapes (body.shapes), a collision "
+            f"type, or {ALL_SHAPES!r}"
+        )
     if shape.space is not space:
         raise InputError(f"shape {shape!r} is not in this space; add it to the space before its friction")
     if shape.sensor:

@@ -448,6 +448,9 @@ def test_what_cannot_be_added_is_refused() -> None:
         add_friction(space, boxes[0], "all", law)
     with pytest.raises(InputError, match="no pymunk shape"):
         add_friction(space, boxes[0], [plane.body], law)  # pyright: ignore[reportArgumentType]
+    for thing in (plane.body, pymunk.PivotJoint(pymunk.Body(1.0, 1.0), pymunk.Body(1.0, 1.0), (0.0, 0.0)), 3.5, None):
+        with pytest.raises(InputError, match="is no pymunk shape; friction acts where shapes touch"):
+            add_friction(space, thing, plane, law)  # pyright: ignore[reportArgumentType]
     with pytest.raises(InputError, match="is empty"):
         add_friction(space, boxes[0], [], law)
     with pytest.raises(InputError, match="different bodies"):
@@ -455,6 +458,16 @@ def test_what_cannot_be_added_is_refused() -> None:
     boxes[0].sensor = True
     with pytest.raises(InputError, match="sensor"):
         add_friction(space, boxes[0], plane, law)
+
+
+def test_the_shapes_of_a_body_are_numbered_as_the_space_took_them_in() -> None:
+    space = pymunk.Space()
+    body = pymunk.Body(1.0, 1.0)
+    shapes = [pymunk.Circle(body, 0.1, (0.1 * i, 0.0)) for i in range(20)]
+    floor = pymunk.Segment(space.static_body, (-5.0, -0.11), (5.0, -0.11), 0.0)
+    space.add(floor, body, *reversed(shapes))
+    handle = add_friction(space, body.shapes, floor, make_law("coulomb", mu_s=0.2, mu_k=0.1))
+    assert handle._sides[0][0] == shapes[::-1]
 
 
 def test_too_many_contacts_are_an_error() -> None:
