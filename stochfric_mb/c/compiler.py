@@ -89,6 +89,7 @@ def compile_library(
     command += ["-s"] if target.ending != ".dylib" else ["-Wl,-S"]
     command += ["-fPIC"] if target.ending != ".dll" else []
     command += [f"-I{folder}" for folder in include] + ["-o", str(out), *map(str, sources)]
+    command += [f"-Wl,-install_name,@rpath/{out.name}"] if target.ending == ".dylib" else []
     command += ["-lm"] if target.ending == ".so" else []
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=out.parent)
     if done.returncode != 0:

@@ -95,7 +95,7 @@ class Expressions:
         return Known(found)
 
     def _of_object(self, node: ast.expr, value: Any) -> Anything:
-        if isinstance(value, np.uint64):
+        if type(value) is np.uint64:
             return Value(f"UINT64_C({int(value)})", UNSIGNED)
         if isinstance(value, np.generic):
             value = value.item()

@@ -1,0 +1,1 @@
+/* A stand-in of what ends an S-function outside of MATLAB: nothing. */
