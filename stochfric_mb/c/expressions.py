@@ -105,6 +105,9 @@ class Expressions:
             return Value(number(value), INT, value)
         if isinstance(value, float):
             return Value(number(value), DOUBLE, value)
+        if isinstance(value, np.ndarray) and value.dtype == np.float64:
+            entries = ", ".join(number(entry) for entry in value.ravel().tolist())
+            return Value(f"((double[]){{{entries}}})", Array(DOUBLE, value.shape))
         if value is None or isinstance(value, str):
             raise CannotTranslate(node, f"{ast.unparse(node)} = {value!r} is not a number")
         return Known(value)

@@ -206,7 +206,7 @@ def _surround(q, where, t, x, v, w, memory, rates):
 
 
 @compiled
-def _recall(q, where, t, x, v, state, w, memory, rates):
+def _recall(q, where, t, x, v, state, w, memory):
     """Bring the memories from the last commit to t, the box moving on a cubic between the two."""
     for j in range(MAX_MEMORY):
         memory[j] = state[MEMORY + j]
@@ -221,10 +221,10 @@ def _recall(q, where, t, x, v, state, w, memory, rates):
         for s in range(len(RK4_B)):
             theta = (i + RK4_C[s]) / n
             advance(RK4_A[s], s, h / n, start, k, 0, MAX_MEMORY, memory)
-            _surround(q, where, state[LAST] + theta * h, value(path, theta), slope(path, theta) / h, w, memory, rates)
-            k[s] = rates
+            _surround(q, where, state[LAST] + theta * h, value(path, theta), slope(path, theta) / h, w, memory, k[s])
         advance(RK4_B, len(RK4_B), h / n, start, k, 0, MAX_MEMORY, start)
-    memory[:] = start
+    for j in range(MAX_MEMORY):
+        memory[j] = start[j]
 
 
 @compiled
@@ -238,7 +238,7 @@ def _see(t, ux, vx, state, mu_s, mu_k, p, begins, w, memory):
         for j in range(MAX_MEMORY):
             memory[j] = q[REST + j]
     else:
-        _recall(q, where, t, x, v, state, w, memory, rates)
+        _recall(q, where, t, x, v, state, w, memory)
     _surround(q, where, t, x, v, w, memory, rates)
     u, speed = w[e.BELT_TRAVEL] - x, w[e.BELT_VELOCITY] - v
     stuck = abs(speed) <= q[STICK_SPEED] if begins or q[MODED] == 0.0 else state[0] == 0.0
