@@ -17,7 +17,7 @@ CONFIDENCE = 0.95
 """Probability that an interval holds the parameter [-]."""
 
 
-def interval(value: float, deviation: float, unit: str, low: float = -np.inf, high: float = np.inf) -> Interval:
+def confidence_interval(value: float, deviation: float, unit: str, low: float = -np.inf, high: float = np.inf) -> Interval:
     """Return a fitted number with its 95 % interval.
 
     Args:

@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 from scipy.stats import chi2 as chi2_distribution
 
-from stochfric_mb.discovery.inference.intervals import interval
+from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Found, Interval, Where
 from stochfric_mb.discovery.stick_slip.decision.rounds import Named
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import deterministic
@@ -45,8 +45,8 @@ def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> F
         if fit is not None:
             deviations = [
                 d
-                for k, d in zip(fit.knobs, fit.deviations, strict=True)
-                if (k.name, k.effect) == (field.name, fitted) and k.run in ("", run)
+                for k, d in zip(fit.free, fit.deviations, strict=True)
+                if (k.name, k.owner) == (field.name, fitted) and k.run in ("", run)
             ]
             deviation = float(deviations[0]) if deviations else model.measured.get(field.name, 0.0)
         if field.name.startswith("sigma") or (effect.kind, field.name) == ("impacts", "impulse"):
@@ -56,7 +56,7 @@ def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> F
         if (effect.kind, field.name) == ("impacts", "rate"):
             deviation = value / np.sqrt(independent)
         unit = found.size.of(about["unit"])
-        parameters[field.name] = interval(value * unit, deviation * unit, about["unit"], about["low"], about["high"])
+        parameters[field.name] = confidence_interval(value * unit, deviation * unit, about["unit"], about["low"], about["high"])
     p_value = float(chi2_distribution.sf(max(named.score, 0.0), max(len(parameters), 1)))
     return Found(named.kind, named.class_, Where(*effect.appears()), parameters, float(named.score), p_value)
 
@@ -77,9 +77,9 @@ def believed_intervals(fit: Fit, found: Study) -> dict[str, Interval]:
     """Return the parameters of the believed model, recalibrated."""
     box = found.dataset.scenario.mechanism
     rows: dict[str, Interval] = {}
-    for knob, value, deviation in zip(fit.knobs, fit.values, fit.deviations, strict=True):
-        stated = getattr(box, knob.name, 0.0) if knob.name in CORRECTED else 0.0
+    for one, value, deviation in zip(fit.free, fit.values, fit.deviations, strict=True):
+        stated = getattr(box, one.name, 0.0) if one.name in CORRECTED else 0.0
         number, doubt = (stated * (1.0 + value), stated * deviation) if stated else (value, deviation)
-        unit = UNITS.get(knob.name, "-")
-        rows[knob.name] = interval(number * found.size.of(unit), doubt * found.size.of(unit), unit, low=0.0)
+        unit = UNITS.get(one.name, "-")
+        rows[one.name] = confidence_interval(number * found.size.of(unit), doubt * found.size.of(unit), unit, low=0.0)
     return rows

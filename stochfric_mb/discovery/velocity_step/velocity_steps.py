@@ -12,12 +12,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.weak_form import noise_level
 from stochfric_mb.discovery.driven_joint.decision.selection import NAMED, TIE
-from stochfric_mb.discovery.driven_joint.fit.fitting import independent_count
+from stochfric_mb.discovery.driven_joint.fit.fitting import DIFFERENCE, TOLERANCE
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome
 from stochfric_mb.discovery.driven_joint.simulation.pictures import step_picture
-from stochfric_mb.discovery.inference.gauss_newton import least_squares
+from stochfric_mb.discovery.inference.fitter import minimised
+from stochfric_mb.discovery.inference.free_parameter import INSIDE
+from stochfric_mb.discovery.inference.intervals import confidence_interval
+from stochfric_mb.discovery.inference.noise import independent_count, white_noise
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.discovery.velocity_step.laws import Law, Track, laws
 from stochfric_mb.effects import effect_kinds, make_effect
@@ -118,13 +120,15 @@ def _from(law: Law, tracks: Sequence[Track], start: Array, evaluations: int) -> 
         predicted = law.predict(tracks, start + scale * step)
         return np.concatenate([tracks[i].friction - predicted[i] for i in learn])
 
-    low = np.minimum((np.array(law.low) - start) / scale, -1.0e-9)
-    steps, jacobian = least_squares(errors, low, np.full(len(start), np.inf), evaluations=evaluations)
-    values = start + scale * steps
+    low, high = (np.array(law.low) - start) / scale - INSIDE, np.full(len(start), np.inf)
+    found = minimised(
+        errors, np.zeros(len(start)), low, high, difference=DIFFERENCE, evaluations=evaluations, tolerance=TOLERANCE
+    )
+    jacobian, values = found.jacobian, start + scale * found.x
     predicted = law.predict(tracks, values)
     rest = [tracks[i].friction - predicted[i] for i in learn]
     n, total = sum(map(len, rest)), sum(independent_count(r) for r in rest)
-    variance = float(np.mean(errors(steps) ** 2)) * n / max(total, 1.0)
+    variance = float(np.mean(errors(found.x) ** 2)) * n / max(total, 1.0)
     covariance = np.linalg.pinv(jacobian.T @ jacobian, hermitian=True) * variance
     return Fitted(law, values, np.sqrt(np.maximum(np.diag(covariance), 0.0)) * scale, rest)
 
@@ -149,7 +153,7 @@ def _result(
     scores: dict[str, float],
 ) -> Result:
     test = [t.friction for t in tracks if t.run.role == "test"]
-    floor = float(np.sqrt(np.sum([noise_level(x) ** 2 * len(x) for x in test]) / sum(map(len, test))))
+    floor = float(np.sqrt(np.sum([white_noise(x) ** 2 * len(x) for x in test]) / sum(map(len, test))))
     believed = float(np.sqrt(np.mean(np.concatenate([x - dataset.scenario.law.mu_k for x in test]) ** 2)))
     after = _held_out(best or plain, tracks)
     effects: tuple[Found, ...] = ()
@@ -192,14 +196,14 @@ def _result(
 
 def _numbers(fitted: Fitted) -> dict[str, Interval]:
     found: dict[str, Interval] = {}
-    rows = zip(fitted.law.names, fitted.values, fitted.deviations, fitted.law.units, strict=True)
-    for name, value, deviation, unit in rows:
-        low, high = value - 1.96 * deviation, value + 1.96 * deviation
+    law = fitted.law
+    for name, value, deviation, unit, low in zip(law.names, fitted.values, fitted.deviations, law.units, law.low, strict=True):
+        number = confidence_interval(value, deviation, unit, low)
         if name.startswith("log_"):
-            middle, least, most = (float(np.exp(min(x, 700.0))) for x in (value, low, high))
+            middle, least, most = (float(np.exp(min(x, 700.0))) for x in (number.value, number.low, number.high))
             found[name[4:]] = Interval(middle, least, most, {"log_distance": "m", "log_stiffness": "1/m"}[name])
         else:
-            found[name] = Interval(float(value), float(low), float(high), unit)
+            found[name] = number
     return found
 
 

@@ -8,9 +8,8 @@ import pytest
 from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.discovery.driven_joint.balance.force_balance import slipped
 from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import balance_of
-from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, chosen_window, noise_level
-from stochfric_mb.discovery.driven_joint.fit.fitting import independent_count
-from stochfric_mb.discovery.inference.gauss_newton import least_squares
+from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, chosen_window
+from stochfric_mb.discovery.inference.noise import independent_count, white_noise
 from stochfric_mb.discovery.velocity_step.rate_and_state import friction_path
 from stochfric_mb.errors import InputError
 from stochfric_mb.laws import make_law
@@ -205,7 +204,7 @@ def test_noise_sets_the_window():
 def test_noise_level_of_white_noise_on_a_slow_signal():
     rng = np.random.default_rng(3)
     signal = np.sin(np.arange(20_000) * 1.0e-3) + 0.1 * rng.standard_normal(20_000)
-    assert noise_level(signal) == pytest.approx(0.1, rel=0.03)  # 1/sqrt(2 n) times the inefficiency of a median is 1 %
+    assert white_noise(signal) == pytest.approx(0.1, rel=0.03)  # 1/sqrt(2 n) times the inefficiency of a median is 1 %
 
 
 def test_white_noise_counts_fully_and_coloured_noise_less():
@@ -215,12 +214,6 @@ def test_white_noise_counts_fully_and_coloured_noise_less():
     assert independent_count(white) > 0.8 * len(white)
     # a moving mean over 10 has the integrated autocorrelation 10
     assert independent_count(slow) == pytest.approx(len(slow) / 10.0, rel=0.2)
-
-
-def test_least_squares_stays_within_bounds():
-    low, high = np.array([-1.0, -10.0]), np.array([10.0, 0.5])
-    x, _ = least_squares(lambda p: np.array([p[0] - 3.0, 2.0 * (p[1] - 1.0), p[0] * 0.0]), low, high, evaluations=20)
-    np.testing.assert_allclose(x, [3.0, 0.5], atol=1e-6)
 
 
 def test_slip_starts_again_at_reversals():

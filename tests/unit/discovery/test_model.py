@@ -1,9 +1,10 @@
-"""Knobs of a model: their values give the model back, and bounds hold."""
+"""Free parameters of a model: their values give the model back, and bounds hold."""
 
 import dataclasses
 
 import pytest
 
+from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM
 from stochfric_mb.discovery.stick_slip.simulation.model import Model, adjusted, free_parameters
 from stochfric_mb.effects import make_effect
 from stochfric_mb.laws import make_law
@@ -21,43 +22,43 @@ def model() -> Model:
     return Model(make_law("coulomb", mu_s=0.8, mu_k=0.46), corrections, (drag, force), None, own)
 
 
-def test_knobs_at_their_values_give_the_model_back(model):
-    knobs = free_parameters(model, UNCERTAINTY, RUNS)
-    assert adjusted(model, knobs, [knob.value for knob in knobs]) == model
+def test_free_parameters_at_their_values_give_the_model_back(model):
+    free = free_parameters(model, UNCERTAINTY, RUNS)
+    assert adjusted(model, free, [one.value for one in free]) == model
 
 
-def test_knobs_are_what_may_be_adjusted(model):
-    names = [(knob.name, knob.effect, knob.run) for knob in free_parameters(model, UNCERTAINTY, RUNS)]
-    believed = [(name, -1, "") for name in ("mu_s", "mu_k", "stiffness", "mass", "damping")]
+def test_free_parameters_are_what_may_be_adjusted(model):
+    names = [(one.name, one.owner, one.run) for one in free_parameters(model, UNCERTAINTY, RUNS)]
+    believed = [(n, LAW, "") for n in ("mu_s", "mu_k")] + [(n, MECHANISM, "") for n in ("stiffness", "mass", "damping")]
     phases = [("phase", 1, run) for run in RUNS]
     assert names == [*believed, ("coefficient", 0, ""), ("amplitude", 1, ""), ("frequency", 1, ""), *phases]
 
 
-def test_what_is_certain_has_no_knob(model):
-    names = {knob.name for knob in free_parameters(model, {"stiffness": 0.0, "damping": 0.3})}
+def test_what_is_certain_is_not_free(model):
+    names = {one.name for one in free_parameters(model, {"stiffness": 0.0, "damping": 0.3})}
     assert not {"stiffness", "mass"} & names
     assert "damping" in names
 
 
-def test_moved_knobs_are_found_again(model):
-    knobs = free_parameters(model, UNCERTAINTY, RUNS)
-    moved = [knob.value + 0.1 * knob.scale for knob in knobs]
-    again = free_parameters(adjusted(model, knobs, moved), UNCERTAINTY, RUNS)
-    assert [knob.value for knob in again] == pytest.approx(moved, rel=1e-12)
+def test_moved_numbers_are_found_again(model):
+    free = free_parameters(model, UNCERTAINTY, RUNS)
+    moved = [one.value + 0.1 * one.scale for one in free]
+    again = free_parameters(adjusted(model, free, moved), UNCERTAINTY, RUNS)
+    assert [one.value for one in again] == pytest.approx(moved, rel=1e-12)
 
 
 def test_values_beyond_the_bounds_are_held(model):
-    knobs = free_parameters(model, UNCERTAINTY, RUNS)
-    low = adjusted(model, knobs, [-1e9] * len(knobs))
+    free = free_parameters(model, UNCERTAINTY, RUNS)
+    low = adjusted(model, free, [-1e9] * len(free))
     assert low.law.mu_s == pytest.approx(0.75 * model.law.mu_s)
     assert low.corrections["stiffness"] == pytest.approx(-3.0 * UNCERTAINTY["stiffness"])
     assert low.effects[1].frequency > 0.0
 
 
 def test_kinetic_friction_never_exceeds_static(model):
-    knobs = free_parameters(model, UNCERTAINTY)
-    values = [{"mu_s": 0.65, "mu_k": 0.7}.get(knob.name, knob.value) for knob in knobs]
-    assert adjusted(model, knobs, values).law.mu_k == 0.65
+    free = free_parameters(model, UNCERTAINTY)
+    values = [{"mu_s": 0.65, "mu_k": 0.7}.get(one.name, one.value) for one in free]
+    assert adjusted(model, free, values).law.mu_k == 0.65
 
 
 def test_added_effect_starts_without_values_of_its_own(model):
@@ -71,5 +72,5 @@ def test_phases_along_the_belt_are_each_runs_own_those_along_the_stroke_are_not(
     law = make_law("coulomb", mu_s=0.8, mu_k=0.46)
     for axis, runs in (("belt", RUNS), ("position", ("",))):
         pattern = make_effect("position_dependent_friction", amplitude=0.1, wavelength=2e-3, axis=axis)
-        phases = [knob.run for knob in free_parameters(Model(law, {}, (pattern,)), UNCERTAINTY, RUNS) if knob.name == "phase"]
+        phases = [one.run for one in free_parameters(Model(law, {}, (pattern,)), UNCERTAINTY, RUNS) if one.name == "phase"]
         assert phases == list(runs)

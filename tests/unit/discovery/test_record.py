@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.stick_slip.records.record import LINE_WINDOW, line_in, make_record, noise_of, white_noise
+from stochfric_mb.discovery.inference.noise import white_noise
+from stochfric_mb.discovery.stick_slip.records.record import LINE_WINDOW, line_in, make_record, noise_of
 from stochfric_mb.mechanisms import BeltBox
 
 RATE = 1000.0

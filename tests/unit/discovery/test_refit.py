@@ -34,7 +34,7 @@ def fitted(monkeypatch, windows, shown):
     monkeypatch.setattr(refit, "forecasts", forecasts)
     fit = refit.refit(MODEL, [windows], {}, most=COUNT)
     wide = refit.with_deviations(fit, [windows], {}, most=COUNT)
-    return [dict(zip((k.name for k in f.knobs), f.deviations, strict=True)) for f in (fit, wide)]
+    return [dict(zip((k.name for k in f.free), f.deviations, strict=True)) for f in (fit, wide)]
 
 
 def test_smooth_forecasts_leave_what_least_squares_leaves(monkeypatch, windows):

@@ -17,7 +17,8 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import (
     slides,
     slipped,
 )
-from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, chosen_window, narrowest, noise_level
+from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, chosen_window, narrowest
+from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Cascade, HingePendulum, PrismaticJoint
@@ -155,7 +156,7 @@ def balance_of(
         total = total - values[name] * column
         columns[name] = np.asarray(column)
     velocity = window.through(q, 1)
-    least = least_speed(velocity, window.gain(1) * noise_level(q))
+    least = least_speed(velocity, window.gain(1) * white_noise(q))
     position = window.through(q)
     load = transmitted_load(run, joint, window)
     before = distance_before(run, runs, motion_velocity)
@@ -191,8 +192,8 @@ def _noise(
             if term.signal is q:
                 factors[term.derivative] = factors.get(term.derivative, 0.0) + factor
             elif np.ptp(term.signal) > 0.0 and name in ("drive", "force_gain", "torque_gain", "piston_area"):
-                other += (factor * noise_level(term.signal)) ** 2
-    noise = {d: abs(f) * noise_level(q) for d, f in factors.items()}
+                other += (factor * white_noise(term.signal)) ** 2
+    noise = {d: abs(f) * white_noise(q) for d, f in factors.items()}
     noise[0] = float(np.hypot(noise.get(0, 0.0), np.sqrt(other)))
     return noise
 

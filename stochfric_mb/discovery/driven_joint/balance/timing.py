@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.fitting import independent_count
+from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.errors import InputError
 
 Array = npt.NDArray[np.float64]
@@ -94,8 +95,9 @@ def timing(
     if not best:
         return None
     sure, plain = best[True], best[False]
+    within = confidence_interval(sure.seconds, sure.deviation, "s")
     return Timing(
-        sure.seconds, sure.seconds - 1.96 * sure.deviation, sure.seconds + 1.96 * sure.deviation, sure.score, sure.gain,
+        sure.seconds, within.low, within.high, sure.score, sure.gain,
         sure.material and sure.score > NAMED, plain.score, plain.seconds, plain.material,
     )  # fmt: skip
 

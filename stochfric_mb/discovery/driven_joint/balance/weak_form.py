@@ -78,11 +78,6 @@ def narrowest(run: Run) -> Window:
     return Window(HALF_WIDTHS[0] * run.sample_interval, run.sample_interval, len(run.time))
 
 
-def noise_level(signal: Array) -> float:
-    """Return the standard deviation of white noise on a smooth signal, from third differences (robust: median)."""
-    return float(1.4826 * np.median(np.abs(np.diff(signal, 3))) / np.sqrt(20.0))
-
-
 def chosen_window(interval: float, count: int, noise: dict[int, float], friction: float) -> Window:
     """Return the narrowest window through which noise is quiet against friction.
 

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.stats import wilcoxon
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.decision.evidence import FEWEST
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.inference.paired import Paired, paired
 
 Masks = list[npt.NDArray[np.bool_]]
 """Windows that are left out, balance by balance."""
@@ -22,20 +20,6 @@ BLOCKS = 8
 """Blocks of the record that are left out in turn."""
 EVALUATIONS = 4
 """Gauss-Newton steps of a fit without a part: it starts from the fit to all."""
-
-
-@dataclasses.dataclass(frozen=True)
-class LeftOut:
-    """Two models on parts that were left out."""
-
-    gain: float
-    """Part of the error (rms) that the richer one takes away [-]."""
-    better: float
-    """Share of the parts that it makes better [-]."""
-    p_value: float
-    """Chance of as much without the effect, by Wilcoxon's signed ranks of the parts, which are taken as independent."""
-    parts: int
-    """Number of the parts."""
 
 
 def blocks(balances: Sequence[ForceBalance], count: int = BLOCKS) -> list[Masks]:
@@ -65,14 +49,10 @@ def compared(
     nuisances: Sequence[Nuisance],
     noise: float,
     parts: Sequence[Masks],
-) -> LeftOut:
+) -> Paired:
     """Return what ``richer`` is worth on each of the ``parts``, fitted without it; ``noise`` is as of `fit`."""
     errors = np.array([[_error(m, balances, nuisances, noise, part) for m in (plain, richer)] for part in parts])
-    before, after = errors.sum(axis=0)
-    fall = errors[:, 0] - errors[:, 1]
-    ranked: Any = wilcoxon(fall, alternative="greater") if np.any(fall != 0.0) else None
-    chance = 1.0 if ranked is None else float(ranked.pvalue)
-    return LeftOut(1.0 - float(np.sqrt(after / before)), float(np.mean(fall > 0.0)), chance, len(parts))
+    return paired(*errors.T)
 
 
 def _error(

@@ -9,7 +9,7 @@ import numpy as np
 from stochfric_mb.discovery.driven_joint.fit.fitting import prior_weight
 from stochfric_mb.discovery.driven_joint.fit.profiles import profile
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
-from stochfric_mb.discovery.inference.intervals import interval
+from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Interval
 
 ROTATIONAL = {
@@ -40,7 +40,7 @@ def parameters(place: PlaceOutcome, owner: int) -> dict[str, Interval]:
         if deviation < 1.0e-6 * abs(value):  # not known that well: nothing in these data depends on it
             continue
         if np.isfinite(deviation):
-            found[field.name] = interval(value, deviation, unit, field.metadata["low"], field.metadata["high"])
+            found[field.name] = confidence_interval(value, deviation, unit, field.metadata["low"], field.metadata["high"])
         elif value != field.default:
             found[field.name] = Interval(value, value, value, unit)
     if effect.kind == WAVE and found["amplitude"].low <= 0.0 <= found["amplitude"].high:
@@ -64,8 +64,8 @@ def believed(place: PlaceOutcome) -> dict[str, Interval]:
     """Return the corrected numbers of law and mechanism at a place, with their intervals."""
     fit = place.selected.final
     found: dict[str, Interval] = {}
-    for knob, value in zip(fit.knobs, fit.values, strict=True):
-        if knob.owner < 0:
-            name = FACTORS.get(knob.name, knob.name) if place.place else knob.name
-            found[name] = interval(float(value), fit.deviation(knob.owner, knob.name), knob.unit, knob.low, knob.high)
+    for one, value in zip(fit.free, fit.values, strict=True):
+        if one.owner < 0:
+            name = FACTORS.get(one.name, one.name) if place.place else one.name
+            found[name] = confidence_interval(float(value), fit.deviation(one.owner, one.name), one.unit, one.low, one.high)
     return found

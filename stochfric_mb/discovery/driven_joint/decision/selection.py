@@ -11,11 +11,13 @@ from scipy.stats import f as fisher
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.decision.candidates import COMPETITORS, Candidate, Competitor, candidates, span_of
-from stochfric_mb.discovery.driven_joint.decision.cross_validation import LeftOut, blocks, compared, strokes
+from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, strokes
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of, whitened
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.gains import predicted_rms
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.inference.free_parameter import MECHANISM
+from stochfric_mb.discovery.inference.paired import Paired
 
 Array = npt.NDArray[np.float64]
 
@@ -66,9 +68,9 @@ class Stage:
     """Every candidate, best first."""
     competitors: tuple[tuple[str, float], ...]
     """Axis of each smooth competitor, with its score."""
-    blocks: LeftOut
+    blocks: Paired
     """What the best candidate is worth on blocks left out."""
-    strokes: LeftOut | None
+    strokes: Paired | None
     """What it is worth on strokes left out, where this was asked."""
     accepted: bool
     """Whether it was taken into the model."""
@@ -148,19 +150,19 @@ class Selector:
         rivals = self._competitors(current, trials[0].fit)
         models = current.model, trials[0].fit.model
         inside = compared(*models, self._balances, self._nuisances, self._noise, blocks(self._balances))
-        enough = trials[0].score > NAMED and inside.gain > MATERIAL and inside.better >= BETTER
+        enough = trials[0].score > NAMED and inside.rms_gain > MATERIAL and inside.share_better >= BETTER
         repeats = None
         if not enough and len(parts := strokes(self._balances)) >= FEWEST_STROKES:
             repeats = compared(*models, self._balances, self._nuisances, self._noise, parts)
             repeats = dataclasses.replace(repeats, p_value=min(1.0, repeats.p_value * len(trials)))
-            enough = repeats.gain > MATERIAL and repeats.p_value < CHANCE and self._foretold(*models)
+            enough = repeats.rms_gain > MATERIAL and repeats.p_value < CHANCE and self._foretold(*models)
         return Stage(current, tuple(trials), tuple(rivals), inside, repeats, enough)
 
     def _foretold(self, plain: JointModel, richer: JointModel) -> bool:
         """Return whether each half of the record, left out, is foretold better by the richer model by a material part."""
         halves = blocks(self._balances, 2)
         seen = [compared(plain, richer, self._balances, self._nuisances, self._noise, [half]) for half in halves]
-        return min(s.gain for s in seen) > MATERIAL
+        return min(s.rms_gain for s in seen) > MATERIAL
 
     def _best(self, current: JointFit, candidate: Candidate) -> JointFit:
         starts = sorted(candidate.starts, key=lambda e: predicted_rms(current.model, e, self._balances, current))
@@ -178,7 +180,7 @@ class Selector:
         p, grid = candidate.parameters, len(candidate.starts) * kinds
         ratio = max((current.rms / fitted.rms) ** 2, 1.0)
         score = self._evidence(current, fitted, best, n) - p * np.log(n) - 2.0 * np.log(grid)
-        spare = max(n - len(fitted.knobs), 1.0)
+        spare = max(n - len(fitted.free), 1.0)
         chance = float(fisher.sf((ratio - 1.0) * spare / p, p, spare))
         return Trial(candidate, fitted, float(score), min(1.0, chance * grid))
 
@@ -287,7 +289,7 @@ def adjustable(fitted: JointFit) -> list[int]:
 
     With less gain and a potential of its own in the place of gravity there would be less of everything, errors included.
     """
-    return [i for i, k in enumerate(fitted.knobs) if k.owner != -2 or not k.name.endswith("gain")]
+    return [i for i, k in enumerate(fitted.free) if k.owner != MECHANISM or not k.name.endswith("gain")]
 
 
 def _padded(columns: Array, rows: int) -> Array:

@@ -89,8 +89,8 @@ def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
         if stage.strokes is not None:
             chance = stage.strokes.p_value
             text += (
-                f" On strokes left out, one by one, it falls by {100.0 * stage.strokes.gain:.0f} %, in "
-                f"{round(stage.strokes.better * stage.strokes.parts)} of {stage.strokes.parts}, and each half of the record "
+                f" On strokes left out, one by one, it falls by {100.0 * stage.strokes.rms_gain:.0f} %, in "
+                f"{stage.strokes.better} of {stage.strokes.parts}, and each half of the record "
                 "foretells the other better; it is named for that."
             )
         numbers = parameters(place, first + i)
@@ -267,7 +267,7 @@ def _details(places: Sequence[PlaceOutcome], timing: Timing | None, pairs: Seque
                         "before": s.before.rms,
                         "trials": [[t.candidate.kind, t.score, t.fit.rms] for t in s.trials],
                         "competitors": [list(c) for c in s.competitors],
-                        "gain_on_blocks_left_out": s.blocks.gain,
+                        "gain_on_blocks_left_out": s.blocks.rms_gain,
                         "blocks_better": s.blocks.better,
                         "strokes_left_out": dataclasses.asdict(s.strokes) if s.strokes is not None else None,
                         "accepted": s.accepted,

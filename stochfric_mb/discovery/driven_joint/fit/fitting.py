@@ -9,19 +9,17 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.fit.free_parameters import (
-    FreeParameter,
-    adjusted,
-    bounds_of,
-    free_parameters,
-    value_of,
-)
+from stochfric_mb.discovery.driven_joint.fit.free_parameters import adjusted, free_parameters
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
-from stochfric_mb.discovery.inference.gauss_newton import least_squares
+from stochfric_mb.discovery.inference.fitter import minimised
+from stochfric_mb.discovery.inference.free_parameter import FreeParameter, steps_of
+from stochfric_mb.discovery.inference.noise import independent_count
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
+DIFFERENCE, TOLERANCE = 1.0e-4, 1.0e-7
+"""Step of the derivatives in natural steps, and fall of the sum of squares over itself at which a fit ends [-]."""
 EVALUATIONS = 12
 """Most Gauss-Newton steps: the balance is linear in most numbers."""
 PER_STROKE = 6
@@ -34,16 +32,16 @@ class JointFit:
 
     model: JointModel
     """The model."""
-    knobs: tuple[FreeParameter, ...]
+    free: tuple[FreeParameter, ...]
     """What was adjusted."""
     values: Array
-    """Fitted values, shape (n_knobs,)."""
+    """Fitted values, shape (n_free,)."""
     covariance: Array
-    """Their covariance, correlation of neighbouring windows allowed for, shape (n_knobs, n_knobs)."""
+    """Their covariance, correlation of neighbouring windows allowed for, shape (n_free, n_free)."""
     remainders: tuple[Array, ...]
     """What is left at the centres that were fitted, balance by balance [N or N m]."""
     jacobian: Array
-    """Change of the remainder with each number, shape (n, n_knobs)."""
+    """Change of the remainder with each number, shape (n, n_free)."""
     strokes: int
     """Stretches of sliding one way that were fitted."""
 
@@ -59,29 +57,10 @@ class JointFit:
 
     def deviation(self, owner: int, name: str) -> float:
         """Return the standard deviation of a fitted number; nan if it was not fitted."""
-        for i, knob in enumerate(self.knobs):
-            if (knob.owner, knob.name) == (owner, name):
+        for i, one in enumerate(self.free):
+            if (one.owner, one.name) == (owner, name):
                 return float(np.sqrt(max(self.covariance[i, i], 0.0)))
         return float("nan")
-
-
-def independent_count(values: Array) -> float:
-    """Return to how many independent numbers a series is worth: n over its integrated autocorrelation.
-
-    The sum ends where the autocorrelation first falls below two standard errors of white noise.
-    """
-    n = len(values)
-    if n < 8:
-        return float(n)
-    x = values - values.mean()
-    size = 1 << (2 * n - 1).bit_length()
-    spectrum = np.abs(np.fft.rfft(x, size)) ** 2
-    correlation = np.fft.irfft(spectrum, size)[: n // 2]
-    if correlation[0] <= 0.0:
-        return float(n)
-    correlation = correlation / correlation[0]
-    end = int(np.argmax(correlation < 2.0 / np.sqrt(n))) or len(correlation)
-    return float(n / max(1.0 + 2.0 * correlation[1:end].sum(), 1.0))
 
 
 def stroke_count(masks: Sequence[Mask]) -> int:
@@ -111,32 +90,29 @@ def fit(
         fixed: number of an effect and name of its parameter, for those that stay.
     """
     used = [s.sliding for s in balances] if masks is None else list(masks)
-    knobs = free_parameters(model, nuisances, fixed)
-    start = np.array([value_of(model, k) for k in knobs])
-    scale = np.array([k.scale for k in knobs])
-    tied = [i for i, k in enumerate(knobs) if np.isfinite(k.deviation)]
-    believed = np.array([knobs[i].believed for i in tied])
-    deviation = np.array([knobs[i].deviation for i in tied])
+    free = free_parameters(model, nuisances, fixed)
+    steps = steps_of(free)
 
     def errors(step: Array) -> Array:
-        values = start + scale * step
-        trial = adjusted(model, knobs, values)
+        values = steps.values(step)
+        trial = adjusted(model, free, values)
         parts = [trial.remainder(s, nuisances)[m] for s, m in zip(balances, used, strict=True)]
-        return np.concatenate([*parts, noise * (values[tied] - believed) / deviation])
+        return np.concatenate([*parts, noise * steps.surprise(values)])
 
-    steps, jacobian = least_squares(errors, *bounds_of(knobs, start, scale), evaluations=evaluations)
-    values = start + scale * steps
-    fitted = adjusted(model, knobs, values)
+    found = minimised(
+        errors, np.zeros(len(free)), steps.low, steps.high, difference=DIFFERENCE, evaluations=evaluations, tolerance=TOLERANCE
+    )
+    jacobian, scale, values = found.jacobian, steps.scale, steps.values(found.x)
+    fitted = adjusted(model, free, values)
     parts = tuple(fitted.remainder(s, nuisances)[m] for s, m in zip(balances, used, strict=True))
     n = sum(map(len, parts))
     result = JointFit(
-        fitted, tuple(knobs), values, np.zeros((len(knobs), len(knobs))), parts, jacobian[:n] / scale, stroke_count(used)
+        fitted, tuple(free), values, np.zeros((len(free), len(free))), parts, jacobian[:n] / scale, stroke_count(used)
     )
     inflation = n / max(result.independent, 1.0)
     # priors enter the information as they did the fit, with the weight of one window at ``noise``
     information = jacobian[:n].T @ jacobian[:n] / (result.rms**2 * inflation + 1.0e-300)
-    for i, d in zip(tied, deviation, strict=True):
-        information[i, i] += (scale[i] / d) ** 2
+    information += np.diag((scale / steps.prior) ** 2)
     covariance = np.linalg.pinv(information, hermitian=True) * np.outer(scale, scale)
     return dataclasses.replace(result, covariance=covariance)
 
@@ -148,17 +124,17 @@ def prior_weight(fitted: JointFit) -> float:
 
 
 def prior_rows(fitted: JointFit, noise: float) -> tuple[Array, Array]:
-    """Return the rows by which priors enter a linear fit about ``fitted``, shape (n_tied, n_knobs), and their values.
+    """Return the rows by which priors enter a linear fit about ``fitted``, shape (n_tied, n_free), and their values.
 
     Args:
         fitted: the fit.
         noise: as of `fit`.
     """
-    tied = [i for i, k in enumerate(fitted.knobs) if np.isfinite(k.deviation)]
-    rows = np.zeros((len(tied), len(fitted.knobs)))
+    tied = [i for i, k in enumerate(fitted.free) if np.isfinite(k.prior)]
+    rows = np.zeros((len(tied), len(fitted.free)))
     values = np.zeros(len(tied))
     for row, i in enumerate(tied):
-        knob = fitted.knobs[i]
-        rows[row, i] = noise / knob.deviation
-        values[row] = noise * (fitted.values[i] - knob.believed) / knob.deviation
+        one = fitted.free[i]
+        rows[row, i] = noise / one.prior
+        values[row] = noise * (fitted.values[i] - one.nominal) / one.prior
     return rows, values

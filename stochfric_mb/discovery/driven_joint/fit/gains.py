@@ -9,9 +9,10 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit
-from stochfric_mb.discovery.driven_joint.fit.free_parameters import FreeParameter, adjusted, free_parameters, value_of
+from stochfric_mb.discovery.driven_joint.fit.free_parameters import adjusted, free_parameters
 from stochfric_mb.discovery.driven_joint.fit.friction_along import friction_along
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.inference.free_parameter import LAW, FreeParameter
 from stochfric_mb.effects import Effect
 
 Array = npt.NDArray[np.float64]
@@ -21,19 +22,19 @@ def effect_columns(model: JointModel, effect: Effect, balances: Sequence[ForceBa
     """Return how an effect and its parameters would change the friction of a model, shape (n, 1 + n_parameters)."""
     trial = model.plus(effect)
     owner = len(trial.effects) - 1
-    knobs = [k for k in free_parameters(trial, ()) if k.owner == owner]
+    free = [k for k in free_parameters(trial, ()) if k.owner == owner]
     if effect.kind == "frictional_lag":
-        knobs += [k for k in free_parameters(trial, ()) if k.name == "mu_s"]
-    level = FreeParameter(-1, "mu_k", 1.0, 0.0, np.inf, "-")
+        free += [k for k in free_parameters(trial, ()) if k.name == "mu_s"]
+    level = FreeParameter(LAW, "mu_k", model.law.mu_k, 1.0, 0.0, np.inf)
 
     def force(some: JointModel) -> Array:
         return np.concatenate([friction_along(s, some.law, some.effects, some.load)[s.sliding] for s in balances])
 
     here = force(trial)
     columns = [here - force(model)]
-    for knob in knobs:
-        step = 1.0e-3 * knob.scale
-        moved = adjusted(trial, [level, knob], np.array([model.law.mu_k, value_of(trial, knob) + step]))
+    for one in free:
+        step = 1.0e-3 * one.scale
+        moved = adjusted(trial, [level, one], np.array([model.law.mu_k, one.value + step]))
         columns.append((force(moved) - here) / step)
     return np.column_stack(columns)
 

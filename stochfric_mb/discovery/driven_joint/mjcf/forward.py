@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.weak_form import narrowest, noise_level
+from stochfric_mb.discovery.driven_joint.balance.weak_form import narrowest
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import scale_masses
 from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
@@ -27,6 +27,7 @@ from stochfric_mb.discovery.driven_joint.mjcf.loaded_model import without_fricti
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import column, corrected, drive_of, position_of_joint
 from stochfric_mb.discovery.driven_joint.mjcf.places import pair_direction, place_of
 from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
+from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import JointLoop, ProportionalDerivative
 
@@ -82,7 +83,7 @@ def drive_floor(source: MjcfSource) -> float:
     for run in source.dataset.test:
         for joint in _loops(source):
             recorded = _output(run, source, joint)
-            noise += noise_level(recorded) ** 2 * len(recorded)
+            noise += white_noise(recorded) ** 2 * len(recorded)
             size += float(np.sum(recorded**2))
     return float(np.sqrt(noise / size))
 

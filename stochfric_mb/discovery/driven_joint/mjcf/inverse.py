@@ -28,13 +28,14 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import (
     slides,
     slipped,
 )
-from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, chosen_window, narrowest, noise_level
+from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, chosen_window, narrowest
 from stochfric_mb.discovery.driven_joint.fit.friction_along import friction_along
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import by_mass, effective_inertia, inverse
 from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import over_samples
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import drive_of, in_si, position_of_joint
 from stochfric_mb.discovery.driven_joint.mjcf.motion import Path, Rig
+from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import ProportionalDerivative
@@ -244,7 +245,7 @@ class MjcfSource(Rig):
 
 
 def _level(signal: Array) -> float:
-    return noise_level(signal) if np.ptp(signal) else 0.0
+    return white_noise(signal) if np.ptp(signal) else 0.0
 
 
 def _motion(run: Run, window: Window, path: Path, least: float) -> ForceBalance:

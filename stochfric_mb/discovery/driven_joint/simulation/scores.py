@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.balance.weak_form import noise_level
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.simulation.closed_loop import closed_loop
+from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Cascade, PrismaticJoint
 from stochfric_mb.scenario import Scenario
@@ -76,7 +76,7 @@ def loop_error(model: JointModel, runs: Sequence[Run], scenario: Scenario, befor
 
 def loop_floor(runs: Sequence[Run]) -> float:
     """Return the noise of the measured voltage over its size [-], from third differences."""
-    noise = sum(noise_level(r.channels["voltage"]) ** 2 * len(r.time) for r in runs)
+    noise = sum(white_noise(r.channels["voltage"]) ** 2 * len(r.time) for r in runs)
     size = sum(float(np.sum(r.channels["voltage"] ** 2)) for r in runs)
     return float(np.sqrt(noise / size))
 

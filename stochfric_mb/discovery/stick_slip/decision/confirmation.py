@@ -13,13 +13,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from stochfric_mb.discovery.inference.least_squares import minimised
+from stochfric_mb.discovery.inference.fitter import minimised
+from stochfric_mb.discovery.inference.free_parameter import FreeParameter, steps_of
 from stochfric_mb.discovery.stick_slip.records.calibration import damped
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array, Record
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, features_near
 from stochfric_mb.discovery.stick_slip.simulation.auxiliary_state import auxiliary_state
-from stochfric_mb.discovery.stick_slip.simulation.model import FREED, TUNED, FreeParameter, Model, adjusted, free_parameters
+from stochfric_mb.discovery.stick_slip.simulation.model import FREED, TUNED, Model, adjusted, free_parameters
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.reference.augmented import Start
 
@@ -257,48 +258,41 @@ def confirm(
     """
     last = len(candidate.effects) - 1
     runs = list(dict.fromkeys(case.record.name for case in cases)) if entrained else []
-    knobs = [k for k in free_parameters(candidate, uncertainty, runs) if not k.run or k.effect == last]
-    knobs = [k for k in knobs if not (entrained and k.effect == last and k.name in TUNED)]
+    free = [k for k in free_parameters(candidate, uncertainty, runs) if not k.run or k.owner == last]
+    free = [k for k in free if not (entrained and k.owner == last and k.name in TUNED)]
     load = cases[0].record.mechanism.normal_force
-    start = np.array([k.value for k in knobs])
-    scale = np.array([_step(k, load) for k in knobs])
-    priors = np.array([k.prior for k in knobs])
-    believed = np.where(np.isfinite(priors), 0.0, start)
-    low = np.array([(k.low - v) / s for k, v, s in zip(knobs, start, scale, strict=True)]) - 1.0e-9
-    high = np.array([(k.high - v) / s for k, v, s in zip(knobs, start, scale, strict=True)]) + 1.0e-9
+    steps = steps_of(free, np.array([_step(k, load) for k in free]))
 
     def errors(step: Array) -> Array:
-        values = start + scale * step
-        trial = adjusted(candidate, knobs, values)
+        values = steps.values(step)
+        trial = adjusted(candidate, free, values)
         parts = [_error(trial, case) for case in cases]
-        return np.concatenate([*parts, (values - believed) / priors])
+        return np.concatenate([*parts, steps.surprise(values)])
 
     def levelled(step: Array) -> Array:
         """Return the step with mu_s and mu_k moved to where the break-away and the mean force in slip are right."""
         for _ in range(LEVELLINGS):
-            away = _levels_away(adjusted(candidate, knobs, start + scale * step), cases)
-            step = np.clip(step + np.array([away.get(k.name, 0.0) for k in knobs]) / scale, low, high)
+            away = _levels_away(adjusted(candidate, free, steps.values(step)), cases)
+            step = np.clip(step + np.array([away.get(k.name, 0.0) for k in free]) / steps.scale, steps.low, steps.high)
         return step
 
-    starts = [levelled(np.clip(s, low, high)) for s in _starts(candidate, knobs, scale)]
+    starts = [levelled(np.clip(s, steps.low, steps.high)) for s in _starts(candidate, free, steps.scale)]
     first = min(starts, key=lambda s: float(np.sum(errors(s) ** 2)))
     found = minimised(
         errors,
         first,
-        low,
-        high,
+        steps.low,
+        steps.high,
         difference=DIFFERENCE,
-        max_nfev=evaluations,
-        xtol=1.0e-4,
-        ftol=1.0e-3,
-        x_scale="jac",
+        evaluations=evaluations,
+        tolerance=1.0e-3,
     )
     # what of the believed model an effect leaves open is a number of its own, too
     freed = {name for e in candidate.effects for name in FREED.get(e.kind, ())}
-    n_parameters = sum(k.effect >= 0 or k.name in freed for k in knobs)
+    n_parameters = sum(k.owner >= 0 or k.name in freed for k in free)
     return Confirmed(
         tuple(e.kind for e in candidate.effects),
-        adjusted(candidate, knobs, start + scale * found.x),
+        adjusted(candidate, free, steps.values(found.x)),
         float(2.0 * found.cost),
         n_parameters,
         N_FEATURES * len(cases) - 2 - n_parameters,
@@ -315,24 +309,24 @@ def _levels_away(model: Model, cases: Sequence[Case]) -> dict[str, float]:
     return dict(zip(("mu_s", "mu_k"), np.mean(away, axis=0).tolist(), strict=True)) if away else {}
 
 
-def _starts(candidate: Model, knobs: Sequence[FreeParameter], scale: Array) -> list[Array]:
+def _starts(candidate: Model, free: Sequence[FreeParameter], scale: Array) -> list[Array]:
     """Return where a fit may start: as screened, and with the last effect, and what it leaves open, several times weaker."""
-    starts = [np.zeros(len(knobs))]
+    starts = [np.zeros(len(free))]
     if not candidate.effects:
         return starts
     last = len(candidate.effects) - 1
     freed = FREED.get(candidate.effects[last].kind, ())
-    strong = [k.effect == last and k.name in STRENGTHS and k.value != 0.0 for k in knobs]
+    strong = [k.owner == last and k.name in STRENGTHS and k.value != 0.0 for k in free]
     if not any(strong):
         return starts
     # a stiffness that was freed for a curved spring would, without its curve, be of another rig
-    along = np.array([s or (k.effect < 0 and k.name in freed) for s, k in zip(strong, knobs, strict=True)])
-    values = np.array([k.value for k in knobs])
+    along = np.array([s or (k.owner < 0 and k.name in freed) for s, k in zip(strong, free, strict=True)])
+    values = np.array([k.value for k in free])
     return starts + [np.where(along, (share - 1.0) * values / scale, 0.0) for share in (0.5, 0.2, 0.05)]
 
 
-def _step(knob: FreeParameter, load: float) -> float:
-    return knob.scale if knob.effect >= 0 or knob.name not in ("mu_s", "mu_k") else 0.2 / load
+def _step(one: FreeParameter, load: float) -> float:
+    return one.scale if one.owner >= 0 or one.name not in ("mu_s", "mu_k") else 0.2 / load
 
 
 def _error(model: Model, case: Case) -> Array:

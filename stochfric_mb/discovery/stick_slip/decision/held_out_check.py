@@ -6,6 +6,7 @@ import dataclasses
 
 import numpy as np
 
+from stochfric_mb.discovery.inference.paired import paired
 from stochfric_mb.discovery.stick_slip.simulation.forecast import score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
@@ -59,13 +60,11 @@ class Comparison:
 def compared(without: Model, with_: Model, runs: HeldOut) -> Comparison | None:
     """Return how two models, phases found already, forecast held-out runs; None where there are too few forecasts."""
     first, second = (np.concatenate([score(m, w) for w in runs.second]) for m in (without, with_))
-    n = len(first)
-    if n < 3:  # no standard error
+    if len(first) < 3:  # no standard error
         return None
-    deviation = float(np.std(second - first, ddof=1) / np.sqrt(n))
-    better, worse = int(np.count_nonzero(second < first)), int(np.count_nonzero(second > first))
-    most_better = better - worse > MOST * np.sqrt(better + worse)
-    return Comparison(float(first.mean()), float(second.mean()), deviation, floor_of(with_, runs), most_better)
+    seen = paired(first, second)
+    most_better = seen.better - seen.worse > MOST * np.sqrt(seen.better + seen.worse)
+    return Comparison(seen.without, seen.with_, seen.deviation, floor_of(with_, runs), bool(most_better))
 
 
 def without_last(model: Model, kind: str) -> Model:

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from scipy.ndimage import median_filter
 from scipy.signal import lfilter, savgol_filter
 
+from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.mechanisms import BeltBox
 
 Array = npt.NDArray[np.float64]
@@ -23,6 +24,8 @@ SMOOTHING_ANGLE = 0.4
 """Width of the window in which the motion is smoothed, as an angle of the natural oscillation [rad]."""
 LINE_WINDOW = 128
 """Samples of the pieces in which a line of the noise is looked for."""
+LEAST_NOISE = 1.0e-10
+"""Noise that is always allowed, over the span of the record [-]: rounding of the sums."""
 LAGS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96)
 """Lags at which the colour of the noise is looked at [samples]."""
 MEMORIES = 1.0 - np.geomspace(0.95, 0.003, 48)
@@ -128,7 +131,7 @@ def make_record(name: str, time: Array, position: Array, mechanism: BeltBox) -> 
             belt_velocity=-mechanism.belt_velocity,
             excitation_amplitude=-mechanism.excitation_amplitude,
         )
-    noise = white_noise(raw)
+    noise = max(white_noise(raw), LEAST_NOISE * float(np.ptp(raw)))
     # no wider than the motion allows: across a corner of few samples a median is far off
     turn = math.sqrt(mechanism.stiffness / mechanism.mass) * (time[-1] - time[0]) / (len(time) - 1)
     width = min(MEDIAN_WIDTH, max((int(MEDIAN_ANGLE / turn) - 1) // 2 * 2 + 1, 3))
@@ -140,12 +143,6 @@ def make_record(name: str, time: Array, position: Array, mechanism: BeltBox) -> 
     crowd = np.convolve(outlier.astype(np.float64), np.ones(width), mode="same")
     outlier &= crowd <= width // 2
     return Record(name, time, np.where(outlier, median, raw), raw, outlier, noise, mechanism, stated, direction)
-
-
-def white_noise(position: Array) -> float:
-    """Return the standard deviation of white noise from the third differences of a record (their variance is 20 times)."""
-    third = np.diff(position, 3)
-    return float(max(np.median(np.abs(third)) / 0.6745 / math.sqrt(20.0), 1.0e-12))
 
 
 def line_in(residuals: list[Array], rate: float) -> tuple[float, float, float]:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from stochfric_mb.coefficients import Process
+from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM, FreeParameter
 from stochfric_mb.discovery.stick_slip.records.record import Array, Record
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects.contract import PHASES
@@ -96,28 +97,6 @@ class Model:
         return self.process is not None or any(e.coefficient_process() is not None or e.kind == "impacts" for e in self.effects)
 
 
-@dataclasses.dataclass(frozen=True)
-class FreeParameter:
-    """One adjustable number of a model."""
-
-    name: str
-    """``mu_s``, ``mu_k``, a name of `CORRECTED`, or a parameter of an effect."""
-    value: float
-    """Where a fit starts."""
-    scale: float
-    """A natural step."""
-    prior: float
-    """Standard deviation of what is believed about it, inf where nothing is."""
-    low: float
-    """Smallest value allowed."""
-    high: float
-    """Largest value allowed."""
-    effect: int = -1
-    """Number of the effect it belongs to, -1 for the believed model."""
-    run: str = ""
-    """Run it belongs to, empty for all."""
-
-
 def free_parameters(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str] = ()) -> list[FreeParameter]:
     """Return what may be adjusted in a model.
 
@@ -127,43 +106,50 @@ def free_parameters(model: Model, uncertainty: Mapping[str, float], runs: Sequen
         runs: runs that have own parameters.
     """
     law = model.law
-    knobs = [
-        FreeParameter("mu_s", law.mu_s, 0.02 * law.mu_s, np.inf, law.mu_s * (1.0 - REACH), law.mu_s * (1.0 + REACH)),
-        FreeParameter(
-            "mu_k", law.mu_k, 0.02 * law.mu_s, np.inf, 1.0e-5, max(law.mu_k, min(law.mu_k + REACH * law.mu_s, 0.98 * law.mu_s))
-        ),
+    most_kinetic = max(law.mu_k, min(law.mu_k + REACH * law.mu_s, 0.98 * law.mu_s))
+    return [
+        FreeParameter(LAW, "mu_s", law.mu_s, 0.02 * law.mu_s, law.mu_s * (1.0 - REACH), law.mu_s * (1.0 + REACH)),
+        FreeParameter(LAW, "mu_k", law.mu_k, 0.02 * law.mu_s, 1.0e-5, most_kinetic),
+        *(c for name in CORRECTED if (c := _correction(model, name, uncertainty.get(name, 0.0))) is not None),
+        *(p for i in range(len(model.effects)) for p in _of_effect(model, i, runs)),
     ]
-    for name in CORRECTED:
-        prior = uncertainty.get(name, 0.0)
-        most = 3.0 * prior
-        if any(name in FREED.get(e.kind, ()) for e in model.effects):
-            most, prior = most + MOST_FREED, math.hypot(prior, MOST_FREED / 2.0)
-        if prior > 0.0:
-            scale = uncertainty.get(name, 0.0) or 0.01
-            knobs.append(FreeParameter(name, model.corrections.get(name, 0.0), scale, prior, max(-0.95, -most), most))
-    for i, effect in enumerate(model.effects):
-        for field in dataclasses.fields(effect):
-            meta = field.metadata
-            value = getattr(effect, field.name)
-            if (
-                field.name in model.measured
-                or "choices" in meta
-                or not np.isfinite(value)
-                or (field.name in NOT_FITTED and not _shared(field.name, value))
-            ):
-                continue
-            if field.name in PHASES and field.name != "phase" and not getattr(effect, field.name.replace("phase", "amplitude")):
-                continue
-            if field.name in effect.own_to_run:
-                for run in runs:
-                    own = model.own.get(run, ({},) * len(model.effects))[i].get(field.name, value)
-                    knobs.append(FreeParameter(field.name, own, 0.3, np.inf, -np.inf, np.inf, i, run))
-            elif not (field.name in ("amplitude_2", "amplitude_3") and value == 0.0):
-                # a frequency that is off by its share of a wave in the whole record changes everything
-                scale = TUNING * value if field.name in TUNED else max(abs(value), 0.05 * meta["scale"])
-                low, high = _bounds(effect.kind, field.name, value, meta)
-                knobs.append(FreeParameter(field.name, value, scale, np.inf, low, high, i))
-    return knobs
+
+
+def _correction(model: Model, name: str, deviation: float) -> FreeParameter | None:
+    """Return the relative correction of a number of the mechanism; None where it is certain."""
+    most, prior = 3.0 * deviation, deviation
+    if any(name in FREED.get(e.kind, ()) for e in model.effects):
+        most, prior = most + MOST_FREED, math.hypot(prior, MOST_FREED / 2.0)
+    if prior <= 0.0:
+        return None
+    present = model.corrections.get(name, 0.0)
+    return FreeParameter(MECHANISM, name, present, deviation or 0.01, max(-0.95, -most), most, prior=prior)
+
+
+def _of_effect(model: Model, i: int, runs: Sequence[str]) -> Iterator[FreeParameter]:
+    """Yield what may be adjusted in the i-th effect."""
+    effect = model.effects[i]
+    for field in dataclasses.fields(effect):
+        name, meta, value = field.name, field.metadata, getattr(effect, field.name)
+        if name in model.measured or "choices" in meta or not np.isfinite(value) or _stays(effect, name, value):
+            continue
+        if name in effect.own_to_run:
+            for run in runs:
+                own = model.own.get(run, ({},) * len(model.effects))[i].get(name, value)
+                yield FreeParameter(i, name, own, 0.3, -np.inf, np.inf, run=run)
+        else:
+            # a frequency that is off by its share of a wave in the whole record changes everything
+            scale = TUNING * value if name in TUNED else max(abs(value), 0.05 * meta["scale"])
+            yield FreeParameter(i, name, value, scale, *_bounds(effect.kind, name, value, meta))
+
+
+def _stays(effect: Effect, name: str, value: float) -> bool:
+    """Return whether forecasts cannot fit a number, or it says what is fixed, or belongs to an overtone that is not there."""
+    if name in NOT_FITTED:
+        return not _shared(name, value)
+    if name in PHASES and name != "phase":
+        return not getattr(effect, name.replace("phase", "amplitude"))
+    return name in ("amplitude_2", "amplitude_3") and value == 0.0
 
 
 def _bounds(kind: str, name: str, value: float, about: Mapping[str, Any]) -> tuple[float, float]:
@@ -187,20 +173,20 @@ def _shared(name: str, value: float) -> bool:
     return name in ("static_share", "share_below", "shape_exponent", "adhesion") and value not in (0.0, 1.0)
 
 
-def adjusted(model: Model, knobs: Sequence[FreeParameter], values: Array) -> Model:
-    """Return the model with its knobs at ``values``, each kept within its bounds."""
+def adjusted(model: Model, free: Sequence[FreeParameter], values: Array) -> Model:
+    """Return the model with its free parameters at ``values``, each kept within its bounds."""
     corrections = dict(model.corrections)
     law = {"mu_s": model.law.mu_s, "mu_k": model.law.mu_k}
     changes: list[dict[str, float]] = [{} for _ in model.effects]
     own = {run: tuple(dict(v) for v in values_) for run, values_ in model.own.items()}
-    for knob, raw in zip(knobs, values, strict=True):
-        value = float(min(max(raw, knob.low), knob.high))
-        if knob.effect < 0:
-            (law if knob.name in law else corrections)[knob.name] = value
-        elif knob.run:
-            own.setdefault(knob.run, tuple({} for _ in model.effects))[knob.effect][knob.name] = value
+    for one, raw in zip(free, values, strict=True):
+        value = one.inside(raw)
+        if one.owner < 0:
+            (law if one.name in law else corrections)[one.name] = value
+        elif one.run:
+            own.setdefault(one.run, tuple({} for _ in model.effects))[one.owner][one.name] = value
         else:
-            changes[knob.effect][knob.name] = value
+            changes[one.owner][one.name] = value
     effects = tuple(dataclasses.replace(e, **c) for e, c in zip(model.effects, changes, strict=True))
     law["mu_k"] = min(law["mu_k"], law["mu_s"])
     return dataclasses.replace(

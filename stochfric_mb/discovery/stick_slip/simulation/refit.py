@@ -7,10 +7,11 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from stochfric_mb.discovery.inference.least_squares import minimised
+from stochfric_mb.discovery.inference.fitter import minimised
+from stochfric_mb.discovery.inference.free_parameter import FreeParameter, steps_of
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, forecasts
-from stochfric_mb.discovery.stick_slip.simulation.model import FreeParameter, Model, adjusted, free_parameters
+from stochfric_mb.discovery.stick_slip.simulation.model import Model, adjusted, free_parameters
 
 MOST_WINDOWS = 16
 """Forecasts a run that a fit uses, spread over the run."""
@@ -38,14 +39,14 @@ class Fit:
 
     model: Model
     """The model with its numbers fitted."""
-    knobs: list[FreeParameter]
+    free: list[FreeParameter]
     """What was adjusted."""
     values: Array
-    """Fitted values, shape (len(knobs),)."""
+    """Fitted values, shape (len(free),)."""
     deviations: Array
-    """Their standard deviations, shape (len(knobs),)."""
+    """Their standard deviations, shape (len(free),)."""
     alone: Array
-    """What they would be if the others were known, shape (len(knobs),)."""
+    """What they would be if the others were known, shape (len(free),)."""
     cost: float
     """Robust sum of squares at the end [-]."""
 
@@ -72,21 +73,21 @@ def refit(
         model: where the fit starts.
         windows: forecasts, run by run.
         uncertainty: relative standard deviations of what is believed.
-        only: names of the knobs, of single runs, that may move; all of them if not given.
+        only: names of the parameters, of single runs, that may move; all of them if not given.
         evaluations: most Gauss-Newton steps.
         most: forecasts used in each run.
     """
     misfit = _Misfit(model, windows, uncertainty, only, most)
     found = minimised(
-        misfit.errors, np.zeros(len(misfit.knobs)), misfit.low, misfit.high, difference=DIFFERENCE, loss="soft_l1",
-        f_scale=TYPICAL, max_nfev=evaluations, xtol=1.0e-4, ftol=1.0e-4, x_scale="jac",
+        misfit.errors, np.zeros(len(misfit.free)), misfit.steps.low, misfit.steps.high, difference=DIFFERENCE,
+        evaluations=evaluations, tolerance=1.0e-4, outlying=TYPICAL,
     )  # fmt: skip
-    values = misfit.start + misfit.scale * found.x
+    values = misfit.steps.values(found.x)
     spread = misfit.spread(2.0 * found.cost)
-    size = np.sqrt((found.jac**2).sum(axis=0))
-    alone = misfit.scale * np.sqrt(spread) / np.maximum(size, np.sqrt(spread) / WIDEST)
-    deviations = misfit.scale * _deviations(found.jac, spread)
-    return Fit(adjusted(model, misfit.knobs, values), misfit.knobs, values, deviations, alone, float(found.cost))
+    size = np.sqrt((found.jacobian**2).sum(axis=0))
+    alone = misfit.steps.scale * np.sqrt(spread) / np.maximum(size, np.sqrt(spread) / WIDEST)
+    deviations = misfit.steps.scale * _deviations(found.jacobian, spread)
+    return Fit(adjusted(model, misfit.free, values), misfit.free, values, deviations, alone, float(found.cost))
 
 
 def cost_of(model: Model, windows: Sequence[Windows], *, most: int = MOST_WINDOWS) -> float:
@@ -103,28 +104,28 @@ def with_deviations(fit: Fit, windows: Sequence[Windows], uncertainty: Mapping[s
     not change at all until it is changed by more, their slopes say nothing of how far off the number may be.
 
     Args:
-        fit: a fit of all knobs.
+        fit: a fit of all free parameters.
         windows: the forecasts it was made to.
         uncertainty: relative standard deviations of what is believed.
         most: forecasts used in each run.
     """
     misfit = _Misfit(fit.model, windows, uncertainty, None, most)
-    here = misfit.errors(np.zeros(len(misfit.knobs)))
+    here = misfit.errors(np.zeros(len(misfit.free)))
     weight = (1.0 + (here / TYPICAL) ** 2) ** -0.75  # of the loss: SciPy scales its Jacobian so
     spread = misfit.spread(2.0 * fit.cost)
-    alone = {(k.name, k.effect, k.run): a for k, a in zip(fit.knobs, fit.alone, strict=True)}
-    slopes = np.zeros((len(here), len(misfit.knobs)))
-    for j, knob in enumerate(misfit.knobs):
-        first = alone[knob.name, knob.effect, knob.run] / knob.scale
+    alone = {(k.name, k.owner, k.run): a for k, a in zip(fit.free, fit.alone, strict=True)}
+    slopes = np.zeros((len(here), len(misfit.free)))
+    for j, one in enumerate(misfit.free):
+        first = alone[one.name, one.owner, one.run] / one.scale
 
         def change(step: float, j: int = j) -> Array:
-            at = np.zeros(len(misfit.knobs))
+            at = np.zeros(len(misfit.free))
             at[j] = step
             return weight * (misfit.errors(at) - here) / np.sqrt(spread)
 
         sides = [
             sign * _slope(lambda h, sign=sign, change=change: change(sign * h), first, min(WIDEST, sign * float(bound)))
-            for sign, bound in ((-1.0, misfit.low[j]), (1.0, misfit.high[j]))
+            for sign, bound in ((-1.0, misfit.steps.low[j]), (1.0, misfit.steps.high[j]))
         ]
         down, up = (float(np.linalg.norm(side)) for side in sides)
         if min(down, up) == 0.0:  # a bound, or nothing to be seen there
@@ -134,7 +135,9 @@ def with_deviations(fit: Fit, windows: Sequence[Windows], uncertainty: Mapping[s
             slopes[:, j] = sides[0] if down < up else sides[1]
         else:
             slopes[:, j] = 0.5 * (sides[0] + sides[1])
-    return dataclasses.replace(fit, knobs=misfit.knobs, values=misfit.start, deviations=misfit.scale * _deviations(slopes, 1.0))
+    return dataclasses.replace(
+        fit, free=misfit.free, values=misfit.steps.start, deviations=misfit.steps.scale * _deviations(slopes, 1.0)
+    )
 
 
 def _slope(change: Callable[[float], Array], first: float, most: float) -> Array:
@@ -170,7 +173,7 @@ def _slope(change: Callable[[float], Array], first: float, most: float) -> Array
 
 
 class _Misfit:
-    """What forecasts miss, over the knobs of a model in their natural steps, all 0 at the start."""
+    """What forecasts miss, over the free parameters of a model in their natural steps, all 0 at the start."""
 
     def __init__(
         self, model: Model, windows: Sequence[Windows], uncertainty: Mapping[str, float], only: Sequence[str] | None, most: int
@@ -178,24 +181,19 @@ class _Misfit:
         self.model = model
         self.windows = [thinned(w, most) for w in windows if len(w)]
         runs = [w.record.name for w in self.windows]
-        self.knobs = [k for k in free_parameters(model, uncertainty, runs) if only is None or (k.name in only and k.run)]
-        self.start = np.array([k.value for k in self.knobs])
-        self.scale = np.array([k.scale for k in self.knobs])
-        self.low = (np.array([k.low for k in self.knobs]) - self.start) / self.scale - 1.0e-9
-        self.high = (np.array([k.high for k in self.knobs]) - self.start) / self.scale + 1.0e-9
-        self._priors = np.array([k.prior for k in self.knobs])
-        self._believed = np.array([0.0 if np.isfinite(k.prior) else k.value for k in self.knobs])
+        self.free = [k for k in free_parameters(model, uncertainty, runs) if only is None or (k.name in only and k.run)]
+        self.steps = steps_of(self.free)
 
     def errors(self, step: Array) -> Array:
         """Return the errors of all forecasts, then what is believed and missed, in units of `UNIT` and of beliefs."""
-        values = self.start + self.scale * step
-        trial = adjusted(self.model, self.knobs, values)
+        values = self.steps.values(step)
+        trial = adjusted(self.model, self.free, values)
         parts = [
             np.nan_to_num(np.clip((forecasts(trial, w) - w.targets) / UNIT, -CLIP, CLIP), nan=CLIP).ravel()
             for w in self.windows
         ]
         # priors enter as one observation each; its weight is that of a cycle's worth of independent errors
-        return np.concatenate([*parts, 3.0 * (values - self._believed) / self._priors])
+        return np.concatenate([*parts, 3.0 * self.steps.surprise(values)])
 
     def spread(self, squares: float) -> float:
         """Return the variance that errors count with, from their robust sum of squares."""

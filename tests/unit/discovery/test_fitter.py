@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from stochfric_mb.discovery.inference.least_squares import minimised
+from stochfric_mb.discovery.inference.fitter import minimised
 
 GOAL = np.array([0.7, -1.3])
 FINENESS = 1e-6
@@ -20,7 +20,7 @@ def rough(at: np.ndarray) -> np.ndarray:
 
 def test_a_stated_step_finds_its_way_where_the_smallest_one_does_not():
     low, high = np.full(2, -5.0), np.full(2, 5.0)
-    found = minimised(rough, np.zeros(2), low, high, difference=0.01, xtol=1e-8)
+    found = minimised(rough, np.zeros(2), low, high, difference=0.01, evaluations=30, tolerance=1e-12)
     lost = least_squares(rough, np.zeros(2), bounds=(low, high), diff_step=0.01, xtol=1e-8)
     # the slopes are known to the step times the curvature, so that the end is reached to the errors' own fineness
     np.testing.assert_allclose(found.x, GOAL, atol=10.0 * FINENESS)
@@ -36,6 +36,23 @@ def test_bounds_hold_for_the_derivatives_too(first):
         return at - GOAL
 
     low, high = np.array([-0.5, -1.0]), np.array([0.2, -0.995])  # the second range is smaller than the step
-    found = minimised(errors, np.array(first), low, high, difference=0.01)
+    found = minimised(errors, np.array(first), low, high, difference=0.01, evaluations=30, tolerance=1e-12)
     assert all(np.all(low <= at) and np.all(at <= high) for at in asked)
-    np.testing.assert_allclose(found.x, (0.2, -1.0), atol=1e-3)
+    np.testing.assert_allclose(found.x, (0.2, -1.0), atol=1e-12)
+
+
+@pytest.mark.parametrize("outlying", [np.inf, 0.5])
+def test_the_minimum_is_that_of_scipy(outlying):
+    place = np.linspace(0.0, 3.0, 60)
+    truth = 2.0 * np.exp(-1.3 * place) + np.where(np.arange(60) % 9 == 4, 1.5, 0.0)
+
+    def errors(at):
+        return at[0] * np.exp(-at[1] * place) - truth
+
+    low, high = np.full(2, -10.0), np.full(2, 10.0)
+    loss = {} if np.isinf(outlying) else {"loss": "soft_l1", "f_scale": outlying}
+    exact = least_squares(errors, np.ones(2), bounds=(low, high), xtol=1e-14, ftol=1e-14, gtol=1e-14, **loss)
+    found = minimised(errors, np.ones(2), low, high, difference=1e-6, evaluations=60, tolerance=1e-14, outlying=outlying)
+    assert found.cost == pytest.approx(exact.cost, rel=1e-9)  # of second order in the distance from the minimum
+    np.testing.assert_allclose(found.x, exact.x, rtol=1e-4)  # slopes are differences: off by the step times the curvature
+    np.testing.assert_allclose(np.abs(found.jacobian), np.abs(exact.jac), rtol=1e-2, atol=1e-4)

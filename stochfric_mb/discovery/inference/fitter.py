@@ -1,0 +1,116 @@
+"""Bounded least squares by Levenberg and Marquardt, for many residuals and few numbers.
+
+The normal equations of a handful of scaled numbers are solved directly, so that a fit costs little more than its evaluations.
+Derivatives are differences of a stated size: simulated errors are too rough for the smallest ones.
+
+Reference: J. J. More, in Numerical Analysis, Lecture Notes in Mathematics 630, Springer 1978, 105-116, doi 10.1007/BFb0067700.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+DAMPING, LEAST_DAMPING, CHANGE = 1.0e-4, 1.0e-9, 10.0
+"""Damping at the start and at least, over the curvature, and the factor by which it falls after a step that
+helped and rises after one that did not [-]."""
+TRIES = 6
+"""Times that damping is raised before a step is given up."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Minimum:
+    """Where a fit ended."""
+
+    x: Array
+    """The numbers, shape (p,)."""
+    jacobian: Array
+    """Derivatives of the residuals there, weighted as the loss weights them, shape (n, p)."""
+    cost: float
+    """Half the sum of squares, or of the loss."""
+
+
+def minimised(
+    errors: Callable[[Array], Array],
+    first: Array,
+    low: Array,
+    high: Array,
+    *,
+    difference: float,
+    evaluations: int,
+    tolerance: float,
+    outlying: float = np.inf,
+) -> Minimum:
+    """Return where the sum of squares is smallest.
+
+    Args:
+        errors: from numbers, shape (p,), to residuals, shape (n,).
+        first: where to begin, shape (p,); moved between the bounds.
+        low: lower bounds, shape (p,).
+        high: upper bounds, shape (p,).
+        difference: step by which the derivatives are found, in the numbers' own unit.
+        evaluations: most iterations.
+        tolerance: relative fall of the cost below which it ends [-].
+        outlying: residuals beyond this count by their size, not its square: the loss is C^2 (sqrt(1 + (r/C)^2) - 1).
+    """
+    x = np.clip(first, low, high)
+    rest = errors(x)
+    cost = _cost(rest, outlying)
+    slopes = _slopes(errors, x, rest, low, high, difference)
+    damping = DAMPING
+    for _ in range(evaluations):
+        weighted, pull = _weighted(slopes, rest, outlying)
+        gradient = weighted.T @ pull
+        free = ~(((x <= low) & (gradient > 0.0)) | ((x >= high) & (gradient < 0.0)))
+        matrix = (weighted.T @ weighted)[np.ix_(free, free)]
+        size = np.diag(matrix) + 1.0e-300
+        for _ in range(TRIES):
+            step = np.zeros(len(x))
+            step[free] = -np.linalg.lstsq(matrix + np.diag(damping * size), gradient[free], rcond=1.0e-14)[0]
+            trial = np.clip(x + step, low, high)
+            new = errors(trial)
+            after = _cost(new, outlying)
+            if after < cost:
+                break
+            damping *= CHANGE
+        else:
+            break
+        fall, x, rest, cost = cost - after, trial, new, after
+        damping = max(damping / CHANGE, LEAST_DAMPING)
+        slopes = _slopes(errors, x, rest, low, high, difference)
+        if fall < tolerance * (cost + fall):
+            break
+    return Minimum(x, _weighted(slopes, rest, outlying)[0], cost)
+
+
+def _cost(rest: Array, outlying: float) -> float:
+    if not np.isfinite(outlying):
+        return 0.5 * float(rest @ rest)
+    return outlying**2 * float(np.sum(np.sqrt(1.0 + (rest / outlying) ** 2) - 1.0))
+
+
+def _weighted(slopes: Array, rest: Array, outlying: float) -> tuple[Array, Array]:
+    """Return derivatives and residuals weighted such that Gauss and Newton's equations are those of the loss.
+
+    Reference: B. Triggs, P. McLauchlan, R. Hartley, A. Fitzgibbon, Bundle adjustment, 2000, section 4.3.
+    """
+    if not np.isfinite(outlying):
+        return slopes, rest
+    z = 1.0 + (rest / outlying) ** 2
+    return slopes * z[:, None] ** -0.75, rest * z**0.25
+
+
+def _slopes(errors: Callable[[Array], Array], at: Array, here: Array, low: Array, high: Array, difference: float) -> Array:
+    columns: list[Array] = []
+    for j in range(len(at)):
+        moved = at.copy()
+        moved[j] += difference if at[j] + difference <= high[j] else -difference
+        if moved[j] < low[j]:  # the bounds are closer together than the step, which is then what fits between them
+            moved[j] = high[j] if high[j] - at[j] > at[j] - low[j] else low[j]
+        columns.append((errors(moved) - here) / (moved[j] - at[j]))
+    return np.stack(columns, axis=1) if columns else np.zeros((len(here), 0))
