@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stochfric_mb.discovery.result import Interval, Result
+from stochfric_mb.effects.traits import LATE
 from stochfric_mb.errors import InputError, MissingEngineError
 from stochfric_mb.laws.elastic_stick import ElasticStick
 from stochfric_mb.mechanisms import HingePendulum, Mjcf, PrismaticJoint
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
 
 PRESLIDING = 1.0e-5
 """Presliding displacement of the law that MuJoCo runs [m or rad]: it holds at rest, where Coulomb's law says nothing."""
-CARRIED = ("viscous_friction", "sensor_delay")
-"""Effects that the MJCF carries, or that do not belong into a model."""
 
 
 def files(outcome: Outcome) -> dict[str, str]:
@@ -82,9 +81,8 @@ def mjcf(scenario: Scenario[Any]) -> str:
     else:
         raise InputError(f"mechanism {mechanism.kind!r} has no joint; its augmented.toml can be run by itself")
     law = ElasticStick(mu_s=scenario.law.mu_s, mu_k=scenario.law.mu_k, e_lim=PRESLIDING)
-    viscous = sum(e.coefficient for e in scenario.effects if e.kind == "viscous_friction")  # type: ignore[attr-defined]
+    viscous = sum(e.linear_damping for e in scenario.effects)
     tendons, pairs = getattr(mechanism, "tendons", ()), getattr(mechanism, "pairs", {})
-    carried = CARRIED if not pairs else CARRIED[1:]
     for place, load in loads.items():
         if place in pairs:
             attach.add_friction(spec, pairs[place].geoms, law)
@@ -95,7 +93,7 @@ def mjcf(scenario: Scenario[Any]) -> str:
             element = next(j for j in (spec.tendons if tied else spec.joints) if j.name == place)
             _damp(element, viscous)
     spec.compile()
-    left = [e.kind for e in scenario.effects if e.kind not in carried]
+    left = [e.kind for e in scenario.effects if LATE not in e.found_as and (pairs or not e.linear_damping)]
     note = (
         f"\n<!-- not in this file, since neither damping nor the plugin's laws hold it: {', '.join(left)} -->\n"
         if left

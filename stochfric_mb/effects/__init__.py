@@ -55,6 +55,8 @@ __all__ = [
     "effect_class",
     "effect_from_dict",
     "effect_kinds",
+    "kind_found_as",
+    "kinds_with",
     "make_effect",
     "register_effect",
 ]
@@ -93,6 +95,23 @@ def make_effect(kind: str, **values: Any) -> Effect:
     cls = effect_class(kind)
     require_fields(f"effect {kind}", cls, values)
     return cls(**values)
+
+
+def kind_found_as(finding: str) -> str:
+    """Return the kind that a finding means, such as `stochfric_mb.effects.traits.JUMP`.
+
+    Raises:
+        InputError: no effect says so.
+    """
+    for kind in effect_kinds():
+        if finding in effect_class(kind).found_as:
+            return kind
+    raise InputError(f"no effect is found as {finding!r}; give one of them that finding, in found_as")
+
+
+def kinds_with(trait: str) -> tuple[str, ...]:
+    """Return the kinds that have a trait, such as `stochfric_mb.effects.traits.SHAPES_SLIPS`."""
+    return tuple(kind for kind in effect_kinds() if trait in effect_class(kind).traits)
 
 
 def effect_from_dict(table: Mapping[str, Any]) -> Effect:

@@ -24,16 +24,19 @@ from __future__ import annotations
 import dataclasses
 import importlib
 import math
+from collections.abc import Mapping
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.effects.traits import RANDOM
 from stochfric_mb.errors import InputError, require_name, require_number
 
 if TYPE_CHECKING:
     from stochfric_mb.coefficients import Process
+    from stochfric_mb.effects.joints import JointSignature, JointSpan
     from stochfric_mb.effects.marks import Hypothesis, Slips, Wave
 
 Array = npt.NDArray[np.float64]
@@ -119,6 +122,17 @@ class Effect:
     shows: ClassVar[str] = ""
     """What it does there, as a sentence without a full stop."""
 
+    traits: ClassVar[frozenset[str]] = frozenset()
+    """What holds of it, of the first names in `stochfric_mb.effects.traits`."""
+    found_as: ClassVar[tuple[str, ...]] = ()
+    """Findings that mean it, of the names there from ``BELT_RIPPLE`` on."""
+    answers_to: ClassVar[str] = ""
+    """Condition of an experiment without whose change it cannot be seen, or that may be confounded with others."""
+    frees: ClassVar[tuple[str, ...]] = ()
+    """Numbers of mechanism and law that are believed less firmly beside it."""
+    told_from: ClassVar[Mapping[str, str]] = {}
+    """Other kind that looks like it -> the experiment that tells the two apart."""
+
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
             _check(f"{self.kind}.{field.name}", getattr(self, field.name), field)
@@ -167,6 +181,39 @@ class Effect:
         """Return the shortest period [s] that the effect brings in while the contact moves at ``speed`` [m/s]."""
         return math.inf
 
+    @property
+    def late(self) -> float:
+        """By how much it makes the reading late [s]."""
+        return 0.0
+
+    @property
+    def linear_damping(self) -> float:
+        """Force per relative speed [N s/m], where that is all that the effect does."""
+        return 0.0
+
+    @property
+    def random(self) -> bool:
+        """Whether it is drawn at random."""
+        return self.coefficient_process() is not None or RANDOM in self.traits
+
+    def draws(self, duration: float, slips: int) -> float:
+        """Return of how many independent draws of it ``duration`` seconds with ``slips`` slips tell."""
+        return float(slips)
+
+    def deviations(self, draws: float) -> dict[str, float]:
+        """Return the standard deviations of its random numbers, estimated from independent draws: of sigmas s/sqrt(2 n)."""
+        named = (f.name for f in dataclasses.fields(self) if f.name.startswith("sigma"))
+        return {name: getattr(self, name) / math.sqrt(2.0 * draws) for name in named}
+
+    def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
+        """Return the parameters that a fit at a driven joint leaves alone; ``contact``: its normal force is known."""
+        return ()
+
+    @classmethod
+    def at_joint(cls, span: JointSpan) -> JointSignature | None:
+        """Return what it does at a driven joint that moves so; None: it is not looked for there."""
+        return None
+
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
         """Return the ways in which the effect may have marked the slips; none: discovery does not look for it there."""
@@ -193,6 +240,8 @@ def parameter(
     strict: bool = False,
     infinite: bool = False,
     default: Any = dataclasses.MISSING,
+    fit_low: float | None = None,
+    fit_high: float | None = None,
 ) -> Any:
     """Return a dataclass field of an effect.
 
@@ -205,9 +254,12 @@ def parameter(
         strict: whether the bounds themselves are forbidden.
         infinite: whether infinity may be given.
         default: default value; none if not given.
+        fit_low: lower bound of fits, where it is another.
+        fit_high: upper one.
     """
     metadata: dict[str, Any] = {"unit": unit, "meaning": meaning, "scale": scale, "low": low, "high": high}
     metadata |= {"strict": strict, "infinite": infinite}
+    metadata |= {"fit_low": low if fit_low is None else fit_low, "fit_high": high if fit_high is None else fit_high}
     return dataclasses.field(metadata=metadata, default=default)
 
 

@@ -7,38 +7,33 @@ import numpy as np
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision
 from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.effects import effect_class, effect_kinds
 
-DECIDES: dict[frozenset[str], str] = {
-    frozenset({"position_dependent_friction", "normal_load_ripple"}): "a run at a second belt speed (or a normal-force sensor)",
-    frozenset({"position_dependent_friction", "nonlinear_stiffness"}): "a quasi-static load test of the spring",
-    frozenset({"position_dependent_friction", "backlash"}): "a quasi-static load test of the spring",
-    frozenset({"harmonic_force", "nonlinear_stiffness"}): "a run at a second belt speed",
-    frozenset({"position_dependent_friction", "harmonic_force"}): "a run at a second normal load",
-    frozenset({"normal_load_ripple", "harmonic_force"}): "a run at a second normal load, or a normal-force sensor",
-    frozenset({"viscous_friction", "quadratic_damping"}): "runs at other belt speeds and normal loads",
-    frozenset({"viscous_friction", "velocity_weakening"}): "runs at other belt speeds and normal loads",
-    frozenset({"velocity_weakening", "quadratic_damping"}): "runs at other belt speeds and normal loads",
-    frozenset({"backlash", "second_mode"}): "a free decay or an impact test of the box, lifted off the belt",
-    frozenset({"backlash", "nonlinear_stiffness"}): "a quasi-static load test of the spring",
-    frozenset({"sensor_drift", "friction_drift"}): "a force sensor, or a second position sensor",
-    frozenset({"random_coefficients", "correlated_coefficients"}): "a longer record",
-}
-"""Pairs that are easily confused -> the experiment that tells them apart (design, discovery)."""
+SEEN_BY = {"dwell": "a second belt speed", "direction": "a reversed belt", "load": "a second normal load"}
+"""Condition that effects answer to -> what an experiment must hold to change it."""
 
 
 def not_identifiable(study: Study) -> tuple[str, ...]:
     """Return the effects that this experiment cannot see, whatever their strength."""
+    constant = _constant(study)
+    return tuple(kind for kind in effect_kinds() if effect_class(kind).answers_to in constant)
+
+
+def _constant(study: Study) -> set[str]:
+    """Return the conditions that effects may answer to, and that do not change in this experiment."""
     pool = study.pool
-    blind: list[str] = []
-    if np.std(np.log(pool.dwell)) < 0.08:
-        blind.append("dwell_ageing")
-    if len(set(pool.direction)) < 2:
-        blind.append("direction_asymmetry")
-    if np.ptp(pool.normal_force) < 0.05 * pool.normal_force.mean():
-        blind.append("load_dependence")
-    if not any(s.record.mechanism.excitation_amplitude for s in pool.slips):
-        blind.append("sensor_delay")
-    return tuple(blind)
+    same = {
+        "dwell": bool(np.std(np.log(pool.dwell)) < 0.08),
+        "direction": len(set(pool.direction)) < 2,
+        "load": bool(np.ptp(pool.normal_force) < 0.05 * pool.normal_force.mean()),
+        "known force": not any(s.record.mechanism.excitation_amplitude for s in pool.slips),
+    }
+    return {condition for condition, constant in same.items() if constant}
+
+
+def _told_apart(first: str, second: str) -> str | None:
+    """Return the experiment that tells two effects apart, if one of them knows it."""
+    return effect_class(first).told_from.get(second) or effect_class(second).told_from.get(first)
 
 
 def next_experiment(decision: Decision, study: Study) -> str:
@@ -48,21 +43,12 @@ def next_experiment(decision: Decision, study: Study) -> str:
         return belt.advice
     for named in decision.named:
         for other in named.class_:
-            if (advice := DECIDES.get(frozenset({named.kind, other}))) is not None:
+            if (advice := _told_apart(named.kind, other)) is not None:
                 return f"{advice}, to tell {named.kind} from {other}"
         if named.class_:
             return f"runs at a second belt speed and a second normal load, to tell {named.kind} from {named.class_[0]}"
     if decision.verdict == "unknown" and decision.where is not None:
         return f"a repeat with a force sensor and a second belt speed, to see what varies along: {decision.where.axis}"
-    blind = not_identifiable(study)
-    asked = {
-        "dwell_ageing": "a second belt speed",
-        "direction_asymmetry": "a reversed belt",
-        "load_dependence": "a second normal load",
-    }
-    wanted = [asked[kind] for kind in blind if kind in asked]
-    return (
-        f"runs with {', '.join(wanted)}: they would show {', '.join(k for k in blind if k in asked)}"
-        if wanted
-        else "none needed"
-    )
+    blind = [kind for kind in not_identifiable(study) if effect_class(kind).answers_to in SEEN_BY]
+    wanted = dict.fromkeys(SEEN_BY[effect_class(kind).answers_to] for kind in blind)
+    return f"runs with {', '.join(wanted)}: they would show {', '.join(blind)}" if blind else "none needed"

@@ -14,7 +14,6 @@ from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import determin
 from stochfric_mb.discovery.stick_slip.simulation.model import CORRECTED, Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.effects import Effect
 
 UNITS = {"mu_s": "-", "mu_k": "-", "mass": "kg", "stiffness": "N/m", "damping": "N s/m"}
 """Units of the believed model's fitted parameters."""
@@ -35,7 +34,8 @@ def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> F
     effect = model.effects_in(run)[place]
     # a fit knows the effects that are not random alone
     fitted = len(deterministic(dataclasses.replace(model, effects=model.effects[:place], own={})).effects)
-    independent = _independent(effect, found)
+    time = sum(float(s.record.time[-1] - s.record.time[0]) for s in found.pool.slips)
+    drawn = effect.deviations(effect.draws(time, max(found.regression.n, 2)))
     for field in dataclasses.fields(effect):
         value = getattr(effect, field.name)
         if isinstance(value, str) or not np.isfinite(value):
@@ -49,28 +49,11 @@ def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> F
                 if (k.name, k.owner) == (field.name, fitted) and k.run in ("", run)
             ]
             deviation = float(deviations[0]) if deviations else model.measured.get(field.name, 0.0)
-        if field.name.startswith("sigma") or (effect.kind, field.name) == ("impacts", "impulse"):
-            deviation = value / np.sqrt(2.0 * independent)
-        if (effect.kind, field.name) == ("impacts", "mean"):
-            deviation = getattr(effect, "impulse", 0.0) / np.sqrt(independent)
-        if (effect.kind, field.name) == ("impacts", "rate"):
-            deviation = value / np.sqrt(independent)
+        deviation = drawn.get(field.name, deviation)
         unit = found.size.of(about["unit"])
         parameters[field.name] = confidence_interval(value * unit, deviation * unit, about["unit"], about["low"], about["high"])
     p_value = float(chi2_distribution.sf(max(named.score, 0.0), max(len(parameters), 1)))
     return Found(named.kind, named.class_, Where(*effect.appears()), parameters, float(named.score), p_value)
-
-
-def _independent(effect: Effect, found: Study) -> float:
-    """Return of how many independent values the fit runs tell: slips, memories of a process that has one, or impacts."""
-    n_slips = max(found.regression.n, 2)
-    time = sum(float(s.record.time[-1] - s.record.time[0]) for s in found.pool.slips)
-    if effect.kind == "impacts":
-        return max(time * getattr(effect, "rate", 0.0), 1.0)  # a Poisson process
-    memory = getattr(effect, "correlation_time", 0.0)
-    if memory <= 0.0:
-        return n_slips
-    return min(n_slips, max(time / (2.0 * memory), 1.0))  # a mean over T knows T/(2 tau) values of an exponential memory
 
 
 def believed_intervals(fit: Fit, found: Study) -> dict[str, Interval]:

@@ -9,7 +9,7 @@ from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.result import Gap, Result, Where
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
-from stochfric_mb.discovery.stick_slip.decision.explained import NOT_JUDGED, unexplained
+from stochfric_mb.discovery.stick_slip.decision.explained import unexplained
 from stochfric_mb.discovery.stick_slip.decision.held_out_check import LEAST_REDUCIBLE, compared, without_last
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, Named, decide, of_wander
 from stochfric_mb.discovery.stick_slip.parameters import believed_intervals, found_effect
@@ -33,11 +33,10 @@ from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit, with_
 from stochfric_mb.discovery.stick_slip.simulation.scaling import USUAL, Scaling
 from stochfric_mb.discovery.stick_slip.simulation.scatter import matched
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study, slips_of_run, study
+from stochfric_mb.effects import kinds_with
+from stochfric_mb.effects.traits import OUTSIDE_FORECASTS, SCATTER
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
-
-RANDOM = ("random_coefficients", "correlated_coefficients")
-"""Effects that are scatter."""
 
 
 def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, progress: Progress = lambda _: None) -> Outcome:
@@ -181,14 +180,14 @@ def _checked_on_held_out(
     """
     dropped: dict[str, object] = {}
     last: Named | None = None
-    while decision.named and decision.named[-1].kind not in NOT_JUDGED:
+    while decision.named and decision.named[-1].kind not in kinds_with(OUTSIDE_FORECASTS):
         last = decision.named[-1]
         fewer = dataclasses.replace(decision, named=decision.named[:-1], model=without_last(decision.model, last.kind))
         refitted = _augmented(fewer, found, recalibrated) if fewer.named else None
         before = settled(refitted.model, runs) if refitted is not None else recalibrated.model
         seen = compared(before, augmented, runs)
         # what is beside a named effect needs evidence of its own; a wander's forecasts hang on where the record happens to be
-        idle = bool(fewer.named) and last.kind not in RANDOM and seen is not None and not seen.better
+        idle = bool(fewer.named) and last.kind not in kinds_with(SCATTER) and seen is not None and not seen.better
         if seen is None or not (seen.worse or idle):
             break
         dropped[last.kind] = {name: error * found.size.length for name, error in dataclasses.asdict(seen).items()}

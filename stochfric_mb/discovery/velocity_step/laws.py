@@ -9,6 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.velocity_step.rate_and_state import friction_path
+from stochfric_mb.effects import kind_found_as
+from stochfric_mb.effects.traits import MEMORY, RATE, SLOPE_IN_DISTANCE
 from stochfric_mb.measurement.run import Run
 
 Array = npt.NDArray[np.float64]
@@ -74,13 +76,16 @@ def laws(reference: float, stiffness: float, believed: float) -> list[Law]:
 
     return [
         Law("", ("mu_0",), ("-",), ((believed,),), (0.01,), (0.0,), constant),
-        Law("friction_drift", ("mu_0", "slope"), ("-", "1/m"), ((believed, 0.0),), (0.01, 1.0), (0.0, -np.inf), drift),
         Law(
-            "velocity_weakening", ("mu_0", "slope", "a_minus_b"), ("-", "1/m", "-"), ((believed, 0.0, 0.0),),
+            kind_found_as(SLOPE_IN_DISTANCE), ("mu_0", "slope"), ("-", "1/m"), ((believed, 0.0),),
+            (0.01, 1.0), (0.0, -np.inf), drift,
+        ),
+        Law(
+            kind_found_as(RATE), ("mu_0", "slope", "a_minus_b"), ("-", "1/m", "-"), ((believed, 0.0, 0.0),),
             (0.01, 1.0, 0.001), (0.0, -np.inf, -np.inf), speed,
         ),
         Law(
-            "frictional_lag", ("mu_0", "slope", "direct_effect", "evolution_effect", "log_distance", "log_stiffness"),
+            kind_found_as(MEMORY), ("mu_0", "slope", "direct_effect", "evolution_effect", "log_distance", "log_stiffness"),
             ("-", "1/m", "-", "-", "-", "-"),
             tuple(memory_start(believed, stiffness, *start) for start in MEMORY_STARTS),
             (0.01, 1.0, 0.002, 0.002, 0.3, 0.3), (0.0, -np.inf, 1.0e-4, -np.inf, -np.inf, -np.inf), memory,

@@ -22,7 +22,8 @@ from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.inference.noise import independent_count, white_noise
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.discovery.velocity_step.laws import Law, Track, laws
-from stochfric_mb.effects import effect_kinds, make_effect
+from stochfric_mb.effects import effect_class, effect_kinds, kind_found_as, make_effect
+from stochfric_mb.effects.traits import LATE, MEMORY, RATE, SLOPE_IN_DISTANCE
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
@@ -164,7 +165,8 @@ def _result(
             f"A constant friction coefficient is off by {plain.rms:.3g} (rms), {kind} by {best.rms:.3g}, on the runs that were "
             "learned from."
         )
-        axis = {"frictional_lag": "distance since a change of speed", "friction_drift": "displacement"}.get(kind, "speed")
+        axes = {MEMORY: "distance since a change of speed", SLOPE_IN_DISTANCE: "displacement", RATE: "speed"}
+        axis = next(axes[finding] for finding in effect_class(kind).found_as if finding in axes)
         effects = (Found(kind, same, Where(axis, text), _numbers(best), scores[kind], float(np.exp(-0.5 * scores[kind]))),)
     source = "high-frequency content of the friction coefficient (third differences)"
     gap = Gap("friction_coefficient", "-", True, believed, _held_out(plain, tracks), after, floor, source)
@@ -174,7 +176,7 @@ def _result(
         where=None,
         ranking=tuple(sorted(scores.items(), key=lambda s: -s[1])),
         gap=gap,
-        not_identifiable=tuple(k for k in effect_kinds() if k not in scores and k != "sensor_delay"),
+        not_identifiable=tuple(k for k in effect_kinds() if k not in scores and k != kind_found_as(LATE)),
         next_experiment="Steps down as well as up, and hold tests: they tell ageing with time from slip with distance.",
         believed=_numbers(plain),
         notes=(
@@ -212,10 +214,10 @@ def _augmented(dataset: Dataset, fitted: Fitted) -> Any:
     scenario = dataset.scenario
     numbers = _numbers(fitted)
     mu = float(numbers["mu_0"].value)
-    if fitted.law.kind != "frictional_lag":
+    if fitted.law.kind != kind_found_as(MEMORY):
         return dataclasses.replace(scenario, law=dataclasses.replace(scenario.law, mu_s=mu, mu_k=mu))
     rise = max(numbers["evolution_effect"].value, 0.0)
     law = dataclasses.replace(scenario.law, mu_s=mu + rise, mu_k=mu)
     mechanism = dataclasses.replace(scenario.mechanism, stiffness=numbers["stiffness"].value)
-    effect = make_effect("frictional_lag", distance=numbers["distance"].value)
+    effect = make_effect(kind_found_as(MEMORY), distance=numbers["distance"].value)
     return dataclasses.replace(scenario, law=law, mechanism=mechanism, effects=(effect,))

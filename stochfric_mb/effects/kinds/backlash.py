@@ -7,12 +7,14 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
 
 from stochfric_mb.effects.contract import LOAD, POSITION, STIFFNESS, Effect, parameter
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips
+from stochfric_mb.effects.traits import POSITIVE, SHAPES_SLIPS
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -36,6 +38,11 @@ class Backlash(Effect):
     equation: ClassVar[str] = "spring force k x - k (min(max(x - position, 0), gap) - share_below gap)"
     source: ClassVar[str] = "Nordin and Gutman 2002"
     group: ClassVar[str] = "mechanism"
+    traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS, POSITIVE})
+    told_from: ClassVar[Mapping[str, str]] = {
+        "second_mode": "a free decay or an impact test of the box, lifted off the belt",
+        "nonlinear_stiffness": "a quasi-static load test of the spring",
+    }
     shows_on: ClassVar[str] = "position of the box"
     shows: ClassVar[str] = "the restoring force has a dead zone"
 

@@ -19,6 +19,7 @@ from stochfric_mb.effects.contract import (
     Effect,
     parameter,
 )
+from stochfric_mb.effects.traits import BELT, BELT_RIPPLE
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -39,6 +40,8 @@ class BeltSpeedRipple(Effect):
     equation: ClassVar[str] = "v_b times 1 + amplitude cos(2 pi frequency t + phase)"
     source: ClassVar[str] = "eccentric pulleys and cogging of drives: Armstrong 1991"
     group: ClassVar[str] = "mechanism"
+    traits: ClassVar[frozenset[str]] = frozenset({BELT})
+    found_as: ClassVar[tuple[str, ...]] = (BELT_RIPPLE,)
     shows_on: ClassVar[str] = "time, in stick"
     shows: ClassVar[str] = "in stick the box shows that the belt's speed varies periodically"
 

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from stochfric_mb.coefficients import OrnsteinUhlenbeck, Process
 from stochfric_mb.effects.contract import Effect, parameter
+from stochfric_mb.effects.traits import SCATTER, WANDER, WANDERS_ALIKE
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -29,8 +30,14 @@ class CorrelatedCoefficients(Effect):
     equation: ClassVar[str] = "mu_s, mu_k with correlation exp(-abs(dt)/correlation_time)"
     source: ClassVar[str] = "Uhlenbeck and Ornstein 1930"
     group: ClassVar[str] = "randomness"
+    traits: ClassVar[frozenset[str]] = frozenset({SCATTER, WANDERS_ALIKE})
+    found_as: ClassVar[tuple[str, ...]] = (WANDER,)
     shows_on: ClassVar[str] = "scatter, time"
     shows: ClassVar[str] = "friction wanders slowly and at random"
+
+    def draws(self, duration: float, slips: int) -> float:
+        """Return T/(2 tau), which is what a mean over T knows of an exponential memory, at most one draw a slip."""
+        return min(float(slips), max(duration / (2.0 * self.correlation_time), 1.0))
 
     def coefficient_process(self) -> Process:
         """Return the coefficient process that the effect sets."""

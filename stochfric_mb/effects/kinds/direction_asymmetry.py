@@ -12,7 +12,9 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import DIRECTION, MU_K, MU_S, VISCOUS_FORCE, Effect, parameter
+from stochfric_mb.effects.joints import JointSignature, JointSpan
 from stochfric_mb.effects.marks import Hypothesis, Slips, apart
+from stochfric_mb.effects.traits import BETWEEN_POINTS
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -34,9 +36,16 @@ class DirectionAsymmetry(Effect):
     )
     source: ClassVar[str] = "Armstrong-Helouvry 1991 (robot joints)"
     group: ClassVar[str] = "friction law"
+    traits: ClassVar[frozenset[str]] = frozenset({BETWEEN_POINTS})
+    answers_to: ClassVar[str] = "direction"
     shows_on: ClassVar[str] = "direction"
     shows: ClassVar[str] = "friction differs between the two directions of sliding"
     order: ClassVar[int] = 3
+
+    @classmethod
+    def at_joint(cls, span: JointSpan) -> JointSignature | None:
+        """Return a difference between both directions."""
+        return JointSignature((cls(asymmetry=0.0),), "direction", 1) if span.both_ways else None
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:

@@ -11,6 +11,7 @@ import math
 from typing import ClassVar
 
 from stochfric_mb.effects.contract import BELT_VELOCITY, MU_K, MU_S, TRAVELLED, VELOCITY, Effect, parameter
+from stochfric_mb.effects.joints import JointSignature, JointSpan
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -37,10 +38,16 @@ class DistanceDrift(Effect):
     )
     source: ClassVar[str] = "Blau 2005 (running-in of frictional contacts)"
     group: ClassVar[str] = "friction varies"
+    answers_to: ClassVar[str] = "distance"
     shows_on: ClassVar[str] = "slid distance"
     shows: ClassVar[str] = "friction drifts with the distance slid"
     order: ClassVar[int] = 3
     n_memory: ClassVar[int] = 1
+
+    @classmethod
+    def at_joint(cls, span: JointSpan) -> JointSignature:
+        """Return a drift of a hundredth over the distance slid."""
+        return JointSignature((cls(rate=0.01 / span.distance),), "distance slid", 1)
 
 
 def surroundings(world, memory, rates, p):

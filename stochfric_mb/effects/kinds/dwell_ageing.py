@@ -14,6 +14,7 @@ import numpy as np
 
 from stochfric_mb.effects.contract import DWELL, MU_S, Effect, parameter
 from stochfric_mb.effects.marks import Hypothesis, Slips
+from stochfric_mb.effects.traits import BETWEEN_POINTS, POSITIVE
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -32,6 +33,8 @@ class DwellAgeing(Effect):
     equation: ClassVar[str] = "mu_s = mu_s + rate ln(1 + dwell/time_constant)"
     source: ClassVar[str] = "Dieterich 1972; Ruina 1983"
     group: ClassVar[str] = "friction law"
+    answers_to: ClassVar[str] = "dwell"
+    traits: ClassVar[frozenset[str]] = frozenset({BETWEEN_POINTS, POSITIVE})
     shows_on: ClassVar[str] = "dwell"
     shows: ClassVar[str] = "the force at break-away depends on how long the contact has stuck"
     order: ClassVar[int] = 1

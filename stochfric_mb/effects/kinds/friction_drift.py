@@ -13,7 +13,9 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import MU_K, MU_S, TIME, Effect, parameter
+from stochfric_mb.effects.joints import JointSignature, JointSpan
 from stochfric_mb.effects.marks import Hypothesis, Slips, apart
+from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, SLOPE_IN_DISTANCE, WANDERS_ALIKE
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -38,9 +40,17 @@ class FrictionDrift(Effect):
     )
     source: ClassVar[str] = "Blau 2005 (running-in of frictional contacts)"
     group: ClassVar[str] = "friction varies"
+    traits: ClassVar[frozenset[str]] = frozenset({COURSE_OF_RUN, WANDERS_ALIKE, DRIFTS})
+    found_as: ClassVar[tuple[str, ...]] = (SLOPE_IN_DISTANCE,)
+    answers_to: ClassVar[str] = "time"
     shows_on: ClassVar[str] = "time"
     shows: ClassVar[str] = "friction drifts in the course of a run"
     order: ClassVar[int] = 3
+
+    @classmethod
+    def at_joint(cls, span: JointSpan) -> JointSignature:
+        """Return a drift of a hundredth over the record."""
+        return JointSignature((cls(rate=0.01 / span.duration),), "time", 1)
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:

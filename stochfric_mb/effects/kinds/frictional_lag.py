@@ -13,7 +13,9 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import MU_K, MU_S, SLIP, SLIP_TIME, Effect, parameter
+from stochfric_mb.effects.joints import JointSignature, JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips
+from stochfric_mb.effects.traits import MEMORY, POSITIVE, SHAPES_SLIPS
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -40,9 +42,18 @@ class FrictionalLag(Effect):
     equation: ClassVar[str] = "mu = mu_k + (mu_s - mu_k) exp(-slip/distance - slip_time/time_constant)"
     source: ClassVar[str] = "Rabinowicz 1951, 1958; Dieterich 1979; Hess and Soom 1990"
     group: ClassVar[str] = "friction law"
+    traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS, POSITIVE})
+    found_as: ClassVar[tuple[str, ...]] = (MEMORY,)
+    frees: ClassVar[tuple[str, ...]] = ("mu_s",)
     shows_on: ClassVar[str] = "slip distance"
     shows: ClassVar[str] = "friction falls with the distance slid after a break-away, not at once"
     order: ClassVar[int] = 2
+
+    @classmethod
+    def at_joint(cls, span: JointSpan) -> JointSignature:
+        """Return a memory of parts of the stroke."""
+        starts = tuple(cls(distance=span.stroke * part) for part in (0.003, 0.02, 0.1))
+        return JointSignature(starts, "distance since reversal", 2)
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
 
 from stochfric_mb.effects.contract import LOAD, TIME, Effect, parameter
 from stochfric_mb.effects.marks import Slips, Wave, times
+from stochfric_mb.effects.traits import COURSE_OF_RUN, FORCE_IN_TIME, WANDERS_ALIKE, WAVES
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -34,6 +36,10 @@ class HarmonicForce(Effect):
     equation: ClassVar[str] = "further force amplitude cos(2 pi frequency t + phase)"
     source: ClassVar[str] = "Den Hartog 1956, chapter 2 (unbalance)"
     group: ClassVar[str] = "mechanism"
+    traits: ClassVar[frozenset[str]] = frozenset({WAVES, FORCE_IN_TIME, COURSE_OF_RUN, WANDERS_ALIKE})
+    told_from: ClassVar[Mapping[str, str]] = {
+        "nonlinear_stiffness": "a run at a second belt speed",
+    }
     shows_on: ClassVar[str] = "time"
     shows: ClassVar[str] = "a periodic force is added, the same in stick and slip"
 

@@ -12,6 +12,7 @@ from typing import ClassVar
 
 from stochfric_mb.coefficients.philox import normals, uniforms
 from stochfric_mb.effects.contract import LOAD, SAMPLE, SEED, TIME, Effect, parameter
+from stochfric_mb.effects.traits import KICKS, RANDOM
 from stochfric_mb.errors import InputError
 
 ADDRESS = 0x696D7061
@@ -44,8 +45,19 @@ class Impacts(Effect):
     equation: ClassVar[str] = "further force: Poisson pulses (J/duration) (1 - cos(2 pi tau/duration)), J normal"
     source: ClassVar[str] = "Cox and Isham 1980 (Poisson process)"
     group: ClassVar[str] = "mechanism"
+    traits: ClassVar[frozenset[str]] = frozenset({RANDOM})
+    found_as: ClassVar[tuple[str, ...]] = (KICKS,)
     shows_on: ClassVar[str] = "time"
     shows: ClassVar[str] = "single kicks let the box break away early or jump"
+
+    def draws(self, duration: float, slips: int) -> float:
+        """Return the number of impacts in a duration, on average."""
+        return max(duration * self.rate, 1.0)
+
+    def deviations(self, draws: float) -> dict[str, float]:
+        """Return those of a Poisson process with normal sizes."""
+        root = math.sqrt(draws)
+        return {"impulse": self.impulse / (math.sqrt(2.0) * root), "mean": self.impulse / root, "rate": self.rate / root}
 
     def __post_init__(self) -> None:
         super().__post_init__()

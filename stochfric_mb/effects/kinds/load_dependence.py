@@ -12,7 +12,9 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import MU_K, MU_S, NORMAL_FORCE, Effect, parameter
+from stochfric_mb.effects.joints import JointSignature, JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips, apart
+from stochfric_mb.effects.traits import BETWEEN_POINTS, READS_LOAD
 
 MOST_ADHESIVE = 0.9
 """Largest share of the friction at the reference load that a fit may begin with [-]."""
@@ -44,9 +46,25 @@ class LoadDependence(Effect):
     )
     source: ClassVar[str] = "Derjaguin 1934; Bowden and Tabor 1950; Archard 1957"
     group: ClassVar[str] = "friction law"
+    traits: ClassVar[frozenset[str]] = frozenset({BETWEEN_POINTS, READS_LOAD})
+    answers_to: ClassVar[str] = "load"
     shows_on: ClassVar[str] = "normal load"
     shows: ClassVar[str] = "friction is not proportional to the normal load"
     order: ClassVar[int] = 3
+
+    def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
+        """Return the exponent at a joint, whose friction grows with what it transmits beyond a preload; else the preload."""
+        return ("reference_load",) if contact else ("exponent",)
+
+    @classmethod
+    def at_joint(cls, span: JointSpan) -> JointSignature | None:
+        """Return a power of the normal force of a contact, or what a joint transmits beyond its preload."""
+        if not span.load:
+            return None
+        if span.contact:  # mu_k holds at the believed load, and the exponent is searched
+            powers = tuple(cls(exponent=x, reference_load=span.believed_load) for x in (-0.3, 0.3))
+            return JointSignature(powers, "normal force", 1)
+        return JointSignature(tuple(cls(exponent=1.0, reference_load=part * span.load) for part in (0.3, 1.0, 4.0)), "load", 1)
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:

@@ -13,6 +13,7 @@ import numpy as np
 
 from stochfric_mb.effects.contract import LOAD, POSITION, Effect, parameter
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips
+from stochfric_mb.effects.traits import SHAPES_SLIPS
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -31,6 +32,9 @@ class NonlinearStiffness(Effect):
     equation: ClassVar[str] = "spring force k x + quadratic x abs(x) + cubic x^3"
     source: ClassVar[str] = "Duffing 1918"
     group: ClassVar[str] = "mechanism"
+    traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS})
+    answers_to: ClassVar[str] = "position"
+    frees: ClassVar[tuple[str, ...]] = ("stiffness",)
     shows_on: ClassVar[str] = "position of the box"
     shows: ClassVar[str] = "the restoring force is not linear in position"
 

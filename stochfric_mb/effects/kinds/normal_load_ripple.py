@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from typing import ClassVar
 
 from stochfric_mb.effects.contract import NORMAL_FORCE, TIME, Effect, parameter
 from stochfric_mb.effects.marks import Slips, Wave, friction_at, times
+from stochfric_mb.effects.traits import COURSE_OF_RUN, WANDERS_ALIKE, WAVES
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -32,6 +34,10 @@ class NormalLoadRipple(Effect):
     equation: ClassVar[str] = "N times 1 + amplitude cos(2 pi frequency t + phase)"
     source: ClassVar[str] = "disc thickness variation: Jacobsson 2003"
     group: ClassVar[str] = "mechanism"
+    traits: ClassVar[frozenset[str]] = frozenset({WAVES, COURSE_OF_RUN, WANDERS_ALIKE})
+    told_from: ClassVar[Mapping[str, str]] = {
+        "harmonic_force": "a run at a second normal load, or a normal-force sensor",
+    }
     shows_on: ClassVar[str] = "time"
     shows: ClassVar[str] = "friction in stick and slip is modulated periodically in time by the same share"
 

@@ -9,12 +9,15 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
 
 from stochfric_mb.effects.contract import BELT_POSITION, MU_K, MU_S, POSITION, Effect, choice, parameter
+from stochfric_mb.effects.joints import JointSignature, JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips, Wave, friction_at, times
+from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, COURSE_OF_RUN, WANDERS_ALIKE, WAVES
 
 STROKES = (0.5, 0.7, 1.0, 1.4, 2.0)
 """Wavelengths along the stroke that are looked for, over the length of the stroke [-]: a longer wave is a slope, which a
@@ -51,6 +54,14 @@ class PositionDependentFriction(Effect):
     equation: ClassVar[str] = "both mu times 1 + sum a_h cos(2 pi h s/wavelength + phase_h), s = belt travel - x, or x"
     source: ClassVar[str] = "Armstrong-Helouvry 1991"
     group: ClassVar[str] = "friction varies"
+    traits: ClassVar[frozenset[str]] = frozenset({ANY_SHAPE, WAVES, ALONG_BELT, COURSE_OF_RUN, WANDERS_ALIKE})
+    answers_to: ClassVar[str] = "position"
+    told_from: ClassVar[Mapping[str, str]] = {
+        "normal_load_ripple": "a run at a second belt speed (or a normal-force sensor)",
+        "nonlinear_stiffness": "a quasi-static load test of the spring",
+        "backlash": "a quasi-static load test of the spring",
+        "harmonic_force": "a run at a second normal load",
+    }
     shows_on: ClassVar[str] = "belt position"
     shows: ClassVar[str] = "friction varies along the belt"
     order: ClassVar[int] = 3
@@ -68,6 +79,13 @@ class PositionDependentFriction(Effect):
         """Return the time [s] in which the contact passes the shortest wavelength that acts."""
         harmonic = 3.0 if self.amplitude_3 != 0.0 else 2.0 if self.amplitude_2 != 0.0 else 1.0
         return self.wavelength / (harmonic * speed) if speed > 0.0 else math.inf
+
+    @classmethod
+    def at_joint(cls, span: JointSpan) -> JointSignature:
+        """Return waves along the stroke."""
+        parts = (2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08)
+        starts = (cls(amplitude=0.05, wavelength=span.stroke * part, phase=0.7, axis="position") for part in parts)
+        return JointSignature(tuple(starts), "position", 3)
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:

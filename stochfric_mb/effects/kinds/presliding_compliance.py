@@ -6,6 +6,7 @@ import dataclasses
 from typing import ClassVar
 
 from stochfric_mb.effects.contract import Effect, parameter
+from stochfric_mb.effects.traits import YIELDING
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -31,5 +32,6 @@ class PreslidingCompliance(Effect):
     )
     source: ClassVar[str] = "Dahl 1968; Kang, Choi and Yoo 2015, eqs. 3-5"
     group: ClassVar[str] = "friction law"
+    found_as: ClassVar[tuple[str, ...]] = (YIELDING,)
     shows_on: ClassVar[str] = "stick"
     shows: ClassVar[str] = "the contact yields and rings in stick"

@@ -12,7 +12,9 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import LOAD, VELOCITY, Effect, parameter
+from stochfric_mb.effects.joints import JointSignature, JointSpan
 from stochfric_mb.effects.marks import Hypothesis, Slips
+from stochfric_mb.effects.traits import POSITIVE, SHAPES_SLIPS
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -29,8 +31,15 @@ class QuadraticDamping(Effect):
     equation: ClassVar[str] = "further force -coefficient x' abs(x')"
     source: ClassVar[str] = "Newton's drag: Morison et al. 1950"
     group: ClassVar[str] = "mechanism"
+    traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS, POSITIVE})
+    answers_to: ClassVar[str] = "speed"
     shows_on: ClassVar[str] = "velocity"
     shows: ClassVar[str] = "the damping grows with the square of the box's velocity"
+
+    @classmethod
+    def at_joint(cls, span: JointSpan) -> JointSignature:
+        """Return a force in proportion to the square of the speed."""
+        return JointSignature((cls(coefficient=0.2 * span.friction / span.speed**2),), "speed", 1)
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:

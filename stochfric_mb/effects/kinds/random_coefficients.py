@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from typing import ClassVar
 
 from stochfric_mb.coefficients import Knots, PerEvent, Process
 from stochfric_mb.effects.contract import Effect, choice, parameter
+from stochfric_mb.effects.traits import DRAWN_ANEW, SCATTER, WANDERS_ALIKE
 
 FOREVER = 1.0e12
 """Distance between knots of which a run sees the first one alone [s]."""
@@ -37,6 +39,11 @@ class RandomCoefficients(Effect):
     )
     source: ClassVar[str] = "Kang, Choi and Yoo 2015, section 2.2"
     group: ClassVar[str] = "randomness"
+    traits: ClassVar[frozenset[str]] = frozenset({SCATTER, WANDERS_ALIKE})
+    found_as: ClassVar[tuple[str, ...]] = (DRAWN_ANEW,)
+    told_from: ClassVar[Mapping[str, str]] = {
+        "correlated_coefficients": "a longer record",
+    }
     shows_on: ClassVar[str] = "scatter"
     shows: ClassVar[str] = "friction scatters from slip to slip with no memory"
 

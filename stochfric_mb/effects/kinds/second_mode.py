@@ -15,6 +15,10 @@ import numpy as np
 from stochfric_mb.effects.contract import LOAD, MASS, POSITION, VELOCITY, Array, Effect, parameter
 from stochfric_mb.effects.marks import Hypothesis, Slips
 from stochfric_mb.effects.oscillator import oscillator_pull
+from stochfric_mb.effects.traits import POSITIVE, SHAPES_SLIPS
+
+MOST_DAMPED = 0.1
+"""Damping ratio up to which a second mode is looked for [-]: one that hardly rings could stand for any shape."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -31,7 +35,9 @@ class SecondMode(Effect):
     """Mass of the oscillator over that of the body [-]."""
     frequency: float = parameter("Hz", "its frequency with the body held", scale=20.0, low=0.0, strict=True)
     """Its frequency with the body held [Hz]."""
-    damping_ratio: float = parameter("-", "its damping ratio", scale=0.01, low=0.0, high=1.0, default=0.01)
+    damping_ratio: float = parameter(
+        "-", "its damping ratio", scale=0.01, low=0.0, high=1.0, default=0.01, fit_high=MOST_DAMPED
+    )
     """Its damping ratio [-]."""
 
     kind: ClassVar[str] = "second_mode"
@@ -40,6 +46,8 @@ class SecondMode(Effect):
     )
     source: ClassVar[str] = "Den Hartog 1956, chapter 3 (the dynamic absorber)"
     group: ClassVar[str] = "mechanism"
+    traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS, POSITIVE})
+    frees: ClassVar[tuple[str, ...]] = ("mass",)
     shows_on: ClassVar[str] = "frequency"
     shows: ClassVar[str] = "the box rings with a second mode in slip"
     n_memory: ClassVar[int] = 2

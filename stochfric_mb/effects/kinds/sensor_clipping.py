@@ -9,6 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import Array, Effect, parameter
+from stochfric_mb.effects.traits import CLIPPED, OUTSIDE_FORECASTS
 from stochfric_mb.errors import InputError
 
 
@@ -28,6 +29,8 @@ class SensorClipping(Effect):
     equation: ClassVar[str] = "reading min(max(x, low), high)"
     source: ClassVar[str] = "Fraden 2016, chapter 3"
     group: ClassVar[str] = "sensor"
+    traits: ClassVar[frozenset[str]] = frozenset({OUTSIDE_FORECASTS})
+    found_as: ClassVar[tuple[str, ...]] = (CLIPPED,)
     shows_on: ClassVar[str] = "position, sensor"
     shows: ClassVar[str] = "the record stays at one ceiling where the box goes on"
 

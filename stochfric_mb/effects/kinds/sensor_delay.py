@@ -9,6 +9,7 @@ import numpy as np
 
 from stochfric_mb.effects.contract import Array, Effect, parameter
 from stochfric_mb.effects.marks import Hypothesis, Slips
+from stochfric_mb.effects.traits import LATE, POSITIVE, SHAPED_IF_FORCED
 
 PHASES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2)
 """Angles by which the known force may have moved on [rad]; 0: by so little that its rate tells."""
@@ -28,12 +29,20 @@ class SensorDelay(Effect):
     equation: ClassVar[str] = "reading x(t - delay)"
     source: ClassVar[str] = "Fraden 2016, chapter 3"
     group: ClassVar[str] = "sensor"
+    traits: ClassVar[frozenset[str]] = frozenset({SHAPED_IF_FORCED, POSITIVE})
+    found_as: ClassVar[tuple[str, ...]] = (LATE,)
+    answers_to: ClassVar[str] = "known force"
     shows_on: ClassVar[str] = "time, sensor"
     shows: ClassVar[str] = "the record lags behind the known excitation"
 
     def measure(self, time: Array, position: Array, rng: np.random.Generator) -> Array:
         """Return what the sensor shows [m]; arguments as in `Effect.measure`."""
         return np.interp(time - self.delay, time, position)
+
+    @property
+    def late(self) -> float:
+        """The delay [s]."""
+        return self.delay
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import ClassVar
 
 import numpy as np
 
 from stochfric_mb.effects.contract import Array, Effect, parameter
 from stochfric_mb.effects.marks import Hypothesis, Slips
+from stochfric_mb.effects.traits import COURSE_OF_RUN, CREEPING_ZERO, DRIFTS, MOVES_ZERO
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -26,6 +27,11 @@ class SensorDrift(Effect):
     equation: ClassVar[str] = "reading x + rate t"
     source: ClassVar[str] = "Fraden 2016, chapter 3"
     group: ClassVar[str] = "sensor"
+    traits: ClassVar[frozenset[str]] = frozenset({COURSE_OF_RUN, DRIFTS, MOVES_ZERO})
+    found_as: ClassVar[tuple[str, ...]] = (CREEPING_ZERO,)
+    told_from: ClassVar[Mapping[str, str]] = {
+        "friction_drift": "a force sensor, or a second position sensor",
+    }
     shows_on: ClassVar[str] = "time, sensor"
     shows: ClassVar[str] = "the position drifts, in stick and slip alike"
 

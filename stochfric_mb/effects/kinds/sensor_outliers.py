@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import Array, Effect, parameter
+from stochfric_mb.effects.traits import OUTSIDE_FORECASTS, RANDOM, STRAY
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -27,6 +28,8 @@ class SensorOutliers(Effect):
     equation: ClassVar[str] = "reading x + size z, z normal, in a `fraction` of the samples"
     source: ClassVar[str] = "Tukey 1960 (contaminated normal)"
     group: ClassVar[str] = "sensor"
+    traits: ClassVar[frozenset[str]] = frozenset({OUTSIDE_FORECASTS, RANDOM})
+    found_as: ClassVar[tuple[str, ...]] = (STRAY,)
     shows_on: ClassVar[str] = "sensor"
     shows: ClassVar[str] = "single samples are far off"
 

@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import Array, Effect, parameter
+from stochfric_mb.effects.traits import JUMP, MOVES_ZERO, WANDERS_ALIKE
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -26,6 +27,8 @@ class SensorStep(Effect):
     equation: ClassVar[str] = "reading x + size from `time` on"
     source: ClassVar[str] = "Fraden 2016, chapter 3"
     group: ClassVar[str] = "sensor"
+    traits: ClassVar[frozenset[str]] = frozenset({WANDERS_ALIKE, MOVES_ZERO})
+    found_as: ClassVar[tuple[str, ...]] = (JUMP,)
     shows_on: ClassVar[str] = "time, sensor"
     shows: ClassVar[str] = "the position jumps once and stays off"
 

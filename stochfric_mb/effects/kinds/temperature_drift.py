@@ -10,6 +10,7 @@ import dataclasses
 from typing import ClassVar
 
 from stochfric_mb.effects.contract import MU_K, MU_S, TEMPERATURE, Effect, parameter
+from stochfric_mb.effects.joints import JointSignature, JointSpan
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -31,10 +32,19 @@ class TemperatureDrift(Effect):
     equation: ClassVar[str] = "mu_k times 1 + rate (T - reference_temperature), mu_s by its share"
     source: ClassVar[str] = "Bittencourt and Gunnarsson 2012 (friction of robot joints)"
     group: ClassVar[str] = "friction varies"
+    answers_to: ClassVar[str] = "temperature"
     shows_on: ClassVar[str] = "temperature"
     shows: ClassVar[str] = "friction drifts with temperature"
     order: ClassVar[int] = 3
     reads: ClassVar[tuple[str, ...]] = ("temperature",)
+
+    @classmethod
+    def at_joint(cls, span: JointSpan) -> JointSignature | None:
+        """Return a drift of a hundredth over the temperatures measured."""
+        if span.temperature is None:
+            return None
+        middle, width = span.temperature
+        return JointSignature((cls(rate=0.01 / width, reference_temperature=middle),), "temperature", 1)
 
 
 def friction(world, memory, rates, p):

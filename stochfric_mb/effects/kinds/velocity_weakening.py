@@ -8,12 +8,15 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
 
 from stochfric_mb.effects.contract import MU_K, SPEED, Effect, parameter
+from stochfric_mb.effects.joints import JointSignature, JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips
+from stochfric_mb.effects.traits import POSITIVE, RATE, SHAPES_SLIPS
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -25,7 +28,7 @@ class VelocityWeakening(Effect):
     doi 10.1016/0043-1648(82)90223-X.
     """
 
-    amplitude: float = parameter("-", "rise of mu_k towards zero speed", scale=0.05)
+    amplitude: float = parameter("-", "rise of mu_k towards zero speed", scale=0.05, fit_low=0.0)
     """Rise of mu_k towards zero speed [-]."""
     decay_velocity: float = parameter("m/s", "speed over which it falls to 1/e", scale=5.0e-3, low=0.0, strict=True)
     """Speed over which it falls to 1/e [m/s]."""
@@ -36,9 +39,23 @@ class VelocityWeakening(Effect):
     equation: ClassVar[str] = "mu_k(v) = mu_k + amplitude exp(-(abs(v)/decay_velocity)^shape_exponent)"
     source: ClassVar[str] = "Bo and Pavelescu 1982; Armstrong-Helouvry, Dupont and Canudas de Wit 1994, eq. 7"
     group: ClassVar[str] = "friction law"
+    traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS, POSITIVE})
+    found_as: ClassVar[tuple[str, ...]] = (RATE,)
+    answers_to: ClassVar[str] = "speed"
+    told_from: ClassVar[Mapping[str, str]] = {
+        "quadratic_damping": "runs at other belt speeds and normal loads",
+    }
     shows_on: ClassVar[str] = "relative velocity"
     shows: ClassVar[str] = "friction in slip depends on the sliding velocity and falls as it rises"
     order: ClassVar[int] = 1
+
+    @classmethod
+    def at_joint(cls, span: JointSpan) -> JointSignature:
+        """Return a fall of friction over a small, a middling and a large part of the speed."""
+        size = 0.1 * span.friction / span.believed_load
+        return JointSignature(
+            tuple(cls(amplitude=size, decay_velocity=part * span.speed) for part in (0.05, 0.2, 0.6)), "speed", 2
+        )
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:

@@ -9,12 +9,15 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
 
 from stochfric_mb.effects.contract import NORMAL_FORCE, SPEED, VISCOUS_FORCE, Effect, parameter
+from stochfric_mb.effects.joints import JointSignature, JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips
+from stochfric_mb.effects.traits import POSITIVE, SHAPES_SLIPS
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -42,8 +45,24 @@ class ViscousFriction(Effect):
     )
     source: ClassVar[str] = "Reynolds 1886; Armstrong-Helouvry, Dupont and Canudas de Wit 1994, eq. 6"
     group: ClassVar[str] = "friction law"
+    traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS, POSITIVE})
+    answers_to: ClassVar[str] = "speed"
+    told_from: ClassVar[Mapping[str, str]] = {
+        "quadratic_damping": "runs at other belt speeds and normal loads",
+        "velocity_weakening": "runs at other belt speeds and normal loads",
+    }
     shows_on: ClassVar[str] = "relative velocity"
     shows: ClassVar[str] = "friction in slip rises with the sliding velocity"
+
+    @property
+    def linear_damping(self) -> float:
+        """The coefficient, as long as the film does not thin."""
+        return self.coefficient
+
+    @classmethod
+    def at_joint(cls, span: JointSpan) -> JointSignature:
+        """Return a force in proportion to the speed."""
+        return JointSignature((cls(coefficient=0.5 * span.friction / span.speed),), "speed", 1)
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:

@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 
 import stochfric_mb
+from stochfric_mb.effects import EFFECTS, effect_class, kind_found_as
+from stochfric_mb.errors import InputError
 
 PACKAGE = Path(stochfric_mb.__file__).parent
 ROOMS = sorted(f.parent for f in (PACKAGE / "discovery").rglob("__init__.py"))
@@ -43,3 +45,26 @@ def test_engines_are_imported_by_name_where_that_is_meant_alone():
             found.append(place)
     assert found == []
     assert imported_by_name(PACKAGE / "discovery/export.py") & ENGINES  # the search finds what is there
+
+
+def test_no_module_of_discovery_names_an_effect():
+    """Effects say of themselves what discovery needs to know; else a new effect would be a change of discovery."""
+    kinds = set(EFFECTS)
+    found: list[str] = []
+    for file in (PACKAGE / "discovery").rglob("*.py"):
+        words = (n.value for n in ast.walk(ast.parse(file.read_text(encoding="utf-8"))) if isinstance(n, ast.Constant))
+        # a docstring may speak of knocks by their name
+        found += [f"{file.name}: {w}" for w in words if isinstance(w, str) and kinds & {w, *w.split(".")}]
+    assert found == []
+
+
+def test_findings_have_one_effect_each():
+    said = [finding for kind in EFFECTS for finding in effect_class(kind).found_as]
+    assert sorted(said) == sorted(set(said))
+    assert {kind_found_as(finding) for finding in said} == {kind for kind in EFFECTS if effect_class(kind).found_as}
+    with pytest.raises(InputError, match="no effect is found as 'nothing'"):
+        kind_found_as("nothing")
+
+
+def test_an_effect_is_told_from_known_ones():
+    assert {other for kind in EFFECTS for other in effect_class(kind).told_from} <= set(EFFECTS)

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
+from stochfric_mb.effects import effect_class, effect_kinds
 
 Array = npt.NDArray[np.float64]
 
@@ -18,20 +19,8 @@ PARTLY = 0.5
 """The same, from which they are called partly confounded."""
 INSIDE = 0.5
 """Least part of a condition's standard deviation that is within runs, for what it does there to count [-]."""
-EFFECTS = {
-    "direction": ("direction_asymmetry",),
-    "speed": ("viscous_friction", "velocity_weakening", "quadratic_damping"),
-    "load": ("load_dependence",),
-    "position": ("position_dependent_friction", "nonlinear_stiffness"),
-    "time": ("friction_drift",),
-    "distance": ("distance_drift",),
-    "temperature": ("temperature_drift",),
-}
-"""Condition -> effects that answer to it."""
 CLOCKS = ("time", "distance", "temperature")
 """Conditions that mostly grow together: for friction that drifts the fits are asked which of them it was."""
-DRIFTS = tuple(kind for clock in CLOCKS for kind in EFFECTS[clock])
-"""Effects that answer to them."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -105,16 +94,19 @@ def spoken_of(pairs: Sequence[Confounded], found: Sequence[str]) -> list[Confoun
         pairs: conditions that went together.
         found: kinds of the effects found.
     """
-    drifts = any(kind in DRIFTS for kind in found)
+    drifts = any(map(by_clock, found))
     return [p for p in pairs if p.explained >= TOGETHER and (drifts or {p.first, p.second} != {"time", "distance"})]
 
 
 def stand_ins(kind: str, pairs: Sequence[Confounded]) -> tuple[str, ...]:
     """Return the effects that could pass for ``kind`` because its condition went together with theirs."""
-    own = [c for c, kinds in EFFECTS.items() if kind in kinds and c not in CLOCKS]
-    others = [
-        p.second if p.first in own else p.first
-        for p in pairs
-        if p.explained >= TOGETHER and own and {p.first, p.second} & set(own)
-    ]
-    return tuple(dict.fromkeys(k for o in others for k in EFFECTS.get(o, ()) if k != kind))
+    own = effect_class(kind).answers_to
+    others = {p.second if p.first == own else p.first for p in pairs if p.explained >= TOGETHER and own in (p.first, p.second)}
+    if not own or own in CLOCKS:
+        return ()
+    return tuple(k for k in effect_kinds() if k != kind and effect_class(k).answers_to in others)
+
+
+def by_clock(kind: str) -> bool:
+    """Return whether an effect answers to one of the `CLOCKS`."""
+    return effect_class(kind).answers_to in CLOCKS

@@ -10,33 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
-from stochfric_mb.effects import Effect, make_effect
+from stochfric_mb.effects import Effect, effect_class, effect_kinds
+from stochfric_mb.effects.joints import JointSpan
 
 Array = npt.NDArray[np.float64]
-
-
-@dataclasses.dataclass(frozen=True)
-class Span:
-    """What the motion covers, over the balances of a joint."""
-
-    speed: float
-    """High speed: its 95 % quantile [m/s or rad/s]."""
-    stroke: float
-    """Distance between the outermost positions [m or rad]."""
-    duration: float
-    """Longest record [s]."""
-    load: float
-    """Median load that the joint transmits, or normal force of a contact [N or N m]; 0: not known, or it does not vary."""
-    both_ways: bool
-    """Whether it slides in both directions."""
-    friction: float
-    """Believed friction [N or N m]."""
-    distance: float
-    """Longest distance slid in a record [m or rad]."""
-    temperature: tuple[float, float] | None
-    """Middle of the temperatures and what they span; None: not measured, or constant."""
-    contact: bool
-    """Whether the place is a contact, whose normal force is known."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -53,25 +30,26 @@ class Candidate:
     """Numbers it adds to a fit."""
 
 
-def span_of(balances: Sequence[ForceBalance], friction: float) -> Span:
-    """Return what the motion of ``balances`` covers."""
+def span_of(balances: Sequence[ForceBalance], friction: float, load: float) -> JointSpan:
+    """Return what the motion of ``balances`` covers; friction and load are what is believed [N or N m]."""
     at = [s.window.centres[s.sliding] for s in balances]
     speed = np.concatenate([np.abs(s.velocity[c]) for s, c in zip(balances, at, strict=True)])
     position = np.concatenate([s.position[c] for s, c in zip(balances, at, strict=True)])
     carried = [s.load if s.normal_force is None else s.normal_force for s in balances]
-    load = np.concatenate([x[c] for x, c in zip(carried, at, strict=True)])
+    carries = np.concatenate([x[c] for x, c in zip(carried, at, strict=True)])
     direction = np.concatenate([np.sign(s.velocity[c]) for s, c in zip(balances, at, strict=True)])
-    varies = load.std() > 0.05 * max(float(np.mean(load)), 1.0e-12)
-    return Span(
+    varies = carries.std() > 0.05 * max(float(np.mean(carries)), 1.0e-12)
+    return JointSpan(
         speed=float(np.quantile(speed, 0.95)),
         stroke=float(np.ptp(position)),
         duration=max(float(s.time[-1] - s.time[0]) for s in balances),
-        load=float(np.median(load)) if varies else 0.0,
+        load=float(np.median(carries)) if varies else 0.0,
         both_ways=0.05 < float(np.mean(direction > 0.0)) < 0.95,
         friction=friction,
         distance=max(float(s.travelled[-1]) for s in balances),
         temperature=_temperatures(balances),
         contact=any(s.normal_force is not None for s in balances),
+        believed_load=load,
     )
 
 
@@ -84,85 +62,16 @@ def _temperatures(balances: Sequence[ForceBalance]) -> tuple[float, float] | Non
     return (0.5 * (low + high), high - low) if high > low else None
 
 
-def candidates(span: Span, believed: Sequence[Effect], load: float) -> list[Candidate]:
-    """Return the effects that this motion can show and that the model does not have yet.
+def candidates(span: JointSpan, believed: Sequence[Effect]) -> list[Candidate]:
+    """Return the effects that this motion can show and that the model does not have yet, installed ones of other packages too.
 
     Args:
         span: what the motion covers.
         believed: effects in the model.
-        load: believed load of the joint [N or N m].
     """
-    found = [of(span, load) for of in _STARTS]
     have = {e.kind for e in believed}
-    return [c for c in found if c is not None and c.kind not in have]
-
-
-def _viscous(span: Span, load: float) -> Candidate:
-    size = 0.5 * span.friction / span.speed
-    return Candidate("viscous_friction", (make_effect("viscous_friction", coefficient=size),), "speed", 1)
-
-
-def _weakening(span: Span, load: float) -> Candidate:
-    starts = tuple(
-        make_effect("velocity_weakening", amplitude=0.1 * span.friction / load, decay_velocity=part * span.speed)
-        for part in (0.05, 0.2, 0.6)
-    )
-    return Candidate("velocity_weakening", starts, "speed", 2)
-
-
-def _quadratic(span: Span, load: float) -> Candidate:
-    size = 0.2 * span.friction / span.speed**2
-    return Candidate("quadratic_damping", (make_effect("quadratic_damping", coefficient=size),), "speed", 1)
-
-
-def _load(span: Span, load: float) -> Candidate | None:
-    if not span.load:
-        return None
-    if span.contact:  # mu_k holds at the believed load, and the exponent is asked for
-        powers = tuple(make_effect("load_dependence", exponent=x, reference_load=load) for x in (-0.3, 0.3))
-        return Candidate("load_dependence", powers, "normal force", 1)
-    starts = tuple(make_effect("load_dependence", exponent=1.0, reference_load=part * span.load) for part in (0.3, 1.0, 4.0))
-    return Candidate("load_dependence", starts, "load", 1)
-
-
-def _asymmetry(span: Span, load: float) -> Candidate | None:
-    if not span.both_ways:
-        return None
-    return Candidate("direction_asymmetry", (make_effect("direction_asymmetry", asymmetry=0.0),), "direction", 1)
-
-
-def _position(span: Span, load: float) -> Candidate:
-    starts = tuple(
-        make_effect("position_dependent_friction", amplitude=0.05, wavelength=span.stroke * part, phase=0.7, axis="position")
-        for part in (2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08)
-    )
-    return Candidate("position_dependent_friction", starts, "position", 3)
-
-
-def _lag(span: Span, load: float) -> Candidate:
-    starts = tuple(make_effect("frictional_lag", distance=span.stroke * part) for part in (0.003, 0.02, 0.1))
-    return Candidate("frictional_lag", starts, "distance since reversal", 2)
-
-
-def _drift(span: Span, load: float) -> Candidate:
-    return Candidate("friction_drift", (make_effect("friction_drift", rate=0.01 / span.duration),), "time", 1)
-
-
-def _travelled(span: Span, load: float) -> Candidate:
-    return Candidate("distance_drift", (make_effect("distance_drift", rate=0.01 / span.distance),), "distance slid", 1)
-
-
-def _warmed(span: Span, load: float) -> Candidate | None:
-    if span.temperature is None:
-        return None
-    middle, width = span.temperature
-    start = make_effect("temperature_drift", rate=0.01 / width, reference_temperature=middle)
-    return Candidate("temperature_drift", (start,), "temperature", 1)
-
-
-_STARTS: tuple[Callable[[Span, float], Candidate | None], ...] = (
-    _viscous, _weakening, _quadratic, _load, _asymmetry, _position, _lag, _drift, _travelled, _warmed,
-)  # fmt: skip
+    marks = {kind: effect_class(kind).at_joint(span) for kind in effect_kinds() if kind not in have}
+    return [Candidate(kind, m.starts, m.axis, m.parameters) for kind, m in marks.items() if m is not None]
 
 
 @dataclasses.dataclass(frozen=True)

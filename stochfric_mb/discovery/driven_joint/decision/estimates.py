@@ -11,6 +11,7 @@ from stochfric_mb.discovery.driven_joint.fit.profiles import profile
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Interval
+from stochfric_mb.effects.traits import WAVES
 
 ROTATIONAL = {
     "N": "N m", "m": "rad", "m/s": "rad/s", "N s/m": "N m s/rad", "N s^2/m^2": "N m s^2/rad^2",
@@ -21,8 +22,6 @@ FACTORS = {
     "offset": "drive_offset",
 }  # fmt: skip
 """Correction of a named joint -> its name in the result, where the scenario's own numbers are tables of joints."""
-WAVE = "position_dependent_friction"
-"""Effect whose numbers trade off against each other where its wave is longer than the stroke."""
 
 
 def parameters(place: PlaceOutcome, owner: int) -> dict[str, Interval]:
@@ -43,7 +42,8 @@ def parameters(place: PlaceOutcome, owner: int) -> dict[str, Interval]:
             found[field.name] = confidence_interval(value, deviation, unit, field.metadata["low"], field.metadata["high"])
         elif value != field.default:
             found[field.name] = Interval(value, value, value, unit)
-    if effect.kind == WAVE and found["amplitude"].low <= 0.0 <= found["amplitude"].high:
+    # the numbers of a wave trade off against each other where it is longer than the stroke
+    if WAVES in effect.traits and found["amplitude"].low <= 0.0 <= found["amplitude"].high:
         found |= _profiled(place, owner, found)
     return found
 

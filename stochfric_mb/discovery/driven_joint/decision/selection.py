@@ -141,9 +141,9 @@ class Selector:
         return self._stage(self.recalibrated)
 
     def _stage(self, current: JointFit) -> Stage:
-        span = span_of(self._balances, current.model.law.mu_k * current.model.load)
+        span = span_of(self._balances, current.model.law.mu_k * current.model.load, current.model.load)
         fits: list[tuple[Candidate, JointFit]] = []
-        for candidate in candidates(span, current.model.effects, current.model.load):
+        for candidate in candidates(span, current.model.effects):
             self._tell(candidate.kind)
             fits.append((candidate, self._best(current, candidate)))
         trials = self._scored(current, fits)
@@ -240,11 +240,11 @@ class Selector:
         own = final.model.effects[len(final.model.effects) - added + number]
         others = tuple(e for e in final.model.effects if e is not own)
         without = self._fit(dataclasses.replace(final.model, effects=others))
-        span = span_of(self._balances, without.model.law.mu_k * without.model.load)
-        choices = [c for c in candidates(span, others, without.model.load) if c.kind != own.kind]
+        span = span_of(self._balances, without.model.law.mu_k * without.model.load, without.model.load)
+        choices = [c for c in candidates(span, others) if c.kind != own.kind]
         fits = [(c, self._best(without, c)) for c in choices]
         n = max(final.independent, 4.0)
-        size = {c.kind: c.parameters for c in candidates(span, others, without.model.load)}[own.kind]
+        size = {c.kind: c.parameters for c in candidates(span, others)}[own.kind]
         mine = self._evidence(without, final, final, n)
         theirs = [(c, self._evidence(without, f, final, n)) for c, f in fits]
         # one that explains next to nothing stands in for nothing, however close the scores

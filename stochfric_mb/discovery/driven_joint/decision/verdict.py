@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from stochfric_mb.discovery.driven_joint.balance.confounding import DRIFTS, Confounded, confounded, spoken_of, stand_ins
+from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_clock, confounded, spoken_of, stand_ins
 from stochfric_mb.discovery.driven_joint.balance.timing import NAMED as SURE
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.estimates import believed, parameters
@@ -17,15 +17,14 @@ from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
-from stochfric_mb.effects import effect_kinds
+from stochfric_mb.effects import effect_kinds, kind_found_as, kinds_with
+from stochfric_mb.effects.traits import BELT, DRAWN_ANEW, LATE
 from stochfric_mb.measurement.dataset import Dataset
 
 IMITATED = 0.99
 """Part of an effect's change of friction that other numbers imitate, from which it cannot be identified [-]."""
 PLAIN = 14.0
 """Fall of the deviance from which a scatter between settings is spoken of."""
-NO_BELT = ("belt_speed_ripple",)
-"""Effects of a mechanism that a joint does not have."""
 
 
 def verdict(
@@ -69,7 +68,7 @@ def _delay(timing: Timing) -> Found:
     first = "position" if timing.seconds > 0.0 else "driving force"
     text = f"The {first} comes {1e3 * size.value:.1f} ms late in the record; this is compensated before friction is judged."
     chance = float(np.exp(-0.5 * max(timing.score, 0.0)))
-    return Found("sensor_delay", (), Where("time", text), {"delay": size}, timing.score, chance)
+    return Found(kind_found_as(LATE), (), Where("time", text), {"delay": size}, timing.score, chance)
 
 
 def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
@@ -108,7 +107,7 @@ def _drawn(place: PlaceOutcome) -> list[Found]:
         "strokes), more than its scatter within them explains, and each stroke by itself."
     )
     size = Interval(seen.sigma, seen.low, seen.high, "-")
-    return [Found("random_coefficients", (), Where("stroke", text), {"sigma_k": size}, seen.score, seen.p_value)]
+    return [Found(kind_found_as(DRAWN_ANEW), (), Where("stroke", text), {"sigma_k": size}, seen.score, seen.p_value)]
 
 
 def _drawn_by_run(place: PlaceOutcome) -> list[Found]:
@@ -121,7 +120,7 @@ def _drawn_by_run(place: PlaceOutcome) -> list[Found]:
         "more than the scatter of their strokes explains; no run says it of another."
     )
     size = Interval(seen.sigma, seen.low, seen.high, "-")
-    return [Found("random_coefficients", (), Where("run", text), {"sigma_k": size}, seen.score, seen.p_value)]
+    return [Found(kind_found_as(DRAWN_ANEW), (), Where("run", text), {"sigma_k": size}, seen.score, seen.p_value)]
 
 
 def _at(place: PlaceOutcome) -> str:
@@ -136,7 +135,7 @@ def _ranking(places: Sequence[PlaceOutcome], timing: Timing | None) -> tuple[tup
                 name = f"{trial.candidate.kind} ({place.place})" if len(places) > 1 else trial.candidate.kind
                 best[name] = max(best.get(name, -np.inf), trial.score)
     if timing is not None:
-        best["sensor_delay"] = timing.score if timing.named else min(timing.score, 0.0)
+        best[kind_found_as(LATE)] = timing.score if timing.named else min(timing.score, 0.0)
     return tuple(sorted(best.items(), key=lambda item: -item[1]))
 
 
@@ -176,10 +175,10 @@ def _imitated(place: PlaceOutcome) -> list[str]:
 
 def _unseen(places: Sequence[PlaceOutcome]) -> tuple[str, ...]:
     seen = {t.candidate.kind for p in places for s in p.selected.stages for t in s.trials}
-    seen |= {e.kind for p in places for e in p.believed.effects} | {"sensor_delay"}
-    seen |= {"random_coefficients"} if any(p.random is not None or p.runs is not None for p in places) else set()
+    seen |= {e.kind for p in places for e in p.believed.effects} | {kind_found_as(LATE)}
+    seen |= {kind_found_as(DRAWN_ANEW)} if any(p.random is not None or p.runs is not None for p in places) else set()
     seen -= {kind for p in places for kind in _imitated(p)}
-    return tuple(k for k in effect_kinds() if k not in seen and k not in NO_BELT)
+    return tuple(k for k in effect_kinds() if k not in seen and k not in kinds_with(BELT))
 
 
 def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
@@ -191,7 +190,7 @@ def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
     same = [(t.candidate.kind, e) for p in places for t, e in zip(p.selected.found, p.selected.equivalents, strict=True) if e]
     if same:
         kind, others = same[0]
-        if kind in DRIFTS:
+        if by_clock(kind):
             return f"To tell {kind} from {', '.join(others)}: pauses, strokes of other lengths, and a start from warm."
         return f"To tell {kind} from {', '.join(others)}: more speeds, both directions at each, and a second load."
     return "Rest before break-away, for what rest does to friction; slow reversals, for presliding; a second load."

@@ -35,7 +35,7 @@ def free_parameters(
         fixed: number of an effect and name of its parameter, for those that stay.
     """
     level = max(model.law.mu_k, 1.0e-6)
-    coefficients = ("mu_k", "mu_s") if any(e.kind == "frictional_lag" for e in model.effects) else ("mu_k",)
+    coefficients = ("mu_k", "mu_s") if any("mu_s" in e.frees for e in model.effects) else ("mu_k",)
     free = [FreeParameter(LAW, n, getattr(model.law, n), 0.1 * level, 1.0e-9, 1.0e3) for n in coefficients]
     for i, effect in enumerate(model.effects):
         for field in dataclasses.fields(effect):
@@ -54,8 +54,7 @@ def _fitted(model: JointModel, effect: Effect, name: str, value: float) -> bool:
     """Return whether a number of an effect is to be fitted."""
     if not np.isfinite(value) or name in GIVEN or (name[-2:] in ("_2", "_3") and value == 0.0):
         return False
-    # a joint's friction grows with what it transmits beyond a preload, a contact's with a power of the normal force
-    if effect.kind == "load_dependence" and name == ("reference_load" if model.contact else "exponent"):
+    if name in effect.kept_at_joints(model.contact):
         return False
     return not (name == "reference_load" and value == 0.0)  # viscous friction that does not depend on load
 
@@ -64,11 +63,10 @@ def _parameter(model: JointModel, owner: int, name: str, value: float, about: Ma
     """Return a number of an effect as what a fit adjusts."""
     scale = max(abs(value), 1.0e-3 * about["scale"])
     margin = INSIDE * scale if about["strict"] else 0.0
-    # a rise of friction with speed is viscous, not a weakening of the other sign
-    low = 0.0 if (model.effects[owner].kind, name) == ("velocity_weakening", "amplitude") else about["low"]
+    low = about["fit_low"]
     # a smaller preload could not be told from none, and would leave no friction without load
     low = LEAST_PRELOAD * model.load if name == "reference_load" else low
-    return FreeParameter(owner, name, value, scale, low + margin, about["high"] - margin, about["unit"])
+    return FreeParameter(owner, name, value, scale, low + margin, about["fit_high"] - margin, about["unit"])
 
 
 def adjusted(model: JointModel, free: Sequence[FreeParameter], values: Array) -> JointModel:

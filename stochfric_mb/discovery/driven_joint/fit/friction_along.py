@@ -20,6 +20,7 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalan
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects import contract as e
 from stochfric_mb.effects.abi import call_effect, native_effect
+from stochfric_mb.effects.traits import READS_LOAD
 from stochfric_mb.laws import Law
 
 Array = npt.NDArray[np.float64]
@@ -53,7 +54,7 @@ def chain(law: Law, effects: Sequence[Effect], load: float, *, contact: bool = F
         native = native_effect(type(effect))
         row[:] = native.surroundings, native.friction, len(parameters)
         parameters += list(effect.parameters())
-    loaded = [] if contact else [x for x in ordered if x.kind == "load_dependence"]
+    loaded = [] if contact else [x for x in ordered if READS_LOAD in x.traits]
     reference = next((x.reference_load for x in loaded), 0.0)  # type: ignore[attr-defined]
     return Chain(np.array([law.mu_s, law.mu_k, load, reference]), calls, np.array([*parameters, 0.0]))
 

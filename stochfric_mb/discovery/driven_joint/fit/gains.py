@@ -23,7 +23,7 @@ def effect_columns(model: JointModel, effect: Effect, balances: Sequence[ForceBa
     trial = model.plus(effect)
     owner = len(trial.effects) - 1
     free = [k for k in free_parameters(trial, ()) if k.owner == owner]
-    if effect.kind == "frictional_lag":
+    if "mu_s" in effect.frees:
         free += [k for k in free_parameters(trial, ()) if k.name == "mu_s"]
     level = FreeParameter(LAW, "mu_k", model.law.mu_k, 1.0, 0.0, np.inf)
 

@@ -10,25 +10,24 @@ import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
-from stochfric_mb.effects import make_effect
+from stochfric_mb.effects import kind_found_as, make_effect
+from stochfric_mb.effects.traits import DRAWN_ANEW, LATE
 from stochfric_mb.mechanisms import Mjcf
 from stochfric_mb.scenario import Scenario
 
-RANDOM = "random_coefficients"
-"""Effect of friction that is drawn anew for each stroke or run."""
 BESIDE = ("sensor", "randomness")
 """Groups of effects that are no part of the mean friction."""
 
 
 def believed_scatter(scenario: Scenario[Any], process: str) -> float:
     """Return the standard deviation of mu_k that the scenario declares, stroke by stroke or run by run [-]."""
-    declared = [e.to_dict() for e in scenario.effects if e.kind == RANDOM]
+    declared = [e.to_dict() for e in scenario.effects if DRAWN_ANEW in e.found_as]
     return float(np.sqrt(sum(e["sigma_k"] ** 2 for e in declared if e["process"] == process)))
 
 
 def believed_delay(scenario: Scenario[Any]) -> float:
     """Return by how much the scenario says that positions are late [s]."""
-    return sum(e.to_dict()["delay"] for e in scenario.effects if e.kind == "sensor_delay")
+    return sum(e.late for e in scenario.effects)
 
 
 def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], found: Timing | None) -> Scenario[Any]:
@@ -36,15 +35,16 @@ def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], found: Ti
     model = places[0].selected.final.model
     effects = list(model.effects)
     drawn = _drawn(places[0])
-    left = ("sensor_delay", RANDOM) if drawn else ("sensor_delay",)
-    effects += [e for e in scenario.effects if e.group in BESIDE and e.kind not in left]
+    effects += [
+        e for e in scenario.effects if e.group in BESIDE and LATE not in e.found_as and not (drawn and DRAWN_ANEW in e.found_as)
+    ]
     if drawn:
         sigma, process = max(drawn)  # a model has one such process
         sigma_s = sigma * model.law.mu_s / model.law.mu_k
-        effects.append(make_effect(RANDOM, process=process, sigma_s=sigma_s, sigma_k=sigma))
+        effects.append(make_effect(kind_found_as(DRAWN_ANEW), process=process, sigma_s=sigma_s, sigma_k=sigma))
     delay = believed_delay(scenario) + (found.seconds if found is not None and found.named else 0.0)
     if delay > 0.0:  # one that comes before has no effect of its own, and stays a finding
-        effects.append(make_effect("sensor_delay", delay=delay))
+        effects.append(make_effect(kind_found_as(LATE), delay=delay))
     return dataclasses.replace(
         scenario,
         mechanism=_corrected(scenario.mechanism, places),

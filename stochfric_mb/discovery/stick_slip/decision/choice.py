@@ -16,7 +16,8 @@ from stochfric_mb.discovery.stick_slip.screening.regression import Terms
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.effects import effect_class
+from stochfric_mb.effects import effect_class, kinds_with
+from stochfric_mb.effects.traits import BETWEEN_POINTS, DRIFTS, SHAPED_IF_FORCED, SHAPES_SLIPS
 
 SELECT, NAME = 14.0, 20.0
 """Scores at which a candidate is followed up, and at which it is named [-]."""
@@ -29,10 +30,8 @@ CONFIRMED_CLASS = 10.0
 it [-]."""
 LACK, LACK_SHARE = 25.0, 0.35
 """A simulated candidate is refused if chi^2 stays this far above its freedom and above this share of the believed model's."""
-DRIFTS = ("friction_drift", "sensor_drift")
-"""Effects that a stiffness which drifts may be taken for."""
 BEATEN = 15.0
-"""Score by which it must beat them, or `CLASS_SHARE` [-]."""
+"""Score by which a stiffness that drifts must beat other drifts, or `CLASS_SHARE` [-]."""
 LOCKED = 0.9
 """Share of a ripple's score that alternation from slip to slip must reach to be believed in its place [-]."""
 WORTH_SIMULATING = 0.1
@@ -47,15 +46,6 @@ MOST_SIMULATED_LATER = 4
 REFUTED = "shapes_refuted"
 """Name under which the details hold that simulating effects which shape every slip alike has not borne them out."""
 
-IN_SLIP = (
-    "velocity_weakening", "viscous_friction", "frictional_lag", "nonlinear_stiffness", "quadratic_damping", "backlash",
-    "second_mode",
-)  # fmt: skip
-"""Effects that shape every slip alike: told apart by simulating them."""
-LATE = "sensor_delay"
-"""Where slips keep step with a known force, a late sensor shapes every slip alike, too."""
-BETWEEN_POINTS = ("dwell_ageing", "direction_asymmetry", "load_dependence")
-"""Effects that differ between operating points: simulated too where there are several."""
 SHAPES = ("slip_shape", "position")
 """Competitors on the axes on which those effects act."""
 IN_TIME = ("time", "time_common", "friction_step", "parity")
@@ -102,7 +92,7 @@ def choose(
     several = len(cases) > 1 and not cases[0].record.mechanism.excitation_amplitude
     # an effect of another package says what it marks, not how slips differ: simulating it decides
     own = tuple(c.name for c in candidates if c.is_effect and not effect_class(c.name).__module__.startswith("stochfric_mb."))
-    family = IN_SLIP + (BETWEEN_POINTS if several else ()) + own
+    family = kinds_with(SHAPES_SLIPS) + (kinds_with(BETWEEN_POINTS) if several else ()) + own
 
     def shapes(candidate: Candidate) -> bool:
         """Return whether it is of the family, or a competitor on its axes."""
@@ -111,9 +101,10 @@ def choose(
     effects = [c for c in candidates if c.is_effect]
     others = [c for c in candidates if not c.is_effect]
     shape = max((c.score for c in candidates if shapes(c)), default=-np.inf)
-    if any(c.name == LATE and OUTDONE * c.score < shape for c in candidates):
-        family += (LATE,)
-        shape = max(shape, *(c.score for c in candidates if c.name == LATE))
+    if any(c.has(SHAPED_IF_FORCED) and OUTDONE * c.score < shape for c in candidates):
+        # where slips keep step with a known force, a late sensor shapes every slip alike, too
+        family += kinds_with(SHAPED_IF_FORCED)
+        shape = max(shape, *(c.score for c in candidates if c.has(SHAPED_IF_FORCED)))
     rest = max((c.score for c in candidates if not shapes(c)), default=-np.inf)
     if before is not None and shape >= NAME and shape >= rest:
         # refuted once, shapes stay refuted: the slips that simulated ones are compared with are the same
@@ -132,7 +123,7 @@ def choose(
     if best is None or best.score < NAME:
         return None
     softer = next((c for c in others if c.name == SOFTENING), None)
-    if softer is not None and best.name in DRIFTS and softer.score > best.score + max(BEATEN, CLASS_SHARE * best.score):
+    if softer is not None and best.has(DRIFTS) and softer.score > best.score + max(BEATEN, CLASS_SHARE * best.score):
         return Where(softer.axis, "the spring, not the friction, drifts in the course of a run")
     parity = next((c for c in others if c.name == "parity"), None)
     if parity is not None and best.is_wave and parity.score > LOCKED * best.score:

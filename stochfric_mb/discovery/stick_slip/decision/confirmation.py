@@ -20,7 +20,7 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array, Record
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, features_near
 from stochfric_mb.discovery.stick_slip.simulation.auxiliary_state import auxiliary_state
-from stochfric_mb.discovery.stick_slip.simulation.model import FREED, TUNED, Model, adjusted, free_parameters
+from stochfric_mb.discovery.stick_slip.simulation.model import CORRECTED, TUNED, Model, adjusted, free_parameters
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.reference.augmented import Start
 
@@ -288,7 +288,7 @@ def confirm(
         tolerance=1.0e-3,
     )
     # what of the believed model an effect leaves open is a number of its own, too
-    freed = {name for e in candidate.effects for name in FREED.get(e.kind, ())}
+    freed = {name for e in candidate.effects for name in e.frees if name in CORRECTED}
     n_parameters = sum(k.owner >= 0 or k.name in freed for k in free)
     return Confirmed(
         tuple(e.kind for e in candidate.effects),
@@ -315,7 +315,7 @@ def _starts(candidate: Model, free: Sequence[FreeParameter], scale: Array) -> li
     if not candidate.effects:
         return starts
     last = len(candidate.effects) - 1
-    freed = FREED.get(candidate.effects[last].kind, ())
+    freed = candidate.effects[last].frees
     strong = [k.owner == last and k.name in STRENGTHS and k.value != 0.0 for k in free]
     if not any(strong):
         return starts

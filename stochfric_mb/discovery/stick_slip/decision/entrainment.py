@@ -21,14 +21,12 @@ from stochfric_mb.discovery.stick_slip.screening.regression import Terms
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.effects import kinds_with
 from stochfric_mb.effects.marks import ENTRAINED, Hypothesis, Wave
+from stochfric_mb.effects.traits import ALONG_BELT, FORCE_IN_TIME
 
 REGULAR = 0.03
 """Scatter of the intervals between slips, over their mean, up to which slips may keep to a wave [-]."""
-FIRST = "harmonic_force"
-"""Kind of wave by which the order is found."""
-ALONG_BELT = "position_dependent_friction"
-"""Kind that runs along the belt: what of the belt passes in slips that are all alike passes along the stroke, too."""
 COARSE = (2, 4, 6, 8)
 """Orders that are tried first; then the neighbours of the best one."""
 EVALUATIONS = 10
@@ -48,7 +46,8 @@ def entrained(study: Study, model: Model, terms: Terms, cases: Sequence[Case]) -
     """
     rate = _common_rate(study.pool)
     waves = waves_in(study.pool)
-    if rate is None or FIRST not in waves:
+    first = next((kind for kind in kinds_with(FORCE_IN_TIME) if kind in waves), None)
+    if rate is None or first is None:
         return []
     fastest = 1.0 / float(np.median(study.pool.restick_time - study.pool.onset_time))
     most = max(round(fastest / rate), 1)
@@ -62,13 +61,15 @@ def entrained(study: Study, model: Model, terms: Terms, cases: Sequence[Case]) -
 
     for order in COARSE:
         if order <= most:
-            tried[order] = attempt(FIRST, order)
+            tried[order] = attempt(first, order)
     if not tried:
         return []
     for order in (best() - 1, best() + 1):
         if 1 <= order <= most and order not in tried:
-            tried[order] = attempt(FIRST, order)
-    return [tried[best()], *(attempt(kind, best()) for kind in waves if kind not in (FIRST, ALONG_BELT))]
+            tried[order] = attempt(first, order)
+    # what of the belt passes in slips that are all alike passes along the stroke, too
+    others = [kind for kind in waves if kind != first and kind not in kinds_with(ALONG_BELT)]
+    return [tried[best()], *(attempt(kind, best()) for kind in others)]
 
 
 def _common_rate(pool: Pool) -> float | None:

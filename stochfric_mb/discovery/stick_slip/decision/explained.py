@@ -13,11 +13,9 @@ from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of, mean_score
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.effects import kind_found_as, kinds_with
+from stochfric_mb.effects.traits import JUMP, KICKS, OUTSIDE_FORECASTS, SCATTER
 
-NOT_JUDGED = {"sensor_outliers", "sensor_clipping"}
-"""Effects whose worth one-cycle forecasts do not measure."""
-RANDOM = {"random_coefficients", "correlated_coefficients"}
-"""Effects that are scatter."""
 EXPLAINED, EXPLAINED_RANDOM = 0.65, 0.2
 """Share of the reducible error of the fit runs' forecasts that named effects must explain; the second one where random
 effects or a step between two slips, whose moment is not known well, are among them [-]."""
@@ -43,14 +41,14 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
     if decision.verdict == "unknown":
         return None
     kinds = {n.kind for n in decision.named}
-    if kinds and kinds <= NOT_JUDGED:
+    if kinds and kinds <= set(kinds_with(OUTSIDE_FORECASTS)):
         return None
     windows = [_scattered(w, JUDGED_WINDOWS) for w in found.windows if len(w)]
     runs = HeldOut(found.pool.slips[:2], tuple(windows), tuple(windows))
     before, after = mean_score(recalibrated, runs), mean_score(augmented, runs)
     if _unfelt(kinds, recalibrated, found, runs, before):
         return dataclasses.replace(decision, verdict="none", named=())
-    floor = min(floor_of(augmented, runs, recalibrated if "impacts" in kinds else None), after)
+    floor = min(floor_of(augmented, runs, recalibrated if kind_found_as(KICKS) in kinds else None), after)
     reducible, unit = before - floor, found.size.length
     if not kinds:
         decision.details["explained"] = {"before": before * unit, "floor": floor * unit}
@@ -59,7 +57,7 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
     decision.details["explained"] = {
         "before": before * unit, "after": after * unit, "floor": floor * unit, "share": share
     }  # fmt: skip
-    lenient = augmented.random or "sensor_step" in kinds
+    lenient = augmented.random or kind_found_as(JUMP) in kinds
     if share >= (EXPLAINED_RANDOM if lenient else EXPLAINED):
         return None
     best = decision.named[0]
@@ -75,9 +73,11 @@ def _unfelt(kinds: set[str], recalibrated: Model, found: Study, runs: HeldOut, b
 
     Edges that noise has hidden stand out as kicks do, and a scatter of the forces may be smaller than any forecast feels.
     """
-    if kinds == {"impacts"}:
+    if kinds == {kind_found_as(KICKS)}:
         return not _thrown_off(recalibrated, found)
-    return bool(kinds) and kinds <= RANDOM and before - floor_of(recalibrated, runs) <= LEAST_REDUCIBLE * before
+    return (
+        bool(kinds) and kinds <= set(kinds_with(SCATTER)) and before - floor_of(recalibrated, runs) <= LEAST_REDUCIBLE * before
+    )
 
 
 def _thrown_off(model: Model, found: Study) -> bool:

@@ -15,7 +15,7 @@ from stochfric_mb.discovery.stick_slip.records.calibration import Calibration
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips
-from stochfric_mb.discovery.stick_slip.simulation.model import FREED, Model
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.sensor_errors import errors_by_noise
 
 ANY = np.eye(N_FEATURES)
@@ -32,7 +32,7 @@ def left_over(pool: Pool, model: Model, *, anew: bool = False) -> Pool:
         anew: whether its effects change how a slip begins and ends, so that noise makes other errors in its features.
     """
     # what an effect freed of the mechanism goes with it
-    freed = {name for effect in model.effects for name in FREED.get(effect.kind, ())}
+    freed = {name for effect in model.effects for name in effect.frees}
     corrections = {name: 0.0 if name in freed else value for name, value in model.corrections.items()}
     plain = dataclasses.replace(model, effects=(), own={}, corrections=corrections)
     features = pool.features.copy()

@@ -15,7 +15,8 @@ from stochfric_mb.discovery.stick_slip.screening.competitors import step_times, 
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import refit
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.effects import make_effect
+from stochfric_mb.effects import kind_found_as, make_effect
+from stochfric_mb.effects.traits import BELT_RIPPLE, CLIPPED, CREEPING_ZERO, JUMP, LATE, STRAY, YIELDING
 from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
 
 NAME = 20.0
@@ -46,7 +47,7 @@ LOUD_LINE = 1.0
 
 def with_kinematic(study: Study, model: Model, kind: str, values: dict[str, float]) -> Model:
     """Return the model with an effect that the stick phases showed; a ripple's phases and amplitude are fitted at once."""
-    if kind == "belt_speed_ripple":
+    if kind == kind_found_as(BELT_RIPPLE):
         names = [s.record.name for s in study.pool.slips]
         best: tuple[float, Model] | None = None
         for amplitude in (0.01, 0.05):
@@ -62,7 +63,7 @@ def with_kinematic(study: Study, model: Model, kind: str, values: dict[str, floa
         assert best is not None
         return best[1]
     model = model.plus(make_effect(kind, **values))
-    if kind == "presliding_compliance":
+    if kind == kind_found_as(YIELDING):
         return _compliant(study, model)
     return model
 
@@ -109,7 +110,7 @@ def kinematics(study: Study, details: dict[str, object]) -> Blamed | Where:
     """Return the effects that the stick phases and the sensor show, or where they disagree with no known effect."""
     details["ceiling"] = study.range.share
     if study.range.clipped:
-        return [("sensor_clipping", 100.0 * study.range.share, {"high": study.range.high, "low": study.range.low})]
+        return [(kind_found_as(CLIPPED), 100.0 * study.range.share, {"high": study.range.high, "low": study.range.low})]
     found = _delays(study, details) + _outliers(study, details)
     in_stick = _in_stick(study, details)
     return in_stick if isinstance(in_stick, Where) else found + in_stick
@@ -124,7 +125,7 @@ def _outliers(study: Study, details: dict[str, object]) -> Blamed:
     details["outlier_share"] = share
     if share < LEAST_OUTLIERS or count < 5:
         return []
-    return [("sensor_outliers", 10.0 * count, {"fraction": share, "size": float(np.sqrt(np.mean(sizes**2)))})]
+    return [(kind_found_as(STRAY), 10.0 * count, {"fraction": share, "size": float(np.sqrt(np.mean(sizes**2)))})]
 
 
 def _in_stick(study: Study, details: dict[str, object]) -> Blamed | Where:
@@ -138,36 +139,36 @@ def _in_stick(study: Study, details: dict[str, object]) -> Blamed | Where:
         return line
     if score <= NAME:
         forced = any(r.mechanism.excitation_amplitude for r in study.records)
-        if sticking.scores["sensor_step"] > max(NAME, 0.2 * sticking.excess) and not forced:
-            details["single_moments"] = sticking.scores["sensor_step"]
-    if score > NAME and best == "sensor_step":
+        if sticking.scores[JUMP] > max(NAME, 0.2 * sticking.excess) and not forced:
+            details["single_moments"] = sticking.scores[JUMP]
+    if score > NAME and best == JUMP:
         details[STEP_SEEN] = score
-    if score <= NAME or best in ("sensor_drift", "sensor_step"):
+    if score <= NAME or best in (CREEPING_ZERO, JUMP):
         return line if line is not None and score <= NAME else []
     if best in CREEP or score < 0.75 * sticking.excess - 60.0:
         return Where(*CREEP.get(best, ELSE))
     settings = sticking.settings[best]
-    if best == "belt_speed_ripple":
-        return [(best, score, {"amplitude": 0.01, "frequency": settings["frequency"]})]
+    if best == BELT_RIPPLE:
+        return [(kind_found_as(best), score, {"amplitude": 0.01, "frequency": settings["frequency"]})]
     box = study.records[0].mechanism
     stiffness = max(settings["angular_frequency"] ** 2 * box.mass - box.stiffness, 0.1 * box.stiffness)
     limit = float(study.solution.coefficients[0]) * box.normal_force / stiffness
-    return [(best, score, {"elastic_limit": limit, "damping_ratio": settings["damping_ratio"]})]
+    return [(kind_found_as(best), score, {"elastic_limit": limit, "damping_ratio": settings["damping_ratio"]})]
 
 
 def _winner(study: Study, sticking: Sticking) -> tuple[str, float]:
     """Return what explains the stick phases best, and its score."""
     scores = dict(sticking.scores)
-    if not _step_stays(study, sticking.settings["sensor_step"]):
-        scores["sensor_step"] = -np.inf
-    if _driven(study, sticking.settings["belt_speed_ripple"]["frequency"]):
+    if not _step_stays(study, sticking.settings[JUMP]):
+        scores[JUMP] = -np.inf
+    if _driven(study, sticking.settings[BELT_RIPPLE]["frequency"]):
         # a stuck box that moves with the known force: the contact yields
-        scores["presliding_compliance"] = max(scores["presliding_compliance"], scores.pop("belt_speed_ripple"))
+        scores[YIELDING] = max(scores[YIELDING], scores.pop(BELT_RIPPLE))
     best = max(scores, key=lambda k: scores[k])
     if best in CREEP:
-        rings = scores["presliding_compliance"]
+        rings = scores[YIELDING]
         if max(scores["yielding"], rings) > YIELDS * scores[best]:
-            return "presliding_compliance", scores[best] + max(rings, 0.0)
+            return YIELDING, scores[best] + max(rings, 0.0)
     return best, scores[best]
 
 
@@ -196,7 +197,7 @@ def _delays(study: Study, details: dict[str, object]) -> list[tuple[str, float, 
     # a velocity that is late, a filtered one, is none of the position's faults
     if seconds < max(5.0 * doubt, 0.5 * study.dataset.fit[0].sample_interval):
         return []
-    return [("sensor_delay", float(min((seconds / max(doubt, 1.0e-6)) ** 2, 1.0e4)), {"delay": seconds})]
+    return [(kind_found_as(LATE), float(min((seconds / max(doubt, 1.0e-6)) ** 2, 1.0e4)), {"delay": seconds})]
 
 
 def delay_deviation(details: Mapping[str, object]) -> float:

@@ -17,6 +17,8 @@ from stochfric_mb.discovery.stick_slip.screening.switching import Switching
 from stochfric_mb.discovery.stick_slip.screening.variance_components import Randomness, randomness
 from stochfric_mb.discovery.stick_slip.simulation.scatter import simulated_slips
 from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.effects import kind_found_as
+from stochfric_mb.effects.traits import DRAWN_ANEW, KICKS, WANDER
 
 CERTAIN = 30.0
 """Likelihood ratio at which friction scatters beyond doubt [-]."""
@@ -139,7 +141,9 @@ def kicks(study: Study) -> RandomEffects | None:
         mean, deviation = 0.0, float(np.sqrt(np.mean(impulses**2)))
     # of kicks from both sides those that push the stuck box on with the belt set off no slip
     unseen = UNSEEN if mean == 0.0 else 1.0
-    return RandomEffects("impacts", 400.0 * share, {"rate": unseen * share / cycle, "impulse": deviation, "mean": mean})
+    return RandomEffects(
+        kind_found_as(KICKS), 400.0 * share, {"rate": unseen * share / cycle, "impulse": deviation, "mean": mean}
+    )
 
 
 def _impulses(study: Study, far: np.ndarray) -> Array:
@@ -177,7 +181,7 @@ def random_effects(
     values: dict[str, float | str] = {
         "process": "knots" if within else "per_event", "sigma_s": float(sigma_s), "sigma_k": float(sigma_k)
     }  # fmt: skip
-    return RandomEffects("random_coefficients", strongest, values)
+    return RandomEffects(kind_found_as(DRAWN_ANEW), strongest, values)
 
 
 def _memory(scatter: Randomness, mu_s: float, mu_k: float) -> RandomEffects | Where | None:
@@ -185,7 +189,7 @@ def _memory(scatter: Randomness, mu_s: float, mu_k: float) -> RandomEffects | Wh
     if (scatter.wander > NAME and scatter.correlation > MEMORY) or scatter.wander > 5.0 * NAME:
         share = max(scatter.wander_share, 1.0e-3)
         return RandomEffects(
-            "correlated_coefficients",
+            kind_found_as(WANDER),
             scatter.wander,
             {"sigma_s": float(share * mu_s), "sigma_k": float(share * mu_k), "correlation_time": float(scatter.wander_time)},
         )

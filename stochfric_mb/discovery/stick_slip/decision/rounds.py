@@ -9,7 +9,7 @@ import numpy as np
 
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
-from stochfric_mb.discovery.stick_slip.decision.choice import IN_SLIP, IN_TIME, NAME, SELECT, SHAPES, Chosen, choose
+from stochfric_mb.discovery.stick_slip.decision.choice import IN_TIME, NAME, SELECT, SHAPES, Chosen, choose
 from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, cases_of, confirm
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.decision.kinematics import delay_deviation, kinematics, with_kinematic
@@ -23,7 +23,7 @@ from stochfric_mb.discovery.stick_slip.decision.random_effects import (
 )
 from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_step, steady
 from stochfric_mb.discovery.stick_slip.records.record import Array
-from stochfric_mb.discovery.stick_slip.screening.naming import PERIODIC, as_harmonic, with_candidate
+from stochfric_mb.discovery.stick_slip.screening.naming import as_harmonic, with_candidate
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms, believed
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate, screen
 from stochfric_mb.discovery.stick_slip.screening.switching import JUMPS, SWITCHES, in_step, switching
@@ -33,7 +33,21 @@ from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import refit
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study
 from stochfric_mb.discovery.stick_slip.where import where_of
-from stochfric_mb.effects import make_effect
+from stochfric_mb.effects import kind_found_as, kinds_with, make_effect
+from stochfric_mb.effects.traits import (
+    BELT_RIPPLE,
+    CLIPPED,
+    COURSE_OF_RUN,
+    DRIFTS,
+    JUMP,
+    LATE,
+    MOVES_ZERO,
+    SHAPES_SLIPS,
+    WANDER,
+    WANDERS_ALIKE,
+    WAVES,
+    YIELDING,
+)
 
 SECOND = 0.1
 """A further effect needs at least this share of the first one's score [-]."""
@@ -51,12 +65,6 @@ LEAST_KEPT = 0.5
 """Share of the slips that a model with effects must not miss for a search in what it leaves to make sense [-]."""
 MOST_ROUNDS = 5
 """Rounds of the search: harmonics of a named ripple take rounds of their own."""
-FITTED_TO_FORECASTS = (*PERIODIC, "friction_drift", "sensor_drift")
-"""Effects that change in the course of a run: fitted to forecasts as soon as they are named."""
-MAY_WANDER = (*PERIODIC, "friction_drift", "sensor_step", "random_coefficients", "correlated_coefficients")
-"""Effects in the course of time that a wander may be taken for."""
-LINEAR = ("sensor_drift", "sensor_step")
-"""Effects that stay regressors: a simulated slip does not show what the sensor adds."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -107,19 +115,20 @@ def decide(study: Study, *, channels: Channels = EVERYTHING, progress: Progress 
         return Decision("unknown", (), blamed, model, (), None, details)
     named: list[Named] = []
     late: float | None = None
+    late_kind = kind_found_as(LATE)
     for kind, score, values in blamed:
         named.append(Named(kind, (), score, where_of(kind), model if late is None else with_delay(model, late)))
-        if kind == "sensor_delay" and driven(study):
+        if kind == late_kind and driven(study):
             # forces are looked at on time
             late = values["delay"]
             study = delay_compensated(study, late)
             model = _levels(study.model, study)
         else:
             model = with_kinematic(study, model, kind, values)
-        if kind == "sensor_delay":
+        if kind == late_kind:
             # a velocity tells it far better than forecasts, and no forecast tells it where no known force acts
             model = dataclasses.replace(model, measured={"delay": delay_deviation(details)})
-    if any(n.kind == "sensor_clipping" for n in named):
+    if any(n.kind == kind_found_as(CLIPPED) for n in named):
         # a clipped record says too little of the forces
         return Decision("effect", tuple(named), None, model if late is None else with_delay(model, late), (), None, details)
     progress("screening")
@@ -135,11 +144,11 @@ def of_wander(study: Study, refuted: Decision) -> Decision | None:
         study: what was measured.
         refuted: a decision whose effects were not borne out by forecasts of the fit runs.
     """
-    if not refuted.named or any(n.kind not in MAY_WANDER for n in refuted.named):
+    if not refuted.named or any(n.kind not in kinds_with(WANDERS_ALIKE) for n in refuted.named):
         return None
     found = _Search(study, _levels(study.model, study), [], dict(refuted.details), lambda _: None, confirmation=False)
     decision = dataclasses.replace(found.by_chance(), ranking=refuted.ranking)
-    return decision if [n.kind for n in decision.named] == ["correlated_coefficients"] else None
+    return decision if [n.kind for n in decision.named] == [kind_found_as(WANDER)] else None
 
 
 def _levels(model: Model, study: Study) -> Model:
@@ -180,7 +189,7 @@ class _Search:
         self.kept: list[Array] = []
         self.cases: list[Case] = []
         self.confirmed: Confirmed | None = None
-        if any(n.kind in ("belt_speed_ripple", "presliding_compliance") for n in named):
+        if any(n.kind in (kind_found_as(BELT_RIPPLE), kind_found_as(YIELDING)) for n in named):
             self._take_out()
 
     def run(self) -> Decision:
@@ -191,7 +200,7 @@ class _Search:
             if len(kinds) >= MOST_EFFECTS:
                 break
             candidates = screen(
-                self.pool, self.regression, self.terms, self.solution, without=[k for k in kinds if k not in PERIODIC]
+                self.pool, self.regression, self.terms, self.solution, without=[k for k in kinds if k not in kinds_with(WAVES)]
             )
             if round_ == 0:
                 self.ranking = tuple(_scores(candidates).items())
@@ -252,9 +261,9 @@ class _Search:
     def _wanders(self, candidates: Sequence[Candidate]) -> bool:
         """Return whether a winner on the axis of time is better told as a random wander."""
         winner = candidates[0]
-        if winner.name not in (*IN_TIME, "sensor_step") and not winner.is_wave:
+        if winner.name not in (*IN_TIME, kind_found_as(JUMP)) and not winner.is_wave:
             return False
-        drifts = max((c.score for c in candidates if c.name in ("friction_drift", "sensor_drift")), default=-np.inf)
+        drifts = max((c.score for c in candidates if c.has(DRIFTS)), default=-np.inf)
         scatter = randomness(self.regression, self.terms, self.solution)
         # what names physics has to be beaten; hats on the axis of time name none
         rival = max(0.5 * winner.score if winner.name in IN_TIME else 1.2 * winner.score, drifts)
@@ -279,7 +288,7 @@ class _Search:
         """Return whether a ripple is one of the slips' number, not of time or place."""
         if not ripple.is_wave:
             return False
-        along_belt = ripple.name == "position_dependent_friction"
+        along_belt = ripple.along_belt
         main = float(ripple.hypothesis.setting[0])
         frequency = float(self.pool.belt_velocity.min()) / main if along_belt else main
         return in_step(frequency, self.pool, along_belt=along_belt)
@@ -290,7 +299,8 @@ class _Search:
         Where simulating them does not bear such shapes out, they are what the features leave of every slip, and an effect
         that has nothing but a likeness to them is not there.
         """
-        shapes = [c for c in candidates if (c.name in IN_SLIP + SHAPES or c.any_shape) and c.score > chosen.candidate.score]
+        alike = (c for c in candidates if c.has(SHAPES_SLIPS) or c.name in SHAPES or c.any_shape)
+        shapes = [c for c in alike if c.score > chosen.candidate.score]
         if chosen.simulated or not shapes:
             return True
         beside = self.terms.plus([column for c in shapes[:2] for column in c.hypothesis.columns])
@@ -312,12 +322,12 @@ class _Search:
         self.any_shape |= chosen.candidate.any_shape
         self.progress("what is left")
         before = _scatter(self.solution)
-        if kind == "sensor_delay":
+        if kind == kind_found_as(LATE):
             self._put_on_time()
             return
-        if kind in LINEAR:
+        if kind in kinds_with(MOVES_ZERO):
             self.kept += chosen.candidate.hypothesis.columns
-        if kind in FITTED_TO_FORECASTS or chosen.simulated:
+        if kind in kinds_with(COURSE_OF_RUN) or chosen.simulated:
             # a simulated fit knows the features alone, whose bias by noise is that of the believed model
             screened = self.model
             fit = refit(self.model, self.study.windows, self.study.uncertainty, most=12, evaluations=20)
@@ -339,7 +349,8 @@ class _Search:
 
     def _take_out(self) -> None:
         """Go on with what the model leaves of the features."""
-        left = left_over(self.study.pool, self.model, anew=any(n.kind in IN_SLIP for n in self.named) or self.any_shape)
+        shaped = self.any_shape or any(n.kind in kinds_with(SHAPES_SLIPS) for n in self.named)
+        left = left_over(self.study.pool, self.model, anew=shaped)
         if left.kept.sum() < LEAST_KEPT * self.pool.kept.sum():
             self.stalled = True
             return

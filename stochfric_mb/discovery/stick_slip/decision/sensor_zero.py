@@ -12,9 +12,8 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
-
-ZERO_MOVES = ("sensor_drift", "sensor_step")
-"""Effects that change how the slips of one run compare."""
+from stochfric_mb.effects import kind_found_as
+from stochfric_mb.effects.traits import JUMP, MOVES_ZERO
 
 
 def seen_step(candidates: Sequence[Candidate], details: Mapping[str, object]) -> Candidate | None:
@@ -24,7 +23,7 @@ def seen_step(candidates: Sequence[Candidate], details: Mapping[str, object]) ->
         candidates: the screening's outcome.
         details: what the stick phases told.
     """
-    step = next((c for c in candidates if c.name == "sensor_step"), None)
+    step = next((c for c in candidates if c.name == kind_found_as(JUMP)), None)
     return step if STEP_SEEN in details and step is not None and step.score >= NAME else None
 
 
@@ -42,7 +41,7 @@ def steady(
     """
     pool = regression.pool
     columns, strengths = list(kept), solution.coefficients[len(solution.coefficients) - len(kept) :]
-    fault = next((c for c in candidates if c.name in ZERO_MOVES and c.score >= NAME), None)
+    fault = next((c for c in candidates if c.has(MOVES_ZERO) and c.score >= NAME), None)
     if fault is not None and (moved := _within_runs(regression, terms, fault, solution)) is not None:
         columns += fault.hypothesis.columns
         strengths = np.r_[strengths, moved]

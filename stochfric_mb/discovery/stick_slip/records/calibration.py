@@ -12,7 +12,8 @@ import numpy as np
 
 from stochfric_mb.discovery.stick_slip.records.record import Array, Record, make_record
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, extract
-from stochfric_mb.effects import make_effect
+from stochfric_mb.effects import kind_found_as, make_effect
+from stochfric_mb.effects.traits import DRAWN_ANEW
 from stochfric_mb.laws import make_law
 from stochfric_mb.reference.augmented import Start, augmented_system
 
@@ -106,7 +107,7 @@ def _simulated(
     sigma_k = float(np.clip(robust_deviation(slips.moments[:, 0]), *spread)) / box.normal_force
     kinetic = min(kinetic, 0.98 * static)
     law = make_law("coulomb", mu_s=static / box.normal_force, mu_k=max(kinetic, 1.0e-3 * static) / box.normal_force)
-    scatter = make_effect("random_coefficients", process="per_event", sigma_s=sigma_s, sigma_k=sigma_k)
+    scatter = make_effect(kind_found_as(DRAWN_ANEW), process="per_event", sigma_s=sigma_s, sigma_k=sigma_k)
     system = augmented_system(box, law, [scatter], seed=repeat + 1)
     step = 1.0 / record.rate
     first = Start(-slips.settling, 0.0, box.belt_velocity, stick=True)

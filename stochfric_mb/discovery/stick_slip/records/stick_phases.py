@@ -14,6 +14,7 @@ import numpy as np
 
 from stochfric_mb.discovery.stick_slip.records.record import Array, Noise
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, StickSamples
+from stochfric_mb.effects.traits import BELT_RIPPLE, CREEPING_ZERO, JUMP, YIELDING
 
 ACCIDENT, MOST_ACCIDENTS = 3.0, 0.25
 """Misfit of a stick phase over that of the others from which on it is an accident, and the share of the phases that may
@@ -21,7 +22,7 @@ be; more of them are the rule [-]. Of phases of noise that is slower than a tent
 RINGS = 0.15
 """Share of the evidence for a contact that rings and yields that its ringing alone must have [-]: a box that creeps lags behind
 the belt as one on a yielding contact does, but hardly rings when it sticks again."""
-JUMP = 30.0
+JUMPED = 30.0
 """Fall of chi^2 by a step within one stick phase from which on it is a jump [-]; of 200 phases of noise, none of 100 runs has
 one."""
 
@@ -31,7 +32,7 @@ class Sticking:
     """What the stick phases tell; scores are falls of chi^2 less what chance and choice give."""
 
     scores: dict[str, float]
-    """Score of belt_speed_ripple, presliding_compliance, sensor_step, sensor_drift, creep_before, creep_after, yielding."""
+    """Score of each finding: ripple, contact that yields, jump or drift of the reading, creep_before, creep_after, yielding."""
     settings: dict[str, dict[str, float]]
     """Parameters at the best score."""
     runs: tuple[tuple[str, float], ...]
@@ -99,30 +100,30 @@ def analyse(slips: Sequence[Slips]) -> Sticking | None:
     grid = np.arange(2.0 / duration, 3.0, 1.0 / (4.0 * duration))
     gains = _ripple_gains(runs, rests, grid)
     best = int(np.argmax(gains))
-    scores["belt_speed_ripple"] = float(gains[best]) - 2 * n * log_n - 2.0 * np.log(len(grid))
-    settings["belt_speed_ripple"] = {"frequency": float(grid[best])}
+    scores[BELT_RIPPLE] = float(gains[best]) - 2 * n * log_n - 2.0 * np.log(len(grid))
+    settings[BELT_RIPPLE] = {"frequency": float(grid[best])}
 
     ringing = [(f, z) for f in np.geomspace(1.5, 15.0, 40) * runs[0].slips.record.angular_frequency for z in (0.03, 0.08, 0.2)]
     gains = np.array([gain(lambda run, w=w, z=z: _ringing(run, w, z)) for w, z in ringing])
     best = int(np.argmax(gains))
-    scores["presliding_compliance"] = float(gains[best]) - 2 * n * log_n - 2.0 * np.log(len(ringing))
-    settings["presliding_compliance"] = {"angular_frequency": float(ringing[best][0]), "damping_ratio": ringing[best][1]}
+    scores[YIELDING] = float(gains[best]) - 2 * n * log_n - 2.0 * np.log(len(ringing))
+    settings[YIELDING] = {"angular_frequency": float(ringing[best][0]), "damping_ratio": ringing[best][1]}
     # a contact whose stiffness changes with its load follows the belt at one speed no longer
     yields = gain(lambda run: [*_ringing(run, *ringing[best]), *_yielding(run)]) - 5 * n * log_n - 2.0 * np.log(len(ringing))
-    if scores["presliding_compliance"] > RINGS * yields:
-        scores["presliding_compliance"] = max(scores["presliding_compliance"], yields)
+    if scores[YIELDING] > RINGS * yields:
+        scores[YIELDING] = max(scores[YIELDING], yields)
 
     def hats(column: Array, places: Sequence[float]) -> list[Array]:
         return [np.clip(1.0 - np.abs(column - p) / 0.05, 0.0, 1.0) for p in places]
 
     scores["creep_before"] = gain(lambda run: hats(run.samples.to_onset, (0.0, 0.05, 0.1, 0.15))) - 4 * n * log_n
-    scores["sensor_drift"] = (
+    scores[CREEPING_ZERO] = (
         gain(lambda run: [np.sqrt(run.samples.time - run.samples.time[0]), run.samples.time**2]) - 2 * n * log_n
     )
     scores["yielding"] = gain(_yielding) - 3 * n * log_n
     scores["creep_after"] = gain(lambda run: hats(run.samples.since_restick, (0.0, 0.05, 0.1))) - 3 * n * log_n
-    scores["sensor_step"] = step - n * (log_n + 2.0 * np.log(max(freedom, 2)))
-    settings["sensor_step"] = {f"time_{i}": t for i, t in enumerate(times)}
+    scores[JUMP] = step - n * (log_n + 2.0 * np.log(max(freedom, 2)))
+    settings[JUMP] = {f"time_{i}": t for i, t in enumerate(times)}
     errors = np.array([_belt_error(run) for run in runs]).T
     stated = tuple((run.slips.record.name, run.slips.record.mechanism.belt_velocity) for run in runs)
     return Sticking(scores, settings, stated, errors[0], errors[1], chi2 - freedom, chi2 / max(freedom, 1), jumps)
@@ -194,7 +195,7 @@ def _step(runs: Sequence[_Phases], rests: Sequence[Array]) -> tuple[float, list[
             k = np.arange(1, n)
             sums = np.cumsum(rest[rows])
             gains = (sums[:-1] - sums[-1] * k / n) ** 2 / (k * (n - k) / n)
-            jumps += int(gains.max() > JUMP)
+            jumps += int(gains.max() > JUMPED)
             if gains.max() > best:
                 best, when = float(gains.max()), float(run.samples.time[rows[int(np.argmax(gains))]])
         total += best

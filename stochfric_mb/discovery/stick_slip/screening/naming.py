@@ -10,11 +10,10 @@ import numpy as np
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
-from stochfric_mb.discovery.stick_slip.simulation.model import CORRECTED, FREED, MOST_FREED, Model
-from stochfric_mb.effects import Effect, effect_class, make_effect
+from stochfric_mb.discovery.stick_slip.simulation.model import CORRECTED, MOST_FREED, Model
+from stochfric_mb.effects import Effect, effect_class, kind_found_as, make_effect
+from stochfric_mb.effects.traits import JUMP, WAVES
 
-PERIODIC = ("normal_load_ripple", "harmonic_force", "position_dependent_friction")
-"""Effects whose phase each run has its own value of."""
 HIGHEST_HARMONIC = 9
 """Order up to which a ripple at a multiple of a named one's frequency is its harmonic: beyond, a multiple is always near."""
 
@@ -31,7 +30,7 @@ def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int)
     coefficients = candidate.solution.coefficients[n_terms:]
     if candidate.is_wave:
         return _periodic(model, candidate, pool, coefficients)
-    if candidate.name == "sensor_step":
+    if candidate.name == kind_found_as(JUMP):
         sizes = coefficients.reshape(pool.n_runs, -1)
         times = np.array(candidate.hypothesis.setting).reshape(pool.n_runs, -1)
         for step in range(sizes.shape[1]):
@@ -42,7 +41,9 @@ def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int)
     # a fit begins where screening ended: coefficients and corrections belong to the effect's strength
     mu_s, mu_k = (max(float(c), 1.0e-3) for c in candidate.solution.coefficients[:2])
     corrections: dict[str, float] = dict(zip(CORRECTED, map(float, candidate.solution.coefficients[2:5]), strict=True))
-    for name in FREED.get(candidate.name, ()):
+    for name in effect_class(candidate.name).frees:
+        if name not in corrections:
+            continue
         corrections[name] = float(np.clip(corrections[name] + values.pop(name), -MOST_FREED, MOST_FREED))
     model = dataclasses.replace(model.with_law(mu_s, mu_k), corrections=corrections)
     return model.plus(_bounded(candidate.name, values))
@@ -58,7 +59,7 @@ def with_steps(model: Model, steps: Mapping[str, tuple[float, float]], place: in
     """
     if place is None:
         size, when = next(iter(steps.values()))
-        model = model.plus(make_effect("sensor_step", size=size, time=when))
+        model = model.plus(make_effect(kind_found_as(JUMP), size=size, time=when))
         place = len(model.effects) - 1
     own = dict(model.own)
     for run, (size, when) in steps.items():
@@ -91,7 +92,7 @@ def _periodic(model: Model, candidate: Candidate, pool: Pool, coefficients: Arra
     phases = np.arctan2(-pairs[..., 1], pairs[..., 0])
     directions = [s.record.direction for s in pool.slips]
     names = [s.record.name for s in pool.slips]
-    if candidate.name == "position_dependent_friction":
+    if candidate.along_belt:
         # a mirrored run sees the belt coordinate with the opposite sign
         phases = phases * np.array(directions)[:, None]
         values = {"amplitude": amplitudes[0], "wavelength": main}
@@ -118,7 +119,7 @@ def as_harmonic(model: Model, candidate: Candidate, pool: Pool, n_terms: int) ->
     """
     if not candidate.is_wave:
         return None
-    held = next((e for e in model.effects if e.kind in PERIODIC and e.own_to_run), None)
+    held = next((e for e in model.effects if WAVES in e.traits and e.own_to_run), None)
     if held is None:
         return None
     belt = float(pool.belt_velocity.min())
@@ -140,4 +141,4 @@ def _frequency(effect: Effect, belt: float) -> float:
 
 def _candidate_frequency(candidate: Candidate, belt: float) -> float:
     main = float(candidate.hypothesis.setting[0])
-    return belt / main if candidate.name == "position_dependent_friction" else main
+    return belt / main if candidate.along_belt else main

@@ -15,13 +15,10 @@ from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING, c
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
 from stochfric_mb.discovery.stick_slip.screening.waves import best_wave
+from stochfric_mb.effects import effect_class, kind_found_as, kinds_with
 from stochfric_mb.effects.marks import ENTRAINED, WAVE, Hypothesis
+from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, JUMP, POSITIVE
 
-POSITIVE = (
-    "velocity_weakening", "viscous_friction", "frictional_lag", "dwell_ageing", "quadratic_damping", "backlash", "second_mode",
-    "sensor_delay",
-)  # fmt: skip
-"""Effects whose strength cannot be negative."""
 WORTH_A_SECOND = 20.0
 """Score that a second step of the sensor needs [-]."""
 REFITTED = 14
@@ -56,7 +53,16 @@ class Candidate:
     @property
     def any_shape(self) -> bool:
         """Whether it can give slips nearly any shape, the same to all: friction along the stroke."""
-        return self.name == "position_dependent_friction" and not self.is_wave
+        return self.has(ANY_SHAPE) and not self.is_wave
+
+    @property
+    def along_belt(self) -> bool:
+        """Whether it is a wave along the belt, not in time."""
+        return self.has(ALONG_BELT)
+
+    def has(self, trait: str) -> bool:
+        """Return whether it is an effect with a trait."""
+        return self.is_effect and trait in effect_class(self.name).traits
 
     def start(self, terms: int) -> dict[str, float]:
         """Return parameter values where a fit of the effect may start; ``terms``: number of coefficients before its own."""
@@ -87,7 +93,7 @@ def screen(
         families.append((name, axis, [Hypothesis(name, list(columns))], 1))
     softer = softening(pool)
     families.append((SOFTENING, "stiffness, time within the run", softer, len(softer)))
-    for kind, axis, multiplied in (("friction_step", "abrupt change of the friction", True), ("sensor_step", "", False)):
+    for kind, axis, multiplied in (("friction_step", "abrupt change of the friction", True), (kind_found_as(JUMP), "", False)):
         if kind not in without:
             step = _step(pool, regression, terms, solution, kind, multiplied=multiplied)
             families.append((kind, axis, [step], len(step_times(pool)) ** pool.n_runs))
@@ -114,8 +120,13 @@ def screen(
     return sorted((c for c in found if _sign_possible(c.name, c.solution, terms)), key=lambda c: -c.score)
 
 
+def _positive(kind: str) -> bool:
+    """Return whether a name is that of an effect whose strength cannot be negative."""
+    return kind in kinds_with(POSITIVE)
+
+
 def _can_be(kind: str, hypothesis: Hypothesis, regression: Regression, terms: Terms, solution: Solution) -> bool:
-    return kind not in POSITIVE or _sign_possible(
+    return not _positive(kind) or _sign_possible(
         kind, regression.solve(terms.plus(hypothesis.columns), solution.scatter), terms
     )
 
@@ -123,7 +134,7 @@ def _can_be(kind: str, hypothesis: Hypothesis, regression: Regression, terms: Te
 def _sign_possible(kind: str, fitted: Solution, terms: Terms) -> bool:
     """Return whether the fitted strength has a sign that the effect can have, within two standard deviations."""
     place = terms.columns.shape[2]
-    return kind not in POSITIVE or bool(fitted.coefficients[place] > -2.0 * fitted.deviations[place])
+    return not _positive(kind) or bool(fitted.coefficients[place] > -2.0 * fitted.deviations[place])
 
 
 def _step(pool: Pool, regression: Regression, terms: Terms, solution: Solution, kind: str, *, multiplied: bool) -> Hypothesis:

@@ -14,6 +14,7 @@ from stochfric_mb.discovery.stick_slip.records.record import Array, Noise, Recor
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.discovery.stick_slip.simulation.auxiliary_state import auxiliary_state
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.effects.traits import LATE, MOVES_ZERO
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.statistics import crps
 
@@ -95,7 +96,7 @@ def forecasts(model: Model, windows: Windows, *, sample: int = 0) -> Array:
     shown = sign * position
     true = shown.copy()
     for effect in effects:
-        true -= effect.measure(times, shown, generator) - shown if effect.kind in ("sensor_drift", "sensor_step") else 0.0
+        true -= effect.measure(times, shown, generator) - shown if MOVES_ZERO in effect.traits else 0.0
     starts = np.stack([times - model.late, true, np.full(len(times), belt), np.ones(len(times)), dwell], axis=1)
     try:
         paths = system.forecasts(
@@ -104,7 +105,7 @@ def forecasts(model: Model, windows: Windows, *, sample: int = 0) -> Array:
     except SimulationError:
         return np.full(windows.targets.shape, np.nan)
     for effect in effects:
-        if effect.group == "sensor" and effect.kind not in ("sensor_outliers", "sensor_delay"):
+        if effect.group == "sensor" and not effect.random and LATE not in effect.found_as:
             paths = np.stack([effect.measure(t, p, generator) for t, p in zip(windows.times(), paths, strict=True)])
     return sign * paths
 
@@ -136,7 +137,7 @@ def expected_scores(model: Model, plain: Model, windows: Windows, noise: Noise) 
     others = _members(plain, windows) if plain.random else None
     single = forecasts(plain, windows)
     generator = np.random.default_rng(0)
-    outliers = [e for e in model.effects_in(windows.record.name) if e.kind == "sensor_outliers"]
+    outliers = [e for e in model.effects_in(windows.record.name) if e.group == "sensor" and e.random]
     scores: list[Array] = []
     for chosen in range(0, MEMBERS, MEMBERS // STAND_INS):
         shown = members[chosen]

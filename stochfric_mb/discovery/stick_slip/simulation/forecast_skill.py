@@ -22,6 +22,7 @@ from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, expec
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.phases import in_phase
 from stochfric_mb.discovery.stick_slip.simulation.scatter import simulated_slips
+from stochfric_mb.effects.traits import JUMP
 
 START = np.array([-3.0, -3.0, -4.0])
 """Logarithms of the scatter at which a step is looked for [ln N]."""
@@ -76,7 +77,7 @@ def settled(model: Model, runs: HeldOut) -> Model:
 
 def _stepped(model: Model, runs: HeldOut) -> Model:
     """Return the model with the sensor's step found in each held-out run: a fault of the record, like its phase."""
-    places = [i for i, e in enumerate(model.effects) if e.kind == "sensor_step"]
+    places = [i for i, e in enumerate(model.effects) if JUMP in e.found_as]
     if not places:
         return model
     for slips in runs.slips:
@@ -97,11 +98,7 @@ def _stepped(model: Model, runs: HeldOut) -> Model:
 
 def deterministic(model: Model) -> Model:
     """Return the model without what is random in it: its mean."""
-    kept = [
-        i
-        for i, e in enumerate(model.effects)
-        if e.coefficient_process() is None and e.kind not in ("impacts", "sensor_outliers")
-    ]
+    kept = [i for i, e in enumerate(model.effects) if not e.random]
     own = {run: tuple(values[i] for i in kept) for run, values in model.own.items()}
     return dataclasses.replace(model, process=None, effects=tuple(model.effects[i] for i in kept), own=own)
 

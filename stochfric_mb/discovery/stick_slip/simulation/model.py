@@ -27,13 +27,9 @@ NOT_FITTED = (
 """Parameters of effects that forecasts cannot fit, or that are fixed by what they mean."""
 REACH = 0.25
 """How far a fit may move the coefficients, over mu_s [-]: further off, a forecast that never slips would look good."""
-FREED = {"second_mode": ("mass",), "nonlinear_stiffness": ("stiffness",)}
-"""Effect -> what is believed of the mechanism less firmly with it: whether the oscillator was weighed with the body, and at
-which deflection the spring was measured, nobody said."""
 MOST_FREED = 0.4
-"""How far that may be off [-]."""
-MOST_DAMPED = 0.1
-"""Damping ratio up to which a second mode is looked for [-]: one that hardly rings could stand for any shape."""
+"""How far what an effect leaves open (`Effect.frees`) may be off [-]: whether an oscillator was weighed with the body, and at
+which deflection a spring was measured, nobody said."""
 SHORTEST_LIMIT = 1.0e-6
 """Smallest elastic limit that a fit may reach [m]: a stiffer contact cannot be told from a rigid one and costs time."""
 TUNED, TUNING = ("frequency", "wavelength"), 0.02
@@ -89,12 +85,12 @@ class Model:
     @property
     def late(self) -> float:
         """By how much its sensor is late [s]."""
-        return float(sum(e.delay for e in self.effects if e.kind == "sensor_delay"))  # pyright: ignore[reportAttributeAccessIssue]
+        return sum(e.late for e in self.effects)
 
     @property
     def random(self) -> bool:
         """Whether its friction is random."""
-        return self.process is not None or any(e.coefficient_process() is not None or e.kind == "impacts" for e in self.effects)
+        return self.process is not None or any(e.random and e.group != "sensor" for e in self.effects)
 
 
 def free_parameters(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str] = ()) -> list[FreeParameter]:
@@ -118,7 +114,7 @@ def free_parameters(model: Model, uncertainty: Mapping[str, float], runs: Sequen
 def _correction(model: Model, name: str, deviation: float) -> FreeParameter | None:
     """Return the relative correction of a number of the mechanism; None where it is certain."""
     most, prior = 3.0 * deviation, deviation
-    if any(name in FREED.get(e.kind, ()) for e in model.effects):
+    if any(name in e.frees for e in model.effects):
         most, prior = most + MOST_FREED, math.hypot(prior, MOST_FREED / 2.0)
     if prior <= 0.0:
         return None
@@ -140,7 +136,7 @@ def _of_effect(model: Model, i: int, runs: Sequence[str]) -> Iterator[FreeParame
         else:
             # a frequency that is off by its share of a wave in the whole record changes everything
             scale = TUNING * value if name in TUNED else max(abs(value), 0.05 * meta["scale"])
-            yield FreeParameter(i, name, value, scale, *_bounds(effect.kind, name, value, meta))
+            yield FreeParameter(i, name, value, scale, *_bounds(name, value, meta))
 
 
 def _stays(effect: Effect, name: str, value: float) -> bool:
@@ -152,16 +148,14 @@ def _stays(effect: Effect, name: str, value: float) -> bool:
     return name in ("amplitude_2", "amplitude_3") and value == 0.0
 
 
-def _bounds(kind: str, name: str, value: float, about: Mapping[str, Any]) -> tuple[float, float]:
+def _bounds(name: str, value: float, about: Mapping[str, Any]) -> tuple[float, float]:
     """Return the smallest and the largest value that a fit may give a parameter of an effect."""
     inside = 1.0e-6 * about["scale"] if about["strict"] else 0.0
     low, high = about["low"] + inside, about["high"] - inside
     if name == "elastic_limit":
         return about["low"] + SHORTEST_LIMIT, about["high"] - SHORTEST_LIMIT
-    if (kind, name) == ("velocity_weakening", "amplitude"):
-        return min(value, 0.0), high  # a friction that rises with the speed is viscous
-    if (kind, name) == ("second_mode", "damping_ratio"):
-        return low, max(MOST_DAMPED, value)
+    if (about["fit_low"], about["fit_high"]) != (about["low"], about["high"]):
+        return min(value, max(about["fit_low"], low)), max(value, min(about["fit_high"], high))
     if about["strict"] and value > 0.0:
         most = MOST_TUNED if name in TUNED else FARTHEST
         return max(low, value / most), min(high, value * most)

@@ -1,0 +1,47 @@
+"""What an effect does at a driven joint: the axis along which it shows, and from where fits of it begin."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from stochfric_mb.effects.contract import Effect
+
+
+@dataclasses.dataclass(frozen=True)
+class JointSpan:
+    """What the motion of a joint covers."""
+
+    speed: float
+    """High speed: its 95 % quantile [m/s or rad/s]."""
+    stroke: float
+    """Distance between the outermost positions [m or rad]."""
+    duration: float
+    """Longest record [s]."""
+    load: float
+    """Median load that the joint transmits, or normal force of a contact [N or N m]; 0: not known, or it does not vary."""
+    both_ways: bool
+    """Whether it slides in both directions."""
+    friction: float
+    """Believed friction [N or N m]."""
+    distance: float
+    """Longest distance slid in a record [m or rad]."""
+    temperature: tuple[float, float] | None
+    """Middle of the temperatures and what they span; None: not measured, or constant."""
+    contact: bool
+    """Whether the place is a contact, whose normal force is known."""
+    believed_load: float
+    """Load by which coefficients are multiplied [N or N m]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class JointSignature:
+    """What an effect does at a joint."""
+
+    starts: tuple[Effect, ...]
+    """Where fits begin: the grid over numbers that enter nonlinearly."""
+    axis: str
+    """Axis along which it shows."""
+    parameters: int
+    """Numbers that it adds to a fit."""
