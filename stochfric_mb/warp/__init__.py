@@ -1,0 +1,16 @@
+"""MuJoCo Warp: the same friction in thousands of worlds at once, steering Warp's own constraint solver."""
+
+from __future__ import annotations
+
+from stochfric_mb.errors import MissingEngineError
+
+try:
+    import mujoco_warp as _mujoco_warp
+except ImportError as error:
+    raise MissingEngineError("MuJoCo Warp is not installed; run pip install 'stochfric_mb[warp]'") from error
+
+from stochfric_mb.warp.attach import ContactFriction, add_friction
+
+__all__ = ["ContactFriction", "add_friction"]
+
+_ = _mujoco_warp

@@ -1,0 +1,66 @@
+"""The friction coefficient of a sliding contact as a Warp function, made of the law's own ``init`` and ``force``."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import warp as wp
+
+from stochfric_mb.coefficients.path import evaluate
+from stochfric_mb.errors import InputError
+from stochfric_mb.laws import Law, law_class
+from stochfric_mb.warp.translate import ARRAY, INT, REAL, Made, Numbers, Translator
+
+_CAP = """
+@wp.func
+def cap(speed: {real}, fast: {real}, mu_s: {real}, mu_k: {real}, p: wp.array[{real}]):
+    one = {real}(1.0)
+    zero = {real}(0.0)
+    {state} = {init}(zero, zero, zero, wp.max(speed, fast), zero, one, mu_s, mu_k, one, zero, zero, p)
+    fx, fy = {force}(zero, zero, zero, speed, zero, one, {state}, mu_s, mu_k, one, zero, zero, p)
+    return fx
+"""
+
+
+def require_runnable(law: Law) -> None:
+    """Return if a law can steer the solver.
+
+    Raises:
+        InputError: its friction is no cap with true stick below it.
+    """
+    if law.has_flow:
+        raise InputError(
+            f"law {law.kind} is a bristle, which Warp's constraint solver cannot carry; use elastic_stick or stribeck here, or "
+            f"{law.kind} with stochfric_mb.mujoco.add_friction"
+        )
+    if not law.state_names or law.state_names[0] != "mode":
+        raise InputError(
+            f"law {law.kind} has no true stick: near rest its force is a function of velocity, which Warp's constraint solver "
+            f"cannot carry; use stribeck or elastic_stick here, or {law.kind} with stochfric_mb.mujoco.add_friction"
+        )
+
+
+@functools.cache
+def cap_function(kind: str, real: type = wp.float32) -> Any:
+    """Return the Warp function ``cap(speed, fast, mu_s, mu_k, p)`` of a law: the friction coefficient while it slides [-].
+
+    ``speed`` >= 0 [m/s]; ``fast`` [m/s] is a speed at which the law slides for certain; ``p`` are its parameters.
+    """
+    translator = Translator(real)
+    module: Any = law_class(kind).functions()
+    leading = (REAL,) * 6
+    init = translator.add(module.init, (*leading, *(REAL,) * 5, ARRAY))
+    count = init.returns.count if isinstance(init.returns, Numbers) else 1
+    force = translator.add(module.force, (*leading, Numbers(count), *(REAL,) * 5, ARRAY))
+    state = ", ".join(f"s_{i}" for i in range(count))
+    source = _CAP.format(real=translator.real, state=state, init=init.name, force=force.name)
+    return translator.functions(Made("cap", REAL), then=source)[0]
+
+
+@functools.cache
+def path_function() -> Any:
+    """Return the Warp function of `stochfric_mb.coefficients.path.evaluate`, in float64 and to the bit that of the CPU."""
+    translator = Translator(wp.float64)
+    made = translator.add(evaluate, (ARRAY, ARRAY, INT, INT, INT, REAL, REAL, REAL))
+    return translator.functions(made)[0]

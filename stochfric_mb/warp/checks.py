@@ -1,0 +1,126 @@
+"""What is refused before the first step."""
+
+# pyright: reportAttributeAccessIssue=false
+# (MuJoCo's bindings are not typed)
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import mujoco_warp as mjw
+import numpy as np
+
+from stochfric_mb.errors import InputError, require_name
+
+ANY = "*"
+"""Stands for every geom that the other one can collide with."""
+INTEGRATORS = ("Euler", "implicitfast", "implicit")
+"""Integrators that take what is written in the passive stage."""
+
+
+def check_options(model: mujoco.MjModel, m: mjw.Model, d: mjw.Data) -> None:
+    """Check the model's options.
+
+    Raises:
+        InputError: the model and the device's do not belong together, or an option that friction cannot run with.
+    """
+    if m.ngeom != model.ngeom or m.nv != model.nv:
+        raise InputError(f"the model has {model.ngeom} geoms, m has {m.ngeom}; give the model that put_model was called with")
+    if int(m.opt.cone) != int(mujoco.mjtCone.mjCONE_ELLIPTIC):
+        raise InputError(
+            "opt.cone is pyramidal, where the coefficient is frozen into the constraint rows; set "
+            'model.opt.cone = mujoco.mjtCone.mjCONE_ELLIPTIC (MJCF: <option cone="elliptic"/>) before put_model'
+        )
+    names = {int(getattr(mujoco.mjtIntegrator, f"mjINT_{n.upper()}")): n for n in INTEGRATORS}
+    if int(m.opt.integrator) not in names:
+        name = mujoco.mjtIntegrator(int(m.opt.integrator)).name.removeprefix("mjINT_")
+        raise InputError(
+            f"opt.integrator = {name} commits a contact more than once a step; use one of {', '.join(INTEGRATORS)}"
+        )
+    off = mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER
+    if int(m.opt.disableflags) & int(off) == int(off):
+        raise InputError(
+            "springs and dampers are both disabled, which switches the passive stage off, and friction with it; enable one"
+        )
+    for bit in ("CONTACT", "CONSTRAINT"):
+        if int(m.opt.disableflags) & int(getattr(mujoco.mjtDisableBit, f"mjDSBL_{bit}")):
+            raise InputError(f"{bit.lower()}s are disabled (disableflags), so that there is no friction; enable them")
+
+
+def partners_of(model: mujoco.MjModel, geoms: tuple[str, str]) -> np.ndarray[Any, np.dtype[np.int32]]:
+    """Return which geoms rub on which: 1 for (body, counter-surface), -1 for the reverse order, 0 otherwise, (ngeom, ngeom).
+
+    Raises:
+        InputError: a name is unknown, or nothing can collide.
+    """
+    if isinstance(geoms, str) or len(geoms) != 2:
+        raise InputError(f"geoms = {geoms!r} is not a pair; give the names of the body's and the counter-surface's geom")
+    known = [model.geom(i).name for i in range(model.ngeom) if model.geom(i).name]
+    body, surface = (name if name == ANY else require_name("geom", name, known) for name in geoms)
+    if body == surface:
+        raise InputError(f"geoms = {geoms!r} must be two geoms, one of which may be '*'; name both")
+    everything = list(range(model.ngeom))
+    bodies = everything if body == ANY else [int(model.geom(body).id)]
+    surfaces = everything if surface == ANY else [int(model.geom(surface).id)]
+    partners = np.zeros((model.ngeom, model.ngeom), dtype=np.int32)
+    condims: set[int] = set()
+    for b in bodies:
+        for s in surfaces:
+            condim = _condim(model, b, s)
+            if condim:
+                partners[b, s], partners[s, b] = 1, -1
+                condims.add(condim)
+    if not condims:
+        raise InputError(f"geoms {body!r} and {surface!r} can never touch; check contype, conaffinity, excludes and pairs")
+    if min(condims) < 3:
+        raise InputError(
+            f"contacts of {body!r} and {surface!r} have condim {min(condims)}: no friction that a law could steer; set condim "
+            "to 3 (or 4, 6) on the geoms or the pair before put_model"
+        )
+    return partners
+
+
+def check_contacts(model: mujoco.MjModel, d: mjw.Data, partners: Any, slots: int | None) -> None:
+    """Check that the contacts that are there now find room.
+
+    Raises:
+        InputError: ``slots`` is no number from 1 on, or fewer than the contacts of a world.
+    """
+    if slots is None:
+        return
+    if int(slots) != slots or slots < 1:
+        raise InputError(f"slots = {slots!r} must be a whole number from 1 on; leave it out for as many as can be")
+    n = min(int(d.nacon.numpy()[0]), d.naconmax)
+    pairs, worlds = d.contact.geom.numpy()[:n], d.contact.worldid.numpy()[:n]
+    ours = [w for (a, b), w in zip(pairs, worlds, strict=True) if a >= 0 and b >= 0 and partners[a, b]]
+    most = max(np.bincount(ours)) if ours else 0
+    if most > slots:
+        raise InputError(f"{most} contacts in one world, but slots = {slots}; give at least that many, or leave slots out")
+
+
+def _condim(model: mujoco.MjModel, a: int, b: int) -> int:
+    """Return the condim of contacts between two geoms, 0 if they cannot touch (MuJoCo's documentation, collision detection)."""
+    for i in range(model.npair):
+        if {int(model.pair_geom1[i]), int(model.pair_geom2[i])} == {a, b}:
+            return int(model.pair_dim[i])
+    if not _can_collide(model, a, b):
+        return 0
+    if model.geom_priority[a] != model.geom_priority[b]:
+        return int(model.geom_condim[a if model.geom_priority[a] > model.geom_priority[b] else b])
+    return max(int(model.geom_condim[a]), int(model.geom_condim[b]))
+
+
+def _can_collide(model: mujoco.MjModel, a: int, b: int) -> bool:
+    still = {int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD)}
+    if a == b or {int(model.geom_type[a]), int(model.geom_type[b])} <= still:
+        return False
+    if not (model.geom_contype[a] & model.geom_conaffinity[b] or model.geom_contype[b] & model.geom_conaffinity[a]):
+        return False
+    bodies = sorted((int(model.geom_bodyid[a]), int(model.geom_bodyid[b])))
+    if (bodies[0] << 16) + bodies[1] in model.exclude_signature:
+        return False
+    welds = [int(model.body_weldid[i]) for i in bodies]
+    parents = [int(model.body_weldid[model.body_parentid[w]]) for w in welds]
+    filtered = not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_FILTERPARENT
+    return welds[0] != welds[1] and not (filtered and 0 not in welds and (welds[0] == parents[1] or welds[1] == parents[0]))

@@ -1,0 +1,66 @@
+# type: ignore
+# (kernels are typed by Warp)
+"""What friction keeps on the device: numbers of each world, and a slot for each contact of each world, twice.
+
+A step reads the slots that the step before wrote and writes the other set (`Slots`, first index), so that a step which is
+evaluated again finds the same past. All arrays keep their addresses, as captured graphs need.
+"""
+
+import warp as wp
+
+STICK = wp.constant(0)
+SLIP = wp.constant(1)
+STOPPING = wp.constant(2)
+"""Sliding, and asked to be at rest at the end of the step."""
+
+vec5 = wp.types.vector(length=5, dtype=wp.float32)
+
+
+@wp.struct
+class Worlds:
+    """Numbers of each world, shape (nworld,) or (nworld, n)."""
+
+    last_time: wp.array[float]
+    count: wp.array[int]
+    """Accepted steps since the world began; -1 before the first."""
+    fresh: wp.array[int]
+    """1 if this evaluation begins a step, 0 if it repeats one."""
+    sample: wp.array[wp.int64]
+    """Second part of the address of the world's coefficient path."""
+    descriptor: wp.array2d[wp.float64]
+    cursor: wp.array2d[wp.float64]
+    parameters: wp.array2d[float]
+    """The law's parameters, as `Law.parameters`."""
+    stick_speed: wp.array[float]
+    """Speed above which a contact at its cap slides [m/s]."""
+    mu_s: wp.array[float]
+    mu_k: wp.array[float]
+    overflow: wp.array[int]
+    """Contacts that found no slot since the world began."""
+
+
+@wp.struct
+class Slots:
+    """Contacts, shape (2, nworld, n_slots); the set ``count % 2`` is the present one."""
+
+    used: wp.array2d[int]
+    """Number of slots in use, shape (2, nworld)."""
+    geoms: wp.array3d[wp.vec2i]
+    rows: wp.array3d[wp.vec2i]
+    """First constraint row of the contact, and its number of rows."""
+    place: wp.array3d[wp.vec3]
+    """Position of the contact relative to its second geom [m]."""
+    friction: wp.array3d[vec5]
+    """What the solver was given."""
+    force: wp.array3d[wp.vec3]
+    """Normal force and the two tangential forces that the solver found [N]."""
+    saturation: wp.array3d[float]
+    """Square of the friction force over its cap [-]."""
+    drift: wp.array3d[wp.vec3]
+    """Displacement since the contact stuck [m], in world coordinates."""
+    velocity: wp.array3d[wp.vec3]
+    """Relative velocity at the step's start [m/s], likewise."""
+    urgency: wp.array3d[float]
+    """Friction that a sliding contact was asked for, over its cap [-]."""
+    mode: wp.array3d[int]
+    """STICK, SLIP or STOPPING."""

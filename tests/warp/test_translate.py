@@ -1,0 +1,141 @@
+"""Warp functions made of the package's own sources give what numba gives."""
+
+import math
+
+import numpy as np
+import pytest
+import warp as wp
+
+from stochfric_mb.coefficients import CoefficientPath, Empirical, Knots, Lognormal, Matern, OrnsteinUhlenbeck, Uniform
+from stochfric_mb.errors import InputError
+from stochfric_mb.laws import LAWS, make_law
+from stochfric_mb.laws.stribeck import slip_coefficient
+from stochfric_mb.warp.cap import cap_function, path_function
+from stochfric_mb.warp.translate import REAL, Translator
+
+SPEEDS = np.concatenate([[0.0], np.geomspace(1e-7, 10.0, 400)])
+STICKING = ["coulomb", "stribeck", "karnopp", "elastic_stick"]
+
+
+def own_cap(law, speeds):
+    """Return what the law's numba functions give for a contact that slides."""
+    functions, p = law.functions(), law.parameters()
+    zeros = (0.0, 0.0, 0.0)
+    caps = []
+    for speed in speeds:
+        fast = max(speed, 2.0 * law.stick_speed)
+        state = functions.init(*zeros, fast, 0.0, 1.0, law.mu_s, law.mu_k, 1.0, 0.0, 0.0, p)
+        caps.append(functions.force(*zeros, speed, 0.0, 1.0, state, law.mu_s, law.mu_k, 1.0, 0.0, 0.0, p)[0])
+    return np.array(caps)
+
+
+def warp_cap(law, speeds, real):
+    cap = cap_function(law.kind, real)
+
+    @wp.kernel(module="unique", enable_backward=False)
+    def kernel(speed: wp.array[real], p: wp.array[real], fast: real, mu_s: real, mu_k: real, out: wp.array[real]):
+        i = wp.tid()
+        out[i] = cap(speed[i], fast, mu_s, mu_k, p)
+
+    out = wp.zeros(len(speeds), dtype=real)
+    given = [wp.array(speeds, dtype=real), wp.array(law.parameters(), dtype=real), 2.0 * law.stick_speed, law.mu_s, law.mu_k]
+    wp.launch(kernel, dim=len(speeds), inputs=given, outputs=[out])
+    return out.numpy()
+
+
+@pytest.mark.parametrize("kind", STICKING)
+def test_sliding_coefficient_is_numbas(kind):
+    law = make_law(kind, mu_s=0.8, mu_k=0.46)
+    expected = own_cap(law, SPEEDS)
+    assert np.abs(warp_cap(law, SPEEDS, wp.float64) - expected).max() < 1e-13  # a libm's last bits
+    # float32 holds speed and result to 6e-8 each; exp multiplies the speed's error by (v/v_0) exp(-v/v_0) < .4
+    assert np.abs(warp_cap(law, SPEEDS, wp.float32) - expected).max() < 1e-6
+
+
+def test_all_forms_of_stribeck_have_their_own_curve():
+    for form in ("exponential", "gaussian", "lorentzian"):
+        law = make_law("stribeck", mu_s=0.8, mu_k=0.46, stribeck_velocity=0.01, form=form)
+        assert np.abs(warp_cap(law, SPEEDS, wp.float64) - own_cap(law, SPEEDS)).max() < 1e-13
+
+
+def coefficient_paths(process, law, times, seed, contact, worlds):
+    path = path_function()
+
+    @wp.kernel(module="unique", enable_backward=False)
+    def kernel(
+        numbers: wp.array[wp.float64], cursors: wp.array2d[wp.float64], t: wp.array[wp.float64], seed: wp.int64,
+        contact: wp.int64, out: wp.array3d[wp.float64],
+    ):  # fmt: skip
+        w = wp.tid()
+        for i in range(t.shape[0]):
+            a, b = path(numbers, cursors[w], seed, wp.int64(w), contact, t[i], wp.float64(0.0), wp.float64(0.0))
+            out[w, i, 0] = a
+            out[w, i, 1] = b
+
+    out = wp.zeros((worlds, len(times), 2), dtype=wp.float64)
+    given = [wp.array(process.descriptor(law), dtype=wp.float64), wp.zeros((worlds, 10), dtype=wp.float64)]
+    wp.launch(kernel, dim=worlds, inputs=[*given, wp.array(times, dtype=wp.float64), seed, contact], outputs=[out])
+    return out.numpy()
+
+
+@pytest.mark.parametrize(
+    "process",
+    [
+        Knots(sigma_s=0.015, sigma_k=0.023, spacing=0.01),
+        Knots(sigma_s=0.05, sigma_k=0.05, spacing=0.01, distribution_s=Lognormal(), distribution_k=Uniform()),
+        Knots(sigma_s=0.0, sigma_k=0.02, spacing=0.1, distribution_s=Empirical(tuple(np.linspace(0.7, 0.9, 31)))),
+        OrnsteinUhlenbeck(sigma_s=0.015, sigma_k=0.023, correlation_time=0.05),
+        Matern(sigma_s=0.015, sigma_k=0.023, correlation_time=0.05),
+    ],
+    ids=["knots", "lognormal", "empirical", "ornstein_uhlenbeck", "matern"],
+)
+def test_coefficient_paths_are_the_cpus(process):
+    law = make_law("coulomb", mu_s=0.8, mu_k=0.46)
+    times = np.arange(0.0, 1.0, 1e-3)
+    found = coefficient_paths(process, law, times, 7, 3, 4)
+    for world in range(4):
+        expected = CoefficientPath(process, law, seed=7, sample=world, contact=3).at_times(times)
+        assert np.abs(found[world] - expected).max() < 1e-14  # plain IEEE operations; exp, log and erfc are libm's
+
+
+def test_every_law_can_be_translated():
+    """Laws that cannot steer the solver are refused by name, not because their source is beyond the translator."""
+    for kind in LAWS:
+        cap_function(kind, wp.float64)
+
+
+def test_mixed_types_follow_numbas_rules():
+    def mixed(x):
+        n = int(x)
+        total = 0.0
+        for i in range(n):
+            if i % 2 == 0:
+                total += i / 2
+            else:
+                total -= 0.25 * i**2
+        a, b = total, x
+        a, b = b, a
+        return a - b if 0.0 < x < 100.0 else math.copysign(1.0, -b)
+
+    translator = Translator(wp.float64)
+    (function,) = translator.functions(translator.add(mixed, (REAL,)))
+
+    @wp.kernel(module="unique", enable_backward=False)
+    def kernel(x: wp.array[wp.float64], out: wp.array[wp.float64]):
+        i = wp.tid()
+        out[i] = function(x[i])
+
+    x = np.array([0.5, 3.7, 8.0, 120.0])
+    out = wp.zeros(4, dtype=wp.float64)
+    wp.launch(kernel, dim=4, inputs=[wp.array(x, dtype=wp.float64)], outputs=[out])
+    assert np.abs(out.numpy() - [mixed(v) for v in x]).max() < 1e-12
+
+
+def test_what_has_no_counterpart_is_refused_with_its_line():
+    def worse(x):
+        return [x, x]
+
+    with pytest.raises(InputError, match=r"worse, line 2: List cannot run in Warp"):
+        Translator().add(worse, (REAL,))
+    with pytest.raises(InputError, match="5 arguments, but 1 are given"):
+        Translator().add(slip_coefficient, (REAL,))
