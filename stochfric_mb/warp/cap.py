@@ -7,7 +7,9 @@ from typing import Any
 
 import warp as wp
 
-from stochfric_mb.coefficients.path import evaluate
+from stochfric_mb.coefficients.distributions import transform
+from stochfric_mb.coefficients.path import evaluate, independent_pair
+from stochfric_mb.coefficients.philox import normals
 from stochfric_mb.errors import InputError
 from stochfric_mb.laws import Law, law_class
 from stochfric_mb.warp.translate import ARRAY, INT, REAL, Made, Numbers, Translator
@@ -59,8 +61,16 @@ def cap_function(kind: str, real: type = wp.float32) -> Any:
 
 
 @functools.cache
-def path_function() -> Any:
-    """Return the Warp function of `stochfric_mb.coefficients.path.evaluate`, in float64 and to the bit that of the CPU."""
+def coefficient_functions() -> tuple[Any, ...]:
+    """Return Warp functions of this package's random numbers, all in float64: to the bit what the CPU has.
+
+    They are `path.evaluate`, `path.independent_pair`, `philox.normals` and `distributions.transform`.
+    """
     translator = Translator(wp.float64)
-    made = translator.add(evaluate, (ARRAY, ARRAY, INT, INT, INT, REAL, REAL, REAL))
-    return translator.functions(made)[0]
+    address = (INT, INT, INT, INT)
+    return translator.functions(
+        translator.add(evaluate, (ARRAY, ARRAY, INT, INT, INT, REAL, REAL, REAL)),
+        translator.add(independent_pair, (ARRAY, *address)),
+        translator.add(normals, (*address, INT)),
+        translator.add(transform, (REAL, REAL, REAL, REAL, ARRAY, INT, INT)),
+    )

@@ -21,7 +21,7 @@ from typing import Any
 
 import warp as wp
 
-from stochfric_mb.warp.cap import cap_function, path_function
+from stochfric_mb.warp.cap import cap_function
 from stochfric_mb.warp.state import SLIP, STICK, STOPPING, Slots, Worlds, vec5
 
 SATURATED = wp.constant(0.9999**2)
@@ -40,38 +40,6 @@ PUSHED = wp.constant(2.0)
 """Friction that a sliding contact is asked for, over the cap: the normal force may double in a step."""
 MOST_URGENT = wp.constant(1024.0)
 """Bound of that ratio, which doubles with each step in which a sliding contact stays below its cap."""
-
-
-@functools.cache
-def begin_kernel() -> Any:
-    """Return the kernel that begins a step in each world: its clock, its coefficients, and no contact yet."""
-    path = path_function()
-
-    @wp.kernel(module="unique", enable_backward=False)
-    def begin(time: wp.array[float], timestep: wp.float64, seed: wp.int64, contact: wp.int64, worlds: Worlds, slots: Slots):
-        w = wp.tid()
-        if time[w] < worlds.last_time[w]:  # the world was reset
-            worlds.count[w] = -1
-        fresh = wp.int32(0)
-        if worlds.count[w] < 0:
-            worlds.overflow[w] = 0
-            slots.used[0, w] = 0
-            slots.used[1, w] = 0
-            fresh = 1
-        elif time[w] != worlds.last_time[w]:
-            fresh = 1
-        worlds.fresh[w] = fresh
-        worlds.last_time[w] = time[w]
-        worlds.count[w] = worlds.count[w] + fresh
-        slots.used[worlds.count[w] % 2, w] = 0
-        t = wp.float64(worlds.count[w]) * timestep
-        mu_s, mu_k = path(
-            worlds.descriptor[w], worlds.cursor[w], seed, worlds.sample[w], contact, t, wp.float64(0.0), wp.float64(0.0)
-        )
-        worlds.mu_s[w] = wp.float32(mu_s)
-        worlds.mu_k[w] = wp.float32(mu_k)
-
-    return begin
 
 
 @wp.func

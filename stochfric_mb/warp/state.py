@@ -25,8 +25,12 @@ class Worlds:
     """Accepted steps since the world began; -1 before the first."""
     fresh: wp.array[int]
     """1 if this evaluation begins a step, 0 if it repeats one."""
+    episode: wp.array[int]
+    """Times that the world began, less one."""
+    first_sample: wp.array[wp.int64]
+    """Second part of the address of the world's coefficient path in its first episode."""
     sample: wp.array[wp.int64]
-    """Second part of the address of the world's coefficient path."""
+    """The same in this episode."""
     descriptor: wp.array2d[wp.float64]
     cursor: wp.array2d[wp.float64]
     parameters: wp.array2d[float]
@@ -37,6 +41,14 @@ class Worlds:
     mu_k: wp.array[float]
     overflow: wp.array[int]
     """Contacts that found no slot since the world began."""
+    means: wp.array[wp.float64]
+    """Descriptor of the law's mean coefficients, drawn for each episode; empty: they are given."""
+    spreads: wp.array2d[wp.float64]
+    """A row for each further parameter that is drawn for each episode: see `stochfric_mb.warp.domain`."""
+    v_s: int
+    """Place of the stick speed among the parameters, -1 if the law has none."""
+    stride: wp.int64
+    """What is added to a world's sample with each episode."""
 
 
 @wp.struct

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import Any
 
 import numpy as np
@@ -18,14 +19,21 @@ It lies above what a stuck contact moves while its load shifts to its neighbours
 degrees a second, in steps of 5 ms), and delays break-away by sqrt(2 v/(rate of the free acceleration))."""
 
 
-def world_arrays(friction: Friction, nworld: int, first_sample: int, timestep: float) -> Any:
+def world_arrays(friction: Friction, nworld: int, first_sample: int, timestep: float, *, new_paths: bool = False) -> Any:
     """Return the `Worlds` of a friction, none of which has begun."""
     law = friction.law
     worlds: Any = Worlds()
     worlds.last_time = wp.zeros(nworld, dtype=float)
     worlds.count = wp.full(nworld, -1, dtype=int)
     worlds.fresh = wp.zeros(nworld, dtype=int)
+    worlds.episode = wp.full(nworld, -1, dtype=int)
+    worlds.first_sample = wp.array(first_sample + np.arange(nworld), dtype=wp.int64)
     worlds.sample = wp.array(first_sample + np.arange(nworld), dtype=wp.int64)
+    worlds.means = wp.zeros(0, dtype=wp.float64)
+    worlds.spreads = wp.zeros((0, 1), dtype=wp.float64)
+    names = [field.name for field in dataclasses.fields(law)]
+    worlds.v_s = names.index("v_s") if "v_s" in names else -1
+    worlds.stride = nworld if new_paths else 0
     worlds.descriptor = _rows(friction.path(0).descriptor, nworld, wp.float64)
     worlds.cursor = wp.zeros((nworld, CURSOR), dtype=wp.float64)
     worlds.parameters = _rows(law.parameters(), nworld, wp.float32)

@@ -3,7 +3,6 @@
 import mujoco
 import mujoco_warp as mjw
 import numpy as np
-import pytest
 
 from stochfric_mb import Coulomb
 from stochfric_mb.mujoco.belt_box import scene

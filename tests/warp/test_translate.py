@@ -10,7 +10,7 @@ from stochfric_mb.coefficients import CoefficientPath, Empirical, Knots, Lognorm
 from stochfric_mb.errors import InputError
 from stochfric_mb.laws import LAWS, make_law
 from stochfric_mb.laws.stribeck import slip_coefficient
-from stochfric_mb.warp.cap import cap_function, path_function
+from stochfric_mb.warp.cap import cap_function, coefficient_functions
 from stochfric_mb.warp.translate import REAL, Translator
 
 SPEEDS = np.concatenate([[0.0], np.geomspace(1e-7, 10.0, 400)])
@@ -59,7 +59,7 @@ def test_all_forms_of_stribeck_have_their_own_curve():
 
 
 def coefficient_paths(process, law, times, seed, contact, worlds):
-    path = path_function()
+    path = coefficient_functions()[0]
 
     @wp.kernel(module="unique", enable_backward=False)
     def kernel(
