@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 
 from stochfric_mb.coefficients import Knots
-from stochfric_mb.errors import InputError, StabilityError
+from stochfric_mb.errors import InputError, SimulationError, StabilityError
+from stochfric_mb.laws import LAWS as REGISTRY
 from stochfric_mb.testing.candidates import Candidate
-from stochfric_mb.testing.cases import STEP, table_1
+from stochfric_mb.testing.cases import BLOCK, MU_K, STEP, case, table_1
+from stochfric_mb.testing.counting_law import SHARE, Counting
 from stochfric_mb.trajectory import COLUMNS
 
 KNOTS = Knots(sigma_s=0.015, sigma_k=0.023, spacing=0.01)
@@ -75,6 +77,32 @@ def test_a_step_beyond_the_stability_limit_is_refused(engine: Candidate, law: st
         engine.simulate(s, dt=dt)
     for text in (f"{dt:g}", f"{s.step_limit():.3g}", s.law.step_limit_formula):
         assert text in str(refusal.value)
+
+
+def test_a_run_that_breaks_down_is_an_error(engine: Candidate) -> None:
+    """A spring of 1e4 1/s at steps of 1 ms: an explicit engine grows it a hundredfold a step and may still call it success."""
+    mechanism = {"mass": 1.0, "damping": 0.0, "stiffness": 1.0e8, "normal_force": 1.0e-3, "belt_velocity": 0.0}
+    s = case("elastic_stick", 0.02, mechanism=mechanism, initial_position=1.0e-3)
+    try:
+        run = engine.simulate(s, dt=1.0e-3)
+    except (SimulationError, StabilityError):
+        return
+    for name in COLUMNS:
+        assert np.all(np.isfinite(getattr(run, name))), name
+    assert np.max(np.abs(run.position)) <= 1.0e-3 * (1.0 + engine.accuracy.floor)  # friction adds no energy
+
+
+def test_the_state_is_committed_once_a_step(engine: Candidate, monkeypatch: pytest.MonkeyPatch) -> None:
+    if engine.accuracy.stepless:
+        pytest.skip(f"{engine.name} has no step")
+    monkeypatch.setitem(REGISTRY, Counting.kind, Counting)
+    s = case(Counting.kind, 0.02, mechanism=BLOCK, initial_velocity=1.0, output_step=STEP)
+    run = engine.simulate(s, dt=STEP)
+    assert np.all(run.velocity > 0.5)  # it slides one way
+    commits = (1.0 - np.abs(run.friction_force) / (MU_K * BLOCK["normal_force"])) / SHARE
+    steps = np.arange(len(commits)) * (run.attributes["n_steps"] / (len(commits) - 1))
+    # a force that is reported before the commit of its step is one behind, one that took a half step first one ahead
+    assert np.max(np.abs(commits - steps)) <= 1.0 + 1.0e-6
 
 
 @pytest.mark.parametrize("dt", [3e-4, 0.0, -1e-4, 2e-3, math.nan])

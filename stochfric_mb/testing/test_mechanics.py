@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -56,6 +57,26 @@ def test_a_sliding_box_stops_and_stays(engine: Candidate) -> None:
     stop = run.time[np.argmax(run.stick)]
     assert stop == pytest.approx(when, abs=3.0 * STEP)  # a step to see it, one to commit, one between outputs
     np.testing.assert_allclose(run.friction_force[late], s.mechanism.stiffness * where, rtol=tolerance / where)
+
+
+def test_a_stuck_box_rings_down_on_its_spring_and_damper(engine: Candidate) -> None:
+    """The contact's own oscillation, 547 1/s with 30 % damping: a force that is half a step late takes h omega/4 off that."""
+    dt = 2.0e-5
+    s = case(
+        "elastic_stick", 0.02, mechanism=BLOCK, parameters={"v_s": 5.0e-3}, initial_velocity=2.0e-3, output_step=1.0e-4
+    )  # fmt: skip
+    law, m = s.law, s.mechanism
+    spring = law.mu_s * m.normal_force / law.e_lim  # type: ignore[attr-defined]
+    damper = 2.0 * law.zeta * math.sqrt(spring * m.mass)  # type: ignore[attr-defined]
+    run = engine.simulate(s, dt=dt)
+    assert np.all(run.stick == 1.0)
+    stuck = dataclasses.replace(m, stiffness=m.stiffness + spring, damping=damper)
+    x, v = linear_motion(stuck, 0.0, 2.0e-3)(run.time)
+    omega = math.sqrt(stuck.stiffness / m.mass)
+    assert np.max(np.abs(x)) < law.e_lim  # type: ignore[attr-defined]
+    tolerance = engine.accuracy.tolerance(2.0e-3 / omega, omega, dt)
+    assert np.max(np.abs(run.position - x)) <= tolerance
+    assert np.max(np.abs(run.velocity - v)) <= omega * tolerance
 
 
 @pytest.mark.parametrize("law", ["coulomb", "elastic_stick"])

@@ -54,6 +54,76 @@ FAULTS = {
         {"test_a_step_beyond_the_stability_limit_is_refused", "test_a_step_that_cannot_be_taken_is_refused"},
     ),
 }
+STEPPING_FAULTS = {
+    # name of an adapter with steps of its own -> (what is faulty in its loop, as (right, wrong), tests that must notice)
+    "trusting": (
+        ('scenario.require_sane("stepping", t, x, step)', "pass"),
+        {"test_a_run_that_breaks_down_is_an_error"},
+    ),
+    "doubled": (
+        (
+            "contact.commit(t, u, v_b - v, normal)",
+            "contact.commit(t, u, v_b - v, normal), contact.commit(t, u, v_b - v, normal)",
+        ),
+        {"test_the_state_is_committed_once_a_step"},
+    ),
+    "half_late": (
+        (
+            "f = contact.force(t, u, v_b - v, normal)  # that acts",
+            "f = contact.force(t, u - (v_b - half) * step / 2, v_b - half, normal)",
+        ),
+        {"test_a_stuck_box_rings_down_on_its_spring_and_damper"},
+    ),
+    "eager": (
+        (
+            "f = contact.force(t, u, v_b - v, normal)  # while",
+            "contact.commit(t, u, v_b - v, normal); f = contact.force(t, u, v_b - v, normal)  # while",
+        ),
+        {"test_the_state_is_committed_once_a_step"},
+    ),
+}
+STEPPING = """\
+import numpy as np
+from stochfric_mb.contact import Contact
+from stochfric_mb.friction import Friction
+from stochfric_mb.laws.substitute import elastic_substitute
+from stochfric_mb.testing import Accuracy
+from stochfric_mb.trajectory import Trajectory
+
+ACCURACY = Accuracy(order=2, switch_order=1, factor=5)
+
+
+def simulate(scenario, *, seed=0, sample=0, dt=None, progress=None):
+    step, m = scenario.checked_step(dt), scenario.mechanism
+    law, note = elastic_substitute(scenario.law, step, m.normal_force, m.mass)
+    contact = Contact(Friction(law, scenario.process), effective_mass=m.mass, seed=seed, sample=sample, dt=step)
+    x, v, v_b, normal = m.initial_position, m.initial_velocity, m.belt_velocity, m.normal_force
+    contact.start(0.0, -x, v_b - v, normal)
+    stride = round(scenario.output_step / step)
+    rows, n_steps = np.empty((scenario.n_outputs, 7)), (scenario.n_outputs - 1) * stride
+    half = v
+    for n in range(n_steps + 1):
+        t = n * step
+        u = v_b * t - x
+        if n > 0:
+            v = half
+            for _ in range(50):
+                f = contact.force(t, u, v_b - v, normal)  # while the velocity is sought
+                v = half + 0.5 * step * (f + m.excitation_force(t) - m.stiffness * x - m.damping * v) / m.mass
+            contact.commit(t, u, v_b - v, normal)
+        f = contact.force(t, u, v_b - v, normal)  # that acts
+        if n % stride == 0:
+            scenario.require_sane("stepping", t, x, step)
+            rows[n // stride] = x, v, f, normal, contact.mu_s, contact.mu_k, contact.stick
+            if progress is not None:
+                progress(t)
+        a = (f + m.excitation_force(t) - m.stiffness * x - m.damping * v) / m.mass
+        half = v + 0.5 * step * a if n == 0 else half + step * a
+        x += step * half
+    about = {"engine": "stepping", "version": "1", "hook": "its own force", "law": law.kind, "notes": [note] if note else []}
+    about |= {"dt": step, "seed": seed, "sample": sample, "n_steps": n_steps, "seconds_per_step": 1e-6}
+    return Trajectory(np.array(scenario.output_times()), *np.ascontiguousarray(rows.T), attributes=about)
+"""
 HEAD = """\
 import dataclasses
 import numpy as np
@@ -84,7 +154,13 @@ def caught(tmp_path_factory: pytest.TempPathFactory) -> dict[str, set[str]]:
         order = "2.0" if name in ("late", "lax") else "float('inf')"
         (folder / f"{name}.py").write_text(HEAD.format(order=order, body=body))
         options += ["--stochfric-engine", f"{name}.py"]
-    needed = " or ".join(sorted(set.union(*(tests for _, tests in FAULTS.values()))))
+    (folder / "sound.py").write_text(STEPPING)
+    options += ["--stochfric-engine", "sound.py"]
+    for name, ((right, wrong), _) in STEPPING_FAULTS.items():
+        assert STEPPING.count(right) == 1
+        (folder / f"{name}.py").write_text(STEPPING.replace(right, wrong))
+        options += ["--stochfric-engine", f"{name}.py"]
+    needed = " or ".join(sorted(set.union(*(tests for _, tests in (FAULTS | STEPPING_FAULTS).values()))))
     shown = suite(folder, *options, "-k", needed)
     failures: dict[str, set[str]] = defaultdict(set)
     for test, parameters in re.findall(r"^FAILED .*::(\w+)\[([^]]*)\]", shown, flags=re.MULTILINE):
@@ -92,9 +168,14 @@ def caught(tmp_path_factory: pytest.TempPathFactory) -> dict[str, set[str]]:
     return failures
 
 
-@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("fault", [*FAULTS, *STEPPING_FAULTS])
 def test_a_faulty_adapter_is_caught(caught: dict[str, set[str]], fault: str) -> None:
-    assert FAULTS[fault][1] <= caught[fault]
+    assert (FAULTS | STEPPING_FAULTS)[fault][1] <= caught[fault]
+
+
+def test_twelve_faults_are_tried_and_the_sound_adapter_passes(caught: dict[str, set[str]]) -> None:
+    assert len(FAULTS) + len(STEPPING_FAULTS) == 12
+    assert not caught["sound"]
 
 
 def test_an_adapter_without_its_engine_is_skipped_with_the_remedy(tmp_path: Path) -> None:
