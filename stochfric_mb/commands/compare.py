@@ -50,6 +50,7 @@ def compare(
 ) -> None:
     """Compare engines with the reference on SCENARIO (a TOML file or the name of a bundled one) and write a report."""
     from stochfric_mb import comparison as library
+    from stochfric_mb.commands.compiling import compiling_beside
     from stochfric_mb.commands.progress import display
     from stochfric_mb.engines import adapter
     from stochfric_mb.outputs import check_target, claimed, whole_folder
@@ -62,7 +63,9 @@ def compare(
         for name in names or ():
             adapter(name)
         problem = load_scenario(scenario, law=law, overrides=overrides)
-        result = library.compare(problem, engines=names, seed=seed, dt=dt, convergence=convergence, stage=shown.stage)
+        chosen = names or [name for name in library.installed_engines() if name != "reference"]
+        with compiling_beside(chosen, problem):
+            result = library.compare(problem, engines=names, seed=seed, dt=dt, convergence=convergence, stage=shown.stage)
         shown.note("drawing the report")
         with whole_folder(target, replace=force) as folder:
             content = write(result, folder, command_line())
