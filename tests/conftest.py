@@ -1,9 +1,24 @@
-"""Settings for all tests: hypothesis draws the same examples in every run; HYPOTHESIS_PROFILE=explore draws new ones."""
+"""Settings for all tests: repeatable examples of hypothesis (HYPOTHESIS_PROFILE=explore draws new ones), and which are slow."""
 
 import os
+from pathlib import Path
 
+import pytest
 from hypothesis import settings
 
 settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.register_profile("explore", deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
+
+SLOW = tuple(
+    line for line in Path(__file__).with_name("slow.txt").read_text(encoding="utf-8").splitlines() if line[:1] not in ("", "#")
+)
+"""Beginnings of the names of slow tests."""
+
+
+@pytest.hookimpl(tryfirst=True)  # before options select by marker
+def pytest_collection_modifyitems(items):
+    """Mark the slow tests."""
+    for item in items:
+        if item.nodeid.startswith(SLOW):
+            item.add_marker(pytest.mark.slow)

@@ -91,16 +91,16 @@ def test_other_endings_are_refused(tmp_path):
 def test_an_interrupt_keeps_the_parts_and_says_how_to_go_on(tmp_path):
     out = tmp_path / "ens.nc"
     words = ["kang2015_table1", "--n-runs", "20000", "--output-times", "5,10", "--workers", "1", "--out", str(out)]
+    heard = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"  # a parent in the background ignores it
+    code = f"{heard}; from stochfric_mb.__main__ import main; main()"
     process = subprocess.Popen(
-        [sys.executable, "-m", "stochfric_mb", "ensemble", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [sys.executable, "-c", code, "ensemble", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
     first = parts_folder(out) / "block-0000000.npz"
-    deadline = time.monotonic() + 120.0
-    while not first.exists() and time.monotonic() < deadline:
+    while not first.exists() and process.poll() is None:  # however long a busy machine takes to compile
         time.sleep(0.02)
-    assert first.exists()
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=120)
+    _, errors = process.communicate()
     assert process.returncode == 130, errors
     assert "Interrupted" in errors
     assert "The same command goes on from there" in errors
