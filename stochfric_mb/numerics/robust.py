@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-PER_MEDIAN = 1.4826
+PER_MEDIAN = 1.482602218505602
 """Standard deviation of a normal law over the median of abs(x - centre) [-]: 1/quantile(3/4)."""
 
 
@@ -15,7 +15,7 @@ def deviation(values: npt.ArrayLike, *, about: float | None = None, axis: int | 
     """Return the standard deviation that normal values of this median distance from their centre would have.
 
     >>> deviation([1.0, 2.0, 3.0, 4.0, 1.0e9])
-    1.4826
+    1.482602218505602
 
     Args:
         values: numbers.
@@ -26,11 +26,3 @@ def deviation(values: npt.ArrayLike, *, about: float | None = None, axis: int | 
     away = np.abs(x - (np.median(x, axis=axis, keepdims=True) if about is None else about))
     spread = PER_MEDIAN * np.median(away, axis=axis)
     return float(spread) if axis is None else spread
-
-
-def noise(signal: npt.ArrayLike) -> float:
-    """Return the standard deviation of white noise on a smooth signal, from its third differences.
-
-    The sum of squares of (1, -3, 3, -1) is 20.
-    """
-    return deviation(np.diff(np.asarray(signal, dtype=np.float64), 3), about=0.0) / np.sqrt(20.0)

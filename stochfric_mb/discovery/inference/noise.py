@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import ndtri
+
+from stochfric_mb.numerics.robust import deviation
 
 Array = npt.NDArray[np.float64]
-
-DEVIATIONS = 1.0 / float(ndtri(0.75))
-"""Standard deviation of a normal number over the median of its size [-]."""
 
 
 def white_noise(signal: Array) -> float:
@@ -17,7 +15,7 @@ def white_noise(signal: Array) -> float:
 
     The variance of a third difference of white noise is 1 + 9 + 9 + 1 = 20 times that of the noise.
     """
-    return float(DEVIATIONS * np.median(np.abs(np.diff(signal, 3))) / np.sqrt(20.0))
+    return float(deviation(np.diff(signal, 3), about=0.0) / np.sqrt(20.0))
 
 
 def independent_count(values: Array) -> float:

@@ -24,6 +24,7 @@ from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import kinds_with
 from stochfric_mb.effects.marks import ENTRAINED, Hypothesis, Wave
 from stochfric_mb.effects.traits import ALONG_BELT, FORCE_IN_TIME
+from stochfric_mb.numerics.robust import deviation
 
 REGULAR = 0.03
 """Scatter of the intervals between slips, over their mean, up to which slips may keep to a wave [-]."""
@@ -76,7 +77,7 @@ def _common_rate(pool: Pool) -> float | None:
     """Return the rate of the slips [Hz], where it is regular and the same in all runs."""
     intervals = [np.diff(s.onset_time) for s in pool.slips]
     rates = np.array([1.0 / np.median(i) for i in intervals])
-    irregular = max(float(1.48 * np.median(np.abs(i - np.median(i))) / np.median(i)) for i in intervals)
+    irregular = max(float(deviation(i) / np.median(i)) for i in intervals)
     if np.ptp(rates) > REGULAR * rates.mean() or irregular > REGULAR:
         return None
     return float(rates.mean())

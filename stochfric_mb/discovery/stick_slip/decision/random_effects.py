@@ -9,7 +9,6 @@ import numpy as np
 
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.choice import NAME
-from stochfric_mb.discovery.stick_slip.records.calibration import robust_deviation
 from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, believed
@@ -19,6 +18,7 @@ from stochfric_mb.discovery.stick_slip.simulation.scatter import simulated_slips
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import kind_found_as
 from stochfric_mb.effects.traits import DRAWN_ANEW, KICKS, WANDER
+from stochfric_mb.numerics.robust import deviation
 
 CERTAIN = 30.0
 """Likelihood ratio at which friction scatters beyond doubt [-]."""
@@ -76,7 +76,7 @@ def stray(pool: Pool, residuals: Array) -> np.ndarray:
         mine = np.flatnonzero(pool.kept & (pool.run == r))
         for column in (0, 1) if len(mine) else ():
             away = residuals[mine, column] - np.median(residuals[mine, column])
-            far[mine] |= np.abs(away) > STRAY * robust_deviation(away)
+            far[mine] |= np.abs(away) > STRAY * deviation(away)
     return far
 
 
@@ -86,7 +86,7 @@ def kicked(study: Study) -> np.ndarray:
     forces = pool.features[:, :2].copy()
     for r in range(pool.n_runs):
         forces[pool.run == r] -= np.median(forces[pool.run == r], axis=0)
-    spread = np.array([robust_deviation(forces[:, 0]), robust_deviation(forces[:, 1])])
+    spread = np.array([deviation(forces[:, 0]), deviation(forces[:, 1])])
     limit = np.maximum(STRAY * spread, 0.02 * float(np.median(pool.static)))
     return np.asarray((np.abs(forces) > limit).any(axis=1)) & ~_sliding(pool)
 
@@ -110,7 +110,7 @@ def _repeated(study: Study) -> bool:
     shares = pool.features[:, :4] / levels
     for r in range(pool.n_runs):
         shares[pool.run == r] -= np.median(shares[pool.run == r], axis=0)
-    spread = np.array([robust_deviation(column) for column in shares.T])
+    spread = np.array([deviation(column) for column in shares.T])
     static, kinetic = ((np.abs(shares[:, :2]) > np.maximum(STRAY * spread[:2], 0.02)) & ~_sliding(pool)[:, None]).T
     level = kinetic & ~static & (np.abs(shares[:, 2:]) < STRAY * spread[2:]).all(axis=1)
     widths = np.maximum(3.0 * spread, LEVEL)

@@ -15,6 +15,7 @@ from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, e
 from stochfric_mb.effects import kind_found_as, make_effect
 from stochfric_mb.effects.traits import DRAWN_ANEW
 from stochfric_mb.laws import make_law
+from stochfric_mb.numerics.robust import deviation
 from stochfric_mb.reference.augmented import Start, augmented_system
 
 REPEATS = 2
@@ -48,11 +49,6 @@ class Calibration:
         return features - self.bias - away @ self.slopes.T
 
 
-def robust_deviation(values: Array) -> float:
-    """Return 1.48 times the median absolute deviation."""
-    return float(1.4826 * np.median(np.abs(values - np.median(values))))
-
-
 def calibrate(slips: Slips, *, seed: int = 11, damping: float = 1.0) -> Calibration:
     """Return the errors of the features of ``slips``, by simulation.
 
@@ -84,7 +80,7 @@ def calibrate(slips: Slips, *, seed: int = 11, damping: float = 1.0) -> Calibrat
     for _ in range(3):
         fitted = np.linalg.lstsq(design[kept], error[kept], rcond=None)[0]
         rest = error - design @ fitted
-        kept = (np.abs(rest) < 6.0 * 1.48 * np.median(np.abs(rest), axis=0) + 1.0e-6).all(axis=1)
+        kept = (np.abs(rest) < 6.0 * deviation(rest, about=0.0, axis=0) + 1.0e-6).all(axis=1)
     # a floor keeps a noiseless record's covariance invertible
     covariance = np.cov(rest[kept].T) + (1.0e-4 * static) ** 2 * np.eye(N_FEATURES)
     return Calibration(fitted[0], fitted[1:].T, (static, kinetic), covariance, damping)
@@ -103,8 +99,8 @@ def _simulated(
     record = slips.record
     box = damped(record, damping).mechanism
     spread = (0.005 * static, 0.05 * static)
-    sigma_s = float(np.clip(robust_deviation(slips.onset_force), *spread)) / box.normal_force
-    sigma_k = float(np.clip(robust_deviation(slips.moments[:, 0]), *spread)) / box.normal_force
+    sigma_s = float(np.clip(deviation(slips.onset_force), *spread)) / box.normal_force
+    sigma_k = float(np.clip(deviation(slips.moments[:, 0]), *spread)) / box.normal_force
     kinetic = min(kinetic, 0.98 * static)
     law = make_law("coulomb", mu_s=static / box.normal_force, mu_k=max(kinetic, 1.0e-3 * static) / box.normal_force)
     scatter = make_effect(kind_found_as(DRAWN_ANEW), process="per_event", sigma_s=sigma_s, sigma_k=sigma_k)

@@ -10,6 +10,7 @@ import numpy as np
 from stochfric_mb.discovery.stick_slip.records.calibration import Calibration
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, N_MOMENTS, Slips, legendre_coefficients
+from stochfric_mb.numerics.robust import deviation
 
 GROSS = 8.0
 """A slip whose features lie further from its run's medians than this many robust deviations is set aside [-]."""
@@ -159,7 +160,7 @@ def _kept(features: Array, run: np.ndarray, static: Array) -> np.ndarray:
     for r in np.unique(run):
         mine = run == r
         centred[mine] = features[mine] - np.median(features[mine], axis=0)
-        spread[mine] = 1.48 * np.median(np.abs(centred[mine]), axis=0)
+        spread[mine] = deviation(features[mine], axis=0)
     off = np.asarray((np.abs(centred) > STRAY * spread).any(axis=1))
     # a scatter of 15 % of the static force is friction that varies, not an outlier
     gross = np.asarray((np.abs(centred) > np.maximum(GROSS * spread, 0.15 * static[:, None])).any(axis=1))

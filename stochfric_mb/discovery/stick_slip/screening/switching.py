@@ -20,6 +20,7 @@ from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression
+from stochfric_mb.numerics.robust import deviation
 
 APART = 12.0
 """Distance of two levels over the robust width of a level from which on they are two [-]: of 400 records of 26 slips,
@@ -108,7 +109,7 @@ def _levels(pool: Pool, values: Array, finest: Array) -> tuple[float, np.ndarray
         low, high = _halves(np.sort(mine))
         upper[rows] = np.abs(mine - np.median(high)) < np.abs(mine - np.median(low))
         away = np.concatenate([np.abs(part - np.median(part)) for part in (low, high)])
-        width = 1.4826 * float(np.median(np.maximum(away, 0.67 * finest[run])))
+        width = deviation(np.maximum(away, 0.67 * finest[run]), about=0.0)
         # run by run: in a run whose slips are locked to a ripple all are alike, which tells nothing of the others
         distances.append(float(np.median(high) - np.median(low)) / width)
         weights.append(len(rows))
@@ -135,7 +136,7 @@ def _jumps(pool: Pool, values: Array, finest: Array) -> tuple[int, float]:
         if len(mine) < 4:
             continue
         steps = np.abs(np.diff(mine))
-        changes.append(steps / max(1.4826 * float(np.median(steps)), np.sqrt(2.0) * finest[run]))
+        changes.append(steps / max(deviation(steps, about=0.0), np.sqrt(2.0) * finest[run]))
     if sum(map(len, changes)) < FEWEST:
         return 0, 1.0
     jumped = np.concatenate(changes) > JUMP

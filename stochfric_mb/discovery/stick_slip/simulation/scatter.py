@@ -6,11 +6,11 @@ import dataclasses
 
 import numpy as np
 
-from stochfric_mb.discovery.stick_slip.records.calibration import robust_deviation
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array, make_record
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, extract
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.numerics.robust import deviation
 from stochfric_mb.reference.augmented import Start
 
 FARTHEST = 0.15
@@ -96,7 +96,7 @@ def measured_slips(shown: Array, like: Slips, generator: np.random.Generator) ->
 
 def _deviation(values: Array) -> float:
     """Return the standard deviation of what lies within five robust deviations."""
-    centre, spread = np.median(values), robust_deviation(values)
+    centre, spread = np.median(values), deviation(values)
     inside = values[np.abs(values - centre) <= 5.0 * spread + 1.0e-12]
     return float(inside.std())
 
