@@ -17,6 +17,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "ensemble": ("stochfric_mb.commands.ensemble:ensemble", "Simulate many runs into one dataset; resumes."),
     "reproduce": ("stochfric_mb.commands.reproduce:reproduce", "Test every claim of a published study, with verdicts."),
     "export": ("stochfric_mb.commands.export:export", "Take friction to other codes, as an FMU or as C."),
+    "translate": ("stochfric_mb.commands.translate:translate", "Say friction in the words of another code, or back."),
     "list": ("stochfric_mb.commands.list:list_", "List scenarios, laws, processes, effects or engines."),
 }
 """Name of a command -> where it lives and what it does; a new command is a new file and one line here."""

@@ -1,0 +1,133 @@
+"""``stochfric translate``: friction in the words of other codes, and back."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+EXAMPLE = """\b
+Example:
+  stochfric translate kang2015_table1 --to adams
+"""
+SCHEMA = "stochfric.dialect/1"
+"""Schema of a file with friction in the words of another code."""
+
+
+@click.command(epilog=EXAMPLE)
+@click.argument("source")
+@click.option("--to", "dialect", metavar="DIALECT", help="adams, recurdyn, simscape, modelica, exudyn, mujoco, physx or bam.")
+@click.option("--law", metavar="KIND", help="Our law: in the place of the scenario's, or to which a dialect is translated.")
+@click.option("--normal-force", type=float, metavar="N", help="Normal force [N]; default: the scenario's, or 1.")
+@click.option("--speeds", default="1e-5,0.1", show_default=True, metavar="LOW,HIGH", help="Speeds to be met [m/s].")
+@click.option("--out", metavar="FILE", help="TOML file to write: the dialect's parameters, or a friction file.")
+@click.option("--force", is_flag=True, help="Replace what is at --out.")
+def translate(
+    source: str, dialect: str | None, law: str | None, normal_force: float | None, speeds: str, out: str | None, force: bool
+) -> None:
+    """Translate SOURCE: a friction file or a scenario to a DIALECT, or a dialect's file (stochfric.dialect/1) to our law."""
+    import tomli_w
+
+    from stochfric_mb.outputs import check_target, whole_file
+
+    if out is not None:
+        check_target(out, force=force)
+    tables = _dialect_file(source)
+    if tables is None:
+        found, content = _to(source, dialect, law, normal_force, _speeds(speeds))
+    else:
+        found, content = _from(tables, law, normal_force, _speeds(speeds))
+    click.echo(_text(found, back=tables is not None))
+    if out is not None:
+        with whole_file(Path(out), replace=force) as temporary:
+            temporary.write_text(tomli_w.dumps(content), encoding="utf-8")
+        click.echo(f"Written: {out}")
+
+
+def _dialect_file(source: str) -> dict[str, Any] | None:
+    """Return the content of a dialect's file; None where the source is another file or a name."""
+    import tomllib
+
+    from stochfric_mb.errors import InputError
+
+    path = Path(source)
+    if not path.is_file():
+        return None
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: not a TOML file: {error}") from None
+    return tables if tables.get("schema") == SCHEMA else None
+
+
+def _speeds(text: str) -> Any:
+    from stochfric_mb.dialects.curve import speeds
+    from stochfric_mb.errors import InputError
+
+    try:
+        low, high = map(float, text.split(","))
+    except ValueError:
+        raise InputError(f"--speeds {text!r} is not LOW,HIGH; give two numbers in m/s, such as 1e-5,0.1") from None
+    return speeds(low, high)
+
+
+def _to(source: str, dialect: str | None, law: str | None, normal_force: float | None, speed: Any) -> Any:
+    from stochfric_mb.dialects import DIALECTS
+    from stochfric_mb.dialects.translation import to_dialect
+    from stochfric_mb.errors import InputError, require_name, require_number
+    from stochfric_mb.export import load_exported
+
+    if dialect is None:
+        raise InputError(f"--to is missing; name a dialect: {', '.join(DIALECTS)}")
+    cls = DIALECTS[require_name("dialect", dialect, DIALECTS)]
+    exported = load_exported(source, law=law)
+    box = exported.mechanism
+    n = normal_force if normal_force is not None else 1.0 if box is None else box.normal_force
+    require_number("--normal-force", n, above=0.0, unit="N")
+    mass = 1.0 if box is None else box.mass
+    found = to_dialect(exported.inner, cls, speed, normal_force=n, mass=mass, process=exported.process)
+    return found, {"schema": SCHEMA, "dialect": dialect, "normal_force": n, "parameters": found.dialect.to_dict()}
+
+
+def _from(tables: dict[str, Any], law: str | None, normal_force: float | None, speed: Any) -> Any:
+    from stochfric_mb.dialects import DIALECTS
+    from stochfric_mb.dialects.translation import from_dialect
+    from stochfric_mb.errors import require_name, require_number
+    from stochfric_mb.export.exported import SCHEMA as FRICTION
+    from stochfric_mb.laws import LAWS
+
+    for key in tables:
+        require_name("key of a dialect's file", key, ("schema", "dialect", "normal_force", "parameters"))
+    cls = DIALECTS[require_name("dialect", str(tables.get("dialect")), DIALECTS)]
+    given = cls.from_dict(dict(tables.get("parameters", {})))
+    n = require_number(
+        "normal_force", tables.get("normal_force", 1.0) if normal_force is None else normal_force, above=0.0, unit="N"
+    )
+    kind = cls.nearest if law is None else require_name("law", law, LAWS)
+    found = from_dialect(given, kind, speed, normal_force=n)
+    return found, {"schema": FRICTION, "title": f"from {cls.kind}", "law": found.law.to_dict()}
+
+
+def _text(found: Any, *, back: bool) -> str:
+    """Return the result in words."""
+    ours = {k: v for k, v in found.law.to_dict().items() if k != "kind"}
+    theirs = found.dialect.to_dict()
+    name = f"law {found.law.kind}"
+    source, result = (found.dialect.title, name) if back else (name, found.dialect.title)
+    shown = ours if back else theirs
+    equation = found.law.equation if back else found.dialect.equation
+    lines = [f"From {source} to {result}", f"  {equation}", *(f"  {k} = {_number(v)}" for k, v in shown.items())]
+    if hasattr(found.dialect, "snippet") and not back:
+        lines.append(f"  {found.dialect.snippet()}")
+    lines.append(
+        f"Error of the coefficient: {found.max_error:.2g} at most, {found.rms_error:.2g} rms; "
+        f"at break-away {found.break_away_error:+.2g}"
+    )
+    return "\n".join([*lines, *(f"Lost: {what}" for what in found.lost)])
+
+
+def _number(value: Any) -> str:
+    if isinstance(value, list):
+        return "[" + ", ".join(_number(v) for v in value) + "]"
+    return value if isinstance(value, str) else f"{value:.6g}"
