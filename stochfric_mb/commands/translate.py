@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import click
 
@@ -129,5 +129,5 @@ def _text(found: Any, *, back: bool) -> str:
 
 def _number(value: Any) -> str:
     if isinstance(value, list):
-        return "[" + ", ".join(_number(v) for v in value) + "]"
+        return "[" + ", ".join(map(_number, cast(list[Any], value))) + "]"
     return value if isinstance(value, str) else f"{value:.6g}"

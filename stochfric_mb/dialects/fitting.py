@@ -39,10 +39,11 @@ def fit(
         return float(np.sqrt(total / (len(target) + WEIGHT))) if np.isfinite(total) else REFUSED
 
     x = np.log(np.maximum(np.asarray(start, dtype=np.float64), 1.0e-12))
+    least = misfit(x)
     for _ in range(3):  # a simplex that has shrunk is spread out again
         found = minimize(misfit, x, method="Nelder-Mead", options={"xatol": 1e-8, "fatol": 1e-12, "maxiter": 400 * len(x)})
-        x = found.x
-    return np.exp(x), float(found.fun)
+        x, least = found.x, float(found.fun)
+    return np.exp(x), least
 
 
 def half_way(speed: Array, mu: Array) -> float:

@@ -17,10 +17,14 @@ from stochfric_mb.errors import InputError, require_name
 from stochfric_mb.laws import Law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.scenario import SCHEMA as SCENARIO
-from stochfric_mb.scenario import any_scenario_from_dict, law_from_dict, load_any_scenario, process_from_dict
+from stochfric_mb.scenario import law_from_dict, load_any_scenario, process_from_dict
 
 SCHEMA = "stochfric.friction/1"
 """Schema of a file that holds friction alone: ``[law]`` and, where coefficients are random, ``[coefficients]``."""
+OF_FRICTION = ("friction law", "friction varies")
+"""Groups of effects that change friction alone, so that a friction element carries them anywhere."""
+NEEDS_SIDE = ("direction_asymmetry",)
+"""Effects that must know to which side a stuck contact is loaded, which a friction element does not."""
 STAND_IN_STEP = 1.0e-4
 """Step [s] for which an elastic law is chosen where effects act on a law with true stick."""
 
@@ -98,26 +102,49 @@ def exported_scenario(scenario: Any) -> Exported:
     effects = moving(scenario.effects)
     notes = [f"{effect.kind} acts on the sensor, not on the motion: left out" for effect in on_sensor(scenario.effects)]
     mechanism = scenario.mechanism if isinstance(scenario.mechanism, BeltBox) else None
-    for effect in effects:
-        if effect.reads:
-            raise InputError(
-                f"effect {effect.kind!r} reads a measured {effect.reads[0]}, which an exported friction does not have; leave "
-                "it out, or let friction change with time: friction_drift"
-            )
-        if mechanism is None:
-            raise InputError(
-                f"effect {effect.kind!r} acts on a {scenario.mechanism.kind}, which is not exported; remove the [[effects]] "
-                "table to export the law alone, or export a belt_box"
-            )
-    law = scenario.law
-    if mechanism is not None:
-        law, more = running_law(law, mechanism, scenario.effects, STAND_IN_STEP, substitute=False, seed=0, sample=0)
-        notes += more
-    else:
+    if mechanism is None:
         notes.append(f"the {scenario.mechanism.kind} is left out: the friction element alone")
+    law = scenario.law
+    around = mechanism if mechanism is not None else _fixed_surface(scenario.mechanism, effects)
+    if around is not None:
+        law, more = running_law(law, around, scenario.effects, STAND_IN_STEP, substitute=False, seed=0, sample=0)
+        notes += more
+    for effect in effects:
+        _check_carried(effect, belt_box=mechanism is not None)
     return Exported(law, process, mechanism, effects, scenario.title, tuple(notes))
 
 
-def from_dict(tables: Mapping[str, Any]) -> Exported:
-    """Return what the content of a scenario file exports."""
-    return exported_scenario(any_scenario_from_dict(tables))
+def _check_carried(effect: Effect, *, belt_box: bool) -> None:
+    """Return if an effect can be exported.
+
+    Raises:
+        InputError: it reads what only a rig measures, or acts on another mechanism than a belt-box.
+    """
+    if effect.reads:
+        raise InputError(
+            f"effect {effect.kind!r} reads a measured {effect.reads[0]}, which an exported friction does not have; leave "
+            "it out, or let friction change with time: friction_drift"
+        )
+    if not belt_box and (effect.group not in OF_FRICTION or effect.kind in NEEDS_SIDE):
+        raise InputError(
+            f"effect {effect.kind!r} acts on more than the friction of a joint, which alone is exported; remove its "
+            "[[effects]] table, or export a belt_box"
+        )
+
+
+def _fixed_surface(mechanism: Any, effects: tuple[Effect, ...]) -> BeltBox | None:
+    """Return a body on a surface at rest with the load and mass of a joint, for effects on friction; None without any.
+
+    Raises:
+        InputError: effects on a mechanism that has no normal force of its own.
+    """
+    if not effects:
+        return None
+    load = getattr(mechanism, "normal_force", 0.0)
+    if not load > 0.0:
+        raise InputError(
+            f"effect {effects[0].kind!r} acts on a {mechanism.kind}, which has no normal force of its own; remove the "
+            "[[effects]] tables to export the law alone"
+        )
+    mass = getattr(mechanism, "mass", 0.0) or getattr(mechanism, "inertia", 0.0) or 1.0
+    return BeltBox(mass=mass, damping=0.0, stiffness=load, normal_force=load, belt_velocity=0.0)

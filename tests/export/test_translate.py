@@ -68,12 +68,13 @@ def test_every_law_goes_to_every_dialect(kind, name):
     mu = found.dialect.coefficient(V, N)
     assert found.max_error == pytest.approx(np.max(np.abs(mu - coefficient(law, V))), abs=1e-12)
     assert found.rms_error <= found.max_error
-    # no dialect fits worse than the best constant coefficient would, break-away counted as four speeds
     curve = curve_of(law, V, normal_force=N)
-    values = np.concatenate([curve.coefficient, np.full(4, curve.break_away)])
-    ours = np.concatenate([mu, np.full(4, found.dialect.break_away(N))])
-    floor = 0.35 if name in ("mujoco", "physx") else 0.0  # these have no choice: two levels at most
-    assert np.sqrt(np.mean((ours - values) ** 2)) <= np.std(values) * 1.5 + 1e-9 + floor
+    if name in ("mujoco", "physx"):  # one level over the speeds, and for MuJoCo a slope: the mean can be had
+        assert found.rms_error <= np.std(curve.coefficient) * (1.0 + 1e-9) + 1e-12
+    else:  # a constant coefficient can be had, break-away included, which counts as four speeds
+        values = np.concatenate([curve.coefficient, np.full(4, curve.break_away)])
+        ours = np.concatenate([mu, np.full(4, found.dialect.break_away(N))])
+        assert np.sqrt(np.mean((ours - values) ** 2)) <= np.std(values) * (1.0 + 1e-3) + 1e-9
     assert type(found.dialect).from_dict(found.dialect.to_dict()) == found.dialect
 
 
