@@ -43,6 +43,8 @@ class Engine:
     """Who makes the engine."""
     distribution: str = ""
     """Name to install it by, where it is not ``package``."""
+    compared: bool = True
+    """Whether it is compared with others unless named; an engine for many worlds at once in float32 is not."""
 
     @property
     def installed(self) -> bool:
@@ -91,6 +93,14 @@ _BUILT_IN = {
             "force before the step; cap override for coulomb",
             "V. Blomqvist",
         ),
+        Engine(
+            "warp",
+            "stochfric_mb.warp.belt_box",
+            "mujoco_warp",
+            "steers the constraint solver, float32, a world for each sample",
+            "Google DeepMind and NVIDIA",
+            compared=False,
+        ),
     )
 }
 ENGINES: dict[str, Engine] = _BUILT_IN | {name: e for name, e in _brought().items() if name not in _BUILT_IN}
@@ -104,8 +114,8 @@ def register_engine(engine: Engine) -> Engine:
 
 
 def installed_engines() -> list[str]:
-    """Return the names of the engines that can be used here, the reference first."""
-    return [name for name, engine in ENGINES.items() if engine.installed]
+    """Return the names of the engines that can be compared here, the reference first."""
+    return [name for name, engine in ENGINES.items() if engine.compared and engine.installed]
 
 
 def adapter(name: str, *, effects: Sequence[Effect] = ()) -> Any:

@@ -129,7 +129,8 @@ def _plan(task: Job, target: Path, workers: int, scheduler: str | None) -> str:
 
     plan = task.plan(workers)
     kind = {BATCH: "threads of MuJoCo's Batch", PROCESSES: "processes"}.get(task.how, "threads")
-    where = f"the cluster {scheduler}" if scheduler is not None else f"{workers} {kind}"
+    here = "the device of MuJoCo Warp" if task.engine == "warp" else f"{workers} {kind}"
+    where = f"the cluster {scheduler}" if scheduler is not None else here
     kept = "statistics" if task.statistics_only else "runs"
     return (
         f"{plan.n_runs} runs at {plan.n_times} times, {plan.method}\n"

@@ -12,8 +12,13 @@ from stochfric_mb.ensemble.schedule import Array
 from stochfric_mb.ensemble.single import Sampling
 from stochfric_mb.scenario import Scenario
 
-MANY: dict[str, str] = {"mujoco": "stochfric_mb.mujoco.batch:simulate_many"}
+MANY: dict[str, str] = {
+    "mujoco": "stochfric_mb.mujoco.batch:simulate_many",
+    "warp": "stochfric_mb.warp.belt_box:simulate_many",
+}
 """Engine -> its function (scenario, *, seed, first_sample, n, dt, threads) -> trajectories."""
+RUNS: dict[str, int] = {"mujoco": 16, "warp": 256}
+"""Such an engine -> runs in a block."""
 
 Prepared = Callable[[int, int, int, int], Block]
 """(seed, first sample, number of samples, threads) -> their runs."""

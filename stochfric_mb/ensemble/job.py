@@ -16,7 +16,7 @@ from stochfric_mb.effects.combine import any_but_random
 from stochfric_mb.engines import ENGINES, adapter
 from stochfric_mb.ensemble import methods
 from stochfric_mb.ensemble.collect import checked_block
-from stochfric_mb.ensemble.engines import Prepared, all_at_once, many
+from stochfric_mb.ensemble.engines import RUNS, Prepared, all_at_once, many
 from stochfric_mb.ensemble.fixed_step import check_step
 from stochfric_mb.ensemble.planning import MAX_SAMPLES, Plan, check_address, plan
 from stochfric_mb.ensemble.result import Block
@@ -31,8 +31,6 @@ EVENT_DRIVEN_RUNS = 2048
 """Runs in a block where a kernel runs samples side by side and needs no step."""
 FIXED_STEP_RUNS = 512
 """Runs in a block where such a kernel steps."""
-BATCH_RUNS = 16
-"""Runs in a block of MuJoCo's Batch."""
 SINGLE_RUNS = 4
 """Runs in a block where an engine runs one sample at a time."""
 BLOCK_BYTES = 2**25
@@ -145,7 +143,7 @@ def _largest_block(engine: str, known: Plan) -> int:
     """Return a number of runs that takes a few seconds, so that an interrupt costs little."""
     if known.side_by_side:
         return EVENT_DRIVEN_RUNS if known.dt == 0.0 else FIXED_STEP_RUNS
-    return BATCH_RUNS if many(engine) is not None else SINGLE_RUNS
+    return RUNS.get(engine, SINGLE_RUNS)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -47,8 +47,8 @@ class ContactFriction:
         self._begin, self._steer = begin_kernel(), steer_kernel(friction.law.kind)
         self.normal_force = wp.zeros(d.nworld, dtype=float)
         """Sum of the normal forces over the contacts of each world [N], as of the last `observe`."""
-        self.friction_force = wp.zeros(d.nworld, dtype=float)
-        """Sum of the sizes of the friction forces [N], likewise."""
+        self.friction_force = wp.zeros(d.nworld, dtype=wp.vec3)
+        """Sum of the friction forces on the first geom, in world coordinates [N], likewise."""
         self.stick = wp.zeros(d.nworld, dtype=int)
         """1 where all loaded contacts stick, 0 where one slides or none is loaded, likewise."""
         self.contacts = wp.zeros(d.nworld, dtype=int)

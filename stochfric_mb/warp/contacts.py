@@ -144,8 +144,8 @@ def deceleration(touch: Touch, along: wp.vec2, mu: float, pressing: float, ratio
 
 @wp.func
 def keep(
-    worlds: Worlds, slots: Slots, new: int, w: int, geoms: wp.vec2i, rows: wp.vec2i, place: wp.vec3, friction: vec5,
-    drift: wp.vec3, velocity: wp.vec3, touch: Touch,
+    worlds: Worlds, slots: Slots, new: int, w: int, geoms: wp.vec2i, rows: wp.vec2i, side: int, place: wp.vec3,
+    axis_1: wp.vec3, axis_2: wp.vec3, friction: vec5, v: wp.vec2, touch: Touch,
 ):  # fmt: skip
     """Write a contact into the next free slot of its world."""
     k = wp.atomic_add(slots.used, new, w, 1)
@@ -155,12 +155,15 @@ def keep(
         return
     slots.geoms[new, w, k] = geoms
     slots.rows[new, w, k] = rows
+    slots.axis_1[new, w, k] = axis_1
+    slots.axis_2[new, w, k] = axis_2
+    slots.side[new, w, k] = side
     slots.place[new, w, k] = place
     slots.friction[new, w, k] = friction
     slots.force[new, w, k] = wp.vec3(0.0)
     slots.saturation[new, w, k] = 0.0
-    slots.drift[new, w, k] = drift
-    slots.velocity[new, w, k] = velocity
+    slots.drift[new, w, k] = touch.drift[0] * axis_1 + touch.drift[1] * axis_2
+    slots.velocity[new, w, k] = v[0] * axis_1 + v[1] * axis_2
     slots.urgency[new, w, k] = touch.urgency
     slots.mode[new, w, k] = touch.mode
 
@@ -245,10 +248,8 @@ def steer_kernel(kind: str) -> Any:
             mass[w, row + j] = mass[w, row + 1] * given[j - 1] * given[j - 1] / (mu * mu)
         reference[w, row + 1] = asked[0]
         reference[w, row + 2] = asked[1]
-        drift = touch.drift[0] * axis_1 + touch.drift[1] * axis_2
-        keep(
-            worlds, slots, new, w, geoms, wp.vec2i(row, dim[c]), place, given, drift, v[0] * axis_1 + v[1] * axis_2, touch
-        )  # fmt: skip
+        side = partners[geoms[0], geoms[1]]
+        keep(worlds, slots, new, w, geoms, wp.vec2i(row, dim[c]), side, place, axis_1, axis_2, given, v, touch)
 
     return steer
 
@@ -259,7 +260,7 @@ def observe(
     worlds: Worlds,
     slots: Slots,
     normal_force: wp.array[float],
-    friction_force: wp.array[float],
+    friction_force: wp.array[wp.vec3],
     stick: wp.array[int],
     contacts: wp.array[int],
 ):
@@ -267,19 +268,17 @@ def observe(
     w = wp.tid()
     now = worlds.count[w] % 2
     pressing = wp.float32(0.0)
-    rubbing = wp.float32(0.0)
+    rubbing = wp.vec3(0.0)
     loaded = wp.int32(0)
     stuck = wp.int32(1)
     if worlds.count[w] >= 0:
         for i in range(slots.used[now, w]):
-            rows = slots.rows[now, w, i]
-            normal = force[w, rows[0]]
-            if normal > 0.0:
-                first = force[w, rows[0] + 1]
-                second = force[w, rows[0] + 2]
+            row = slots.rows[now, w, i][0]
+            if force[w, row] > 0.0:
                 loaded += 1
-                pressing += normal
-                rubbing += wp.sqrt(first * first + second * second)
+                pressing += force[w, row]
+                vector = force[w, row + 1] * slots.axis_1[now, w, i] + force[w, row + 2] * slots.axis_2[now, w, i]
+                rubbing -= float(slots.side[now, w, i]) * vector  # rows push the contact's second geom
                 if slots.mode[now, w, i] != STICK:
                     stuck = 0
     normal_force[w] = pressing

@@ -60,6 +60,11 @@ class Slots:
     geoms: wp.array3d[wp.vec2i]
     rows: wp.array3d[wp.vec2i]
     """First constraint row of the contact, and its number of rows."""
+    axis_1: wp.array3d[wp.vec3]
+    axis_2: wp.array3d[wp.vec3]
+    """Tangents of the contact, in world coordinates."""
+    side: wp.array3d[int]
+    """1 if the friction's first geom is the contact's first, -1 if it is the second."""
     place: wp.array3d[wp.vec3]
     """Position of the contact relative to its second geom [m]."""
     friction: wp.array3d[vec5]

@@ -1,0 +1,75 @@
+"""Ensembles whose samples are worlds: the same paths and, within a step or two, the same motion as the reference's."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from stochfric_mb.__main__ import main
+from stochfric_mb.engines import ENGINES, adapter, installed_engines
+from stochfric_mb.ensemble.dataset import read_ensemble
+from stochfric_mb.errors import InputError
+from stochfric_mb.scenario import load_scenario
+from stochfric_mb.warp.belt_box import simulate, simulate_many
+
+
+@pytest.fixture(scope="module")
+def table1():
+    scenario = load_scenario("kang2015_table1", law="coulomb")
+    return dataclasses.replace(scenario, duration=1.25, output_step=2e-3)
+
+
+def test_runs_follow_the_reference(table1):
+    worlds = simulate_many(table1, seed=4, first_sample=10, n=8)
+    reference = adapter("reference")
+    for w, found in enumerate(worlds):
+        exact = reference.simulate(table1, seed=4, sample=10 + w)
+        assert np.abs(found.mu_s - exact.mu_s).max() < 1e-7  # float32
+        assert np.abs(found.mu_k - exact.mu_k).max() < 1e-7
+        # break-away waits for the speed v = .002 m/s^2 dt, sqrt(2 v/1.6 m/s^3) = 1.6 ms, and is seen after a step
+        late = found.time[found.velocity < 0.0][0] - exact.time[exact.velocity < 0.0][0]
+        assert 0.0 <= late <= 6e-3
+        # while it sticks it rides on the belt: the creep of float32 and the first millisecond, in which it is caught
+        stuck = exact.time < exact.time[exact.velocity < 0.0][0] - 5e-3
+        assert np.abs(found.position - exact.position)[stuck].max() < 5e-6
+        assert np.abs(found.friction_force - exact.friction_force)[stuck][5:].max() < 0.05
+        assert np.abs(found.normal_force - 13.0)[stuck][30:].max() < 0.01  # after three of MuJoCo's time constants of .02 s
+        sliding = (found.stick == 0.0) & (found.velocity < 2e-3)
+        ratio = (found.friction_force / (found.mu_k * found.normal_force))[sliding]
+        assert ratio.max() < 1.0 + 1e-3  # the solver's tolerance
+        assert np.mean(ratio > 1.0 - 1e-3) > 0.9  # the rest: the step in which it stops, and those just after it broke away
+        slipped = found.position[-1] - exact.position[-1]
+        assert abs(slipped) < 0.05e-3  # .05 of 2.2 mm of slip: what break-away is late, and first order in the step
+
+
+def test_one_sample_is_the_same_as_among_others(table1):
+    short = dataclasses.replace(table1, duration=0.1)
+    alone = simulate(short, seed=4, sample=12)
+    among = simulate_many(short, seed=4, first_sample=10, n=4)[2]
+    assert (alone.position == among.position).all()
+    assert alone.attributes["engine"] == "warp"
+
+
+def test_command_writes_the_same_files(tmp_path):
+    out = tmp_path / "ens.nc"
+    words = f"ensemble kang2015_table1 --law coulomb --n-runs 3 --engine warp --set simulation.duration=0.04 --out {out}"
+    result = CliRunner().invoke(main, words.split())
+    assert result.exit_code == 0, result.output
+    assert "the device of MuJoCo Warp" in result.output
+    ensemble, _ = read_ensemble(out)
+    assert ensemble.n_runs == 3
+    assert ensemble.attributes["engine"] == "warp"
+    assert ensemble.attributes["dt"] == 1e-3
+
+
+def test_what_cannot_run_is_refused(table1):
+    with pytest.raises(InputError, match="law havsin has no true stick"):
+        simulate_many(load_scenario("kang2015_table1", law="havsin"), n=1)
+    with pytest.raises(InputError, match="does not divide"):
+        simulate_many(table1, n=1, dt=3e-4)
+
+
+def test_warp_is_left_out_of_comparisons():
+    assert "warp" in ENGINES
+    assert "warp" not in installed_engines()
