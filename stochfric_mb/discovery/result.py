@@ -114,7 +114,7 @@ class Result:
     next_experiment: str
     """The experiment that would decide what is open."""
     believed: dict[str, Interval]
-    """Recalibrated parameters of the believed model."""
+    """Parameters of mechanism and law: with the effects where the verdict is an effect, otherwise recalibrated."""
     notes: tuple[str, ...] = ()
     """What a reader should know: outliers removed, belt speed off, data lost, ..."""
     power: dict[str, float] = dataclasses.field(default_factory=dict[str, float])

@@ -147,13 +147,18 @@ def _numbers(values: Sequence[float | None], unit: str, n: int) -> list[Markup]:
 
 
 def _beliefs(content: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Return the parameters of the believed model: as stated, how sure, and recalibrated where that was done."""
+    """Return the parameters of mechanism and law: as stated, how sure, as fitted, and what a reader must know of that."""
     stated = content["details"]["stated"]
     sure = stated.get("uncertainty", {})
+    about = content["details"].get("parameters", {})
+    beyond, unmeasured = about.get("moved_beyond_uncertainty", {}), about.get("not_measured", [])
     rows: list[dict[str, Any]] = []
     for name, fitted in content["believed"].items():
         value = stated["law"].get(name, stated["mechanism"].get(name)) if isinstance(stated.get("law"), Mapping) else None
-        rows.append({"name": name, "stated": value, "sure": sure.get(name), "fitted": fitted})
+        rows.append({
+            "name": name, "stated": value, "sure": sure.get(name), "fitted": fitted, "moved": beyond.get(name),
+            "measured": name not in unmeasured,
+        })  # fmt: skip
     return rows
 
 

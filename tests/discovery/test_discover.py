@@ -106,12 +106,22 @@ def test_the_answer_is_the_same_on_a_rig_of_another_size():
     assert large.believed["damping"].value == 256.0 / 16.0 * 0.25 * usual.believed["damping"].value
 
 
+def _require_one_set_of_numbers(outcome):
+    """The parameters that a result tells are those of the scenario that it writes."""
+    scenario = outcome.scenario
+    for name, told in outcome.result.believed.items():
+        written = getattr(scenario.mechanism, name, None) or getattr(scenario.law, name)
+        assert told.value == pytest.approx(written, rel=1e-12), name  # one number, converted once
+
+
 @pytest.mark.parametrize("case", CLEAR, ids=lambda case: case.name)
 def test_clear_cases_are_answered_rightly_and_the_gap_closes(case):
     truth, dataset = made(case)
-    result = discover(dataset).result
+    outcome = discover(dataset)
+    result = outcome.result
     verdict = judge.judge(truth, result.to_dict(), 0.0)
     assert verdict.top_1 or verdict.in_class, verdict
+    _require_one_set_of_numbers(outcome)
     gap = result.gap
     assert gap is not None
     assert gap.held_out

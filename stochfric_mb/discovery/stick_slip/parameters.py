@@ -1,8 +1,9 @@
-"""The numbers of a result: parameters of the effects and of the believed model, in SI units, with their intervals."""
+"""The numbers of a result: parameters of the effects, of mechanism and law, in SI units, with their intervals."""
 
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from scipy.stats import chi2 as chi2_distribution
@@ -14,9 +15,14 @@ from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import determin
 from stochfric_mb.discovery.stick_slip.simulation.model import CORRECTED, Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit
 from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.measurement.dataset import Dataset
 
+TOLD = 0.5
+"""Share of what is known of a number below which its prior, not the data, has made it [-]: the larger half decides."""
+SURPRISING = 2.0
+"""Stated standard deviations by which a parameter is off from what is stated to be pointed out [-]: one in twenty by chance."""
 UNITS = {"mu_s": "-", "mu_k": "-", "mass": "kg", "stiffness": "N/m", "damping": "N s/m"}
-"""Units of the believed model's fitted parameters."""
+"""Units of the parameters of mechanism and law."""
 
 
 def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> Found:
@@ -56,13 +62,41 @@ def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> F
     return Found(named.kind, named.class_, Where(*effect.appears()), parameters, float(named.score), p_value)
 
 
-def believed_intervals(fit: Fit, found: Study) -> dict[str, Interval]:
-    """Return the parameters of the believed model, recalibrated."""
-    box = found.dataset.scenario.mechanism
+def own_parameters(fit: Fit, model: Model, found: Study) -> dict[str, Interval]:
+    """Return the parameters of mechanism and law beside the effects, of the model that the result tells.
+
+    Where the forecasts tell less of a number than its prior does, the interval is that of both together.
+
+    Args:
+        fit: the fit of that model.
+        model: the model, as it stands in ``augmented.toml``.
+        found: what the fit runs told.
+    """
     rows: dict[str, Interval] = {}
-    for one, value, deviation in zip(fit.free, fit.values, fit.deviations, strict=True):
-        stated = getattr(box, one.name, 0.0) if one.name in CORRECTED else 0.0
-        number, doubt = (stated * (1.0 + value), stated * deviation) if stated else (value, deviation)
+    for one, told, deviation, posterior in zip(fit.free, fit.told, fit.deviations, fit.posterior, strict=True):
+        if one.owner >= 0 or one.run:
+            continue
+        stated = getattr(found.dataset.scenario.mechanism, one.name, 0.0) if one.name in CORRECTED else 1.0
+        value = 1.0 + model.corrections[one.name] if one.name in CORRECTED else getattr(model.law, one.name)
+        doubt = max(deviation, posterior) if told < TOLD else deviation
         unit = UNITS.get(one.name, "-")
-        rows[one.name] = confidence_interval(number * found.size.of(unit), doubt * found.size.of(unit), unit, low=0.0)
+        size = found.size.of(unit) * stated
+        rows[one.name] = confidence_interval(value * size, doubt * size, unit, low=0.0)
     return rows
+
+
+def not_measured(fit: Fit) -> list[str]:
+    """Return the parameters of mechanism and law whose value is their prior more than a measurement."""
+    return [k.name for k, told in zip(fit.free, fit.told, strict=True) if k.owner < 0 and not k.run and told < TOLD]
+
+
+def moved(parameters: Mapping[str, Interval], dataset: Dataset, unmeasured: Sequence[str]) -> dict[str, float]:
+    """Return by how many stated standard deviations measured parameters are off from what is stated, where that is many."""
+    scenario = dataset.scenario
+    off: dict[str, float] = {}
+    for name, interval in parameters.items():
+        stated = getattr(scenario.mechanism, name, None) or getattr(scenario.law, name, None)
+        doubt = scenario.uncertainty.get(name, 0.0)
+        if stated and doubt and name not in unmeasured:
+            off[name] = (interval.value - stated) / (stated * doubt)
+    return {name: by for name, by in off.items() if abs(by) > SURPRISING}

@@ -12,7 +12,7 @@ from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.explained import unexplained
 from stochfric_mb.discovery.stick_slip.decision.held_out_check import LEAST_REDUCIBLE, compared, without_last
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, Named, decide, of_wander
-from stochfric_mb.discovery.stick_slip.parameters import believed_intervals, found_effect
+from stochfric_mb.discovery.stick_slip.parameters import found_effect, moved, not_measured, own_parameters
 from stochfric_mb.discovery.stick_slip.records.preconditions import require_usable
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.discovery.stick_slip.refusal import refusal
@@ -71,7 +71,15 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     decision, fit, augmented = _checked_on_held_out(decision, fit, augmented, found, recalibrated, runs)
     gap = gap_of(believed, recalibrated.model, augmented, runs) if sum(map(len, runs.second)) else None
     gap = None if gap is None else gap.times(size.length)
-    notes = (*_notes(found, decision, gap), *([] if given.scenario.uncertainty else [NOT_STATED]))
+    final = recalibrated if fit is None or decision.verdict != "effect" else fit
+    own, unmeasured = own_parameters(final, augmented, found), not_measured(final)
+    beyond = moved(own, given, unmeasured)
+    decision.details["parameters"] = {"not_measured": unmeasured, "moved_beyond_uncertainty": beyond}
+    notes = (
+        *_notes(found, decision, gap),
+        *(f"{name} is {abs(by):.2g} stated standard deviations off from what is stated" for name, by in beyond.items()),
+        *([] if given.scenario.uncertainty else [NOT_STATED]),
+    )
     result = Result(
         verdict=decision.verdict,  # pyright: ignore[reportArgumentType]  # one of three words
         effects=tuple(found_effect(n, fit, augmented, found) for n in decision.named),
@@ -80,7 +88,7 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
         gap=gap,
         not_identifiable=not_identifiable(found),
         next_experiment=next_experiment(decision, found),
-        believed=believed_intervals(recalibrated, found),
+        believed=own,
         notes=notes,
         power=smallest(found) if decision.verdict == "none" else {},
         details=decision.details,

@@ -49,6 +49,11 @@ class Fit:
     """What they would be if the others were known, shape (len(free),)."""
     cost: float
     """Robust sum of squares at the end [-]."""
+    told: Array = dataclasses.field(default_factory=lambda: np.zeros(0))
+    """Share of what is known of each number that the forecasts tell, the rest being its prior [-], 0 .. 1, shape (len(free),);
+    empty before `with_deviations`."""
+    posterior: Array = dataclasses.field(default_factory=lambda: np.zeros(0))
+    """Standard deviations by forecasts and prior together, each at its own weight, shape as `told`."""
 
 
 def thinned(windows: Windows, most: int) -> Windows:
@@ -135,9 +140,27 @@ def with_deviations(fit: Fit, windows: Sequence[Windows], uncertainty: Mapping[s
             slopes[:, j] = sides[0] if down < up else sides[1]
         else:
             slopes[:, j] = 0.5 * (sides[0] + sides[1])
+    steps = misfit.steps
+    data = slopes[: len(here) - len(misfit.free)]  # the last rows are what is believed
+    told, posterior = _with_priors(data, steps.scale / steps.prior)
     return dataclasses.replace(
-        fit, free=misfit.free, values=misfit.steps.start, deviations=misfit.steps.scale * _deviations(slopes, 1.0)
-    )
+        fit, free=misfit.free, values=steps.start, deviations=steps.scale * _deviations(slopes, 1.0), told=told,
+        posterior=steps.scale * posterior,
+    )  # fmt: skip
+
+
+def _with_priors(slopes: Array, prior: Array) -> tuple[Array, Array]:
+    """Return what data tell of each number, over all that is known of it, and its standard deviation [natural steps].
+
+    Args:
+        slopes: of the data, in their standard deviations over natural steps, shape (n, p).
+        prior: natural steps over prior standard deviations, 0 where nothing is believed, shape (p,).
+    """
+    information = slopes.T @ slopes + np.diag(prior**2)
+    least = np.diag(np.full(len(prior), WIDEST**-2.0))  # what nothing tells is left open, not singular
+    variance = np.array(np.diag(np.linalg.inv(information + least)), dtype=np.float64)
+    told = 1.0 - np.clip(variance * np.maximum(prior**2, WIDEST**-2.0), 0.0, 1.0)
+    return told, np.sqrt(variance)
 
 
 def _slope(change: Callable[[float], Array], first: float, most: float) -> Array:
