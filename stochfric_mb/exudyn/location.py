@@ -11,11 +11,15 @@ from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.contact_force import ask, kinematics, normal_force_at, pair_at
 from stochfric_mb.exudyn.stepping import GRID, settling
 from stochfric_mb.laws.contract import GUARDS
+from stochfric_mb.numerics.cubic import hermite, slope, value
+from stochfric_mb.numerics.root import bracket, is_wide, least_armed, narrowed, trial
 
 # in parts of the step
 TOLERANCE, BEYOND, SHORTEST, FINE = 1.0e-3, 1.0e-4, 2.0e-4, 0.25
 """How near the end of a step a switch may lie, how far beyond it steps end, the shortest step asked for, and what steps
 that follow a change of mode closely are shortened to."""
+RESOLUTION = 1.0e-9
+"""Part of the step to which a switch is located [-]: steps end 1e-4 beyond it."""
 
 
 @compiled
@@ -38,11 +42,7 @@ def locate(t, address):
     motion, normal_force = kinematics(t, numbers, words), normal_force_at(t, numbers, words)
     pair = pair_at(t, motion[0], numbers, words)
     ask(words[at.GUARD], t, motion, normal_force, pair, numbers, at.NEW)
-    first = 2.0
-    for i in range(GUARDS):
-        if numbers[at.GUARDS_BEFORE + i] > 0.0 and numbers[at.NEW + i] <= 0.0:
-            first = min(first, _crossing(i, t, motion, normal_force, numbers, words))
-            ask(words[at.GUARD], t, motion, normal_force, pair, numbers, at.NEW)
+    first = _first_crossing(t, motion, normal_force, numbers, words)
     h = t - t_0
     if first > 1.0 or (1.0 - first) * h <= TOLERANCE * step or h <= 2.0 * SHORTEST * step:
         return -1.0
@@ -50,28 +50,23 @@ def locate(t, address):
 
 
 @compiled
-def _crossing(i, t, motion, normal_force, numbers, words):
-    """Return where in the step, from 0 to 1, guard ``i`` turns, by bisection on the cubic through both ends."""
+def _first_crossing(t, motion, normal_force, numbers, words):
+    """Return where in the step, from 0 to 1, a guard that was positive turns first, 2 if none does; those at its end stand."""
+    before, now = numbers[at.GUARDS_BEFORE : at.GUARDS_BEFORE + GUARDS], numbers[at.NEW : at.NEW + GUARDS]
+    at_end = least_armed(before, now)
+    if at_end > 0.0:
+        return 2.0
     t_0, h = numbers[at.T], t - numbers[at.T]
-    ux, uy, vx, vy = motion
-    low, high = 0.0, 1.0
-    for _ in range(30):
-        s = 0.5 * (low + high)
-        x, v_x = _between(s, h, numbers[at.U], numbers[at.V], ux, vx)
-        y, v_y = _between(s, h, numbers[at.U_2], numbers[at.V_2], uy, vy)
+    along, across = (
+        hermite(h, numbers[at.U], numbers[at.V], motion[0], motion[2]),
+        hermite(h, numbers[at.U_2], numbers[at.V_2], motion[1], motion[3]),
+    )
+    b = bracket(0.0, least_armed(before, before), 1.0, at_end)
+    while is_wide(b, RESOLUTION):
+        s = trial(b, RESOLUTION)
+        x = value(along, s)
         n = numbers[at.NORMAL_FORCE] + s * (normal_force - numbers[at.NORMAL_FORCE])
-        pair = pair_at(t_0 + s * h, x, numbers, words)
-        ask(words[at.GUARD], t_0 + s * h, (x, y, v_x, v_y), n, pair, numbers, at.NEW)
-        if numbers[at.NEW + i] > 0.0:
-            low = s
-        else:
-            high = s
-    return high
-
-
-@compiled
-def _between(s, h, u_0, v_0, u, v):
-    """Return u and v at the part s of a step h, u = u_0 + h v_0 s + (3 a - b) s^2 + (b - 2 a) s^3."""
-    a, b = u - u_0 - h * v_0, h * (v - v_0)
-    u_s = u_0 + h * v_0 * s + (3.0 * a - b) * s * s + (b - 2.0 * a) * s**3
-    return u_s, v_0 + (2.0 * (3.0 * a - b) * s + 3.0 * (b - 2.0 * a) * s * s) / h
+        there = (x, value(across, s), slope(along, s) / h, slope(across, s) / h)
+        ask(words[at.GUARD], t_0 + s * h, there, n, pair_at(t_0 + s * h, x, numbers, words), numbers, at.NEW)
+        b = narrowed(b, s, least_armed(before, now))
+    return b.negative

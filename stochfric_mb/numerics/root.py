@@ -19,6 +19,7 @@ Reference: N. Anderson, A. Bjorck, A new high order method of regula falsi type 
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from stochfric_mb.compile import compiled_inline
@@ -89,3 +90,16 @@ def _less(value, last):
     """Return what the weight of an end that stays is multiplied by, where the value at the other fell from ``last``."""
     part = 1.0 - value / last if last != 0.0 else 0.0
     return part if part > 0.0 else 0.5
+
+
+@compiled_inline
+def least_armed(before, now):
+    """Return the least value of ``now`` among those that were positive ``before``, infinity if none was.
+
+    Where several guards of a law may turn within a step, this turns with the first of them.
+    """
+    least = math.inf
+    for i in range(len(before)):
+        if before[i] > 0.0:
+            least = min(least, now[i])
+    return least

@@ -20,6 +20,8 @@ from stochfric_mb.coefficients.path import CURSOR, evaluate
 from stochfric_mb.compile import compiled
 from stochfric_mb.laws.abi import MAX_STATE, call_law
 from stochfric_mb.laws.contract import GUARDS
+from stochfric_mb.numerics.cubic import hermite, value
+from stochfric_mb.numerics.root import bracket, is_wide, least_armed, narrowed, trial
 from stochfric_mb.pymunk import records as r
 from stochfric_mb.pymunk.memory import as_doubles
 
@@ -31,8 +33,8 @@ ITERATIONS = 30
 """Most iterations for the velocity at the time of the force."""
 SWITCHES = 4
 """Most switches located within a step."""
-BISECTIONS = 40
-"""Halvings of a step to locate a switch."""
+RESOLUTION = 1.0e-12
+"""Part of a step to which a switch is located [-]."""
 
 
 @compiled
@@ -91,7 +93,7 @@ def set_cap(table, clock, s, contact, first, rate, acceleration, inverse_mass, d
 
 @compiled
 def locate(table, clock, s, contact, v):
-    """Commit at each point within the last step where the law switches, found on its guards by bisection.
+    """Commit at each point within the last step where the law switches, found on its guards.
 
     Between its ends the step is a cubic in displacement and linear in velocity and coefficients. Without this, a
     switch would be late by up to a step, and what the law remembers of it (such as where a contact stuck) first order.
@@ -105,48 +107,39 @@ def locate(table, clock, s, contact, v):
         if s[r.GUARDS_KNOWN] == 0.0:
             guards_at(table, s, v, low)
             before[:] = out
-        guards_at(table, s, v, 1.0)
-        after = (out[0], out[1], out[2], out[3], out[4], out[5])
-        theta = 2.0
-        for i in range(GUARDS):
-            if before[i] > 0.0 >= after[i]:
-                theta = min(theta, crossing(table, s, v, i, low))
-        if theta >= 1.0:
-            before[0], before[1], before[2], before[3], before[4], before[5] = after
+        at_end = least_guard(table, s, v, 1.0)
+        if at_end > 0.0:
+            before[:] = out
             s[r.GUARDS_KNOWN] = 1.0
             return changed
-        u, w, mu_s, mu_k = between(s, v, theta)
-        changed |= remember(table, clock, s, contact, False, s[r.TIME] - (1.0 - theta) * s[r.STEP], u, w, mu_s, mu_k, 0.0)
+        b = bracket(low, least_armed(before, before), 1.0, at_end)
+        while is_wide(b, RESOLUTION):
+            part = trial(b, RESOLUTION)
+            b = narrowed(b, part, least_guard(table, s, v, part))
+        low = b.negative
+        if low >= 1.0:
+            return changed
+        u, w, mu_s, mu_k = between(s, v, low)
+        changed |= remember(table, clock, s, contact, False, s[r.TIME] - (1.0 - low) * s[r.STEP], u, w, mu_s, mu_k, 0.0)
         s[r.GUARDS_KNOWN] = 0.0
-        low = theta
     return changed
 
 
 @compiled
-def crossing(table, s, v, i, low):
-    """Return the fraction of the step at which guard ``i`` is no longer positive, after ``low``."""
-    out = s[r.OUT : r.OUT + GUARDS]
-    high = 1.0
-    for _ in range(BISECTIONS):
-        middle = 0.5 * (low + high)
-        guards_at(table, s, v, middle)
-        if out[i] > 0.0:
-            low = middle
-        else:
-            high = middle
-    return high
+def least_guard(table, s, v, theta):
+    """Return the least guard at a fraction of the last step, among those that were positive where the search began."""
+    guards_at(table, s, v, theta)
+    return least_armed(s[r.GUARDS_AT : r.GUARDS_AT + GUARDS], s[r.OUT : r.OUT + GUARDS])
 
 
 @compiled
 def between(s, v, theta):
     """Return displacement, velocity, mu_s and mu_k at a fraction of the last step."""
-    u0, u1 = s[r.PAST_DISPLACEMENT], s[r.DISPLACEMENT]
-    v0, h = s[r.PAST_VELOCITY], s[r.STEP]
+    path = hermite(s[r.STEP], s[r.PAST_DISPLACEMENT], s[r.PAST_VELOCITY], s[r.DISPLACEMENT], v)
     rest = 1.0 - theta
-    u = rest * rest * (u0 * (1.0 + 2.0 * theta) + theta * h * v0) + theta * theta * (u1 * (3.0 - 2.0 * theta) - rest * h * v)
     mu_s = rest * s[r.PAST_MU_S] + theta * s[r.MU_S]
     mu_k = rest * s[r.PAST_MU_K] + theta * s[r.MU_K]
-    return u, rest * v0 + theta * v, mu_s, mu_k
+    return value(path, theta), rest * s[r.PAST_VELOCITY] + theta * v, mu_s, mu_k
 
 
 @compiled

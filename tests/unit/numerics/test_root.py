@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from stochfric_mb.numerics.root import bracket, is_wide, narrowed, trial
+from stochfric_mb.numerics.root import bracket, is_wide, least_armed, narrowed, trial
 
 
 def search(f, positive, negative, resolution):
@@ -56,3 +56,8 @@ def test_numbers_next_to_each_other_end_the_search():
 def test_infinite_values_are_halved():
     b, _ = search(lambda t: math.inf if t < 0.3 else 0.5 - t, 0.0, 1.0, 1.0e-9)
     assert b.negative == pytest.approx(0.5, abs=1.0e-9)
+
+
+def test_the_least_of_the_armed_guards():
+    assert least_armed((1.0, 0.0, 2.0), (0.5, -3.0, -0.25)) == -0.25
+    assert least_armed((0.0, -1.0), (-1.0, -1.0)) == math.inf
