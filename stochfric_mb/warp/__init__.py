@@ -9,9 +9,10 @@ try:
 except ImportError as error:
     raise MissingEngineError("MuJoCo Warp is not installed; run pip install 'stochfric_mb[warp]'") from error
 
-from stochfric_mb.warp.attach import ContactFriction, add_friction
+from stochfric_mb.warp.attach import add_friction
 from stochfric_mb.warp.domain import Domain, Spread
+from stochfric_mb.warp.kinds import ContactFriction, JointFriction
 
-__all__ = ["ContactFriction", "Domain", "Spread", "add_friction"]
+__all__ = ["ContactFriction", "Domain", "JointFriction", "Spread", "add_friction"]
 
 _ = _mujoco_warp

@@ -23,7 +23,8 @@ from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.mujoco.belt_box import scene
 from stochfric_mb.scenario import Scenario, fitting_step
 from stochfric_mb.trajectory import Trajectory
-from stochfric_mb.warp.attach import ContactFriction, add_friction
+from stochfric_mb.warp.attach import add_friction
+from stochfric_mb.warp.kinds import ContactFriction
 
 HOOK = "steers MuJoCo Warp's constraint solver, Euler"
 STEP = 1.0e-3
@@ -74,6 +75,7 @@ def simulate_many(
     m, d = mjw.put_model(model), mjw.put_data(model, data, nworld=n)
     law = Friction(scenario.law, scenario.coefficient_process)
     friction = add_friction(model, m, d, ("box", "belt"), law, seed=seed, first_sample=first_sample)
+    assert isinstance(friction, ContactFriction)
     began = time.perf_counter()
     rows = _march(m, d, friction, scenario, step)
     n_steps = (scenario.n_outputs - 1) * round(scenario.output_step / step)

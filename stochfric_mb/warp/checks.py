@@ -12,6 +12,7 @@ import mujoco_warp as mjw
 import numpy as np
 
 from stochfric_mb.errors import InputError, require_name
+from stochfric_mb.mujoco import Joint, Tendon
 
 ANY = "*"
 """Stands for every geom that the other one can collide with."""
@@ -79,6 +80,36 @@ def partners_of(model: mujoco.MjModel, geoms: tuple[str, str]) -> np.ndarray[Any
             "to 3 (or 4, 6) on the geoms or the pair before put_model"
         )
     return partners
+
+
+def row_of(model: mujoco.MjModel, place: Joint | Tendon) -> tuple[tuple[int, int], float]:
+    """Return type and number of the friction row of a joint or tendon, and its impedance.
+
+    Raises:
+        InputError: it is unknown, has more than one coordinate, or no friction row.
+    """
+    if isinstance(place, Tendon):
+        number = _numbered("tendon", place.name, [model.tendon(i).name for i in range(model.ntendon)])
+        kind, loss, solimp = "TENDON", model.tendon_frictionloss[number], model.tendon_solimp_fri[number]
+    else:
+        joint = _numbered("joint", place.name, [model.joint(i).name for i in range(model.njnt)])
+        if int(model.jnt_type[joint]) not in {int(mujoco.mjtJoint.mjJNT_SLIDE), int(mujoco.mjtJoint.mjJNT_HINGE)}:
+            raise InputError(
+                f"joint {place.name!r} is a ball or free joint; friction needs one coordinate: take a slide or hinge"
+            )
+        number = int(model.jnt_dofadr[joint])
+        kind, loss, solimp = "DOF", model.dof_frictionloss[number], model.dof_solimp[number]
+    if loss <= 0.0 or model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_FRICTIONLOSS:
+        raise InputError(
+            f"{place.name!r} has no friction row; give it frictionloss > 0 (any number: the law replaces it) and leave "
+            "frictionloss enabled before put_model"
+        )
+    row = int(getattr(mujoco.mjtConstraint, f"mjCNSTR_FRICTION_{kind}"))
+    return (row, number), float(solimp[0])
+
+
+def _numbered(what: str, name: str, names: list[str]) -> int:
+    return names.index(require_name(what, name, [n for n in names if n]))
 
 
 def check_contacts(model: mujoco.MjModel, d: mjw.Data, partners: Any, slots: int | None) -> None:

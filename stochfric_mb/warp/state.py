@@ -81,3 +81,21 @@ class Slots:
     """Friction that a sliding contact was asked for, over its cap [-]."""
     mode: wp.array3d[int]
     """STICK, SLIP or STOPPING."""
+
+
+@wp.struct
+class Rows:
+    """A joint or tendon, shape (2, nworld); the set ``count % 2`` is the present one."""
+
+    row: wp.array2d[int]
+    """Its constraint row, -1 if it has none."""
+    cap: wp.array2d[float]
+    """Friction force or torque that the solver was allowed [N or N m]."""
+    force: wp.array2d[float]
+    """Friction force or torque that the solver found [N or N m]."""
+    drift: wp.array2d[float]
+    """Displacement since it stuck [m or rad]."""
+    velocity: wp.array2d[float]
+    """Velocity at the step's start [m/s or rad/s]."""
+    mode: wp.array2d[int]
+    """STICK or STOPPING."""

@@ -10,7 +10,7 @@ import warp as wp
 
 from stochfric_mb.coefficients.path import CURSOR
 from stochfric_mb.friction import Friction
-from stochfric_mb.warp.state import Slots, Worlds, vec5
+from stochfric_mb.warp.state import Rows, Slots, Worlds, vec5
 
 LEAST_EXCESS = 0.002
 """A contact at its cap slides, where the law has no v_s, once it is as fast as this acceleration makes it in a step [m/s^2].
@@ -63,6 +63,16 @@ def slot_arrays(nworld: int, n: int) -> Any:
     slots.urgency = wp.zeros(shape, dtype=float)
     slots.mode = wp.zeros(shape, dtype=int)
     return slots
+
+
+def row_arrays(nworld: int) -> Any:
+    """Return the empty `Rows` of a joint or tendon."""
+    rows: Any = Rows()
+    rows.row = wp.full((2, nworld), -1, dtype=int)
+    rows.mode = wp.zeros((2, nworld), dtype=int)
+    for name in ("cap", "force", "drift", "velocity"):
+        setattr(rows, name, wp.zeros((2, nworld), dtype=float))
+    return rows
 
 
 def _rows(numbers: Any, nworld: int, kind: type) -> Any:

@@ -129,3 +129,24 @@ def test_readings_are_arrays_on_the_device_that_others_read_without_a_copy():
     run(m, d, 0.3, DT)
     friction.observe(d)
     assert shared == pytest.approx([GRAVITY * math.cos(math.radians(20.0))] * 4, rel=1e-3)  # it still settles
+
+
+def test_a_captured_graph_does_what_single_calls_do():
+    final = []
+    for captured in (False, True):
+        model, m, d = box_on_plane(0.0, DT, nworld=2, velocity=1.0)
+        add_friction(model, m, d, ("box", "floor"), RANDOM, seed=3)
+        mjw.step(m, d)
+        if captured:
+            with wp.ScopedCapture() as capture:
+                mjw.step(m, d)
+        for _ in range(100):
+            if captured:
+                wp.capture_launch(capture.graph)
+            else:
+                mjw.step(m, d)
+        final.append((d.time.numpy()[0], d.qpos.numpy()[:, 0].copy()))
+    (plain_time, plain), (graph_time, graph) = final
+    assert graph_time == pytest.approx(plain_time, abs=1.5 * DT)  # capturing runs the step, or does not, with the device
+    assert graph == pytest.approx(plain, abs=1.5 * DT)
+    assert (plain > 0.05).all()
