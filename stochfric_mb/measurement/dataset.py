@@ -12,13 +12,15 @@ from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.assemble import RunEntry, assemble
 from stochfric_mb.measurement.entries import SCHEMA, run_entries
 from stochfric_mb.measurement.run import Run, apply_settings
-from stochfric_mb.measurement.sampling import MIN_SAMPLES
+from stochfric_mb.measurement.sampling import MIN_SAMPLES, GapError
 from stochfric_mb.measurement.signs import run_sign_error
 from stochfric_mb.measurement.wrong_units import require_plausible
 from stochfric_mb.scenario import Scenario, bundled_scenarios, load_any_scenario
 
 FILE = "dataset.toml"
 """Name of the file that describes a dataset, in its folder."""
+MOST_PIECES = 20
+"""Most pieces that a record with gaps is cut into [-]: with more, the recorder is at fault."""
 HELD_OUT = 1.0 / 3.0
 """Part of the time that is held out where one file alone is given."""
 
@@ -82,7 +84,7 @@ def _described(path: Path, scenario: str | Path | Scenario[Any] | None) -> Datas
     for entry in entries:
         apply_settings(model, entry.settings, f"{path}: run {entry.name!r}")
     stated_in = "the scenario" if source is None else str(source)
-    runs = tuple(_checked(assemble(entry, rotational=rotates(model)), model, stated_in) for entry in entries)
+    runs = tuple(_checked(run, model, stated_in) for entry in entries for run in _pieces(entry, rotational=rotates(model)))
     dataset = Dataset(title=str(tables.get("title", "")), scenario_path=source, scenario=model, runs=runs)
     _require_roles(path, dataset)
     return dataset
@@ -113,6 +115,27 @@ def _alone(path: Path, scenario: str | Path | Scenario[Any] | None) -> Dataset:
 def rotates(scenario: Scenario[Any]) -> bool | None:
     """Return whether the mechanism's friction acts about an axis: positions are then angles; None: joints of both kinds."""
     return getattr(scenario.mechanism, "rotational", False)
+
+
+def _pieces(entry: RunEntry, *, rotational: bool | None) -> list[Run]:
+    """Return the run of an entry, or, where samples are missing, a run for each piece between the gaps.
+
+    What happened in a gap is unknown: it is left out, and never taken for motion.
+    """
+    try:
+        return [assemble(entry, rotational=rotational)]
+    except GapError as error:
+        if not 0 < len(error.pieces) <= MOST_PIECES:
+            raise
+        note = f"samples are missing: {len(error.pieces)} pieces between the gaps are runs of their own"
+        return [
+            _with_note(assemble(dataclasses.replace(entry, name=name, time_range=span), rotational=rotational), note)
+            for name, span in ((f"{entry.name}, piece {i}", span) for i, span in enumerate(error.pieces, start=1))
+        ]
+
+
+def _with_note(run: Run, note: str) -> Run:
+    return dataclasses.replace(run, notes=(note, *run.notes))
 
 
 def _checked(run: Run, scenario: Scenario[Any], stated_in: str) -> Run:

@@ -19,6 +19,15 @@ MIN_SAMPLES = 50
 """Fewest samples of a run: fewer hold neither a noise level nor one cycle."""
 
 
+class GapError(InputError):
+    """Samples are missing within a record; ``pieces`` are the first and last times between the gaps [s]."""
+
+    def __init__(self, message: str, pieces: list[tuple[float, float]]) -> None:
+        """Say what is missing, and what is there."""
+        super().__init__(message)
+        self.pieces = pieces
+
+
 @dataclasses.dataclass(frozen=True)
 class Places:
     """Where the samples of a record are in its file, for messages."""
@@ -86,7 +95,8 @@ def uniform_grid(time: Array, places: Places, *, max_gap: float | None = None) -
         max_gap: longest distance between samples [s] that is bridged; None: `GAP` median distances.
 
     Raises:
-        InputError: too few samples, or a gap; names the line.
+        InputError: too few samples; names the line.
+        GapError: a gap, with the pieces of at least `MIN_SAMPLES` samples beside it.
     """
     if time.size < MIN_SAMPLES:
         raise InputError(
@@ -102,10 +112,14 @@ def uniform_grid(time: Array, places: Places, *, max_gap: float | None = None) -
     limit = (GAP * median if max_gap is None else max_gap) * (1.0 + 1.0e-9)  # time stamps are rounded
     if steps[longest] > limit:
         n = int(np.count_nonzero(steps > limit))
-        raise InputError(
+        ends = np.flatnonzero(steps > limit)
+        firsts, lasts = [0, *(ends + 1)], [*ends, time.size - 1]
+        pieces = [(float(time[i]), float(time[j])) for i, j in zip(firsts, lasts, strict=True) if j - i + 1 >= MIN_SAMPLES]
+        raise GapError(
             f"{places.at(longest + 1)}: {steps[longest]:.4g} s without a sample, where {median:.4g} s is usual ({n} gaps "
-            f"longer than {limit:.4g} s); cut the run there with time_range, or allow interpolation across with "
-            f"max_gap = {_rounded_up(float(steps[longest])):g}"
+            f"longer than {limit:.4g} s); cut the run there with time_range, or, where nothing moved meanwhile, allow "
+            f"interpolation across with max_gap = {_rounded_up(float(steps[longest])):g}",
+            pieces,
         )
     count = int(np.floor((time[-1] - time[0]) / median * (1.0 + 1.0e-12))) + 1
     note = (

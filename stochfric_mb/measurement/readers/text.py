@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import itertools
 import re
 from collections import Counter
 from datetime import UTC, datetime
@@ -28,6 +29,8 @@ _DATE = re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d")
 """How a date in ISO 8601 begins."""
 _LOOK = 40
 """Lines that decide the dialect."""
+_LONGEST_LINE = 2**20
+"""Longest first line of a table [bytes]: ten thousand columns need less."""
 _ALIKE = 0.8
 """Part of them that has equally many columns: a few may be broken, which is said later, with their number."""
 
@@ -42,6 +45,9 @@ def read(path: Path, *, skip_rows: int = 0) -> Table:
     Raises:
         InputError: no table of numbers can be seen in it, or a row is broken; names the line.
     """
+    _require_lines(path)
+    if not skip_rows and (plain := _plain(path)) is not None:
+        return plain
     lines = _text(path).splitlines()
     if not any(map(str.strip, lines)):
         raise InputError(f"{path}: the file is empty; record again, or leave the run out")
@@ -82,6 +88,55 @@ def read(path: Path, *, skip_rows: int = 0) -> Table:
         rows=np.array([number for number, _ in body], dtype=np.int64),
         row_word="line",
     )
+
+
+def _require_lines(path: Path) -> None:
+    """Refuse a file that is no table of lines before all of it is read."""
+    with path.open("rb") as file:
+        head = file.read(_LONGEST_LINE)
+    wide = head.startswith((b"\xff\xfe", b"\xfe\xff"))
+    if b"\0" in head and not wide:
+        raise InputError(f"{path}: not a text file; give it the ending of its format")
+    if len(head) == _LONGEST_LINE and not (b"\n" in head or b"\r" in head):
+        raise InputError(
+            f"{path}: its first line is longer than {_LONGEST_LINE // 2**20} MiB, so it is no table of lines; write a line "
+            "for each sample, or give the file the ending of its format"
+        )
+
+
+def _plain(path: Path) -> Table | None:
+    """Return the table of a tidy file, one header line and then numbers, without holding its lines; None if it is none."""
+    with path.open(encoding="utf-8-sig", errors="replace") as file:
+        head = [line.rstrip("\r\n") for line in itertools.islice(file, _LOOK + 1)]
+    if len(head) <= _LOOK or not all(map(str.strip, head)) or any(line.lstrip().startswith(COMMENT) for line in head):
+        return None
+    delimiter, decimal = _dialect(path, head)
+    first, width = _fields(head[0], (delimiter, decimal)), _usual_width(head[1:], (delimiter, decimal))
+    if decimal == "," or len(first) != width or any(_number(field, (delimiter, decimal)) is not None for field in first):
+        return None
+    try:
+        values = np.loadtxt(path, delimiter=delimiter, skiprows=1, ndmin=2, comments=None, encoding="utf-8-sig")
+    except (ValueError, UnicodeDecodeError):
+        return None  # fields that are empty, quoted, dates or no numbers: line after line, to say where
+    if len(values) != _count_lines(path) - 1:
+        return None  # empty lines: they count where a line's number is said
+    names, units = _names(path, first, width)
+    filled = [i for i in range(width) if np.isfinite(values[:, i]).any() or names[i] in units]
+    return Table(
+        columns={names[i]: values[:, i].copy() for i in filled},
+        units=units,
+        rows=np.arange(2, len(values) + 2, dtype=np.int64),
+        row_word="line",
+    )
+
+
+def _count_lines(path: Path) -> int:
+    with path.open("rb") as file:
+        pieces = iter(lambda: file.read(2**20), b"")
+        last, lines = b"\n", 0
+        for piece in pieces:
+            lines, last = lines + piece.count(b"\n"), piece[-1:]
+    return lines + (last != b"\n")
 
 
 def _text(path: Path) -> str:

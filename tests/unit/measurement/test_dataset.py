@@ -240,7 +240,10 @@ def broken(sample, value):
         ({"time__s": broken(9, np.nan), "position__m": POSITION}, r"line 11: time is nan, a missing value"),
         ({"time__s": TIME, "position__m": broken(9, np.inf)}, r"line 11: position is missing or not finite; remove or mend"),
         ({"time__s": TIME[:49], "position__m": POSITION[:49]}, r"49 samples; at least 50 are needed"),
-        ({"time__s": TIME + (TIME > 0.3), "position__m": POSITION}, r"line \d+: 1\.001 s without a sample.*max_gap = 1\.1"),
+        (
+            {"time__s": TIME + (TIME > 0.29) + (TIME > 0.33), "position__m": POSITION},
+            r"line \d+: 1\.001 s without a sample.*max_gap = 1\.1",
+        ),
         ({"time__s": TIME, "position__s": POSITION}, r"unit 's' is not one of position"),
     ],
 )
@@ -301,11 +304,27 @@ def test_jitter_is_interpolated_and_said(rig):
 
 def test_a_gap_is_bridged_where_that_is_allowed(rig):
     csv(rig / "run.csv", time__s=TIME + 0.01 * (TIME > 0.3), position__m=POSITION)
+    entry = RunEntry(file=rig / "run.csv", name="run")
     with pytest.raises(InputError, match=r"max_gap = 0\.011"):
-        only(rig)
+        assemble(entry, rotational=False)
     keys = "max_gap = 0.011"
     run = load_dataset(dataset(rig, f"{FIT}\n{keys}", f"{TEST}\n{keys}")).fit[0]
     assert run.time.size == TIME.size + 10
+
+
+def test_a_gap_is_left_out_and_each_piece_is_a_run(rig):
+    """Interpolating across a gap is motion that nobody measured: it looked like a step of the sensor."""
+    time = np.arange(400) * 1e-3
+    kept = (time < 0.15) | ((time > 0.2) & (time < 0.21)) | (time > 0.3)  # the middle piece is too short for a run
+    csv(rig / "run.csv", time__s=time[kept], position__m=np.sin(30.0 * time)[kept])
+    data = load_dataset(dataset(rig, FIT, TEST))
+    first, second = data.fit
+    assert (first.name, second.name) == ("run #1, piece 1", "run #1, piece 2")
+    assert first.time[-1] < 0.15
+    assert second.time[0] > 0.3
+    for run in data.runs:
+        np.testing.assert_allclose(run.channels["position"], np.sin(30.0 * run.time), atol=1e-9)
+        assert run.notes == ("samples are missing: 2 pieces between the gaps are runs of their own",)
 
 
 # --- real files ------------------------------------------------------------------------------------------------------
