@@ -13,6 +13,7 @@ from stochfric_mb.c import intrinsics
 from stochfric_mb.c.types import (
     BOOL,
     DOUBLE,
+    DUAL,
     INT,
     UNSIGNED,
     Array,
@@ -24,6 +25,7 @@ from stochfric_mb.c.types import (
     as_c,
     bare,
     number,
+    plain,
     unified,
 )
 
@@ -31,6 +33,8 @@ Anything = Value | Several | Known
 
 _ARITHMETIC: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*"}
 _BITS: dict[type[ast.operator], str] = {ast.LShift: "<<", ast.RShift: ">>", ast.BitAnd: "&", ast.BitOr: "|", ast.BitXor: "^"}
+_DUAL: dict[type[ast.operator], str] = {ast.Add: "sum", ast.Sub: "difference", ast.Mult: "product", ast.Div: "quotient",
+                                        ast.Pow: "power"}  # fmt: skip
 _COMPARISONS: dict[type[ast.cmpop], str] = {
     ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
 }  # fmt: skip
@@ -130,12 +134,15 @@ class Expressions:
         left, right, kind = self.number(node.left), self.number(node.right), type(node.op)
         if kind in _BITS and left.type == right.type and left.type in (INT, UNSIGNED):
             return Value(f"({left.code} {_BITS[kind]} {right.code})", left.type)
+        if DUAL in (left.type, right.type):
+            return self._dual(node, kind, left, right)
         if kind is ast.Div:
             return Value(f"({as_c(left, DOUBLE)} / {as_c(right, DOUBLE)})", DOUBLE)
-        if kind is ast.Pow and isinstance(right.constant, int) and right.constant >= 0 and left.type == DOUBLE:
-            return Value(f"whole_power({left.code}, {right.constant})", DOUBLE)
         if kind is ast.Pow:
-            return Value(f"pow({as_c(left, DOUBLE)}, {as_c(right, DOUBLE)})", DOUBLE)
+            return _power(left, right)
+        return self._arithmetic(node, kind, left, right)
+
+    def _arithmetic(self, node: ast.BinOp, kind: type[ast.operator], left: Value, right: Value) -> Value:
         wide = UNSIGNED if left.type == right.type == UNSIGNED else unified(left.type, right.type)
         if kind not in _ARITHMETIC or not isinstance(wide, Scalar) or wide == BOOL:
             raise CannotTranslate(node, f"no translation of {ast.unparse(node)}")
@@ -147,12 +154,22 @@ class Expressions:
             return Value(number(constant), INT, constant)
         return Value(f"({as_c(left, wide)} {_ARITHMETIC[kind]} {as_c(right, wide)})", wide)
 
+    def _dual(self, node: ast.BinOp, kind: type[ast.operator], left: Value, right: Value) -> Value:
+        """Return an operation on numbers with derivatives."""
+        if kind is ast.Pow and isinstance(right.constant, int) and right.constant >= 0:
+            return Value(f"dual_whole_power({left.code}, {right.constant})", DUAL)
+        if kind not in _DUAL:
+            raise CannotTranslate(node, f"{ast.unparse(node)} has no translation with derivatives")
+        return Value(f"dual_{_DUAL[kind]}({as_c(left, DUAL)}, {as_c(right, DUAL)})", DUAL)
+
     def _unaryop(self, node: ast.UnaryOp) -> Value:
         if isinstance(node.op, ast.Not):
             return Value(f"(!{self.condition(node.operand)})", BOOL)
         value = self.number(node.operand)
         if isinstance(node.op, ast.UAdd):
             return value
+        if isinstance(node.op, ast.USub) and value.type == DUAL:
+            return Value(f"dual_negative({value.code})", DUAL)
         if isinstance(node.op, ast.USub) and value.type in (DOUBLE, INT):
             constant = None if value.constant is None else -value.constant
             return Value(f"(-{value.code})", value.type, constant)
@@ -164,11 +181,11 @@ class Expressions:
 
     def _compare(self, node: ast.Compare) -> Value:
         parts: list[str] = []
-        left = self.number(node.left)
+        left = plain(self.number(node.left))
         for op, right_node in zip(node.ops, node.comparators, strict=True):
             if isinstance(op, ast.In | ast.NotIn):
                 return self._among(node, left, right_node, isinstance(op, ast.NotIn))
-            right = self.number(right_node)
+            right = plain(self.number(right_node))
             wide = UNSIGNED if left.type == right.type == UNSIGNED else unified(left.type, right.type)
             if type(op) not in _COMPARISONS or not isinstance(wide, Scalar):
                 raise CannotTranslate(node, f"no translation of {ast.unparse(node)}")
@@ -250,6 +267,12 @@ class Expressions:
         if not all(isinstance(n, int) for n in lengths):
             raise CannotTranslate(node, f"the length of {ast.unparse(node)} is not known")
         return Array(DOUBLE, tuple(lengths)), None
+
+
+def _power(left: Value, right: Value) -> Value:
+    if isinstance(right.constant, int) and right.constant >= 0 and left.type == DOUBLE:
+        return Value(f"whole_power({left.code}, {right.constant})", DOUBLE)
+    return Value(f"pow({as_c(left, DOUBLE)}, {as_c(right, DOUBLE)})", DOUBLE)
 
 
 def _plain(index: Value) -> str:

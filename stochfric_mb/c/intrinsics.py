@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import functools
 import math
+import re
 from collections.abc import Callable
 from typing import Any
 
 import numba
 import numpy as np
 
-from stochfric_mb.c.types import BOOL, DOUBLE, INT, UNSIGNED, VOID, Array, Known, Scalar, Value, as_c
+from stochfric_mb.c.types import BOOL, DOUBLE, DUAL, INT, UNSIGNED, VOID, Array, Known, Scalar, Value, as_c, plain
 
 PRELUDE = """\
 #include <math.h>
@@ -41,6 +42,41 @@ static inline double whole_power(double x, int n) {
 """
 """What every translation begins with."""
 
+DUALS = """\
+/* Numbers with their derivatives along one direction. */
+typedef struct { double v, d; } dual;
+static inline dual dual_of(double v) { return (dual){v, 0.0}; }
+static inline dual dual_negative(dual a) { return (dual){-a.v, -a.d}; }
+static inline dual dual_sum(dual a, dual b) { return (dual){a.v + b.v, a.d + b.d}; }
+static inline dual dual_difference(dual a, dual b) { return (dual){a.v - b.v, a.d - b.d}; }
+static inline dual dual_product(dual a, dual b) { return (dual){a.v * b.v, a.d * b.v + a.v * b.d}; }
+static inline dual dual_quotient(dual a, dual b) { return (dual){a.v / b.v, (a.d - a.v / b.v * b.d) / b.v}; }
+static inline dual dual_fabs(dual a) { return a.v < 0.0 ? dual_negative(a) : a; }
+static inline dual dual_largest(dual a, dual b) { return b.v > a.v ? b : a; }
+static inline dual dual_smallest(dual a, dual b) { return b.v < a.v ? b : a; }
+static inline dual dual_sqrt(dual a) { const double r = sqrt(a.v); return (dual){r, r > 0.0 ? 0.5 * a.d / r : 0.0}; }
+static inline dual dual_exp(dual a) { const double e = exp(a.v); return (dual){e, e * a.d}; }
+static inline dual dual_log(dual a) { return (dual){log(a.v), a.d / a.v}; }
+static inline dual dual_sin(dual a) { return (dual){sin(a.v), cos(a.v) * a.d}; }
+static inline dual dual_cos(dual a) { return (dual){cos(a.v), -sin(a.v) * a.d}; }
+static inline dual dual_tanh(dual a) { const double t = tanh(a.v); return (dual){t, (1.0 - t * t) * a.d}; }
+static inline dual dual_atan(dual a) { return (dual){atan(a.v), a.d / (1.0 + a.v * a.v)}; }
+static inline dual dual_hypot(dual a, dual b) {
+    const double r = hypot(a.v, b.v);
+    return (dual){r, r > 0.0 ? (a.v * a.d + b.v * b.d) / r : 0.0};
+}
+static inline dual dual_power(dual a, dual b) {
+    const double p = pow(a.v, b.v);
+    return (dual){p, b.v * pow(a.v, b.v - 1.0) * a.d + (b.d != 0.0 ? log(a.v) * p * b.d : 0.0)};
+}
+static inline dual dual_whole_power(dual x, int n) {
+    dual result = {1.0, 0.0};
+    for (int i = 0; i < n; i++) result = dual_product(result, x);
+    return result;
+}
+"""
+"""What a translation with derivatives needs besides."""
+_DERIVED = frozenset(re.findall(r"dual_(\w+)\(dual", DUALS))
 _REAL = (
     "sqrt",
     "exp",
@@ -97,15 +133,35 @@ def call(known: Known, args: list[Value]) -> Value | None:
     function = known.value
     if not _hashable(function):
         return None
+    if any(a.type == DUAL for a in args) and (function in _MATH or function in (abs, max, min)):
+        return _with_derivative(function, args)
+    args = [plain(a) for a in args] if function in _BUILT_IN or function in _TESTS else args
     if function in _BUILT_IN:
         return _BUILT_IN[function](args)
+    if function in _CONVERSIONS:
+        return _converted(args[0], _CONVERSIONS[function])
+    return _of_math(function, args) or _named(function, args)
+
+
+def _of_math(function: Any, args: list[Value]) -> Value | None:
     if function in _MATH:
         return Value(f"{_MATH[function]}({', '.join(as_c(a, DOUBLE) for a in args)})", DOUBLE)
     if function in _TESTS:
         return Value(f"({_TESTS[function]}({as_c(args[0], DOUBLE)}) != 0)", BOOL)
-    if function in _CONVERSIONS:
-        return _converted(args[0], _CONVERSIONS[function])
-    return _named(function, args)
+    return None
+
+
+def _with_derivative(function: Any, args: list[Value]) -> Value | None:
+    """Return a function of numbers with derivatives, None where there is none of it."""
+    name = {abs: "fabs", max: "largest", min: "smallest"}.get(function) or _MATH[function]
+    if name not in _DERIVED:
+        return None
+    code = as_c(args[0], DUAL)
+    if len(args) == 1:
+        return Value(f"dual_{name}({code})", DUAL)
+    for other in args[1:]:
+        code = f"dual_{name}({code}, {as_c(other, DUAL)})"
+    return Value(code, DUAL)
 
 
 def _hashable(function: Any) -> bool:
@@ -127,8 +183,9 @@ def _named(function: Any, args: list[Value]) -> Value | None:
 
 
 def _converted(value: Value, wanted: Scalar) -> Value:
-    if value.type == wanted:
+    if value.type == wanted or (value.type == DUAL and wanted == DOUBLE):
         return value
+    value = plain(value)
     if wanted == INT and value.type == DOUBLE:
         return Value(f"to_int({value.code})", INT)
     if wanted == UNSIGNED and value.type == DOUBLE:

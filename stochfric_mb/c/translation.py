@@ -14,9 +14,9 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from stochfric_mb.c.expressions import CannotTranslate, Expressions, c_name
-from stochfric_mb.c.intrinsics import PRELUDE
+from stochfric_mb.c.intrinsics import DUALS, PRELUDE
 from stochfric_mb.c.statements import Body
-from stochfric_mb.c.types import VOID, Array, Scalar, Tuple, Type, Value, as_c, unified
+from stochfric_mb.c.types import DUAL, VOID, Array, Scalar, Tuple, Type, Value, as_c, unified
 from stochfric_mb.errors import InputError
 
 ROUNDS = 8
@@ -70,7 +70,8 @@ class Translation:
             self._collect(name, used)
         tuples = {f.returns for f in used if isinstance(f.returns, Tuple)}
         structures = "\n".join(sorted(t.definition for t in tuples))
-        return "\n".join([PRELUDE, structures, _DISPATCHERS, *(f.text for f in used)])
+        duals = DUALS if any(DUAL in _scalars(f) for f in used) else ""
+        return "\n".join([PRELUDE, duals, structures, _DISPATCHERS, *(f.text for f in used)])
 
     def _collect(self, name: str, used: list[Function]) -> None:
         function = self._by_name[name]
@@ -148,6 +149,12 @@ static void call_effect(int64_t address, int64_t world, int64_t memory, int64_t 
 """
 
 
+def _scalars(function: Function) -> set[Type]:
+    """Return the types that a function takes and returns, those within tuples included."""
+    found = {function.returns, *function.arguments}
+    return found | {item for kind in found if isinstance(kind, Tuple) for item in kind.items}
+
+
 def plain_function(function: Any) -> Any:
     """Return the Python function behind a compiled one."""
     return getattr(function, "py_func", function)
@@ -185,7 +192,7 @@ def _source(name: str, plain: Any, names: list[str], variables: dict[str, Any], 
     for variable, kind in variables.items():
         if variable in names:
             continue
-        zero = " = {0}" if isinstance(kind, Tuple) else " = 0"
+        zero = " = {0}" if isinstance(kind, Tuple) or kind == DUAL else " = 0"
         lines.append(f"    {_declared(kind, c_name(variable))}{zero};")
     lines += [f"    {kind.item.c} {room}[{kind.size}];" for room, kind in body.arrays.items()]
     unused = [f"    (void){c_name(n)};" for n in names if not _mentions(body.lines, c_name(n))]

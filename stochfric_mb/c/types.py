@@ -22,6 +22,8 @@ INT = Scalar("int64_t", "i")
 UNSIGNED = Scalar("uint64_t", "u")
 BOOL = Scalar("bool", "b")
 VOID = Scalar("void", "v")
+DUAL = Scalar("dual", "x")
+"""A number with its derivative along one direction: the same source, translated for it, gives derivatives."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -118,7 +120,16 @@ def as_c(value: Value, wanted: Type) -> str:
     if isinstance(value.constant, int) and not isinstance(value.constant, bool) and wanted == DOUBLE:
         return number(float(value.constant))
     assert isinstance(wanted, Scalar)
+    if wanted == DUAL:
+        return f"dual_of({as_c(value, DOUBLE)})"
+    if value.type == DUAL:
+        raise TypeError("a number with a derivative cannot go where there is room for a number alone")
     return f"(({wanted.c}){value.code})"
+
+
+def plain(value: Value) -> Value:
+    """Return the number of a number with a derivative; other values as they are."""
+    return Value(f"{value.code}.v", DOUBLE) if value.type == DUAL else value
 
 
 def bare(code: str) -> str:
@@ -153,8 +164,8 @@ def unified(a: Type | None, b: Type) -> Type | None:
     if a is None or a == b:
         return b
     if isinstance(a, Scalar) and isinstance(b, Scalar):
-        for wide in (DOUBLE, INT):
-            if wide in (a, b) and {a, b} <= {DOUBLE, INT, BOOL}:
+        for wide in (DUAL, DOUBLE, INT):
+            if wide in (a, b) and {a, b} <= {DUAL, DOUBLE, INT, BOOL}:
                 return wide
         return None
     if isinstance(a, Tuple) and isinstance(b, Tuple) and len(a.items) == len(b.items):

@@ -32,15 +32,21 @@ class Named:
     """Where a simulation stops unless it is told another time [s]."""
 
 
-def description(about: Named, variables: Sequence[Variable], *, fmi: int) -> str:
+def description(about: Named, variables: Sequence[Variable], *, fmi: int, derivatives: bool) -> str:
     """Return the text of modelDescription.xml.
 
     Args:
         about: the model.
         variables: its variables, each at the place of its value reference.
         fmi: 2 or 3.
+        derivatives: whether outputs have derivatives with respect to inputs.
     """
-    return _text(_fmi2(about, variables) if fmi == 2 else _fmi3(about, variables))
+    made = _fmi2(about, variables) if fmi == 2 else _fmi3(about, variables)
+    for kind in ("ModelExchange", "CoSimulation"):
+        found = made.find(kind)
+        if derivatives and found is not None:
+            found.set("providesDirectionalDerivative" if fmi == 2 else "providesDirectionalDerivatives", "true")
+    return _text(made)
 
 
 def _text(root: Xml.Element) -> str:

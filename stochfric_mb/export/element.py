@@ -14,7 +14,8 @@ from stochfric_mb import __version__, contact
 from stochfric_mb.c import Translation
 from stochfric_mb.c.dispatch import FLOW, NUMBERS, Dispatch
 from stochfric_mb.c.model import numbered_model
-from stochfric_mb.c.types import DOUBLE, INT, Array, number
+from stochfric_mb.c.types import DOUBLE, DUAL, INT, Array, number
+from stochfric_mb.coefficients import path
 from stochfric_mb.coefficients.path import CURSOR, constant_descriptor
 from stochfric_mb.effects import augmented_law as augmented
 from stochfric_mb.effects.augmented_law import Augmented
@@ -23,6 +24,14 @@ from stochfric_mb.export.parameters import Group, Parameter, groups
 from stochfric_mb.laws.abi import MAX_STATE
 from stochfric_mb.laws.contract import GUARDS
 
+_DERIVATIVE = """\
+/* The force and its derivative along a direction in which the contact changes, made from the law's own source; the state stays
+   as it is, and the time of `along` is not looked at. */
+STOCHFRIC_API int stochfric_derivative(const stochfric_friction *friction, const stochfric_state *state,
+                                       const stochfric_contact *at, const stochfric_contact *along, double force[2],
+                                       double derivative[2]);
+
+"""
 INTEGERS = Array(INT, (None,))
 CONTACT = [INTEGERS, INTEGERS, *[NUMBERS] * 6, *[DOUBLE] * 8]
 """Types of the arguments of a contact's compiled functions."""
@@ -69,6 +78,9 @@ def element(
     flow = ""
     if exported.law.has_flow:
         flow = translation.add(exported.law.functions().flow, FLOW).name
+    derivative = ""
+    if not exported.effects:
+        derivative = _derivative(translation, exported)
     after = more(translation) if more is not None else ""
     defines = _defines(exported, arrays, mechanism=mechanism, mass=effective_mass, numbers=dataclasses.asdict(numbers))
     defines |= {"LAW_FLOW": flow} if flow else {}
@@ -83,6 +95,7 @@ def element(
             _rule_functions(rules, parameters),
             _spread(parameters),
             template("element.c"),
+            derivative,
             after,
         ]
     )
@@ -92,6 +105,18 @@ def element(
 def template(name: str) -> str:
     """Return the text of a C file that comes with the package."""
     return (resources.files("stochfric_mb.export") / "sources" / name).read_text(encoding="utf-8")
+
+
+def _derivative(translation: Translation, exported: Exported) -> str:
+    """Add the law's force with derivatives; return the C code that is theirs."""
+    functions = exported.law.functions()
+    force = translation.add(functions.force, [DOUBLE, *[DUAL] * 5, NUMBERS, *[DUAL] * 5, NUMBERS])
+    evaluate = translation.add(path.evaluate, [NUMBERS, NUMBERS, INT, INT, INT, DOUBLE, DUAL, DOUBLE])
+    names = {"@FORCE@": force.name, "@EVALUATE@": evaluate.name, "@PAIR@": force.returns.c, "@MU@": evaluate.returns.c}
+    text = template("derivative.c")
+    for name, value in names.items():
+        text = text.replace(name, value)
+    return text
 
 
 def _arrays(exported: Exported, dispatch: Dispatch) -> dict[str, list[float]]:
@@ -203,6 +228,7 @@ def _header(exported: Exported, parameters: Sequence[Parameter], arrays: dict[st
         enumerators=enumerators,
         mass_note="" if exported.law.needs_effective_mass else "; this law does not use it",
         hold_note="" if exported.law.needs_holding_force else ". This law does not use it",
+        derivative="" if exported.effects else _DERIVATIVE,
         n_book=contact.BOOK,
         n_state=MAX_STATE,
         n_cursor=CURSOR,

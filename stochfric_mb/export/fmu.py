@@ -80,12 +80,13 @@ def fmu_source(exported: Exported, *, fmi: int = 2, mechanism: bool = False, nam
         f"fmi{fmi}.c": template(f"fmi{fmi}.c"),
     }
     token = hashlib.sha256("".join(texts.values()).encode()).hexdigest()[:32]
-    texts["all.c"] = _all(fmi, token, flow=flow)
+    derivatives = not mechanism and not exported.effects
+    texts["all.c"] = _all(fmi, token, flow=flow, derivatives=derivatives)
     kind = f"belt-box with law {exported.inner.kind}" if mechanism else f"friction element with law {exported.inner.kind}"
     line = "; ".join([exported.title or kind, *exported.notes])
     step = next((x.start for x in listed if x.name == "internal_step"), 1.0e-3)
     about = Named(name, identifier, line, token, step=max(step, 1.0e-3), stop=10.0)
-    return Source(identifier, description(about, listed, fmi=fmi), texts, fmi)
+    return Source(identifier, description(about, listed, fmi=fmi, derivatives=derivatives), texts, fmi)
 
 
 def _around(translation: Translation) -> str:
@@ -96,10 +97,11 @@ def _around(translation: Translation) -> str:
     return ""
 
 
-def _all(fmi: int, token: str, *, flow: bool) -> str:
+def _all(fmi: int, token: str, *, flow: bool, derivatives: bool) -> str:
     official = f'#ifdef STOCHFRIC_OFFICIAL_FMI\n#include <fmi{fmi}Functions.h>\n#else\n#include "fmi{fmi}.h"\n#endif\n'
     head = f'/* The whole FMU: compile this file alone. */\n#define TOKEN "{token}"\n#define MARK UINT64_C(0x{token[:16]})\n'
     files = "".join(f'#include "{name}"\n' for name in ("stochfric.c", "model.c", "fmu.c", f"fmi{fmi}.c"))
+    head += "#define WITH_DERIVATIVES 1\n" if derivatives else ""
     return head + ("#define WITH_FLOW 1\n" if flow else "") + "#define STOCHFRIC_API static\n" + official + files
 
 

@@ -2,8 +2,6 @@
 
 import ctypes
 
-import fmpy.fmi2
-import fmpy.fmi3
 import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException

@@ -142,7 +142,11 @@ FMI3_Export fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte by
 #define DERIVATIVE const fmi3ValueReference unknown[], size_t n_unknown, const fmi3ValueReference known[], size_t n_known, \
     const fmi3Float64 seed[], size_t n_seed, fmi3Float64 out[], size_t n_out
 #define UNUSED_DERIVATIVE (void)unknown; (void)n_unknown; (void)known; (void)n_known; (void)seed; (void)n_seed; (void)out; (void)n_out
-FMI3_Export fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, DERIVATIVE) { UNUSED_DERIVATIVE; return without(c, "this FMU has no directional derivatives"); }
+FMI3_Export fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, DERIVATIVE) {
+    INSTANCE(c);
+    if (counted(i, n_seed, n_known) || counted(i, n_out, n_unknown)) return fmi3Error;
+    return told(directional(i, unknown, n_unknown, known, n_known, seed, out));
+}
 FMI3_Export fmi3Status fmi3GetAdjointDerivative(fmi3Instance c, DERIVATIVE) { UNUSED_DERIVATIVE; return without(c, "this FMU has no adjoint derivatives"); }
 
 FMI3_Export fmi3Status fmi3EnterConfigurationMode(fmi3Instance c) { return without(c, "this FMU has no structural parameters"); }

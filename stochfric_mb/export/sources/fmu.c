@@ -217,3 +217,25 @@ static int get_nominals(instance *c, double *x, size_t n) {
     memcpy(x, nominals, n * sizeof x[0]);
     return 0;
 }
+
+/* --- derivatives --------------------------------------------------------------------------------------------------------------- */
+
+static int directional(instance *c, const unsigned int *unknown, size_t n_unknown, const unsigned int *known, size_t n_known,
+                       const double *seed, double *out) {
+#ifdef WITH_DERIVATIVES
+    double tangent[N_VARIABLES + 1] = {0.0};
+    if (c->now.phase <= INITIALIZING) return refused(c, "derivatives are to be had after the initialisation");
+    for (size_t i = 0; i < n_known; i++) {
+        if (known[i] >= N_VARIABLES || KINDS[known[i]] != 'i') return refused(c, "derivatives are to be had for inputs alone");
+        tangent[known[i]] = seed[i];
+    }
+    for (size_t i = 0; i < n_unknown; i++)
+        if (unknown[i] >= N_VARIABLES || KINDS[unknown[i]] != 'o') return refused(c, "outputs alone have derivatives");
+    if (prepare(c) || failed(c, model_tangent(&c->now.model, c->now.values, tangent))) return 1;
+    for (size_t i = 0; i < n_unknown; i++) out[i] = tangent[unknown[i]];
+    return 0;
+#else
+    (void)unknown; (void)n_unknown; (void)known; (void)n_known; (void)seed; (void)out;
+    return refused(c, "this FMU has no directional derivatives");
+#endif
+}

@@ -19,6 +19,21 @@ static stochfric_contact contact_now(const double *values) {
     return at;
 }
 
+#ifdef WITH_DERIVATIVES
+/* Put the derivatives of the outputs along a direction of the inputs into their places. */
+static int model_tangent(const model *m, const double *values, double *tangent) {
+    double force[2], derivative[2];
+    stochfric_contact at = contact_now(values), along = contact_now(tangent);
+    const int status = stochfric_derivative(&m->friction, &m->state, &at, &along, force, derivative);
+    if (status) return status;
+    const double size = hypot(force[0], force[1]), n = at.normal_force;
+    tangent[VR_FRICTION_FORCE] = derivative[0];
+    tangent[VR_FRICTION_FORCE + 1] = derivative[1];
+    tangent[VR_MU] = size > 0.0 ? (force[0] * derivative[0] + force[1] * derivative[1]) / size / n - size / n * along.normal_force / n : 0.0;
+    return STOCHFRIC_OK;
+}
+#endif
+
 static int model_parameters(model *m, const double *values) {
     m->friction.step = values[VR_STEP];
     return STOCHFRIC_OK;
