@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import functools
 import importlib
+import importlib.util
 import tempfile
 import time
 from collections.abc import Callable
@@ -27,6 +28,11 @@ from stochfric_mb.export.exported import exported_scenario
 from stochfric_mb.export.fmu import Source, fmu_source, write_fmu
 from stochfric_mb.scenario import Scenario
 from stochfric_mb.trajectory import Trajectory
+
+for _package in ("fmpy", "ziglang"):
+    if importlib.util.find_spec(_package) is None:
+        remedy = "run: pip install 'stochfric_mb[fmi]'"
+        raise MissingEngineError(f"running an FMU needs {_package}, which is not installed; {remedy}")
 
 CARRIES_EFFECTS = True
 REPORTS = 50
@@ -99,12 +105,7 @@ def _built(identifier: str, description: str, files: tuple[tuple[str, str], ...]
 
 
 def _fmpy(module: str) -> Any:
-    try:
-        return importlib.import_module(module)
-    except ImportError:
-        raise MissingEngineError(
-            "running an FMU needs FMPy, which is not installed; run: pip install 'stochfric_mb[fmi]'"
-        ) from None
+    return importlib.import_module(module)
 
 
 def _run(
