@@ -175,7 +175,7 @@ def _defines(
 
 
 def _definitions(defines: dict[str, str], n_rules: int) -> str:
-    names = {"RULE_MASS": n_rules + 1, "RULE_STEP": n_rules + 2, "RULE_ADDRESS": n_rules + 3}
+    names = {"RULE_MASS": n_rules + 1, "RULE_STEP": n_rules + 2, "RULE_ADDRESS": n_rules + 3, "RULE_FEASIBLE": n_rules + 4}
     lines = [f"#define {name} {value}" for name, value in (defines | {k: str(v) for k, v in names.items()}).items()]
     return "\n".join(lines)
 

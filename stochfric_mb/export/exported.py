@@ -87,9 +87,17 @@ def _from_friction(tables: dict[str, Any], path: Path, *, law: str | None, overr
         if not isinstance(table, Mapping):
             raise InputError(f"law = {table!r}: a friction file needs the table [law]; write [law]")
         process = process_from_dict(tables["coefficients"], 1.0e-3, path.parent) if tables.get("coefficients") else None
-        return Exported(law_from_dict(table), process, title=str(tables.get("title", "")))
+        made = law_from_dict(table)
+        return Exported(made, process, title=str(tables.get("title", "")), notes=tuple(_mass_note(made)))
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
+
+
+def _mass_note(law: Law) -> list[str]:
+    """Return what to say of a law that uses a mass which nobody has given."""
+    if not law.needs_effective_mass:
+        return []
+    return [f"law {law.kind} uses the mass that the contact feels: 1 kg unless effective_mass is given"]
 
 
 def exported_scenario(scenario: Any) -> Exported:
@@ -104,6 +112,7 @@ def exported_scenario(scenario: Any) -> Exported:
     mechanism = scenario.mechanism if isinstance(scenario.mechanism, BeltBox) else None
     if mechanism is None:
         notes.append(f"the {scenario.mechanism.kind} is left out: the friction element alone")
+        notes += _mass_note(scenario.law)
     law = scenario.law
     around = mechanism if mechanism is not None else _fixed_surface(scenario.mechanism, effects)
     if around is not None:

@@ -43,6 +43,11 @@ class Variable:
     """Typical size of a state, 0 if there is none."""
 
 
+def default_mass(exported: Exported) -> float:
+    """Return the mass that a contact feels unless it is told [kg]: the box's, or 1."""
+    return 1.0 if exported.mechanism is None else exported.mechanism.mass
+
+
 def variables(exported: Exported, parameters: tuple[Parameter, ...], *, mechanism: bool) -> list[Variable]:
     """Return the variables of the FMU.
 
@@ -59,11 +64,11 @@ def variables(exported: Exported, parameters: tuple[Parameter, ...], *, mechanis
         ("contact", "Number of the contact: third part of the address, different for each contact of a model"),
     ):
         found.append(Variable(name, PARAMETER, text, type=NUMBER, place=name.upper()))
-    found += _belt_box(exported, len(found)) if mechanism else _element()
+    found += _belt_box(exported, len(found)) if mechanism else _element(exported)
     return [*found, *_reported()]
 
 
-def _element() -> list[Variable]:
+def _element(exported: Exported) -> list[Variable]:
     step = "Step of the master [s], 0 if it varies: frees summed times of their rounding"
     found = [Variable("step", PARAMETER, step, "s", place="STEP")]
     for place, name, text, unit in (
@@ -72,10 +77,10 @@ def _element() -> list[Variable]:
         ("HOLDING_FORCE", "holding_force", "Friction force that would keep the velocity as it is [N]; 0 if not known", "N"),
     ):
         found += [Variable(f"{name}[{i + 1}]", INPUT, text, unit, place="" if i else place) for i in (0, 1)]
-    mass = "Mass that the contact feels [kg]; 0: 1 kg. Laws that do not use it take no notice"
+    mass = "Mass that the contact feels [kg]; elastic_stick uses it"
     found += [
         Variable("normal_force", INPUT, "Normal force [N], >= 0", "N", place="NORMAL_FORCE"),
-        Variable("effective_mass", INPUT, mass, "kg", place="EFFECTIVE_MASS"),
+        Variable("effective_mass", INPUT, mass, "kg", default_mass(exported), place="EFFECTIVE_MASS"),
     ]
     force = "Friction force on the body [N], along the relative velocity"
     return found + [

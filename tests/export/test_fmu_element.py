@@ -123,6 +123,7 @@ def test_a_thousand_instances_share_nothing(rng):
     ("inputs", "message"),
     [
         ({"normal_force": -1.0}, "normal force is negative"),
+        ({"effective_mass": -1.0}, "effective mass is negative"),
         ({"relative_velocity[1]": float("nan")}, "not finite"),
         ({"relative_displacement[2]": float("inf")}, "not finite"),
     ],
@@ -134,6 +135,7 @@ def test_bad_input_is_an_error_status_with_a_message(fmi, inputs, message):
         fmu.step(H, **inputs)
     assert message in fmu.log[-1]
     fmu.set("normal_force", 13.0)
+    fmu.set("effective_mass", 6.08)
     fmu.step(H)  # it goes on from where it was
     assert fmu.get("friction_force[1]") == before
     fmu.end()
@@ -142,7 +144,12 @@ def test_bad_input_is_an_error_status_with_a_message(fmi, inputs, message):
 @pytest.mark.parametrize("fmi", [2, 3])
 @pytest.mark.parametrize(
     ("parameters", "message"),
-    [({"law__mu_k": 0.9}, "mu_k <= mu_s"), ({"law__v_s": 0.0}, "law: v_s"), ({"coefficients__spacing": -1.0}, "spacing")],
+    [
+        ({"law__mu_k": 0.9}, "mu_k <= mu_s"),
+        ({"law__v_s": 0.0}, "law: v_s"),
+        ({"coefficients__spacing": -1.0}, "spacing"),
+        ({"coefficients__sigma_s": 2.0}, "standard deviation"),
+    ],
 )
 def test_parameters_that_break_a_rule_stop_the_start(fmi, parameters, message):
     fmu = Driven(table_1_fmu(fmi=fmi), start=False)

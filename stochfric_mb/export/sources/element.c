@@ -15,6 +15,7 @@ static int begin(const stochfric_friction *friction, const stochfric_state *stat
                      + at->normal_force + at->holding_force[0] + at->holding_force[1] + at->effective_mass;
     if (!isfinite(all)) return STOCHFRIC_NOT_FINITE_INPUT;
     if (at->normal_force < 0.0) return STOCHFRIC_NEGATIVE_NORMAL_FORCE;
+    if (at->effective_mass < 0.0) return STOCHFRIC_NEGATIVE_MASS;
     memset(w, 0, sizeof *w);
     w->friction = *friction;
     if (state) w->contact = *state;
@@ -63,6 +64,8 @@ int stochfric_prepare(stochfric_friction *friction) {
     if (!(friction->step >= 0.0) || !isfinite(friction->step)) return STOCHFRIC_RULE + RULE_STEP;
     if ((friction->seed | friction->sample | friction->contact) >> 32) return STOCHFRIC_RULE + RULE_ADDRESS;
     spread(friction, values);
+    const double *process = friction->process; /* kind, ..., 4: mu_s, mu_k, sigma_s, sigma_k */
+    if (process[0] != 0.0 && process[4] - process[5] < 0.25 * hypot(process[6], process[7])) return STOCHFRIC_RULE + RULE_FEASIBLE;
     return STOCHFRIC_OK;
 }
 
@@ -143,6 +146,9 @@ const char *stochfric_message(int status) {
         case STOCHFRIC_NEGATIVE_NORMAL_FORCE: return "the normal force is negative; give 0 where the bodies do not touch";
         case STOCHFRIC_NOT_FINITE_FORCE: return "the friction force is not finite; the motion has broken down: use a smaller step";
         case STOCHFRIC_NOT_FINITE_MOTION: return "the motion is not finite; use a smaller internal step";
+        case STOCHFRIC_NEGATIVE_MASS: return "the effective mass is negative; give the mass that the contact feels";
+        case STOCHFRIC_RULE + RULE_FEASIBLE:
+            return "mu_s and mu_k are less than a quarter of their joint standard deviation apart: give smaller sigma_s, sigma_k";
         case STOCHFRIC_RULE + RULE_MASS: return "effective_mass is out of range: effective_mass must be > 0";
         case STOCHFRIC_RULE + RULE_STEP: return "step is out of range: step must be >= 0";
         case STOCHFRIC_RULE + RULE_ADDRESS: return "seed, sample or contact is out of range: each must be in [0, 2^32)";
