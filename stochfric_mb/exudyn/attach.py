@@ -17,7 +17,7 @@ from stochfric_mb.exudyn.normal import Normal, as_normal
 from stochfric_mb.exudyn.plane import PlaneContact
 from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, ForceExpression, force_expression, lower
 from stochfric_mb.exudyn.turning import TurningContact, must_turn
-from stochfric_mb.friction import Friction
+from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 
 
@@ -70,19 +70,26 @@ def add_friction(
             the body, such as a pad on a lever; "space": a plane that does not turn, such as where a drum passes by.
         surface_velocity: velocity of the counter-surface on top of marker 0's [m/s]: a number for coordinates, a vector
             for positions, in the axes of what the normal turns with.
-        effective_mass: mass that the contact feels [kg], for laws that need it.
+        effective_mass: mass that the contact feels [kg], for laws and step limits that need it; taken from the system's mass
+            matrix and constraints when a simulation starts, if not given.
         seed: seed of the path of coefficients.
         sample: number of the sample.
         contact: number of the contact; contacts with different numbers have independent paths. If not given they are numbered
             0, 1, 2, ... as they are added to the system.
 
     Raises:
-        InputError: a law that needs the holding force, a missing effective mass, markers of different or unknown kinds,
+        InputError: a law that needs the holding force, markers of different or unknown kinds,
             no normal force or two, or a number out of range.
     """
     options: dict[str, Any] = {"effective_mass": effective_mass, "seed": seed, "sample": sample, "contact": contact}
     kinds = {marker_kind(mbs, m) for m in (marker0, marker1)}
     markers = (marker0, marker1)
+    if kinds == {"coordinate"} and as_friction(friction).law.needs_holding_force:
+        from stochfric_mb.exudyn.true_stick import TrueStickContact
+
+        if normal is not None or contact_stiffness is not None or radius != 0.0:
+            raise InputError("normal, contact_stiffness and radius are for position markers; give coordinates a normal_force")
+        return TrueStickContact(mbs, markers, friction, as_normal(mbs, normal_force), surface_velocity, **options)
     if kinds == {"coordinate"}:
         if normal is not None or contact_stiffness is not None or radius != 0.0:
             raise InputError("normal, contact_stiffness and radius are for position markers; give coordinates a normal_force")
@@ -182,7 +189,7 @@ def line_expression(contact: FrictionContact) -> ForceExpression:
     """Return the force of a contact that slides along a line."""
     normal, friction = contact._normal, contact.friction
     n = None if normal.changes else normal.at(0.0)
-    return force_expression(friction.law, friction.process, n, float(contact._numbers[at.MASS]))
+    return force_expression(friction.law, friction.process, n, contact.given_mass)
 
 
 def bind_own(words: Any, own: Any) -> None:

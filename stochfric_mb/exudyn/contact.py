@@ -13,17 +13,22 @@ from exudyn.itemInterface import SensorUserFunction
 from stochfric_mb.coefficients.path import CoefficientPath
 from stochfric_mb.errors import InputError, SimulationError, require_number
 from stochfric_mb.exudyn import layout as at
+from stochfric_mb.exudyn.contact_force import kinematics
 from stochfric_mb.exudyn.hooks import Hooks
 from stochfric_mb.exudyn.location import FINE, locate
+from stochfric_mb.exudyn.mass import effective_masses
 from stochfric_mb.exudyn.normal import NO_REACTION, Normal
 from stochfric_mb.exudyn.stepping import CHANGED, FETCH, LOST, RECORDED, RESTARTED, WATCH, advance, proceed
-from stochfric_mb.exudyn.symbolic import NORMAL_LINE, live_names, symbolic
+from stochfric_mb.exudyn.symbolic import MASS, NORMAL_LINE, live_names, symbolic
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.laws.abi import MAX_STATE, native_law
 
 OUTPUT = exudyn.OutputVariableType
 INITIAL = exudyn.ConfigurationType.Initial
+TOO_LARGE, MOST_COORDINATES = 4.0, 200
+"""Factor by which a given mass may be above the system's own, which doubles the limit of the step; and coordinates up to
+which a given one is compared at all."""
 REACTION_TOLERANCE, SMALL_REACTION, REPEATS = 1.0e-6, 1.0e-3, 4
 """How near the normal force of a step must be to the reaction that comes out, of the reaction; of which part of the largest one
 so far where it is smaller; and how often a step is repeated for it."""
@@ -49,15 +54,19 @@ class FrictionContact:
         self.friction = as_friction(friction)
         """The law and the process of its coefficients."""
         law = self.friction.law
-        mass = _effective_mass(law, effective_mass)
-        self._mass_given = effective_mass is not None
+        if not self.true_stick:
+            _require_no_holding_force(law)
+        self.given_mass = (
+            None if effective_mass is None else require_number("effective_mass", effective_mass, above=0.0, unit="kg")
+        )
+        """The mass that the contact feels as the user gave it [kg]; None: it is taken from the system."""
         self._mbs, self._normal = mbs, normal
         self._hooks = Hooks.of(mbs)
         number = self._hooks.join()
         self._name = f"stochfric_mb friction {number}"
         contact = number if contact is None else contact
         self._numbers, self._words = _arrays(law, self.friction.path(seed, sample, contact))
-        self._numbers[[at.MASS, at.RADIUS]] = mass, 1.0
+        self._numbers[[at.MASS, at.RADIUS]] = self.given_mass or 1.0, 1.0
         self._numbers[at.NORMAL_FORCE] = self._numbers[at.GIVEN_NORMAL] = 0.0 if normal.changes else normal.at(0.0)
         self._records = np.empty((0, at.RECORD_COLUMNS))
         self._names = live_names(law)
@@ -73,6 +82,8 @@ class FrictionContact:
         self.object: Any = None
         """Index of the object (or load) that carries the force."""
 
+    true_stick = False
+    """Whether a constraint holds the contact while it sticks."""
     is_load = False
     """Whether the force is a load, which implicit solvers differentiate only where they are told to."""
 
@@ -101,6 +112,11 @@ class FrictionContact:
     def address(self) -> tuple[int, int, int]:
         """Address of the path of coefficients: seed, sample, contact."""
         return tuple(int(w) for w in self._words[[at.SEED, at.SAMPLE, at.CONTACT]])  # type: ignore[return-value]
+
+    @property
+    def time(self) -> float:
+        """Time of the last accepted step [s]; not a number before the first."""
+        return float(self._numbers[at.T]) if self._words[at.STARTED] else math.nan
 
     @property
     def normal_force(self) -> float:
@@ -144,8 +160,7 @@ class FrictionContact:
     def step_limit(self) -> tuple[float, str]:
         """Return the largest step [s] of an explicit solver at the largest normal force so far, and the formula behind it.
 
-        Raises:
-            InputError: the law has a limit that depends on an effective mass, which was not given.
+        The mass is the one given, or the system's own as of the last start.
         """
         law, numbers = self.friction.law, self._numbers
         mass, n = float(numbers[at.MASS]), float(max(numbers[at.LARGEST_NORMAL], numbers[at.NORMAL_FORCE]))
@@ -156,11 +171,6 @@ class FrictionContact:
             press = 2.0 * (math.sqrt(1.0 + zeta**2) - zeta) / omega
             if press < limit:
                 limit, formula = press, "normal contact: 2 (sqrt(1 + zeta^2) - zeta)/omega, omega^2 = contact_stiffness/m_eff"
-        if math.isfinite(limit) and not self._mass_given:
-            raise InputError(
-                f"an explicit solver has a largest step here ({formula}) that depends on effective_mass [kg], the mass that "
-                "the contact feels; pass it so that the step can be checked, or use solver='generalized_alpha'"
-            )
         return float(limit), formula
 
     def reset(self, start: float = 0.0) -> None:
@@ -267,6 +277,40 @@ class FrictionContact:
         if self._normal.reaction:
             self.guess_normal(0.0)
         self.reset(start)
+        self._take_mass()
+        self.reset(start)
+
+    def _take_mass(self) -> None:
+        """Take the mass that the contact feels from the system, or compare the given one with it.
+
+        Raises:
+            InputError: the given one is too large by more than `TOO_LARGE`, or the law needs one and nothing moves.
+        """
+        if self.given_mass is not None and len(self._mbs.systemData.GetODE2Coordinates()) > MOST_COORDINATES:
+            return
+        with self._hooks.in_progress():
+            masses = effective_masses(self._mbs, self._relative_velocities)
+        if len(masses) == 0:  # nothing moves it, or it is at a dead centre
+            if self.given_mass is None and self.friction.law.needs_effective_mass:
+                raise InputError(
+                    f"law {self.friction.law.kind} needs effective_mass [kg], the mass that the contact feels, and by the "
+                    "system's mass matrix nothing moves it in the initial configuration; pass effective_mass"
+                )
+            return
+        if self.given_mass is None:
+            self._numbers[at.MASS] = self._live[self._names.index(MASS)] = masses[0]
+            self._pass_on()
+        elif self.given_mass > TOO_LARGE * masses[-1]:
+            raise InputError(
+                f"effective_mass = {self.given_mass:g} kg, but this contact feels {masses[-1]:.4g} kg by the system's mass matrix: step "
+                " limits and damping would be wrong; leave it out, and it is taken from there"
+            )
+
+    def _relative_velocities(self) -> tuple[float, ...]:
+        """Return the relative velocity [m/s] along both directions of a plane, or along the line, as the system is now."""
+        self._read_motion()
+        _, _, vx, vy = kinematics(0.0, self._numbers, self._words)
+        return (vx, vy) if self._words[at.PLANE] else (vx,)
 
     def begin(self, dt: float, start: float) -> bool:
         """Start afresh, unless a simulation goes on where it has stopped at the time ``start`` [s]; return which."""
@@ -364,20 +408,18 @@ class FrictionContact:
         return self._numbers[[at.NORMAL_FORCE, at.STUCK, at.MU_S, at.MU_K]].tolist()
 
 
-def _effective_mass(law: Law, mass: float | None) -> float:
-    """Return the effective mass [kg] for a law that Exudyn can run.
+def _require_no_holding_force(law: Law) -> None:
+    """Do nothing if Exudyn can run the law.
 
     Raises:
-        InputError: the law needs the holding force, or a mass that is missing.
+        InputError: the law needs the holding force.
     """
     if law.needs_holding_force:
         raise InputError(
-            f"law {law.kind} needs the force that would hold the contact still, which Exudyn does not give; use "
+            f"law {law.kind} needs the force that would hold the contact still, which Exudyn gives between two coordinates "
+            "alone (add_friction with coordinate markers); use "
             "stochfric_mb.laws.substitute.elastic_substitute(law, dt, normal_force, effective_mass)"
         )
-    if law.needs_effective_mass and mass is None:
-        raise InputError(f"law {law.kind} needs effective_mass [kg], the mass that the contact feels; pass it")
-    return require_number("effective_mass", 1.0 if mass is None else mass, above=0.0, unit="kg")
 
 
 def _arrays(law: Law, path: CoefficientPath) -> tuple[Any, Any]:

@@ -15,6 +15,7 @@ from stochfric_mb.exudyn.layout import (
     DISTANCE,
     EVENTS,
     FORCE,
+    HOLD,
     LAW,
     LIVE,
     MASS,
@@ -110,8 +111,8 @@ def ask(address, t, motion, n, pair, numbers, into):
     at = numbers.ctypes.data
     state, p, out = at + 8 * LIVE, at + 8 * LAW, at + 8 * into
     ux, uy, vx, vy = motion
-    m = numbers[MASS]
-    call_law(address, t, ux, uy, vx, vy, n, pair[0], pair[1], m, 0.0, 0.0, state, p, out)  # pyright: ignore[reportCallIssue]
+    m, hold = numbers[MASS], numbers[HOLD]
+    call_law(address, t, ux, uy, vx, vy, n, pair[0], pair[1], m, hold, 0.0, state, p, out)  # pyright: ignore[reportCallIssue]
 
 
 @compiled

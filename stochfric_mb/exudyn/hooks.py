@@ -37,6 +37,11 @@ class Contact(Protocol):
         """Start afresh, unless a simulation goes on where it has stopped at the time ``start`` [s]; return which."""
         ...
 
+    @property
+    def time(self) -> float:
+        """Time of the last accepted step [s]; not a number before the first."""
+        ...
+
     def find(self) -> bool:
         """Find the contact's item in the system again, which others that are deleted renumber; False: it is gone."""
         ...
@@ -51,6 +56,8 @@ class Contact(Protocol):
 
     is_load: bool
     """Whether the force is a load."""
+    true_stick: bool
+    """Whether a constraint holds the contact while it sticks."""
 
     def step_limit(self) -> tuple[float, str]:
         """Return the largest step [s] of an explicit solver so far, and the formula behind it."""

@@ -50,7 +50,7 @@ def add_joint_friction(
         radius: radius of the pin [m], > 0; for revolute joints.
         normal_force: as `add_friction` has it; if not given, the joint's own reaction across its axis (implicit solvers
             only).
-        effective_mass: mass that the contact feels [kg] (inertia over radius^2), for laws that need it.
+        effective_mass: mass that the contact feels [kg] (inertia over radius^2); as `add_friction` has it.
         seed: seed of the path of coefficients.
         sample: number of the sample.
         contact: number of the contact; contacts with different numbers have independent paths. If not given they are numbered

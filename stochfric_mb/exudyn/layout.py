@@ -51,12 +51,15 @@ NEW = 50
 """Scratch for a law's output."""
 GUARDS_BEFORE = NEW + MAX_STATE
 """The law's guards at the last accepted step."""
+HOLD, HOLD_BEFORE = GUARDS_BEFORE + 6, GUARDS_BEFORE + 7
+"""Friction force [N] that would hold the contact still, now and at the last accepted step; 0 where nothing tells it."""
 CURSOR_AT = GUARDS_BEFORE + 8
 WINDOW_CURSOR_AT = CURSOR_AT + CURSOR
 """Cursors on the path: of the coefficients now, and of the engine's window."""
 LIVE = WINDOW_CURSOR_AT + CURSOR
-"""State, pair, line of the normal force and segment, in the order of `symbolic.live_names`, as the engine should have them."""
-N_LIVE_MAX = MAX_STATE + 2 + 2 + 9
+"""State, pair, line of the normal force, segment and mass, in the order of `symbolic.live_names`, as the engine should
+have them."""
+N_LIVE_MAX = MAX_STATE + 2 + 2 + 9 + 1
 LAW = LIVE + N_LIVE_MAX
 """The law's parameter vector, then the path's descriptor."""
 

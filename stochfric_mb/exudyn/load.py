@@ -44,7 +44,7 @@ def add_friction_load(
         normal_force: as `add_friction` has it.
         normal: direction from the counter-surface to the body, for a position.
         surface_velocity: velocity of the counter-surface [m/s], a number for a coordinate, a vector for a position.
-        effective_mass: mass that the contact feels [kg], for laws that need it.
+        effective_mass: mass that the contact feels [kg]; as `add_friction` has it.
         seed: seed of the path of coefficients.
         sample: number of the sample.
         contact: number of the contact; contacts with different numbers have independent paths. If not given they are numbered

@@ -13,6 +13,8 @@ from typing import Any
 
 import exudyn
 
+from stochfric_mb.errors import InputError
+from stochfric_mb.exudyn.normal import NO_CONSTRAINT
 from stochfric_mb.exudyn.outcome import SOLVERS, Outcome
 from stochfric_mb.exudyn.reactions import find_reactions
 
@@ -64,9 +66,11 @@ def wrap() -> None:
     if not _SOLVE:
         _SOLVE.append(exudyn.MainSystem.SolveDynamic)
         exudyn.MainSystem.SolveDynamic = _checked(_SOLVE[0])
-        for solver in (exudyn.MainSolverExplicit, exudyn.MainSolverImplicitSecondOrder, exudyn.MainSolverStatic):
+        for solver in (exudyn.MainSolverExplicit, exudyn.MainSolverImplicitSecondOrder):
             for name in ("SolveSystem", "InitializeSolver"):
-                setattr(solver, name, _started(getattr(solver, name), solver is exudyn.MainSolverStatic))
+                setattr(solver, name, _started(getattr(solver, name), static=False))
+        # not InitializeSolver of the static one, with which Exudyn linearises systems
+        exudyn.MainSolverStatic.SolveSystem = _started(exudyn.MainSolverStatic.SolveSystem, static=True)
 
 
 def _chaining(slot: str) -> Callable[[Any, Any], None]:
@@ -98,7 +102,7 @@ def _checked(method: Callable[..., Any]) -> Callable[..., Any]:
     return solve_dynamic
 
 
-def _started(method: Any, static: bool) -> Callable[..., Any]:
+def _started(method: Any, *, static: bool) -> Callable[..., Any]:
     """Return a solver object's method that solves or initialises, with contacts started before it."""
 
     @functools.wraps(method)
@@ -126,8 +130,12 @@ def _started(method: Any, static: bool) -> Callable[..., Any]:
 def _start(mbs: Any, hooks: Any, settings: Any, kind: Any) -> Outcome:
     """Start the contacts of a system for one of Exudyn's dynamic solvers; return the checks of its outcome."""
     name = next((name for name, known in SOLVERS.items() if known == kind), str(kind))
-    outcome = Outcome(hooks.contacts, name, settings.timeIntegration, masses_needed=False)
+    outcome = Outcome(hooks.contacts, name, settings.timeIntegration)
     hooks.explicit = not outcome.implicit
+    alpha = settings.timeIntegration.generalizedAlpha
+    newmark = outcome.implicit and alpha.useNewmark and alpha.useIndex2Constraints
+    if not newmark and any(contact.true_stick for contact in hooks.contacts):
+        raise InputError(NO_CONSTRAINT)
     start = settings.timeIntegration.startTime
     fresh = [contact for contact in hooks.contacts if contact.begin(outcome.dt, start)]
     outcome.require_step()

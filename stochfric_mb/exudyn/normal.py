@@ -99,6 +99,11 @@ def as_normal(mbs: Any, normal_force: Any) -> Normal:
     return ConstantNormal(require_number("normal_force", normal_force, above=0.0, unit="N"))
 
 
+NO_CONSTRAINT = (
+    "a law with true stick is held by a constraint on velocities, for which explicit solvers have no use: take "
+    "solve_dynamic(..., solver='generalized_alpha'); mbs.SolveDynamic needs generalizedAlpha.useNewmark and "
+    "useIndex2Constraints"
+)
 NO_REACTION = (
     "an explicit solver computes no reactions, Exudyn reports them as 0: a normal force from a constraint needs "
     "solver='generalized_alpha', or give normal_force as a number or a function of time"

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 import exudyn
 import numpy as np
 
-from stochfric_mb.errors import InputError, SimulationError, StabilityError
+from stochfric_mb.errors import SimulationError, StabilityError
 
 _TYPE = exudyn.DynamicSolverType
 SOLVERS = {
@@ -35,14 +35,13 @@ class Limited(Protocol):
 class Outcome:
     """The checks before and after one run of a solver."""
 
-    def __init__(self, contacts: Sequence[Limited], solver: str, integration: Any, *, masses_needed: bool = True) -> None:
+    def __init__(self, contacts: Sequence[Limited], solver: str, integration: Any) -> None:
         """Look at a run to come.
 
         Args:
             contacts: the contacts of the system.
             solver: name of the solver, or Exudyn's own for one that has none.
             integration: Exudyn's settings of the time integration.
-            masses_needed: whether a contact whose limit depends on a mass that was not given is an error.
         """
         self.dt = (integration.endTime - integration.startTime) / max(integration.numberOfSteps, 1)
         """Step [s]."""
@@ -52,7 +51,6 @@ class Outcome:
         """Whether the solver is implicit: it has no limit, and computes reactions."""
         adapts = solver in _ADAPTING and integration.automaticStepSize
         self._contacts = () if self.implicit or adapts else contacts
-        self._masses_needed = masses_needed
 
     def require_step(self) -> None:
         """Do nothing if the step is within the limits of all contacts.
@@ -81,18 +79,10 @@ class Outcome:
 
     def broken_limit(self) -> str:
         """Return what says that the step is beyond a contact's limit for explicit solvers, "" if it is not."""
-        limit, formula = min(map(self._limit, self._contacts), default=(math.inf, ""))
+        limit, formula = min((contact.step_limit() for contact in self._contacts), default=(math.inf, ""))
         if self.dt <= limit:
             return ""
         return (
             f"dt is beyond the stability limit {limit:.3g} s ({formula}) of an explicit solver; use dt <= {0.5 * limit:.2g} s "
             "or solver='generalized_alpha'"
         )
-
-    def _limit(self, contact: Limited) -> tuple[float, str]:
-        try:
-            return contact.step_limit()
-        except InputError:
-            if self._masses_needed:
-                raise
-            return math.inf, ""

@@ -58,7 +58,7 @@ class PlaneContact(FrictionContact):
 
     def _connector(self) -> None:
         """Hang the force on a connector."""
-        expression = plane_force_expression(self.friction.law, self.friction.process, float(self._numbers[at.MASS]))
+        expression = plane_force_expression(self.friction.law, self.friction.process, self.given_mass)
         n = penalty_expression(self._numbers) if self._words[at.PENALTY] else self._given_normal()
         names = expression.names + (() if self._words[at.PENALTY] or not self._normal.changes else NORMAL_LINE)
         self._make_symbols(names)

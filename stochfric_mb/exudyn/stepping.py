@@ -10,7 +10,7 @@ import math
 from numba import carray  # pyright: ignore[reportPrivateImportUsage]
 
 from stochfric_mb.coefficients.path import CURSOR, canonical_time, seek
-from stochfric_mb.coefficients.processes import EVENT, POSITION
+from stochfric_mb.coefficients.processes import EVENT, POSITION, TIME
 from stochfric_mb.compile import compiled
 from stochfric_mb.exudyn.contact_force import ask, kinematics, pair_at, penalty, spun
 from stochfric_mb.exudyn.layout import (
@@ -23,6 +23,8 @@ from stochfric_mb.exudyn.layout import (
     GUARD,
     GUARDS_BEFORE,
     HAS_MODE,
+    HOLD,
+    HOLD_BEFORE,
     INIT,
     LARGEST_NORMAL,
     LAW,
@@ -154,6 +156,7 @@ def _keep(t, motion, n, numbers):
         numbers[SPUN + i] = spun(t, i, numbers)
         numbers[SPIN_BEFORE + i] = numbers[SPIN + i]
     numbers[T], numbers[NORMAL_FORCE] = t, n
+    numbers[HOLD_BEFORE] = numbers[HOLD]
     numbers[LARGEST_NORMAL] = max(numbers[LARGEST_NORMAL], n)
     numbers[U], numbers[U_2], numbers[V], numbers[V_2] = motion
 
@@ -180,7 +183,7 @@ def restart(t, motion, n, numbers, words):
 @compiled
 def _commit(t, motion, n, numbers, words):
     pair = pair_at(t, motion[0], numbers, words)
-    mode = numbers[LIVE]
+    mode, h, before = numbers[LIVE], t - numbers[T], (numbers[MU_S], numbers[MU_K])
     function = words[COMMIT] if n > 0.0 else words[INIT]  # without normal force the contact begins again
     bits = _law_gives(function, t, motion, n, pair, numbers, words)
     numbers[REACH] = 1.5 * max(numbers[STEP], t - numbers[T])
@@ -190,11 +193,13 @@ def _commit(t, motion, n, numbers, words):
         numbers[EVENTS] += 1.0
         pair = pair_at(t, motion[0], numbers, words)
     numbers[STUCK] = stuck
+    bits |= _set_pair(pair, numbers, words) | _set_normal_line(t, numbers, words)
+    bits |= _move_window(t, motion[0], numbers, words)
     if words[LOCATING] == 1:
         switched = numbers[HAS_MODE] == 1.0 and numbers[LIVE] != mode
-        bits |= _watch(t, motion, n, pair, switched, numbers, words)
-    bits |= _set_pair(pair, numbers, words) | _set_normal_line(t, numbers, words)
-    return bits | _move_window(t, motion[0], numbers, words)
+        bent = _bent_pair(pair, before, numbers[STEP] / h, numbers, words)
+        bits |= _watch(t, motion, n, pair, bent, switched, numbers, words)
+    return bits
 
 
 @compiled
@@ -210,8 +215,10 @@ def _law_gives(address, t, motion, n, pair, numbers, words):
 
 
 @compiled
-def _watch(t, motion, n, pair, switched, numbers, words):
+def _watch(t, motion, n, pair, bent, switched, numbers, words):
     """Find out whether the next step may contain a switch or must return to the grid; return WATCH if that is news."""
+    ask(words[GUARD], t, motion, n, bent, numbers, NEW)
+    bend = (numbers[NEW], numbers[NEW + 1], numbers[NEW + 2], numbers[NEW + 3], numbers[NEW + 4], numbers[NEW + 5])
     ask(words[GUARD], t, motion, n, pair, numbers, NEW)
     steps = (t - numbers[START]) / numbers[STEP]
     if switched:
@@ -219,13 +226,29 @@ def _watch(t, motion, n, pair, switched, numbers, words):
     watch = settling(t, numbers) or abs(steps - math.floor(steps + 0.5)) > GRID
     for i in range(GUARDS):
         new = numbers[NEW + i]
-        if new > 0.0 and new < STEPS_AHEAD * abs(new - numbers[GUARDS_BEFORE + i]):
+        change = new - numbers[GUARDS_BEFORE + i]
+        if new > 0.0 and new < STEPS_AHEAD * max(abs(change), abs(change + bend[i] - new)):
             watch = True
         numbers[GUARDS_BEFORE + i] = new
     if watch == (words[WATCHING] == 1):
         return NOTHING
     words[WATCHING] = 1 if watch else 0
     return WATCH
+
+
+@compiled
+def _bent_pair(pair, before, steps, numbers, words):
+    """Return the pair with what a bend of the path adds to it in the next step, on a path in time that is linear between knots.
+
+    ``before`` is the pair at the start of the step just taken, ``steps`` a step over that one.
+    """
+    descriptor = numbers[LAW + words[N_LAW] :]
+    if descriptor[0] == 0.0 or descriptor[1] != TIME or descriptor[2] == 0.0:
+        return pair
+    segment = numbers[LIVE + words[N_STATE] + 4 :]
+    bend_s = segment[3] * numbers[STEP] - (pair[0] - before[0]) * steps
+    bend_k = segment[4] * numbers[STEP] - (pair[1] - before[1]) * steps
+    return pair[0] + bend_s, pair[1] + bend_k
 
 
 @compiled

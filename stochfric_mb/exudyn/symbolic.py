@@ -24,6 +24,8 @@ SEGMENT = ("knot", "start_s", "start_k", "before_s", "before_k", "after_s", "aft
 PAIR = ("mu_s", "mu_k")
 NORMAL_LINE = ("normal_now", "normal_rate")
 """Variables of a normal force that changes, normal_now + normal_rate t, never negative."""
+MASS = "effective_mass"
+"""Variable of a mass that the contact feels which is taken from the system when it starts."""
 NORMAL_FORCE = "normal_force"
 """Variable that stands for the normal force in the force in a plane."""
 
@@ -47,31 +49,34 @@ def state_names(law: Law) -> tuple[str, ...]:
 
 def live_names(law: Law) -> tuple[str, ...]:
     """Return the names of all numbers that can change from step to step: state, coefficients, normal force, segments."""
-    return state_names(law) + PAIR + NORMAL_LINE + SEGMENT
+    return (*state_names(law), *PAIR, *NORMAL_LINE, *SEGMENT, MASS)
 
 
 @functools.lru_cache(maxsize=64)
-def force_expression(law: Law, process: Process | None, normal_force: float | None, effective_mass: float) -> ForceExpression:
+def force_expression(
+    law: Law, process: Process | None, normal_force: float | None, effective_mass: float | None
+) -> ForceExpression:
     """Return the friction force [N] of one-dimensional sliding as an expression.
 
     Args:
         law: a law that does without the holding force.
         process: how the coefficients vary, None if they do not.
         normal_force: normal force [N], None for one that changes: then it is a line in time given after each step.
-        effective_mass: mass that the contact feels [kg].
+        effective_mass: mass that the contact feels [kg], None for one that is taken from the system when it starts.
 
     Raises:
         InputError: the law's source does more than an expression can hold.
     """
-    zero = zero_entries(law, 1.0 if normal_force is None else normal_force, effective_mass)
+    mass = variable(MASS) if effective_mass is None else effective_mass
+    zero = zero_entries(law, 1.0 if normal_force is None else normal_force, 1.0 if effective_mass is None else effective_mass)
     state = [0.0 if i in zero else variable(name) for i, name in enumerate(state_names(law))]
     n = normal_line() if normal_force is None else normal_force
-    force, _ = _call(law, "force", n, effective_mass, coefficients(law, process), state)
+    force, _ = _call(law, "force", n, mass, coefficients(law, process), state)
     return ForceExpression(force, 0.0, _names(law, variables(force)))
 
 
 @functools.lru_cache(maxsize=64)
-def plane_force_expression(law: Law, process: Process | None, effective_mass: float) -> ForceExpression:
+def plane_force_expression(law: Law, process: Process | None, effective_mass: float | None) -> ForceExpression:
     """Return the friction force [N] in a plane, of both displacements and velocities and of the variable `NORMAL_FORCE`.
 
     Raises:
@@ -79,7 +84,8 @@ def plane_force_expression(law: Law, process: Process | None, effective_mass: fl
     """
     state = [variable(name) for name in state_names(law)]
     n, second = variable(NORMAL_FORCE), (variable(DISPLACEMENT_2), variable(VELOCITY_2))
-    pair = _call(law, "force", n, effective_mass, coefficients(law, process), state, second)
+    mass = variable(MASS) if effective_mass is None else effective_mass
+    pair = _call(law, "force", n, mass, coefficients(law, process), state, second)
     return ForceExpression(pair[0], pair[1], _names(law, variables(pair[0]) | variables(pair[1])))
 
 
@@ -147,7 +153,7 @@ def lower(expression: Value, values: Mapping[str, Any]) -> Any:
 
 
 def _call(
-    law: Law, name: str, normal_force: Value, effective_mass: float, pair: Any, state: Any = None, second: Any = (0.0, 0.0)
+    law: Law, name: str, normal_force: Value, effective_mass: Value, pair: Any, state: Any = None, second: Any = (0.0, 0.0)
 ) -> Any:
     function = getattr(law.functions(), name)
     u, v = variable(DISPLACEMENT), variable(VELOCITY)

@@ -747,12 +747,17 @@ def test_a_step_beyond_the_limit_of_the_contact_is_refused() -> None:
     solve_dynamic(mbs, silent_settings(1e-3, 0.1), solver="generalized_alpha")
 
 
-def test_a_limit_that_needs_a_mass_asks_for_it() -> None:
-    mbs, _, ground, slide = without_friction(scenario().mechanism)
-    add_friction(mbs, ground, slide, make_law("havsin", mu_s=0.8, mu_k=0.5), normal_force=13.0)
+def test_a_limit_takes_the_mass_from_the_system() -> None:
+    m = scenario().mechanism
+    mbs, _, ground, slide = without_friction(m)
+    law = make_law("havsin", mu_s=0.8, mu_k=0.5)
+    contact = add_friction(mbs, ground, slide, law, normal_force=13.0)
     mbs.Assemble()
-    with pytest.raises(InputError, match="effective_mass"):
-        solve_dynamic(mbs, silent_settings(1e-5, 0.1), solver="rk44")
+    solve_dynamic(mbs, silent_settings(1e-5, 0.01), solver="rk44")
+    limit = law.step_limit(13.0, m.mass)
+    assert contact.step_limit()[0] == pytest.approx(limit, rel=1e-12)
+    with pytest.raises(StabilityError, match=rf"limit {limit:.3g} s"):
+        solve_dynamic(mbs, silent_settings(1e-3, 0.01), solver="rk44")
 
 
 def test_success_beyond_the_limit_is_an_error() -> None:

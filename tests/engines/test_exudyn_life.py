@@ -119,7 +119,7 @@ def test_a_static_solution_without_friction_is_refused(kind: str) -> None:
     printed, exudyn.config.printToConsole = exudyn.config.printToConsole, False
     try:
         with pytest.raises(InputError, match=rf"law {kind} gives friction to a moving contact alone"):
-            mbs.SolveStatic()
+            mbs.SolveStatic(silent_settings(1.0, 1.0))
     finally:
         exudyn.config.printToConsole = printed
 
@@ -130,7 +130,7 @@ def test_a_static_solution_has_the_spring_of_elastic_stick() -> None:
     mbs.AddLoad(LoadCoordinate(markerNumber=slide, load=2.0))
     add_friction(mbs, ground, slide, LAW, **PULL)
     mbs.Assemble()
-    mbs.SolveStatic()
+    mbs.SolveStatic(silent_settings(1.0, 1.0))
     stiffness = 1000.0 + 0.4 * 10.0 / 1e-5  # and mu_s N/e_lim
     assert float(mbs.systemData.GetODE2Coordinates()[0]) == pytest.approx(2.0 / stiffness, rel=1e-6)
 
@@ -156,3 +156,39 @@ def test_the_outcome_of_solver_objects_is_checked() -> None:
     mbs.Assemble()
     with pytest.raises(SimulationError, match="not finite"):
         run(mbs, "SolveSystem")
+
+
+@pytest.mark.parametrize(("solver", "locate"), [("rk44", True), ("rk44", False), ("generalized_alpha", False)])
+def test_a_run_goes_on_with_its_friction(solver: str, locate: bool) -> None:
+    """In the middle of a stick phase of elastic stick, with random coefficients: as one run."""
+    ends = []
+    for parts in ((0.3,), (0.17, 0.13)):
+        mbs, _, ground, slide = block(0.05)
+        mbs.AddObject(CoordinateSpringDamper(markerNumbers=[ground, slide], stiffness=1000.0))
+        contact = add_friction(mbs, ground, slide, RANDOM, **PULL, seed=1, surface_velocity=0.02)
+        mbs.Assemble()
+        start = 0.0
+        for i, duration in enumerate(parts):
+            solve_dynamic(mbs, silent_settings(1e-3, duration, start), solver=solver, locate=locate, resume=i > 0)
+            start += duration
+        ends.append([*mbs.systemData.GetODE2Coordinates(), *mbs.systemData.GetODE2Coordinates_t(), *contact.state])
+    # sums of steps are rounded otherwise; a located step ends up to 1e-3 of a step beyond its switch
+    assert ends[0] == pytest.approx(ends[1], rel=1e-9, abs=1e-9 if locate else 1e-12)
+
+
+def test_a_run_goes_on_only_where_it_stopped() -> None:
+    mbs, _, ground, slide = block(1.0)
+    add_friction(mbs, ground, slide, LAW, **PULL)
+    mbs.Assemble()
+    with pytest.raises(InputError, match=r"resume: startTime = 0.1 s, but the last run stopped at t = nan s"):
+        solve_dynamic(mbs, silent_settings(1e-3, 0.1, 0.1), resume=True)
+    solve_dynamic(mbs, silent_settings(1e-3, 0.1))
+    with pytest.raises(InputError, match=r"resume: startTime = 0.2 s, but the last run stopped at t = 0.1 s"):
+        solve_dynamic(mbs, silent_settings(1e-3, 0.1, 0.2), resume=True)
+
+
+def test_a_system_with_friction_of_velocity_can_be_linearised() -> None:
+    mbs, _, ground, slide = block(0.0, 2.0)
+    add_friction(mbs, ground, slide, make_law("havsin", mu_s=0.4, mu_k=0.3), **PULL)
+    mbs.Assemble()
+    assert mbs.ComputeLinearizedSystem()[0] == pytest.approx(2.0)

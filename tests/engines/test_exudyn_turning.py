@@ -328,8 +328,7 @@ def test_a_brake_pad_stops_a_drum(turns_with: str, solver: str) -> None:
         stiffness=[1e6] * 3,
         damping=[2e3] * 3,
     )
-    felt = inertia / radius**2
-    options = {"normal": (0, 1, 0), "normal_turns_with": turns_with, "normal_force": press, "effective_mass": felt}
+    options = {"normal": (0, 1, 0), "normal_turns_with": turns_with, "normal_force": press}
     contact = add_friction(mbs, centre, pad, even(mu), **options)
     mbs.Assemble()
     stops = omega * inertia / (mu * press * radius)

@@ -1,0 +1,138 @@
+"""Laws with true stick in Exudyn: a constraint holds, and switches as the law says."""
+
+# ruff: noqa: E402  (the adapter can be imported only where exudyn is)
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+import pytest
+
+exudyn = pytest.importorskip("exudyn", reason="exudyn is not installed")
+
+from exudyn.itemInterface import (
+    CoordinateConstraint,
+    CoordinateSpringDamper,
+    LoadCoordinate,
+    MarkerNodeCoordinate,
+    Mass1D,
+    Node1D,
+)
+
+from stochfric_mb import reference
+from stochfric_mb.coefficients import Knots
+from stochfric_mb.errors import InputError
+from stochfric_mb.exudyn import add_friction, add_joint_friction, silent_settings, solve_dynamic
+from stochfric_mb.exudyn.belt_box import without_friction
+from stochfric_mb.friction import Friction
+from stochfric_mb.laws import make_law
+from stochfric_mb.scenario import load_scenario
+from tests.engines.exudyn_systems import OUT, block, four_bar
+
+COULOMB = make_law("coulomb", mu_s=0.4, mu_k=0.3)
+KNOTS = Knots(sigma_s=0.015, sigma_k=0.023, spacing=0.01)
+
+
+def solve(mbs: Any, dt: float, duration: float, *, locate: bool = True) -> None:
+    solve_dynamic(mbs, silent_settings(dt, duration), solver="generalized_alpha", locate=locate)
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "process", "dt", "tolerance"),
+    [  # m; measured 0.3, 0.2, 0.1 and 2.2 um: the trapezoidal rule, and switches located to 1e-3 of a step
+        ("coulomb", "kang2015_table1", None, 1e-3, 1e-6),
+        ("coulomb", "kang2015_table1", KNOTS, 1e-3, 1e-6),
+        ("coulomb", "kang2015_table2_13_8", KNOTS, 1e-3, 1e-6),
+        ("stribeck", "kang2015_table1", None, 1e-3, 5e-6),
+    ],
+)
+def test_the_belt_box_follows_the_reference(kind: str, name: str, process: Any, dt: float, tolerance: float) -> None:
+    s = dataclasses.replace(load_scenario(name, law=kind), duration=3.0, process=process)
+    m = s.mechanism
+    mbs, _, ground, slide = without_friction(m)
+    friction = Friction(s.law, process)
+    contact = add_friction(
+        mbs, ground, slide, friction, normal_force=m.normal_force, surface_velocity=m.belt_velocity, seed=1
+    )  # fmt: skip
+    mbs.Assemble()
+    rows = contact.record(s.output_times())
+    solve(mbs, dt, s.duration)
+    exact = reference.simulate(s, seed=1)
+    assert np.max(np.abs(m.belt_velocity * rows[:, 0] - rows[:, 1] - exact.position)) <= tolerance
+    assert np.mean(rows[:, 6]) == pytest.approx(np.mean(exact.stick), abs=1e-3)
+    assert np.all(np.abs(rows[:, 3]) <= rows[:, 4] * rows[:, 7] * (1.0 + 1e-9))
+    assert np.ptp(rows[rows[:, 6] == 1.0, 2]) <= 1e-12  # stuck is at rest on the belt
+
+
+def test_a_thrown_body_stops_and_stays() -> None:
+    mbs, node, ground, slide = block(1.0)
+    contact = add_friction(mbs, ground, slide, COULOMB, normal_force=10.0)
+    mbs.Assemble()
+    solve(mbs, 1e-3, 0.5)
+    assert mbs.GetNodeOutput(node, OUT.Coordinates) == pytest.approx(1.0 / 6.0, abs=1e-9)
+    assert mbs.GetNodeOutput(node, OUT.Coordinates_t) == 0.0
+    assert contact.stick
+    assert contact.force == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(("load", "holds"), [(3.99, True), (4.01, False)])
+def test_the_threshold_is_mu_s(load: float, holds: bool) -> None:
+    mbs, node, ground, slide = block(0.0)
+    mbs.AddLoad(LoadCoordinate(markerNumber=slide, load=load))
+    contact = add_friction(mbs, ground, slide, COULOMB, normal_force=10.0)
+    mbs.Assemble()
+    solve(mbs, 1e-3, 1.0)
+    x = float(mbs.GetNodeOutput(node, OUT.Coordinates))
+    if holds:
+        assert abs(x) <= 1e-15  # no creep
+        assert contact.force == pytest.approx(-load, rel=1e-9)
+    else:
+        assert x == pytest.approx(0.5 * (load - 3.0), abs=2e-3)  # it lets go at the end of the first step: a h t
+        assert contact.force == pytest.approx(-3.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("coupled", [False, True])
+def test_two_bodies_keep_their_momentum(coupled: bool) -> None:
+    """2 kg thrown on 1 kg (or on 0.25 kg that moves twice as fast, by a constraint): one velocity in the end, and it stays."""
+    mbs, node, _, first = block(3.0, 2.0)
+    other = mbs.AddNode(Node1D(referenceCoordinates=[0.0]))
+    mbs.AddObject(Mass1D(nodeNumber=other, mass=0.75 if coupled else 1.0))
+    second = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=other, coordinate=0))
+    if coupled:
+        third = mbs.AddNode(Node1D(referenceCoordinates=[0.0]))
+        mbs.AddObject(Mass1D(nodeNumber=third, mass=0.25 / 4.0))
+        marker = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=third, coordinate=0))
+        mbs.AddObject(CoordinateConstraint(markerNumbers=[marker, second], factor1=2.0))
+    contact = add_friction(mbs, first, second, COULOMB, normal_force=10.0)
+    mbs.Assemble()
+    solve(mbs, 1e-3, 1.0)
+    v = [float(mbs.GetNodeOutput(n, OUT.Coordinates_t)) for n in (node, other)]
+    assert contact.stick
+    assert v == pytest.approx([2.0, 2.0], rel=1e-9)
+
+
+def test_the_amplitude_falls_by_2_mu_n_over_k_each_half_swing() -> None:
+    mbs, node, ground, slide = block(0.0, position=0.0325)
+    mbs.AddObject(CoordinateSpringDamper(markerNumbers=[ground, slide], stiffness=800.0))
+    add_friction(mbs, ground, slide, make_law("coulomb", mu_s=0.4, mu_k=0.4), normal_force=10.0)
+    mbs.Assemble()
+    solve(mbs, 2e-4, 0.6)
+    assert mbs.GetNodeOutput(node, OUT.Coordinates) == pytest.approx(0.0325 - 3 * 0.01 - 2 * 0.0025, abs=1e-6)
+    assert mbs.GetNodeOutput(node, OUT.Coordinates_t) == 0.0
+
+
+def test_what_cannot_be_held_is_named() -> None:
+    mbs, _, ground, slide = block(0.0)
+    add_friction(mbs, ground, slide, COULOMB, normal_force=10.0)
+    mbs.Assemble()
+    with pytest.raises(InputError, match="solver='generalized_alpha'"):
+        solve_dynamic(mbs, silent_settings(1e-3, 0.1), solver="rk44")
+    with pytest.raises(InputError, match="useNewmark"):
+        mbs.SolveDynamic(silent_settings(1e-3, 0.1))
+    with pytest.raises(InputError, match="karnopp: within its zone"):
+        add_friction(mbs, ground, slide, make_law("karnopp", mu_s=0.4, mu_k=0.3), normal_force=10.0)
+    system = four_bar(make_law("elastic_stick", mu_s=0.4, mu_k=0.3), speed=1.0, radius=0.02)
+    with pytest.raises(InputError, match=r"between two coordinates alone.*elastic_substitute"):
+        add_joint_friction(system.mbs, system.contacts[0]._normal._object, COULOMB, normal_force=1.0)
