@@ -33,6 +33,11 @@ class ElasticStick(Law):
     v_s, with the z that keeps the force continuous. Up to v_s the force runs along z, which follows the motion like a trailer
     of length e_lim (on a line: along v); beyond v_s along v.
 
+    >>> ElasticStick(mu_s=0.8, mu_k=0.9)
+    Traceback (most recent call last):
+    ...
+    stochfric_mb.errors.InputError: mu_k = 0.9 is above mu_s = 0.8; a law needs mu_k <= mu_s: swap them or lower mu_k
+
     Reference: Kang, Choi and Yoo 2015, eqs. 3-6, doi 10.1007/s12206-015-0808-4. Misprints: eq. 5 lost its root and
     eq. 6 its superscript; eq. 6 reads mu = a^-(v + b) + mu_k with ln a = 1/decay_velocity and
     b = -ln(mu_s - mu_k)/ln a - v_s.

@@ -50,12 +50,20 @@ KNOWN: dict[str, Quantity] = {
 
 
 def split_header(header: str) -> tuple[str, str | None]:
-    """Return the name and the unit in a header such as ``position [mm]`` or ``position (mm)``; None: it has no unit."""
+    """Return the name and the unit in a header such as ``position [mm]`` or ``position (mm)``; None: it has no unit.
+
+    >>> split_header("position [mm]"), split_header("stroke")
+    (('position', 'mm'), ('stroke', None))
+    """
     match = re.fullmatch(r"\s*(.*?)\s*[\[(]\s*([^\])]*?)\s*[\])]\s*", header)
     return (match.group(1), match.group(2) or None) if match and match.group(1) else (header.strip(), None)
 
 
 def known_name(name: str) -> str | None:
-    """Return the known quantity that a column's name means (``Normal force`` is ``normal_force``), or None."""
+    """Return the known quantity that a column's name means (``Normal force`` is ``normal_force``), or None.
+
+    >>> known_name("Normal force"), known_name("colour")
+    ('normal_force', None)
+    """
     plain = re.sub(r"[\s\-]+", "_", name.strip().lower())
     return plain if plain in KNOWN else None

@@ -1,11 +1,13 @@
 """Where a function turns from positive to not positive, between two points: false position, halved where it is slow.
 
-The caller evaluates::
+The caller evaluates:
 
-    b = bracket(low, at_low, high, at_high)
-    while is_wide(b, resolution):
-        x = trial(b, resolution)
-        b = narrowed(b, x, f(x))
+>>> b = bracket(0.0, 1.0, 2.0, -1.0)  # 1 - x^3/4 at 0 and at 2
+>>> while is_wide(b, 1e-12):
+...     x = trial(b, 1e-12)
+...     b = narrowed(b, x, 1.0 - 0.25 * x**3)
+>>> round(b.positive, 9), round(b.negative, 9)
+(1.587401052, 1.587401052)
 
 after which ``b.positive`` and ``b.negative`` are the two sides of the change. It works for a jump as well, which it halves.
 

@@ -1,9 +1,11 @@
 """The fast simulator of a belt-box with effects: Coulomb with true stick, or a law that reduces to it, plus any effects.
 
-::
-
-    system = augmented_system(mechanism, law, [make_effect("dwell_ageing", rate=0.02)])
-    motion = system.march(Start(position=0.0, velocity=2.5e-3, stick=True), step=1e-3, count=60_000)
+>>> from stochfric_mb import Coulomb, load_scenario, make_effect
+>>> box = load_scenario("kang2015_table1").mechanism
+>>> system = augmented_system(box, Coulomb(mu_s=0.8, mu_k=0.46), [make_effect("dwell_ageing", rate=0.02)])
+>>> motion = system.march(Start(velocity=box.belt_velocity, stick=True), step=1e-3, count=3_000)
+>>> [("stick", "break-away")[int(kind)] for _, kind in motion.events]
+['break-away', 'stick', 'break-away', 'stick']
 
 Steps are adaptive (Dormand and Prince, with dense output), switches are located within them, and a rigidly stuck box
 rides on the belt in closed form. Everything is compiled once: effects are called through their addresses.

@@ -40,6 +40,15 @@ def solve(
 ) -> Trajectory:
     """Return the trajectory at ``times``, with every stick and break-away located.
 
+    A box carried by the belt breaks away when spring and damper hold mu_s N:
+
+    >>> from stochfric_mb import BeltBox, Coulomb
+    >>> box = BeltBox(mass=6.08, damping=0.768, stiffness=3956.0, normal_force=13.0, belt_velocity=2.5e-3)
+    >>> trajectory = solve(box, Coulomb(mu_s=0.8, mu_k=0.46), None, [2.0], initial_state=(0.0, 2.5e-3))
+    >>> break_away = (0.8 * 13.0 - 0.768 * 2.5e-3) / (3956.0 * 2.5e-3)
+    >>> abs(float(trajectory.events[0, 0]) - break_away) < 1e-12
+    True
+
     Relative displacement is u = v_b t - x, and a path along the belt runs along u. A contact that starts stuck has not
     *entered* stick: the first pair of a per_event path lasts until the first re-stick.
 
