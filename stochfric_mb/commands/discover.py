@@ -35,12 +35,18 @@ MARKER = "result.json"
     help="Model believed so far; needed for a measured file alone.",
 )
 @click.option("-o", "--out", required=True, metavar="DIR", help="Folder for report, result and exports.")
+@click.option("--dry-run", is_flag=True, help="Read and check everything, draw the raw records, say what would be done.")
 @click.option("--force", is_flag=True, help="Replace what is at --out.")
-def discover(dataset: str, scenario: str | None, out: str, force: bool) -> None:
+def discover(dataset: str, scenario: str | None, out: str, dry_run: bool, force: bool) -> None:
     """Find where the runs of DATASET and their model disagree, name the missing effect, and show that the gap shrinks."""
     from stochfric_mb.commands.progress import display
     from stochfric_mb.outputs import check_target, claimed, whole_folder
 
+    if dry_run:
+        from stochfric_mb.commands import dry_run as rehearsal
+
+        rehearsal.dry_run(dataset, scenario, out, force=force)
+        return
     target = check_target(out, force=force, marker=MARKER)
     with display() as shown, claimed(target):
         shown.note("loading")
@@ -70,13 +76,14 @@ def write(outcome: Outcome, folder: Path, command: str) -> dict[str, Any]:
     from stochfric_mb.report.discovery_evidence import gather
     from stochfric_mb.report.discovery_facts import complete
     from stochfric_mb.report.discovery_pictures import figures
+    from stochfric_mb.report.record_picture import record_pictures
 
     evidence = gather(outcome)
     content = json.loads(complete(outcome, evidence, command).to_json())
     drawn = figures(content, evidence)
-    more = further(outcome)
+    more, records = further(outcome), record_pictures(outcome.dataset.runs)
     plots = drawn | {f"{number}_{title.lower().replace(' ', '_')}": png for number, (title, _, png) in enumerate(more, 1)}
-    write_report(folder, numbers=MARKER, content=content, plots=plots, page=page(content, drawn, more))
+    write_report(folder, numbers=MARKER, content=content, plots=plots, page=page(content, drawn, more, records))
     for name, text in files(outcome).items():
         (folder / name).write_text(text, encoding="utf-8")
     return content

@@ -139,13 +139,34 @@ def stuck_speed(position: Array, interval: float) -> tuple[float, int] | None:
 
 
 def slip_time(position: Array, interval: float, speed: float, lag: int) -> float | None:
-    """Return the median time for which a record leaves the stuck speed for good [s]; None if it never turns back."""
-    slopes = (position[lag:] - position[:-lag]) / (lag * interval)
-    slips = np.concatenate(([False], slopes / speed < 0.0, [False]))
-    edges = np.flatnonzero(np.diff(slips.astype(np.int8)))
-    lengths = edges[1::2] - edges[::2]
-    lengths = lengths[lengths > 0.2 * lengths.max(initial=0)]  # noise turns single samples back
+    """Return the median time for which a record turns back from the stuck speed [s]; None if it never does."""
+    lengths = np.array([last - first for first, last in _backwards(position, interval, speed, lag)])
     return max(float(np.median(lengths)) - lag, 1.0) * interval if lengths.size else None  # windows lengthen slips
+
+
+def slip_spans(position: Array, interval: float) -> list[tuple[int, int]]:
+    """Return the first and last sample of each slip of a box that sticks most of the time; empty where it does not.
+
+    Args:
+        position: shape (n,), uniform samples.
+        interval: distance between samples [s].
+    """
+    stick = stuck_speed(position, interval)
+    if stick is None:
+        return []
+    speed, lag = stick
+    spans = _backwards(position, interval, speed, lag)
+    return [(first + lag - 1, max(last, first + lag)) for first, last in spans]
+
+
+def _backwards(position: Array, interval: float, speed: float, lag: int) -> list[tuple[int, int]]:
+    """Return where slopes over ``lag`` samples turn back from the stuck speed, without the few samples that noise turns."""
+    slopes = (position[lag:] - position[:-lag]) / (lag * interval)
+    back = np.concatenate(([False], slopes / speed < 0.0, [False]))
+    edges = np.flatnonzero(np.diff(back.astype(np.int8)))
+    firsts, lasts = edges[::2], edges[1::2]
+    long = lasts - firsts > 0.2 * (lasts - firsts).max(initial=0)
+    return list(zip(firsts[long].tolist(), lasts[long].tolist(), strict=True))
 
 
 def likeliest(seen: Shown) -> Cause | None:

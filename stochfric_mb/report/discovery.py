@@ -53,13 +53,19 @@ def further(outcome: Outcome) -> list[Picture]:
     return [(title, caption, given(data)) for title, caption, data in getattr(outcome, "pictures", ())]
 
 
-def page(content: Mapping[str, Any], drawn: Mapping[str, bytes], pictures: Sequence[Picture] = ()) -> str:
+def page(
+    content: Mapping[str, Any],
+    drawn: Mapping[str, bytes],
+    pictures: Sequence[Picture] = (),
+    records: Sequence[tuple[str, Markup]] = (),
+) -> str:
     """Return the report as one HTML text that needs no other file.
 
     Args:
         content: what ``result.json`` holds; all that the page tells comes from it.
         drawn: pictures of a belt-box, from `discovery_pictures.figures`.
         pictures: further pictures.
+        records: captions and pictures of the raw records, from `record_picture.record_pictures`.
     """
     details = content["details"]
     return render(
@@ -69,6 +75,7 @@ def page(content: Mapping[str, Any], drawn: Mapping[str, bytes], pictures: Seque
         drawn=drawn,
         captions=CAPTIONS,
         further=pictures,
+        records=records,
         colours=COLOURS,
         metrics=METRICS,
         beliefs=_beliefs(content),

@@ -1,0 +1,93 @@
+"""``stochfric discover --dry-run``: everything is read and checked, the raw records are drawn, nothing is inferred."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from stochfric_mb.commands.speech import answer, say
+from stochfric_mb.errors import InputError
+
+if TYPE_CHECKING:
+    from stochfric_mb.measurement.dataset import Dataset
+
+MARKER = "records.html"
+"""File that shows that a folder holds a dry run."""
+SECONDS_A_SLIP = (0.025, 0.2)
+"""Processor time of a discovery, least and most, measured on simulated belt rigs with one effect or none [s]."""
+SECONDS = (2.0, 10.0)
+"""Time that is added to it [s]."""
+
+
+def dry_run(dataset: str, scenario: str | None, out: str, *, force: bool) -> None:
+    """Read a dataset, draw its raw records and say what a discovery would do with them, and how long that takes."""
+    from stochfric_mb.measurement import load_dataset
+    from stochfric_mb.outputs import check_target, claimed, whole_folder
+    from stochfric_mb.report.page import render
+    from stochfric_mb.report.record_picture import record_pictures
+
+    target = check_target(out, force=force, marker=MARKER)
+    with claimed(target):
+        data = load_dataset(dataset, scenario)
+        runs, refused = _facts(data), _refusal(data)
+        lines = [*(_line(run) for run in runs), *_plan(data, runs)]
+        page = render("records.html", title=data.title, records=record_pictures(data.runs), lines=lines, refused=refused)
+        with whole_folder(target, replace=force) as folder:
+            (folder / MARKER).write_text(page, encoding="utf-8")
+    answer({"out": str(target), "runs": runs, "refused": refused})
+    for line in lines:
+        say(line)
+    if refused:
+        raise InputError(f"{refused} (the raw records are drawn in {target / MARKER})")
+    say(str(target / MARKER))
+
+
+def _facts(data: Dataset) -> list[dict[str, Any]]:
+    """Return what there is of each run."""
+    from stochfric_mb.measurement.scales import slip_spans
+    from stochfric_mb.mechanisms import BeltBox
+
+    facts: list[dict[str, Any]] = []
+    for run in data.runs:
+        position = run.channels.get("position")
+        slips = None
+        if isinstance(data.scenario.mechanism, BeltBox) and position is not None:
+            slips = len(slip_spans(position, run.sample_interval))
+        facts.append({
+            "name": run.name, "role": run.role, "seconds": float(run.time[-1] - run.time[0]), "rate": 1.0 / run.sample_interval,
+            "channels": {name: run.units.get(name, "") for name in run.channels}, "notes": list(run.notes), "slips": slips,
+        })  # fmt: skip
+    return facts
+
+
+def _line(run: dict[str, Any]) -> str:
+    channels = ", ".join(f"{name} [{unit}]" for name, unit in run["channels"].items())
+    slips = "" if run["slips"] is None else f", {run['slips']} slips"
+    notes = "".join(f"; {note}" for note in run["notes"])
+    use = "learned from" if run["role"] == "fit" else "held out"
+    return f"{run['name']}: {use}, {run['seconds']:.4g} s at {run['rate']:.4g} Hz{slips}; {channels}{notes}"
+
+
+def _plan(data: Dataset, runs: list[dict[str, Any]]) -> list[str]:
+    """Return what a discovery would do."""
+    from stochfric_mb.effects import effect_kinds
+
+    kind = data.scenario.mechanism.kind
+    said = f"Would search {len(effect_kinds())} kinds of effects in {len(data.fit)} runs and score on {len(data.test)}, {kind}"
+    slips = sum(run["slips"] or 0 for run in runs)
+    if not slips:
+        return [said]
+    low, high = (a + b * slips for a, b in zip(SECONDS, SECONDS_A_SLIP, strict=True))
+    return [said, f"Expected time: {low:.0f} to {high:.0f} s of one processor, beside compiling at the first use"]
+
+
+def _refusal(data: Dataset) -> str:
+    """Return why a discovery would refuse the records; empty if it would not."""
+    from stochfric_mb.discovery.stick_slip.records.preconditions import require_usable
+    from stochfric_mb.mechanisms import BeltBox
+
+    if isinstance(data.scenario.mechanism, BeltBox):
+        try:
+            require_usable(data)
+        except InputError as error:
+            return str(error)
+    return ""

@@ -1,0 +1,89 @@
+"""A dry run reads, checks and draws, and infers nothing; its picture shows every slip."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from stochfric_mb import load_scenario
+from stochfric_mb.__main__ import main
+from stochfric_mb.measurement.scales import slip_spans
+from stochfric_mb.reference import simulate
+from stochfric_mb.report.record_picture import COLUMNS, _thinned, curve
+
+
+@pytest.fixture(scope="module")
+def motion():
+    return simulate(load_scenario("kang2015_table1", overrides=("simulation.duration=30",)), seed=3)
+
+
+def _write(path, motion, step=1):
+    table = np.column_stack([motion.time, motion.position])[::step]
+    np.savetxt(path, table, "%.9g", ",", header="time [s],position [m]", comments="")
+    return str(path)
+
+
+def invoke(*words):
+    return CliRunner().invoke(main, [str(w) for w in words])
+
+
+def test_records_are_drawn_and_the_plan_is_told(tmp_path, motion):
+    file = _write(tmp_path / "run.csv", motion)
+    done = invoke("discover", file, "--scenario", "kang2015_table1", "--dry-run", "--out", tmp_path / "raw")
+    assert done.exit_code == 0, done.output
+    assert "Would search" in done.output
+    assert "Expected time" in done.output
+    page = (tmp_path / "raw" / "records.html").read_text()
+    assert page.count('<svg class="record"') == 2
+    assert "http" not in page
+
+
+def test_its_json_counts_the_slips(tmp_path, motion):
+    file = _write(tmp_path / "run.csv", motion)
+    done = invoke("discover", file, "--scenario", "kang2015_table1", "--dry-run", "--json", "--out", tmp_path / "raw")
+    runs = json.loads(done.stdout)["runs"]
+    assert [run["role"] for run in runs] == ["fit", "test"]
+    assert all(run["slips"] > 5 for run in runs)
+
+
+def test_records_that_are_refused_are_drawn_all_the_same(tmp_path, motion):
+    file = _write(tmp_path / "run.csv", motion, step=40)  # 25 Hz: too few samples in a slip
+    done = invoke("discover", file, "--scenario", "kang2015_table1", "--dry-run", "--out", tmp_path / "raw")
+    assert done.exit_code == 2
+    assert "samples a second" in done.stderr
+    assert "samples a second" in (tmp_path / "raw" / "records.html").read_text()
+
+
+@pytest.mark.parametrize("noise", [0.0, 2e-6])
+def test_slips_are_where_the_box_turns_back(motion, noise):
+    """A slip is a stretch of backward motion of the simulated box, not of ringing after it."""
+    measured = motion.position + noise * np.random.default_rng(0).standard_normal(motion.time.size)
+    found = slip_spans(measured, 1e-3)
+    back = motion.velocity < -1e-3  # of the order of the belt's speed, well above ringing
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], back.astype(int), [0]))))
+    true = [(i, j) for i, j in zip(edges[::2], edges[1::2], strict=True) if j - i > 20]
+    assert len(found) == len(true)
+    for (first, last), (i, j) in zip(found, true, strict=True):
+        assert abs(first - i) <= 40  # the lag over which slopes are taken under noise [samples]
+        assert abs(last - j) <= 40
+
+
+def test_no_slips_are_seen_in_a_sine():
+    time = np.arange(5000) * 1e-3
+    assert slip_spans(np.sin(10.0 * time), 1e-3) == []
+
+
+def test_a_thinned_curve_keeps_every_peak():
+    values = np.zeros(100_000)
+    values[[777, 50_001, 98_765]] = (3.0, -2.0, 5.0)
+    _, thin = _thinned(np.arange(100_000.0), values)
+    assert thin.size == 2 * COLUMNS
+    assert {3.0, -2.0, 5.0} <= set(thin)
+
+
+def test_names_from_a_file_are_escaped():
+    svg = curve(np.arange(10.0), np.arange(10.0), "<script>")
+    assert "<script>" not in svg
+    assert re.search("&lt;script&gt;", svg)
