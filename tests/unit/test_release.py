@@ -41,6 +41,11 @@ def test_no_page_installs_from_an_index_that_has_nothing():
         assert "pip install 'stochfric_mb" not in page.read_text(encoding="utf-8"), page
 
 
+def test_the_site_has_every_page():
+    listed = set(re.findall(r"([\w/]+\.md)$", _read("mkdocs.yml"), re.MULTILINE))
+    assert listed == {p.name for p in (ROOT / "docs").glob("*.md")}
+
+
 def test_the_map_names_rooms_that_exist():
     for name in re.findall(r"^\| (.*?) \|", _read("CONTRIBUTING.md"), re.MULTILINE):
         for room in re.findall(r"`([\w/]+(?:\.py)?)`", name):
