@@ -49,6 +49,16 @@ class Found:
     p_value: float
     """Chance of that much evidence without the effect [-]."""
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the effect as ``result.json`` holds it."""
+        return {
+            "kind": self.kind,
+            "equivalent_to": list(self.equivalent_to),
+            "where": dataclasses.asdict(self.where),
+            "parameters": {k: dataclasses.asdict(v) for k, v in self.parameters.items()},
+            "evidence": {"score": self.score, "p_value": self.p_value},
+        }
+
 
 @dataclasses.dataclass(frozen=True)
 class Gap:
@@ -117,6 +127,9 @@ class Result:
     """Parameters of mechanism and law: with the effects where the verdict is an effect, otherwise recalibrated."""
     notes: tuple[str, ...] = ()
     """What a reader should know: outliers removed, belt speed off, data lost, ..."""
+    unnamed: Found | None = None
+    """For "unknown": a smooth change of friction that held-out runs bear out, though it has no name; it is in the augmented
+    scenario."""
     power: dict[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Smallest strength of an effect that would have been named, by kind."""
     details: dict[str, Any] = dataclasses.field(default_factory=dict[str, Any])
@@ -130,16 +143,8 @@ class Result:
         return {
             "schema": SCHEMA,
             "verdict": self.verdict,
-            "effects": [
-                {
-                    "kind": e.kind,
-                    "equivalent_to": list(e.equivalent_to),
-                    "where": dataclasses.asdict(e.where),
-                    "parameters": {k: dataclasses.asdict(v) for k, v in e.parameters.items()},
-                    "evidence": {"score": e.score, "p_value": e.p_value},
-                }
-                for e in self.effects
-            ],
+            "effects": [e.to_dict() for e in self.effects],
+            "unnamed": self.unnamed.to_dict() if self.unnamed is not None else None,
             "where": dataclasses.asdict(self.where) if self.where is not None else None,
             "ranking": [{"kind": kind, "score": score} for kind, score in self.ranking],
             "gap": gap,

@@ -181,6 +181,10 @@ class Effect:
         """Return the shortest period [s] that the effect brings in while the contact moves at ``speed`` [m/s]."""
         return math.inf
 
+    def unit_of(self, name: str) -> str:
+        """Return the unit of a parameter."""
+        return str(self.__dataclass_fields__[name].metadata["unit"])
+
     @property
     def late(self) -> float:
         """By how much it makes the reading late [s]."""
@@ -242,6 +246,7 @@ def parameter(
     default: Any = dataclasses.MISSING,
     fit_low: float | None = None,
     fit_high: float | None = None,
+    fit_prior: float = math.inf,
 ) -> Any:
     """Return a dataclass field of an effect.
 
@@ -256,10 +261,12 @@ def parameter(
         default: default value; none if not given.
         fit_low: lower bound of fits, where it is another.
         fit_high: upper one.
+        fit_prior: standard deviation by which a fit may move it from where it begins.
     """
     metadata: dict[str, Any] = {"unit": unit, "meaning": meaning, "scale": scale, "low": low, "high": high}
     metadata |= {"strict": strict, "infinite": infinite}
     metadata |= {"fit_low": low if fit_low is None else fit_low, "fit_high": high if fit_high is None else fit_high}
+    metadata |= {"fit_prior": fit_prior}
     return dataclasses.field(metadata=metadata, default=default)
 
 

@@ -34,6 +34,8 @@ OUTSIDE_FORECASTS = "forecasts do not measure it"
 """A fault of the readings alone."""
 BELT = "needs a belt"
 """No joint has it."""
+ANONYMOUS = "names no physics"
+"""Never an answer by itself."""
 READS_LOAD = "scales friction with what a joint transmits"
 """Its reference load is the joint's."""
 

@@ -56,8 +56,9 @@ def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> F
             ]
             deviation = float(deviations[0]) if deviations else model.measured.get(field.name, 0.0)
         deviation = drawn.get(field.name, deviation)
-        unit = found.size.of(about["unit"])
-        parameters[field.name] = confidence_interval(value * unit, deviation * unit, about["unit"], about["low"], about["high"])
+        name = effect.unit_of(field.name)
+        unit = found.size.of(name)
+        parameters[field.name] = confidence_interval(value * unit, deviation * unit, name, about["low"], about["high"])
     p_value = float(chi2_distribution.sf(max(named.score, 0.0), max(len(parameters), 1)))
     return Found(named.kind, named.class_, Where(*effect.appears()), parameters, float(named.score), p_value)
 

@@ -42,6 +42,8 @@ class Channels:
     """Whether the stick phases and the sensor are looked at by themselves first."""
     confirmation: bool = True
     """Whether candidates are confirmed by simulating them, and names must explain the runs."""
+    unnamed: bool = True
+    """Whether a term without a name is looked for where no name is known."""
 
 
 EVERYTHING = Channels()

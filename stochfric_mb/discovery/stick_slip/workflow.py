@@ -8,6 +8,7 @@ from typing import Any
 from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.result import Gap, Result, Where
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
+from stochfric_mb.discovery.stick_slip.decision.anonymous import anonymous, told
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.explained import unexplained
 from stochfric_mb.discovery.stick_slip.decision.held_out_check import LEAST_REDUCIBLE, compared, without_last
@@ -59,7 +60,7 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     decision = decide(found, channels=channels, progress=progress)
     progress("recalibration")
     believed = found.model
-    recalibrated = _fitted(believed, found)
+    recalibrated = recalibrated_model(believed, found)
     progress("refit")
     fit = _augmented(decision, found, recalibrated)
     augmented = fit.model if fit is not None else recalibrated.model
@@ -69,14 +70,20 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     runs = held_out(_held_out_slips(dataset), phased=phased(augmented))
     augmented = settled(augmented, runs)
     decision, fit, augmented = _checked_on_held_out(decision, fit, augmented, found, recalibrated, runs)
+    nameless = decision.verdict == "unknown" and channels.unnamed
+    term = anonymous(found, recalibrated, runs) if nameless else None
+    kept = term if term is not None and term.carries_over else None
+    augmented = kept.fit.model if kept is not None else augmented
     gap = gap_of(believed, recalibrated.model, augmented, runs) if sum(map(len, runs.second)) else None
     gap = None if gap is None else gap.times(size.length)
     final = recalibrated if fit is None or decision.verdict != "effect" else fit
+    final = final if kept is None else kept.fit
     own, unmeasured = own_parameters(final, augmented, found), not_measured(final)
     beyond = moved(own, given, unmeasured)
     decision.details["parameters"] = {"not_measured": unmeasured, "moved_beyond_uncertainty": beyond}
     notes = (
         *_notes(found, decision, gap),
+        *([told(term)] if nameless else []),
         *(f"{name} is {abs(by):.2g} stated standard deviations off from what is stated" for name, by in beyond.items()),
         *([] if given.scenario.uncertainty else [NOT_STATED]),
     )
@@ -90,6 +97,7 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
         next_experiment=next_experiment(decision, found),
         believed=own,
         notes=notes,
+        unnamed=found_effect(kept.named, kept.fit, augmented, found) if kept is not None else None,
         power=smallest(found) if decision.verdict == "none" else {},
         details=decision.details,
     )
@@ -121,7 +129,7 @@ def augmented_scenario(dataset: Dataset, model: Model) -> Scenario:
     )
 
 
-def _fitted(model: Model, found: Study) -> Fit:
+def recalibrated_model(model: Model, found: Study) -> Fit:
     """Return the model as believed, fitted within its uncertainty; its scatter, if any is declared, stays as declared."""
     start = dataclasses.replace(deterministic(model), corrections=dict.fromkeys(("stiffness", "mass", "damping"), 0.0))
     mu_s, mu_k = (float(max(c, 1.0e-5)) for c in found.solution.coefficients[:2])

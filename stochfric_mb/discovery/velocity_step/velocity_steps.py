@@ -22,8 +22,8 @@ from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.inference.noise import independent_count, white_noise
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.discovery.velocity_step.laws import Law, Track, laws
-from stochfric_mb.effects import effect_class, effect_kinds, kind_found_as, make_effect
-from stochfric_mb.effects.traits import LATE, MEMORY, RATE, SLOPE_IN_DISTANCE
+from stochfric_mb.effects import effect_class, effect_kinds, kind_found_as, kinds_with, make_effect
+from stochfric_mb.effects.traits import ANONYMOUS, LATE, MEMORY, RATE, SLOPE_IN_DISTANCE
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
@@ -176,7 +176,7 @@ def _result(
         where=None,
         ranking=tuple(sorted(scores.items(), key=lambda s: -s[1])),
         gap=gap,
-        not_identifiable=tuple(k for k in effect_kinds() if k not in scores and k != kind_found_as(LATE)),
+        not_identifiable=tuple(k for k in effect_kinds() if k not in (*scores, kind_found_as(LATE), *kinds_with(ANONYMOUS))),
         next_experiment="Steps down as well as up, and hold tests: they tell ageing with time from slip with distance.",
         believed=_numbers(plain),
         notes=(

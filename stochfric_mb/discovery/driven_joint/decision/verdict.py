@@ -18,7 +18,7 @@ from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.effects import effect_kinds, kind_found_as, kinds_with
-from stochfric_mb.effects.traits import BELT, DRAWN_ANEW, LATE
+from stochfric_mb.effects.traits import ANONYMOUS, BELT, DRAWN_ANEW, LATE
 from stochfric_mb.measurement.dataset import Dataset
 
 IMITATED = 0.99
@@ -178,7 +178,7 @@ def _unseen(places: Sequence[PlaceOutcome]) -> tuple[str, ...]:
     seen |= {e.kind for p in places for e in p.believed.effects} | {kind_found_as(LATE)}
     seen |= {kind_found_as(DRAWN_ANEW)} if any(p.random is not None or p.runs is not None for p in places) else set()
     seen -= {kind for p in places for kind in _imitated(p)}
-    return tuple(k for k in effect_kinds() if k not in seen and k not in kinds_with(BELT))
+    return tuple(k for k in effect_kinds() if k not in seen and k not in (*kinds_with(BELT), *kinds_with(ANONYMOUS)))
 
 
 def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:

@@ -136,7 +136,8 @@ def _of_effect(model: Model, i: int, runs: Sequence[str]) -> Iterator[FreeParame
         else:
             # a frequency that is off by its share of a wave in the whole record changes everything
             scale = TUNING * value if name in TUNED else max(abs(value), 0.05 * meta["scale"])
-            yield FreeParameter(i, name, value, scale, *_bounds(name, value, meta))
+            low, high = _bounds(name, value, meta)
+            yield FreeParameter(i, name, value, scale, low, high, nominal=value, prior=meta["fit_prior"])
 
 
 def _stays(effect: Effect, name: str, value: float) -> bool:

@@ -14,6 +14,7 @@ import re
 from typing import Any, TypeVar
 
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.effects import Effect
 from stochfric_mb.measurement.dataset import Dataset, Run
 from stochfric_mb.mechanisms import BeltBox
 
@@ -136,6 +137,8 @@ USUAL = Scaling(1.0, 1.0, 1.0)
 
 def _unit(whole: Any, name: str) -> str:
     """Return the unit of a number of a mechanism, law, process, scenario, run or effect."""
+    if isinstance(whole, Effect):
+        return whole.unit_of(name)
     about = next(f.metadata for f in dataclasses.fields(whole) if f.name == name)
     if name == "spacing" and "unit" not in about:
         return "m" if whole.kind == "spatial" else "s"

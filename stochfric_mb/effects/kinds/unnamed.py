@@ -1,0 +1,104 @@
+"""Unnamed term: friction that changes smoothly along an axis, in a way that no named effect explains."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import dataclasses
+from typing import ClassVar
+
+from stochfric_mb.effects.contract import MU_K, MU_S, POSITION, SLIP, SPEED, TIME, Effect, choice, parameter
+from stochfric_mb.effects.traits import ANONYMOUS
+from stochfric_mb.errors import InputError
+
+AXES = {"speed": "m/s", "position": "m", "slip": "m", "time": "s"}
+"""Axis -> unit of its ends."""
+WORDS = {
+    "speed": "relative velocity", "position": "position of the box", "slip": "distance slid since break-away",
+    "time": "time within the run",
+}  # fmt: skip
+"""Axis -> its name for readers."""
+CHANGES = tuple(f"change_{i}" for i in range(1, 7))
+"""Parameters that are the table, from the second knot on."""
+
+FINER = 0.01
+"""Deviation by which a fit may move a knot [-]: the curve is that of the features, forecasts refine it."""
+
+
+def _change(knot: int) -> float:
+    return parameter("-", f"change of mu_k at knot {knot} of 6 after the first", scale=0.03, default=0.0, fit_prior=FINER)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Unnamed(Effect):
+    """mu_k plus a table over speed, position, slip or time, and mu_s plus static_share times it.
+
+    The table is linear between seven knots, evenly spaced from ``low`` to ``high``, 0 at the first and constant outside.
+
+    Reference: C. de Boor, A Practical Guide to Splines, Springer 1978, chapter III (broken lines).
+    """
+
+    axis: str = choice("along what friction changes", tuple(AXES))
+    """Along what friction changes: "speed" relative to the counter-surface, "position", "slip" since break-away or "time"."""
+    low: float = parameter("-", "place of the first knot, in the unit of the axis", scale=0.0)
+    """Place of the first knot [m/s, m or s]."""
+    high: float = parameter("-", "place of the last knot, in the unit of the axis", scale=1.0)
+    """Place of the last knot [m/s, m or s], above ``low``."""
+    static_share: float = parameter("-", "change of mu_s over that of mu_k", scale=1.0, default=0.0)
+    """Change of mu_s over that of mu_k [-]: 0, mu_k alone; 1, both alike."""
+    change_1: float = _change(1)
+    """Change of mu_k at the second knot [-]; it is 0 at the first."""
+    change_2: float = _change(2)
+    """The same at the third knot [-]."""
+    change_3: float = _change(3)
+    """The same at the fourth knot [-]."""
+    change_4: float = _change(4)
+    """The same at the fifth knot [-]."""
+    change_5: float = _change(5)
+    """The same at the sixth knot [-]."""
+    change_6: float = _change(6)
+    """The same at the seventh knot [-]."""
+
+    kind: ClassVar[str] = "unnamed"
+    equation: ClassVar[str] = "mu_k plus a table over speed, position, slip or time, mu_s plus static_share times it"
+    source: ClassVar[str] = "de Boor 1978, chapter III (broken lines)"
+    group: ClassVar[str] = "friction varies"
+    traits: ClassVar[frozenset[str]] = frozenset({ANONYMOUS})
+    order: ClassVar[int] = 1
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.high <= self.low:
+            raise InputError(
+                f"unnamed.high = {self.high:g} is not above low = {self.low:g}; give the places of the last and first knot"
+            )
+
+    def appears(self) -> tuple[str, str]:
+        """Return the axis in words, and that it has no name."""
+        return WORDS[self.axis], f"friction changes along the {WORDS[self.axis]}, in a way that no known effect explains"
+
+    def unit_of(self, name: str) -> str:
+        """Return the unit of a parameter; that of the ends is the axis's."""
+        return AXES[self.axis] if name in ("low", "high") else super().unit_of(name)
+
+
+def friction(world, memory, rates, p):
+    """Add the table to both coefficients."""
+    s = world[SPEED]
+    if p[0] == 1.0:
+        s = world[POSITION]
+    elif p[0] == 2.0:
+        s = world[SLIP]
+    elif p[0] == 3.0:
+        s = world[TIME]
+    k = 6.0 * (s - p[1]) / (p[2] - p[1])
+    change = p[4] * min(max(k, 0.0), 1.0)
+    change += (p[5] - p[4]) * min(max(k - 1.0, 0.0), 1.0)
+    change += (p[6] - p[5]) * min(max(k - 2.0, 0.0), 1.0)
+    change += (p[7] - p[6]) * min(max(k - 3.0, 0.0), 1.0)
+    change += (p[8] - p[7]) * min(max(k - 4.0, 0.0), 1.0)
+    change += (p[9] - p[8]) * min(max(k - 5.0, 0.0), 1.0)
+    world[MU_K] = max(world[MU_K] + change, 0.0)
+    world[MU_S] = max(world[MU_S] + p[3] * change, 0.0)

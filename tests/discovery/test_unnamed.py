@@ -1,0 +1,48 @@
+"""The unnamed term: friction that is found again along its axis without its name, and none where there is nothing."""
+
+import pytest
+
+from stochfric_mb.discovery.stick_slip.decision.anonymous import anonymous, told
+from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import gap_of, held_out
+from stochfric_mb.discovery.stick_slip.simulation.scaling import USUAL
+from stochfric_mb.discovery.stick_slip.study import slips_of_run, study
+from stochfric_mb.discovery.stick_slip.workflow import recalibrated_model
+from tests.discovery.generator.case import Case
+from tests.discovery.net.rigs import belt_box
+
+SEED = 21
+"""A tuning seed."""
+
+
+def term_of(case):
+    dataset = belt_box(case)
+    found = study(dataset, USUAL)
+    plain = recalibrated_model(found.model, found)
+    runs = held_out([slips_of_run(r, dataset) for r in dataset.test], phased=False)
+    return anonymous(found, plain, runs), plain.model, runs
+
+
+@pytest.mark.parametrize(
+    ("form", "axis"),
+    [
+        ("velocity_weakening.rational", "relative velocity"),
+        ("frictional_lag.linear_slip_weakening", "distance slid since break-away"),
+    ],
+)
+def test_what_has_no_name_is_found_along_its_axis_and_closes_the_gap(form, axis):
+    term, plain, runs = term_of(Case(form, "one_free", 1.0, SEED))
+    assert term is not None
+    assert term.carries_over
+    assert axis in told(term)
+    gap = gap_of(plain, plain, term.fit.model, runs)
+    assert gap.closed is not None
+    assert gap.closed > 0.5  # what an answer without a name must close
+    changes = {i: getattr(term.fit.model.effects[-1], f"change_{i}") for i in range(1, 7)}
+    # both forms weaken: over the speeds of a slip, or within its first part
+    assert changes[2] - changes[5] > 0.03 if axis == "relative velocity" else changes[1] < -0.15
+
+
+def test_nothing_missing_brings_no_term():
+    term, _, _ = term_of(Case("none.wrong_parameters", "one_free", 1.0, SEED))
+    assert term is None or not term.carries_over
+    assert "in augmented.toml" not in told(term)
