@@ -129,11 +129,11 @@ class _SourceCache(FunctionCache):
         owner = f"{Path(parts).stem}." if parts else ""
         self._base, self._short = owner + self._impl.filename_base, stamp[:16]
         self._cache_file = IndexDataCacheFile(self._cache_path, f"{self._base}.{self._short}{variant}", stamp)
-        self._tidy = False
+        self._tidy, self._stamped = False, bool(parts)
 
     def _index_key(self, sig: Any, codegen: Any) -> Any:
-        """Return the key without what a nested function holds: the stamp covers it."""
-        return sig, codegen.magic_tuple()
+        """Return the key of a compiled version; of a nested function with ``parts`` without what it holds, which they stamp."""
+        return (sig, codegen.magic_tuple()) if self._stamped else super()._index_key(sig, codegen)
 
     def _save_overload(self, sig: Any, data: Any) -> None:
         super()._save_overload(sig, data)

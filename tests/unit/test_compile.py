@@ -136,3 +136,15 @@ def test_nested_functions_are_kept_for_each_file_whose_functions_they_hold(packa
     right.write_text(right.read_text(encoding="utf-8").replace("4.0", "5.0"), encoding="utf-8")
     assert run() == [6.0, 10.0, 1, 0]
     assert run() == [6.0, 10.0, 1, 1]
+
+
+def test_nested_functions_that_hold_numbers_are_told_apart(package):
+    text = "from stochfric_mb.compile import compiled\n\ndef make(factor):\n    def times(x):\n        return factor * x\n\n"
+    (package / "numbers.py").write_text(text + "    return compiled(times)\n", encoding="utf-8")
+    code = "from stochfric_mb.numbers import make; print(make(2.0)(1.0), make(3.0)(1.0))"
+    settings = {**os.environ, "PYTHONPATH": str(package.parent)}
+    settings.pop("NUMBA_CACHE_DIR", None)
+    for _ in range(2):
+        command = [sys.executable, "-c", code]
+        out = subprocess.run(command, capture_output=True, text=True, check=True, env=settings, cwd=package.parent)
+        assert out.stdout.split() == ["2.0", "3.0"]
