@@ -285,8 +285,9 @@ def add_joint_friction(
         joint: a `PivotJoint`, whose pin slides by ``radius`` times the angle; a `GrooveJoint`, along its groove; or a
             `SlideJoint`, along the line between its anchors.
         friction: coulomb or stribeck, or one of them with random coefficients.
-        normal_force: normal force [N]: a number, a function of time [s], or None for the joint's own reaction in the last step
-            (in the first a joint at rest holds, one that moves is free). A slide joint, which pulls only at its ends, needs one.
+        normal_force: normal force [N]: a number, a function of time [s], or None for the joint's own reaction in the last
+            step (in the first a joint at rest holds, one that moves is free). A slide joint, which pulls only at its ends,
+            needs one.
         radius: radius of a hinge's pin [m], > 0.
         seed: first part of the address of the coefficient path.
         sample: second part.
