@@ -302,8 +302,8 @@ class FrictionContact:
             self._pass_on()
         elif self.given_mass > TOO_LARGE * masses[-1]:
             raise InputError(
-                f"effective_mass = {self.given_mass:g} kg, but this contact feels {masses[-1]:.4g} kg by the system's mass matrix: step "
-                " limits and damping would be wrong; leave it out, and it is taken from there"
+                f"effective_mass = {self.given_mass:g} kg, but this contact feels {masses[-1]:.4g} kg by the system's mass "
+                "matrix: step limits and damping would be wrong; leave it out, and it is taken from there"
             )
 
     def _relative_velocities(self) -> tuple[float, ...]:

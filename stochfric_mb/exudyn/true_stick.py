@@ -40,13 +40,13 @@ class TrueStickContact(CoordinateContact):
         law = as_friction(friction).law
         if normal.reaction:
             raise InputError(
-                f"law {law.kind}: a constraint holds it while it sticks, and its normal force cannot be the reaction of another; give "
-                "normal_force as a number or a function of time, or take elastic_stick"
+                f"law {law.kind}: a constraint holds it while it sticks, and its normal force cannot be the reaction of "
+                "another; give normal_force as a number or a function of time, or take elastic_stick"
             )
         if law.kind == "karnopp":
             raise InputError(
-                "law karnopp: within its zone it slides under the force that would hold it, which neither a constraint nor a force of "
-                "velocity gives; take coulomb or stribeck"
+                "law karnopp: within its zone it slides under the force that would hold it, which neither a constraint nor "
+                "a force of velocity gives; take coulomb or stribeck"
             )
         self._rows: Any = None
         self._hold = mbs.AddObject(

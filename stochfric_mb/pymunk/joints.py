@@ -1,8 +1,9 @@
 """Friction in pymunk's joints: the pin of a hinge, the slide of a groove, and a surface seen from above.
 
-pymunk's own solver applies it, with the law's cap as the largest force of a constraint (a motor that brakes the hinge, a pivot that
-holds a body to the surface): stick is exact there, whatever else holds the bodies. Along a groove there is no such constraint; there
-the force that would stop the sliding within the step, no larger than the cap, is written into the bodies before the solve.
+pymunk's own solver applies it, with the law's cap as the largest force of a constraint (a motor that brakes the hinge, a pivot
+that holds a body to the surface): stick is exact there, whatever else holds the bodies. Along a groove there is no such
+constraint; there the force that would stop the sliding within the step, no larger than the cap, is written into the bodies
+before the solve.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ SATURATED = 1.0 - 1.0e-9
 FAST = 2.0
 """Speed beyond which sliding cannot stop within the step, in the same unit as `SLOW`."""
 SLOW = 0.05
-"""Speed up to which one that is given in still holds, in changes of speed by the cap in one step: where several hold a body, the
+"""Speed up to which one at its cap still holds, in changes of speed by the cap in one step: where several hold a body, the
 solver loads them one after the other, and one may be at its cap while the others hold."""
 
 
@@ -45,7 +46,8 @@ class JointFriction:
         law = as_friction(friction).law
         if not law.needs_holding_force or law.kind == "karnopp":
             raise InputError(
-                f"friction in joints is for laws that stick truly and slide at any speed, coulomb and stribeck; {law.kind} is none"
+                f"friction in joints is for laws that stick truly and slide at any speed, coulomb and stribeck; {law.kind} "
+                "is none"
             )
         self.space, self.constraint = space, constraint
         self._normal = normal
@@ -160,7 +162,7 @@ class PinFriction(JointFriction):
 
 
 class SurfaceFriction(JointFriction):
-    """Friction of a body on a surface seen from above: a pivot without bias that gives way at the cap, and a force while it slides."""
+    """Friction of a body on a surface seen from above: a pivot without bias that gives way at the cap, a force while it slides."""
 
     def __init__(
         self,
