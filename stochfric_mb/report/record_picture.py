@@ -17,7 +17,7 @@ Array = npt.NDArray[np.float64]
 
 WIDTH, HEIGHT = 900.0, 190.0
 """Size of a picture [px of its own]; it scales with the page."""
-LEFT, RIGHT, TOP, BOTTOM = 64.0, 8.0, 8.0, 30.0
+LEFT, RIGHT, TOP, BOTTOM = 64.0, 20.0, 8.0, 30.0
 """Margins [px]."""
 COLUMNS = 800
 """Columns in which a curve is drawn, each from its least to its largest value, so that no peak is lost."""
@@ -35,7 +35,7 @@ def record_pictures(runs: Sequence[Run]) -> list[tuple[str, Markup]]:
         if name is not None:
             spans = slip_spans(run.channels[name], run.sample_interval) if name == "position" else []
             use = "learned from" if run.role == "fit" else "held out"
-            told = f"{run.name} ({use}): {name} as measured" + (f"; shaded: {len(spans)} slips" if spans else "")
+            told = f"{run.name} ({use}): {name} as measured" + ("; shaded: slips" if spans else "")
             found.append((told, curve(run.time, run.channels[name], f"{name} [{run.units.get(name, '')}]", spans)))
     return found
 
