@@ -175,6 +175,7 @@ def steer_kernel(kind: str) -> Any:
 
     @wp.kernel(module="unique", enable_backward=False)
     def steer(
+        stride: int,
         nacon: wp.array[int],
         geom: wp.array[wp.vec2i],
         world: wp.array[int],
@@ -195,61 +196,59 @@ def steer_kernel(kind: str) -> Any:
         mass: wp.array2d[float],
         reference: wp.array2d[float],
     ):
-        c = wp.tid()
-        if c >= nacon[0]:
-            return
-        geoms = geom[c]
-        row = address[c, 0]
-        if geoms[0] < 0 or geoms[1] < 0 or row < 0 or dim[c] < 3:
-            return
-        if partners[geoms[0], geoms[1]] == 0:
-            return
-        w = world[c]
-        new = worlds.count[w] % 2
-        h = timestep[w % timestep.shape[0]]
-        axis_1 = wp.vec3(frame[c][1, 0], frame[c][1, 1], frame[c][1, 2])
-        axis_2 = wp.vec3(frame[c][2, 0], frame[c][2, 1], frame[c][2, 2])
-        v = wp.vec2(velocity[w, row + 1], velocity[w, row + 2])
-        speed = wp.length(v)
-        place = position[c] - geom_position[w, geoms[1]]
-        stiffness, damping = spring(h, solimp[c][1])
-        limit = worlds.stick_speed[w]
+        for c in range(wp.tid(), wp.min(nacon[0], geom.shape[0]), stride):
+            geoms = geom[c]
+            row = address[c, 0]
+            if geoms[0] < 0 or geoms[1] < 0 or row < 0 or dim[c] < 3:
+                continue
+            if partners[geoms[0], geoms[1]] == 0:
+                continue
+            w = world[c]
+            new = worlds.count[w] % 2
+            h = timestep[w % timestep.shape[0]]
+            axis_1 = wp.vec3(frame[c][1, 0], frame[c][1, 1], frame[c][1, 2])
+            axis_2 = wp.vec3(frame[c][2, 0], frame[c][2, 1], frame[c][2, 2])
+            v = wp.vec2(velocity[w, row + 1], velocity[w, row + 2])
+            speed = wp.length(v)
+            place = position[c] - geom_position[w, geoms[1]]
+            stiffness, damping = spring(h, solimp[c][1])
+            limit = worlds.stick_speed[w]
 
-        touch = Touch()
-        touch.mode = wp.where(speed > limit, SLIP, STICK)
-        touch.urgency = PUSHED
-        i = nearest_slot(slots, 1 - new, w, geoms, place)
-        if i >= 0:
-            if worlds.fresh[w] == 1:
-                found_force(force, w, slots, 1 - new, i)
-            if slots.force[1 - new, w, i][0] > 0.0:
-                touch = recalled(
-                    slots, 1 - new, w, i, axis_1, axis_2, v, h, limit, mass[w, row + 1], stiffness, damping
-                )  # fmt: skip
+            touch = Touch()
+            touch.mode = wp.where(speed > limit, SLIP, STICK)
+            touch.urgency = PUSHED
+            i = nearest_slot(slots, 1 - new, w, geoms, place)
+            if i >= 0:
+                if worlds.fresh[w] == 1:
+                    found_force(force, w, slots, 1 - new, i)
+                if slots.force[1 - new, w, i][0] > 0.0:
+                    touch = recalled(
+                        slots, 1 - new, w, i, axis_1, axis_2, v, h, limit, mass[w, row + 1], stiffness, damping
+                    )  # fmt: skip
 
-        mu = worlds.mu_s[w]
-        asked = -damping * v - stiffness * touch.drift
-        if touch.mode != STICK:
-            touch.drift = wp.vec2(0.0)
-            mu = cap(speed, 2.0 * limit, worlds.mu_s[w], worlds.mu_k[w], worlds.parameters[w])
-            along = v / wp.max(speed, LEAST_SPEED)
-            pressing = wp.max(touch.normal_force / mass[w, row], reference[w, row])
-            weight = wp.length(gravity[w % gravity.shape[0]])
-            push = deceleration(touch, along, mu, pressing, mass[w, row] / mass[w, row + 1], weight)
-            if push * h >= speed:
-                touch.mode = STOPPING
-                push = speed / h
-            asked = -push * along
-        mu = wp.max(mu, LEAST_FRICTION)
-        given = friction[c]
-        given = vec5(mu, mu * given[1] / given[0], given[2], given[3], given[4])
-        friction[c] = given
-        for j in range(3, dim[c]):
-            mass[w, row + j] = mass[w, row + 1] * given[j - 1] * given[j - 1] / (mu * mu)
-        reference[w, row + 1] = asked[0]
-        reference[w, row + 2] = asked[1]
-        side = partners[geoms[0], geoms[1]]
-        keep(worlds, slots, new, w, geoms, wp.vec2i(row, dim[c]), side, place, axis_1, axis_2, given, v, touch)
+            mu = worlds.mu_s[w]
+            asked = -damping * v - stiffness * touch.drift
+            if touch.mode != STICK:
+                touch.drift = wp.vec2(0.0)
+                mu = cap(speed, 2.0 * limit, worlds.mu_s[w], worlds.mu_k[w], worlds.parameters[w])
+                along = v / wp.max(speed, LEAST_SPEED)
+                pressing = wp.max(touch.normal_force / mass[w, row], reference[w, row])
+                weight = wp.length(gravity[w % gravity.shape[0]])
+                push = deceleration(touch, along, mu, pressing, mass[w, row] / mass[w, row + 1], weight)
+                if push * h >= speed:
+                    touch.mode = STOPPING
+                    push = speed / h
+                asked = -push * along
+            mu = wp.max(mu, LEAST_FRICTION)
+            given = friction[c]
+            given = vec5(mu, mu * given[1] / given[0], given[2], given[3], given[4])
+            friction[c] = given
+            for j in range(3, dim[c]):
+                mass[w, row + j] = mass[w, row + 1] * given[j - 1] * given[j - 1] / (mu * mu)
+            reference[w, row + 1] = asked[0]
+            reference[w, row + 2] = asked[1]
+            side = partners[geoms[0], geoms[1]]
+            keep(worlds, slots, new, w, geoms, wp.vec2i(row, dim[c]), side, place, axis_1, axis_2, given, v, touch)
 
     return steer
 

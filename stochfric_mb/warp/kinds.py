@@ -37,11 +37,12 @@ class ContactFriction(WarpFriction):
         """Launch the kernels of one step; ``Model.callback.passive`` calls it."""
         self.begin(d, self.slots.used)
         contact, efc = d.contact, d.efc
+        threads = d.naconmax if d.time.device.is_cuda else 1  # the CPU goes through them one by one anyway
         wp.launch(
             self._steer,
-            dim=d.naconmax,
+            dim=threads,
             inputs=[
-                d.nacon, contact.geom, contact.worldid, contact.dim, contact.efc_address, contact.frame, contact.pos,
+                threads, d.nacon, contact.geom, contact.worldid, contact.dim, contact.efc_address, contact.frame, contact.pos,
                 contact.solimp, d.geom_xpos, m.opt.timestep, m.opt.gravity, efc.vel, efc.force, self._partners,
                 self.worlds, self.slots,
             ],
