@@ -130,6 +130,8 @@ class Result:
     unnamed: Found | None = None
     """For "unknown": a smooth change of friction that held-out runs bear out, though it has no name; it is in the augmented
     scenario."""
+    slip_forces: Gap | None = None
+    """The same in the forces of single slips, where evidence is found; None where nothing was named, or they cannot show it."""
     power: dict[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Smallest strength of an effect that would have been named, by kind."""
     details: dict[str, Any] = dataclasses.field(default_factory=dict[str, Any])
@@ -137,9 +139,9 @@ class Result:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the content of ``result.json``."""
-        gap = None
-        if self.gap is not None:
-            gap = dataclasses.asdict(self.gap) | {"closed": self.gap.closed}
+        gap, forces = (
+            None if one is None else dataclasses.asdict(one) | {"closed": one.closed} for one in (self.gap, self.slip_forces)
+        )
         return {
             "schema": SCHEMA,
             "verdict": self.verdict,
@@ -148,6 +150,7 @@ class Result:
             "where": dataclasses.asdict(self.where) if self.where is not None else None,
             "ranking": [{"kind": kind, "score": score} for kind, score in self.ranking],
             "gap": gap,
+            "slip_forces": forces,
             "not_identifiable": list(self.not_identifiable),
             "next_experiment": self.next_experiment,
             "believed": {k: dataclasses.asdict(v) for k, v in self.believed.items()},

@@ -13,6 +13,7 @@ from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.explained import unexplained
 from stochfric_mb.discovery.stick_slip.decision.held_out_check import LEAST_REDUCIBLE, compared, without_last
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, Named, decide, of_wander
+from stochfric_mb.discovery.stick_slip.feature_skill import slip_force_gap
 from stochfric_mb.discovery.stick_slip.parameters import found_effect, moved, not_measured, own_parameters
 from stochfric_mb.discovery.stick_slip.records.preconditions import require_usable
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
@@ -76,6 +77,8 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     augmented = kept.fit.model if kept is not None else augmented
     gap = gap_of(believed, recalibrated.model, augmented, runs) if sum(map(len, runs.second)) else None
     gap = None if gap is None else gap.times(size.length)
+    told_something = bool(decision.named) or kept is not None
+    forces = slip_force_gap(believed, recalibrated.model, augmented, runs.slips) if told_something else None
     final = recalibrated if fit is None or decision.verdict != "effect" else fit
     final = final if kept is None else kept.fit
     own, unmeasured = own_parameters(final, augmented, found), not_measured(final)
@@ -84,6 +87,7 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     notes = (
         *_notes(found, decision, gap),
         *([told(term)] if nameless else []),
+        *_seen_in_forces(gap, forces),
         *(f"{name} is {abs(by):.2g} stated standard deviations off from what is stated" for name, by in beyond.items()),
         *([] if given.scenario.uncertainty else [NOT_STATED]),
     )
@@ -93,6 +97,7 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
         where=decision.where,
         ranking=tuple((k, float(s)) for k, s in decision.ranking),
         gap=gap,
+        slip_forces=forces,
         not_identifiable=not_identifiable(found),
         next_experiment=next_experiment(decision, found),
         believed=own,
@@ -237,6 +242,16 @@ def _notes(found: Study, decision: Decision, gap: Gap | None) -> tuple[str, ...]
         for kind, seen in dropped.items()
     ]
     return (*notes, *(gap.notes if gap is not None else ()))
+
+
+def _seen_in_forces(gap: Gap | None, forces: Gap | None) -> tuple[str, ...]:
+    """Return where an effect shows that one-cycle forecasts of the position do not show."""
+    if gap is None or gap.closed is not None or forces is None or forces.closed is None:
+        return ()
+    return (
+        f"forecasts of the position do not show the effect; the forces of held-out slips do: off by "
+        f"{forces.recalibrated:.3g} times their noise without it, {forces.augmented:.3g} with it, {forces.floor:.3g} if the model is true",
+    )
 
 
 def _too_few(dataset: Dataset) -> Outcome:

@@ -1,7 +1,7 @@
 """Freeze what discovery says of the net's data sets, or list what a change moved.
 
 python -m tests.discovery.net --list
-python -m tests.discovery.net --freeze [NAME ...]     # writes tests/discovery/net/frozen/NAME.json
+python -m tests.discovery.net --freeze [NAME ...]     # writes tests/discovery/net/frozen/NAME.json, says what moved
 python -m tests.discovery.net [NAME ...] [--part 1/4] # compares: answers, numbers beyond 1e-9, times beyond a factor of 1.5
 
 A NAME selects all data sets whose names contain it.
@@ -51,6 +51,8 @@ def main() -> None:
         if chosen.freeze:
             if not (chosen.missing and file.exists()):
                 now = said(name)
+                if file.exists():
+                    print("\n  ".join([name, *moved(json.loads(file.read_text()), now)]), flush=True)
                 file.write_text(json.dumps(now, indent=0) + "\n")
                 print(f"{name}: {now['answer'].get('effects') or now['answer']} in {now['seconds']} s", flush=True)
             continue

@@ -7,6 +7,7 @@ the model's effects add to those of plain Coulomb friction, are again features o
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -40,10 +41,10 @@ def left_over(pool: Pool, model: Model, *, anew: bool = False) -> Pool:
     calibrations = list(pool.calibrations)
     for r, slips in enumerate(pool.slips):
         rows = np.flatnonzero(pool.run == r)
-        with_effects = _predicted(slips, model, pool.dwell[rows])
+        with_effects = predicted_features(slips, model, pool.dwell[rows], range(len(rows)))
         forced = slips.record.mechanism.excitation_amplitude != 0.0
         one = rows if forced else rows[:1]
-        without = _predicted(slips, plain, pool.dwell[rows], len(one))
+        without = predicted_features(slips, plain, pool.dwell[rows], range(len(one)))
         features[rows] -= with_effects - without
         if anew:
             features[rows], calibrations[r] = _calibrated_anew(features[rows], slips, model, plain, calibrations[r])
@@ -65,12 +66,12 @@ def _calibrated_anew(
     return features - (with_effects.bias - without.bias), after
 
 
-def _predicted(slips: Slips, model: Model, dwell: Array, count: int | None = None) -> Array:
-    """Return the features of the slips as the model predicts them [N], shape (count, N_FEATURES); nan where none slips."""
+def predicted_features(slips: Slips, model: Model, dwell: Array, which: Sequence[int] | np.ndarray) -> Array:
+    """Return the features of some slips as the model predicts them [N], shape (n, N_FEATURES); nan where none slips."""
     rows: list[Array] = []
     previous = np.r_[np.median(slips.restick_position), slips.restick_position[:-1]]
     belt = slips.record.mechanism.belt_velocity
-    for i in range(len(slips) if count is None else count):
+    for i in which:
         # predicted from the last re-stick alone: the place of this break-away is what is to be predicted
         typical = float(np.median(slips.onset_position))
         expected = slips.onset_time[i] + (typical - slips.onset_position[i]) / belt

@@ -1,0 +1,41 @@
+"""The gap in the forces of held-out slips: an effect shows there, and faults of the sensor are left out."""
+
+import numpy as np
+import pytest
+from scipy.integrate import trapezoid
+from scipy.stats import norm
+
+from stochfric_mb.discovery import discover
+from stochfric_mb.discovery.stick_slip.feature_skill import _crps
+from tests.discovery.generator.case import Case
+from tests.discovery.net.rigs import belt_box
+
+SEED = 21
+"""A tuning seed."""
+
+
+def test_the_score_of_a_normal_forecast_is_its_integral():
+    x = np.linspace(-12.0, 12.0, 48_001)
+    for z in (-2.0, 0.0, 0.7, 3.0):
+        assert _crps(np.array(z)) == pytest.approx(trapezoid((norm.cdf(x) - (x >= z)) ** 2, x), abs=3e-4)  # half a step
+
+
+@pytest.mark.parametrize(
+    ("form", "design", "strength"),
+    [("velocity_weakening.rational", "one_free", 1.0), ("viscous_friction.proportional", "normal_loads", 0.5)],
+)
+def test_an_effect_shows_in_the_forces_of_held_out_slips(form, design, strength):
+    gap = discover(belt_box(Case(form, design, strength, SEED))).result.slip_forces
+    assert gap is not None
+    assert gap.recalibrated > 3.0 * gap.floor  # what position forecasts miss by a fifth
+    assert gap.closed is not None
+    assert gap.closed > 0.85  # what a named effect must close in nine of ten cases
+    # a true model scores 1/sqrt(pi) of the noise
+    assert gap.floor == pytest.approx(1.0 / np.sqrt(np.pi), rel=0.02)
+
+
+def test_faults_of_the_sensor_are_not_judged_by_forces():
+    result = discover(belt_box(Case("sensor_outliers.spikes", "one_free", 1.0, SEED))).result
+    assert [e.kind for e in result.effects] == ["sensor_outliers"]
+    assert result.slip_forces is None
+    assert result.to_dict()["slip_forces"] is None
