@@ -10,6 +10,7 @@ import pytest
 from stochfric_mb import reference
 from stochfric_mb.effects import make_effect
 from stochfric_mb.export.exported import exported_scenario
+from stochfric_mb.scenario import load_scenario
 
 from .fmus import Driven, built, table_1, table_1_fmu
 
@@ -149,3 +150,21 @@ def test_a_box_and_a_friction_element_as_two_fmus_are_of_first_order():
     # one step of delay in the force is an error of first order; where the switches fall within the steps scatters it
     assert 0.8 < slope < 1.3, (slope, errors)
     assert errors[-1] < 2.0e-5
+
+
+@pytest.mark.parametrize(
+    ("name", "tolerance"),
+    # at 18.7 rad/s the box lingers at an unstable balance at 2.5 s, which multiplies a difference of 1 nm by more than 10^4
+    [("kang2015_table2_13_8", 1.0e-6), ("kang2015_table2_18_7", 1.0e-5)],
+)
+@pytest.mark.parametrize("kind", ["ModelExchange", "CoSimulation"])
+def test_the_excited_box(name, tolerance, kind):
+    """A contact that rides on its limit while the coefficient falls must not announce one switch after the other."""
+    scenario = load_scenario(name)
+    run = reference.simulate(scenario, seed=1)
+    result = fmpy.simulate_fmu(
+        str(built(exported_scenario(scenario), 2, True)), fmi_type=kind, stop_time=DURATION, output_interval=1.0e-3,
+        relative_tolerance=1.0e-9, start_values={"seed": 1}, output=["position"], record_events=False,
+    )  # fmt: skip
+    samples = np.round(result["time"] / 1.0e-3).astype(int)
+    assert np.max(np.abs(result["position"] - run.position[samples])) <= tolerance

@@ -56,15 +56,17 @@ static int rates_at(const model *m, double external, double t, const double *y, 
 /* Commit an accepted step: the law's state, and the velocity of a box that has come to rest on the belt. */
 static int settle(model *m, double external, double t, double *y) {
     const stochfric_contact at = contact_at(m, external, t, y);
-    const double before = m->state.state[0];
-    const int status = stochfric_commit(&m->friction, &m->state, &at, &m->state);
+    const double mode = m->state.state[0];
+    double before[INDICATORS];
+    int status = measure(&m->friction, &m->state, &at, &m->watched, before);
+    if (!status) status = stochfric_commit(&m->friction, &m->state, &at, &m->state);
     if (status) return status;
 #ifdef WITH_FLOW
     m->state.state[BRISTLE] = y[2];
 #endif
     if (pinned(m)) y[1] = m->friction.mechanism[BOX_BELT_VELOCITY];
     const stochfric_contact then = contact_at(m, external, t, y);
-    return arm(&m->friction, &m->state, &then, IS_MODED && m->state.state[0] != before, &m->watched);
+    return arm(&m->friction, &m->state, &then, before, IS_MODED && m->state.state[0] != mode, &m->watched);
 }
 
 /* The classical Runge-Kutta step of size h. */
@@ -137,10 +139,13 @@ static int model_start(model *m, double *values) {
     const stochfric_contact at = contact_at(m, external, values[VR_TIME], y);
     const int status = stochfric_init(&m->friction, &at, &m->state);
     if (status) return status;
+#ifdef WITH_FLOW
+    y[2] = m->state.state[BRISTLE];
+#endif
     if (pinned(m)) y[1] = box[BOX_BELT_VELOCITY];
     pack(y, values);
     const stochfric_contact then = contact_at(m, external, values[VR_TIME], y);
-    return arm(&m->friction, &m->state, &then, 1, &m->watched);
+    return arm(&m->friction, &m->state, &then, 0, 1, &m->watched);
 }
 
 static int model_outputs(const model *m, double *values) {

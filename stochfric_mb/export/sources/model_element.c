@@ -42,7 +42,7 @@ static int model_parameters(model *m, const double *values) {
 static int model_start(model *m, double *values) {
     const stochfric_contact at = contact_now(values);
     const int status = stochfric_init(&m->friction, &at, &m->state);
-    return status ? status : arm(&m->friction, &m->state, &at, 1, &m->watched);
+    return status ? status : arm(&m->friction, &m->state, &at, 0, 1, &m->watched);
 }
 
 static int model_outputs(const model *m, double *values) {
@@ -70,10 +70,12 @@ static int model_step(model *m, double *values, double time, double h) {
 
 static int model_accept(model *m, double *values, int *switched) {
     const stochfric_contact at = contact_now(values);
-    const double before = m->state.state[0], alive = m->state.book[ALIVE];
-    const int status = stochfric_commit(&m->friction, &m->state, &at, &m->state);
-    *switched = (IS_MODED && m->state.state[0] != before) || m->state.book[ALIVE] != alive;
-    return status ? status : arm(&m->friction, &m->state, &at, *switched, &m->watched);
+    const double mode = m->state.state[0], alive = m->state.book[ALIVE];
+    double before[INDICATORS];
+    int status = measure(&m->friction, &m->state, &at, &m->watched, before);
+    if (!status) status = stochfric_commit(&m->friction, &m->state, &at, &m->state);
+    *switched = (IS_MODED && m->state.state[0] != mode) || m->state.book[ALIVE] != alive;
+    return status ? status : arm(&m->friction, &m->state, &at, before, *switched, &m->watched);
 }
 
 static int model_indicators(const model *m, const double *values, double *indicators) {

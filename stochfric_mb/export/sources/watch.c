@@ -14,15 +14,18 @@ static int measure(const stochfric_friction *friction, const stochfric_state *st
     return stochfric_guards(friction, state, at, guards);
 }
 
-/* Look at the guards after a commit: those that are positive announce the next switch. */
-static int arm(const stochfric_friction *friction, const stochfric_state *state, const stochfric_contact *at, int switched, watch *w) {
+/* Look at the guards after a commit: those that are positive announce the next switch. One that was negative before the
+   commit, `before`, and has not led to another mode is left alone until the next commit: the contact rides on it (a clipped
+   deflection under a falling coefficient), and it would announce one switch after the other without end. */
+static int arm(const stochfric_friction *friction, const stochfric_state *state, const stochfric_contact *at, const double *before,
+               int switched, watch *w) {
     double guards[INDICATORS];
     const double speed = hypot(at->velocity[0], at->velocity[1]);
     for (int i = 0; i < 2; i++) w->direction[i] = speed > 0.0 ? at->velocity[i] / speed : 0.0;
     const int status = measure(friction, state, at, w, guards);
     for (int i = 0; i < INDICATORS && !status; i++) {
-        if (switched || guards[i] < 0.0) w->armed[i] = 0.0;
-        w->armed[i] = fmax(w->armed[i], guards[i]);
+        if (switched || before[i] < 0.0) w->armed[i] = 0.0;
+        if (switched || before[i] >= 0.0) w->armed[i] = fmax(w->armed[i], guards[i]);
     }
     return status;
 }
