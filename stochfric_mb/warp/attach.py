@@ -14,7 +14,7 @@ from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import Joint, Tendon
-from stochfric_mb.warp.cap import require_runnable
+from stochfric_mb.warp.cap import require_along_time, require_runnable
 from stochfric_mb.warp.checks import check_contacts, check_options, partners_of, row_of
 from stochfric_mb.warp.kinds import ContactFriction, JointFriction
 
@@ -60,6 +60,7 @@ def add_friction(
     """
     known = as_friction(friction)
     require_runnable(known.law)
+    require_along_time(known.process)
     check_options(model, m, d)
     for sample in (first_sample, first_sample + d.nworld - 1):
         known.path(seed, sample, contact)  # refuses what is out of range

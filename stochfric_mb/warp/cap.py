@@ -10,6 +10,7 @@ import warp as wp
 from stochfric_mb.coefficients.distributions import transform
 from stochfric_mb.coefficients.path import evaluate, independent_pair
 from stochfric_mb.coefficients.philox import normals
+from stochfric_mb.coefficients.processes import TIME, Process
 from stochfric_mb.errors import InputError
 from stochfric_mb.laws import Law, law_class
 from stochfric_mb.warp.translate import ARRAY, INT, REAL, Made, Numbers, Translator
@@ -40,6 +41,19 @@ def require_runnable(law: Law) -> None:
         raise InputError(
             f"law {law.kind} has no true stick: near rest its force is a function of velocity, which Warp's constraint solver "
             f"cannot carry; use stribeck or elastic_stick here, or {law.kind} with stochfric_mb.mujoco.add_friction"
+        )
+
+
+def require_along_time(process: Process | None) -> None:
+    """Return if coefficients run along time.
+
+    Raises:
+        InputError: they run along the path or the stick phases of each contact, which a world does not keep.
+    """
+    if process is not None and process.clock != TIME:
+        raise InputError(
+            f"process {process.kind} runs along each contact's own path or stick phases, but a world of MuJoCo Warp has one "
+            "path along time; use knots, ornstein_uhlenbeck or matern here"
         )
 
 

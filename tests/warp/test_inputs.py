@@ -4,6 +4,7 @@ import mujoco
 import pytest
 
 from stochfric_mb import Coulomb, Friction, Knots
+from stochfric_mb.coefficients import PerEvent, Spatial
 from stochfric_mb.errors import InputError
 from stochfric_mb.laws import make_law
 from stochfric_mb.warp import add_friction
@@ -62,6 +63,14 @@ def test_geoms_that_never_touch():
 def test_laws_that_are_no_caps(scene, kind):
     with pytest.raises(InputError, match=rf"law {kind} .* use .*elastic_stick"):
         add_friction(*scene, ("box", "floor"), make_law(kind, mu_s=0.8, mu_k=0.46))
+
+
+@pytest.mark.parametrize(
+    "process", [Spatial(sigma_s=0.01, sigma_k=0.01, spacing=0.01), PerEvent(sigma_s=0.01, sigma_k=0.01)], ids=lambda p: p.kind
+)
+def test_coefficients_that_do_not_run_along_time(scene, process):
+    with pytest.raises(InputError, match=f"process {process.kind} .* use knots"):
+        add_friction(*scene, ("box", "floor"), Friction(LAW, process))
 
 
 def test_addresses_and_slots(scene):
