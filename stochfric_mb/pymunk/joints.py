@@ -162,7 +162,7 @@ class PinFriction(JointFriction):
 
 
 class SurfaceFriction(JointFriction):
-    """Friction of a body on a surface seen from above: a pivot without bias that gives way at the cap, a force while it slides."""
+    """Friction of a body on a surface seen from above: a pivot that gives way at the cap, a force while it slides."""
 
     def __init__(
         self,
