@@ -250,7 +250,8 @@ def _seen_in_forces(gap: Gap | None, forces: Gap | None) -> tuple[str, ...]:
         return ()
     return (
         f"forecasts of the position do not show the effect; the forces of held-out slips do: off by "
-        f"{forces.recalibrated:.3g} times their noise without it, {forces.augmented:.3g} with it, {forces.floor:.3g} if the model is true",
+        f"{forces.recalibrated:.3g} times their noise without it, {forces.augmented:.3g} with it, "
+        f"{forces.floor:.3g} if the model is true",
     )
 
 

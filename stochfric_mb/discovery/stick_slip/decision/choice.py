@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -88,11 +88,7 @@ def choose(
         before: the simulated model so far.
         details: gets the numbers of the confirmation.
     """
-    n_terms = terms.columns.shape[2]
-    several = len(cases) > 1 and not cases[0].record.mechanism.excitation_amplitude
-    # an effect of another package says what it marks, not how slips differ: simulating it decides
-    own = tuple(c.name for c in candidates if c.is_effect and not effect_class(c.name).__module__.startswith("stochfric_mb."))
-    family = kinds_with(SHAPES_SLIPS) + (kinds_with(BETWEEN_POINTS) if several else ()) + own
+    family, shape = _family(candidates, cases)
 
     def shapes(candidate: Candidate) -> bool:
         """Return whether it is of the family, or a competitor on its axes."""
@@ -100,12 +96,7 @@ def choose(
 
     effects = [c for c in candidates if c.is_effect]
     others = [c for c in candidates if not c.is_effect]
-    shape = max((c.score for c in candidates if shapes(c)), default=-np.inf)
-    if any(c.has(SHAPED_IF_FORCED) and OUTDONE * c.score < shape for c in candidates):
-        # where slips keep step with a known force, a late sensor shapes every slip alike, too
-        family += kinds_with(SHAPED_IF_FORCED)
-        shape = max(shape, *(c.score for c in candidates if c.has(SHAPED_IF_FORCED)))
-    rest = max((c.score for c in candidates if not shapes(c)), default=-np.inf)
+    rest = _best_score(c for c in candidates if not shapes(c))
     if before is not None and shape >= NAME and shape >= rest:
         # refuted once, shapes stay refuted: the slips that simulated ones are compared with are the same
         if REFUTED not in details:
@@ -116,6 +107,35 @@ def choose(
         # simulation does not bear the shape out: what remains are effects that change from slip to slip
         effects = [c for c in effects if not shapes(c) and c.score > WORTH_SIMULATING * shape]
         others = [c for c in others if c.name not in SHAPES]
+    nameless = _nameless(effects, others)
+    if nameless is not None or not effects or effects[0].score < NAME:
+        return nameless
+    best = effects[0]
+    near = best.score - max(CLASS, CLASS_SHARE * best.score)
+    class_ = tuple(dict.fromkeys(c.name for c in effects[1:] if c.score > near and c.name != best.name))
+    return Chosen(best, class_, with_candidate(model, best, study.pool, terms.columns.shape[2]), before, False)
+
+
+def _best_score(candidates: Iterable[Candidate]) -> float:
+    return max((c.score for c in candidates), default=-np.inf)
+
+
+def _family(candidates: Sequence[Candidate], cases: Sequence[Case]) -> tuple[tuple[str, ...], float]:
+    """Return the effects that simulating tells apart here, and the best score of their family and its competitors."""
+    several = len(cases) > 1 and not cases[0].record.mechanism.excitation_amplitude
+    # an effect of another package says what it marks, not how slips differ: simulating it decides
+    own = tuple(c.name for c in candidates if c.is_effect and not effect_class(c.name).__module__.startswith("stochfric_mb."))
+    family = kinds_with(SHAPES_SLIPS) + (kinds_with(BETWEEN_POINTS) if several else ()) + own
+    shape = _best_score(c for c in candidates if c.name in family + SHAPES or c.any_shape)
+    if any(c.has(SHAPED_IF_FORCED) and OUTDONE * c.score < shape for c in candidates):
+        # where slips keep step with a known force, a late sensor shapes every slip alike, too
+        family += kinds_with(SHAPED_IF_FORCED)
+        shape = max(shape, *(c.score for c in candidates if c.has(SHAPED_IF_FORCED)))
+    return family, shape
+
+
+def _nameless(effects: Sequence[Candidate], others: Sequence[Candidate]) -> Where | None:
+    """Return where the unknown lives, if a competitor that names no physics beats the best effect; None if none does."""
     best = effects[0] if effects else None
     other = others[0] if others else None
     if other is not None and other.score >= NAME and (best is None or best.score < OUTDONE * other.score):
@@ -127,12 +147,9 @@ def choose(
         return Where(softer.axis, "the spring, not the friction, drifts in the course of a run")
     parity = next((c for c in others if c.name == "parity"), None)
     if parity is not None and best.is_wave and parity.score > LOCKED * best.score:
-        return Where(
-            parity.axis, "friction alternates from slip to slip: no ripple that has its own frequency stays in step so"
-        )
-    near = best.score - max(CLASS, CLASS_SHARE * best.score)
-    class_ = tuple(dict.fromkeys(c.name for c in effects[1:] if c.score > near and c.name != best.name))
-    return Chosen(best, class_, with_candidate(model, best, study.pool, n_terms), before, False)
+        text = "friction alternates from slip to slip: no ripple that has its own frequency stays in step so"
+        return Where(parity.axis, text)
+    return None
 
 
 def _by_simulation(
