@@ -25,14 +25,15 @@ def belt_box(dt, nworld):
     return model, *on_device(model, nworld)
 
 
-def test_period_of_table_1(dt):
+def test_period_of_table_1():
+    dt = 1e-3
     model, m, d = belt_box(dt, 64)
     add_friction(model, m, d, ("box", "belt"), Coulomb(0.8, 0.46))
     x, v = [], []
     for _ in range(round(3.6 / dt)):
         mjw.step(m, d)
-        x.append(d.qpos.numpy()[:, 0])
-        v.append(d.qvel.numpy()[:, 0])
+        x.append(d.qpos.numpy()[:, 0].copy())
+        v.append(d.qvel.numpy()[:, 0].copy())
     x, v = np.array(x), np.array(v)
     for world in range(64):
         y = x[round(0.5 / dt) :, world] - 1.5e-3
