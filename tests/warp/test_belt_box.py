@@ -3,6 +3,7 @@
 import mujoco
 import mujoco_warp as mjw
 import numpy as np
+import pytest
 
 from stochfric_mb import Coulomb
 from stochfric_mb.mujoco.belt_box import scene
@@ -42,4 +43,6 @@ def test_period_of_table_1():
         assert len(crossings) == 3
         assert np.abs(np.diff(crossings) / PERIOD - 1.0).max() < 0.01  # the limit at 1e-3 s
     stuck = np.abs(v - 2.5e-3) < 2e-5
-    assert np.abs(v[stuck].mean() - 2.5e-3) < 1e-8
+    # a stuck contact yields as its reference's spring does: as the load grows by k v_b = 9.9 N/s it falls behind the belt by
+    # 9.9 (2 dt)^2 .95 / (4 contacts of 9 m each) = 1.7e-7 m/s; float32 resolves 2e-10
+    assert 2.5e-3 - np.median(v[stuck]) == pytest.approx(1.7e-7, abs=0.3e-7)
