@@ -83,7 +83,10 @@ def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
         tell("timing")  # a slow prescribed motion has no inertia by which it could be late
         first = source.places[0][0]
         found = timing(
-            lambda d, w: source.balances(first, "fit", base + d, w), source.nuisances(first), dataset.fit[0].sample_interval
+            lambda d, w: source.balances(first, "fit", base + d, w),
+            source.nuisances(first),
+            dataset.fit[0].sample_interval,
+            float(np.median([s.window.half_width for s in source.balances(first, "fit", base)])),
         )
         if found is not None and not found.named and found.material:
             found = found.against(_best_friction(source, dataset.scenario))

@@ -61,4 +61,6 @@ def prior_model(scenario: Scenario[Any], place: str, nuisances: Sequence[Nuisanc
     acts_in = getattr(scenario.mechanism, "effects_in", ())
     own = () if acts_in and place not in acts_in else tuple(e for e in scenario.effects if e.group not in BESIDE)
     contact = place in getattr(scenario.mechanism, "pairs", ())
-    return JointModel(scenario.law, own, {n.name: n.value for n in nuisances}, load, contact)
+    mu_k, spread = scenario.law.mu_k, scenario.uncertainty.get("mu_k", 0.0)
+    level = mu_k, spread * mu_k if spread > 0.0 else float("inf")
+    return JointModel(scenario.law, own, {n.name: n.value for n in nuisances}, load, contact, level)

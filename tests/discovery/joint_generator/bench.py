@@ -98,7 +98,7 @@ def _slide(design: str, rng: Generator, rate: float, motion: str) -> Bench:
     sensor = Sensor(rng.uniform(1e-5, 6e-5) * reach, rng.uniform(0.005, 0.02) * friction)
     gain = float(rng.choice([1.0, rng.uniform(5.0, 60.0)])) if design == "slide" else 1.0
     return Bench(
-        design, numbers, (friction, 0.0), reach, speed, rate, sensor, motion, False, gain=gain, offset_sd=0.1 * friction
+        design, numbers, (friction, 0.0), reach, speed, rate, sensor, motion, False, gain=gain, offset_sd=0.03 * friction
     )
 
 
@@ -115,7 +115,7 @@ def _hinge(design: str, rng: Generator, rate: float, motion: str) -> Bench:
         "mass": mass, "length": length, "rotor_part": rotor,
     }  # fmt: skip
     sensor = Sensor(rng.uniform(1e-5, 1e-4) * reach, rng.uniform(0.005, 0.02) * friction)
-    return Bench(design, numbers, (friction, 0.0), reach, speed, rate, sensor, motion, False, offset_sd=0.1 * friction)
+    return Bench(design, numbers, (friction, 0.0), reach, speed, rate, sensor, motion, False, offset_sd=0.03 * friction)
 
 
 def _arm(design: str, rng: Generator, rate: float, motion: str) -> Bench:
@@ -131,7 +131,7 @@ def _arm(design: str, rng: Generator, rate: float, motion: str) -> Bench:
     sensor = Sensor(rng.uniform(1e-5, 5e-5), rng.uniform(0.005, 0.02) * friction[place])
     return Bench(
         design, numbers, friction, reach, reach * rng.uniform(2.5, 4.5), rate, sensor, motion, False,
-        place=place, offset_sd=0.1 * friction[place],
+        place=place, offset_sd=0.03 * friction[place],
     )  # fmt: skip
 
 

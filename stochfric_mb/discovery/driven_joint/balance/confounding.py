@@ -109,4 +109,4 @@ def stand_ins(kind: str, pairs: Sequence[Confounded]) -> tuple[str, ...]:
 
 def by_clock(kind: str) -> bool:
     """Return whether an effect answers to one of the `CLOCKS`."""
-    return effect_class(kind).answers_to in CLOCKS
+    return kind in effect_kinds() and effect_class(kind).answers_to in CLOCKS

@@ -76,6 +76,8 @@ class ForceBalance:
     """Distance slid in the pieces of the same record that come before this one [m or rad]."""
     temperature: Array | None = None
     """Measured temperature [degC], shape (count,); None: none was."""
+    load_by_drive: Array | None = None
+    """Change of ``load`` with the driving force, -1 or 1, shape (count,); None: the load is known without it."""
     normal_force: Array | None = None
     """Normal force of a contact [N], shape (count,), >= 0; None: the believed load, which stays."""
 

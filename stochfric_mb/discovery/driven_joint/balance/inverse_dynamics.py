@@ -138,7 +138,7 @@ def balance_of(
     values = {name: float(getattr(joint, name, 1.0)) for name in terms}
     noise = _noise(terms, values, q)
     window = (
-        chosen_window(h, len(q), noise, believed_friction(scenario, joint.normal_force))
+        chosen_window(h, q, noise, believed_friction(scenario, joint.normal_force))
         if samples is None
         else Window(samples * h, h, len(q))
     )
@@ -158,7 +158,7 @@ def balance_of(
     velocity = window.through(q, 1)
     least = least_speed(velocity, window.gain(1) * white_noise(q))
     position = window.through(q)
-    load = transmitted_load(run, joint, window)
+    load, load_by_drive = transmitted_load(run, joint, window)
     before = distance_before(run, runs, motion_velocity)
     return ForceBalance(
         run=run.name,
@@ -178,6 +178,7 @@ def balance_of(
         factors=known_factors(run, window, position, velocity, load, before + distance_slid(velocity, window)),
         before=before,
         temperature=temperature_through(run, window),
+        load_by_drive=load_by_drive,
     )
 
 
@@ -198,22 +199,24 @@ def _noise(
     return noise
 
 
-def transmitted_load(run: Run, joint: Joint, window: Window) -> Array:
-    """Return the load that the joint transmits beyond its believed load, shape (count,).
+def transmitted_load(run: Run, joint: Joint, window: Window) -> tuple[Array, Array | None]:
+    """Return the load that the joint transmits beyond its believed load, and its change with the drive, shape (count,) each.
 
-    It is the channel ``normal_force``, or the force of the pressure on the piston, or the size of the driving torque.
+    The load is the channel ``normal_force``, or the force of the pressure on the piston, or the size of the driving torque:
+    then it changes with the drive that it is asked to explain.
     """
     if "normal_force" in run.channels:
-        return np.abs(window.through(run.channels["normal_force"]))
+        return np.abs(window.through(run.channels["normal_force"])), None
     if isinstance(joint, PrismaticJoint):
         if joint.piston_area > 0.0:
-            return joint.piston_area * np.abs(window.through(run.channels["pressure"]))
-        return np.zeros(len(run.time))
+            return joint.piston_area * np.abs(window.through(run.channels["pressure"])), None
+        return np.zeros(len(run.time)), None
     if joint.torque_gain:
-        return np.abs(
-            joint.torque_gain * window.through(run.channels["voltage"]) - joint.damping * window.through(position_of(run), 1)
-        )
-    return np.abs(window.through(run.channels["torque"]))
+        torque = joint.torque_gain * window.through(run.channels["voltage"])
+        torque = torque - joint.damping * window.through(position_of(run), 1)
+    else:
+        torque = window.through(run.channels["torque"])
+    return np.abs(torque), np.sign(torque)
 
 
 def _channel(run: Run, name: str) -> Array:

@@ -25,8 +25,11 @@ LONGEST = 0.05
 """Longest delay that is looked for, either way [s]."""
 GRID = 41
 """Delays on the first grid."""
-HALF_WIDTHS = (16, 32, 64)
-"""Half widths of the windows through which delays are sought [samples]: against noise wide, for quick motion narrow."""
+HALF_WIDTHS = (0.25, 0.5, 1.0)
+"""Half widths of the windows through which delays are sought, over that for friction [-]: against noise wide, for quick motion
+narrow."""
+NARROWEST = 16
+"""Narrowest of them [samples]."""
 LEAST_SAMPLES = 1.5
 """A delay of fewer samples is how signals are sampled and held, and is not called one."""
 NAMED = 14.0
@@ -63,17 +66,20 @@ class Timing:
         better = self.plain_score > NAMED and self.plain_score > friction + AHEAD and self.material
         if self.named or not better:
             return self
-        shift = self.plain_seconds - self.seconds
+        far = 1.96 * self.plain_deviation
+        low, high = self.plain_seconds - far, self.plain_seconds + far
         return dataclasses.replace(
-            self, seconds=self.plain_seconds, low=self.low + shift, high=self.high + shift, score=self.plain_score, named=True
+            self, seconds=self.plain_seconds, low=low, high=high, score=self.plain_score, named=low * high > 0.0
         )
 
+    plain_deviation: float = np.inf
+    """Its standard deviation [s]."""
     material: bool = False
     """Whether the delay beside the believed law takes away enough error and is longer than sampling explains."""
 
 
 def timing(
-    make: Callable[[float, int], Sequence[ForceBalance]], nuisances: Sequence[Nuisance], interval: float
+    make: Callable[[float, int], Sequence[ForceBalance]], nuisances: Sequence[Nuisance], interval: float, half_width: float
 ) -> Timing | None:
     """Return the delay between drive and motion; None if the runs are too short to tell.
 
@@ -81,10 +87,11 @@ def timing(
         make: delay [s] and half width of the window [samples] -> the balances to learn from, that delay compensated.
         nuisances: numbers of the mechanism with their priors; they are free here.
         interval: distance between samples [s].
+        half_width: half width of the windows through which friction is seen [s].
     """
     names = [n.name for n in nuisances]
     best: dict[bool, _Seen] = {}
-    for width in HALF_WIDTHS:
+    for width in sorted({max(round(w * half_width / interval), NARROWEST) for w in HALF_WIDTHS}):
         for generous in (True, False):
             try:
                 seen = _through(lambda d, w=width: make(d, w), names, interval, generous)
@@ -98,7 +105,8 @@ def timing(
     within = confidence_interval(sure.seconds, sure.deviation, "s")
     return Timing(
         sure.seconds, within.low, within.high, sure.score, sure.gain,
-        sure.material and sure.score > NAMED, plain.score, plain.seconds, plain.material,
+        sure.material and sure.score > NAMED and within.low * within.high > 0.0, plain.score, plain.seconds,
+        plain.deviation, plain.material,
     )  # fmt: skip
 
 

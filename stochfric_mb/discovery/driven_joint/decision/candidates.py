@@ -85,13 +85,14 @@ class Competitor:
     signed: bool
     """Whether it turns with the direction of the motion, as friction does."""
 
-    def columns(self, balances: Sequence[ForceBalance]) -> list[Array]:
+    def columns(self, balances: Sequence[ForceBalance], like: Sequence[ForceBalance] | None = None) -> list[Array]:
         """Return its columns at the centres of windows of each balance, shape (n_centres, k); k = 0 for a constant.
 
-        Its range is that of all balances: what is asked is a dependence that they share.
+        Its range is that of all balances, or of those that it shall be ``like``: what is asked is a dependence that they share.
         """
         values = [self.values(s) for s in balances]
-        low, high = min(float(v.min()) for v in values), max(float(v.max()) for v in values)
+        around = values if like is None else [self.values(s) for s in like]
+        low, high = min(float(v.min()) for v in around), max(float(v.max()) for v in around)
         found: list[Array] = []
         for balance, value in zip(balances, values, strict=True):
             rows = _legendre(value, low, high)

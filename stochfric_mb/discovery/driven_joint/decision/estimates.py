@@ -13,6 +13,8 @@ from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Interval
 from stochfric_mb.effects.traits import WAVES
 
+LEAST_WAVE = 1.0e-3
+"""Shortest wavelength that is tried, over the fitted one [-]: there is none of length 0."""
 ROTATIONAL = {
     "N": "N m", "m": "rad", "m/s": "rad/s", "N s/m": "N m s/rad", "N s^2/m^2": "N m s^2/rad^2",
 }  # fmt: skip
@@ -53,9 +55,9 @@ def _profiled(place: PlaceOutcome, owner: int, numbers: dict[str, Interval]) -> 
     fit, found = place.selected.final, dict[str, Interval]()
     for name in ("amplitude", "wavelength"):
         value, unit = numbers[name].value, numbers[name].unit
-        low, high = profile(
-            fit, owner, name, place.fit, place.nuisances, prior_weight(fit), *((0.0, np.inf) if value > 0.0 else (-np.inf, 0.0))
-        )
+        nothing = LEAST_WAVE * value if name == "wavelength" else 0.0
+        ends = (nothing, np.inf) if value > 0.0 else (-np.inf, nothing)
+        low, high = profile(fit, owner, name, place.fit, place.nuisances, prior_weight(fit), *ends)
         found[name] = Interval(value, low, high, unit)
     return found
 

@@ -14,8 +14,9 @@ from stochfric_mb.discovery.driven_joint.decision.candidates import COMPETITORS,
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, strokes
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of, whitened
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_rows, prior_weight
+from stochfric_mb.discovery.driven_joint.fit.free_parameters import MOST_OFF
 from stochfric_mb.discovery.driven_joint.fit.gains import predicted_rms
-from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.fit.joint_model import STEP, JointModel, factor_of
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM
 from stochfric_mb.discovery.inference.paired import Paired
 
@@ -40,6 +41,14 @@ ALIKE = 0.5
 """Least part of an effect's evidence that one must have which could stand in for it."""
 MOST = 4
 """Most effects in one joint: beyond, errors of the first ones would be explained."""
+PARTS = np.linspace(0.0, 1.0, 9)
+"""Parts of the way to a competitor's fit that are tried where it reads the drive that it explains."""
+AT_BOUND = 0.95
+"""Part of the way to the bound of what is believed from which a number is held by it [-]."""
+WIDE = 1.0e3
+"""Factor on the standard deviation of a number that is released: the data alone say what it is."""
+SIZES = ("amplitude", "coefficient", "asymmetry", "rate")
+"""Parameters that are zero where an effect is none."""
 WIN = (15.0, 0.03)
 """A competitor wins by that score, or that part of the best named effect's score, whichever is more."""
 
@@ -77,6 +86,24 @@ class Stage:
 
 
 @dataclasses.dataclass(frozen=True)
+class Released:
+    """A number of the mechanism that data take beyond what is believed of it."""
+
+    name: str
+    """Its name."""
+    believed: float
+    """What was believed."""
+    deviation: float
+    """Standard deviation of that belief."""
+    score: float
+    """Evidence, as of a trial."""
+    before: float
+    """Error with the number within its belief (rms) [N or N m]."""
+    after: float
+    """Error with it where the data take it."""
+
+
+@dataclasses.dataclass(frozen=True)
 class Selected:
     """What was found at one joint."""
 
@@ -92,6 +119,8 @@ class Selected:
     """The steps."""
     unknown: str
     """Axis of what is missing without a name; empty: nothing is."""
+    released: tuple[Released, ...] = ()
+    """Numbers of the mechanism that are off by more than they are believed to be."""
 
 
 class Selector:
@@ -119,9 +148,15 @@ class Selector:
         current = self.recalibrated
         found: list[Trial] = []
         stages: list[Stage] = []
+        released: list[Released] = []
         while len(found) < MOST:
             self._tell(f"effect {len(found) + 1}")
             stage = self._stage(current)
+            freed = self._released(current, stage)
+            if freed is not None:
+                number, current = freed
+                released.append(number)
+                continue
             stages.append(stage)
             if not stage.accepted:
                 break
@@ -129,12 +164,46 @@ class Selector:
             current = stage.trials[0].fit
             self._noise = prior_weight(current)
             current, found = self._re_examined(current, found)
-        final = self._fit(current.model)
+        final, found = self._without_zero(self._fit(current.model), found)
         unknown = self._unknown(stages[-1]) if not stages[-1].accepted else ""
         return Selected(
             self.recalibrated, final, tuple(found), tuple(self._equivalents(final, i) for i in range(len(found))),
-            tuple(stages), unknown,
+            tuple(stages), unknown, tuple(released),
         )  # fmt: skip
+
+    def _released(self, current: JointFit, stage: Stage) -> tuple[Released, JointFit] | None:
+        """Return the number of the mechanism that is off by more than is believed, if that explains more than any effect.
+
+        It is a finding of its own, a payload for instance: within its belief it would hide behind what it cannot explain.
+        """
+        best: tuple[Released, JointFit, list[Nuisance]] | None = None
+        for i, number in enumerate(self._nuisances):
+            if abs(current.model.nuisances[number.name] - number.value) < AT_BOUND * MOST_OFF * number.deviation:
+                continue
+            wide = [*self._nuisances]
+            wide[i] = dataclasses.replace(number, deviation=WIDE * number.deviation)
+            freed = fit(current.model, self._balances, wide, noise=self._noise)
+            n = max(freed.independent, 4.0)
+            score = self._evidence(current, freed, freed, n) - np.log(n) - 2.0 * np.log(len(self._nuisances))
+            seen = Released(number.name, number.value, number.deviation, float(score), current.rms, freed.rms)
+            if best is None or seen.score > best[0].score:
+                best = seen, freed, wide
+        if best is None or best[0].score < max(NAMED, stage.trials[0].score):
+            return None
+        self._nuisances = best[2]
+        self._noise = prior_weight(best[1])
+        return best[0], self._fit(best[1].model)
+
+    def _without_zero(self, final: JointFit, found: list[Trial]) -> tuple[JointFit, list[Trial]]:
+        """Drop effects whose size may be zero beside those found after them: nothing is said by them."""
+        while True:
+            first = len(final.model.effects) - len(found)
+            empty = next((i for i in range(len(found)) if _may_be_zero(final, first + i)), None)
+            if empty is None:
+                return final, found
+            effects = tuple(e for i, e in enumerate(final.model.effects) if i != first + empty)
+            final = self._fit(dataclasses.replace(final.model, effects=effects))
+            found = [t for i, t in enumerate(found) if i != empty]
 
     def first(self) -> Stage:
         """Return the first step alone."""
@@ -185,12 +254,12 @@ class Selector:
         return Trial(candidate, fitted, float(score), min(1.0, chance * grid))
 
     def _evidence(self, plain: JointFit, richer: JointFit, best: JointFit, n: float) -> float:
-        """Return 2 delta log L of two fits, settings scattering as they do about the best fit there is."""
+        """Return 2 delta log L of two fits, beliefs included, settings scattering as they do about the best fit there is."""
         ratio = scatter(np.concatenate(best.remainders), self._settings, n).ratio
         before, after = (
             scatter(np.concatenate(f.remainders), self._settings, n, ratios=np.array([ratio])) for f in (plain, richer)
         )
-        return before.deviance - after.deviance
+        return before.deviance + plain.strain - after.deviance - richer.strain
 
     def _competitors(self, current: JointFit, best: JointFit) -> list[tuple[str, float]]:
         n = max(best.independent, 4.0)
@@ -207,18 +276,37 @@ class Selector:
                 continue
             design = np.column_stack([current.jacobian[:, kept], columns])
             below = np.column_stack([prior[:, kept], np.zeros((len(prior), width))])
-            after = min(self._deviance_without(rest, offsets, design, below, n, ratio) for ratio in {0.0, before.ratio})
+            slopes = self._by_drive(rival)
+            after = min(self._deviance_without(rest, offsets, design, below, n, ratio, slopes) for ratio in {0.0, before.ratio})
             score = before.deviance - after - width * np.log(n)
             found.append((rival.axis, float(score)))
         return sorted(found, key=lambda r: -r[1])
 
-    def _deviance_without(self, rest: Array, offsets: Array, design: Array, below: Array, n: float, ratio: float) -> float:
-        """Return the deviance of what ``design`` leaves, fitted for one ratio of the variances; ``below`` are the priors."""
+    def _deviance_without(
+        self, rest: Array, offsets: Array, design: Array, below: Array, n: float, ratio: float, slopes: Array
+    ) -> float:
+        """Return the deviance of what ``design`` leaves, fitted for one ratio of the variances; ``below`` are the priors.
+
+        ``slopes`` is the change of its last columns with the drive: where they have any, the best part of the way to that
+        fit is taken, the drive being explained by motion only.
+        """
         both = np.vstack([whitened(design, self._settings, n, ratio), below])
         scale = np.maximum(np.linalg.norm(both, axis=0), 1.0e-300)
         goal = np.r_[whitened(rest[:, None], self._settings, n, ratio)[:, 0], offsets]
         fitted = np.linalg.lstsq(both / scale, goal, rcond=1.0e-10)[0]
-        return scatter(rest - design / scale @ fitted, self._settings, n).deviance
+        b = fitted / scale
+        if not slopes.any():
+            return scatter(rest - design @ b, self._settings, n).deviance
+        left = [explained(rest, design, part * b, slopes) for part in PARTS]
+        return min(scatter(r, self._settings, n).deviance for r in left)
+
+    def _by_drive(self, rival: Competitor) -> Array:
+        """Return the change of a competitor's columns with the drive, shape (n_windows, k)."""
+        at = self._balances
+        step = STEP * max(float(np.mean(np.concatenate([s.load for s in at]))), 1.0e-300)
+        moved = [s if s.load_by_drive is None else dataclasses.replace(s, load=s.load + step * s.load_by_drive) for s in at]
+        change = zip(rival.columns(moved, at), rival.columns(at), at, strict=True)
+        return np.concatenate([((there - here) / step)[s.sliding] for there, here, s in change])
 
     def _re_examined(self, current: JointFit, found: list[Trial]) -> tuple[JointFit, list[Trial]]:
         """Drop effects that later ones have made superfluous."""
@@ -269,6 +357,7 @@ class Selector:
         """Return by what part a competitor lowers the error on blocks left out."""
         inside = [s.sliding for s in self._balances]
         x = np.concatenate([c[m] for c, m in zip(rival.columns(self._balances), inside, strict=True)])
+        slopes = self._by_drive(rival)
         prior, offsets = prior_rows(current, self._noise)
         known = np.vstack([current.jacobian, prior])[:, adjustable(current)]
         x = np.column_stack([known, _padded(x, len(prior))])
@@ -279,9 +368,28 @@ class Selector:
             for design, plain in ((known, True), (x, False)):
                 scale = np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
                 b = np.linalg.lstsq(design[~out] / scale, y[~out], rcond=1.0e-10)[0]
-                error = float(np.sum((y[out] - design[out] / scale @ b) ** 2))
+                left = y[out] - design[out] / scale @ b
+                if not plain and slopes.any():
+                    inner = out[: len(slopes)]
+                    left = explained(y[out], design[out], b / scale, slopes[inner])
+                error = float(np.sum(left**2))
                 before, after = (before + error, after) if plain else (before, after + error)
         return 1.0 - float(np.sqrt(after / before))
+
+
+def explained(rest: Array, design: Array, b: Array, slopes: Array) -> Array:
+    """Return what ``design`` times ``b`` leaves of the drive, whose last columns change with the drive by ``slopes``."""
+    by_drive = 1.0 - slopes @ b[len(b) - slopes.shape[1] :]
+    return (rest - design @ b) / factor_of(by_drive)
+
+
+def _may_be_zero(fitted: JointFit, owner: int) -> bool:
+    """Return whether the 95 % interval of an effect's size holds zero; that of a wave is asked for otherwise."""
+    effect = fitted.model.effects[owner]
+    if hasattr(effect, "wavelength"):
+        return False
+    sizes = [(abs(getattr(effect, name)), fitted.deviation(owner, name)) for name in SIZES if hasattr(effect, name)]
+    return any(np.isfinite(deviation) and size < 1.96 * deviation for size, deviation in sizes)
 
 
 def adjustable(fitted: JointFit) -> list[int]:

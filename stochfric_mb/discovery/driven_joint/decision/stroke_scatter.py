@@ -19,7 +19,6 @@ from scipy.stats import chi2
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.fitting import PER_STROKE
-from stochfric_mb.discovery.driven_joint.fit.friction_along import friction_along
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 
 Array = npt.NDArray[np.float64]
@@ -177,12 +176,12 @@ def _correlation(pairs: Sequence[tuple[float, float]]) -> float:
 
 
 def dependence(model: JointModel, balance: ForceBalance) -> Array:
-    """Return the change of friction with mu_k at the centres [N or N m], shape (n_centres,)."""
+    """Return the change of the drive that the motion needs with mu_k at the centres [N or N m], shape (n_centres,)."""
     law = dataclasses.replace(
         model.law, mu_k=model.law.mu_k * (1.0 + STEP), mu_s=max(model.law.mu_s, model.law.mu_k * (1.0 + STEP))
     )
-    moved = friction_along(balance, law, model.effects, model.load)
-    return (moved - friction_along(balance, model.law, model.effects, model.load)) / (STEP * model.law.mu_k)
+    moved = dataclasses.replace(model, law=law)
+    return (model.remainder(balance, ()) - moved.remainder(balance, ())) / (STEP * model.law.mu_k)
 
 
 def _means(delta: Array, variance: Array, groups: npt.NDArray[np.int64]) -> tuple[Array, Array]:

@@ -55,6 +55,11 @@ class JointFit:
         """Number of independent windows: from the autocorrelation of what is left, `PER_STROKE` a stroke at most."""
         return min(sum(independent_count(r) for r in self.remainders), float(PER_STROKE * self.strokes))
 
+    @property
+    def strain(self) -> float:
+        """Return the sum of squares of what was moved against beliefs, in their standard deviations [-]."""
+        return float(np.sum(np.square(steps_of(self.free).surprise(self.values))))
+
     def deviation(self, owner: int, name: str) -> float:
         """Return the standard deviation of a fitted number; nan if it was not fitted."""
         for i, one in enumerate(self.free):

@@ -18,6 +18,9 @@ Array = npt.NDArray[np.float64]
 
 LEAST_PRELOAD = 0.01
 """Smallest reference load of a load-dependent joint, over its believed load [-]."""
+MOST_OFF = 4.0
+"""Standard deviations by which data may move what is believed of the mechanism [-]; 6e-5 of all beliefs are off by more. What
+is off by more is a finding, or no number of the mechanism at all."""
 INSIDE = 1.0e-6
 """Distance kept from bounds that are themselves forbidden [scales]."""
 GIVEN = ("static_share", "reference_temperature", "shape_exponent", "adhesion")
@@ -36,18 +39,25 @@ def free_parameters(
     """
     level = max(model.law.mu_k, 1.0e-6)
     coefficients = ("mu_k", "mu_s") if any("mu_s" in e.frees for e in model.effects) else ("mu_k",)
-    free = [FreeParameter(LAW, n, getattr(model.law, n), 0.1 * level, 1.0e-9, 1.0e3) for n in coefficients]
+    belief = {"mu_k": model.level}
+    free = [
+        FreeParameter(LAW, n, getattr(model.law, n), 0.1 * level, 1.0e-9, 1.0e3, "-", *belief.get(n, (0.0, np.inf)))
+        for n in coefficients
+    ]
     for i, effect in enumerate(model.effects):
         for field in dataclasses.fields(effect):
             value = getattr(effect, field.name)
             if (i, field.name) not in fixed and isinstance(value, int | float) and _fitted(model, effect, field.name, value):
                 free.append(_parameter(model, i, field.name, float(value), field.metadata))
-    return free + [
-        FreeParameter(
-            MECHANISM, n.name, model.nuisances.get(n.name, n.value), n.deviation, n.low, np.inf, n.unit, n.value, n.deviation
-        )
-        for n in nuisances
-    ]
+    return free + [_believed(model, n) for n in nuisances]
+
+
+def _believed(model: JointModel, n: Nuisance) -> FreeParameter:
+    """Return a number of the mechanism, which data may move by `MOST_OFF` of its deviations."""
+    low, high = max(n.low, n.value - MOST_OFF * n.deviation), n.value + MOST_OFF * n.deviation
+    return FreeParameter(
+        MECHANISM, n.name, model.nuisances.get(n.name, n.value), n.deviation, low, high, n.unit, n.value, n.deviation
+    )
 
 
 def _fitted(model: JointModel, effect: Effect, name: str, value: float) -> bool:

@@ -59,6 +59,11 @@ def chain(law: Law, effects: Sequence[Effect], load: float, *, contact: bool = F
     return Chain(np.array([law.mu_s, law.mu_k, load, reference]), calls, np.array([*parameters, 0.0]))
 
 
+def reads_load(law: Law, effects: Sequence[Effect], load: float) -> bool:
+    """Return whether friction in a joint depends on the load that the joint transmits."""
+    return bool(chain(law, effects, load).numbers[3] > 0.0)
+
+
 def friction_along(balance: ForceBalance, law: Law, effects: Sequence[Effect], load: float) -> Array:
     """Return the friction against the motion, seen through the windows of a balance [N or N m], shape (n_centres,).
 

@@ -10,7 +10,6 @@ import numpy.typing as npt
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit
 from stochfric_mb.discovery.driven_joint.fit.free_parameters import adjusted, free_parameters
-from stochfric_mb.discovery.driven_joint.fit.friction_along import friction_along
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.inference.free_parameter import LAW, FreeParameter
 from stochfric_mb.effects import Effect
@@ -28,7 +27,7 @@ def effect_columns(model: JointModel, effect: Effect, balances: Sequence[ForceBa
     level = FreeParameter(LAW, "mu_k", model.law.mu_k, 1.0, 0.0, np.inf)
 
     def force(some: JointModel) -> Array:
-        return np.concatenate([friction_along(s, some.law, some.effects, some.load)[s.sliding] for s in balances])
+        return -np.concatenate([some.remainder(s, ())[s.sliding] for s in balances])
 
     here = force(trial)
     columns = [here - force(model)]

@@ -1,4 +1,11 @@
-"""What is believed of a joint in the making: corrections of the mechanism, friction law and effects."""
+"""What is believed of a joint in the making: corrections of the mechanism, friction law and effects.
+
+A drive is explained only by motion. Where friction F depends on the drive tau itself, the balance is r = g tau - F(tau) - needs
+with g the factor by which data have corrected the drive, and the likelihood of the drive given the motion has the Jacobian
+|g - dF/dtau|. With r normal, -2 log L = n ln(sum r^2) - 2 sum ln|g - dF/dtau|: least squares of r over the geometric mean of
+the Jacobian (Box and Cox, J. R. Stat. Soc. B 26, 1964, 211-252, section 3, for the same with transformations). Without it
+"friction in proportion to the drive" leaves nothing of any drive, and neither does a drive of factor 0.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +16,16 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.fit.friction_along import friction_along
+from stochfric_mb.discovery.driven_joint.fit.friction_along import friction_along, reads_load
 from stochfric_mb.effects import Effect
 from stochfric_mb.laws import Law
 
 Array = npt.NDArray[np.float64]
+
+STEP = 1.0e-3
+"""Step of the load by which the change of friction with it is taken, over the mean load [-]."""
+LEAST = 1.0e-6
+"""Least change of the balance with the drive [-]: at 0 the joint locks itself, and no drive moves it."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -30,15 +42,38 @@ class JointModel:
     """Believed load of the joint [N or N m]."""
     contact: bool = False
     """Whether the place is a contact, whose normal force is known along the motion."""
+    level: tuple[float, float] = (0.0, np.inf)
+    """mu_k as believed, and the standard deviation of that belief; inf: nothing is believed [-]."""
 
     def plus(self, *effects: Effect) -> JointModel:
         """Return the model with further effects."""
         return dataclasses.replace(self, effects=(*self.effects, *effects))
 
     def remainder(self, balance: ForceBalance, nuisances: Sequence[Nuisance]) -> Array:
-        """Return what the model leaves of the balance of a balance [N or N m], shape (n_centres,)."""
-        rest = balance.driven - friction_along(balance, self.law, self.effects, self.load)
+        """Return what the model leaves of the drive, in units of the drive [N or N m], shape (n_centres,)."""
+        friction = self.friction(balance)
+        rest = balance.driven - friction
+        by_drive = np.ones(len(rest))
         for n in nuisances:
             if n.name in balance.columns:
                 rest = rest - (self.nuisances[n.name] - n.value) * balance.columns[n.name]
-        return rest
+                if n.name.endswith("gain"):
+                    by_drive = by_drive * self.nuisances[n.name] / n.value
+        if balance.load_by_drive is not None and reads_load(self.law, self.effects, self.load):
+            by_drive = by_drive - self._friction_by_drive(balance, friction)
+        return rest / factor_of(by_drive[balance.sliding])
+
+    def friction(self, balance: ForceBalance) -> Array:
+        """Return the friction against the motion at the centres of windows [N or N m], shape (n_centres,)."""
+        return friction_along(balance, self.law, self.effects, self.load)
+
+    def _friction_by_drive(self, balance: ForceBalance, friction: Array) -> Array:
+        """Return the change of friction with the driving force [-], shape (n_centres,)."""
+        step = STEP * max(float(np.mean(balance.load)), self.load)
+        moved = dataclasses.replace(balance, load=balance.load + step * balance.load_by_drive)
+        return (self.friction(moved) - friction) / step
+
+
+def factor_of(by_drive: Array) -> float:
+    """Return the geometric mean of the change of a balance with the drive [-]."""
+    return float(np.exp(np.mean(np.log(np.maximum(np.abs(by_drive), LEAST))))) if len(by_drive) else 1.0

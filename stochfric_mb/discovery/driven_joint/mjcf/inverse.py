@@ -98,7 +98,9 @@ class MjcfSource(Rig):
         h, count = run.sample_interval, len(run.time)
         friction = self.dataset.scenario.law.mu_k * self.mechanism.friction[place]
         window = (
-            Window(samples * h, h, count) if samples is not None else chosen_window(h, count, self._noise(run, place), friction)
+            Window(samples * h, h, count)
+            if samples is not None
+            else chosen_window(h, self.path(run, place, narrowest(run)).position, self._noise(run, place), friction)
         )
         if len(window.centres) < 8:
             raise InputError(
@@ -172,6 +174,7 @@ class MjcfSource(Rig):
             before=before,
             temperature=temperature_through(run, window),
             normal_force=normal,
+            load_by_drive=path.load_by_drive,
         )
 
     def _normal_force(self, run: Run, place: str, window: Window, left: Array) -> Array:

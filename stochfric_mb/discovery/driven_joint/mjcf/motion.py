@@ -34,6 +34,8 @@ class Path:
     """Velocity in weak form [m/s or rad/s], shape (count,)."""
     load: Array
     """Load that the place transmits [N or N m], shape (count,)."""
+    load_by_drive: Array | None
+    """Change of the load with the driving force, -1 or 1, shape (count,); None: the load is known without it."""
     direction: Array
     """J at the centres, shape (n_centres, n_joints)."""
     weights: Array
@@ -104,7 +106,7 @@ class Rig:
         direction = np.zeros((len(window.centres), len(self.names)))
         direction[:, self.names.index(place)] = 1.0
         velocity = window.through(q, 1)
-        return Path(window.through(q), velocity, self._transmitted(run, place, window, velocity), direction, direction)
+        return Path(window.through(q), velocity, *self._transmitted(run, place, window, velocity), direction, direction)
 
     def _of_tendon(self, run: Run, place: str, window: Window) -> Path:
         joints, rates = self.joints(run, window), self.joints(run, window, 1)
@@ -112,11 +114,12 @@ class Rig:
         velocity = np.sum(all_along * rates, axis=1)
         direction = all_along[window.centres]
         weights = direction / np.sum(direction**2, axis=1, keepdims=True)
-        return Path(position, velocity, self._transmitted(run, place, window, velocity), direction, weights)
+        return Path(position, velocity, *self._transmitted(run, place, window, velocity), direction, weights)
 
-    def _transmitted(self, run: Run, place: str, window: Window, velocity: Array) -> Array:
-        """Return the load that a joint or tendon transmits [N or N m], shape (count,)."""
-        return np.abs(window.through(drive_of(run, self.mechanism, place)) - self.mechanism.damping.get(place, 0.0) * velocity)
+    def _transmitted(self, run: Run, place: str, window: Window, velocity: Array) -> tuple[Array, Array]:
+        """Return the load that a joint or tendon transmits [N or N m], and its change with the drive, shape (count,) each."""
+        drive = window.through(drive_of(run, self.mechanism, place)) - self.mechanism.damping.get(place, 0.0) * velocity
+        return np.abs(drive), np.sign(drive)
 
     def _of_pair(self, run: Run, place: str, window: Window) -> Path:
         pair = self.mechanism.pairs[place]
@@ -132,6 +135,6 @@ class Rig:
         load = np.zeros(len(position))
         if pair.normal_force:
             size = np.maximum(np.sum(direction**2, axis=1, keepdims=True), np.finfo(float).tiny)
-            return Path(position, velocity, load, direction, direction / size, part)
+            return Path(position, velocity, load, None, direction, direction / size, part)
         rows = two_forces(part, direction, place)
-        return Path(position, velocity, load, direction, rows[:, 1], part, rows[:, 0])
+        return Path(position, velocity, load, None, direction, rows[:, 1], part, rows[:, 0])
