@@ -194,11 +194,13 @@ def test_a_belt_box_is_no_joint():
         joint_outcome(dataclasses.replace(pair(coulomb), scenario=scenario(mechanism=box)))
 
 
-def test_noise_sets_the_window():
+def test_noise_sets_the_window_and_not_the_number_of_samples():
     assert chosen_window(H, 4000, {0: 0.01, 2: 0.0}, 1.0).half_width == pytest.approx(8 * H)
-    wide = chosen_window(H, 4000, {0: 0.0, 2: 2.0e-4}, 1.0)
-    assert wide.half_width > 8 * H
-    assert wide.gain(2) * 2.0e-4 <= 0.3
+    wide = chosen_window(H, 4000, {0: 0.0, 2: 2.0e-5}, 1.0)
+    assert wide.gain(2) * 2.0e-5 <= 0.05
+    assert 8 * H < chosen_window(H, 4000, {0: 0.0, 2: 1.0}, 1.0).half_width <= 1.5 * 4.0 / 24.0
+    fine = chosen_window(H / 5.0, 20000, {0: 0.0, 2: 2.0e-5 * np.sqrt(5.0)}, 1.0)  # as much noise a second
+    assert fine.half_width == pytest.approx(wide.half_width, rel=0.45)  # one ratio of the widths that are tried
 
 
 def test_noise_level_of_white_noise_on_a_slow_signal():

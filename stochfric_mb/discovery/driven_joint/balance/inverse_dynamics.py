@@ -138,7 +138,7 @@ def balance_of(
     values = {name: float(getattr(joint, name, 1.0)) for name in terms}
     noise = _noise(terms, values, q)
     window = (
-        chosen_window(h, q, noise, believed_friction(scenario, joint.normal_force))
+        chosen_window(h, len(q), noise, believed_friction(scenario, joint.normal_force))
         if samples is None
         else Window(samples * h, h, len(q))
     )

@@ -25,17 +25,11 @@ WIDER = 2.0**0.5
 QUIET = 0.05
 """Noise of the balance over the believed friction [-] below which no wider window is asked for."""
 LONGER = 1.5
-"""Half widths that noise may ask for at most, over those that suit the motion [-]: chosen."""
+"""Half widths that noise may ask for at most, over those that suit the record [-]: chosen."""
 LOUD = 0.3
-"""The same above which windows grow beyond what the motion would have: nothing could be seen through narrower ones."""
-TURNED = 0.1
-"""Part of the range of a motion by which it goes back where it has turned [-]."""
-FEWEST = 2.0
-"""Strokes that a record is taken to hold at least: one there, and one back."""
-MOST = 4000
-"""Samples by which turns are looked for."""
-STROKE = 12.0
-"""Half widths of the widest window in the time of a stroke: a window tells little of what changes within it."""
+"""The same above which windows grow beyond what the record would have: nothing could be seen through narrower ones."""
+RECORD = 24.0
+"""Half widths of the widest window in a record: chosen, so that a dozen windows share no samples."""
 OVERLAP = 2.0
 """Centres of windows in one half width."""
 
@@ -92,19 +86,19 @@ def narrowest(run: Run) -> Window:
     return Window(NARROWEST * run.sample_interval, run.sample_interval, len(run.time))
 
 
-def chosen_window(interval: float, position: Array, noise: dict[int, float], friction: float) -> Window:
-    """Return the narrowest window through which noise is quiet against friction, as far as the motion allows.
+def chosen_window(interval: float, count: int, noise: dict[int, float], friction: float) -> Window:
+    """Return the narrowest window through which noise is quiet against friction, as far as the record allows.
 
-    It goes by noise and motion and not by samples: of a record with more samples a second, as much noise is averaged out.
+    It goes by noise and not by samples: of a record with more samples a second, as much noise is averaged out.
 
     Args:
         interval: distance between samples [s].
-        position: position along which friction acts [m or rad], shape (count,).
+        count: samples of the run.
         noise: derivative -> noise of what enters the balance with that derivative (coefficients included).
         friction: believed size of the friction [N or N m].
     """
-    count, half = len(position), NARROWEST * interval
-    widest = min(stroke_time(position, interval) / STROKE, count * interval / NARROWEST)
+    half = NARROWEST * interval
+    widest = count * interval / RECORD
     loudest = min(count * interval / NARROWEST, LONGER * widest)
     while True:
         seen = Window(half, interval, count)
@@ -113,23 +107,3 @@ def chosen_window(interval: float, position: Array, noise: dict[int, float], fri
         if noise_left <= QUIET or wider > loudest or (wider > widest and noise_left <= LOUD):
             return seen
         half = wider
-
-
-def stroke_time(position: Array, interval: float) -> float:
-    """Return the median time between turns of a motion [s]; half of the record if it turns less than twice.
-
-    It has turned where it has gone back by `TURNED` of its range.
-    """
-    back = TURNED * float(np.ptp(position))
-    turns: list[int] = []
-    extreme, side = 0, 0.0
-    for i, x in enumerate(position[:: (stride := max(1, len(position) // MOST))].tolist()):
-        at = i * stride
-        if (side >= 0.0 and x > position[extreme]) or (side <= 0.0 and x < position[extreme]):
-            extreme = at
-        elif abs(x - float(position[extreme])) > back:
-            if side != 0.0 or extreme > 0:
-                turns.append(extreme)
-            side = 1.0 if x > position[extreme] else -1.0
-            extreme = at
-    return float(np.median(np.diff(turns))) * interval if len(turns) > 1 else len(position) * interval / FEWEST

@@ -138,6 +138,7 @@ def _released(place: PlaceOutcome) -> list[Found]:
 def _above_floor(place: PlaceOutcome) -> bool:
     """Return whether the final model leaves more than noise explains, on the runs that were learned from."""
     accounted = any(s is not None and s.accounted for s in (place.random, place.runs))
+    accounted = accounted or (place.random is not None and place.random.slow_noise)  # noise, which a note speaks of
     floor = noise_floor(place.selected.final.model, place.fit, place.nuisances)
     rest = np.concatenate(place.selected.final.remainders)
     # runs that differ for no known reason are said in a note: what counts is what is left within them

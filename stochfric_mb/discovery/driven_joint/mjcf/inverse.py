@@ -98,9 +98,7 @@ class MjcfSource(Rig):
         h, count = run.sample_interval, len(run.time)
         friction = self.dataset.scenario.law.mu_k * self.mechanism.friction[place]
         window = (
-            Window(samples * h, h, count)
-            if samples is not None
-            else chosen_window(h, self.path(run, place, narrowest(run)).position, self._noise(run, place), friction)
+            Window(samples * h, h, count) if samples is not None else chosen_window(h, count, self._noise(run, place), friction)
         )
         if len(window.centres) < 8:
             raise InputError(
