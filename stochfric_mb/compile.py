@@ -16,9 +16,11 @@ from __future__ import annotations
 
 import contextlib
 import glob
+import importlib.metadata
 import inspect
 import os
 import tempfile
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -125,9 +127,10 @@ class _SourceCache(FunctionCache):
 
     def __init__(self, function: Callable[..., Any], template: str, parts: str, variant: str) -> None:
         super().__init__(function)
-        stamp = source_stamp(*(file for file in (inspect.getfile(function), template, parts) if file))
+        file = inspect.getfile(function)
+        stamp = source_stamp(*(name for name in (file, template, parts) if name)) + _engine_version(file)
         owner = f"{Path(parts).stem}." if parts else ""
-        self._base, self._short = owner + self._impl.filename_base, stamp[:16]
+        self._base, self._short = owner + self._impl.filename_base, f"{stamp[:14]}{zlib.crc32(stamp.encode()) & 255:02x}"
         self._cache_file = IndexDataCacheFile(self._cache_path, f"{self._base}.{self._short}{variant}", stamp)
         self._tidy, self._stamped = False, bool(parts)
 
@@ -140,6 +143,11 @@ class _SourceCache(FunctionCache):
         if not self._tidy:
             self._tidy = True
             _remove_others(Path(self._cache_path), self._base, self._short)
+
+
+def _engine_version(file: str) -> str:
+    """Return the version of MuJoCo for code of its room, which holds the layout of MuJoCo's structs; "" for other code."""
+    return importlib.metadata.version("mujoco") if "mujoco" in Path(file).parts else ""
 
 
 def _remove_others(folder: Path, base: str, stamp: str) -> None:

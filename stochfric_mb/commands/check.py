@@ -15,7 +15,7 @@ from stochfric_mb.commands.speech import answer, say, spoken
 from stochfric_mb.errors import InputError
 
 if TYPE_CHECKING:
-    from stochfric_mb.mujoco.findings import CheckResult
+    from stochfric_mb.mujoco.check.findings import CheckResult
 
 EXAMPLE = """\b
 Example:
@@ -67,7 +67,7 @@ def check(
         raise MissingEngineError("mujoco is not installed; run: pip install 'stochfric_mb[mujoco]'")
     with display() as shown, claimed(target):
         shown.note("loading mujoco")
-        probe = importlib.import_module("stochfric_mb.mujoco.check").check
+        probe = importlib.import_module("stochfric_mb.mujoco.check.run").check
 
         result: CheckResult = probe(
             model, keyframe=keyframe, settle=settle, duration=duration, law=law, mu_k_ratio=mu_k_ratio, most=most,

@@ -4,6 +4,8 @@ Signatures (all reals are C doubles; ``held``, ``state``, ``p`` and ``out`` are 
 
     force, commit, init, guards: void(t, ux, uy, vx, vy, normal_force, mu_s, mu_k, held, state, p, out)
     flow:                        void(vx, vy, normal_force, zx, zy, mu_s, mu_k, p, out)
+    slide:                       double(speed, mu_s, mu_k, p)
+    spring:                      void(normal_force, effective_mass, mu_s, p, out)
 
 ``held`` points to (effective_mass, hx, hy). So every argument travels in a register (x86-64 has eight for doubles):
 processors wait for arguments that are written to the stack one by one and passed on in pairs.
@@ -36,6 +38,8 @@ _DOUBLE = types.float64
 _POINTER = types.CPointer(types.float64)
 LAW_SIGNATURE = types.void(*[_DOUBLE] * 8, *[_POINTER] * 4)
 FLOW_SIGNATURE = types.void(*[_DOUBLE] * 7, _POINTER, _POINTER)
+SLIDE_SIGNATURE = _DOUBLE(_DOUBLE, _DOUBLE, _DOUBLE, _POINTER)
+SPRING_SIGNATURE = types.void(_DOUBLE, _DOUBLE, _DOUBLE, _POINTER, _POINTER)
 MAX_STATE = 16
 """Most state entries a law may have."""
 
@@ -54,6 +58,10 @@ class NativeLaw:
     """Address of ``guards``."""
     flow: int
     """Address of ``flow``, 0 where the law has none."""
+    slide: int
+    """Address of ``sliding_coefficient``, 0 where the law has none."""
+    spring: int
+    """Address of ``stick_spring``, 0 where the law has none."""
     n_state: int
     """Number of state entries (at least 1)."""
 
@@ -68,7 +76,9 @@ def native_law(kind: str) -> NativeLaw:
         for name, template in {"init": _init, "force": _force, "commit": _commit, "guards": _guards}.items()
     }
     flow = _bind(_flow, module, FLOW_SIGNATURE) if cls.has_flow else 0
-    return NativeLaw(**functions, flow=flow, n_state=max(len(cls.state_names), 1))
+    slide = _bind(_sliding_coefficient, module, SLIDE_SIGNATURE) if cls.rest != "bristle" else 0
+    spring = _bind(_stick_spring, module, SPRING_SIGNATURE) if cls.rest == "elastic" else 0
+    return NativeLaw(**functions, flow=flow, slide=slide, spring=spring, n_state=max(len(cls.state_names), 1))
 
 
 _alive: list[Any] = []
@@ -120,6 +130,14 @@ def _flow(vx, vy, normal_force, zx, zy, mu_s, mu_k, p, out):
     out[0], out[1], out[2], out[3] = flow(vx, vy, normal_force, zx, zy, mu_s, mu_k, p)  # pyright: ignore
 
 
+def _sliding_coefficient(speed, mu_s, mu_k, p):
+    return sliding_coefficient(speed, mu_s, mu_k, p)  # pyright: ignore
+
+
+def _stick_spring(normal_force, effective_mass, mu_s, p, out):
+    out[0], out[1], out[2] = stick_spring(normal_force, effective_mass, mu_s, p)  # pyright: ignore
+
+
 def _function_type(n_doubles: int, n_pointers: int) -> Any:
     double = ir.DoubleType()
     return ir.FunctionType(ir.VoidType(), [double] * n_doubles + [double.as_pointer()] * n_pointers)
@@ -142,6 +160,30 @@ def call_law(typingctx, address, t, ux, uy, vx, vy, normal_force, mu_s, mu_k, ef
         return context.get_dummy_value()
 
     return types.void(types.intp, *[types.float64] * 11, *[types.intp] * 3), generate
+
+
+@intrinsic
+def call_slide(typingctx, address, speed, mu_s, mu_k, p):
+    """Return sliding_coefficient of a law at ``address``; ``p`` is an integer."""
+
+    def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        double = ir.DoubleType()
+        kind = ir.FunctionType(double, [double] * 3 + [double.as_pointer()])
+        return builder.call(builder.inttoptr(args[0], kind.as_pointer()), [*args[1:4], *_pointers(builder, args[4:])])
+
+    return types.float64(types.intp, *[types.float64] * 3, types.intp), generate
+
+
+@intrinsic
+def call_spring(typingctx, address, normal_force, effective_mass, mu_s, p, out):
+    """Call stick_spring of a law at ``address``; pointers are integers."""
+
+    def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        function = builder.inttoptr(args[0], _function_type(3, 2).as_pointer())
+        builder.call(function, [*args[1:4], *_pointers(builder, args[4:])])
+        return context.get_dummy_value()
+
+    return types.void(types.intp, *[types.float64] * 3, *[types.intp] * 2), generate
 
 
 @intrinsic

@@ -21,6 +21,14 @@ used by the reference, by every engine and by Python::
 - ``guards``: numbers that fall from positive to negative where the law switches or has a kink; the event-located
   reference stops there, on the strictly negative side, where ``commit`` switches. Unused entries are 1.
 
+A law whose force in sliding is a cap (`Law.rest` is not "bristle") also has::
+
+    sliding_coefficient(speed, mu_s, mu_k, p) -> mu [-] at a sliding speed >= 0 [m/s]
+
+and one that is elastic at rest::
+
+    stick_spring(normal_force, effective_mass, mu_s, p) -> stiffness [N/m], damping [N s/m], largest deflection [m]
+
 A law whose memory is a differential equation also has::
 
     flow(vx, vy, normal_force, zx, zy, mu_s, mu_k, p) -> (fx, fy, dzx/dt, dzy/dt)
@@ -75,6 +83,9 @@ class Law:
     """Whether ``force`` uses the effective mass."""
     needs_holding_force: ClassVar[bool] = False
     """Whether ``force`` uses the holding force; stuck contacts of such a law have zero relative velocity."""
+    rest: ClassVar[str] = "bristle"
+    """What holds a contact at rest: "rigid" (true stick), "elastic" (a spring), "creep" (nothing: mu rises with speed from
+    0), or "bristle" (a memory of its own, which no cap on the force describes)."""
     has_flow: ClassVar[bool] = False
     """Whether the memory is a differential equation, given by ``flow``."""
     traceable: ClassVar[bool] = True
@@ -111,6 +122,11 @@ class Law:
             effective_mass: mass that the contact feels [kg].
         """
         return math.inf
+
+    @property
+    def peak_speed(self) -> float:
+        """Return the speed [m/s] at which a law that creeps at rest has its largest coefficient; 0 for other laws."""
+        return 0.0
 
     step_limit_formula: ClassVar[str] = "none"
     """The formula behind `step_limit`."""

@@ -27,6 +27,7 @@ class Coulomb(Law):
     """
 
     kind: ClassVar[str] = "coulomb"
+    rest: ClassVar[str] = "rigid"
     equation: ClassVar[str] = "stuck: F = holding force, abs(F) <= mu_s N; sliding: F = mu_k N v/abs(v)"
     source: ClassVar[str] = "Coulomb 1785"
     state_names: ClassVar[tuple[str, ...]] = ("mode", "dx", "dy")
@@ -69,6 +70,12 @@ def commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, h
     if hold > mu_s * normal_force:
         return SLIP, hx / hold, hy / hold
     return STICK, 0.0, 0.0
+
+
+@compiled
+def sliding_coefficient(speed, mu_s, mu_k, p):
+    """Return mu_k [-], at any speed."""
+    return mu_k
 
 
 @compiled

@@ -53,6 +53,7 @@ class ElasticStick(Law):
     """Velocity scale of the fall from mu_s to mu_k [m/s], >= 0 (0: at once); 1/decay_velocity is ln a of eq. 6."""
 
     kind: ClassVar[str] = "elastic_stick"
+    rest: ClassVar[str] = "elastic"
     equation: ClassVar[str] = (
         "stuck: F = k z + c v, abs(F) <= mu_s N, k = mu_s N/e_lim, c = 2 zeta sqrt(k m_eff); "
         "sliding: mu = mu_k + (mu_s - mu_k) exp(-(v - v_s)/decay_velocity)"
@@ -196,6 +197,18 @@ def _restick(ux, uy, vx, vy, normal_force, ex, ey, mu_s, effective_mass, p):
     cap = mu_s * normal_force
     zx, zy = clipped((cap * ex - c * vx) / k, (cap * ey - c * vy) / k, deflection_limit(mu_s, p))
     return STICK, ux - zx, uy - zy, 0.0, 0.0
+
+
+@compiled
+def sliding_coefficient(speed, mu_s, mu_k, p):
+    """Return mu(speed) [-], eq. 6."""
+    return slip_coefficient(speed, mu_s, mu_k, p[4], p[5])
+
+
+@compiled
+def stick_spring(normal_force, effective_mass, mu_s, p):
+    """Return k_stick [N/m], c_stick [N s/m] and the deflection at break-away [m]."""
+    return stick_stiffness(normal_force, p), stick_damping(normal_force, effective_mass, p), deflection_limit(mu_s, p)
 
 
 @compiled

@@ -16,7 +16,7 @@ from stochfric_mb.laws.contract import Law
 from stochfric_mb.laws.plane import along, length
 from stochfric_mb.laws.stateless import commit, init
 
-__all__ = ["Havsin", "coefficient", "commit", "force", "guards", "haversine_step", "init"]
+__all__ = ["Havsin", "coefficient", "commit", "force", "guards", "haversine_step", "init", "sliding_coefficient"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -36,6 +36,7 @@ class Havsin(Law):
     """Velocity above which mu = mu_k [m/s], > v_s."""
 
     kind: ClassVar[str] = "havsin"
+    rest: ClassVar[str] = "creep"
     equation: ClassVar[str] = "mu = HAVSIN(v, 0, 0, v_s, mu_s), then HAVSIN(v, v_s, mu_s, v_d, mu_k); odd in v"
     source: ClassVar[str] = "Kang, Choi and Yoo 2015, eqs. 1-2"
     exceptions: ClassVar[dict[str, str]] = {
@@ -49,6 +50,11 @@ class Havsin(Law):
         require_number("v_d", self.v_d, above=0.0, unit="m/s")
         if self.v_d <= self.v_s:
             raise InputError(f"v_d = {self.v_d:g} m/s must be above v_s = {self.v_s:g} m/s; raise v_d or lower v_s")
+
+    @property
+    def peak_speed(self) -> float:
+        """Return v_s [m/s]."""
+        return self.v_s
 
     def step_limit(self, normal_force: float, effective_mass: float) -> float:
         """Return 4 v_s m_eff/(pi mu_s N) [s]: the steepest slope of the rising branch is pi mu_s/(2 v_s)."""
@@ -78,6 +84,12 @@ def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx
     """Return the friction force [N], mu(abs(v)) N along v."""
     mu = coefficient(length(vx, vy), mu_s, mu_k, p[2], p[3])
     return along(mu * normal_force, vx, vy)
+
+
+@compiled
+def sliding_coefficient(speed, mu_s, mu_k, p):
+    """Return mu(speed) [-]."""
+    return coefficient(speed, mu_s, mu_k, p[2], p[3])
 
 
 @compiled

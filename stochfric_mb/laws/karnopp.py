@@ -34,6 +34,7 @@ class Karnopp(Law):
     """Half width of the zone [m/s], > 0 (Karnopp's DV)."""
 
     kind: ClassVar[str] = "karnopp"
+    rest: ClassVar[str] = "rigid"
     equation: ClassVar[str] = "abs(v) <= v_s: F = holding force, abs(F) <= mu_s N; otherwise F = mu_k N v/abs(v)"
     source: ClassVar[str] = "Karnopp 1985"
     state_names: ClassVar[tuple[str, ...]] = ("mode", "dx", "dy")
@@ -77,6 +78,12 @@ def commit(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, h
     if hold > mu_s * normal_force:
         return ZONE, hx / hold, hy / hold
     return STICK, 0.0, 0.0
+
+
+@compiled
+def sliding_coefficient(speed, mu_s, mu_k, p):
+    """Return the most that friction can be [-]: mu_s within the zone, mu_k outside."""
+    return mu_s if speed <= p[2] else mu_k
 
 
 @compiled

@@ -15,7 +15,7 @@ from stochfric_mb.laws.contract import Law
 from stochfric_mb.laws.plane import along, length
 from stochfric_mb.laws.stateless import commit, init
 
-__all__ = ["PiecewiseLinear", "coefficient", "commit", "force", "guards", "init"]
+__all__ = ["PiecewiseLinear", "coefficient", "commit", "force", "guards", "init", "sliding_coefficient"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -34,6 +34,7 @@ class PiecewiseLinear(Law):
     """Velocity above which mu = mu_k [m/s], > v_s."""
 
     kind: ClassVar[str] = "piecewise_linear"
+    rest: ClassVar[str] = "creep"
     equation: ClassVar[str] = "mu: lines through (0, 0), (v_s, mu_s), (v_d, mu_k), then constant; odd in v"
     source: ClassVar[str] = "Tariku and Rogers 2001"
     exceptions: ClassVar[dict[str, str]] = {
@@ -47,6 +48,11 @@ class PiecewiseLinear(Law):
         require_number("v_d", self.v_d, above=0.0, unit="m/s")
         if self.v_d <= self.v_s:
             raise InputError(f"v_d = {self.v_d:g} m/s must be above v_s = {self.v_s:g} m/s; raise v_d or lower v_s")
+
+    @property
+    def peak_speed(self) -> float:
+        """Return v_s [m/s]."""
+        return self.v_s
 
     def step_limit(self, normal_force: float, effective_mass: float) -> float:
         """Return 2 v_s m_eff/(mu_s N) [s]: the rising branch is a damper of mu_s N/v_s."""
@@ -68,6 +74,12 @@ def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx
     """Return the friction force [N], mu(abs(v)) N along v."""
     mu = coefficient(length(vx, vy), mu_s, mu_k, p[2], p[3])
     return along(mu * normal_force, vx, vy)
+
+
+@compiled
+def sliding_coefficient(speed, mu_s, mu_k, p):
+    """Return mu(speed) [-]."""
+    return coefficient(speed, mu_s, mu_k, p[2], p[3])
 
 
 @compiled

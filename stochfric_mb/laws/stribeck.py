@@ -16,7 +16,7 @@ from stochfric_mb.laws.contract import Law
 from stochfric_mb.laws.coulomb import STICK, commit, guards, init
 from stochfric_mb.laws.plane import clipped, slip_direction
 
-__all__ = ["Stribeck", "commit", "force", "guards", "init", "slip_coefficient"]
+__all__ = ["Stribeck", "commit", "force", "guards", "init", "sliding_coefficient", "slip_coefficient"]
 
 FORMS = ("exponential", "gaussian", "lorentzian")
 
@@ -38,6 +38,7 @@ class Stribeck(Law):
     """Shape of the fall: "exponential", "gaussian" or "lorentzian"."""
 
     kind: ClassVar[str] = "stribeck"
+    rest: ClassVar[str] = "rigid"
     equation: ClassVar[str] = "stuck: as coulomb; sliding: mu = mu_k + (mu_s - mu_k) s(v/stribeck_velocity)"
     source: ClassVar[str] = "Armstrong-Helouvry, Dupont and Canudas de Wit 1994"
     state_names: ClassVar[tuple[str, ...]] = ("mode", "dx", "dy")
@@ -72,3 +73,9 @@ def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx
     speed = max(vx * ex + vy * ey, 0.0)
     f = slip_coefficient(speed, mu_s, mu_k, p[2], p[3]) * normal_force
     return f * ex, f * ey
+
+
+@compiled
+def sliding_coefficient(speed, mu_s, mu_k, p):
+    """Return mu(speed) [-]."""
+    return slip_coefficient(speed, mu_s, mu_k, p[2], p[3])

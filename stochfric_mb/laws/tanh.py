@@ -16,7 +16,7 @@ from stochfric_mb.laws.contract import Law
 from stochfric_mb.laws.plane import along, length
 from stochfric_mb.laws.stateless import commit, init
 
-__all__ = ["Tanh", "commit", "force", "guards", "init"]
+__all__ = ["Tanh", "commit", "force", "guards", "init", "sliding_coefficient"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -33,6 +33,7 @@ class Tanh(Law):
     """Velocity scale [m/s], > 0: mu reaches 76 % of mu_k there."""
 
     kind: ClassVar[str] = "tanh"
+    rest: ClassVar[str] = "creep"
     equation: ClassVar[str] = "mu = mu_k tanh(v/v_s)"
     source: ClassVar[str] = "DADS; Andersson et al. 2007"
     exceptions: ClassVar[dict[str, str]] = {
@@ -44,6 +45,11 @@ class Tanh(Law):
         super().__post_init__()
         require_number("v_s", self.v_s, above=0.0, unit="m/s")
 
+    @property
+    def peak_speed(self) -> float:
+        """Return 20 v_s [m/s]: there mu is mu_k to rounding."""
+        return 20.0 * self.v_s
+
     def step_limit(self, normal_force: float, effective_mass: float) -> float:
         """Return 2 v_s m_eff/(mu_k N) [s]: at rest the law is a damper of mu_k N/v_s."""
         return 2.0 * self.v_s * effective_mass / (self.mu_k * normal_force) if self.mu_k > 0.0 else math.inf
@@ -53,6 +59,12 @@ class Tanh(Law):
 def force(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, hx, hy, p):
     """Return the friction force [N], mu_k tanh(abs(v)/v_s) N along v."""
     return along(mu_k * math.tanh(length(vx, vy) / p[2]) * normal_force, vx, vy)
+
+
+@compiled
+def sliding_coefficient(speed, mu_s, mu_k, p):
+    """Return mu(speed) [-]."""
+    return mu_k * math.tanh(speed / p[2])
 
 
 @compiled

@@ -1,22 +1,27 @@
-"""MuJoCo: friction as an engine plugin, for any pair of geoms of any model.
+"""MuJoCo: friction as an engine plugin, for any pair of geoms, joint or tendon of any model.
 
-Importing this package registers the plugin, so that models that name it can be loaded::
+Importing this package registers the plugins, so that models that name them can be loaded::
 
     spec = mujoco.MjSpec.from_file("scene.xml")
     add_friction(spec, ("box", "belt"), ElasticStick(mu_s=0.8, mu_k=0.46))
     model = spec.compile()
+
+Rooms: ``memory`` (the structs of MuJoCo and ours, for compiled code), ``plugin`` (what MuJoCo calls), ``contact`` and
+``joint`` (the friction itself), ``check`` (what friction a model really has).
 """
 
-from stochfric_mb.mujoco.attach import add_friction, readings
-from stochfric_mb.mujoco.callback import ContactWarning, friction
+from stochfric_mb.mujoco.attach import ConeWarning, add_friction
+from stochfric_mb.mujoco.callback import friction
 from stochfric_mb.mujoco.joints import Joint, Tendon
-from stochfric_mb.mujoco.options import IntegratorWarning
-from stochfric_mb.mujoco.plugin import register
-from stochfric_mb.mujoco.reading import Reading
-from stochfric_mb.mujoco.sensing import add_sensor, register_sensors
+from stochfric_mb.mujoco.pairs import ContactWarning
+from stochfric_mb.mujoco.plugin.options import IntegratorWarning
+from stochfric_mb.mujoco.plugin.pair import register
+from stochfric_mb.mujoco.plugin.sensor import add_sensor, register_sensors
+from stochfric_mb.mujoco.reading import Reading, readings
 from stochfric_mb.mujoco.states import set_friction, state_index, untouched
 
 __all__ = [
+    "ConeWarning",
     "ContactWarning",
     "IntegratorWarning",
     "Joint",

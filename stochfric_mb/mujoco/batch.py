@@ -16,10 +16,10 @@ from mujoco.batch import Batch
 
 from stochfric_mb.effects.combine import any_but_random
 from stochfric_mb.errors import InputError, SimulationError
-from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.attach import friction_instances
 from stochfric_mb.mujoco.belt_box import build, start, trajectory_of
 from stochfric_mb.mujoco.march import COLUMNS
+from stochfric_mb.mujoco.memory.state import slots_of
+from stochfric_mb.mujoco.reading import friction_instances
 from stochfric_mb.scenario import Scenario
 from stochfric_mb.trajectory import Trajectory
 
@@ -109,18 +109,15 @@ def _steps(batch: Batch, foot: int, wave: tuple[float, float], first: int, n: in
     batch.rollout(n, control, record=())
 
 
-def _contacts(state: Array, rows: Array) -> None:
+def _contacts(states: Array, rows: Array) -> None:
     """Write columns 2 .. 6 from the current slots of the contacts."""
-    first = s.DESCRIPTOR + int(state[0, s.N_DESCRIPTOR]) + int(state[0, s.N_SLOTS]) * s.SLOT
     rows[:, 2:] = 0.0
-    for k in range(int(state[:, s.N_CURRENT].max())):
-        slot = state[:, first + k * s.SLOT : first + (k + 1) * s.SLOT]
-        live = k < state[:, s.N_CURRENT]
-        rows[live, 2] += (slot[:, s.FX] * slot[:, s.AXIS_1])[live]
-        rows[live, 2] += (slot[:, s.FY] * slot[:, s.AXIS_2])[live]
-        rows[live, 3] += slot[live, s.NORMAL]
-        if k == 0:
-            rows[live, 4:] = slot[live][:, [s.MU_S, s.MU_K, s.STICK]]
+    for state, row in zip(states, rows, strict=True):
+        for k, slot in enumerate(slots_of(state, committed=False)):
+            row[2] += slot.fx * slot.axis_1[0] + slot.fy * slot.axis_2[0]
+            row[3] += slot.normal
+            if k == 0:
+                row[4:] = slot.mu_s, slot.mu_k, slot.stick
 
 
 def _require_sane(batch: Batch, rows: Array, scenario: Scenario) -> None:

@@ -19,10 +19,12 @@ from stochfric_mb.effects.carry import reported, running_law
 from stochfric_mb.errors import InputError, SimulationError
 from stochfric_mb.friction import Friction
 from stochfric_mb.mechanisms import BeltBox
-from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.attach import add_friction, friction_instances, header
-from stochfric_mb.mujoco.config import friction_of
+from stochfric_mb.mujoco.attach import add_friction
 from stochfric_mb.mujoco.march import COLUMNS, march
+from stochfric_mb.mujoco.memory.engine import plugin_text
+from stochfric_mb.mujoco.memory.state import header_of
+from stochfric_mb.mujoco.plugin.configuration import friction_of
+from stochfric_mb.mujoco.reading import friction_instances, state_of
 from stochfric_mb.scenario import Scenario, scenario_folders
 from stochfric_mb.trajectory import Trajectory
 
@@ -124,7 +126,7 @@ def integrate(model: mujoco.MjModel, scenario: Scenario, *, progress: Callable[[
         raise InputError(f"model.opt.timestep = {model.opt.timestep:g} s does not divide {scenario.output_step:g} s")
     data = start(model, mechanism)
     instance = friction_instances(model)[0]
-    state = header(model, data, instance)
+    state = state_of(model, data, instance)
     rows = np.empty((scenario.n_outputs, COLUMNS))
     began = time.perf_counter()
     for first in range(0, scenario.n_outputs, CHUNK):
@@ -152,7 +154,7 @@ def start(model: mujoco.MjModel, mechanism: BeltBox) -> mujoco.MjData:
     mujoco.mj_resetData(model, data)
     data.qpos[:], data.qvel[:] = state
     data.qpos[z.qposadr[0]] = rest
-    header(model, data, friction_instances(model)[0])[s.ORIGIN] = -mechanism.initial_position
+    header_of(state_of(model, data, friction_instances(model)[0])).origin = -mechanism.initial_position
     return data
 
 
@@ -193,10 +195,10 @@ def _require_sane(data: mujoco.MjData, rows: Array, done: int, scenario: Scenari
 
 def trajectory_of(model: mujoco.MjModel, state: Array, rows: Array, scenario: Scenario, seconds: float) -> Trajectory:
     """Return the rows of `march` and the law instance's own state as a trajectory."""
-    instance = friction_instances(model)[0]
-    law = friction_of(_config(model, instance, "law"), "").law
+    instance, header = friction_instances(model)[0], header_of(state)
+    law = friction_of(plugin_text(model, instance, "law"), "").law
     dt = float(model.opt.timestep)
-    address: dict[str, int] = {"seed": int(state[s.SEED]), "sample": int(state[s.SAMPLE])}
+    address: dict[str, int] = {"seed": int(header.seed), "sample": int(header.sample)}
     _, notes = running_law(scenario.law, scenario.mechanism, scenario.effects, dt, substitute=True, **address)
     n_steps = (scenario.n_outputs - 1) * round(scenario.output_step / dt)
     trajectory = Trajectory(
@@ -210,9 +212,3 @@ def trajectory_of(model: mujoco.MjModel, state: Array, rows: Array, scenario: Sc
         },
     )  # fmt: skip
     return reported(trajectory, scenario.mechanism, scenario.effects, **address)
-
-
-def _config(model: mujoco.MjModel, instance: int, key: str) -> str:
-    from stochfric_mb.mujoco.native import plugin_text
-
-    return plugin_text(model, instance, key)

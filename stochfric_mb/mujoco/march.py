@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from stochfric_mb.compile import compiled
-from stochfric_mb.mujoco import native as n
-from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.contact import slot
-from stochfric_mb.mujoco.kinematics import contact_address, side
+from stochfric_mb.mujoco.contact.kinematics import side
+from stochfric_mb.mujoco.contact.tracking import normal_force, report
+from stochfric_mb.mujoco.memory import engine
+from stochfric_mb.mujoco.memory import state as s
+from stochfric_mb.mujoco.memory import words as w
+from stochfric_mb.mujoco.memory.structs import contact_at, data_at
 
 COLUMNS = 7
 """Position, velocity, friction force along x, normal force, mu_s, mu_k, stick."""
@@ -39,17 +39,17 @@ def march(model, data, state, joint, foot, amplitude, frequency, step, first, la
         per_output: steps between rows.
         rows: shape (n, COLUMNS), filled here; the first row is sampled before any step.
     """
-    control = n.pointer_field(data, n.D_CTRL) + 8 * foot
+    control = data_at(data).ctrl
     number = first
     for i in range(len(rows)):
-        n.store(control, amplitude * math.cos(frequency * (number * step)))
-        n.mj_forward(model, data)
+        w.put(control, foot, amplitude * math.cos(frequency * (number * step)))
+        engine.mj_forward(model, data)
         sample(model, data, state, joint, rows[i])
         if not math.isfinite(rows[i, 0] + rows[i, 1]):
             return i
         for _ in range(min(per_output, last - number)):
-            n.store(control, amplitude * math.cos(frequency * ((number + 0.5) * step)))
-            n.mj_step(model, data)
+            w.put(control, foot, amplitude * math.cos(frequency * ((number + 0.5) * step)))
+            engine.mj_step(model, data)
             number += 1
     return len(rows)
 
@@ -57,20 +57,16 @@ def march(model, data, state, joint, foot, amplitude, frequency, step, first, la
 @compiled
 def sample(model, data, state, joint, row):
     """Fill one row from the data and the friction's slots, both current."""
-    row[0] = n.load(n.pointer_field(data, n.D_QPOS) + 8 * joint)
-    row[1] = n.load(n.pointer_field(data, n.D_QVEL) + 8 * joint)
+    d, header = data_at(data), s.header_record(state)
+    row[0], row[1] = w.at(d.qpos, joint), w.at(d.qvel, joint)
     row[2:] = 0.0
-    for k in range(int(n.load(state + 8 * s.N_CURRENT))):
-        address = slot(state, 1, k)
-        row[2] += n.load(address + 8 * s.FX) * n.load(address + 8 * s.AXIS_1)
-        row[2] += n.load(address + 8 * s.FY) * n.load(address + 8 * s.AXIS_2)
+    block = report(model, data, state)
+    for k in range(int(header.n_current if block == 1 else header.n_committed)):
+        slot = s.slot_at(state, block, k)
+        row[2] += slot.fx * slot.axis_1[0] + slot.fy * slot.axis_2[0]
         if k == 0:
-            row[4] = n.load(address + 8 * s.MU_S)
-            row[5] = n.load(address + 8 * s.MU_K)
-            row[6] = n.load(address + 8 * s.STICK)
-    body, surface = int(n.load(state + 8 * s.GEOM_BODY)), int(n.load(state + 8 * s.GEOM_SURFACE))
-    wrench = np.empty(6)
-    for i in range(n.int_field(data, n.D_NCON)):
-        if side(contact_address(data, i), body, surface) != 0:
-            n.mj_contactForce(model, data, np.int32(i), wrench.ctypes.data)
-            row[3] += wrench[0]
+            row[4], row[5], row[6] = slot.mu_s, slot.mu_k, slot.stick
+    for i in range(d.ncon):
+        contact = contact_at(d, i)
+        if side(contact, int(header.geom_body), int(header.geom_surface)) != 0:
+            row[3] += normal_force(d, contact)

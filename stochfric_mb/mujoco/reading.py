@@ -1,13 +1,28 @@
 """What can be read of a friction while the model runs."""
 
+# pyright: reportAttributeAccessIssue=false
+# (MuJoCo's bindings are not typed)
+
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.mujoco.memory import state as s
+from stochfric_mb.mujoco.plugin.joint import register_joints
+from stochfric_mb.mujoco.plugin.pair import register
+from stochfric_mb.mujoco.plugin.sensor import report
+
+Array = npt.NDArray[np.float64]
 
 
 @dataclasses.dataclass(frozen=True)
 class Reading:
-    """One contact as its friction saw it at the last evaluation at a step's start."""
+    """One contact, joint or tendon, in the step that ended last, or at the last evaluation after it."""
 
     time: float
     """Time [s]."""
@@ -35,3 +50,75 @@ class Reading:
     """How many times the contact has begun to stick since it was made."""
     dissipated: float
     """Energy dissipated since the contact was made [J]."""
+    converged: bool
+    """Whether MuJoCo's solver ended within its limit of iterations in all steps so far."""
+
+
+def readings(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, list[Reading]]:
+    """Return what each friction instance did at its contacts, by instance name.
+
+    After ``mj_step`` these are the forces in the step that has just ended, with position and velocity at its start;
+    after ``mj_forward`` everything belongs to ``data.time``.
+    """
+    return {name_of(model, i): instance_readings(model, data, i) for i in friction_instances(model) + joint_instances(model)}
+
+
+def instance_readings(model: mujoco.MjModel, data: mujoco.MjData, instance: int) -> list[Reading]:
+    """Return what one friction instance did at its contacts."""
+    state = state_of(model, data, instance)
+    block = report(model._address, data._address, instance)
+    return [
+        reading_of(model, state, row, instance in joint_instances(model)) for row in s.slots_of(state, committed=block == 0)
+    ]
+
+
+def friction_instances(model: mujoco.MjModel) -> list[int]:
+    """Return the plugin instances of a model that are this package's friction of geom pairs."""
+    return [i for i in range(model.nplugin) if model.plugin[i] == register()]
+
+
+def joint_instances(model: mujoco.MjModel) -> list[int]:
+    """Return the plugin instances of a model that are friction on joints and tendons."""
+    return [i for i in range(model.nplugin) if model.plugin[i] == register_joints()]
+
+
+def state_of(model: mujoco.MjModel, data: mujoco.MjData, instance: int) -> Array:
+    """Return the state of one instance (a view), laid out as `memory.state` says."""
+    first = int(model.plugin_stateadr[instance])
+    return data.plugin_state[first : first + int(model.plugin_statenum[instance])]
+
+
+def name_of(model: mujoco.MjModel, instance: int) -> str:
+    """Return the name of a plugin instance, its number with a # if it has none."""
+    return mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_PLUGIN, instance) or f"#{instance}"
+
+
+def reading_of(model: mujoco.MjModel, state: Array, row: Any, joint: bool = False) -> Reading:
+    """Return the reading of one contact from its instance's state and its slot there."""
+    header = s.header_of(state)
+    if joint:
+        kind = mujoco.mjtObj.mjOBJ_TENDON if header.geom_body else mujoco.mjtObj.mjOBJ_JOINT
+        body, surface = mujoco.mj_id2name(model, kind, int(header.geom_surface)), ""
+        force: Any = (row.fx, 0.0, 0.0)
+    else:
+        pair = [int(row.geom_1) - 1, int(row.geom_2) - 1]
+        if pair[1] == header.geom_body or (header.geom_body < 0 and pair[0] == header.geom_surface):
+            pair.reverse()
+        body, surface = (mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_GEOM, g) or f"#{g}" for g in pair)
+        force = row.fx * row.axis_1 + row.fy * row.axis_2
+    return Reading(
+        time=float(header.evaluated),
+        body=body,
+        surface=surface,
+        force=(float(force[0]), float(force[1]), float(force[2])),
+        normal_force=float(row.normal),
+        mu_s=float(row.mu_s),
+        mu_k=float(row.mu_k),
+        stick=bool(row.stick),
+        displacement=(float(row.ux), float(row.uy)),
+        velocity=(float(row.vx), float(row.vy)),
+        effective_mass=float(row.mass),
+        stick_phases=int(row.events),
+        dissipated=float(row.energy),
+        converged=header.unconverged == 0.0,
+    )

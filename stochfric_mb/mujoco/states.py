@@ -6,23 +6,19 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any
 
 import mujoco
 import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.errors import InputError, require_name
-from stochfric_mb.laws import law_class
-from stochfric_mb.mujoco import slots as s
-from stochfric_mb.mujoco.attach import friction_instances
-from stochfric_mb.mujoco.config import friction_of
-from stochfric_mb.mujoco.coordinates import LOAD
-from stochfric_mb.mujoco.joints import joint_instances
-from stochfric_mb.mujoco.native import plugin_text
-from stochfric_mb.mujoco.plugin import UNSET
+from stochfric_mb.laws import law_class, make_law
+from stochfric_mb.mujoco.memory import state as s
+from stochfric_mb.mujoco.memory.engine import plugin_text
+from stochfric_mb.mujoco.plugin.configuration import friction_of, law_header
+from stochfric_mb.mujoco.reading import friction_instances, joint_instances, name_of, state_of
 
-_ADDRESS = {"seed": s.SEED, "sample": s.SAMPLE, "contact": s.CONTACT}
+_ADDRESS = ("seed", "sample", "contact")
 _MEANS = {"mu_s": 4, "mu_k": 5}
 """Places of the means in the coefficient descriptor."""
 
@@ -30,12 +26,14 @@ _MEANS = {"mu_s": 4, "mu_k": 5}
 def state_index(model: mujoco.MjModel, instance: str, name: str) -> int:
     """Return the place in ``plugin_state`` of an instance's number: seed, sample, contact, normal_force or a parameter.
 
-    mu_s and mu_k stand at a second place too: change them with `set_friction`.
+    Other numbers follow from the parameters: change them with `set_friction`.
 
     Raises:
         InputError: unknown instance or name; lists the known ones.
     """
-    return _places(model, instance, name)[0]
+    number = _instance(model, instance)
+    known = _known(model, number)
+    return int(model.plugin_stateadr[number]) + known[require_name("number", name, known)]
 
 
 def set_friction(
@@ -50,47 +48,69 @@ def set_friction(
         values: e.g. ``seed=np.arange(100)`` or ``mu_s=0.7``, one value or one for each simulation.
 
     Raises:
-        InputError: unknown instance or name, or a seed, sample or contact that is not an integer in [0, 2^32).
+        InputError: unknown instance or name; a seed, sample or contact that is not an integer in [0, 2^32); a load that is not
+            positive; or parameters that the law refuses. Nothing is set then.
     """
-    first = int(model.plugin_stateadr[_instance(model, instance)])
+    number = _instance(model, instance)
+    first, known = int(model.plugin_stateadr[number]), _known(model, number)
+    size = int(model.plugin_statenum[number])
+    new = np.array(states[..., first : first + size])
     for name, value in values.items():
+        place = known[require_name("number", name, known)]
         numbers = np.asarray(value, dtype=np.float64)
         if name in _ADDRESS and not np.all((numbers >= 0) & (numbers < 2.0**32) & (numbers == np.floor(numbers))):
             raise InputError(f"{name} = {value!r} is not an integer in [0, 2^32); choose one in that range")
-        for place in _places(model, instance, name):
-            states[..., place] = numbers
-    states[..., first + s.CURSOR] = 0.0  # the knots at hand belong to another address
-    states[..., first + s.COEFFICIENTS] = UNSET
+        if name == "normal_force" and not np.all((numbers > 0) & np.isfinite(numbers)):
+            raise InputError(f"normal_force = {value!r} must be positive [N or N m]; choose loads above 0")
+        new[..., place] = numbers
+    if values.keys() - {*_ADDRESS, "normal_force"}:
+        _renew_law(new.reshape(-1, size), friction_of(plugin_text(model, number, "law"), "").law.kind)
+    new[..., s.place("cursor")] = 0.0  # the knots at hand belong to another address
+    new[..., s.place("path_time")] = s.UNSET
+    states[..., first : first + size] = new
     return states
+
+
+def _renew_law(states: npt.NDArray[np.float64], kind: str) -> None:
+    """Check the parameters of each state as the law itself does, and set what follows from them."""
+    fields = dataclasses.fields(law_class(kind))
+    first = s.place("parameters")
+    rows, which = np.unique(states[:, first : first + len(fields)], axis=0, return_inverse=True)
+    for i, row in enumerate(rows):
+        numbers = {
+            f.name: f.metadata["choices"][int(x)] if "choices" in f.metadata else float(x)
+            for f, x in zip(fields, row, strict=True)
+        }
+        header = s.header_of(law_header(make_law(kind, **numbers)))
+        for k in np.flatnonzero(which.reshape(-1) == i):
+            state = states[k]
+            mine = s.header_of(state)
+            mine.limits[:], mine.critical_step = header.limits, 0.0
+            mine.stick_speed, mine.peak_speed = header.stick_speed, header.peak_speed
+            for name, place in _MEANS.items():
+                state[s.N_HEADER + place] = numbers[name]
 
 
 def untouched(model: mujoco.MjModel, data: mujoco.MjData) -> list[str]:
     """Return the names of the pairs' friction instances that have had no contact since the data was reset."""
-    out: list[str] = []
-    for i in friction_instances(model):
-        first = int(model.plugin_stateadr[i])
-        state = data.plugin_state[first : first + int(model.plugin_statenum[i])]
-        if state[s.COEFFICIENTS] == UNSET and not state[s.N_CURRENT] and not state[s.N_COMMITTED]:
-            out.append(_name(model, i))
-    return out
+    return [name_of(model, i) for i in friction_instances(model) if not touched(state_of(model, data, i))]
 
 
-def _name(model: mujoco.MjModel, instance: int) -> str:
-    return mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_PLUGIN, instance) or f"#{instance}"
+def touched(state: npt.NDArray[np.float64]) -> bool:
+    """Return whether a pair's state has had a contact since its start."""
+    header = s.header_of(state)
+    return bool(header.path_time != s.UNSET or header.n_current or header.n_committed)
 
 
 def _instance(model: mujoco.MjModel, name: str) -> int:
-    names = {_name(model, i): i for i in friction_instances(model) + joint_instances(model)}
+    names = {name_of(model, i): i for i in friction_instances(model) + joint_instances(model)}
     return names[require_name("friction instance", name, names)]
 
 
-def _places(model: mujoco.MjModel, instance: str, name: str) -> list[int]:
-    number = _instance(model, instance)
-    first = int(model.plugin_stateadr[number])
+def _known(model: mujoco.MjModel, number: int) -> dict[str, int]:
+    """Return the places in an instance's state of the numbers that can be set."""
     law = friction_of(plugin_text(model, number, "law"), "").law
-    fields = [f.name for f in dataclasses.fields(law_class(law.kind))]
-    loads = {"normal_force": LOAD} if number in joint_instances(model) else {}
-    known: dict[str, Any] = _ADDRESS | loads | {field: s.PARAMETERS + i for i, field in enumerate(fields)}
-    place = known[require_name("number", name, known)]
-    means = [first + s.DESCRIPTOR + _MEANS[name]] if name in _MEANS else []
-    return [first + place, *means]
+    fields = [f.name for f in dataclasses.fields(law)]
+    loads = ("normal_force",) if number in joint_instances(model) else ()
+    known = {name: s.place(name) for name in _ADDRESS} | {name: s.place("load") for name in loads}
+    return known | {field: s.place("parameters") + i for i, field in enumerate(fields)}

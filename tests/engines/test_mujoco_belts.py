@@ -14,8 +14,8 @@ from stochfric_mb.laws.elastic_stick import ElasticStick  # noqa: E402
 G = 9.81
 STICKING = [
     pytest.param(ElasticStick(0.8, 0.6), "explicit", id="elastic-explicit"),
-    pytest.param(ElasticStick(0.8, 0.6), "implicit", id="elastic-implicit"),
-    pytest.param(Coulomb(0.8, 0.6), "implicit", id="coulomb-implicit"),
+    pytest.param(ElasticStick(0.8, 0.6), "solver", id="elastic-solver"),
+    pytest.param(Coulomb(0.8, 0.6), "solver", id="coulomb-solver"),
 ]
 SLIDES = '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>'
 
@@ -115,10 +115,12 @@ def test_a_shoe_rides_a_drum_until_its_spring_tears_it_off(law, mode):
         mujoco.mj_step(model, data)
         farthest = max(farthest, float(arm.qpos[0]))
         if drum.qpos[0] < 0.98 * torn_at:
-            assert drum.qpos[0] - arm.qpos[0] - lag == pytest.approx(0.0, abs=6e-5)  # e_lim/r is 5e-5
-    # True stick turns back at once. Elastic stick slips at mu_s up to v_s first, while the spring's force rises by k rate/r:
-    # for sqrt(2 v_s m r/(k rate)) = 2.5 ms, and then needs about a millisecond to reach mu_k; the drum goes on meanwhile.
-    assert farthest == pytest.approx(torn_at, abs=5e-4 if isinstance(law, ElasticStick) else 1e-5)
+            # e_lim/r is 5e-5; the solver gives a little, too
+            assert drum.qpos[0] - arm.qpos[0] - lag == pytest.approx(0.0, abs=8e-5)
+    # True stick turns back within two steps, in which the drum turns by 1e-4. Elastic stick slips at mu_s up to v_s first,
+    # while the spring's force rises by k rate/r: for sqrt(2 v_s m r/(k rate)) = 2.5 ms, and then needs about a millisecond to
+    # reach mu_k; the drum goes on meanwhile.
+    assert farthest == pytest.approx(torn_at, abs=5e-4 if isinstance(law, ElasticStick) else 1e-4)
 
 
 @pytest.mark.parametrize(("law", "mode"), STICKING)
@@ -188,8 +190,8 @@ def capstan(law, mode):
     ("law", "mode"),
     [
         pytest.param(ElasticStick(0.3, 0.3, e_lim=1e-4), "explicit", id="elastic-explicit"),
-        pytest.param(ElasticStick(0.3, 0.3), "implicit", id="elastic-implicit"),
-        pytest.param(Coulomb(0.3, 0.3), "implicit", id="coulomb-implicit"),
+        pytest.param(ElasticStick(0.3, 0.3), "solver", id="elastic-solver"),
+        pytest.param(Coulomb(0.3, 0.3), "solver", id="coulomb-solver"),
     ],
 )
 def test_a_rope_on_a_running_drum(law, mode):

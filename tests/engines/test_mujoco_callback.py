@@ -17,12 +17,12 @@ from stochfric_mb.friction import Friction  # noqa: E402
 from stochfric_mb.laws.coulomb import Coulomb  # noqa: E402
 from stochfric_mb.laws.elastic_stick import ElasticStick  # noqa: E402
 from stochfric_mb.laws.havsin import Havsin  # noqa: E402
-from stochfric_mb.mujoco import native  # noqa: E402
+from stochfric_mb.mujoco.memory.engine import library  # noqa: E402
 
 G = 9.81
 LAW = ElasticStick(mu_s=0.8, mu_k=0.6)
 PAIR = ("box", "floor")
-BOX = """<mujoco><option timestep="{dt}" integrator="{integrator}" gravity="{gx} 0 {gz}"/><worldbody>
+BOX = """<mujoco><option cone="elliptic" timestep="{dt}" integrator="{integrator}" gravity="{gx} 0 {gz}"/><worldbody>
 <geom name="floor" type="plane" size="5 5 1"/><geom name="wall" type="box" size=".1 1 1" pos="3 0 1" condim="{wall}"/>
 <geom name="lamp" size=".1" pos="0 0 3" contype="0" conaffinity="0"/>
 <body name="box" pos="0 0 .05"><freejoint/><geom name="box" type="box" size=".05 .05 .05" mass="1"/>
@@ -36,7 +36,7 @@ def box(*, angle=0.0, dt=2e-4, integrator="RK4", wall=3):
 
 
 def installed():
-    return ctypes.c_void_p.in_dll(native.library(), "mjcb_passive").value
+    return ctypes.c_void_p.in_dll(library(), "mjcb_passive").value
 
 
 @pytest.mark.parametrize("integrator", ["RK4", "Euler", "implicitfast"])
@@ -165,18 +165,6 @@ def test_contexts_may_end_in_any_order():
     assert installed() is None
 
 
-def test_native_friction_comes_back_with_the_last_context_of_a_model():
-    model, a = box()
-    first = engine.friction(model, a, {PAIR: LAW})
-    second = engine.friction(model, mujoco.MjData(model), {PAIR: LAW})
-    first.__enter__()
-    second.__enter__()
-    first.__exit__(None, None, None)
-    assert model.geom("box").condim == 1
-    second.__exit__(None, None, None)
-    assert (model.geom_condim == 3).all()
-
-
 def test_passive_forces_that_are_switched_off_within_are_reported():
     model, data = box()
     both = mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER
@@ -205,15 +193,12 @@ def test_an_exception_puts_everything_back():
     assert (model.geom_condim == 3).all()
 
 
-def test_copies_and_batches_are_refused():
-    batch = pytest.importorskip("mujoco.batch")
+def test_other_data_of_the_model_are_refused():
     model, data = box()
     with engine.friction(model, data, {PAIR: LAW}):
         mujoco.mj_step(model, data)
         with pytest.raises(mujoco.FatalError, match="that one MjData only"):
             mujoco.mj_step(model, copy.copy(data))
-        with pytest.raises(batch.SimulationError, match="that one MjData only"):
-            batch.Batch(model, 2, 2).step()
         mujoco.mj_step(model, data)
 
 
@@ -230,16 +215,13 @@ def test_a_replaced_callback_is_reported():
     assert (model.geom_condim == 3).all()
 
 
-def test_an_explicit_pair_is_switched_off_alone():
-    spec = mujoco.MjSpec.from_string(BOX.format(dt=1e-3, integrator="Euler", gx=0, gz=-G, wall=3))
-    spec.add_pair(geomname1="box", geomname2="floor")
-    model = spec.compile()
-    data = mujoco.MjData(model)
+def test_nothing_of_the_model_changes():
+    model, data = box()
+    before = copy.copy(model)
     with engine.friction(model, data, {PAIR: LAW}):
-        assert model.pair_dim[0] == 1
-        assert (model.geom_condim == 3).all()
         mujoco.mj_step(model, data)
-    assert model.pair_dim[0] == 3
+        for name in ("geom_condim", "geom_friction", "pair_dim"):
+            assert np.array_equal(getattr(model, name), getattr(before, name))
 
 
 def test_reset_starts_anew():
@@ -273,9 +255,14 @@ def test_what_cannot_work_is_refused():
         engine.friction(mujoco.MjSpec(), data, {PAIR: LAW})
     with pytest.raises(InputError, match="explicit mode cannot know"):
         engine.friction(model, data, {PAIR: Coulomb(mu_s=0.8, mu_k=0.6)}, mode="explicit")
-    narrow, narrows = box(wall=1)
-    with pytest.raises(InputError, match="without that of 'box' and 'wall'"):
-        engine.friction(narrow, narrows, {PAIR: LAW})
+    other.geom_condim[:] = 1
+    with pytest.raises(InputError, match="without friction"):
+        engine.friction(other, others, {PAIR: LAW})
+    other.geom_condim[:] = 3
+    other.opt.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
+    with pytest.raises(InputError, match="cone is pyramidal"):
+        engine.friction(other, others, {PAIR: LAW})
+    other.opt.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     with (
         engine.friction(model, data, {PAIR: LAW}),
         pytest.raises(InputError, match="another context"),

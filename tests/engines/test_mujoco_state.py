@@ -17,8 +17,8 @@ from stochfric_mb.friction import Friction  # noqa: E402
 from stochfric_mb.laws.coulomb import Coulomb  # noqa: E402
 from stochfric_mb.laws.elastic_stick import ElasticStick  # noqa: E402
 from stochfric_mb.laws.havsin import Havsin  # noqa: E402
-from stochfric_mb.mujoco import slots  # noqa: E402
-from stochfric_mb.mujoco.attach import header  # noqa: E402
+from stochfric_mb.mujoco.memory.state import header_of  # noqa: E402
+from stochfric_mb.mujoco.reading import state_of  # noqa: E402
 
 SCENE = """<mujoco><option timestep="1e-3" integrator="{integrator}"/><worldbody><geom name="floor" type="plane" size="5 5 1"/>
 <body pos="0 0 .05"><freejoint/><geom name="box" type="box" size=".05 .05 .05" mass="1"/></body>
@@ -27,7 +27,7 @@ contype="0" conaffinity="0"/></body></worldbody></mujoco>"""
 PROCESS = Knots(sigma_s=0.05, sigma_k=0.05, spacing=0.01)
 LAW = Friction(ElasticStick(mu_s=0.8, mu_k=0.5, e_lim=1e-4), PROCESS)
 SOLVED = {  # mode implicit by choice, by a law with true stick, and by a step beyond the limit
-    "chosen": (LAW, "implicit"),
+    "chosen": (LAW, "solver"),
     "coulomb": (Friction(Coulomb(mu_s=0.8, mu_k=0.5), PROCESS), "auto"),
     "auto": (Friction(ElasticStick(mu_s=0.8, mu_k=0.5, e_lim=1e-7), PROCESS), "auto"),
 }
@@ -63,7 +63,7 @@ def test_these_are_solved(choice):
     model = solved(choice)
     data = moving(model)
     after(model, data, 50)
-    assert header(model, data, 0)[slots.SOLVED] == 1.0
+    assert header_of(state_of(model, data, 0)).solved == 1.0
 
 
 @pytest.mark.parametrize("choice", [None, *SOLVED])

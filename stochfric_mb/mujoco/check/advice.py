@@ -1,0 +1,102 @@
+"""What to change in a model, from what a check of its friction found."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+from stochfric_mb.laws import Law
+from stochfric_mb.mujoco.check.findings import Findings, Row
+from stochfric_mb.mujoco.check.probes import Drift
+
+SLIDING = 0.95
+"""A site that carries more of its limit than this in the given state slides already."""
+CREEP = 1.0e-6
+"""Drift that is worth a word [m/s or rad/s]."""
+CREATED = 0.01
+"""Energy created over energy dissipated that is worth a word [-]."""
+WRONG = 0.05
+"""Relative error of break-away that is worth a word [-]; twice that for the deceleration, whose mass is less certain."""
+
+
+def advice(row: Row, timestep: float, invented: frozenset[str]) -> str:
+    """Return what is wrong with the model's friction and what to change, in words."""
+    if row.native is None:
+        return "not probed: " + row.problem
+    native = _faults(row, row.native, 0.0)
+    ours = _faults(row, row.ours, row.limit * getattr(row.law, "e_lim", 0.0)) if row.ours is not None else {}
+    for key in ("break_away", "slide"):
+        if key in native and key in ours:  # then the body's other motion changes the normal force: it tells nothing
+            del native[key], ours[key]
+    if not native:
+        return "nothing to change" + (f" ({'; '.join(row.native.notes)})" if row.native.notes else "")
+    said = "; ".join(native.values())
+    if row.ours is None:
+        return f"{said}. Ours could not be measured: {row.ours_problem}"
+    if _much_better(row):
+        ours.pop("drift", None)
+    if not native.keys() - ours.keys():
+        return f"{said}. Ours does no better at this timestep ({'; '.join(ours.values())})"
+    left = f" (that still {'; '.join(ours.values())})" if ours else ""
+    return f"{said}: {_take_over_words(row)}{left}{_step_words(row)}{_naming_words(row, invented)}"
+
+
+def _take_over_words(row: Row) -> str:
+    parameters = row.law.to_dict() if row.law is not None else {}
+    words = ", ".join(f"{k}={v:.4g}" for k, v in parameters.items() if isinstance(v, float) and _told(row.law, k))
+    where, load = repr(row.names), ""
+    if row.kind != "contact":
+        where, load = f"{row.kind.capitalize()}({row.names[0]!r})", f", normal_force={row.limit:.6g}"
+    return f"take it over with add_friction(spec, {where}, {type(row.law).__name__}({words}){load})"
+
+
+def _step_words(row: Row) -> str:
+    if row.mode == "explicit" and math.isfinite(row.step_limit):
+        return f"; explicit, timestep <= {row.step_limit:.2g} s"
+    return ""
+
+
+def _naming_words(row: Row, invented: frozenset[str]) -> str:
+    unnamed = [n for n in row.names if n in invented]
+    return f" (it needs a name first: here {' and '.join(unnamed)}, by number)" if unnamed else ""
+
+
+def _told(law: Law | None, key: str) -> bool:
+    """Return whether a parameter differs from its default."""
+    field = next((f for f in dataclasses.fields(law) if f.name == key), None) if law is not None else None
+    return field is not None and (field.default is dataclasses.MISSING or field.default != getattr(law, key))
+
+
+def _faults(row: Row, found: Findings, stored: float) -> dict[str, str]:
+    """Return what is wrong, in words; ``stored`` [J] may come back from a law's spring and is not created."""
+    faults: dict[str, str] = {}
+    worst = _worst_drift(found)
+    if worst is not None and worst.speed > CREEP:
+        of = "mu N" if row.kind == "contact" else "the frictionloss"
+        faults["drift"] = f"creeps {_micro(worst.speed)} u{row.unit}/s at {100.0 * worst.load:.0f} % of {of}"
+    broken = found.break_away
+    if broken is not None and abs(broken.share - 1.0) > WRONG:
+        faults["break_away"] = f"breaks away at {100.0 * broken.share:.0f} % of its limit"
+    slide = found.slide
+    if slide is not None and abs(slide.deceleration - slide.expected) > 2.0 * WRONG * slide.expected:
+        faults["slide"] = f"slows down at {slide.deceleration:.3g} instead of {slide.expected:.3g} {row.unit}/s^2"
+    if found.energy_created > max(CREATED * found.energy_dissipated, stored, 1.0e-9):
+        faults["energy"] = f"creates energy ({found.energy_created:.2g} J)"
+    return faults
+
+
+def _micro(speed: float) -> str:
+    value = 1.0e6 * speed
+    return f"{value:.0f}" if abs(value) >= 100.0 else f"{value:.2g}"
+
+
+def _worst_drift(found: Findings) -> Drift | None:
+    """Return the fastest drift under a load that should hold."""
+    held = [d for d in (found.own, *found.held) if d is not None and d.load < SLIDING]
+    return max(held, key=lambda d: d.speed, default=None)
+
+
+def _much_better(row: Row) -> bool:
+    native = _worst_drift(row.native) if row.native is not None else None
+    ours = _worst_drift(row.ours) if row.ours is not None else None
+    return native is not None and ours is not None and ours.speed < 0.1 * native.speed

@@ -1,0 +1,364 @@
+"""Explicit friction at contacts: the law's force at each instant, as a passive force; MuJoCo's own friction is off.
+
+At the first evaluation of a step (`begin`) each contact's committed slot, advanced along the displacement since its
+commit, becomes a current slot: the law's ``commit`` runs with the state at the step's start, which is exact. All
+Runge-Kutta stages use the current slots. Only `tracking.finish`, when the engine accepts the step, makes them the
+committed ones; so evaluations between steps change nothing. The normal force is that of the step before.
+"""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from stochfric_mb.coefficients.path import canonical_time
+from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.laws.plane import length
+from stochfric_mb.mujoco.contact.kinematics import (
+    add_rows,
+    bodies_of,
+    displacement,
+    dot,
+    ordinal_of,
+    put,
+    relative_velocity,
+    set_axes,
+    side,
+    surface_velocity,
+    to_body,
+)
+from stochfric_mb.mujoco.contact.law import call, coefficients, commit_slot
+from stochfric_mb.mujoco.contact.rows import rate_of, set_cap
+from stochfric_mb.mujoco.memory import engine
+from stochfric_mb.mujoco.memory import state as s
+from stochfric_mb.mujoco.memory import words as w
+from stochfric_mb.mujoco.memory.structs import contact_at, data_at, model_at
+
+ELLIPTIC = 1
+"""mjtCone."""
+GOLDEN = 0.6180339887498949
+"""Golden ratio: its multiples spread evenly over their fractional parts."""
+SUDDEN = 0.05
+"""Change of the normal force in a step, relative to it, with which explicit friction (one step late) will not do."""
+NO_LIMIT = 1.0e300
+"""Stands for infinity in states."""
+OFF = 1.0e-12
+"""Coefficient of friction that the engine's solver is given in an explicit step: none, to rounding."""
+
+
+@compiled
+def predicted_normal_force(m, d, contact):
+    """Return the normal force [N] that a contact would have with the acceleration of the step before."""
+    row = contact.efc_address
+    if row < 0:
+        return 0.0
+    imp, gap = w.at(d.efc_KBIP, 4 * row + 2), w.at(d.efc_pos, row) - w.at(d.efc_margin, row)
+    wanted = -w.at(d.efc_KBIP, 4 * row + 1) * rate_of(m, d, row, d.qvel) - w.at(d.efc_KBIP, 4 * row) * imp * gap
+    return max(0.0, w.at(d.efc_D, row) * (wanted - rate_of(m, d, row, d.qacc_warmstart)))
+
+
+@compiled
+def is_sudden(m, d, contact, slot):
+    """Return whether the normal force changes much within this step, as in an impact.
+
+    With the acceleration of the step before, the normal force changes by 1/(1 - d) times as much as it will, d being the
+    constraint's impedance (MuJoCo's computation chapter, constraint model: R = (1 - d)/d A).
+    """
+    row = contact.efc_address
+    if row < 0:
+        return slot.normal > 0.0
+    change = (1.0 - w.at(d.efc_KBIP, 4 * row + 2)) * (predicted_normal_force(m, d, contact) - slot.normal)
+    return abs(change) > SUDDEN * slot.normal
+
+
+@compiled
+def tangent_mass(model, data, state, contact, slot, body, surface):
+    """Return the mass [kg] that a tangential force feels, 1/(J M^-1 J^T) in the direction where it is smallest."""
+    m, d = model_at(model), data_at(data)
+    nv = m.nv
+    rows = np.empty((4, nv)).ctypes.data if nv > s.MAX_ROW else s.rows_of(state)
+    for j in range(2 * nv):
+        w.put(rows, j, 0.0)
+    p = contact.pos
+    add_rows(m, d, slot, body, 1.0, p[0], p[1], p[2], rows)
+    add_rows(m, d, slot, surface, -1.0, p[0], p[1], p[2], rows)
+    engine.mj_solveM(model, data, rows + 16 * nv, rows, np.int32(2))
+    a, b, c = 0.0, 0.0, 0.0
+    for j in range(nv):
+        a += w.at(rows, j) * w.at(rows, 2 * nv + j)
+        b += w.at(rows, nv + j) * w.at(rows, 3 * nv + j)
+        c += w.at(rows, j) * w.at(rows, 3 * nv + j)
+    largest = 0.5 * (a + b) + length(0.5 * (a - b), c)
+    return 1.0 / largest if largest > 0.0 else 0.0
+
+
+@compiled
+def told_by(m, d):
+    """Return a sum that tells the velocities: with weights between 1 and 2, no two alike."""
+    total, weight = 0.0, 0.0
+    for j in range(m.nv):
+        weight += GOLDEN
+        weight -= 1.0 if weight >= 1.0 else 0.0
+        total += (1.0 + weight) * w.at(d.qvel, j)
+    return total
+
+
+@compiled
+def begin(model, data, state):
+    """Make the current slots for a step that starts now, at an accepted state.
+
+    Return whether explicit friction will not do in this step, of `mode` auto.
+    """
+    m, d, header = model_at(model), data_at(data), s.header_record(state)
+    known = int(header.n_committed) if header.advanced == d.time else 0
+    t = header.instant
+    body, surface = int(header.geom_body), int(header.geom_surface)
+    count, total, sudden = 0, 0.0, False
+    for i in range(d.ncon):
+        contact = contact_at(d, i)
+        sign = side(contact, body, surface)
+        if sign == 0:
+            continue
+        if count == int(header.n_slots):
+            engine.mju_error(w.entry(w.SLOTS_MESSAGE))
+        slot = s.slot_at(state, 1, count)
+        total += track(model, data, state, i, sign, t, known, count)
+        if header.mode == s.AUTO and header.advanced != s.UNSET:
+            sudden = sudden or slot.live == 0.0 or is_sudden(m, d, contact, slot)
+        count += 1
+    header.n_current = count
+    star = body < 0 or surface < 0
+    row = w.law_row(int(header.law))
+    pushed = known > 0 and was_pushed(m, d, header)
+    for k in range(count):
+        slot = s.slot_at(state, 1, k)
+        if pushed and slot.live != 0.0 and length(slot.vx, slot.vy) > header.stick_speed:
+            slot.live = -1.0  # it slides from here on, whatever it did before
+        pair, among = pair_total(state, k, count) if star else (total, count)
+        commit_slot(state, s.slot_address(state, 1, k), row, t, pair, among)
+    return header.mode == s.AUTO and (sudden or count == 0 or beyond_limit(m, state, count, total, star))
+
+
+@compiled
+def was_pushed(m, d, header):
+    """Return whether velocities were written since the last step, by more than the law's stick speed."""
+    if header.finished == 0.0 or header.has_mode == 0.0:
+        return False
+    return abs(told_by(m, d) - header.velocities) > header.stick_speed
+
+
+@compiled
+def pair_total(state, k, count):
+    """Return the normal force [N] and the number of the contacts between the same two geoms as contact ``k``."""
+    slot = s.slot_at(state, 1, k)
+    total, among = 0.0, 0
+    for j in range(count):
+        other = s.slot_at(state, 1, j)
+        if other.geom_1 == slot.geom_1 and other.geom_2 == slot.geom_2:
+            total += other.normal
+            among += 1
+    return total, among
+
+
+@compiled
+def beyond_limit(m, state, count, total, star):
+    """Return whether the step is beyond half the law's explicit limit at one of the contacts."""
+    header = s.header_record(state)
+    if header.critical_step != m.timestep:
+        header.critical = critical_ratio(header, 2.0 * m.timestep)
+        header.critical_step = m.timestep
+    for k in range(count):
+        if star:
+            total, _ = pair_total(state, k, count)
+        if total > header.critical * s.slot_at(state, 1, k).felt:
+            return True
+    return False
+
+
+@compiled
+def critical_ratio(header, step):
+    """Return the normal force over the mass [N/kg] at which the law's step limit falls to ``step``; huge if never."""
+    limits = header.limits
+    for k in range(s.N_LIMITS):
+        low = limits[k]
+        if low <= step:
+            if k == 0:
+                return 0.0
+            high = limits[k - 1]
+            part = math.log(high / step) / math.log(high / low) if high < NO_LIMIT else 1.0
+            return 10.0 ** (k - 5 + part)
+    return NO_LIMIT
+
+
+@compiled
+def track(model, data, state, i, sign, t, known, k):
+    """Fill the current slot ``k`` from contact ``i``; return its normal force [N]. ``known`` committed slots count."""
+    m, d = model_at(model), data_at(data)
+    contact, slot = contact_at(d, i), s.slot_at(state, 1, k)
+    a, b, ordinal = contact.geom[0], contact.geom[1], ordinal_of(d, i)
+    number = s.find(state, 0, known, a, b, ordinal, k) if known > 0 else -1
+    old = s.slot_at(state, 0, max(number, 0))
+    normal_force = old.normal if number >= 0 else predicted_normal_force(m, d, contact)
+    fill(model, data, state, contact, sign, t, slot, old, number >= 0 and old.live != 0.0)
+    slot.geom_1, slot.geom_2, slot.ordinal, slot.normal = a + 1.0, b + 1.0, ordinal, normal_force
+    return normal_force
+
+
+@compiled
+def fill(model, data, state, contact, sign, t, slot, old, known):
+    """Fill frame, velocity, displacement, material points and mass of a slot; its law state stays the old one."""
+    m, d, header = model_at(model), data_at(data), s.header_record(state)
+    body, surface = bodies_of(m, contact, sign)
+    sx, sy, sz = surface_velocity(contact, sign)
+    vx, vy, vz = relative_velocity(m, d, contact, body, surface, sx, sy, sz)
+    dx, dy, step = 0.0, 0.0, 0.0
+    slot.solved = 0.0
+    if known:
+        dx, dy = displacement(d, old, body, surface, t, dot(old.axis_1, vx, vy, vz), dot(old.axis_2, vx, vy, vz))
+        slot.ux, slot.uy = old.ux + dx, old.uy + dy
+        step = t - old.since
+        slot.stick, slot.events, slot.energy, slot.felt = old.stick, old.events, old.energy, old.felt
+        for j in range(len(slot.state)):
+            slot.state[j] = old.state[j]
+        for j in range(len(slot.guards)):
+            slot.guards[j] = old.guards[j]
+        before = slot.before
+        before[0], before[1], before[2], before[3], before[4] = old.since, old.ux, old.uy, old.vx, old.vy
+        slot.work[0], slot.work[1] = old.fx, old.fy
+    else:
+        slot.ux, slot.uy = header.origin, 0.0
+        slot.stick, slot.events, slot.energy, slot.felt = 0.0, 0.0, 0.0, 0.0
+        slot.work[0], slot.work[1] = 0.0, 0.0
+    slot.hold[0], slot.hold[1] = 0.0, 0.0
+    slot.live = 1.0 if known else 0.0
+    slot.work[2], slot.work[3] = dx, dy
+    set_axes(d, contact, slot, old, known, body, surface, step)
+    e1, e2 = slot.axis_1, slot.axis_2
+    slot.vx, slot.vy = dot(e1, vx, vy, vz), dot(e2, vx, vy, vz)
+    slot.sx, slot.sy = dot(e1, sx, sy, sz), dot(e2, sx, sy, sz)
+    slot.since = t
+    p = contact.pos
+    bx, by, bz = to_body(d, body, p[0], p[1], p[2])
+    put(slot.on_body, bx, by, bz)
+    cx, cy, cz = to_body(d, surface, p[0], p[1], p[2])
+    put(slot.on_surface, cx, cy, cz)
+    if header.needs_mass != 0.0 or (not known and header.mode == s.AUTO):
+        slot.felt = tangent_mass(model, data, state, contact, slot, body, surface)
+    slot.mass = slot.felt if header.needs_mass != 0.0 else 0.0
+
+
+@compiled
+def apply(model, data, state):
+    """Add the friction forces at this instant; at a step's start also record them."""
+    m, d, header = model_at(model), data_at(data), s.header_record(state)
+    starting = d.time == header.evaluated
+    t = header.instant if starting else canonical_time(d.time, 0.5 * m.timestep)
+    row = w.law_row(int(header.law))
+    target = d.qfrc_passive
+    if row == 0:
+        w.put(target, 0, math.nan)
+        return
+    geom, other = int(header.geom_body), int(header.geom_surface)
+    k, last_body, last_surface = 0, -1, -1
+    for i in range(d.ncon):
+        contact = contact_at(d, i)
+        sign = side(contact, geom, other)
+        if sign == 0:
+            continue
+        number = k if starting else slot_at_stage(model, data, state, i, sign, t, k)
+        k += 1
+        if number < 0:
+            continue
+        body, surface = bodies_of(m, contact, sign)
+        if body != last_body or surface != last_surface:
+            if last_body >= 0:
+                push(model, data, header, last_body, last_surface, target)
+            clear_push(header, contact)
+            last_body, last_surface = body, surface
+        if contact.dim > 2 and m.cone != ELLIPTIC:
+            engine.mju_error(w.entry(w.CONE_MESSAGE))
+        set_cap(m, d, contact, OFF)
+        apply_contact(model, data, state, contact, sign, body, surface, number, w.entry(row + w.FORCE), t, starting)
+    if last_body >= 0:
+        push(model, data, header, last_body, last_surface, target)
+
+
+@compiled
+def slot_at_stage(model, data, state, i, sign, t, k):
+    """Return the number of the current slot of contact ``i``; one that was born within the step gets a slot of its own.
+
+    In auto mode it gets none (-1), and has MuJoCo's own friction up to the step's end: its explicit limit is not known.
+    """
+    d, header = data_at(data), s.header_record(state)
+    contact = contact_at(d, i)
+    count = int(header.n_current)
+    number = s.find(state, 1, count, contact.geom[0], contact.geom[1], ordinal_of(d, i), k) if count > 0 else -1
+    if number >= 0 or header.mode == s.AUTO:
+        return number
+    if count == int(header.n_slots):
+        engine.mju_error(w.entry(w.SLOTS_MESSAGE))
+    header.n_current = count + 1.0
+    normal_force = track(model, data, state, i, sign, t, 0, count)
+    commit_slot(state, s.slot_address(state, 1, count), w.law_row(int(header.law)), t, normal_force, 1)
+    s.slot_at(state, 1, count).live = 0.0
+    return count
+
+
+@compiled_inline
+def apply_contact(model, data, state, contact, sign, body, surface, number, force, t, starting):
+    """Add the friction force of one contact to the sum."""
+    m, d, header = model_at(model), data_at(data), s.header_record(state)
+    address = s.slot_address(state, 1, number)
+    slot = s.slot_record(address)
+    ux, uy, vx, vy, mu_s, mu_k = slot.ux, slot.uy, slot.vx, slot.vy, slot.mu_s, slot.mu_k
+    if not starting:
+        sx, sy, sz = surface_velocity(contact, sign)
+        wx, wy, wz = relative_velocity(m, d, contact, body, surface, sx, sy, sz)
+        vx, vy = dot(slot.axis_1, wx, wy, wz), dot(slot.axis_2, wx, wy, wz)
+        dx, dy = displacement(d, slot, body, surface, t, vx, vy)
+        ux, uy = ux + dx, uy + dy
+        mu_s, mu_k = coefficients(state, t, ux, slot.events)
+    call(state, address, force, t, ux, uy, vx, vy, mu_s, mu_k)
+    fx, fy = header.output[0], header.output[1]
+    if starting:
+        slot.fx, slot.fy = fx, fy
+        work = slot.work
+        slot.energy += 0.5 * ((work[0] + fx) * work[2] + (work[1] + fy) * work[3])
+        work[2], work[3] = 0.0, 0.0
+    e1, e2 = slot.axis_1, slot.axis_2
+    add_push(header, contact, fx * e1[0] + fy * e2[0], fx * e1[1] + fy * e2[1], fx * e1[2] + fy * e2[2])
+
+
+@compiled_inline
+def clear_push(header, contact):
+    """Start a sum of forces and torques about the contact's point."""
+    put(header.force, 0.0, 0.0, 0.0)
+    put(header.torque, 0.0, 0.0, 0.0)
+    put(header.point, contact.pos[0], contact.pos[1], contact.pos[2])
+
+
+@compiled_inline
+def add_push(header, contact, fx, fy, fz):
+    """Add a force on the body at the contact's point to the sum."""
+    f, q, p = header.force, header.torque, header.point
+    x, y, z = contact.pos[0] - p[0], contact.pos[1] - p[1], contact.pos[2] - p[2]
+    put(f, f[0] + fx, f[1] + fy, f[2] + fz)
+    put(q, q[0] + y * fz - z * fy, q[1] + z * fx - x * fz, q[2] + x * fy - y * fx)
+
+
+@compiled
+def push(model, data, header, body, surface, target):
+    """Add the generalised force of the sum on the body, and of its opposite on the surface."""
+    f, q, p = header.force, header.torque, header.point.ctypes.data
+    if body > 0:
+        engine.mj_applyFT(model, data, f.ctypes.data, q.ctypes.data, p, np.int32(body), target)
+    if surface > 0:
+        g, k = header.counter_force, header.counter_torque
+        put(g, -f[0], -f[1], -f[2])
+        put(k, -q[0], -q[1], -q[2])
+        engine.mj_applyFT(model, data, g.ctypes.data, k.ctypes.data, p, np.int32(surface), target)

@@ -1,0 +1,219 @@
+"""A contact's law at work: its coefficients, its calls, the commit of its state, and the switches within a step."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import math
+
+from stochfric_mb.coefficients.path import evaluate
+from stochfric_mb.coefficients.processes import TIME
+from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.laws.abi import call_law
+from stochfric_mb.laws.contract import GUARDS
+from stochfric_mb.laws.plane import length
+from stochfric_mb.mujoco.memory import state as s
+from stochfric_mb.mujoco.memory import words as w
+
+SWITCHES, SEARCHES = 4, 120
+"""Most switches of a law looked for within one step, and instants looked at to find one."""
+INSTANT = 5.0e-13
+"""Part of a step to which the instant of a switch is found."""
+
+
+@compiled_inline
+def coefficients(state, t, position, events):
+    """Return (mu_s, mu_k) of the instance's path; along time, once for all its contacts."""
+    header = s.header_record(state)
+    if s.descriptor_of(state)[1] != TIME:
+        return coefficients_anew(state, t, position, events)
+    if header.path_time != t:
+        header.path_mu_s, header.path_mu_k = coefficients_anew(state, t, position, events)
+        header.path_time = t
+    return header.path_mu_s, header.path_mu_k
+
+
+@compiled
+def coefficients_anew(state, t, position, events):
+    """Return (mu_s, mu_k) of the instance's path, evaluated now."""
+    header = s.header_record(state)
+    address = int(header.seed), int(header.sample), int(header.contact)
+    return evaluate(s.descriptor_of(state), s.cursor_of(state), address[0], address[1], address[2], t, position, events)
+
+
+@compiled_inline
+def call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k):
+    """Call one of the law's functions on a slot; the result goes to the header's ``output``."""
+    slot = s.slot_record(address)
+    call_law(
+        function, t, ux, uy, vx, vy, slot.normal, mu_s, mu_k, slot.mass, slot.hold[0], slot.hold[1],
+        s.law_state(address), s.parameters_of(state), s.output_of(state),
+    )  # fmt: skip
+
+
+@compiled
+def commit_slot(state, address, row, t, total, count):
+    """Run the commit (init for a new contact) of the law in ``row`` on a current slot.
+
+    Contacts of one pair share the mass that they feel, in proportion to their normal forces.
+    """
+    header, slot = s.header_record(state), s.slot_record(address)
+    slot.mass *= slot.normal / total if total > 0.0 else 1.0 / count
+    if row == 0:
+        return
+    modes, live = header.has_mode != 0.0, slot.live
+    new = live <= 0.0
+    if not new and modes:
+        switch_within(state, address, row, t)
+    function = w.entry(row + (w.INIT if new else w.COMMIT))
+    changed = switch(state, address, row, function, t, slot.ux, slot.uy, slot.vx, slot.vy)
+    if live == 0.0:
+        slot.events = 0.0
+    slot.mu_s, slot.mu_k = coefficients(state, t, slot.ux, slot.events)
+    slot.live = 1.0
+    if modes and changed:
+        guards_at(state, address, row, t, slot.ux, slot.uy, slot.vx, slot.vy)
+        keep_guards(state, address)
+
+
+@compiled_inline
+def keep_guards(state, address):
+    """Copy the guards from the output to the slot, for the search in the time that follows."""
+    slot, output = s.slot_record(address), s.header_record(state).output
+    for j in range(GUARDS):
+        slot.guards[j] = output[j]
+
+
+@compiled_inline
+def guards_at(state, address, row, t, ux, uy, vx, vy):
+    """Write the law's guards at this instant to the output."""
+    mu_s, mu_k = coefficients(state, t, ux, s.slot_record(address).events)
+    call(state, address, w.entry(row + w.GUARDS), t, ux, uy, vx, vy, mu_s, mu_k)
+
+
+@compiled_inline
+def switch(state, address, row, function, t, ux, uy, vx, vy):
+    """Give a slot the law state that ``function`` (init or commit) returns; return whether it is another one.
+
+    Stick phases that begin are counted.
+    """
+    header, slot = s.header_record(state), s.slot_record(address)
+    changed = slot.live == 0.0
+    mu_s, mu_k = coefficients(state, t, ux, slot.events)
+    call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k)
+    for j in range(w.entry(row + w.N_STATE)):
+        new = header.output[j]
+        changed = changed or slot.state[j] != new
+        slot.state[j] = new
+    was = slot.stick
+    if header.has_mode != 0.0:
+        slot.stick = 1.0 if slot.state[0] == 0.0 else 0.0
+    else:
+        slot.stick = 1.0 if length(vx, vy) <= header.stick_speed else 0.0
+    if slot.stick > was:
+        slot.events += 1.0
+    return changed
+
+
+@compiled_inline
+def switch_within(state, address, row, t):
+    """Let a law with modes switch where it should have within the step that has just ended.
+
+    Where one of the law's guards has changed sign, ``commit`` runs with the state there, by the cubic through both
+    ends of the step: what the law remembers of a switch then does not depend on where the step ended.
+    """
+    if guard_crossed(state, address, row, t):
+        switch_at_crossings(state, address, row, t)
+    else:
+        keep_guards(state, address)
+
+
+@compiled
+def switch_at_crossings(state, address, row, t):
+    """Switch the law where its guards cross zero within the step, one of which does."""
+    before = s.slot_record(address).before[0]
+    start = 0.0
+    for _ in range(SWITCHES):
+        end = first_crossing(state, address, row, t, start)
+        ux, uy, vx, vy = between(address, t, end)
+        now = before + end * (t - before)
+        switch(state, address, row, w.entry(row + w.COMMIT), now, ux, uy, vx, vy)
+        guards_at(state, address, row, now, ux, uy, vx, vy)
+        keep_guards(state, address)
+        start = end
+        if not guard_crossed(state, address, row, t):
+            keep_guards(state, address)
+            return
+
+
+@compiled
+def first_crossing(state, address, row, t, low):
+    """Return the part of the step, after ``low``, just behind which no guard that was positive is so any more.
+
+    False position on the least of them (Dahlquist and Bjorck, the Illinois method), which ends on both sides of the root.
+    """
+    end, at_low, at_end = 1.0, least_guard(state, address, row, t, low), least_guard(state, address, row, t, 1.0)
+    last = 0
+    for k in range(SEARCHES):
+        if end - low <= 2.0 * INSTANT:
+            break
+        middle = low - at_low * (end - low) / (at_end - at_low) if at_low > 0.0 else 0.5 * (low + end)
+        if k % 4 == 3:
+            middle = 0.5 * (low + end)
+        middle = min(max(middle, low + INSTANT), end - INSTANT)
+        value = least_guard(state, address, row, t, middle)
+        if value > 0.0:
+            low, at_low = middle, value
+            at_end *= 0.5 if last > 0 else 1.0
+            last = 1
+        else:
+            end, at_end = middle, value
+            at_low *= 0.5 if last < 0 else 1.0
+            last = -1
+    return end
+
+
+@compiled
+def between(address, t, part):
+    """Return displacement [m] and velocity [m/s] at a part of the step that ends at ``t``: the cubic through its ends."""
+    slot = s.slot_record(address)
+    b = slot.before
+    h = t - b[0]
+    ux, uy, vx, vy = b[1], b[2], b[3], b[4]
+    dx, dy = slot.ux - ux, slot.uy - uy
+    wx, wy = slot.vx, slot.vy
+    p, q = part, 1.0 - part
+    end, here, there = p * p * (3.0 - 2.0 * p), p * q * q * h, -p * p * q * h
+    rise, early, late = 6.0 * p * q / h, q * (1.0 - 3.0 * p), p * (3.0 * p - 2.0)
+    return (
+        ux + end * dx + here * vx + there * wx,
+        uy + end * dy + here * vy + there * wy,
+        rise * dx + early * vx + late * wx,
+        rise * dy + early * vy + late * wy,
+    )
+
+
+@compiled_inline
+def guard_crossed(state, address, row, t):
+    """Return whether a guard that was positive at the start of the search is not positive at the end of the step."""
+    return least_guard(state, address, row, t, 1.0) <= 0.0
+
+
+@compiled_inline
+def least_guard(state, address, row, t, part):
+    """Return the least of the guards that were positive at the start of the search, at a part of the step."""
+    slot = s.slot_record(address)
+    if part == 1.0:
+        now, ux, uy, vx, vy = t, slot.ux, slot.uy, slot.vx, slot.vy
+    else:
+        ux, uy, vx, vy = between(address, t, part)
+        now = slot.before[0] + part * (t - slot.before[0])
+    guards_at(state, address, row, now, ux, uy, vx, vy)
+    output = s.header_record(state).output
+    least = math.inf
+    for j in range(GUARDS):
+        if slot.guards[j] > 0.0:
+            least = min(least, output[j])
+    return least

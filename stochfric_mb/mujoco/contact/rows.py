@@ -1,0 +1,94 @@
+"""Rows of MuJoCo's constraint solver, as friction writes them between their making and the solution.
+
+A row asks for the acceleration a = aref - R f, with aref = -B v - K I (pos - margin) (MuJoCo's computation chapter,
+constraint model). Its force in slip is bounded by a friction cone (contacts, elliptic) or by ``frictionloss`` (joints).
+"""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import math
+
+from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.mujoco.memory import words as w
+
+RIGID = 0.25
+"""Share of a stuck row's deflection that the solver takes back in one step, where the law is rigid: R K I = RIGID/h^2.
+
+1 would take all of it at once and pass every rounding error on; much less lets a load that rises move it further. Holds
+and servo tables move by the same amounts, within a factor of two, from 0.1 to 0.5 (tests/engines/test_mujoco_solver.py).
+"""
+LEAST = 1.0e-5
+"""Smallest coefficient of friction of an elliptic cone that MuJoCo itself uses (mjMINMU)."""
+
+
+@compiled
+def rate_of(m, d, row, vector):
+    """Return a row of the constraint Jacobian times a vector of generalised coordinates, which is given by its address."""
+    total = 0.0
+    if d.efc_J_rownnz != 0 and w.int_at(d.efc_J_rownnz, row) > 0 and m.nv > 0 and is_sparse(m):
+        first = w.int_at(d.efc_J_rowadr, row)
+        for k in range(first, first + w.int_at(d.efc_J_rownnz, row)):
+            total += w.at(d.efc_J, k) * w.at(vector, w.int_at(d.efc_J_colind, k))
+        return total
+    for k in range(m.nv):
+        total += w.at(d.efc_J, row * m.nv + k) * w.at(vector, k)
+    return total
+
+
+@compiled_inline
+def is_sparse(m):
+    """Return whether MuJoCo keeps the constraint Jacobian sparse: asked for, or (auto) from 60 coordinates on."""
+    return m.jacobian == 1 or (m.jacobian == 2 and m.nv >= 60)
+
+
+@compiled
+def set_resistance(d, row, resistance):
+    """Give a row its R, and its D = 1/R, wherever the solver looks for them."""
+    w.put(d.efc_R, row, resistance)
+    w.put(d.efc_D, row, 1.0 / resistance)
+    if d.nisland > 0:
+        other = w.int_at(d.map_efc2iefc, row)
+        w.put(d.iefc_R, other, resistance)
+        w.put(d.iefc_D, other, 1.0 / resistance)
+
+
+@compiled
+def set_reference(d, row, damping, stiffness, position):
+    """Make a row ask for a = -damping v - stiffness position (1/s, 1/s^2, m)."""
+    w.put(d.efc_KBIP, 4 * row, stiffness / w.at(d.efc_KBIP, 4 * row + 2))
+    w.put(d.efc_KBIP, 4 * row + 1, damping)
+    w.put(d.efc_pos, row, position)
+    w.put(d.efc_margin, row, 0.0)
+
+
+@compiled
+def spring_of(resistance, stiffness, damping, h):
+    """Return R [1/kg] and K I [1/s^2] of a row that is a spring and a damper in the velocity at the step's end.
+
+        F = k (z + h v') + c v' with v' = v + h a is the row B = 1/h, K I = k/(h (k h + c)), R = 1/(h (k h + c)); in series with
+        the R that the row has already. K I is set so that F = k z at rest. A spring that a step cannot
+    follow, one that would take back more than all of the deflection at once, counts as rigid.
+    """
+    total = resistance + 1.0 / (h * (stiffness * h + damping))
+    own, most = stiffness * total, 1.0 / (h * h)
+    return total, own if own <= most else RIGID * most
+
+
+@compiled
+def set_cap(m, d, contact, cap):
+    """Give an elliptic contact its coefficient of sliding friction; torsional and rolling friction stay what they are."""
+    if contact.dim < 3 or contact.efc_address < 0:
+        return
+    row, friction = contact.efc_address, contact.friction
+    resistance = w.at(d.efc_R, row + 1)
+    friction[0] = cap
+    friction[1] = cap
+    if resistance <= 0.0:  # the discrete integrator makes these rows later, and mu with them
+        return
+    contact.mu = cap * math.sqrt(resistance / w.at(d.efc_R, row))
+    for j in range(2, contact.dim - 1):  # a cone is circular where R_j friction_j^2 is the same for all
+        set_resistance(d, row + 1 + j, resistance * (cap / friction[j]) ** 2)

@@ -1,0 +1,386 @@
+"""Friction at contacts by MuJoCo's own solver, steered by the law: a cap for each step, and a spring while stuck.
+
+*Stuck* rows ask for the relative velocity and the deflection since the contact stuck to vanish (native friction asks for
+the velocity alone, and creeps); their cap is mu_s N. *Sliding* rows ask for the velocity to vanish, with the law's
+coefficient at the speed at hand as cap. What the solver found says when a contact switches: a force at its cap ends
+stick, one below it ends slip.
+
+Two terms make the step first order in everything. The elliptic cone of a sliding contact asks its normal row for
+a + mu abs(a_t - aref_t) instead of a (MuJoCo's computation chapter, elliptic cones), which lifts sliding bodies off; that
+is taken out of the normal row's reference, with the last step's a_t. And integrators with implicit
+damping move a contact otherwise than the solver foresaw; a stuck row is told the difference of the last step.
+"""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import math
+
+from stochfric_mb.coefficients.path import canonical_time
+from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.laws.abi import call_slide, call_spring
+from stochfric_mb.laws.plane import length
+from stochfric_mb.mujoco.contact.kinematics import bodies_of, dot, ordinal_of, put, set_axes, side, spin
+from stochfric_mb.mujoco.contact.law import coefficients
+from stochfric_mb.mujoco.contact.rows import LEAST, RIGID, rate_of, set_cap, set_reference, set_resistance, spring_of
+from stochfric_mb.mujoco.memory import engine
+from stochfric_mb.mujoco.memory import state as s
+from stochfric_mb.mujoco.memory import words as w
+from stochfric_mb.mujoco.memory.structs import contact_at, data_at, model_at
+
+RUNGE_KUTTA, DISCRETE = 1, 4
+"""mjtIntegrator. The discrete one makes its references anew after the passive stage: of all that is written here only the
+coefficients and a contact's ``solreffriction`` count, so its stuck contacts creep as natively, if less, and sliding lifts."""
+PGS = 0
+"""mjtSolver. It holds the rows' R in a matrix of its own, made before the passive stage, and does not converge on stiff sliding
+rows, so sliding contacts keep MuJoCo's own reference, which lifts bodies a little."""
+SATURATED = 0.9999
+"""Share of the cap from which on a force counts as at its cap: the solver's tolerance leaves 1e-6 of it."""
+SLIDING_SHARE = 0.99
+"""Least share of the cap that sliding friction has where a contact slides and torsion or rolling does not do it alone."""
+LIGHTEST = 0.01
+"""Smallest weight of a contact among others: a lighter one is as stiff as one of this weight."""
+BISECTIONS = 30
+"""Halvings in which the speed of creep is found: to 1e-9 of the law's peak speed."""
+
+
+@compiled
+def begin(model, data, state):
+    """Make the current slots for a step that starts now, and steer the solver for it."""
+    m, d, header = model_at(model), data_at(data), s.header_record(state)
+    known = int(header.n_committed) if header.advanced == d.time else 0
+    row = w.law_row(int(header.law))
+    body, surface = int(header.geom_body), int(header.geom_surface)
+    count = 0
+    for i in range(d.ncon):
+        contact = contact_at(d, i)
+        sign = side(contact, body, surface)
+        if sign == 0 or contact.efc_address < 0:
+            continue
+        if contact.dim < 3:
+            engine.mju_error(w.entry(w.CONDIM_MESSAGE))
+        if count == int(header.n_slots):
+            engine.mju_error(w.entry(w.SLOTS_MESSAGE))
+        follow(m, d, state, row, i, sign, known, count)
+        steer(m, d, state, row, contact, sign, s.slot_address(state, 1, count), 0.0)
+        count += 1
+    header.n_current = count
+
+
+@compiled
+def go_on(model, data, state):
+    """Steer the solver at a later stage of a Runge-Kutta step; contacts born within the step get slots of their own."""
+    m, d, header = model_at(model), data_at(data), s.header_record(state)
+    row = w.law_row(int(header.law))
+    body, surface = int(header.geom_body), int(header.geom_surface)
+    k = 0
+    for i in range(d.ncon):
+        contact = contact_at(d, i)
+        sign = side(contact, body, surface)
+        if sign == 0 or contact.efc_address < 0:
+            continue
+        if contact.dim < 3:
+            engine.mju_error(w.entry(w.CONDIM_MESSAGE))
+        count = int(header.n_current)
+        number = s.find(state, 1, count, contact.geom[0], contact.geom[1], ordinal_of(d, i), k) if count > 0 else -1
+        k += 1
+        if number < 0:
+            if count == int(header.n_slots):
+                engine.mju_error(w.entry(w.SLOTS_MESSAGE))
+            number, header.n_current = count, count + 1.0
+            follow(m, d, state, row, i, sign, 0, number)
+        slot = s.slot_at(state, 1, number)
+        slot.mu_s, slot.mu_k = coefficients(state, canonical_time(d.time, 0.5 * m.timestep), slot.ux, slot.events)
+        steer(m, d, state, row, contact, sign, s.slot_address(state, 1, number), d.time - header.evaluated)
+
+
+@compiled_inline
+def measure_velocity(m, d, contact, sign):
+    """Return the velocity [m/s] of the counter-surface relative to the body, in world axes, as the solver has it."""
+    f, row = contact.frame, contact.efc_address
+    a = sign * (rate_of(m, d, row + 1, d.qvel) + contact.surfacevel[0])
+    b = sign * (rate_of(m, d, row + 2, d.qvel) + contact.surfacevel[1])
+    return a * f[3] + b * f[6], a * f[4] + b * f[7], a * f[5] + b * f[8]
+
+
+@compiled
+def follow(m, d, state, row, i, sign, known, k):
+    """Fill the current slot ``k`` from contact ``i`` and what it was a step ago; decide whether it sticks or slides."""
+    header, contact = s.header_record(state), contact_at(d, i)
+    slot = s.slot_at(state, 1, k)
+    ordinal = ordinal_of(d, i)
+    number = s.find(state, 0, known, contact.geom[0], contact.geom[1], ordinal, k) if known > 0 else -1
+    old = s.slot_at(state, 0, max(number, 0))
+    h = m.timestep
+    body, surface = bodies_of(m, contact, sign)
+    wx, wy, wz = measure_velocity(m, d, contact, sign)
+    set_axes(d, contact, slot, old, number >= 0, body, surface, h)
+    slot.geom_1, slot.geom_2, slot.ordinal = contact.geom[0] + 1.0, contact.geom[1] + 1.0, ordinal
+    slot.since, slot.live, slot.solved, slot.cap = header.instant, 1.0, 1.0, 0.0
+    put(slot.w, wx, wy, wz)
+    slot.vx, slot.vy = dot(slot.axis_1, wx, wy, wz), dot(slot.axis_2, wx, wy, wz)
+    mobility = w.at(m.body_invweight0, 2 * body) + w.at(m.body_invweight0, 2 * surface)
+    slot.felt = 1.0 / mobility if mobility > 0.0 else 0.0
+    slot.mass = slot.felt if header.needs_mass != 0.0 else 0.0
+    speed = length(slot.vx, slot.vy)
+    if number < 0:
+        born(header, slot, speed)
+    else:
+        slot.given, slot.weight, slot.events, slot.energy = old.given, old.weight, old.events, old.energy
+        put(slot.pull, old.pull[0], old.pull[1], old.pull[2])
+        move(m, d, header, contact, slot, old, body, surface)
+        switch(state, row, slot, old, speed, h * mobility)
+    slot.mu_s, slot.mu_k = coefficients(state, header.instant, slot.ux, slot.events)
+
+
+@compiled
+def born(header, slot, speed):
+    """Start a contact: sliding if it is faster than the law's stick speed (or peak speed), otherwise stuck."""
+    slot.slides = 1.0 if speed > max(header.stick_speed, header.peak_speed) else 0.0
+    slot.ux, slot.uy = header.origin, 0.0
+    slot.given, slot.events, slot.energy, slot.saturated = 0.0, 0.0, 0.0, 0.0
+    put(slot.z, 0.0, 0.0, 0.0)
+    put(slot.pull, 0.0, 0.0, 0.0)
+    put(slot.a, 0.0, 0.0, 0.0)
+    put(slot.lead, 0.0, 0.0, 0.0)
+    slot.weight = 1.0
+
+
+@compiled
+def move(m, d, header, contact, slot, old, body, surface):
+    """Carry deflection, displacement and dissipated energy of a contact over the step that has just ended."""
+    h, f = m.timestep, contact.frame
+    early = 0.5 if m.integrator == RUNGE_KUTTA else 0.0  # other integrators move with the velocity at the step's end
+    v, u, a = slot.w, old.w, slot.a
+    dx, dy, dz = h * (v[0] + early * (u[0] - v[0])), h * (v[1] + early * (u[1] - v[1])), h * (v[2] + early * (u[2] - v[2]))
+    slot.ux = old.ux + dot(slot.axis_1, dx, dy, dz)
+    slot.uy = old.uy + dot(slot.axis_2, dx, dy, dz)
+    slot.energy += dot(old.pull, dx, dy, dz)
+    put(a, old.a[0], old.a[1], old.a[2])
+    put(slot.lead, 0.0, 0.0, 0.0)
+    if old.foreseen != 0.0:
+        put(slot.lead, (v[0] - u[0]) / h - a[0], (v[1] - u[1]) / h - a[1], (v[2] - u[2]) / h - a[2])
+    z = slot.z
+    put(z, old.z[0], old.z[1], old.z[2])
+    if old.slides == 0.0:
+        turn = 0.5 * h * (spin(d, body, f[0], f[1], f[2]) + spin(d, surface, f[0], f[1], f[2]))
+        x, y, k = z[0], z[1], z[2]
+        put(
+            z,
+            x + turn * (f[1] * k - f[2] * y) + dx,
+            y + turn * (f[2] * x - f[0] * k) + dy,
+            k + turn * (f[0] * y - f[1] * x) + dz,
+        )
+        out = dot(z, f[0], f[1], f[2])
+        put(z, z[0] - out * f[0], z[1] - out * f[1], z[2] - out * f[2])
+
+
+@compiled
+def switch(state, row, slot, old, speed, step_mobility):
+    """Let a contact break away or stick again, by the force that the solver found in the step that has just ended.
+
+    No contact is stuck that friction could not stop within one step: ``step_mobility`` is the step over the mass.
+    """
+    header = s.header_record(state)
+    stoppable = max(header.stick_speed, header.peak_speed) + step_mobility * old.mu_s * old.given
+    z, v = slot.z, slot.w
+    if old.slides == 0.0:
+        breaks = old.loose != 0.0
+        if old.saturated != 0.0 and not breaks:  # the other contacts hold the bodies: its force stays at the cap
+            put(z, old.z[0], old.z[1], old.z[2])
+        if header.rest == s.CREEP:
+            slip_back(state, row, slot, old)
+        elif header.rest == s.ELASTIC:
+            limit = spring_at(state, row, old, old.given)[2]
+            size = size_of(z)
+            breaks = breaks and size >= limit and dot(z, v[0], v[1], v[2]) > 0.0
+            if old.saturated != 0.0 and size > limit:
+                put(z, z[0] * limit / size, z[1] * limit / size, z[2] * limit / size)
+        slot.slides = 1.0 if breaks or speed > stoppable else 0.0
+    else:
+        fast = speed > header.peak_speed if header.rest == s.CREEP else old.saturated != 0.0
+        slot.slides = 1.0 if fast or speed > stoppable else 0.0
+        if slot.slides == 0.0:
+            slot.events += 1.0
+            put(z, 0.0, 0.0, 0.0)
+            if header.rest == s.ELASTIC:  # the deflection that keeps the force
+                stiffness = spring_at(state, row, old, old.given)[0]
+                if stiffness > 0.0:
+                    put(z, old.pull[0] / stiffness, old.pull[1] / stiffness, old.pull[2] / stiffness)
+
+
+@compiled
+def spring_at(state, row, slot, load):
+    """Return stiffness [N/m], damping [N s/m] and largest deflection [m] of an elastic law under a load [N]."""
+    header = s.header_record(state)
+    call_spring(
+        w.entry(row + w.SPRING), load, slot.felt, slot.mu_s, s.parameters_of(state), s.output_of(state)
+    )  # fmt: skip
+    return header.output[0], header.output[1], header.output[2]
+
+
+@compiled
+def slip_back(state, row, slot, old):
+    """Let the anchor of a law that creeps at rest follow at the speed at which the law has the force at hand."""
+    force = size_of(old.pull)
+    if force > 0.0:
+        back = (slot.since - old.since) * creep_speed(state, row, old, force) / force
+        z, f = slot.z, old.pull
+        put(z, z[0] - back * f[0], z[1] - back * f[1], z[2] - back * f[2])
+
+
+@compiled
+def creep_speed(state, row, slot, force):
+    """Return the speed [m/s], up to the peak, at which the law's coefficient times the normal force is ``force`` [N]."""
+    header = s.header_record(state)
+    low, high = 0.0, header.peak_speed
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        mu = call_slide(w.entry(row + w.SLIDE), middle, slot.mu_s, slot.mu_k, s.parameters_of(state))
+        if mu * slot.given < force:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)
+
+
+@compiled
+def steer(m, d, state, row, contact, sign, address, since):
+    """Write a contact's cap and its rows' references, ``since`` [s] after the step's start."""
+    slot = s.slot_record(address)
+    if row == 0:
+        w.put(d.qfrc_passive, 0, math.nan)
+        return
+    vx, vy, vz = slot.w[0], slot.w[1], slot.w[2]
+    x, y, z = slot.z[0], slot.z[1], slot.z[2]
+    if since > 0.0:
+        ux, uy, uz = measure_velocity(m, d, contact, sign)
+        half = 0.5 * since
+        x, y, z = x + half * (vx + ux), y + half * (vy + uy), z + half * (vz + uz)
+        vx, vy, vz = ux, uy, uz
+    if slot.slides != 0.0:
+        let_slide(m, d, state, row, contact, slot, vx, vy, vz)
+    else:
+        hold(m, d, state, row, contact, sign, slot, x, y, z)
+
+
+@compiled
+def let_slide(m, d, state, row, contact, slot, vx, vy, vz):
+    """Steer a sliding contact: the law's coefficient at its speed, and the cone's lift taken out of the normal row."""
+    h, first = m.timestep, contact.efc_address
+    speed = math.sqrt(vx * vx + vy * vy + vz * vz)
+    cap = max(call_slide(w.entry(row + w.SLIDE), speed, slot.mu_s, slot.mu_k, s.parameters_of(state)), LEAST)
+    native = m.integrator == DISCRETE or m.solver == PGS
+    for j in (first + 1, first + 2):
+        if not native:
+            set_reference(d, j, 1.0 / h, 0.0, 0.0)
+    stiffness = w.at(d.efc_KBIP, 4 * first) * w.at(d.efc_KBIP, 4 * first + 2)
+    if speed > 0.0 and stiffness > 0.0 and not native:
+        lift = cap * max(0.0, speed / h + dot(slot.a, vx, vy, vz) / speed)
+        w.put(d.efc_pos, first, w.at(d.efc_pos, first) + lift / stiffness)
+        keep_normal(d, first, cap)
+    set_cap(m, d, contact, cap)
+    slot.cap = cap
+
+
+@compiled
+def keep_normal(d, first, cap):
+    """Let the normal force of a sliding contact be that of a frictionless one.
+
+    In slip the cone's normal force is (...)/(R_n (1 + mu^2)) with mu^2 = cap^2 R_t/R_n; R_n - cap^2 R_t in place of R_n
+    makes that (...)/R_n. Where that would be less than 3/4 of R_n, R_t is lowered, which in slip changes nothing else.
+    """
+    normal, tangent = w.at(d.efc_R, first), w.at(d.efc_R, first + 1)
+    if 4.0 * cap * cap * tangent > normal:
+        tangent = 0.25 * normal / (cap * cap)
+        set_resistance(d, first + 1, tangent)
+        set_resistance(d, first + 2, tangent)
+    set_resistance(d, first, normal - cap * cap * tangent)
+
+
+@compiled
+def spring_and_cap(state, row, slot, resistance, h):
+    """Return R [1/kg] and K I [1/s^2] of a stuck row that has R = ``resistance``, and its cap [-].
+
+    Rigid laws get the stiffest spring that suits the step, elastic ones their own. A law that creeps at rest is that rigid
+    spring in series with a damper, of the force over the speed at which the law has it.
+    """
+    header = s.header_record(state)
+    stiffness, cap = RIGID / (h * h), slot.mu_s
+    if header.rest == s.CREEP:
+        cap = call_slide(w.entry(row + w.SLIDE), header.peak_speed, slot.mu_s, slot.mu_k, s.parameters_of(state))
+        force = size_of(slot.pull)
+        if force > 0.0:
+            resistance += creep_speed(state, row, slot, force) / (h * force)
+    elif header.rest == s.ELASTIC:
+        weight = max(slot.weight, LIGHTEST)  # contacts of one pair share what they hold together, by their normal forces
+        k, c, _ = spring_at(state, row, slot, slot.given / weight)
+        if k > 0.0:
+            resistance, stiffness = spring_of(resistance, weight * k, weight * c, h)
+    return resistance, stiffness, max(cap, LEAST)
+
+
+@compiled
+def hold(m, d, state, row, contact, sign, slot, x, y, z):
+    """Steer a stuck contact with the deflection (x, y, z)."""
+    f, first = contact.frame, contact.efc_address
+    resistance = w.at(d.efc_R, first + 1) / max(slot.weight, LIGHTEST)  # so contacts share a load by their normal forces
+    resistance, stiffness, slot.cap = spring_and_cap(state, row, slot, resistance, m.timestep)
+    if m.integrator == DISCRETE:
+        contact.solreffriction[0], contact.solreffriction[1] = 2.0 * m.timestep, 1.0
+    for j in (1, 2):
+        if m.solver != PGS:
+            set_resistance(d, first + j, resistance)
+        ex, ey, ez = sign * f[3 * j], sign * f[3 * j + 1], sign * f[3 * j + 2]
+        lead = dot(slot.lead, ex, ey, ez) / stiffness
+        set_reference(d, first + j, 1.0 / m.timestep, stiffness, x * ex + y * ey + z * ez + lead)
+    set_cap(m, d, contact, slot.cap)
+
+
+@compiled_inline
+def size_of(vector):
+    """Return the length of a vector."""
+    return math.sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2])
+
+
+@compiled
+def learn(m, d, header, contact, sign, slot, accepted):
+    """Write what the solver found for a contact to its slot (see `settle`)."""
+    first = contact.efc_address
+    normal, a, b = w.at(d.efc_force, first), w.at(d.efc_force, first + 1), w.at(d.efc_force, first + 2)
+    others = 0.0
+    for j in range(2, contact.dim - 1):
+        others += (w.at(d.efc_force, first + 1 + j) / contact.friction[j]) ** 2
+    p, q = 0.0, 0.0
+    if accepted:
+        p, q = rate_of(m, d, first + 1, d.qacc), rate_of(m, d, first + 2, d.qacc)
+    settle(header, slot, contact.frame, sign, normal, a, b, others, p, q, accepted, m.integrator != RUNGE_KUTTA)
+
+
+@compiled
+def settle(header, slot, f, sign, normal, a, b, others, p, q, accepted, foresees):
+    """Write the forces of a contact to its slot, and of an accepted step what follows from them.
+
+    That is whether the cap was reached, and the acceleration that the solver foresaw. (normal, a, b) are the contact's
+    forces and (p, q) its accelerations along MuJoCo's tangents in frame ``f``; ``others`` is the sum of squares of torsional
+    and rolling friction over their coefficients [N^2].
+    """
+    x, y, z = -sign * (a * f[3] + b * f[6]), -sign * (a * f[4] + b * f[7]), -sign * (a * f[5] + b * f[8])
+    slot.normal = max(normal, 0.0)
+    slot.fx, slot.fy = dot(slot.axis_1, x, y, z), dot(slot.axis_2, x, y, z)
+    force = length(a, b)
+    at_cone = normal > 0.0 and math.sqrt((force / slot.cap) ** 2 + others) >= SATURATED * normal
+    saturated = at_cone and force >= SLIDING_SHARE * slot.cap * normal
+    slow = length(slot.vx, slot.vy) <= max(header.stick_speed, header.peak_speed)
+    slot.stick = 1.0 if slot.slides == 0.0 and not saturated and slow else 0.0
+    if not accepted:
+        return
+    slot.given = slot.normal
+    put(slot.pull, x, y, z)
+    slot.saturated = 1.0 if saturated else 0.0
+    slot.foreseen = 1.0 if slot.slides == 0.0 and not saturated and foresees else 0.0
+    p, q = sign * p, sign * q
+    put(slot.a, p * f[3] + q * f[6], p * f[4] + q * f[7], p * f[5] + q * f[8])

@@ -1,0 +1,175 @@
+"""A friction instance from step to step: which way a step goes, and what is kept of it once the engine accepts it."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+from stochfric_mb.coefficients.path import canonical_time
+from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.mujoco.contact import explicit, solver
+from stochfric_mb.mujoco.contact.kinematics import ordinal_of, side
+from stochfric_mb.mujoco.memory import engine
+from stochfric_mb.mujoco.memory import state as s
+from stochfric_mb.mujoco.memory import words as w
+from stochfric_mb.mujoco.memory.structs import contact_at, data_at, model_at
+
+
+@compiled
+def evaluate(model, data, state):
+    """Let friction act at this instant: the first one of a step, or a later stage of a Runge-Kutta step."""
+    m, d, header = model_at(model), data_at(data), s.header_record(state)
+    start = header.evaluated
+    if header.started != 0.0 and start < d.time <= start + 1.0001 * m.timestep:
+        if header.solved != 0.0:
+            solver.go_on(model, data, state)
+        else:
+            explicit.apply(model, data, state)
+        return
+    header.evaluated, header.started = d.time, 1.0
+    header.instant = canonical_time(d.time, 0.5 * m.timestep)
+    if not tries_explicit(m, d, header) or (explicit.begin(model, data, state) and header.rest != s.BRISTLE):
+        header.solved = 1.0
+        solver.begin(model, data, state)
+    else:
+        header.solved = 0.0
+        explicit.apply(model, data, state)
+
+
+@compiled_inline
+def tries_explicit(m, d, header):
+    """Return whether a step may be explicit: asked for, or (auto) of Runge-Kutta kind and not beyond it before."""
+    if header.mode == s.EXPLICIT or header.rest == s.BRISTLE:
+        return True
+    if header.mode == s.SOLVER or header.rest == s.RIGID:
+        return False
+    known = header.advanced == d.time
+    return m.integrator == solver.RUNGE_KUTTA and not (known and header.latched != 0.0)
+
+
+@compiled
+def finish(model, data, state):
+    """Commit the current slots when the engine accepts a step, with the forces of its last solution."""
+    m, header = model_at(model), s.header_record(state)
+    commit(model, data, state)
+    header.n_committed = learn(data, state, 0, int(header.n_committed), m)
+    close(m, data_at(data), state)
+
+
+@compiled
+def commit(model, data, state):
+    """Make the current slots the committed ones, still without forces."""
+    header = s.header_record(state)
+    count = int(header.n_current)
+    s.copy_slots(s.slot_address(state, 1, 0), s.slot_address(state, 0, 0), count)
+    for k in range(count):
+        forget_forces(s.slot_at(state, 0, k))
+    header.n_committed = count
+
+
+@compiled
+def close(m, d, state):
+    """End a step whose forces are known."""
+    header = s.header_record(state)
+    if header.solved != 0.0:
+        compare(m, state, int(header.n_committed))
+    else:
+        header.velocities, header.finished = explicit.told_by(m, d), 1.0
+    header.latched = 1.0 if header.solved != 0.0 and header.n_committed > 0.0 else 0.0
+    header.unconverged += 1.0 if stopped_early(m, d) else 0.0
+    header.advanced, header.started = d.time, 0.0
+
+
+@compiled
+def learn(data, state, current, count, m):
+    """Write the forces of the engine's last solution to the slots of a block; return the number of its contacts.
+
+    The committed block (0) is that of an accepted step. A contact that came up at the end of an explicit step gets a slot
+    there, for its normal force.
+    """
+    d, header = data_at(data), s.header_record(state)
+    body, surface = int(header.geom_body), int(header.geom_surface)
+    k = 0
+    for i in range(d.ncon):
+        contact = contact_at(d, i)
+        sign = side(contact, body, surface)
+        if sign == 0:
+            continue
+        a, b, ordinal = contact.geom[0], contact.geom[1], ordinal_of(d, i)
+        number = s.find(state, current, count, a, b, ordinal, k) if count > 0 else -1
+        k += 1
+        if header.solved != 0.0:
+            if number >= 0 and contact.efc_address >= 0 and contact.dim > 2:
+                solver.learn(m, d, header, contact, sign, s.slot_at(state, current, number), current == 0)
+            continue
+        if number < 0:
+            if count == int(header.n_slots):
+                engine.mju_error(w.entry(w.SLOTS_MESSAGE))
+            number, count = count, count + 1
+            slot = s.slot_at(state, current, number)
+            slot.geom_1, slot.geom_2, slot.ordinal, slot.live = a + 1.0, b + 1.0, ordinal, 0.0
+        s.slot_at(state, current, number).normal = normal_force(d, contact)
+    return count
+
+
+@compiled
+def report(model, data, state):
+    """Bring what can be read of a pair up to date; return the block to read, 0 committed or 1 current.
+
+    After an evaluation these are the forces of the engine's solution for it, after a step those of the step.
+    """
+    header = s.header_record(state)
+    if header.solved == 0.0:
+        return 1
+    if header.started == 0.0:
+        return 0
+    learn(data, state, 1, int(header.n_current), model_at(model))
+    return 1
+
+
+@compiled
+def compare(m, state, count):
+    """Compare the contacts between the same two bodies: how much of the normal force each has, and which are loose.
+
+    A contact at its cap is loose, and slides, if none of the others holds less than its cap.
+    """
+    for k in range(count):
+        slot = s.slot_at(state, 0, k)
+        slot.loose, among, total = slot.saturated, 0.0, 0.0
+        for j in range(count):
+            other = s.slot_at(state, 0, j)
+            if body_at(m, other.geom_1) == body_at(m, slot.geom_1) and body_at(m, other.geom_2) == body_at(m, slot.geom_2):
+                among, total = among + 1.0, total + other.given
+                if other.saturated == 0.0 and other.given > 0.0:
+                    slot.loose = 0.0
+        slot.weight = slot.given * among / total if total > 0.0 else 1.0
+
+
+@compiled_inline
+def body_at(m, key):
+    """Return the body of a geom, given as a slot's key."""
+    return w.int_at(m.geom_bodyid, int(key) - 1)
+
+
+@compiled_inline
+def forget_forces(slot):
+    """Take a contact's forces as zero, until the engine's solution says otherwise: it may have ended within the step."""
+    slot.normal, slot.given, slot.saturated, slot.foreseen = 0.0, 0.0, 0.0, 0.0
+    slot.pull[0], slot.pull[1], slot.pull[2] = 0.0, 0.0, 0.0
+
+
+@compiled_inline
+def normal_force(d, contact):
+    """Return the normal force [N] of a contact (elliptic, or frictionless) in MuJoCo's last solution."""
+    row = contact.efc_address
+    return max(w.at(d.efc_force, row), 0.0) if row >= 0 else 0.0
+
+
+@compiled
+def stopped_early(m, d):
+    """Return whether MuJoCo's solver stopped at its limit of iterations in the last solution."""
+    most = 0
+    for i in range(max(1, min(d.nisland, len(d.solver_niter)))):
+        most = max(most, d.solver_niter[i])
+    return m.iterations > 1 and most >= m.iterations

@@ -1,0 +1,1 @@
+"""Friction of joints and tendons, one coordinate each."""

@@ -1,0 +1,103 @@
+"""A joint or a tendon as one generalised coordinate: its position, its rate, the forces along it, its friction row."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import math
+
+from stochfric_mb.compile import compiled
+from stochfric_mb.mujoco.memory import engine
+from stochfric_mb.mujoco.memory import words as w
+
+FRICTION_OF_JOINT, FRICTION_OF_TENDON = 1, 2
+"""mjtConstraint."""
+SLIDE = 2
+"""mjtJoint."""
+
+
+@compiled
+def is_tendon(header):
+    """Return whether an instance is friction of a tendon."""
+    return header.geom_body != 0.0
+
+
+@compiled
+def add_row(m, d, header, factor, target):
+    """Add ``factor`` times the row of the coordinate's rate per generalised velocity to the vector at ``target``."""
+    number = int(header.geom_surface)
+    if not is_tendon(header):
+        dof = w.int_at(m.jnt_dofadr, number)
+        w.put(target, dof, w.at(target, dof) + factor)
+        return
+    first = w.int_at(m.ten_J_rowadr, number)
+    for j in range(first, first + w.int_at(m.ten_J_rownnz, number)):
+        dof = w.int_at(m.ten_J_colind, j)
+        w.put(target, dof, w.at(target, dof) + factor * w.at(d.ten_J, j))
+
+
+@compiled
+def along_row(m, d, header, vector):
+    """Return the product of the coordinate's row with the vector at ``vector``: its rate, for qvel."""
+    number = int(header.geom_surface)
+    if not is_tendon(header):
+        return w.at(vector, w.int_at(m.jnt_dofadr, number))
+    first, total = w.int_at(m.ten_J_rowadr, number), 0.0
+    for j in range(first, first + w.int_at(m.ten_J_rownnz, number)):
+        total += w.at(d.ten_J, j) * w.at(vector, w.int_at(m.ten_J_colind, j))
+    return total
+
+
+@compiled
+def position_of(m, d, header):
+    """Return the coordinate's position [rad or m]: a joint's, or a tendon's length."""
+    number = int(header.geom_surface)
+    if is_tendon(header):
+        return w.at(d.ten_length, number)
+    return w.at(d.qpos, w.int_at(m.jnt_qposadr, number))
+
+
+@compiled
+def friction_row(m, d, header):
+    """Return the coordinate's friction row of MuJoCo's constraints, -1 if there is none (asleep, or frictionloss 0)."""
+    number = int(header.geom_surface)
+    kind = FRICTION_OF_TENDON if is_tendon(header) else FRICTION_OF_JOINT
+    place = number if is_tendon(header) else w.int_at(m.jnt_dofadr, number)
+    for i in range(d.nefc):
+        if w.int_at(d.efc_type, i) == kind and w.int_at(d.efc_id, i) == place:
+            return i
+    return -1
+
+
+@compiled
+def set_limit(d, row, limit):
+    """Give a friction row its largest force [N or N m], wherever the solver looks for it."""
+    w.put(d.efc_frictionloss, row, limit)
+    if d.nisland > 0:
+        w.put(d.iefc_frictionloss, w.int_at(d.map_efc2iefc, row), limit)
+
+
+@compiled
+def bearing_load(model, data, m, d, header):
+    """Return the load [N, hinge N m] that the joint's own reaction makes in the last solution, times the bearing's radius.
+
+    The reaction is the force between the joint's two bodies; along a slide joint's axis it is no load.
+    """
+    engine.mj_rnePostConstraint(model, data)
+    number = int(header.geom_surface)
+    f, e = d.cfrc_int + 48 * w.int_at(m.jnt_bodyid, number) + 24, d.xaxis + 24 * number
+    x, y, z = w.at(f, 0), w.at(f, 1), w.at(f, 2)
+    if w.int_at(m.jnt_type, number) == SLIDE:
+        along = x * w.at(e, 0) + y * w.at(e, 1) + z * w.at(e, 2)
+        x, y, z = x - along * w.at(e, 0), y - along * w.at(e, 1), z - along * w.at(e, 2)
+    return header.radius * math.sqrt(x * x + y * y + z * z)
+
+
+@compiled
+def resting_load(m, header):
+    """Return the load [N, hinge N m] of the weight that the joint carries, before the first solution."""
+    body = w.int_at(m.jnt_bodyid, int(header.geom_surface))
+    g = m.gravity
+    return header.radius * w.at(m.body_subtreemass, body) * math.sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2])

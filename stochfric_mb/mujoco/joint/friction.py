@@ -1,0 +1,229 @@
+"""Friction of a joint or tendon from step to step: MuJoCo's own friction row, steered by the law, or the law's force.
+
+State, commits, switches and coefficient paths are those of contacts, with one slot that always touches; of vectors the
+first component counts. The counter-surface is at rest: u = -position, v = -rate, and friction acts along +v on the
+coordinate. A load that is the joint's own reaction is that of the step before.
+"""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from stochfric_mb.coefficients.path import canonical_time
+from stochfric_mb.compile import compiled
+from stochfric_mb.laws.abi import call_slide
+from stochfric_mb.mujoco.contact import solver, tracking
+from stochfric_mb.mujoco.contact.kinematics import JUMP, NEAR
+from stochfric_mb.mujoco.contact.law import call, coefficients, commit_slot
+from stochfric_mb.mujoco.contact.rows import set_reference, set_resistance
+from stochfric_mb.mujoco.joint.coordinate import (
+    add_row,
+    along_row,
+    bearing_load,
+    friction_row,
+    position_of,
+    resting_load,
+    set_limit,
+)
+from stochfric_mb.mujoco.memory import engine
+from stochfric_mb.mujoco.memory import state as s
+from stochfric_mb.mujoco.memory import words as w
+from stochfric_mb.mujoco.memory.structs import data_at, model_at
+
+STIFFER = 1.0e-4
+"""Stuck rows' R over that which MuJoCo gives friction rows: (1 - d)/d times the mobility of a chain of light links lets it
+sag by milliradians within a step; a friction row of its own, unlike a cone, has nothing that would lose by less."""
+
+
+@compiled
+def evaluate(model, data, state):
+    """Let friction act at this instant: the first one of a step, or a later stage of a Runge-Kutta step."""
+    m, d, header = model_at(model), data_at(data), s.header_record(state)
+    start = header.evaluated
+    stage = header.started != 0.0 and start < d.time <= start + 1.0001 * m.timestep
+    if not stage:
+        header.evaluated, header.started = d.time, 1.0
+        header.instant = canonical_time(d.time, 0.5 * m.timestep)
+        begin(model, data, state)
+    row = w.law_row(int(header.law))
+    if row == 0:
+        w.put(d.qfrc_passive, 0, math.nan)
+    elif header.solved != 0.0:
+        steer(m, d, state, row, d.time - header.evaluated)
+    else:
+        apply(m, d, state, row, stage)
+
+
+@compiled
+def begin(model, data, state):
+    """Make the current slot for a step that starts now."""
+    m, d, header = model_at(model), data_at(data), s.header_record(state)
+    known = header.advanced == d.time and header.n_committed > 0.0
+    slot, old = s.slot_at(state, 1, 0), s.slot_at(state, 0, 0)
+    if header.radius > 0.0 and not known:
+        header.load = resting_load(m, header)
+    fill(model, data, state, slot, old, known)
+    header.n_current, slot.normal = 1.0, header.load
+    header.solved = 0.0
+    if tracking.tries_explicit(m, d, header):
+        limit = s.header_record(state).critical if header.critical_step == m.timestep else 0.0
+        if header.critical_step != m.timestep:
+            limit = header.critical = tracking.explicit.critical_ratio(header, 2.0 * m.timestep)
+            header.critical_step = m.timestep
+        if header.mode == s.EXPLICIT or header.rest == s.BRISTLE or header.load <= limit * slot.felt:
+            commit_slot(state, s.slot_address(state, 1, 0), w.law_row(int(header.law)), header.instant, header.load, 1)
+            return
+    header.solved = 1.0
+    follow(m, d, state, slot, old, known)
+
+
+@compiled
+def fill(model, data, state, slot, old, known):
+    """Fill kinematics and mass of the current slot; its law state stays the old one."""
+    m, d, header = model_at(model), data_at(data), s.header_record(state)
+    if known:
+        s.copy_slots(s.slot_address(state, 0, 0), s.slot_address(state, 1, 0), 1)
+    position, v = position_of(m, d, header), -along_row(m, d, header, d.qvel)
+    slot.ux, slot.vx, slot.uy, slot.vy = -position, v, 0.0, 0.0
+    slot.live = 1.0 if known else 0.0
+    if known:
+        before = slot.before
+        before[0], before[1], before[3] = old.since, old.ux, old.vx
+        slot.ux = old.ux + moved(old, position, v, header.instant)
+        slot.work[0], slot.work[2] = old.fx, slot.ux - old.ux
+    slot.axis_1[0], slot.since, slot.on_body[0] = 1.0, header.instant, position
+    rows = np.zeros((2, m.nv))
+    add_row(m, d, header, 1.0, rows.ctypes.data)
+    engine.mj_solveM(model, data, rows.ctypes.data + 8 * m.nv, rows.ctypes.data, np.int32(1))
+    mobility = along_row(m, d, header, rows.ctypes.data + 8 * m.nv)
+    slot.felt = 1.0 / mobility if mobility > 0.0 else 0.0
+    slot.mass = slot.felt
+
+
+@compiled
+def moved(old, position, v, t):
+    """Return the displacement since the old slot; a coordinate that was put elsewhere moves by its mean velocity."""
+    du, mean = old.on_body[0] - position, 0.5 * (t - old.since) * (v + old.vx)
+    if abs(du - mean) > JUMP * (t - old.since) * (abs(v) + abs(old.vx)) + NEAR:
+        return mean
+    return du
+
+
+@compiled
+def follow(m, d, state, slot, old, known):
+    """Decide whether the coordinate sticks or slides, by what it was a step ago."""
+    header, h = s.header_record(state), m.timestep
+    slot.solved, slot.w[0] = 1.0, slot.vx
+    if not known or old.solved == 0.0:
+        solver.born(header, slot, abs(slot.vx))
+        slot.ux, slot.given = -slot.on_body[0] if not known else old.ux, header.load
+        if known:
+            slot.events, slot.energy = old.events, old.energy
+    else:
+        slot.given = header.load
+        early = 0.5 if m.integrator == solver.RUNGE_KUTTA else 0.0
+        slot.z[0] = old.z[0] + h * (slot.vx + early * (old.vx - slot.vx)) if old.slides == 0.0 else 0.0
+        slot.energy = old.energy + old.pull[0] * (slot.ux - old.ux)
+        slot.lead[0] = (slot.vx - old.w[0]) / h - old.a[0] if old.foreseen != 0.0 else 0.0
+        mobility = 1.0 / slot.felt if slot.felt > 0.0 else 0.0
+        solver.switch(state, w.law_row(int(header.law)), slot, old, abs(slot.vx), h * mobility)
+    slot.live = 1.0
+    slot.mu_s, slot.mu_k = coefficients(state, header.instant, slot.ux, slot.events)
+
+
+@compiled
+def steer(m, d, state, row, since):
+    """Write the largest force of the coordinate's friction row and its reference, ``since`` [s] after the step's start."""
+    header, slot, h = s.header_record(state), s.slot_at(state, 1, 0), m.timestep
+    place = friction_row(m, d, header)
+    if place < 0:
+        return
+    v, z = slot.vx, slot.z[0]
+    if since > 0.0:
+        v = -along_row(m, d, header, d.qvel)
+        z += 0.5 * since * (slot.vx + v)
+    if slot.slides != 0.0:
+        slot.cap = call_slide(w.entry(row + w.SLIDE), abs(v), slot.mu_s, slot.mu_k, s.parameters_of(state))
+        set_reference(d, place, 1.0 / h, 0.0, 0.0)
+    else:
+        resistance, stiffness, slot.cap = solver.spring_and_cap(state, row, slot, STIFFER * w.at(d.efc_R, place), h)
+        set_resistance(d, place, resistance)
+        set_reference(d, place, 1.0 / h, stiffness, -(z + slot.lead[0] / stiffness))
+    set_limit(d, place, slot.cap * slot.given)
+
+
+@compiled
+def apply(m, d, state, row, stage):
+    """Add the law's force at this instant; MuJoCo's own friction of the coordinate is off."""
+    header, address = s.header_record(state), s.slot_address(state, 1, 0)
+    slot = s.slot_record(address)
+    place = friction_row(m, d, header)
+    if place >= 0:
+        set_limit(d, place, 0.0)
+    t = header.instant
+    u, v, mu_s, mu_k = slot.ux, slot.vx, slot.mu_s, slot.mu_k
+    if stage:
+        t = canonical_time(d.time, 0.5 * m.timestep)
+        v = -along_row(m, d, header, d.qvel)
+        u += moved(slot, position_of(m, d, header), v, t)
+        mu_s, mu_k = coefficients(state, t, u, slot.events)
+    call(state, address, w.entry(row + w.FORCE), t, u, 0.0, v, 0.0, mu_s, mu_k)
+    force = header.output[0]
+    if not stage:
+        slot.fx, slot.fy = force, 0.0
+        slot.energy += 0.5 * (slot.work[0] + force) * slot.work[2]
+    add_row(m, d, header, force, d.qfrc_passive)
+
+
+@compiled
+def learn(m, d, state, current):
+    """Write what the solver found for the coordinate to its slot; the committed block (0) is that of an accepted step."""
+    header, slot = s.header_record(state), s.slot_at(state, current, 0)
+    place = friction_row(m, d, header)
+    force = w.at(d.efc_force, place) if place >= 0 else 0.0
+    limit = slot.cap * slot.given
+    saturated = abs(force) >= solver.SATURATED * limit
+    slot.normal, slot.fx = slot.given, force
+    slow = abs(slot.vx) <= max(header.stick_speed, header.peak_speed)
+    slot.stick = 1.0 if slot.slides == 0.0 and not saturated and slow else 0.0
+    if current == 1:
+        return
+    slot.pull[0], slot.saturated = force, 1.0 if saturated else 0.0
+    slot.loose = slot.saturated
+    slot.foreseen = 1.0 if slot.slides == 0.0 and not saturated and m.integrator != solver.RUNGE_KUTTA and place >= 0 else 0.0
+    if slot.foreseen != 0.0:
+        slot.a[0] = w.at(d.efc_R, place) * force - w.at(d.efc_aref, place)
+
+
+@compiled
+def finish(model, data, state):
+    """Commit the current slot when the engine accepts a step."""
+    m, d, header = model_at(model), data_at(data), s.header_record(state)
+    if header.n_current == 0.0:
+        return
+    s.copy_slots(s.slot_address(state, 1, 0), s.slot_address(state, 0, 0), 1)
+    if header.solved != 0.0:
+        learn(m, d, state, 0)
+    if header.radius > 0.0:
+        header.load = bearing_load(model, data, m, d, header)
+    header.unconverged += 1.0 if tracking.stopped_early(m, d) else 0.0
+    header.latched = header.solved
+    header.n_committed, header.advanced, header.started = 1.0, d.time, 0.0
+
+
+@compiled
+def report(model, data, state):
+    """Bring what can be read up to date; return the block to read, 0 committed or 1 current."""
+    header = s.header_record(state)
+    if header.solved == 0.0 or header.n_current == 0.0:
+        return 1
+    if header.started == 0.0:
+        return 0
+    learn(model_at(model), data_at(data), state, 1)
+    return 1

@@ -1,0 +1,61 @@
+"""MuJoCo's shared library: the functions that compiled code calls, and what Python asks it."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: reportCallIssue=false, reportAttributeAccessIssue=false
+# (compiled functions are typed by numba; MuJoCo's bindings are not typed)
+
+from __future__ import annotations
+
+import ctypes
+import functools
+from pathlib import Path
+from typing import Any
+
+import llvmlite.binding
+import mujoco
+from numba import types
+
+from stochfric_mb.errors import MissingEngineError
+
+_I32, _I64, _F64 = types.int32, types.intp, types.float64
+
+
+@functools.cache
+def library() -> ctypes.CDLL:
+    """Return MuJoCo's shared library, the one that the package itself has loaded.
+
+    Raises:
+        MissingEngineError: the package holds no such library.
+    """
+    folder = Path(mujoco.__file__).parent
+    for pattern in ("libmujoco*.so*", "libmujoco*.dylib", "mujoco.dll"):
+        for path in sorted(folder.glob(pattern)):
+            return ctypes.CDLL(str(path))
+    raise MissingEngineError(f"no MuJoCo library in {folder}; install the mujoco package from PyPI: pip install mujoco")
+
+
+def _external(name: str, result: Any, *arguments: Any) -> Any:
+    """Return a C function of the library for compiled code; LLVM resolves its name when cached code is loaded."""
+    address = ctypes.cast(getattr(library(), name), ctypes.c_void_p).value
+    llvmlite.binding.add_symbol(name, address)
+    return types.ExternalFunction(name, result(*arguments))
+
+
+mj_applyFT = _external("mj_applyFT", types.void, _I64, _I64, _I64, _I64, _I64, _I32, _I64)  # noqa: N816
+mj_solveM = _external("mj_solveM", types.void, _I64, _I64, _I64, _I64, _I32)  # noqa: N816
+mj_getPluginConfig = _external("mj_getPluginConfig", _I64, _I64, _I32, _I64)  # noqa: N816
+mj_name2id = _external("mj_name2id", _I32, _I64, _I32, _I64)
+mj_forward = _external("mj_forward", types.void, _I64, _I64)
+mj_step = _external("mj_step", types.void, _I64, _I64)
+mj_rnePostConstraint = _external("mj_rnePostConstraint", types.void, _I64, _I64)  # noqa: N816
+mju_error = _external("mju_error", types.void, _I64)
+
+
+def plugin_text(model: mujoco.MjModel | int, instance: int, key: str) -> str:
+    """Return a configuration value of a plugin instance, "" if there is none; a model may be given by its address."""
+    function = library().mj_getPluginConfig
+    function.restype = ctypes.c_char_p
+    function.argtypes = [ctypes.c_void_p, ctypes.c_int, ctypes.c_char_p]
+    address = model if isinstance(model, int) else model._address
+    return (function(address, instance, key.encode()) or b"").decode()

@@ -1,0 +1,192 @@
+"""What friction remembers, as named records in ``mjData.plugin_state``: a header, then slots for the contacts.
+
+Everything stands there as doubles, so that copying, saving, pickling and batching carry it. The *committed* slots are what
+the last accepted step left; the *current* slots are derived from them at each evaluation at a step's start, and become
+the committed ones when the engine advances. The coefficient descriptor stands between the header and the slots.
+"""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.coefficients.path import CURSOR
+from stochfric_mb.compile import compiled
+from stochfric_mb.laws.abi import MAX_STATE
+from stochfric_mb.laws.contract import GUARDS
+from stochfric_mb.mujoco.memory import words as w
+from stochfric_mb.mujoco.memory.structs import data_at, model_at, record_view
+
+MAX_PARAMETERS, N_LIMITS, MAX_ROW = 16, 13, 32
+UNSET = -1.0e300
+"""A time before all times."""
+MODES = ("auto", "explicit", "solver")
+AUTO, EXPLICIT, SOLVER = range(3)
+"""Values of a header's ``mode``."""
+RIGID, ELASTIC, CREEP, BRISTLE = range(4)
+RESTS = ("rigid", "elastic", "creep", "bristle")
+"""Values of a header's ``rest``: the law's `Law.rest`."""
+
+
+def _record(*fields: str | tuple[str, int]) -> np.dtype[Any]:
+    return np.dtype([(f, np.float64) if isinstance(f, str) else (f[0], np.float64, (f[1],)) for f in fields])
+
+
+HEADER = _record(
+    "law",  # its identifier
+    "geom_body", "geom_surface",  # geoms, -1 for any; for a joint or tendon: 0 or 1, and its number
+    "seed", "sample", "contact",  # address of the coefficient path
+    "n_slots", "n_descriptor", "n_parameters",  # lengths
+    "stick_speed", "peak_speed", "has_mode", "needs_mass", "rest",  # of the law
+    "origin",  # displacement of a new contact [m]
+    "mode",  # asked for
+    "load", "radius",  # of a joint or tendon: given [N or N m], or the radius [m] at which its bearing's reaction rubs
+    "along", "across",  # anisotropic friction: factors of the coefficients along and across ``direction``
+    ("direction", 3),  # in the body's frame
+    "advanced", "evaluated",  # times of the last advance and of the last evaluation at a step's start [s]
+    "n_committed", "n_current", "started",  # contacts in each block; 1 within a step
+    "solved", "latched",  # 1 in a step in which friction is the engine's own; 1 where it stays so
+    "unconverged",  # steps since the start in which MuJoCo's solver stopped at its limit of iterations
+    "velocities", "finished",  # a sum that tells the velocities at the end of the last step, 1 if there is one
+    "instant",  # canonical time [s] of the last evaluation at a step's start
+    "path_time", "path_mu_s", "path_mu_k",  # last evaluation of a path along time
+    "critical", "critical_step",  # normal force over mass [N/kg] where an explicit step [s] is at half its limit
+    ("parameters", MAX_PARAMETERS),
+    ("limits", N_LIMITS),  # step limits [s] at normal forces over mass of 1e-4, 1e-3, ... 1e8 N/kg
+    ("cursor", CURSOR),
+    ("force", 3), ("torque", 3), ("point", 3), ("counter_force", 3), ("counter_torque", 3),  # room to work in
+    ("output", MAX_STATE), ("rows", 4 * MAX_ROW),  # room to work in
+)  # fmt: skip
+SLOT = _record(
+    "geom_1", "geom_2", "ordinal",  # key: geoms plus 1, number among equals
+    "live",  # 1 if it has a law state, 0 not yet, -1 where it was given another velocity
+    "normal", "mass", "felt",  # normal force [N], mass felt by the law, by this contact alone [kg]
+    "stick", "events", "energy",  # stuck, stick phases begun, energy dissipated [J]
+    "mu_s", "mu_k", "since",  # coefficients, time [s]
+    "ux", "uy", "vx", "vy", "fx", "fy", "sx", "sy",  # displacement, velocity, force on the body, surface velocity
+    ("axis_1", 3), ("axis_2", 3),  # the tangent frame, world axes
+    "solved",  # 1 if the engine's solver found the force
+    "given",  # normal force [N] of the step before, by which the solver is steered
+    "slides", "saturated", "loose",  # sliding; the force was at its cap, and so were all those between the two bodies
+    "cap",  # coefficient that the solver was given [-]
+    ("z", 3), ("w", 3),  # deflection while stuck [m], relative velocity [m/s], world axes
+    ("a", 3),  # relative acceleration that the solver foresaw in the step before [m/s^2], world axes
+    "foreseen", ("lead", 3),  # 1 if it was for a step; the acceleration over that step less the foreseen one [m/s^2]
+    "weight",  # its normal force over the mean of those between the two bodies
+    ("pull", 3),  # friction force on the body in the step before [N], world axes
+    ("on_body", 3), ("on_surface", 3),  # the contact point in the frames of the two bodies
+    ("work", 4), ("before", 5), ("guards", GUARDS), ("hold", 2),  # explicit steps, see `contact.law`
+    ("state", MAX_STATE),  # the law's
+)  # fmt: skip
+N_HEADER, N_SLOT = HEADER.itemsize // 8, SLOT.itemsize // 8
+header_record, slot_record = record_view(HEADER), record_view(SLOT)
+_HEADER_SIZE, _SLOT_SIZE = HEADER.itemsize, SLOT.itemsize
+_CURSOR, _OUTPUT, _PARAMETERS, _ROWS = (int(HEADER.fields[f][1]) for f in ("cursor", "output", "parameters", "rows"))  # type: ignore
+_STATE, _GUARDS = (int(SLOT.fields[f][1]) for f in ("state", "guards"))  # type: ignore
+
+Array = npt.NDArray[np.float64]
+
+
+def place(field: str) -> int:
+    """Return where a field of the header stands in an instance's state [doubles]."""
+    fields: Any = HEADER.fields
+    return int(fields[field][1]) // 8
+
+
+def header_of(state: Array) -> Any:
+    """Return the header of an instance's state (a view); fields by name."""
+    return state[:N_HEADER].view(HEADER).view(np.recarray)[0]
+
+
+def slots_of(state: Array, *, committed: bool) -> Any:
+    """Return the committed or the current contacts of an instance's state (a view), fields by name."""
+    header = header_of(state)
+    n_slots = int(header.n_slots)
+    first = N_HEADER + int(header.n_descriptor) + (0 if committed else n_slots * N_SLOT)
+    count = int(header.n_committed if committed else header.n_current)
+    return state[first : first + count * N_SLOT].view(SLOT).view(np.recarray)
+
+
+@compiled
+def state_size(n_descriptor, n_slots):
+    """Return the length of an instance's state [doubles]."""
+    return N_HEADER + n_descriptor + 2 * n_slots * N_SLOT
+
+
+@compiled
+def state_address(model, data, instance):
+    """Return the address of an instance's state."""
+    return data_at(data).plugin_state + 8 * w.int_at(model_at(model).plugin_stateadr, instance)
+
+
+@compiled
+def slot_address(state, current, k):
+    """Return the address of slot ``k`` of the committed (0) or the current (1) block."""
+    header = header_record(state)
+    number = current * int(header.n_slots) + k
+    return state + _HEADER_SIZE + 8 * int(header.n_descriptor) + number * _SLOT_SIZE
+
+
+@compiled
+def slot_at(state, current, k):
+    """Return slot ``k`` of the committed (0) or the current (1) block."""
+    return slot_record(slot_address(state, current, k))
+
+
+@compiled
+def copy_slots(source, target, count):
+    """Copy ``count`` slots from one address to another."""
+    w.copy_bytes(source, target, _SLOT_SIZE * count)
+
+
+@compiled
+def find(state, current, count, a, b, ordinal, guess):
+    """Return the number of the slot of a contact (geoms a, b, number among equals) in a block, -1 if there is none."""
+    for i in range(count):
+        k = guess + i if guess + i < count else (guess + i) % count
+        slot = slot_at(state, current, k)
+        if slot.geom_1 == a + 1 and slot.geom_2 == b + 1 and slot.ordinal == ordinal:
+            return k
+    return -1
+
+
+@compiled
+def descriptor_of(state):
+    """Return the coefficient descriptor."""
+    return w.vector(state + _HEADER_SIZE, int(header_record(state).n_descriptor))
+
+
+@compiled
+def cursor_of(state):
+    """Return the cursor of the coefficient path."""
+    return w.vector(state + _CURSOR, CURSOR)
+
+
+@compiled
+def output_of(state):
+    """Return the address of the room for what a law's function returns."""
+    return state + _OUTPUT
+
+
+@compiled
+def parameters_of(state):
+    """Return the address of the law's parameters."""
+    return state + _PARAMETERS
+
+
+@compiled
+def rows_of(state):
+    """Return the address of the room for four rows of generalised coordinates."""
+    return state + _ROWS
+
+
+@compiled
+def law_state(address):
+    """Return the address of the law's state in the slot at ``address``."""
+    return address + _STATE

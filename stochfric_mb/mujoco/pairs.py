@@ -1,0 +1,162 @@
+"""Pairs of geoms of a model: which ones a name stands for, and how they become explicit contact pairs."""
+
+# pyright: reportAttributeAccessIssue=false
+# (MuJoCo's bindings are not typed)
+
+from __future__ import annotations
+
+import warnings
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from stochfric_mb.errors import InputError, require_name
+from stochfric_mb.mujoco.plugin.pair import NAME
+
+ANY = "*"
+"""Stands for every geom that the other one can collide with."""
+
+
+class ContactWarning(UserWarning):
+    """A pair that was given friction and never touched, or would not touch without it."""
+
+
+def require_geoms(spec: mujoco.MjSpec, geoms: tuple[str, str]) -> tuple[str, str]:
+    """Return the names of two geoms that can slide on each other (one may be ``"*"``), or raise an `InputError`."""
+    if isinstance(geoms, str) or len(geoms) != 2:
+        raise InputError(f"geoms = {geoms!r} is not a pair; give the names of the body's and the counter-surface's geom")
+    known = [g.name for g in spec.geoms if g.name]
+    body, surface = (name if name == ANY else require_name("geom", name, known) for name in geoms)
+    if body == surface == ANY:
+        raise InputError("geoms = ('*', '*') names no geom; name one of the two, e.g. ('*', 'floor')")
+    if body == surface:
+        raise InputError(f"geoms = {geoms!r} names one geom twice; friction needs two")
+    if ANY not in geoms and _carrier(spec, spec.geom(body)) == _carrier(spec, spec.geom(surface)):
+        raise InputError(f"geoms = {geoms!r} belong to one rigid body and never slide on each other; choose others")
+    return body, surface
+
+
+def colliding_pairs(spec: mujoco.MjSpec, body: str, surface: str) -> list[tuple[str, str]]:
+    """Return the pairs (body's geom, surface's geom) that ``"*"`` stands for: those that MuJoCo would let collide.
+
+    Geoms without a name get one, in place.
+
+    Raises:
+        InputError: there are none.
+    """
+    for i, geom in enumerate(spec.geoms):
+        if not geom.name:
+            geom.name = f"geom_{i}"
+    copy = spec.copy()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the user's own compilation gives them
+        model = copy.compile()
+    named = model.geom(surface if body == ANY else body).id
+    others = [model.geom(i).name for i in range(model.ngeom) if can_collide(model, named, i)]
+    if not others:
+        raise InputError(f"geom {model.geom(named).name!r} can collide with no other; check contype, conaffinity and excludes")
+    return [(other, surface) if body == ANY else (body, other) for other in others]
+
+
+def can_collide(model: mujoco.MjModel, a: int, b: int) -> bool:
+    """Return whether MuJoCo lets two geoms collide (its documentation, computation chapter, collision detection)."""
+    pairs = {frozenset((int(i), int(j))) for i, j in zip(model.pair_geom1, model.pair_geom2, strict=True)}
+    if frozenset((a, b)) in pairs:
+        return True
+    kinds = {mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD}
+    if a == b or {int(model.geom_type[a]), int(model.geom_type[b])} <= {int(k) for k in kinds}:
+        return False
+    if not (model.geom_contype[a] & model.geom_conaffinity[b] or model.geom_contype[b] & model.geom_conaffinity[a]):
+        return False
+    bodies = sorted((int(model.geom_bodyid[a]), int(model.geom_bodyid[b])))
+    if (bodies[0] << 16) + bodies[1] in model.exclude_signature:
+        return False
+    welds = [int(model.body_weldid[i]) for i in bodies]
+    parents = [int(model.body_weldid[model.body_parentid[w]]) for w in welds]
+    filtered = not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_FILTERPARENT
+    if filtered and 0 not in welds and (welds[0] == parents[1] or welds[1] == parents[0]):
+        return False
+    return welds[0] != welds[1]
+
+
+def warn_of_filters(spec: mujoco.MjSpec, body: str, surface: str) -> None:
+    """Warn where two geoms collide only because a pair of them is made now, or where flexible bodies are left out."""
+    if ANY in (body, surface):
+        if spec.flexes:
+            warnings.warn(
+                f"friction ({body!r}, {surface!r}) is for geoms: contacts of the model's flexible bodies keep MuJoCo's own "
+                "friction",
+                ContactWarning,
+                stacklevel=3,
+            )
+        return
+    a, b = spec.geom(body), spec.geom(surface)
+    if any({p.geomname1, p.geomname2} == {body, surface} for p in spec.pairs):
+        return
+    excluded = any({x.bodyname1, x.bodyname2} == {a.parent.name, b.parent.name} for x in spec.excludes)
+    if excluded or not (a.contype & b.conaffinity or b.contype & a.conaffinity):
+        why = "are excluded from colliding" if excluded else "do not collide by contype and conaffinity"
+        warnings.warn(
+            f"geoms {body!r} and {surface!r} {why}; as a pair with friction they do from now on: choose other geoms if that is "
+            "not what you want",
+            ContactWarning,
+            stacklevel=3,
+        )
+
+
+def require_free(spec: mujoco.MjSpec, pairs: list[tuple[str, str]]) -> None:
+    """Refuse pairs that an instance of this package has already."""
+    for plugin in spec.plugins:
+        if plugin.plugin_name != NAME:
+            continue
+        theirs = plugin.config.get("geom1"), plugin.config.get("geom2")
+        for pair in pairs:
+            if any(
+                all(mine in (its, ANY) or its == ANY for mine, its in zip(p, theirs, strict=True)) for p in (pair, pair[::-1])
+            ):
+                raise InputError(
+                    f"geoms {pair[0]!r} and {pair[1]!r} have friction already, from the plugin instance {plugin.name!r}; "
+                    "build the spec anew to change it, or name the geoms one by one instead of '*'"
+                )
+
+
+def _carrier(spec: mujoco.MjSpec, geom: Any) -> Any:
+    """Return the body that carries a geom: the nearest one with joints, or the world."""
+    body = geom.parent
+    while body != spec.worldbody and not body.joints:
+        body = body.parent
+    return body
+
+
+def take_over(spec: mujoco.MjSpec, body: str, surface: str, mu_s: float) -> Any:
+    """Make the two geoms an explicit pair with sliding friction ``mu_s`` and otherwise the contact that they had; return it.
+
+    In a model that has lost this package's plugin (``MjSpec.attach`` leaves it behind), the pair has MuJoCo's own friction.
+    """
+    made: Any = next((p for p in spec.pairs if {p.geomname1, p.geomname2} == {body, surface}), None)
+    if made is None:
+        a, b = spec.geom(body), spec.geom(surface)
+        made = spec.add_pair(geomname1=body, geomname2=surface)
+        chosen = [a, b] if a.priority == b.priority else [max(a, b, key=lambda g: g.priority)]
+        made.condim = max(g.condim for g in chosen)
+        made.friction = np.max([g.friction for g in chosen], axis=0)[[0, 0, 1, 2, 2]]
+        made.solref, made.solimp = _mixed(a, b)
+        made.margin, made.gap = a.margin + b.margin, a.gap + b.gap
+        made.adhesion = sum(g.adhesion for g in chosen)
+    made.condim = max(3, made.condim)
+    made.friction = [mu_s, mu_s, *made.friction[2:]]
+    return made
+
+
+def _mixed(a: Any, b: Any) -> tuple[Any, Any]:
+    """Return solref and solimp of a contact by MuJoCo's mixing rules (modeling chapter, contact parameters)."""
+    if a.priority != b.priority:
+        chosen = a if a.priority > b.priority else b
+        return chosen.solref, chosen.solimp
+    total = a.solmix + b.solmix
+    weight = a.solmix / total if total > 0.0 else 0.5
+    solimp = weight * np.asarray(a.solimp) + (1.0 - weight) * np.asarray(b.solimp)
+    if a.solref[0] <= 0.0 or b.solref[0] <= 0.0:
+        return np.minimum(a.solref, b.solref), solimp
+    return weight * np.asarray(a.solref) + (1.0 - weight) * np.asarray(b.solref), solimp

@@ -1,0 +1,1 @@
+"""The engine plugins: what MuJoCo calls, how models configure it, and how it is registered."""

@@ -1,0 +1,319 @@
+"""MuJoCo: the law steers the engine's own friction solver, on models that no other test of ours has."""
+
+import math
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+mujoco = pytest.importorskip("mujoco")
+
+import stochfric_mb.mujoco as engine  # noqa: E402
+from stochfric_mb.errors import InputError  # noqa: E402
+from stochfric_mb.laws import make_law  # noqa: E402
+
+ROBOTS = ("ant", "humanoid", "half_cheetah", "walker2d_v5", "hopper")
+LAWS = ("coulomb", "stribeck", "elastic_stick")
+G = 9.81
+
+
+def law(kind, mu_s=0.8, mu_k=0.6):
+    return make_law(kind, mu_s=mu_s, mu_k=mu_k)
+
+
+def energy(model, data):
+    mujoco.mj_energyPos(model, data)
+    mujoco.mj_energyVel(model, data)
+    return float(data.energy.sum())
+
+
+# --- height fields --------------------------------------------------------------------------------------------------
+
+HEIGHTS = """<mujoco><option cone="elliptic" integrator="{integrator}"/><size memory="64M"/>
+<asset><hfield name="h" nrow="20" ncol="20" size="1 1 .2 .1"/></asset><worldbody><geom name="ground" type="hfield" hfield="h"/>
+<body name="box" pos="0.013 0.007 .3"><freejoint/>
+<geom name="box" type="box" size=".06 .06 .03" mass="1" friction=".9 0 0"/></body>
+</worldbody></mujoco>"""
+
+
+def energy_gained(kind, seed, *, integrator="Euler", bumps=0.3):
+    """Return the most energy [J] above the start's that a 1 kg box ever has on a random height field, thrown at 1 m/s."""
+    spec = mujoco.MjSpec.from_string(HEIGHTS.format(integrator=integrator))
+    if kind:
+        engine.add_friction(spec, ("box", "ground"), law(kind, 0.9, 0.9), slots=256)
+    model = spec.compile()
+    model.hfield_data[:] = np.random.default_rng(seed).uniform(0, bumps, model.nhfielddata)
+    data = mujoco.MjData(model)
+    data.qvel[0] = 1.0
+    mujoco.mj_forward(model, data)
+    start, most = energy(model, data), 0.0
+    for _ in range(750):
+        mujoco.mj_step(model, data)
+        most = max(most, energy(model, data) - start)
+    assert not data.warning.number[4:].any()  # no bad state
+    return most
+
+
+@pytest.mark.parametrize("kind", LAWS)
+@pytest.mark.parametrize("seed", range(10))
+def test_a_box_gains_no_energy_on_bumpy_ground(kind, seed):
+    assert energy_gained(kind, seed) <= 1.01 * energy_gained("", seed)
+
+
+@pytest.mark.parametrize("integrator", ["RK4", "implicitfast"])
+def test_nor_with_other_integrators_or_on_flat_height_fields(integrator):
+    assert energy_gained("coulomb", 0, integrator=integrator) <= 1.01 * energy_gained("", 0, integrator=integrator)
+    flat = energy_gained("coulomb", 0, integrator=integrator, bumps=0.0)
+    assert flat <= 1.01 * energy_gained("", 0, integrator=integrator, bumps=0.0)
+
+
+# --- robots ---------------------------------------------------------------------------------------------------------
+
+
+def robot(name, kind, integrator=0):
+    assets = Path(pytest.importorskip("gymnasium").__file__).parent / "envs" / "mujoco" / "assets"
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # MuJoCo's own about old files
+        spec = mujoco.MjSpec.from_file(str(assets / f"{name}.xml"))
+        spec.option.cone, spec.option.integrator = 1, integrator
+        for geom in spec.geoms:
+            geom.friction[0] = 0.9
+        if kind:
+            engine.add_friction(spec, ("*", "floor"), law(kind, 0.9, 0.9))
+        return spec.compile()
+
+
+def thrashed(model, seconds, seed=0):
+    """Yield the data of a robot after each step under random controls."""
+    data, rng = mujoco.MjData(model), np.random.default_rng(seed)
+    for i in range(round(seconds / model.opt.timestep)):
+        if i % 5 == 0:
+            data.ctrl[:] = 0.4 * rng.uniform(-1, 1, model.nu)
+        mujoco.mj_step(model, data)
+        yield data
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("kind", ["coulomb", "elastic_stick"])
+def test_no_loaded_contact_slides_without_friction(name, kind):
+    model = robot(name, kind)
+    loaded = 0
+    for data in thrashed(model, 5.0):
+        assert not data.warning.number[4:].any()
+        for contact in data.contact:
+            row = contact.efc_address
+            if contact.dim > 2 and row >= 0 and data.efc_force[row] > 20.0:
+                loaded += 1
+                share = np.hypot(*data.efc_force[row + 1 : row + 3]) / (0.9 * data.efc_force[row])
+                assert 1e-6 < share < 1.0 + 1e-6
+    assert loaded > 50
+
+
+@pytest.mark.parametrize("name", ["ant", "humanoid"])
+def test_a_step_is_as_continuous_as_natively(name):
+    """A change of 1e-12 m/s in one velocity changes the velocities after a step by a bounded multiple of it."""
+
+    def jumps(kind):
+        model = robot(name, kind)
+        worst = []
+        for i, data in enumerate(thrashed(model, 1.0)):
+            if i % 3:
+                continue
+            ends = []
+            for change in (0.0, 1e-12):
+                copy = mujoco.MjData(model)
+                mujoco.mj_copyData(copy, model, data)
+                copy.qvel[0] += change
+                mujoco.mj_step(model, copy)
+                ends.append(copy.qvel.copy())
+            worst.append(np.abs(ends[1] - ends[0]).max())
+        return np.array(worst)
+
+    # The solver stops within its tolerance of 1e-8, natively too; no jump of ours is of the order of the velocities.
+    assert jumps("coulomb").max() <= 100.0 * max(jumps("").max(), 1e-9)
+
+
+# --- servos ---------------------------------------------------------------------------------------------------------
+
+TABLE = """<mujoco><option timestep="{dt}" integrator="{integrator}" cone="elliptic"/><worldbody><body name="table">
+<joint name="x" type="slide" axis="1 0 0"/><geom name="table" type="box" size=".3 .3 .02" pos="0 0 -.02" mass="2"/></body>
+<body name="box" pos="0 0 .05"><joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>
+<geom name="box" type="box" size=".05 .05 .05" mass="1"/></body></worldbody>
+<actuator><position joint="x" kp="20000" kv="1000"/></actuator></mujoco>"""
+
+
+def table_slip(dt, integrator):
+    """Return the farthest [m] that a box moves on a servo table of kv = 1000 N s/m, which accelerates by up to 2 m/s^2."""
+    spec = mujoco.MjSpec.from_string(TABLE.format(dt=dt, integrator=integrator))
+    engine.add_friction(spec, ("box", "table"), law("coulomb"))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, nstep=round(0.5 / dt))
+    start, most = data.qpos[1] - data.qpos[0], 0.0
+    for i in range(round(3.0 / dt)):
+        data.ctrl[0] = 0.05 * (1.0 - math.cos(2.0 * math.pi * i * dt))
+        mujoco.mj_step(model, data)
+        most = max(most, abs(data.qpos[1] - data.qpos[0] - start))
+    return most
+
+
+@pytest.mark.parametrize("integrator", ["Euler", "implicit", "implicitfast", "RK4"])
+@pytest.mark.parametrize("dt", [1e-3, 2e-3])
+def test_a_box_stays_on_a_servo_table(dt, integrator):
+    assert table_slip(dt, integrator) < 2e-5  # native at 2 ms: 2.8e-3
+
+
+def test_and_at_long_steps():
+    assert table_slip(5e-3, "implicitfast") < 1e-4
+
+
+# --- condim 4 and 6 -------------------------------------------------------------------------------------------------
+
+BALL = """<mujoco><option cone="elliptic"/><worldbody>
+<geom name="floor" type="plane" size="50 50 1" friction=".8 .01 .02" condim="6"/>
+<body pos="0 0 .1"><freejoint/><geom name="ball" type="sphere" size=".1" mass="1" friction=".8 .01 .02" condim="6"/></body>
+</worldbody></mujoco>"""
+
+
+def rolled(kind):
+    spec = mujoco.MjSpec.from_string(BALL)
+    if kind:
+        engine.add_friction(spec, ("ball", "floor"), law(kind, 0.8, 0.8))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.qvel[0], data.qvel[4], data.qvel[5] = 0.5, 5.0, 3.0  # rolling, and spinning about the vertical
+    mujoco.mj_step(model, data, nstep=1500)
+    return data.qpos[0], float(np.linalg.norm(data.qvel[3:]))
+
+
+@pytest.mark.parametrize("kind", LAWS)
+def test_rolling_and_torsional_friction_stay_mujocos(kind):
+    """A ball that native rolling friction stops within a second stops with ours, as far on (it rolled on for ever once)."""
+    native, ours = rolled(""), rolled(kind)
+    assert native[1] < 1e-2
+    assert ours[1] < 1e-2
+    assert ours[0] == pytest.approx(
+        native[0], rel=0.05
+    )  # the cone shares mu N between sliding and rolling, stuck contacts need less
+
+
+# --- what a stranger gets wrong -------------------------------------------------------------------------------------
+
+
+def scene(cone="elliptic", extra=""):
+    return mujoco.MjSpec.from_string(
+        f'<mujoco><option cone="{cone}"/><worldbody><geom name="floor" type="plane" size="5 5 1"/><body name="b" pos="0 0 .05">'
+        f'<freejoint/><geom name="box" type="box" size=".05 .05 .05" mass="1" {extra}/></body></worldbody></mujoco>'
+    )
+
+
+def test_pyramidal_cones_become_elliptic_with_a_word():
+    spec = scene("pyramidal")
+    with pytest.warns(engine.ConeWarning, match="elliptic now"):
+        engine.add_friction(spec, ("box", "floor"), law("coulomb"))
+    assert spec.option.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
+
+
+def test_a_compiled_model_is_no_spec():
+    with pytest.raises(InputError, match=r"use friction\(model, data"):
+        engine.add_friction(scene().compile(), ("box", "floor"), law("coulomb"))
+
+
+def test_geoms_that_do_not_collide_are_told_of():
+    with pytest.warns(engine.ContactWarning, match="do not collide by contype"):
+        engine.add_friction(scene(extra='contype="0" conaffinity="0"'), ("box", "floor"), law("coulomb"))
+
+
+def test_a_model_without_its_plugin_keeps_mujocos_friction():
+    """`MjSpec.attach` leaves plugin instances behind; what remains must not be ice."""
+    child = scene()
+    engine.add_friction(child, ("box", "floor"), law("coulomb", 0.7, 0.5))
+    parent = mujoco.MjSpec()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of the parent's cones, which differ
+        parent.attach(child, frame=parent.worldbody.add_frame(), prefix="a_")
+        model = parent.compile()
+    assert model.pair_dim[0] == 3
+    assert model.pair_friction[0][0] == 0.7
+
+
+def test_a_contact_too_many_says_what_to_do():
+    spec = scene()
+    engine.add_friction(spec, ("box", "floor"), law("coulomb"), slots=2)
+    model = spec.compile()
+    with pytest.raises(mujoco.FatalError, match="slots"):
+        mujoco.mj_step(model, mujoco.MjData(model), nstep=50)
+
+
+def test_set_friction_checks_as_the_law_does():
+    spec = scene()
+    name = engine.add_friction(spec, ("box", "floor"), law("elastic_stick"))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    before = data.plugin_state.copy()
+    for bad in ({"mu_k": 0.9}, {"mu_s": -0.1}, {"mu_s": math.nan}, {"e_lim": 0.0}):
+        with pytest.raises(InputError):
+            engine.set_friction(data.plugin_state, model, name, **bad)
+    assert np.array_equal(data.plugin_state, before)
+    engine.set_friction(data.plugin_state, model, name, mu_s=0.9, mu_k=0.7)
+    assert np.isfinite(data.plugin_state).all()
+
+
+def test_readings_belong_to_one_instant():
+    spec = scene()
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_RK4
+    name = engine.add_friction(spec, ("box", "floor"), law("elastic_stick"))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.qvel[0] = 1.0
+    for _ in range(200):
+        mujoco.mj_step(model, data)
+        for reading in engine.readings(model, data)[name]:
+            assert math.hypot(*reading.force) <= reading.mu_s * reading.normal_force * (1.0 + 1e-6)
+            assert reading.converged
+
+
+# --- joints ---------------------------------------------------------------------------------------------------------
+
+LIFT = """<mujoco><option timestep="{dt}" integrator="{integrator}" gravity="{side} 0 -9.81"/><worldbody><body name="slide">
+<joint name="rail" type="slide" axis="1 0 0"/><geom size=".1" mass="2"/></body></worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "RK4"])
+def test_a_rail_rubs_by_its_own_reaction(integrator):
+    """A carriage of 2 kg on a rail, mu 0.3: it holds 90 % of mu m g, and slides with (g_x - mu_k g)."""
+
+    def travelled(side, seconds):
+        spec = mujoco.MjSpec.from_string(LIFT.format(dt=1e-3, integrator=integrator, side=side))
+        engine.add_friction(spec, engine.Joint("rail"), law("coulomb", 0.3, 0.2), normal_force="reaction")
+        model = spec.compile()
+        data = mujoco.MjData(model)
+        mujoco.mj_step(model, data, nstep=round(1000 * seconds))
+        return data.qpos[0], data.qvel[0]
+
+    assert abs(travelled(0.9 * 0.3 * G, 3.0)[0]) < 1e-6
+    assert travelled(0.5 * G, 0.5)[1] == pytest.approx(0.3 * G * 0.5, rel=5e-3)  # (0.5 - 0.2) g t
+
+
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "RK4"])
+@pytest.mark.parametrize("kind", ["coulomb", "stribeck"])
+def test_a_joint_with_true_stick(integrator, kind):
+    """It holds 90 % of mu_s N, breaks away at mu_s N, and stops from 1 m/s where mu_k N/m says."""
+    spec = mujoco.MjSpec.from_string(LIFT.format(dt=1e-3, integrator=integrator, side=0))
+    engine.add_friction(spec, engine.Joint("rail"), law(kind, 1.0, 0.6), normal_force=10.0)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.qfrc_applied[0] = 9.0
+    mujoco.mj_step(model, data, nstep=3000)
+    assert abs(data.qpos[0]) < 1e-6  # native: 28 mm
+    while data.qvel[0] < 1e-3:
+        data.qfrc_applied[0] += 2e-3
+        assert data.qfrc_applied[0] < 11.0
+        mujoco.mj_step(model, data)
+    assert data.qfrc_applied[0] == pytest.approx(10.0, abs=0.05)
+    data = mujoco.MjData(model)
+    data.qvel[0] = 1.0
+    mujoco.mj_step(model, data, nstep=1000)
+    assert data.qpos[0] == pytest.approx(2.0 / (2.0 * 6.0), rel=5e-3)  # v^2 m/(2 mu_k N); Euler v h/2 less
+    assert abs(data.qvel[0]) < 1e-9
