@@ -11,6 +11,7 @@ import numpy as np
 import pybullet as bullet
 
 from stochfric_mb.contact import Contact
+from stochfric_mb.errors import StabilityError
 from stochfric_mb.friction import Friction
 from stochfric_mb.laws.substitute import elastic_substitute
 from stochfric_mb.testing import Accuracy
@@ -23,6 +24,10 @@ SIDE = 0.1
 def simulate(scenario, *, seed=0, sample=0, dt=None, progress=None):
     step = scenario.checked_step(dt)
     m = scenario.mechanism
+    if step**2 * m.stiffness > 4.0 * m.mass:  # Bullet caps velocities, so a spring that leap-frog cannot follow looks sane
+        raise StabilityError(
+            f"dt = {step:g} s is beyond 2 sqrt(m/k) = {2.0 * (m.mass / m.stiffness) ** 0.5:.3g} s of the spring"
+        )
     law, note = elastic_substitute(scenario.law, step, m.normal_force, m.mass)
     friction = Friction(law, scenario.process)
     contact = Contact(friction, effective_mass=m.mass, seed=seed, sample=sample, dt=step)

@@ -30,7 +30,10 @@ def chosen(config: pytest.Config) -> list[str]:
 
     named: list[str] = [_resolved(name, config.invocation_params.dir) for name in config.getoption(OPTION) or ()]
     if not named:
-        named = [*ENGINES, *(_resolved(name, config.rootpath) for name in config.getini(INI))]
+        named = [
+            *(name for name, engine in ENGINES.items() if engine.compared),
+            *(_resolved(name, config.rootpath) for name in config.getini(INI)),
+        ]
     return list(dict.fromkeys(named))
 
 

@@ -5,7 +5,8 @@ import math
 
 import pytest
 
-from stochfric_mb import InputError, PerEvent, Spatial, StabilityError, compare, load_scenario
+from stochfric_mb import InputError, PerEvent, Spatial, StabilityError, load_scenario
+from stochfric_mb import comparison as compare
 from stochfric_mb.engines import installed_engines
 
 ENGINES = [name for name in installed_engines() if name != "reference"]
