@@ -25,6 +25,8 @@ from stochfric_mb.laws.contract import Law
 
 CURSOR = 10
 """Entries of a cursor: valid, knot, mu_s and mu_k at the knot, the same at the next knot, four filter states there."""
+UNBOUNDED = 1.0e300
+"""A bound beyond this is none; engines that keep descriptors in their state need finite numbers."""
 MAX_ATTEMPTS = 10_000
 """Redraws of an infeasible pair before the means are taken."""
 
@@ -195,9 +197,9 @@ def _pair_of_normals(descriptor, z_s, z_k):
 def _clipped_pair(descriptor, z_s, z_k):
     """Return the pair clipped to 0 <= mu_k <= mu_s (correlated processes cannot be redrawn); bounds truncate."""
     mu_s, mu_k = _pair_of_normals(descriptor, z_s, z_k)
-    if descriptor[10] > -math.inf or descriptor[11] < math.inf:
+    if descriptor[10] > -UNBOUNDED or descriptor[11] < UNBOUNDED:
         mu_s = truncated(z_s, descriptor[4], descriptor[6], descriptor[10], descriptor[11])
-    if descriptor[12] > -math.inf or descriptor[13] < math.inf:
+    if descriptor[12] > -UNBOUNDED or descriptor[13] < UNBOUNDED:
         mu_k = truncated(z_k, descriptor[5], descriptor[7], descriptor[12], descriptor[13])
     mu_s = max(mu_s, 0.0)
     return mu_s, min(max(mu_k, 0.0), mu_s)
