@@ -208,7 +208,7 @@ def _require_free(model: mujoco.MjModel, data: mujoco.MjData, states: Mapping[tu
 
 
 def _state_geoms(address: int) -> set[int]:
-    header = s.header_of(np.frombuffer((ctypes.c_double * s.N_HEADER).from_address(address)))
+    header = s.header_of(np.ctypeslib.as_array((ctypes.c_double * s.N_HEADER).from_address(address)))
     return {int(header.geom_body), int(header.geom_surface)}
 
 

@@ -60,17 +60,17 @@ class JointModel:
                 if n.name.endswith("gain"):
                     by_drive = by_drive * self.nuisances[n.name] / n.value
         if balance.load_by_drive is not None and reads_load(self.law, self.effects, self.load):
-            by_drive = by_drive - self._friction_by_drive(balance, friction)
+            by_drive = by_drive - self._friction_by_drive(balance, balance.load_by_drive, friction)
         return rest / factor_of(by_drive[balance.sliding])
 
     def friction(self, balance: ForceBalance) -> Array:
         """Return the friction against the motion at the centres of windows [N or N m], shape (n_centres,)."""
         return friction_along(balance, self.law, self.effects, self.load)
 
-    def _friction_by_drive(self, balance: ForceBalance, friction: Array) -> Array:
+    def _friction_by_drive(self, balance: ForceBalance, load_by_drive: Array, friction: Array) -> Array:
         """Return the change of friction with the driving force [-], shape (n_centres,)."""
         step = STEP * max(float(np.mean(balance.load)), self.load)
-        moved = dataclasses.replace(balance, load=balance.load + step * balance.load_by_drive)
+        moved = dataclasses.replace(balance, load=balance.load + step * load_by_drive)
         return (self.friction(moved) - friction) / step
 
 
