@@ -190,7 +190,7 @@ def test_it_reads_back_and_goes_into_the_model(folder):
     assert "velocity_weakening" in text.splitlines()[1]
     model = mujoco.MjModel.from_xml_string(text)
     assert model.npair == 1
-    assert model.pair_dim[0] == 1
+    assert model.pair_dim[0] == 3  # which the law steers
 
 
 def disc_run(coefficient, seed, role):

@@ -151,9 +151,10 @@ class _Slots:
 
     @classmethod
     def of(cls, attach: Any, model: Any, data: Any, instance: str) -> _Slots:
-        probe = np.full_like(data.plugin_state, np.nan)
+        probe = data.plugin_state.copy()
         attach.set_friction(probe, model, instance, mu_s=MARK_S, mu_k=MARK_K)
-        places = np.flatnonzero(~np.isnan(probe))
+        marked = (probe == MARK_S) | (probe == MARK_K)
+        places = np.flatnonzero(marked | ((probe != data.plugin_state) & (probe < 0.0)))  # a time before all: evaluate anew
         values = probe[places]
         return cls(places, values, values == MARK_S, values == MARK_K)
 
