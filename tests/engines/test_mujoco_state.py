@@ -20,7 +20,8 @@ from stochfric_mb.laws.havsin import Havsin  # noqa: E402
 from stochfric_mb.mujoco.memory.state import header_of  # noqa: E402
 from stochfric_mb.mujoco.reading import state_of  # noqa: E402
 
-SCENE = """<mujoco><option timestep="1e-3" integrator="{integrator}" cone="elliptic"/><worldbody><geom name="floor" type="plane" size="5 5 1"/>
+SCENE = """<mujoco><option timestep="1e-3" integrator="{integrator}" cone="elliptic"/><worldbody>
+<geom name="floor" type="plane" size="5 5 1"/>
 <body pos="0 0 .05"><freejoint/><geom name="box" type="box" size=".05 .05 .05" mass="1"/></body>
 <body pos="0 2 1"><joint name="hinge" axis="0 1 0"/><geom type="capsule" fromto="0 0 0 .2 0 0" size=".02" mass="1"
 contype="0" conaffinity="0"/></body></worldbody></mujoco>"""
