@@ -92,8 +92,16 @@ class Box:
             g *= (load / e["reference_load"]) ** e["exponent"] * (1 + stuck / load) / (1 + stuck / e["reference_load"])
         return g
 
+    def table(self, s):
+        """Broken line through seven even knots."""
+        e = self.terms["unnamed"]
+        knots = np.linspace(e["low"], e["high"], 7)
+        return float(np.interp(s, knots, [0.0] + [e[f"change_{i}"] for i in range(1, 7)]))
+
     def static(self, t, x, travel, side, dwell):
         mu_s = self.mu_s
+        if e := self.get("unnamed"):
+            mu_s += e["static_share"] * self.table(x)
         if e := self.get("dwell_ageing"):
             mu_s += e["rate"] * math.log(1 + dwell / e["time_constant"])
         return mu_s * self.factor(t, x, travel, side)
@@ -101,6 +109,8 @@ class Box:
     def kinetic(self, t, x, v, travel, side, slip, dwell, slip_time):
         speed = max(side * (self.belt(t)[0] - v), 0.0)
         mu_k = self.mu_k
+        if self.get("unnamed"):
+            mu_k += self.table(x)
         if e := self.get("velocity_weakening"):
             mu_k += e["amplitude"] * math.exp(-((speed / e["decay_velocity"]) ** e.get("shape_exponent", 1.0)))
         if e := self.get("frictional_lag"):
