@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import click
+
+from stochfric_mb.commands import completion
+from stochfric_mb.commands.speech import answer, say, spoken
+
+if TYPE_CHECKING:
+    from stochfric_mb.dialects.translation import Translated
 
 EXAMPLE = """\b
 Example:
@@ -16,12 +22,18 @@ SCHEMA = "stochfric.dialect/1"
 
 
 @click.command(epilog=EXAMPLE)
+@spoken
 @click.argument("source")
 @click.option("--to", "dialect", metavar="DIALECT", help="adams, recurdyn, simscape, modelica, exudyn, mujoco, physx or bam.")
-@click.option("--law", metavar="KIND", help="Our law: in the place of the scenario's, or to which a dialect is translated.")
+@click.option(
+    "--law",
+    metavar="KIND",
+    shell_complete=completion.laws,
+    help="Our law: in the place of the scenario's, or to which a dialect is translated.",
+)
 @click.option("--normal-force", type=float, metavar="N", help="Normal force [N]; default: the scenario's, or 1.")
 @click.option("--speeds", default="1e-5,0.1", show_default=True, metavar="LOW,HIGH", help="Speeds to be met [m/s].")
-@click.option("--out", metavar="FILE", help="TOML file to write: the dialect's parameters, or a friction file.")
+@click.option("-o", "--out", metavar="FILE", help="TOML file to write: the dialect's parameters, or a friction file.")
 @click.option("--force", is_flag=True, help="Replace what is at --out.")
 def translate(
     source: str, dialect: str | None, law: str | None, normal_force: float | None, speeds: str, out: str | None, force: bool
@@ -38,11 +50,12 @@ def translate(
         found, content = _to(source, dialect, law, normal_force, _speeds(speeds))
     else:
         found, content = _from(tables, law, normal_force, _speeds(speeds))
-    click.echo(_text(found, back=tables is not None))
+    answer(lambda: _numbers(found, back=tables is not None) | {"out": out})
+    say(_text(found, back=tables is not None))
     if out is not None:
         with whole_file(Path(out), replace=force) as temporary:
             temporary.write_text(tomli_w.dumps(content), encoding="utf-8")
-        click.echo(f"Written: {out}")
+        say(f"Written: {out}")
 
 
 def _dialect_file(source: str) -> dict[str, Any] | None:
@@ -109,7 +122,20 @@ def _from(tables: dict[str, Any], law: str | None, normal_force: float | None, s
     return found, {"schema": FRICTION, "title": f"from {cls.kind}", "law": found.law.to_dict()}
 
 
-def _text(found: Any, *, back: bool) -> str:
+def _numbers(found: Translated, *, back: bool) -> dict[str, Any]:
+    """Return the result in numbers."""
+    return {
+        "to": found.law.kind if back else found.dialect.kind,
+        "law": found.law.to_dict(),
+        "dialect": {"kind": found.dialect.kind} | found.dialect.to_dict(),
+        "max_error": found.max_error,
+        "rms_error": found.rms_error,
+        "break_away_error": found.break_away_error,
+        "lost": list(found.lost),
+    }
+
+
+def _text(found: Translated, *, back: bool) -> str:
     """Return the result in words."""
     ours = {k: v for k, v in found.law.to_dict().items() if k != "kind"}
     theirs = found.dialect.to_dict()
@@ -118,8 +144,9 @@ def _text(found: Any, *, back: bool) -> str:
     shown = ours if back else theirs
     equation = found.law.equation if back else found.dialect.equation
     lines = [f"From {source} to {result}", f"  {equation}", *(f"  {k} = {_number(v)}" for k, v in shown.items())]
-    if hasattr(found.dialect, "snippet") and not back:
-        lines.append(f"  {found.dialect.snippet()}")
+    snippet = getattr(found.dialect, "snippet", None)
+    if snippet is not None and not back:
+        lines.append(f"  {snippet()}")
     lines.append(
         f"Error of the coefficient: {found.max_error:.2g} at most, {found.rms_error:.2g} rms; "
         f"at break-away {found.break_away_error:+.2g}"

@@ -8,7 +8,7 @@ import hashlib
 import io
 import tempfile
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from stochfric_mb.c import Translation
@@ -134,13 +134,20 @@ def _model(exported: Exported, listed: Sequence[Variable], *, mechanism: bool) -
     return "\n".join([*lines, ""])
 
 
-def write_fmu(source: Source, out: Path, *, platforms: Sequence[str] = tuple(TARGETS)) -> None:
+def write_fmu(
+    source: Source,
+    out: Path,
+    *,
+    platforms: Sequence[str] = tuple(TARGETS),
+    compiled: Callable[[int], None] | None = None,
+) -> None:
     """Compile an FMU and write it.
 
     Args:
         source: the FMU.
         out: file to write.
         platforms: what to compile it for.
+        compiled: called with the number of platforms that are done, first with 0.
 
     Raises:
         InputError: no platform, or one that FMI 2 has no name for alone.
@@ -150,12 +157,17 @@ def write_fmu(source: Source, out: Path, *, platforms: Sequence[str] = tuple(TAR
     targets = [TARGETS[name] for name in platforms]
     if not targets:
         raise InputError(f"no platform is given; known: {', '.join(TARGETS)}")
+    tell = compiled or (lambda _n: None)
+    tell(0)
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
         for name, text in source.files.items():
             (folder / name).write_text(text, encoding="utf-8")
         with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
-            binaries = list(pool.map(lambda target: _binary(source, folder, target), targets))
+            binaries: list[bytes] = []
+            for binary in pool.map(lambda target: _binary(source, folder, target), targets):
+                binaries.append(binary)
+                tell(len(binaries))
     out.write_bytes(_archive(source, dict(zip(targets, binaries, strict=True))))
 
 
