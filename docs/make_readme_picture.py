@@ -40,7 +40,7 @@ def main() -> None:
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 3.6), width_ratios=(1.7, 1), layout="constrained")
     time, position = native(scenario.duration)
     left.plot(time, 1e3 * position, color="0.45", linewidth=1.2, label="MuJoCo's own friction")
-    for engine in installed_engines():
+    for engine in (name for name in installed_engines() if name in STYLES):
         run = adapter(engine).simulate(scenario, seed=1)
         colour, line, width = STYLES[engine]
         label = "reference" if engine == "reference" else f"elastic stick in {engine}"

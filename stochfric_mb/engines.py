@@ -43,18 +43,22 @@ class Engine:
     """Who makes the engine."""
     distribution: str = ""
     """Name to install it by, where it is not ``package``."""
+    extra: str = ""
+    """Extra of this package that brings it, where it is not ``name``."""
+    needs: tuple[str, ...] = ()
+    """Packages that it needs beside its own."""
     compared: bool = True
     """Whether it is compared with others unless named; an engine for many worlds at once in float32 is not."""
 
     @property
     def installed(self) -> bool:
         """Whether the engine can be imported here."""
-        return not self.package or importlib.util.find_spec(self.package) is not None
+        return all(importlib.util.find_spec(package) is not None for package in (self.package, *self.needs) if package)
 
     @property
     def remedy(self) -> str:
         """What to give ``pip install`` where the engine is missing."""
-        return self.distribution or f"'stochfric_mb[{self.name}]'"
+        return self.distribution or f"'stochfric_mb[{self.extra or self.name}]'"
 
     @property
     def version(self) -> str | None:
@@ -92,6 +96,15 @@ _BUILT_IN = {
             "pymunk",
             "force before the step; cap override for coulomb",
             "V. Blomqvist",
+        ),
+        Engine(
+            "fmu",
+            "stochfric_mb.export.engine",
+            "fmpy",
+            "the exported belt-box, compiled at its first run; FMI 3.0 co-simulation",
+            "this package; FMPy by Dassault Systemes steps it",
+            extra="fmi",
+            needs=("ziglang",),
         ),
         Engine(
             "warp",

@@ -52,7 +52,7 @@ BUILT_IN: dict[str, Accuracy] = {
     "reference": Accuracy(order=EXACT, switch_order=EXACT),
     "mujoco": Accuracy(order=2, switch_order=2),  # Runge-Kutta; switches located within the step
     "exudyn": Accuracy(order=2, switch_order=2),  # likewise
-    "stochfric_mb.export.engine": Accuracy(order=2, switch_order=2),  # likewise
+    "fmu": Accuracy(order=2, switch_order=2),  # likewise
     "pymunk": Accuracy(order=1, switch_order=1),  # its damper acts after the kick; coulomb switches on whole steps
 }
 """Engine -> its class."""

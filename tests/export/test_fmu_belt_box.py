@@ -152,19 +152,31 @@ def test_a_box_and_a_friction_element_as_two_fmus_are_of_first_order():
     assert errors[-1] < 2.0e-5
 
 
-@pytest.mark.parametrize(
-    ("name", "tolerance"),
-    # at 18.7 rad/s the box lingers at an unstable balance at 2.5 s, which multiplies a difference of 1 nm by more than 10^4
-    [("kang2015_table2_13_8", 1.0e-6), ("kang2015_table2_18_7", 1.0e-5)],
-)
-@pytest.mark.parametrize("kind", ["ModelExchange", "CoSimulation"])
-def test_the_excited_box(name, tolerance, kind):
-    """A contact that rides on its limit while the coefficient falls must not announce one switch after the other."""
+def excited_error(name, kind, tolerance, seed=1):
+    """Return the largest error of the position over 10 s at a tolerance of the master."""
     scenario = load_scenario(name)
-    run = reference.simulate(scenario, seed=1)
+    run = reference.simulate(scenario, seed=seed)
     result = fmpy.simulate_fmu(
         str(built(exported_scenario(scenario), 2, True)), fmi_type=kind, stop_time=DURATION, output_interval=1.0e-3,
-        relative_tolerance=1.0e-9, start_values={"seed": 1}, output=["position"], record_events=False,
+        relative_tolerance=tolerance, start_values={"seed": seed}, output=["position"], record_events=False,
     )  # fmt: skip
     samples = np.round(result["time"] / 1.0e-3).astype(int)
-    assert np.max(np.abs(result["position"] - run.position[samples])) <= tolerance
+    return np.max(np.abs(result["position"] - run.position[samples]))
+
+
+@pytest.mark.parametrize("name", ["kang2015_table2_13_8", "kang2015_table2_18_7"])
+@pytest.mark.parametrize("kind", ["ModelExchange", "CoSimulation"])
+def test_the_excited_box(name, kind):
+    """A contact that rides on its limit while the coefficient falls must not announce one switch after the other."""
+    assert excited_error(name, kind, 1.0e-11) <= 1.0e-6  # the accuracy that is promised; see the next test
+
+
+def test_what_is_left_of_the_error_is_the_masters():
+    """At 18.7 rad/s the box lingers at an unstable balance at 2.5 s, which multiplies errors by more than 10^4.
+
+    CVode's own error at 1e-9 is then 2e-6 m. It falls with CVode's tolerance, so that switches, knots and equations of the
+    FMU are those of the reference: to 1e-9 m, the reference's own local error (1e-13) times that factor.
+    """
+    loose, tight = (excited_error("kang2015_table2_18_7", "ModelExchange", rtol) for rtol in (1.0e-9, 1.0e-13))
+    assert 1.0e-7 < loose < 1.0e-5
+    assert tight <= 1.0e-9

@@ -58,6 +58,24 @@ def test_a_missing_engine_says_what_to_install(monkeypatch: pytest.MonkeyPatch) 
         adapter("their")
 
 
+def test_an_fmu_is_an_engine_where_its_extra_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing is compiled for those who have not the extra: both of its packages must be there."""
+    import importlib.util
+
+    assert "fmu" in engines.installed_engines()
+    found = importlib.util.find_spec
+    for absent in ("fmpy", "ziglang"):
+        with monkeypatch.context() as patch:
+            patch.setattr(
+                "importlib.util.find_spec", lambda name, *a, absent=absent: None if name == absent else found(name, *a)
+            )
+            assert "fmu" not in engines.installed_engines()
+            with pytest.raises(
+                MissingEngineError, match=r"engine 'fmu' is not installed; run: pip install 'stochfric_mb\[fmi\]'"
+            ):
+                adapter("fmu")
+
+
 def test_an_engine_that_knows_no_effects_refuses_them(monkeypatch):
     import types
 
