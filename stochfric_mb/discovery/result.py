@@ -44,10 +44,10 @@ class Found:
     """Where it shows."""
     parameters: dict[str, Interval]
     """Its fitted parameters."""
-    score: float
-    """Evidence: 2 delta log L - p ln n - 2 ln(grid size) [-]."""
-    p_value: float
-    """Chance of that much evidence without the effect [-]."""
+    score: float | None
+    """Evidence: 2 delta log L - p ln n - 2 ln(grid size) [-]; None for what a detector says, which has no likelihood."""
+    p_value: float | None
+    """Chance, at most, of as much where nothing is missing [-]; None where it is not known."""
 
     def to_dict(self) -> dict[str, Any]:
         """Return the effect as ``result.json`` holds it."""

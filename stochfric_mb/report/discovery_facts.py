@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.result import Result
-from stochfric_mb.discovery.stick_slip.decision.rounds import NAME, SELECT
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.effects import effect_class, effect_kinds
 from stochfric_mb.report.discovery_evidence import BAND, EVENTS, Evidence, band
@@ -33,7 +33,8 @@ def complete(outcome: Outcome, evidence: Evidence | None, command: str) -> Resul
         "stated": outcome.dataset.scenario.to_dict(),
         "runs": _runs(outcome),
         "equations": {kind: effect_class(kind).equation for kind in sorted(kinds)},
-        "thresholds": {"followed_up": SELECT, "named": NAME},
+        "thresholds": {"followed_up": criteria.FOLLOWED_UP, "named": criteria.NAMED},
+        "criteria": criteria.values(),
         "confidence": CONFIDENCE,
         "command": command,
         "versions": versions(),

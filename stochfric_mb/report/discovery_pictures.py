@@ -204,7 +204,11 @@ def _events(evidence: Evidence) -> Figure:
 def _ranking(content: Mapping[str, Any]) -> Figure:
     screened = {entry["kind"] for entry in content["ranking"]}
     # what is found in the stick phases, in the sensor or in the scatter is not screened in the slips: it stands first
-    elsewhere = [{"kind": e["kind"], "score": e["evidence"]["score"]} for e in content["effects"] if e["kind"] not in screened]
+    elsewhere = [
+        {"kind": e["kind"], "score": e["evidence"]["score"]}
+        for e in content["effects"]
+        if e["kind"] not in screened and e["evidence"]["score"] is not None
+    ]
     ranking: list[dict[str, Any]] = (elsewhere + content["ranking"])[:12]
     found = {e["kind"] for e in content["effects"]} | {k for e in content["effects"] for k in e["equivalent_to"]}
     known = set(effect_kinds())

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.special import ndtr
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Gap
 from stochfric_mb.discovery.stick_slip.decision.innovations import predicted_features
 from stochfric_mb.discovery.stick_slip.records.calibration import Calibration, calibrate
@@ -23,8 +24,6 @@ from stochfric_mb.discovery.stick_slip.simulation.model import Model
 
 LOOKED_AT = 24
 """Most slips of a run that are predicted."""
-FEWEST = 6
-"""Slips below which there is no score."""
 
 
 def slip_force_gap(believed: Model, recalibrated: Model, augmented: Model, slips: Sequence[Slips]) -> Gap | None:
@@ -47,7 +46,7 @@ def slip_force_gap(believed: Model, recalibrated: Model, augmented: Model, slips
             scores.append(_scores((believed, recalibrated, augmented), run, calibrate(run), rows))
     joined = np.concatenate(scores) if scores else np.zeros((0, 4))
     joined = joined[np.isfinite(joined).all(axis=1)]
-    if len(joined) < FEWEST:
+    if len(joined) < criteria.FORCES_FEWEST:
         return None
     before, middle, after, floor = (float(x) for x in joined.mean(axis=0))
     source = "what the final model would score if it were true"

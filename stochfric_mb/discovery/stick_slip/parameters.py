@@ -6,8 +6,8 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from scipy.stats import chi2 as chi2_distribution
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Found, Interval, Where
 from stochfric_mb.discovery.stick_slip.decision.rounds import Named
@@ -17,10 +17,6 @@ from stochfric_mb.discovery.stick_slip.simulation.refit import Fit
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.measurement.dataset import Dataset
 
-TOLD = 0.5
-"""Share of what is known of a number below which its prior, not the data, has made it [-]: the larger half decides."""
-SURPRISING = 2.0
-"""Stated standard deviations by which a parameter is off from what is stated to be pointed out [-]: one in twenty by chance."""
 UNITS = {"mu_s": "-", "mu_k": "-", "mass": "kg", "stiffness": "N/m", "damping": "N s/m"}
 """Units of the parameters of mechanism and law."""
 
@@ -59,8 +55,8 @@ def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> F
         name = effect.unit_of(field.name)
         unit = found.size.of(name)
         parameters[field.name] = confidence_interval(value * unit, deviation * unit, name, about["low"], about["high"])
-    p_value = float(chi2_distribution.sf(max(named.score, 0.0), max(len(parameters), 1)))
-    return Found(named.kind, named.class_, Where(*effect.appears()), parameters, float(named.score), p_value)
+    evidence = named.evidence
+    return Found(named.kind, named.class_, Where(*effect.appears()), parameters, evidence.score, evidence.p_value)
 
 
 def own_parameters(fit: Fit, model: Model, found: Study) -> dict[str, Interval]:
@@ -79,7 +75,7 @@ def own_parameters(fit: Fit, model: Model, found: Study) -> dict[str, Interval]:
             continue
         stated = getattr(found.dataset.scenario.mechanism, one.name, 0.0) if one.name in CORRECTED else 1.0
         value = 1.0 + model.corrections[one.name] if one.name in CORRECTED else getattr(model.law, one.name)
-        doubt = max(deviation, posterior) if told < TOLD else deviation
+        doubt = max(deviation, posterior) if told < criteria.TOLD_BY_DATA else deviation
         unit = UNITS.get(one.name, "-")
         size = found.size.of(unit) * stated
         rows[one.name] = confidence_interval(value * size, doubt * size, unit, low=0.0)
@@ -88,7 +84,9 @@ def own_parameters(fit: Fit, model: Model, found: Study) -> dict[str, Interval]:
 
 def not_measured(fit: Fit) -> list[str]:
     """Return the parameters of mechanism and law whose value is their prior more than a measurement."""
-    return [k.name for k, told in zip(fit.free, fit.told, strict=True) if k.owner < 0 and not k.run and told < TOLD]
+    return [
+        k.name for k, told in zip(fit.free, fit.told, strict=True) if k.owner < 0 and not k.run and told < criteria.TOLD_BY_DATA
+    ]
 
 
 def moved(parameters: Mapping[str, Interval], dataset: Dataset, unmeasured: Sequence[str]) -> dict[str, float]:
@@ -100,4 +98,4 @@ def moved(parameters: Mapping[str, Interval], dataset: Dataset, unmeasured: Sequ
         doubt = scenario.uncertainty.get(name, 0.0)
         if stated and doubt and name not in unmeasured:
             off[name] = (interval.value - stated) / (stated * doubt)
-    return {name: by for name, by in off.items() if abs(by) > SURPRISING}
+    return {name: by for name, by in off.items() if abs(by) > criteria.SURPRISING}

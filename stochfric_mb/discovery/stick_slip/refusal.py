@@ -6,21 +6,14 @@ import math
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.records.record import Record
 from stochfric_mb.discovery.stick_slip.records.slips import extract
-from stochfric_mb.discovery.stick_slip.study import FEWEST_SLIPS, record_of
+from stochfric_mb.discovery.stick_slip.study import record_of
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.scenario import Scenario
-
-LOUD = 0.1
-"""Noise over the expected travel of a slip from which on slips drown in it [-]: their edges are told by the bend that a
-break-away puts into the record, which is a tenth of the travel after a fifth of the slip."""
-RIDES = 0.9
-"""Share of the belt's travel that a box follows if it sticks throughout [-]."""
-SLIDES = 0.1
-"""Share of it that a box stays below if it slides throughout [-]."""
 
 
 def refusal(dataset: Dataset) -> tuple[Where, str]:
@@ -31,11 +24,11 @@ def refusal(dataset: Dataset) -> tuple[Where, str]:
         reasons.append(f"{run.name} {reason}")
         needs.append(need)
     text = (
-        f"the runs hold too few slips to judge friction by, each needs at least {FEWEST_SLIPS} stick-slip cycles: "
+        f"the runs hold too few slips to judge friction by, each needs at least {criteria.FEWEST_SLIPS} stick-slip cycles: "
         + "; ".join(reasons)
     )
     wanted = dict.fromkeys(needs)
-    return Where("record", text), f"record at least {FEWEST_SLIPS} stick-slip cycles a run: " + "; ".join(wanted)
+    return Where("record", text), f"record at least {criteria.FEWEST_SLIPS} stick-slip cycles a run: " + "; ".join(wanted)
 
 
 def _of(record: Record, scenario: Scenario) -> tuple[str, str]:
@@ -44,26 +37,28 @@ def _of(record: Record, scenario: Scenario) -> tuple[str, str]:
     seconds = float(record.time[-1] - record.time[0])
     found = len(extract(record))
     travel = 2.0 * (law.mu_s - law.mu_k) * box.normal_force / box.stiffness
-    if record.noise > LOUD * travel:
+    if record.noise > criteria.TOO_LOUD * travel:
         return (
             f"is drowned in noise: {record.noise:.2g} m, where a slip of the stated model is {travel:.2g} m long",
-            f"a position sensor with a noise below {LOUD * travel:.2g} m, or slips that are longer than "
-            f"{record.noise / LOUD:.2g} m (a softer spring, a higher normal load)",
+            f"a position sensor with a noise below {criteria.TOO_LOUD * travel:.2g} m, or slips that are longer than "
+            f"{record.noise / criteria.TOO_LOUD:.2g} m (a softer spring, a higher normal load)",
         )
     followed = _followed(record)
-    if found == 0 and followed > RIDES:
+    if found == 0 and followed > criteria.RIDES:
         return (
             f"rides on the belt for all its {seconds:.3g} s",
             f"runs of {_needed(box, law.mu_s, travel):.2g} s, by the stated mu_s, or a faster belt",
         )
-    if found == 0 and followed < SLIDES:
+    if found == 0 and followed < criteria.SLIDES:
         level = float(np.mean(record.position)) * box.stiffness / box.normal_force
         return (
             f"slides for all its {seconds:.3g} s (mean spring force over normal force {level:.3g})",
             f"a belt slower than {box.belt_velocity:.3g} m/s, or a softer spring, so that the box sticks between slips",
         )
     needed = (
-        f"runs of {1.1 * FEWEST_SLIPS * seconds / found:.2g} s at this pace" if found else "a longer record or a slower belt"
+        f"runs of {1.1 * criteria.FEWEST_SLIPS * seconds / found:.2g} s at this pace"
+        if found
+        else "a longer record or a slower belt"
     )
     return f"holds {found} whole slips in {seconds:.3g} s", needed
 
@@ -80,4 +75,4 @@ def _needed(box: BeltBox, mu_s: float, travel: float) -> float:
     """Return how long a record must be to hold the slips that are needed, by the stated model [s]."""
     slip = math.pi / math.sqrt(box.stiffness / box.mass)
     first = mu_s * box.normal_force / box.stiffness / box.belt_velocity
-    return first + (FEWEST_SLIPS + 1) * (travel / box.belt_velocity + slip)
+    return first + (criteria.FEWEST_SLIPS + 1) * (travel / box.belt_velocity + slip)

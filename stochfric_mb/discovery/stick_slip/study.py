@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.calibration import calibrate
 from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.preconditions import require_driven
@@ -23,11 +24,6 @@ from stochfric_mb.discovery.stick_slip.simulation.scaling import Scaling
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset, Run
 
-FEWEST_SLIPS = 12
-"""Slips of a run below which it says too little to be used."""
-
-FAR_DAMPED = 3.0
-"""Standard deviations from the damping of a calibration beyond which the features are calibrated again [-]."""
 RECALIBRATIONS = 2
 """Further calibrations at most."""
 
@@ -110,7 +106,7 @@ def study(dataset: Dataset, size: Scaling, *, progress: Progress = lambda _: Non
     progress("slips")
     records = tuple(record_of(run, dataset) for run in dataset.fit)
     slips = [extract(r) for r in records]
-    usable = [s for s in slips if len(s) >= FEWEST_SLIPS]
+    usable = [s for s in slips if len(s) >= criteria.FEWEST_SLIPS]
     if not usable:
         return None
     require_driven(usable)
@@ -143,7 +139,7 @@ def _calibrated(usable: Sequence[Slips], uncertainty: Mapping[str, float]) -> tu
         shown = regression.solve(free, solution.scatter).coefficients[DAMPING]
         return pool, solution, max(1.0 + float(shown), 0.0)
 
-    damping, far = 1.0, FAR_DAMPED * uncertainty.get("damping", 0.0)
+    damping, far = 1.0, criteria.FAR_DAMPED * uncertainty.get("damping", 0.0)
     pool, solution, shown = at(damping)
     for _ in range(RECALIBRATIONS):
         if abs(shown - damping) <= far:

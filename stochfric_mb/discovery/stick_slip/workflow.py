@@ -5,13 +5,14 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.result import Gap, Result, Where
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.stick_slip.decision.anonymous import anonymous, told
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.explained import unexplained
-from stochfric_mb.discovery.stick_slip.decision.held_out_check import LEAST_REDUCIBLE, compared, without_last
+from stochfric_mb.discovery.stick_slip.decision.held_out_check import compared, without_last
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, Named, decide, of_wander
 from stochfric_mb.discovery.stick_slip.feature_skill import slip_force_gap
 from stochfric_mb.discovery.stick_slip.parameters import found_effect, moved, not_measured, own_parameters
@@ -220,7 +221,7 @@ def _checked_on_held_out(
         return decision, fit, augmented
     error = mean_score(augmented, runs)
     reducible = error - min(floor_of(augmented, runs), error)
-    if reducible < LEAST_REDUCIBLE * error:
+    if reducible < criteria.LEAST_REDUCIBLE * error:
         return dataclasses.replace(decision, verdict="none"), fit, augmented
     text = f"{last.kind} comes closest on the fit runs, but makes forecasts of the held-out runs worse"
     return dataclasses.replace(decision, verdict="unknown", where=Where(last.where.axis, text)), fit, augmented

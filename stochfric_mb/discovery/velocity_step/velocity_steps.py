@@ -167,7 +167,7 @@ def _result(
         )
         axes = {MEMORY: "distance since a change of speed", SLOPE_IN_DISTANCE: "displacement", RATE: "speed"}
         axis = next(axes[finding] for finding in effect_class(kind).found_as if finding in axes)
-        effects = (Found(kind, same, Where(axis, text), _numbers(best), scores[kind], float(np.exp(-0.5 * scores[kind]))),)
+        effects = (Found(kind, same, Where(axis, text), _numbers(best), scores[kind], None),)
     source = "high-frequency content of the friction coefficient (third differences)"
     gap = Gap("friction_coefficient", "-", True, believed, _held_out(plain, tracks), after, floor, source)
     return Result(

@@ -5,7 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.stick_slip.records.preconditions import FEWEST_SAMPLES, require_driven, require_usable
+from stochfric_mb.discovery.criteria import FEWEST_SAMPLES
+from stochfric_mb.discovery.stick_slip.records.preconditions import require_driven, require_usable
 from stochfric_mb.discovery.stick_slip.records.record import make_record
 from stochfric_mb.errors import InputError
 from stochfric_mb.mechanisms import BeltBox

@@ -7,8 +7,10 @@ import dataclasses
 import numpy as np
 from numpy.polynomial import legendre
 
+from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.inference.false_alarms import Evidence
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip.decision.held_out_check import LEAST_REDUCIBLE, Comparison, compared
+from stochfric_mb.discovery.stick_slip.decision.held_out_check import Comparison, compared
 from stochfric_mb.discovery.stick_slip.decision.rounds import Named
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
@@ -27,8 +29,6 @@ ORDERS, SIZE = 4, 0.3
 the k-th one's is 1/k^2 of it, as the coefficients of a curve without corners fall [-]."""
 ENDS = 0.01, 0.99
 """Quantiles of what the slips visit along an axis at which its table begins and ends [-]."""
-LEAST = 0.0
-"""Score that an axis must reach: more evidence than its numbers and the choice between the axes cost."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Anonymous:
     def carries_over(self) -> bool:
         """Whether held-out runs are forecast better with it, by more than chance and by enough to be worth a term."""
         seen = self.seen
-        return seen is not None and seen.better and seen.without - seen.with_ > LEAST_REDUCIBLE * seen.without
+        return seen is not None and seen.better and seen.without - seen.with_ > criteria.LEAST_REDUCIBLE * seen.without
 
 
 @dataclasses.dataclass(frozen=True)
@@ -80,7 +80,7 @@ def anonymous(found: Study, recalibrated: Fit, runs: HeldOut) -> Anonymous | Non
         score = (
             2.0 * (found.solution.cost - solution.cost) - ORDERS * float(np.log(regression.n)) - 2.0 * float(np.log(len(axes)))
         )
-        if score <= LEAST:
+        if score <= criteria.UNNAMED_LEAST:
             continue
         numbers = solution.coefficients
         table = _polynomials(np.linspace(-1.0, 1.0, KNOTS)) @ numbers[-ORDERS:]
@@ -99,7 +99,7 @@ def anonymous(found: Study, recalibrated: Fit, runs: HeldOut) -> Anonymous | Non
     fit = refit(start, found.windows, found.uncertainty)
     fit = with_deviations(fit, found.windows, found.uncertainty)
     term = fit.model.effects[-1]
-    named = Named(term.kind, (), score, Where(*term.appears()))
+    named = Named(term.kind, (), Evidence(score, None), Where(*term.appears()))
     return Anonymous(named, fit, compared(recalibrated.model, fit.model, runs))
 
 

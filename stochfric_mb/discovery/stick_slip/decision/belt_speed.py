@@ -10,16 +10,9 @@ import dataclasses
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.study import Study
-
-NOTED = 0.01
-"""Relative error of the belt's speed that is worth a note [-]."""
-TOO_MUCH = 0.03
-"""Relative error above which no force is judged [-]: the damper's share and the momenta at both ends of a slip are then
-wrong by as much as a weak effect is strong."""
-DOUBT = 5.0
-"""Standard deviations that an error must reach [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -36,7 +29,7 @@ class BeltSpeed:
     @property
     def too_much(self) -> bool:
         """Whether it keeps forces from being judged."""
-        return abs(self.ratio - 1.0) > TOO_MUCH
+        return abs(self.ratio - 1.0) > criteria.BELT_TOO_MUCH
 
     @property
     def note(self) -> str:
@@ -67,7 +60,7 @@ def belt_speed(study: Study) -> BeltSpeed | None:
         return None
     errors, doubts = sticking.belt_velocity_error, sticking.belt_velocity_deviation
     worst = int(np.argmax(np.abs(errors)))
-    if abs(errors[worst]) < max(NOTED, DOUBT * doubts[worst]):
+    if abs(errors[worst]) < max(criteria.BELT_NOTED, criteria.BELT_DOUBT * doubts[worst]):
         return None
     run, stated = sticking.runs[worst]
     return BeltSpeed(run, 1.0 + float(errors[worst]), stated * study.size.of("m/s"))

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, confirm
 from stochfric_mb.discovery.stick_slip.decision.entrainment import entrained
@@ -19,28 +20,8 @@ from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import effect_class, kinds_with
 from stochfric_mb.effects.traits import BETWEEN_POINTS, DRIFTS, SHAPED_IF_FORCED, SHAPES_SLIPS
 
-SELECT, NAME = 14.0, 20.0
-"""Scores at which a candidate is followed up, and at which it is named [-]."""
-OUTDONE = 0.5
-"""A competitor that names no physics wins at once if the best effect has less than this share of its score [-]."""
-CLASS, CLASS_SHARE = 12.0, 0.03
-"""Effects whose score is within this, or this share, of the best are of one class with it [-]."""
-CONFIRMED_CLASS = 10.0
-"""Effects whose simulated criterion, in units of the best one's own misfit, is within this of the best are of one class with
-it [-]."""
-LACK, LACK_SHARE = 25.0, 0.35
-"""A simulated candidate is refused if chi^2 stays this far above its freedom and above this share of the believed model's."""
-BEATEN = 15.0
-"""Score by which a stiffness that drifts must beat other drifts, or `CLASS_SHARE` [-]."""
-LOCKED = 0.9
-"""Share of a ripple's score that alternation from slip to slip must reach to be believed in its place [-]."""
-WORTH_SIMULATING = 0.1
-"""Share of the best effect's score from which on a candidate is simulated [-]."""
 MOST_SIMULATED = 8
 """Candidates that are simulated in the first round."""
-FORM = 0.03
-"""Share of the believed model's misfit that an effect of another form than the simulated one may leave [-]: a sixth of its
-strength. The tests' forms leave 0.016 at most, those of other kinds 0.08 where friction varies along the stroke."""
 MOST_SIMULATED_LATER = 4
 """The same in what an effect leaves, where the best marks can be trusted: what is left is weak."""
 REFUTED = "shapes_refuted"
@@ -97,7 +78,7 @@ def choose(
     effects = [c for c in candidates if c.is_effect]
     others = [c for c in candidates if not c.is_effect]
     rest = _best_score(c for c in candidates if not shapes(c))
-    if before is not None and shape >= NAME and shape >= rest:
+    if before is not None and shape >= criteria.NAMED and shape >= rest:
         # refuted once, shapes stay refuted: the slips that simulated ones are compared with are the same
         if REFUTED not in details:
             outcome = _by_simulation(study, model, terms, [c for c in effects if shapes(c)], cases, before, details)
@@ -105,13 +86,13 @@ def choose(
                 return outcome
             details[REFUTED] = True
         # simulation does not bear the shape out: what remains are effects that change from slip to slip
-        effects = [c for c in effects if not shapes(c) and c.score > WORTH_SIMULATING * shape]
+        effects = [c for c in effects if not shapes(c) and c.score > criteria.WORTH_SIMULATING * shape]
         others = [c for c in others if c.name not in SHAPES]
     nameless = _nameless(effects, others)
-    if nameless is not None or not effects or effects[0].score < NAME:
+    if nameless is not None or not effects or effects[0].score < criteria.NAMED:
         return nameless
     best = effects[0]
-    near = best.score - max(CLASS, CLASS_SHARE * best.score)
+    near = best.score - max(criteria.ALIKE_SCREENED, criteria.ALIKE_SHARE * best.score)
     class_ = tuple(dict.fromkeys(c.name for c in effects[1:] if c.score > near and c.name != best.name))
     return Chosen(best, class_, with_candidate(model, best, study.pool, terms.columns.shape[2]), before, False)
 
@@ -127,7 +108,7 @@ def _family(candidates: Sequence[Candidate], cases: Sequence[Case]) -> tuple[tup
     own = tuple(c.name for c in candidates if c.is_effect and not effect_class(c.name).__module__.startswith("stochfric_mb."))
     family = kinds_with(SHAPES_SLIPS) + (kinds_with(BETWEEN_POINTS) if several else ()) + own
     shape = _best_score(c for c in candidates if c.name in family + SHAPES or c.any_shape)
-    if any(c.has(SHAPED_IF_FORCED) and OUTDONE * c.score < shape for c in candidates):
+    if any(c.has(SHAPED_IF_FORCED) and criteria.OUTDONE * c.score < shape for c in candidates):
         # where slips keep step with a known force, a late sensor shapes every slip alike, too
         family += kinds_with(SHAPED_IF_FORCED)
         shape = max(shape, *(c.score for c in candidates if c.has(SHAPED_IF_FORCED)))
@@ -138,15 +119,19 @@ def _nameless(effects: Sequence[Candidate], others: Sequence[Candidate]) -> Wher
     """Return where the unknown lives, if a competitor that names no physics beats the best effect; None if none does."""
     best = effects[0] if effects else None
     other = others[0] if others else None
-    if other is not None and other.score >= NAME and (best is None or best.score < OUTDONE * other.score):
+    if other is not None and other.score >= criteria.NAMED and (best is None or best.score < criteria.OUTDONE * other.score):
         return Where(other.axis, f"the disagreement lives on the axis: {other.axis}; no known effect explains it")
-    if best is None or best.score < NAME:
+    if best is None or best.score < criteria.NAMED:
         return None
     softer = next((c for c in others if c.name == SOFTENING), None)
-    if softer is not None and best.has(DRIFTS) and softer.score > best.score + max(BEATEN, CLASS_SHARE * best.score):
+    if (
+        softer is not None
+        and best.has(DRIFTS)
+        and softer.score > best.score + max(criteria.SOFTER, criteria.ALIKE_SHARE * best.score)
+    ):
         return Where(softer.axis, "the spring, not the friction, drifts in the course of a run")
     parity = next((c for c in others if c.name == "parity"), None)
-    if parity is not None and best.is_wave and parity.score > LOCKED * best.score:
+    if parity is not None and best.is_wave and parity.score > criteria.ALTERNATES * best.score:
         text = "friction alternates from slip to slip: no ripple that has its own frequency stays in step so"
         return Where(parity.axis, text)
     return None
@@ -163,7 +148,7 @@ def _by_simulation(
 ) -> Chosen | Where | None:
     n_terms = terms.columns.shape[2]
     # over the best effect, not the shape: where none comes near it the marks are too far from linear to choose by
-    least = max(WORTH_SIMULATING * mine[0].score if mine else 0.0, SELECT / 2.0)
+    least = max(criteria.WORTH_SIMULATING * mine[0].score if mine else 0.0, criteria.FOLLOWED_UP / 2.0)
     rounds = sum(key.startswith("confirmation") for key in details)
     most = MOST_SIMULATED_LATER if rounds else MOST_SIMULATED
     worth = [c for c in mine if c.score > least]
@@ -182,14 +167,14 @@ def _by_simulation(
     fits = [t for t in tried if not t[0].any_shape and _adequate(t[1], before)] or tried
     spread = _spread([f for _, f in fits])
     best, fitted = min(fits, key=lambda t: t[1].scaled(spread))
-    if before.criterion - fitted.criterion < SELECT:
+    if before.criterion - fitted.criterion < criteria.FOLLOWED_UP:
         return None
-    if fitted.chi2 > fitted.freedom + LACK and fitted.chi2 > LACK_SHARE * before.chi2:
+    if fitted.chi2 > fitted.freedom + criteria.LACK_OF_FIT and fitted.chi2 > criteria.LACK_OF_FIT_SHARE * before.chi2:
         return Where(
             "shape of the friction force within a slip",
             f"no known effect explains the force within the slips; {best.name} comes closest",
         )
-    near = fitted.scaled(spread) + CONFIRMED_CLASS
+    near = fitted.scaled(spread) + criteria.ALIKE_SIMULATED
     tried.sort(key=lambda t: t[1].scaled(spread))
     alike = [c for c, f in tried if f.scaled(spread) < near and (_adequate(f, before) or not (c.any_shape or c.is_wave))]
     class_ = tuple(dict.fromkeys(c.name for c in alike if c.name != best.name))
@@ -198,7 +183,7 @@ def _by_simulation(
 
 def _adequate(fitted: Confirmed, before: Confirmed) -> bool:
     """Return whether a candidate explains the slips' shape but for what another form of it would."""
-    return fitted.chi2 <= max(fitted.freedom + LACK, FORM * before.chi2)
+    return fitted.chi2 <= max(fitted.freedom + criteria.LACK_OF_FIT, criteria.FORM_MISSES * before.chi2)
 
 
 def _spread(confirmed: Sequence[Confirmed]) -> float:

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, confirm
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
@@ -26,8 +27,6 @@ from stochfric_mb.effects.marks import ENTRAINED, Hypothesis, Wave
 from stochfric_mb.effects.traits import ALONG_BELT, FORCE_IN_TIME
 from stochfric_mb.numerics.robust import deviation
 
-REGULAR = 0.03
-"""Scatter of the intervals between slips, over their mean, up to which slips may keep to a wave [-]."""
 COARSE = (2, 4, 6, 8)
 """Orders that are tried first; then the neighbours of the best one."""
 EVALUATIONS = 10
@@ -78,7 +77,7 @@ def _common_rate(pool: Pool) -> float | None:
     intervals = [np.diff(s.onset_time) for s in pool.slips]
     rates = np.array([1.0 / np.median(i) for i in intervals])
     irregular = max(float(deviation(i) / np.median(i)) for i in intervals)
-    if np.ptp(rates) > REGULAR * rates.mean() or irregular > REGULAR:
+    if np.ptp(rates) > criteria.ENTRAINED * rates.mean() or irregular > criteria.ENTRAINED:
         return None
     return float(rates.mean())
 

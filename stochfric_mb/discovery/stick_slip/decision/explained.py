@@ -6,8 +6,8 @@ import dataclasses
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip.decision.held_out_check import LEAST_REDUCIBLE
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of, mean_score
@@ -16,19 +16,10 @@ from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import kind_found_as, kinds_with
 from stochfric_mb.effects.traits import JUMP, KICKS, OUTSIDE_FORECASTS, SCATTER
 
-EXPLAINED, EXPLAINED_RANDOM = 0.65, 0.2
-"""Share of the reducible error of the fit runs' forecasts that named effects must explain; the second one where random
-effects or a step between two slips, whose moment is not known well, are among them [-]."""
-MISSED = 0.5
-"""Reducible error over the error itself above which "none" is no answer [-]: more is wrong with the forecasts than is right.
-Where nothing is missing, noise and declared scatter leave up to a third."""
 GOLDEN = 0.6180339887498949
 """The ratio whose multiples repeat least."""
 JUDGED_WINDOWS = 24
 """Forecasts of each run that are judged."""
-THROWN_OFF, FEWEST_THROWN_OFF = 3.0, 2
-"""Error of a forecast over that of most from which on something came between, and how many of them kicks leave at least:
-noise alone, however coloured, leaves forecasts that all miss by about the same [-]."""
 
 
 def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented: Model) -> Decision | None:
@@ -52,13 +43,13 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
     reducible, unit = before - floor, found.size.length
     if not kinds:
         decision.details["explained"] = {"before": before * unit, "floor": floor * unit}
-        return _missed(decision, before * unit, floor * unit) if reducible > MISSED * before else None
-    share = (before - after) / reducible if reducible > LEAST_REDUCIBLE * before else 1.0
+        return _missed(decision, before * unit, floor * unit) if reducible > criteria.NONE_MISSES * before else None
+    share = (before - after) / reducible if reducible > criteria.LEAST_REDUCIBLE * before else 1.0
     decision.details["explained"] = {
         "before": before * unit, "after": after * unit, "floor": floor * unit, "share": share
     }  # fmt: skip
     lenient = augmented.random or kind_found_as(JUMP) in kinds
-    if share >= (EXPLAINED_RANDOM if lenient else EXPLAINED):
+    if share >= (criteria.EXPLAINED_RANDOM if lenient else criteria.EXPLAINED):
         return None
     best = decision.named[0]
     where = Where(
@@ -76,14 +67,16 @@ def _unfelt(kinds: set[str], recalibrated: Model, found: Study, runs: HeldOut, b
     if kinds == {kind_found_as(KICKS)}:
         return not _thrown_off(recalibrated, found)
     return (
-        bool(kinds) and kinds <= set(kinds_with(SCATTER)) and before - floor_of(recalibrated, runs) <= LEAST_REDUCIBLE * before
+        bool(kinds)
+        and kinds <= set(kinds_with(SCATTER))
+        and before - floor_of(recalibrated, runs) <= criteria.LEAST_REDUCIBLE * before
     )
 
 
 def _thrown_off(model: Model, found: Study) -> bool:
     """Return whether some forecasts of the fit runs miss by far more than most."""
     errors = np.concatenate([score(model, w) for w in found.windows])
-    return bool(np.count_nonzero(errors > THROWN_OFF * np.median(errors)) >= FEWEST_THROWN_OFF)
+    return bool(np.count_nonzero(errors > criteria.THROWN_OFF * np.median(errors)) >= criteria.FEWEST_THROWN_OFF)
 
 
 def _scattered(windows: Windows, most: int) -> Windows:

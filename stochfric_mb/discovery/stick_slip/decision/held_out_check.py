@@ -6,19 +6,11 @@ import dataclasses
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.paired import paired
 from stochfric_mb.discovery.stick_slip.simulation.forecast import score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
-
-DOUBT = 2.0
-"""Standard errors of the mean difference by which forecasts must be worse: chance does that once in 40 times [-]."""
-FAR_OFF = 1.1
-"""Error with an effect, over that without it, from which on it is refused, unless most forecasts are better [-]."""
-MOST = 2.0
-"""Standard deviations of a fair coin by which better forecasts must outnumber worse ones to be most [-]."""
-LEAST_REDUCIBLE = 0.08
-"""Reducible error, over the error itself, below which shares of it would be noise over noise [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,15 +38,15 @@ class Comparison:
         """
         if self.with_ <= self.without:
             return False
-        chance = DOUBT * self.deviation
-        to_gain = self.without - self.floor > LEAST_REDUCIBLE * self.without
-        far_off = self.with_ > FAR_OFF * self.without and not self.most_better
+        chance = criteria.HELD_OUT_DOUBT * self.deviation
+        to_gain = self.without - self.floor > criteria.LEAST_REDUCIBLE * self.without
+        far_off = self.with_ > criteria.HELD_OUT_FAR_OFF * self.without and not self.most_better
         return far_off or self.with_ - self.without > chance or to_gain
 
     @property
     def better(self) -> bool:
         """Whether the effect makes the forecasts better, by more than chance."""
-        return self.without - self.with_ > DOUBT * self.deviation
+        return self.without - self.with_ > criteria.HELD_OUT_DOUBT * self.deviation
 
 
 def compared(without: Model, with_: Model, runs: HeldOut) -> Comparison | None:
@@ -63,7 +55,7 @@ def compared(without: Model, with_: Model, runs: HeldOut) -> Comparison | None:
     if len(first) < 3:  # no standard error
         return None
     seen = paired(first, second)
-    most_better = seen.better - seen.worse > MOST * np.sqrt(seen.better + seen.worse)
+    most_better = seen.better - seen.worse > criteria.HELD_OUT_MOST * np.sqrt(seen.better + seen.worse)
     return Comparison(seen.without, seen.with_, seen.deviation, floor_of(with_, runs), bool(most_better))
 
 

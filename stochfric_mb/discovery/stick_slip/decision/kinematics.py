@@ -8,8 +8,9 @@ from typing import cast
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.inference.false_alarms import Evidence, detected, likely
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip.records.record import OUTLIER_DEVIATIONS
 from stochfric_mb.discovery.stick_slip.records.stick_phases import Sticking
 from stochfric_mb.discovery.stick_slip.screening.competitors import step_times, steps
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
@@ -19,10 +20,6 @@ from stochfric_mb.effects import kind_found_as, make_effect
 from stochfric_mb.effects.traits import BELT_RIPPLE, CLIPPED, CREEPING_ZERO, JUMP, LATE, STRAY, YIELDING
 from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
 
-NAME = 20.0
-"""Score at which an effect is named [-]."""
-YIELDS = 0.5
-"""Share of the evidence for creep that a yielding or ringing contact must reach to be named in its place [-]."""
 CREEP = {
     "creep_before": ("stick, before the break-away", "the box leaves the belt's motion before it breaks away"),
     "creep_after": ("stick, after the re-stick", "the box does not follow the belt at once when it sticks again"),
@@ -33,16 +30,6 @@ ELSE = ("stick", "in stick the box does not follow the belt, in a way that no kn
 """The same where none of them explains enough."""
 STEP_SEEN = "step_in_stick"
 """Name under which the details hold the score of a step that stands in a stick phase and stays."""
-LEAST_OUTLIERS = 5.0e-5
-"""Share of outliers from which on they are named [-]."""
-OUTSHINES = 10.0
-"""Evidence of such a line over that of the best effect in stick from which on the line is no trace of the effect: a contact
-that rings is seen in the first few periods after each re-stick, a line all along [-]."""
-LINE = 60.0
-"""Strength of a line in the noise at which it is no chance [-]; the largest of 64 without a line stays below 10."""
-
-LOUD_LINE = 1.0
-"""Variance of such a line over that of the rest of the noise below which it is part of the noise [-]."""
 
 
 def with_kinematic(study: Study, model: Model, kind: str, values: dict[str, float]) -> Model:
@@ -102,15 +89,28 @@ def _ripple_phases(study: Study, frequency: float) -> list[tuple[str, float]]:
     return found
 
 
-Blamed = list[tuple[str, float, dict[str, float]]]
-"""Effects with their scores and parameters."""
+@dataclasses.dataclass(frozen=True)
+class Blame:
+    """An effect that the stick phases or the sensor show."""
+
+    kind: str
+    """Its name."""
+    evidence: Evidence
+    """What speaks for it."""
+    values: dict[str, float]
+    """Its parameters."""
+
+
+Blamed = list[Blame]
+"""Effects that the stick phases and the sensor show."""
 
 
 def kinematics(study: Study, details: dict[str, object]) -> Blamed | Where:
     """Return the effects that the stick phases and the sensor show, or where they disagree with no known effect."""
     details["ceiling"] = study.range.share
     if study.range.clipped:
-        return [(kind_found_as(CLIPPED), 100.0 * study.range.share, {"high": study.range.high, "low": study.range.low})]
+        ends = {"high": study.range.high, "low": study.range.low}
+        return [Blame(kind_found_as(CLIPPED), detected("clipped", study.range.share), ends)]
     found = _delays(study, details) + _outliers(study, details)
     in_stick = _in_stick(study, details)
     return in_stick if isinstance(in_stick, Where) else found + in_stick
@@ -118,14 +118,21 @@ def kinematics(study: Study, details: dict[str, object]) -> Blamed | Where:
 
 def _outliers(study: Study, details: dict[str, object]) -> Blamed:
     """Return outliers; what only stands out of a smoothed sensor's samples is none."""
+    share = outlier_share(study)
+    details["outlier_share"] = share
+    if share < criteria.LEAST_OUTLIERS or share * sum(len(r.time) for r in study.records) < criteria.FEWEST_OUTLIERS:
+        return []
+    sizes = np.concatenate([np.abs(r.raw - r.position)[r.outlier] for r in study.records])
+    return [
+        Blame(kind_found_as(STRAY), detected("outliers", share), {"fraction": share, "size": float(np.sqrt(np.mean(sizes**2)))})
+    ]
+
+
+def outlier_share(study: Study) -> float:
+    """Return the share of samples that stand out of the noise [-]."""
     noise = max(s.noise.deviation for s in study.pool.slips)
     sizes = np.concatenate([np.abs(r.raw - r.position)[r.outlier] for r in study.records])
-    count = int(np.count_nonzero(sizes > OUTLIER_DEVIATIONS * noise))
-    share = count / sum(len(r.time) for r in study.records)
-    details["outlier_share"] = share
-    if share < LEAST_OUTLIERS or count < 5:
-        return []
-    return [(kind_found_as(STRAY), 10.0 * count, {"fraction": share, "size": float(np.sqrt(np.mean(sizes**2)))})]
+    return float(np.count_nonzero(sizes > criteria.OUTLIER_DEVIATIONS * noise)) / sum(len(r.time) for r in study.records)
 
 
 def _in_stick(study: Study, details: dict[str, object]) -> Blamed | Where:
@@ -135,25 +142,26 @@ def _in_stick(study: Study, details: dict[str, object]) -> Blamed | Where:
         return []
     details["sticking"] = dict(sticking.scores) | {"excess": sticking.excess, "excess_ratio": sticking.excess_ratio}
     best, score = _winner(study, sticking)
-    if (line := _line(study, details)) is not None and _gain_of_line(study) > OUTSHINES * score:
+    if (line := _line(study, details)) is not None and _gain_of_line(study) > criteria.LINE_OUTSHINES * score:
         return line
-    if score <= NAME:
+    if score <= criteria.NAMED:
         forced = any(r.mechanism.excitation_amplitude for r in study.records)
-        if sticking.scores[JUMP] > max(NAME, 0.2 * sticking.excess) and not forced:
+        if sticking.scores[JUMP] > max(criteria.NAMED, 0.2 * sticking.excess) and not forced:
             details["single_moments"] = sticking.scores[JUMP]
-    if score > NAME and best == JUMP:
+    if score > criteria.NAMED and best == JUMP:
         details[STEP_SEEN] = score
-    if score <= NAME or best in (CREEPING_ZERO, JUMP):
-        return line if line is not None and score <= NAME else []
+    if score <= criteria.NAMED or best in (CREEPING_ZERO, JUMP):
+        return line if line is not None and score <= criteria.NAMED else []
     if best in CREEP or score < 0.75 * sticking.excess - 60.0:
         return Where(*CREEP.get(best, ELSE))
     settings = sticking.settings[best]
     if best == BELT_RIPPLE:
-        return [(kind_found_as(best), score, {"amplitude": 0.01, "frequency": settings["frequency"]})]
+        return [Blame(kind_found_as(best), likely("stick", score), {"amplitude": 0.01, "frequency": settings["frequency"]})]
     box = study.records[0].mechanism
     stiffness = max(settings["angular_frequency"] ** 2 * box.mass - box.stiffness, 0.1 * box.stiffness)
     limit = float(study.solution.coefficients[0]) * box.normal_force / stiffness
-    return [(kind_found_as(best), score, {"elastic_limit": limit, "damping_ratio": settings["damping_ratio"]})]
+    values = {"elastic_limit": limit, "damping_ratio": settings["damping_ratio"]}
+    return [Blame(kind_found_as(best), likely("stick", score), values)]
 
 
 def _winner(study: Study, sticking: Sticking) -> tuple[str, float]:
@@ -167,7 +175,7 @@ def _winner(study: Study, sticking: Sticking) -> tuple[str, float]:
     best = max(scores, key=lambda k: scores[k])
     if best in CREEP:
         rings = scores[YIELDING]
-        if max(scores["yielding"], rings) > YIELDS * scores[best]:
+        if max(scores["yielding"], rings) > criteria.YIELDS_FOR_CREEP * scores[best]:
             return YIELDING, scores[best] + max(rings, 0.0)
     return best, scores[best]
 
@@ -181,7 +189,7 @@ def _driven(study: Study, frequency: float) -> bool:
     )
 
 
-def _delays(study: Study, details: dict[str, object]) -> list[tuple[str, float, dict[str, float]]]:
+def _delays(study: Study, details: dict[str, object]) -> Blamed:
     """Return the delay of the position after a velocity channel, where runs have one and the delay is beyond doubt."""
     found: list[Delay] = []
     for run in study.dataset.fit:
@@ -197,7 +205,9 @@ def _delays(study: Study, details: dict[str, object]) -> list[tuple[str, float, 
     # a velocity that is late, a filtered one, is none of the position's faults
     if seconds < max(5.0 * doubt, 0.5 * study.dataset.fit[0].sample_interval):
         return []
-    return [(kind_found_as(LATE), float(min((seconds / max(doubt, 1.0e-6)) ** 2, 1.0e4)), {"delay": seconds})]
+    # twice the log likelihood ratio of one normal number against 0
+    ratio = (seconds / doubt) ** 2 if doubt > 0.0 else float("inf")
+    return [Blame(kind_found_as(LATE), Evidence(ratio, None), {"delay": seconds})]
 
 
 def delay_deviation(details: Mapping[str, object]) -> float:
@@ -215,7 +225,10 @@ def _step_stays(study: Study, setting: dict[str, float]) -> bool:
             continue
         trials = steps(pool, run, multiplied=False)
         near = [trials[i] for i in np.flatnonzero(np.abs(place - when) < 1.5 * (place[1] - place[0]))]
-        if near and max(study.regression.gains(study.terms, study.solution.scatter, [[t] for t in near])) > NAME / 2.0:
+        if (
+            near
+            and max(study.regression.gains(study.terms, study.solution.scatter, [[t] for t in near])) > criteria.NAMED / 2.0
+        ):
             return True
     return False
 
@@ -226,7 +239,7 @@ def _line(study: Study, details: dict[str, object]) -> Where | None:
     frequency, amplitude = frequency * study.size.of("Hz"), amplitude * study.size.length
     details["noise_line"] = {"frequency": frequency, "amplitude": amplitude, "strength": strength}
     variance = max(s.noise.deviation for s in study.pool.slips) ** 2
-    if strength < LINE or amplitude**2 / 2.0 < LOUD_LINE * max(variance - amplitude**2 / 2.0, 0.0):
+    if strength < criteria.LINE_STRENGTH or amplitude**2 / 2.0 < criteria.LOUD_LINE * max(variance - amplitude**2 / 2.0, 0.0):
         return None
     return Where(
         "frequency, sensor", f"the position holds a vibration of {frequency:.3g} Hz and {amplitude:.2g} m, in stick too"

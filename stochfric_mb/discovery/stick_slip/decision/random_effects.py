@@ -7,8 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.inference.false_alarms import Evidence, detected, likely
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip.decision.choice import NAME
 from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, believed
@@ -20,36 +21,8 @@ from stochfric_mb.effects import kind_found_as
 from stochfric_mb.effects.traits import DRAWN_ANEW, KICKS, WANDER
 from stochfric_mb.numerics.robust import deviation
 
-CERTAIN = 30.0
-"""Likelihood ratio at which friction scatters beyond doubt [-]."""
-MEMORY = 3.0
-"""Correlation from slip to slip over its standard error at which the scatter has a memory [-]."""
-REMAINING_SCATTER = 0.1
-"""Share of the believed model's scatter that must remain with the effects in for it to be called random [-]."""
-LEAST_SHARE = 0.004
-"""Scatter over the friction itself below which, beside a named effect, it is what the effect's form leaves [-]."""
-FEWEST_KICKED, MOST_KICKED = 0.05, 0.45
-"""Share of cycles with a slip that stands out, or a jump in stick, for which kicks are the reason [-]; one slip of thirty may
-stand out by accident (see `pool`)."""
-STRAY = 8.0
-"""Robust deviations beyond which a slip is an accident [-]."""
-ONE_SIDED = 1.0
-"""Mean of the impulses over their deviation from which on they come from one side [-]."""
 UNSEEN = 1.5
 """Kicks from both sides, over those that are seen [-]."""
-SLIDING = 0.1
-"""Distance of an onset force from the kinetic force, over that of a usual break-away, below which nothing has stuck [-]."""
-FEWEST_FAR = 3
-"""Slips that must stand out: jumps in stick alone say too little of the force that makes them."""
-FEWEST_ALIKE, ALIKE, LEVEL = 4, 0.3, 0.01
-"""Slips that stand out by the same, their share of those that do, from which on friction has a second level, and how far apart
-the same may be [-]: a level that is reached in a ramp is known to no better, and amounts that are spread evenly over a tenth of
-the force would put one in ten so close together."""
-MORE_MEMORY = 2.0**0.5 * MEMORY
-"""The same beyond that of a declared process, which one simulation tells with as large an error [-]."""
-TOGETHER = 0.5
-"""Correlation of stick and slip above which the scatter is not that of two independent coefficients [-]: of 24 slips with
-independent ones 1 in 80 reaches it, of 48 1 in 3000."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -58,8 +31,8 @@ class RandomEffects:
 
     kind: str
     """Its name."""
-    score: float
-    """Evidence [-]."""
+    evidence: Evidence
+    """What speaks for it."""
     values: dict[str, float | str]
     """Its parameters."""
 
@@ -76,7 +49,7 @@ def stray(pool: Pool, residuals: Array) -> np.ndarray:
         mine = np.flatnonzero(pool.kept & (pool.run == r))
         for column in (0, 1) if len(mine) else ():
             away = residuals[mine, column] - np.median(residuals[mine, column])
-            far[mine] |= np.abs(away) > STRAY * deviation(away)
+            far[mine] |= np.abs(away) > criteria.KICK_STRAY * deviation(away)
     return far
 
 
@@ -87,7 +60,7 @@ def kicked(study: Study) -> np.ndarray:
     for r in range(pool.n_runs):
         forces[pool.run == r] -= np.median(forces[pool.run == r], axis=0)
     spread = np.array([deviation(forces[:, 0]), deviation(forces[:, 1])])
-    limit = np.maximum(STRAY * spread, 0.02 * float(np.median(pool.static)))
+    limit = np.maximum(criteria.KICK_STRAY * spread, 0.02 * float(np.median(pool.static)))
     return np.asarray((np.abs(forces) > limit).any(axis=1)) & ~_sliding(pool)
 
 
@@ -96,7 +69,7 @@ def _sliding(pool: Pool) -> np.ndarray:
 
     Where its swing comes near the belt's speed it seems to stick for a moment, and to break away at the kinetic force.
     """
-    return np.asarray(np.abs(pool.features[:, 0] - pool.kinetic) < SLIDING * (pool.static - pool.kinetic))
+    return np.asarray(np.abs(pool.features[:, 0] - pool.kinetic) < criteria.KICKED_SLIDING * (pool.static - pool.kinetic))
 
 
 def _repeated(study: Study) -> bool:
@@ -111,11 +84,13 @@ def _repeated(study: Study) -> bool:
     for r in range(pool.n_runs):
         shares[pool.run == r] -= np.median(shares[pool.run == r], axis=0)
     spread = np.array([deviation(column) for column in shares.T])
-    static, kinetic = ((np.abs(shares[:, :2]) > np.maximum(STRAY * spread[:2], 0.02)) & ~_sliding(pool)[:, None]).T
-    level = kinetic & ~static & (np.abs(shares[:, 2:]) < STRAY * spread[2:]).all(axis=1)
-    widths = np.maximum(3.0 * spread, LEVEL)
+    static, kinetic = (
+        (np.abs(shares[:, :2]) > np.maximum(criteria.KICK_STRAY * spread[:2], 0.02)) & ~_sliding(pool)[:, None]
+    ).T
+    level = kinetic & ~static & (np.abs(shares[:, 2:]) < criteria.KICK_STRAY * spread[2:]).all(axis=1)
+    widths = np.maximum(3.0 * spread, criteria.KICKS_LEVEL)
     groups = (np.sort(shares[static, 0]), widths[0]), (np.sort(shares[level, 1]), widths[1])
-    most = max(FEWEST_ALIKE, ALIKE * int(np.count_nonzero(static | kinetic)))
+    most = max(criteria.FEWEST_ALIKE, criteria.KICKS_ALIKE * int(np.count_nonzero(static | kinetic)))
     near = [int(np.searchsorted(far, value + width, "right")) - i for far, width in groups for i, value in enumerate(far)]
     return any(count >= most for count in near)
 
@@ -129,7 +104,7 @@ def kicks(study: Study) -> RandomEffects | None:
     pool = study.pool
     jumps = study.sticking.jumps if study.sticking is not None else 0
     share = (int(far.sum()) + jumps) / len(far)
-    if far.sum() < FEWEST_FAR or not FEWEST_KICKED < share < MOST_KICKED or _repeated(study):
+    if far.sum() < criteria.FEWEST_KICKS or not criteria.FEWEST_KICKED < share < criteria.MOST_KICKED or _repeated(study):
         return None
     gaps = np.concatenate([np.diff(np.flatnonzero(far[pool.run == r])) for r in range(pool.n_runs)])
     if len(gaps) >= 4 and np.mean(gaps == np.median(gaps)) > 0.8:
@@ -137,12 +112,12 @@ def kicks(study: Study) -> RandomEffects | None:
     cycle = float(np.median([np.median(np.diff(s.onset_time)) for s in pool.slips]))
     impulses = _impulses(study, far)
     mean, deviation = float(impulses.mean()), float(impulses.std(ddof=1))
-    if abs(mean) < ONE_SIDED * deviation:
+    if abs(mean) < criteria.KICKS_ONE_SIDED * deviation:
         mean, deviation = 0.0, float(np.sqrt(np.mean(impulses**2)))
     # of kicks from both sides those that push the stuck box on with the belt set off no slip
     unseen = UNSEEN if mean == 0.0 else 1.0
     return RandomEffects(
-        kind_found_as(KICKS), 400.0 * share, {"rate": unseen * share / cycle, "impulse": deviation, "mean": mean}
+        kind_found_as(KICKS), detected("kicks", share), {"rate": unseen * share / cycle, "impulse": deviation, "mean": mean}
     )
 
 
@@ -165,35 +140,37 @@ def random_effects(
     mu_s, mu_k = study.solution.coefficients[:2]
     if not _scatters(study, scatter, solution, named, max(sigma_s, sigma_k) / mu_s):
         return None
-    if levels.where is not None or (scatter.wander > NAME and scatter.wander_of == "offset"):
+    if levels.where is not None or (scatter.wander > criteria.NAMED and scatter.wander_of == "offset"):
         return levels.where or _offset(study, scatter)
     declared = study.model.process is not None
-    if not declared or scatter.correlation > _declared(study).correlation + MORE_MEMORY:
+    if not declared or scatter.correlation > _declared(study).correlation + criteria.SCATTER_MORE_MEMORY:
         memory = _memory(scatter, mu_s, mu_k)
         if memory is not None or declared:
             return memory
     else:
         return None
-    if scatter.together > TOGETHER:
+    if scatter.together > criteria.SCATTER_TOGETHER:
         return Where("scatter, in stick and slip alike", "a force or a load of irregular course acts in stick and slip alike")
     strongest = max(scatter.static, scatter.kinetic)
-    within = scatter.within > CERTAIN and scatter.within > 0.05 * strongest
+    within = scatter.within > criteria.SCATTER_CERTAIN and scatter.within > 0.05 * strongest
     values: dict[str, float | str] = {
         "process": "knots" if within else "per_event", "sigma_s": float(sigma_s), "sigma_k": float(sigma_k)
     }  # fmt: skip
-    return RandomEffects(kind_found_as(DRAWN_ANEW), strongest, values)
+    return RandomEffects(kind_found_as(DRAWN_ANEW), likely("scatter", strongest), values)
 
 
 def _memory(scatter: Randomness, mu_s: float, mu_k: float) -> RandomEffects | Where | None:
     """Return what a scatter with a memory is; None where it has none."""
-    if (scatter.wander > NAME and scatter.correlation > MEMORY) or scatter.wander > 5.0 * NAME:
+    if (
+        scatter.wander > criteria.NAMED and scatter.correlation > criteria.SCATTER_MEMORY
+    ) or scatter.wander > 5.0 * criteria.NAMED:
         share = max(scatter.wander_share, 1.0e-3)
         return RandomEffects(
             kind_found_as(WANDER),
-            scatter.wander,
+            likely("wander", scatter.wander),
             {"sigma_s": float(share * mu_s), "sigma_k": float(share * mu_k), "correlation_time": float(scatter.wander_time)},
         )
-    if scatter.correlation > 2.0 * MEMORY:
+    if scatter.correlation > 2.0 * criteria.SCATTER_MEMORY:
         return Where("scatter, time", "friction varies from slip to slip with a memory that no known random process has")
     return None
 
@@ -218,7 +195,7 @@ def _offset(study: Study, scatter: Randomness) -> Where | None:
 
 def _scatters(study: Study, scatter: Randomness, solution: Solution, named: Sequence[str], share: float) -> bool:
     """Return whether friction scatters beyond doubt, and by more than what the form of a named effect may leave."""
-    if max(scatter.static, scatter.kinetic) <= CERTAIN and scatter.wander <= NAME:
+    if max(scatter.static, scatter.kinetic) <= criteria.SCATTER_CERTAIN and scatter.wander <= criteria.NAMED:
         return False
     remaining = np.exp(2.0 * solution.scatter[:2]).sum() / np.exp(2.0 * study.solution.scatter[:2]).sum()
-    return not named or (remaining >= REMAINING_SCATTER and share >= LEAST_SHARE)
+    return not named or (remaining >= criteria.SCATTER_REMAINING and share >= criteria.SCATTER_LEAST_SHARE)

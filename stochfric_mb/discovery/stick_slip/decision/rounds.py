@@ -7,20 +7,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.inference.false_alarms import Evidence, likely
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
-from stochfric_mb.discovery.stick_slip.decision.choice import IN_TIME, NAME, SELECT, SHAPES, Chosen, choose
+from stochfric_mb.discovery.stick_slip.decision.choice import IN_TIME, SHAPES, Chosen, choose
 from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, cases_of, confirm
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.decision.kinematics import delay_deviation, kinematics, with_kinematic
-from stochfric_mb.discovery.stick_slip.decision.random_effects import (
-    FEWEST_KICKED,
-    MEMORY,
-    kicked,
-    kicks,
-    random_effects,
-    stray,
-)
+from stochfric_mb.discovery.stick_slip.decision.random_effects import kicked, kicks, random_effects, stray
 from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_step, steady
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.naming import as_harmonic, with_candidate
@@ -49,20 +44,8 @@ from stochfric_mb.effects.traits import (
     YIELDING,
 )
 
-SECOND = 0.1
-"""A further effect needs at least this share of the first one's score [-]."""
 MOST_EFFECTS = 3
 """Effects that are looked for."""
-STALLED = 0.6
-"""Share of the scatter that may remain after a ripple is taken out; if more does, no search for further ones makes sense."""
-LEFT_OVER = 0.35
-"""Share of the scatter that named effects may leave where what is left is of no known kind: as in the forecasts, a name
-must explain the larger part, 65 %."""
-AS_WELL = 0.1
-"""Share of the scatter that an effect may leave which explains two levels as well [-]: a square ripple's fundamental and
-third harmonic leave as much, a ripple fitted to random levels a third or more."""
-LEAST_KEPT = 0.5
-"""Share of the slips that a model with effects must not miss for a search in what it leaves to make sense [-]."""
 MOST_ROUNDS = 5
 """Rounds of the search: harmonics of a named ripple take rounds of their own."""
 
@@ -75,8 +58,8 @@ class Named:
     """Its name."""
     class_: tuple[str, ...]
     """Effects that the data cannot tell from it, without itself."""
-    score: float
-    """Evidence [-]."""
+    evidence: Evidence
+    """What speaks for it."""
     where: Where
     """Where it shows."""
     before: Model | None = None
@@ -116,8 +99,9 @@ def decide(study: Study, *, channels: Channels = EVERYTHING, progress: Progress 
     named: list[Named] = []
     late: float | None = None
     late_kind = kind_found_as(LATE)
-    for kind, score, values in blamed:
-        named.append(Named(kind, (), score, where_of(kind), model if late is None else with_delay(model, late)))
+    for blame in blamed:
+        kind, values = blame.kind, blame.values
+        named.append(Named(kind, (), blame.evidence, where_of(kind), model if late is None else with_delay(model, late)))
         if kind == late_kind and driven(study):
             # forces are looked at on time
             late = values["delay"]
@@ -209,7 +193,9 @@ class _Search:
             if round_ == 0 and (step := seen_step(candidates, self.details)) is not None:
                 self._add(Chosen(step, (), with_candidate(self.model, step, self.pool, self._n_terms), None, False))
                 continue
-            if candidates[0].score < max(NAME if round_ == 0 else SELECT, SECOND * first if round_ else 0.0):
+            if candidates[0].score < max(
+                criteria.NAMED if round_ == 0 else criteria.FOLLOWED_UP, criteria.SECOND_SHARE * first if round_ else 0.0
+            ):
                 break
             if round_ == 0 and not self.named and (of_chance := self._of_chance(candidates)) is not False:
                 if isinstance(of_chance, Where):
@@ -256,7 +242,7 @@ class _Search:
             return False
         others = Regression(dataclasses.replace(self.pool, kept=self.pool.kept & ~kicked(self.study)))
         scatter = others.fit(self.terms, self.solution.scatter).scatter
-        return 2.0 * float(others.gains(self.terms, scatter, [winner.hypothesis.columns])[0]) < NAME
+        return 2.0 * float(others.gains(self.terms, scatter, [winner.hypothesis.columns])[0]) < criteria.NAMED
 
     def _wanders(self, candidates: Sequence[Candidate]) -> bool:
         """Return whether a winner on the axis of time is better told as a random wander."""
@@ -267,7 +253,7 @@ class _Search:
         scatter = randomness(self.regression, self.terms, self.solution)
         # what names physics has to be beaten; hats on the axis of time name none
         rival = max(0.5 * winner.score if winner.name in IN_TIME else 1.2 * winner.score, drifts)
-        return scatter.correlation > MEMORY and scatter.wander > rival
+        return scatter.correlation > criteria.SCATTER_MEMORY and scatter.wander > rival
 
     def _sudden(self, candidates: Sequence[Candidate]) -> Where | None:
         """Return where friction switches, if it does and the best effect does not explain that as well; None if not."""
@@ -275,7 +261,7 @@ class _Search:
         self.details["switching"] = dataclasses.asdict(found)
         best = next((c for c in candidates if c.is_effect), None)
         if found.two_levels:
-            explained = best is not None and _scatter(best.solution) < AS_WELL * _scatter(self.solution)
+            explained = best is not None and _scatter(best.solution) < criteria.LEVELS_AS_WELL * _scatter(self.solution)
             return None if explained and not (best is not None and self._counts(best)) else SWITCHES
         if found.where is None:
             return None
@@ -306,7 +292,7 @@ class _Search:
         beside = self.terms.plus([column for c in shapes[:2] for column in c.hypothesis.columns])
         own = [chosen.candidate.hypothesis.columns]
         lost = [float(self.regression.gains(terms, self.solution.scatter, own)[0]) for terms in (self.terms, beside)]
-        return chosen.candidate.score - 2.0 * (lost[0] - lost[1]) >= NAME
+        return chosen.candidate.score - 2.0 * (lost[0] - lost[1]) >= criteria.NAMED
 
     def _add(self, chosen: Chosen) -> None:
         """Take an effect into the model, and out of the features."""
@@ -317,7 +303,9 @@ class _Search:
         elif any(n.kind == kind for n in self.named):
             self.model = chosen.model
         else:
-            self.named.append(Named(kind, chosen.class_, chosen.candidate.score, where_of(kind), self._timed()))
+            self.named.append(
+                Named(kind, chosen.class_, likely("slips", chosen.candidate.score), where_of(kind), self._timed())
+            )
             self.model = chosen.model
         self.any_shape |= chosen.candidate.any_shape
         self.progress("what is left")
@@ -333,11 +321,13 @@ class _Search:
             fit = refit(self.model, self.study.windows, self.study.uncertainty, most=12, evaluations=20)
             self.model = fit.model
             self._take_out()
-            if not chosen.simulated and (self.stalled or _scatter(self.solution) > LEFT_OVER * before):
+            if not chosen.simulated and (self.stalled or _scatter(self.solution) > criteria.LEFT_OVER * before):
                 self._take_out_better(screened)
         else:
             self._take_out()
-        self.stalled |= chosen.candidate.is_wave and not chosen.simulated and _scatter(self.solution) > STALLED * before
+        self.stalled |= (
+            chosen.candidate.is_wave and not chosen.simulated and _scatter(self.solution) > criteria.STALLED * before
+        )
 
     def _put_on_time(self) -> None:
         """Go on with the records put on time, by the delay that their forecasts show."""
@@ -351,7 +341,7 @@ class _Search:
         """Go on with what the model leaves of the features."""
         shaped = self.any_shape or any(n.kind in kinds_with(SHAPES_SLIPS) for n in self.named)
         left = left_over(self.study.pool, self.model, anew=shaped)
-        if left.kept.sum() < LEAST_KEPT * self.pool.kept.sum():
+        if left.kept.sum() < criteria.LEAST_KEPT * self.pool.kept.sum():
             self.stalled = True
             return
         self.pool = left
@@ -386,12 +376,12 @@ class _Search:
         found = kick or random_effects(self.study, scatter, levels, self.solution, kinds)
         if isinstance(found, Where):
             left = _scatter(self.solution) / _scatter(self.study.solution)
-            if not self.named or (self.in_forces and left > LEFT_OVER):
+            if not self.named or (self.in_forces and left > criteria.LEFT_OVER):
                 return self._unknown(found, scatter)
             self.details["left_over"] = dataclasses.asdict(found)
         elif found is not None:
             self.model = self.model.plus(make_effect(found.kind, **found.values))
-            self.named.append(Named(found.kind, (), found.score, where_of(found.kind)))
+            self.named.append(Named(found.kind, (), found.evidence, where_of(found.kind)))
         verdict = "effect" if self.named else "none"
         return Decision(verdict, tuple(self.named), None, self._timed(), self.ranking, scatter, self.details)
 
@@ -402,7 +392,7 @@ class _Search:
     def _without_accidents(self) -> None:
         """Leave out the slips that stand far out, where they are too few for kicks: two of a hundred are no scatter."""
         far = stray(self.pool, self.regression.residuals(self.terms, self.solution))
-        if 0.0 < far.sum() < FEWEST_KICKED * self.pool.kept.sum():
+        if 0.0 < far.sum() < criteria.FEWEST_KICKED * self.pool.kept.sum():
             self.pool = dataclasses.replace(self.pool, kept=self.pool.kept & ~far)
             self.regression = Regression(self.pool)
             self.solution = self.regression.fit(self.terms, self.solution.scatter)

@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from stochfric_mb.discovery.stick_slip.decision.kinematics import NAME, STEP_SEEN
+from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.stick_slip.decision.kinematics import STEP_SEEN
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
@@ -24,7 +25,7 @@ def seen_step(candidates: Sequence[Candidate], details: Mapping[str, object]) ->
         details: what the stick phases told.
     """
     step = next((c for c in candidates if c.name == kind_found_as(JUMP)), None)
-    return step if STEP_SEEN in details and step is not None and step.score >= NAME else None
+    return step if STEP_SEEN in details and step is not None and step.score >= criteria.NAMED else None
 
 
 def steady(
@@ -41,7 +42,7 @@ def steady(
     """
     pool = regression.pool
     columns, strengths = list(kept), solution.coefficients[len(solution.coefficients) - len(kept) :]
-    fault = next((c for c in candidates if c.has(MOVES_ZERO) and c.score >= NAME), None)
+    fault = next((c for c in candidates if c.has(MOVES_ZERO) and c.score >= criteria.NAMED), None)
     if fault is not None and (moved := _within_runs(regression, terms, fault, solution)) is not None:
         columns += fault.hypothesis.columns
         strengths = np.r_[strengths, moved]
@@ -67,6 +68,6 @@ def _within_runs(regression: Regression, terms: Terms, fault: Candidate, solutio
     without = regression.fit(apart, solution.scatter)
     with_ = regression.fit(apart.plus(fault.hypothesis.columns), without.scatter)
     penalty = 2.0 * (solution.cost - fault.solution.cost) - fault.score
-    if 2.0 * (without.cost - with_.cost) - penalty < NAME:
+    if 2.0 * (without.cost - with_.cost) - penalty < criteria.NAMED:
         return None
     return with_.coefficients[-len(fault.hypothesis.columns) :]

@@ -7,17 +7,11 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.calibration import Calibration
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, N_MOMENTS, Slips, legendre_coefficients
 from stochfric_mb.numerics.robust import deviation
-
-GROSS = 8.0
-"""A slip whose features lie further from its run's medians than this many robust deviations is set aside [-]."""
-STRAY = 6.0
-"""The same for slips that stray by accident, an edge that noise has hidden: calibration leaves out what strays as far [-]."""
-FEW_STRAY, STRAY_SHARE = 2, 0.03
-"""Number of a run's slips, or share of them, that may stray so; friction that varies puts more of them there, or none."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -161,12 +155,12 @@ def _kept(features: Array, run: np.ndarray, static: Array) -> np.ndarray:
         mine = run == r
         centred[mine] = features[mine] - np.median(features[mine], axis=0)
         spread[mine] = deviation(features[mine], axis=0)
-    off = np.asarray((np.abs(centred) > STRAY * spread).any(axis=1))
+    off = np.asarray((np.abs(centred) > criteria.STRAY_SLIP * spread).any(axis=1))
     # a scatter of 15 % of the static force is friction that varies, not an outlier
-    gross = np.asarray((np.abs(centred) > np.maximum(GROSS * spread, 0.15 * static[:, None])).any(axis=1))
+    gross = np.asarray((np.abs(centred) > np.maximum(criteria.GROSS_SLIP * spread, 0.15 * static[:, None])).any(axis=1))
     for r in np.unique(run):
         mine = run == r
-        if off[mine].sum() <= max(FEW_STRAY, STRAY_SHARE * mine.sum()):
+        if off[mine].sum() <= max(criteria.FEW_STRAY, criteria.STRAY_SHARE * mine.sum()):
             gross |= off & mine
     return np.logical_not(gross)
 

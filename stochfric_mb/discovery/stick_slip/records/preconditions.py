@@ -7,12 +7,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
-
-FEWEST_SAMPLES = 40
-"""Samples in a period of the natural oscillation below which edges cannot be located and corners look like outliers."""
 
 
 def require_usable(dataset: Dataset) -> None:
@@ -30,11 +28,12 @@ def require_usable(dataset: Dataset) -> None:
             )
         natural = math.sqrt(box.stiffness / box.mass) / (2.0 * math.pi)
         count = 1.0 / (natural * run.sample_interval)
-        if count < FEWEST_SAMPLES:
+        if count < criteria.FEWEST_SAMPLES:
             raise InputError(
                 f"run {run.name}: {1.0 / run.sample_interval:.4g} samples a second are {count:.3g} in a period of the natural "
-                f"oscillation ({natural:.3g} Hz by the stated mass and stiffness); at least {FEWEST_SAMPLES} are needed: "
-                f"sample at {math.ceil(FEWEST_SAMPLES * natural)} Hz or faster, or mend mass and stiffness"
+                f"oscillation ({natural:.3g} Hz by the stated mass and stiffness); at least "
+                f"{criteria.FEWEST_SAMPLES} are needed: sample at {math.ceil(criteria.FEWEST_SAMPLES * natural)} Hz or faster, "
+                "or mend mass and stiffness"
             )
 
 

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from scipy.ndimage import median_filter
 from scipy.signal import lfilter, savgol_filter
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.mechanisms import BeltBox
 
@@ -33,8 +34,6 @@ MEMORIES = 1.0 - np.geomspace(0.95, 0.003, 48)
 RESTLESS = 8.0
 """Variance of a stick phase over that of the others beyond which it holds more than noise; even noise that is as slow as
 a fifth of a phase stays below it in 999 of 1000 [-]."""
-OUTLIER_DEVIATIONS = 5.5
-"""A sample further from the running median than this many standard deviations is an outlier [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -138,7 +137,7 @@ def make_record(name: str, time: Array, position: Array, mechanism: BeltBox) -> 
     median = median_filter(raw, width, mode="nearest")
     away = np.abs(raw - median)
     # a sensor that smooths or holds its samples has smaller third differences than deviations
-    outlier = away > OUTLIER_DEVIATIONS * max(noise, float(np.quantile(away, 0.85)) / 1.44)
+    outlier = away > criteria.OUTLIER_DEVIATIONS * max(noise, float(np.quantile(away, 0.85)) / 1.44)
     # single samples alone: what lasts longer is motion
     crowd = np.convolve(outlier.astype(np.float64), np.ones(width), mode="same")
     outlier &= crowd <= width // 2

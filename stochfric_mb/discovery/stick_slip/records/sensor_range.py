@@ -7,22 +7,9 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
-
-FEWEST_VISITS = 4
-"""Level visits to an end that a run needs."""
-LEVEL_VISITS = 0.5
-"""Share of the visits to an end that must be level for the sensor to be called clipped there [-]."""
-SHARP = 4.0
-"""Standard deviations within which a visit must be level [-]."""
-MIDDLE, ROUND = 0.7, 3.0
-"""Share of a visit that must be level on the mean of a run's visits, and the standard deviations within which it must be: the
-top of a smooth motion lies 3 to 6 off where two fifths of its single visits seem level [-]."""
-BEYOND = 8.0
-"""Noise beyond an end from which on a sample shows that the range goes on [-]."""
-BEYOND_SHARE = 1.0e-3
-"""Share of a run's samples that may lie there: outliers [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -59,7 +46,7 @@ def sensor_range(slips: Sequence[Slips]) -> SensorRange:
         # an upper end of a mirrored record is a lower end of the sensor
         ends = [_end(s, side * s.record.direction, side) for s in slips]
         share = max(share, *(end.share for end in ends))
-        levels = [side * end.level for end in ends if end.share > LEVEL_VISITS]
+        levels = [side * end.level for end in ends if end.share > criteria.LEVEL_VISITS]
         # a sensor has one range: where runs differ, it reaches as far as any of them
         if levels and not any(_goes_beyond(s, side, side * max(levels)) for s in slips):
             found[side] = side * max(levels)
@@ -87,13 +74,13 @@ def _end(slips: Slips, mirrored_side: int, side: int) -> _End:
             continue
         error = noise / np.sqrt(len(inner) / 3.0)
         bow, tilt = _bow(inner)
-        level += int(max(abs(bow), tilt) < SHARP * error and inner.std() < 1.5 * noise)
+        level += int(max(abs(bow), tilt) < criteria.LEVEL_SHARP * error and inner.std() < 1.5 * noise)
         # towards both ends a clipped record rounds off, where the noise or a force takes it over the end and back
-        cut = int(0.5 * (1.0 - MIDDLE) * len(inner))
+        cut = int(0.5 * (1.0 - criteria.LEVEL_MIDDLE) * len(inner))
         middle = inner[cut : len(inner) - cut]
         bows.append(_bow(middle)[0] / (noise * np.sqrt(4.5 / len(middle))))
-    smooth = abs(np.sum(bows)) > ROUND * np.sqrt(len(bows))
-    share = level / visits if level >= FEWEST_VISITS and not smooth else 0.0
+    smooth = abs(np.sum(bows)) > criteria.LEVEL_ROUND * np.sqrt(len(bows))
+    share = level / visits if level >= criteria.FEWEST_VISITS and not smooth else 0.0
     return _End(share, side * float(np.median(raw[raw > top])))
 
 
@@ -115,5 +102,5 @@ def _visits(raw: Array, above: float) -> Iterator[Array]:
 
 def _goes_beyond(slips: Slips, side: int, level: float) -> bool:
     """Return whether a run shows positions beyond an end."""
-    beyond = side * (slips.record.direction * slips.record.raw - level) > BEYOND * slips.noise.deviation
-    return bool(beyond.mean() > BEYOND_SHARE)
+    beyond = side * (slips.record.direction * slips.record.raw - level) > criteria.RANGE_BEYOND * slips.noise.deviation
+    return bool(beyond.mean() > criteria.RANGE_BEYOND_SHARE)

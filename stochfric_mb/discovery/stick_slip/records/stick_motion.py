@@ -12,17 +12,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.record import Array
 
 STRIDE = 20
 """Samples that are averaged; the waves looked for are slower by far."""
 FASTEST = 5.0
 """Highest frequency that is looked for [Hz]."""
-FEWEST = 8
-"""Stick phases below which a wave cannot be told from noise."""
-EXPLAINED = 0.1
-"""Share of the variance that a wave must explain [-]: noise of 50 phases, ten independent numbers each, gives the best of a
-thousand waves 3 %."""
 
 
 def without_wave(phases: Sequence[Array], times: Sequence[Array]) -> list[Array] | None:
@@ -32,10 +28,10 @@ def without_wave(phases: Sequence[Array], times: Sequence[Array]) -> list[Array]
         phases: residuals of stick phases [m], their mean and line taken out.
         times: time of their samples [s], alike.
     """
-    if len(phases) < FEWEST:
+    if len(phases) < criteria.FEWEST_PHASES:
         return None
     means = [(_averaged(t), _averaged(p)) for t, p in zip(times, phases, strict=True) if len(p) >= 4 * STRIDE]
-    if len(means) < FEWEST:
+    if len(means) < criteria.FEWEST_PHASES:
         return None
     duration = float(means[-1][0][-1] - means[0][0][0])
     grid = np.arange(2.0 / duration, FASTEST, 1.0 / (4.0 * duration))
@@ -52,7 +48,7 @@ def without_wave(phases: Sequence[Array], times: Sequence[Array]) -> list[Array]
     determinant = np.maximum(aa * bb - ab**2, 1.0e-12 * np.maximum(aa, 1.0e-300) ** 2)
     gains = (bb * ar**2 - 2.0 * ab * ar * br + aa * br**2) / determinant
     best = int(np.argmax(gains))
-    if gains[best] < EXPLAINED * sum(float(p @ p) for _, p in means):
+    if gains[best] < criteria.WAVE_EXPLAINED * sum(float(p @ p) for _, p in means):
         return None
     a = (bb[best] * ar[best] - ab[best] * br[best]) / determinant[best]
     b = (aa[best] * br[best] - ab[best] * ar[best]) / determinant[best]
@@ -66,13 +62,13 @@ def without_pattern(phases: Sequence[Array]) -> list[Array] | None:
     Args:
         phases: residuals of stick phases [m], their mean and line taken out.
     """
-    if len(phases) < FEWEST:
+    if len(phases) < criteria.FEWEST_PHASES:
         return None
     left = [p[::-1] for p in _less_mean(phases)]
     left = [p[::-1] for p in _less_mean(left)]
     before, after = (sum(float(p @ p) for p in parts) for parts in (phases, left))
     # two means of n phases take 2/n of noise with them
-    return left if after < (1.0 - EXPLAINED - 2.0 / len(phases)) * before else None
+    return left if after < (1.0 - criteria.WAVE_EXPLAINED - 2.0 / len(phases)) * before else None
 
 
 def _less_mean(phases: Sequence[Array]) -> list[Array]:

@@ -12,19 +12,10 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.record import Array, Noise
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, StickSamples
 from stochfric_mb.effects.traits import BELT_RIPPLE, CREEPING_ZERO, JUMP, YIELDING
-
-ACCIDENT, MOST_ACCIDENTS = 3.0, 0.25
-"""Misfit of a stick phase over that of the others from which on it is an accident, and the share of the phases that may
-be; more of them are the rule [-]. Of phases of noise that is slower than a tenth of them 1 in 100 is set aside."""
-RINGS = 0.15
-"""Share of the evidence for a contact that rings and yields that its ringing alone must have [-]: a box that creeps lags behind
-the belt as one on a yielding contact does, but hardly rings when it sticks again."""
-JUMPED = 30.0
-"""Fall of chi^2 by a step within one stick phase from which on it is a jump [-]; of 200 phases of noise, none of 100 runs has
-one."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -110,7 +101,7 @@ def analyse(slips: Sequence[Slips]) -> Sticking | None:
     settings[YIELDING] = {"angular_frequency": float(ringing[best][0]), "damping_ratio": ringing[best][1]}
     # a contact whose stiffness changes with its load follows the belt at one speed no longer
     yields = gain(lambda run: [*_ringing(run, *ringing[best]), *_yielding(run)]) - 5 * n * log_n - 2.0 * np.log(len(ringing))
-    if scores[YIELDING] > RINGS * yields:
+    if scores[YIELDING] > criteria.RINGS * yields:
         scores[YIELDING] = max(scores[YIELDING], yields)
 
     def hats(column: Array, places: Sequence[float]) -> list[Array]:
@@ -142,8 +133,8 @@ def _without_accidents(run: _Phases) -> _Phases:
     count = np.maximum(np.bincount(segment), 1)
     misfit = np.bincount(segment, values**2) / count
     present = np.bincount(segment) > 0
-    off = present & (misfit > ACCIDENT * float(np.median(misfit[present])))
-    if not off.any() or off.sum() > MOST_ACCIDENTS * present.sum():
+    off = present & (misfit > criteria.PHASE_ACCIDENT * float(np.median(misfit[present])))
+    if not off.any() or off.sum() > criteria.PHASE_MOST_ACCIDENTS * present.sum():
         return run
     kept = ~off[segment]
     s = run.samples
@@ -195,7 +186,7 @@ def _step(runs: Sequence[_Phases], rests: Sequence[Array]) -> tuple[float, list[
             k = np.arange(1, n)
             sums = np.cumsum(rest[rows])
             gains = (sums[:-1] - sums[-1] * k / n) ** 2 / (k * (n - k) / n)
-            jumps += int(gains.max() > JUMPED)
+            jumps += int(gains.max() > criteria.PHASE_JUMPED)
             if gains.max() > best:
                 best, when = float(gains.max()), float(run.samples.time[rows[int(np.argmax(gains))]])
         total += best

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from stochfric_mb.discovery.stick_slip.decision.choice import NAME
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
 from stochfric_mb.discovery.stick_slip.screening.waves import frequencies, wave_columns
 from stochfric_mb.discovery.stick_slip.study import Study
@@ -37,7 +37,7 @@ def smallest(study: Study) -> dict[str, float]:
         for hypothesis in looked_at:
             p = len(hypothesis.columns)
             solution = regression.solve(study.terms.plus(hypothesis.columns), study.solution.scatter)
-            needed = np.sqrt(NAME + p * np.log(regression.n) + 2.0 * np.log(grid[kind]))
+            needed = np.sqrt(criteria.NAMED + p * np.log(regression.n) + 2.0 * np.log(grid[kind]))
             strengths = needed * solution.deviations[study.terms.columns.shape[2] :]
             if kind in periodic:
                 # cosine and sine of every run share the evidence

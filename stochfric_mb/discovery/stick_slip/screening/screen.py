@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING, competitors, softening, step_times, steps
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
@@ -19,8 +20,6 @@ from stochfric_mb.effects import effect_class, kind_found_as, kinds_with
 from stochfric_mb.effects.marks import ENTRAINED, WAVE, Hypothesis
 from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, JUMP, POSITIVE
 
-WORTH_A_SECOND = 20.0
-"""Score that a second step of the sensor needs [-]."""
 REFITTED = 14
 """Candidates, best first at fixed variance components, whose variance components are fitted anew."""
 
@@ -149,7 +148,7 @@ def _step(pool: Pool, regression: Regression, terms: Terms, solution: Solution, 
     wider = terms.plus(columns)
     gains = [regression.gains(wider, solution.scatter, [[t] for t in mine]) for mine in trials]
     worth = 2.0 * sum(float(g.max()) for g in gains) - pool.n_runs * (np.log(regression.n) + 2.0 * np.log(len(place)))
-    if worth < WORTH_A_SECOND:
+    if worth < criteria.SECOND_STEP:
         return once
     seconds = [int(np.argmax(g)) for g in gains]
     both = [c for mine, a, b in zip(trials, firsts, seconds, strict=True) for c in (mine[a], mine[b])]

@@ -16,31 +16,13 @@ import dataclasses
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression
 from stochfric_mb.numerics.robust import deviation
 
-APART = 12.0
-"""Distance of two levels over the robust width of a level from which on they are two [-]: of 400 records of 26 slips,
-normal, even or wandering, cut into two groups at the best place, none reached it, and of 50 along a sine 1 in 100."""
-FEWEST = 24
-"""Slips below which such groups may come about by chance."""
-JUMP = 6.0
-"""Change from one slip to the next over the robust deviation of such changes that is a jump [-]: no normal change in 1e8."""
-FEWEST_JUMPS = 3
-"""Jumps in all runs, below which they may be single accidents."""
-MOST_JUMPS = 0.4
-"""Share of the changes that may be jumps: with more of them, friction does not stay."""
-STEPS_OF_A_SENSOR = 2.0
-"""Changes of level a run that a sensor's steps may make."""
-OUT_OF_STEP = 0.25
-"""Share of the rarer level's slips that a regular alternation may miss [-]; random ones miss half."""
-LONGEST_COUNT = 8
-"""Slips after which a pattern may repeat that goes by their number."""
-RESOLVED = 0.15
-"""Error of a ripple's frequency, in units of one over the record's length: the search's grid has steps of a fifth [-]."""
 PHASES, DUTIES = 24, (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 """Phases and shares of the upper level of the alternations that are tried."""
 SWITCHES = Where("scatter, time", "friction switches between two levels, at no regular intervals")
@@ -67,12 +49,12 @@ class Switching:
     @property
     def two_levels(self) -> bool:
         """Whether friction switches at random between two levels."""
-        return self.separation > APART and self.changes > STEPS_OF_A_SENSOR and not self.regular
+        return self.separation > criteria.LEVELS_APART and self.changes > criteria.STEPS_OF_A_SENSOR and not self.regular
 
     @property
     def at_rest_between_jumps(self) -> bool:
         """Whether friction stays where it is most of the time, and jumps."""
-        return self.jumps >= FEWEST_JUMPS and self.still >= 1.0 - MOST_JUMPS
+        return self.jumps >= criteria.FEWEST_JUMPS and self.still >= 1.0 - criteria.MOST_JUMPS
 
     @property
     def where(self) -> Where | None:
@@ -92,7 +74,7 @@ def switching(regression: Regression, residuals: Array) -> Switching:
     upper = levels[column][1]
     rows = [np.flatnonzero(pool.kept & (pool.run == r)) for r in range(pool.n_runs)]
     changes = float(np.mean([np.count_nonzero(np.diff(upper[m])) for m in rows]))
-    regular = separation > APART and _regular(pool, upper)
+    regular = separation > criteria.LEVELS_APART and _regular(pool, upper)
     jumps, still = max((_jumps(pool, residuals[:, c], finest[:, c]) for c in (0, 1)), key=lambda j: j[0])
     return Switching(separation, changes, regular, jumps, still)
 
@@ -113,7 +95,7 @@ def _levels(pool: Pool, values: Array, finest: Array) -> tuple[float, np.ndarray
         # run by run: in a run whose slips are locked to a ripple all are alike, which tells nothing of the others
         distances.append(float(np.median(high) - np.median(low)) / width)
         weights.append(len(rows))
-    if sum(weights) < FEWEST:
+    if sum(weights) < criteria.LEVELS_FEWEST:
         return 0.0, upper
     return float(np.median(distances)), upper
 
@@ -137,9 +119,9 @@ def _jumps(pool: Pool, values: Array, finest: Array) -> tuple[int, float]:
             continue
         steps = np.abs(np.diff(mine))
         changes.append(steps / max(deviation(steps, about=0.0), np.sqrt(2.0) * finest[run]))
-    if sum(map(len, changes)) < FEWEST:
+    if sum(map(len, changes)) < criteria.LEVELS_FEWEST:
         return 0, 1.0
-    jumped = np.concatenate(changes) > JUMP
+    jumped = np.concatenate(changes) > criteria.LEVEL_JUMP
     return int(np.count_nonzero(jumped)), float(1.0 - jumped.mean())
 
 
@@ -160,7 +142,7 @@ def _regular(pool: Pool, upper: np.ndarray) -> bool:
                 cycles = grid[:, None, None] * place[m] + phases[:, None]
                 wrong = ((cycles % 1.0 < duty) != upper[m]).sum(axis=2)
                 missed += wrong.min(axis=1)
-            if len(grid) and missed.min() <= OUT_OF_STEP * rarer:
+            if len(grid) and missed.min() <= criteria.OUT_OF_STEP * rarer:
                 return True
     return False
 
@@ -181,6 +163,6 @@ def in_step(frequency: float, pool: Pool, *, along_belt: bool) -> bool:
         own = frequency * (slips.record.mechanism.belt_velocity / slowest if along_belt else 1.0)
         # the mean: where every few slips are harder, their cycles are longer
         cycle = float(np.mean(np.diff(slips.onset_time)))
-        off = {n: abs(own * cycle * n - round(own * cycle * n)) for n in range(2, LONGEST_COUNT + 1)}
-        counts.append({n for n, miss in off.items() if miss < RESOLVED * n * cycle / pool.duration})
+        off = {n: abs(own * cycle * n - round(own * cycle * n)) for n in range(2, criteria.LONGEST_COUNT + 1)}
+        counts.append({n for n, miss in off.items() if miss < criteria.FREQUENCY_RESOLVED * n * cycle / pool.duration})
     return bool(set.intersection(*counts))

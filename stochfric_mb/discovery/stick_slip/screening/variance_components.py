@@ -6,6 +6,7 @@ import dataclasses
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.regression import LOWEST, Regression, Solution, Terms
 
@@ -45,7 +46,7 @@ def randomness(regression: Regression, terms: Terms, solution: Solution) -> Rand
     rest = regression.residuals(terms, solution)[:, :2]
     correlation = _correlation(regression, rest)
     nothing = (0.0, 0.0, 1.0, "both")
-    wander, share, time, what = _wander(regression, rest, solution) if correlation > WORTH_A_LOOK else nothing
+    wander, share, time, what = _wander(regression, rest, solution) if correlation > criteria.WANDER_WORTH_A_LOOK else nothing
     return Randomness(ratio(0), ratio(1), ratio(2), correlation, wander, share, time, what, _together(regression, rest))
 
 
@@ -70,8 +71,6 @@ def _correlation(regression: Regression, rest: Array) -> float:
     return total / max(weight, 1) * np.sqrt(max(weight, 1))
 
 
-WORTH_A_LOOK = 2.0
-"""Correlation over its standard error below which no wander is looked for [-]."""
 MODES = ("both", "mu_s", "mu_k", "offset")
 """Wander of both coefficients together, of mu_s alone, of mu_k alone, and of a force that is the same in stick and slip."""
 SHARES = (0.001, 0.003, 0.008, 0.02, 0.04, 0.08)

@@ -13,6 +13,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, legendre_coefficients
@@ -25,11 +26,6 @@ SLOW = 1.6
 """Frequency over the rate of the slips up to which waves are slow [-]; harmonics are looked for in slow ones alone."""
 COARSE, FINE = 3.0, 15.0
 """Frequencies of the grid, and about its best one, in 1/(length of the record) [-]."""
-SHARE_OF_SHAPE = 0.7
-"""Share of the score of shapes of their own for all runs that a fast wave must reach where the rates of the slips differ: that
-all are fractions of one frequency is then evidence that the score does not count [-]."""
-DIFFERENT = 1.1
-"""Ratio of rates from which on they differ [-]."""
 CHUNK = 64
 """Frequencies that are looked at together."""
 
@@ -95,7 +91,7 @@ def best_wave(
         column[pool.run == i // N_FEATURES, i % N_FEATURES] = 1.0
     shaped = 2.0 * float(regression.gains(terms, scatter, [alike])[0]) - len(alike) * float(np.log(regression.n))
     rates = _slip_rates(pool)
-    share = SHARE_OF_SHAPE if rates.max() > DIFFERENT * rates.min() else 1.0
+    share = criteria.SHARE_OF_SHAPE if rates.max() > criteria.RATES_DIFFER * rates.min() else 1.0
     limit = SLOW * _slip_rate(pool)
     slow, fast = whole[whole <= limit], whole[whole > limit]
     best, looked_at = (-np.inf, float(whole[0]), 1), 0

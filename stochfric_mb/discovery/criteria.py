@@ -1,0 +1,208 @@
+"""Every number on which a decision of discovery hangs, with its reason; all have no dimension.
+
+Where a rate of false alarms is stated, it was counted in simulated records in which nothing is missing (`null_scores`). The
+others were chosen, and are as good as the tables of the tests that judge them. A result holds them all.
+"""
+
+from __future__ import annotations
+
+# What is a name
+
+FOLLOWED_UP, NAMED = 14.0, 20.0
+"""Scores at which a candidate is followed up, and at which it is named [-]."""
+OUTDONE = 0.5
+"""A competitor that names no physics wins at once if the best effect has less than this share of its score [-]."""
+ALIKE_SCREENED, ALIKE_SHARE = 12.0, 0.03
+"""Effects whose score is within this, or this share, of the best are of one class with it [-]."""
+ALIKE_SIMULATED = 10.0
+"""Effects whose simulated criterion, in units of the best one's own misfit, is within this of the best are of one class with
+it [-]."""
+LACK_OF_FIT, LACK_OF_FIT_SHARE = 25.0, 0.35
+"""A simulated candidate is refused if chi^2 stays this far above its freedom and above this share of the believed model's."""
+SOFTER = 15.0
+"""Score by which a stiffness that drifts must beat other drifts, or `ALIKE_SHARE` [-]."""
+ALTERNATES = 0.9
+"""Share of a ripple's score that alternation from slip to slip must reach to be believed in its place [-]."""
+WORTH_SIMULATING = 0.1
+"""Share of the best effect's score from which on a candidate is simulated [-]."""
+FORM_MISSES = 0.03
+"""Share of the believed model's misfit that an effect of another form than the simulated one may leave [-]: a sixth of its
+strength. The tests' forms leave 0.016 at most, those of other kinds 0.08 where friction varies along the stroke."""
+SECOND_SHARE = 0.1
+"""A further effect needs at least this share of the first one's score [-]."""
+STALLED = 0.6
+"""Share of the scatter that may remain after a ripple is taken out; if more does, no search for further ones makes sense."""
+LEFT_OVER = 0.35
+"""Share of the scatter that named effects may leave where what is left is of no known kind: as in the forecasts, a name
+must explain the larger part, 65 %."""
+LEVELS_AS_WELL = 0.1
+"""Share of the scatter that an effect may leave which explains two levels as well [-]: a square ripple's fundamental and
+third harmonic leave as much, a ripple fitted to random levels a third or more."""
+LEAST_KEPT = 0.5
+"""Share of the slips that a model with effects must not miss for a search in what it leaves to make sense [-]."""
+ENTRAINED = 0.03
+"""Scatter of the intervals between slips, over their mean, up to which slips may keep to a wave [-]."""
+SECOND_STEP = 20.0
+"""Score that a second step of the sensor needs [-]."""
+SHARE_OF_SHAPE = 0.7
+"""Share of the score of shapes of their own for all runs that a fast wave must reach where the rates of the slips differ: that
+all are fractions of one frequency is then evidence that the score does not count [-]."""
+RATES_DIFFER = 1.1
+"""Ratio of rates from which on they differ [-]."""
+
+# Forecasts
+
+EXPLAINED, EXPLAINED_RANDOM = 0.65, 0.2
+"""Share of the reducible error of the fit runs' forecasts that named effects must explain; the second one where random
+effects or a step between two slips, whose moment is not known well, are among them [-]."""
+NONE_MISSES = 0.5
+"""Reducible error over the error itself above which "none" is no answer [-]: more is wrong with the forecasts than is right.
+Where nothing is missing, noise and declared scatter leave up to a third."""
+THROWN_OFF, FEWEST_THROWN_OFF = 3.0, 2
+"""Error of a forecast over that of most from which on something came between, and how many of them kicks leave at least:
+noise alone, however coloured, leaves forecasts that all miss by about the same [-]."""
+HELD_OUT_DOUBT = 2.0
+"""Standard errors of the mean difference by which forecasts must be worse: chance does that once in 40 times [-]."""
+HELD_OUT_FAR_OFF = 1.1
+"""Error with an effect, over that without it, from which on it is refused, unless most forecasts are better [-]."""
+HELD_OUT_MOST = 2.0
+"""Standard deviations of a fair coin by which better forecasts must outnumber worse ones to be most [-]."""
+LEAST_REDUCIBLE = 0.08
+"""Reducible error, over the error itself, below which shares of it would be noise over noise [-]."""
+UNNAMED_LEAST = 0.0
+"""Score that an axis must reach: more evidence than its numbers and the choice between the axes cost."""
+FORCES_FEWEST = 6
+"""Slips below which there is no score."""
+TOLD_BY_DATA = 0.5
+"""Share of what is known of a number below which its prior, not the data, has made it [-]: the larger half decides."""
+SURPRISING = 2.0
+"""Stated standard deviations by which a parameter is off from what is stated to be pointed out [-]: one in twenty by chance."""
+
+# Stick phases and the sensor
+
+YIELDS_FOR_CREEP = 0.5
+"""Share of the evidence for creep that a yielding or ringing contact must reach to be named in its place [-]."""
+LEAST_OUTLIERS, FEWEST_OUTLIERS = 5.0e-5, 5
+"""Share of outliers, and their number, from which on they are named [-]."""
+LINE_OUTSHINES = 10.0
+"""Evidence of such a line over that of the best effect in stick from which on the line is no trace of the effect: a contact
+that rings is seen in the first few periods after each re-stick, a line all along [-]."""
+LINE_STRENGTH = 60.0
+"""Strength of a line in the noise at which it is no chance [-]; the largest of 64 without a line stays below 10."""
+LOUD_LINE = 1.0
+"""Variance of such a line over that of the rest of the noise below which it is part of the noise [-]."""
+BELT_NOTED = 0.01
+"""Relative error of the belt's speed that is worth a note [-]."""
+BELT_TOO_MUCH = 0.03
+"""Relative error above which no force is judged [-]: the damper's share and the momenta at both ends of a slip are then
+wrong by as much as a weak effect is strong."""
+BELT_DOUBT = 5.0
+"""Standard deviations that an error must reach [-]."""
+PHASE_ACCIDENT, PHASE_MOST_ACCIDENTS = 3.0, 0.25
+"""Misfit of a stick phase over that of the others from which on it is an accident, and the share of the phases that may
+be; more of them are the rule [-]. Of phases of noise that is slower than a tenth of them 1 in 100 is set aside."""
+RINGS = 0.15
+"""Share of the evidence for a contact that rings and yields that its ringing alone must have [-]: a box that creeps lags behind
+the belt as one on a yielding contact does, but hardly rings when it sticks again."""
+PHASE_JUMPED = 30.0
+"""Fall of chi^2 by a step within one stick phase from which on it is a jump [-]; of 200 phases of noise, none of 100 runs has
+one."""
+FEWEST_PHASES = 8
+"""Stick phases below which a wave cannot be told from noise."""
+WAVE_EXPLAINED = 0.1
+"""Share of the variance that a wave must explain [-]: noise of 50 phases, ten independent numbers each, gives the best of a
+thousand waves 3 %."""
+FEWEST_VISITS = 4
+"""Level visits to an end that a run needs."""
+LEVEL_VISITS = 0.5
+"""Share of the visits to an end that must be level for the sensor to be called clipped there [-]."""
+LEVEL_SHARP = 4.0
+"""Standard deviations within which a visit must be level [-]."""
+LEVEL_MIDDLE, LEVEL_ROUND = 0.7, 3.0
+"""Share of a visit that must be level on the mean of a run's visits, and the standard deviations within which it must be: the
+top of a smooth motion lies 3 to 6 off where two fifths of its single visits seem level [-]."""
+RANGE_BEYOND = 8.0
+"""Noise beyond an end from which on a sample shows that the range goes on [-]."""
+RANGE_BEYOND_SHARE = 1.0e-3
+"""Share of a run's samples that may lie there: outliers [-]."""
+
+# Scatter, kicks and switching
+
+SCATTER_CERTAIN = 30.0
+"""Likelihood ratio at which friction scatters beyond doubt [-]."""
+SCATTER_MEMORY = 3.0
+"""Correlation from slip to slip over its standard error at which the scatter has a memory [-]."""
+SCATTER_REMAINING = 0.1
+"""Share of the believed model's scatter that must remain with the effects in for it to be called random [-]."""
+SCATTER_LEAST_SHARE = 0.004
+"""Scatter over the friction itself below which, beside a named effect, it is what the effect's form leaves [-]."""
+FEWEST_KICKED, MOST_KICKED = 0.05, 0.45
+"""Share of cycles with a slip that stands out, or a jump in stick, for which kicks are the reason [-]; one slip of thirty may
+stand out by accident (see `pool`)."""
+KICK_STRAY = 8.0
+"""Robust deviations beyond which a slip is an accident [-]."""
+KICKS_ONE_SIDED = 1.0
+"""Mean of the impulses over their deviation from which on they come from one side [-]."""
+KICKED_SLIDING = 0.1
+"""Distance of an onset force from the kinetic force, over that of a usual break-away, below which nothing has stuck [-]."""
+FEWEST_KICKS = 3
+"""Slips that must stand out: jumps in stick alone say too little of the force that makes them."""
+FEWEST_ALIKE, KICKS_ALIKE, KICKS_LEVEL = 4, 0.3, 0.01
+"""Slips that stand out by the same, their share of those that do, from which on friction has a second level, and how far apart
+the same may be [-]: a level that is reached in a ramp is known to no better, and amounts that are spread evenly over a tenth of
+the force would put one in ten so close together."""
+SCATTER_MORE_MEMORY = 2.0**0.5 * SCATTER_MEMORY
+"""The same beyond that of a declared process, which one simulation tells with as large an error [-]."""
+SCATTER_TOGETHER = 0.5
+"""Correlation of stick and slip above which the scatter is not that of two independent coefficients [-]: of 24 slips with
+independent ones 1 in 80 reaches it, of 48 1 in 3000."""
+WANDER_WORTH_A_LOOK = 2.0
+"""Correlation over its standard error below which no wander is looked for [-]."""
+LEVELS_APART = 12.0
+"""Distance of two levels over the robust width of a level from which on they are two [-]: of 400 records of 26 slips,
+normal, even or wandering, cut into two groups at the best place, none reached it, and of 50 along a sine 1 in 100."""
+LEVELS_FEWEST = 24
+"""Slips below which such groups may come about by chance."""
+LEVEL_JUMP = 6.0
+"""Change from one slip to the next over the robust deviation of such changes that is a jump [-]: no normal change in 1e8."""
+FEWEST_JUMPS = 3
+"""Jumps in all runs, below which they may be single accidents."""
+MOST_JUMPS = 0.4
+"""Share of the changes that may be jumps: with more of them, friction does not stay."""
+STEPS_OF_A_SENSOR = 2.0
+"""Changes of level a run that a sensor's steps may make."""
+OUT_OF_STEP = 0.25
+"""Share of the rarer level's slips that a regular alternation may miss [-]; random ones miss half."""
+LONGEST_COUNT = 8
+"""Slips after which a pattern may repeat that goes by their number."""
+FREQUENCY_RESOLVED = 0.15
+"""Error of a ripple's frequency, in units of one over the record's length: the search's grid has steps of a fifth [-]."""
+
+# Records
+
+FEWEST_SLIPS = 12
+"""Slips of a run below which it says too little to be used."""
+FAR_DAMPED = 3.0
+"""Standard deviations from the damping of a calibration beyond which the features are calibrated again [-]."""
+FEWEST_SAMPLES = 40
+"""Samples in a period of the natural oscillation below which edges cannot be located and corners look like outliers."""
+GROSS_SLIP = 8.0
+"""A slip whose features lie further from its run's medians than this many robust deviations is set aside [-]."""
+STRAY_SLIP = 6.0
+"""The same for slips that stray by accident, an edge that noise has hidden: calibration leaves out what strays as far [-]."""
+FEW_STRAY, STRAY_SHARE = 2, 0.03
+"""Number of a run's slips, or share of them, that may stray so; friction that varies puts more of them there, or none."""
+OUTLIER_DEVIATIONS = 5.5
+"""A sample further from the running median than this many standard deviations is an outlier [-]."""
+TOO_LOUD = 0.1
+"""Noise over the expected travel of a slip from which on slips drown in it [-]: their edges are told by the bend that a
+break-away puts into the record, which is a tenth of the travel after a fifth of the slip."""
+RIDES = 0.9
+"""Share of the belt's travel that a box follows if it sticks throughout [-]."""
+SLIDES = 0.1
+"""Share of it that a box stays below if it slides throughout [-]."""
+
+
+def values() -> dict[str, float]:
+    """Return every number above by its name, as a result holds them."""
+    return {name.lower(): value for name, value in globals().items() if name.isupper() and isinstance(value, (int, float))}
