@@ -89,7 +89,7 @@ _BUILT_IN = {
     for e in (
         Engine("reference", "stochfric_mb.reference", "", "event-located integration", "this package"),
         Engine("mujoco", "stochfric_mb.mujoco.belt_box", "mujoco", "engine plugin, passive force, RK4", "Google DeepMind"),
-        Engine("exudyn", "stochfric_mb.exudyn.belt_box", "exudyn", "symbolic user function, PostStep commit", "J. Gerstmayr"),
+        Engine("exudyn", "stochfric_mb.exudyn.belt_box", "exudyn", "compiled user function, PostStep commit", "J. Gerstmayr"),
         Engine(
             "pymunk",
             "stochfric_mb.pymunk.belt_box",

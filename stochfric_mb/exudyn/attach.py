@@ -11,11 +11,11 @@ from exudyn.itemInterface import CoordinateSpringDamper
 
 from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.exudyn import layout as at
+from stochfric_mb.exudyn import pointers
 from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
-from stochfric_mb.exudyn.contact_force import force_at
 from stochfric_mb.exudyn.normal import Normal, as_normal
 from stochfric_mb.exudyn.plane import PlaneContact
-from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, ForceExpression, force_expression, lower
+from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, force_expression, lower
 from stochfric_mb.exudyn.turning import TurningContact, must_turn
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
@@ -48,9 +48,9 @@ def add_friction(
     its velocity is that of the body's material there relative to the counter-surface's, so that turntables, drums, balls and
     wheels are right. Forces and torques act at that point on both bodies.
 
-    A symbolic user function evaluates the law, so that it runs without Python in every solver; the state is committed
-    after each accepted step, in the system's PostStep function, which calls the one that was there. A simulation that
-    starts again starts with fresh friction.
+    Compiled code (or a symbolic user function, see `pointers`) evaluates the law, so that it runs without Python in every
+    solver; the state is committed after each accepted step, in the system's PostStep function, which calls the one that was
+    there. A simulation that starts again starts with fresh friction.
 
     Args:
         mbs: the system.
@@ -123,14 +123,10 @@ class CoordinateContact(FrictionContact):
         self._markers = markers
         self._own = np.zeros(4)
         self._numbers[at.SURFACE_VELOCITY] = require_number("surface_velocity", surface_velocity, unit="m/s")
-        names: tuple[str, ...] = ()
-        function: Any = self._called
-        if self.friction.law.traceable:
-            expression = line_expression(self)
-            names = expression.names
-            self._make_symbols(names)
-            function = self._function(expression.force)
-        self.object = mbs.AddObject(CoordinateSpringDamper(markerNumbers=list(markers), springForceUserFunction=function))
+        function, names = line_function_of(self)
+        self.object = mbs.AddObject(
+            CoordinateSpringDamper(markerNumbers=list(markers), stiffness=self.where, springForceUserFunction=function)
+        )
         self._begin(names)
 
     def _forces(self) -> tuple[float, float]:
@@ -163,11 +159,6 @@ class CoordinateContact(FrictionContact):
     def _bind_own(self) -> None:
         bind_own(self._words, self._own)
 
-    def _called(self, mbs: Any, t: float, item: Any, displacement: float, velocity: float, *_: Any) -> float:
-        """Return minus the friction [N]: the user function of a law that calls others by their addresses."""
-        surface = float(self._numbers[at.SURFACE_VELOCITY])
-        return -force_at(t, surface * t - displacement, surface - velocity, self.where)
-
     def _function(self, force: Any) -> Any:
         """Return the symbolic user function: the connector's force is what pulls marker 1 back, minus the friction."""
         surface = float(self._numbers[at.SURFACE_VELOCITY])
@@ -185,11 +176,24 @@ class CoordinateContact(FrictionContact):
         )
 
 
-def line_expression(contact: FrictionContact) -> ForceExpression:
-    """Return the force of a contact that slides along a line."""
+def line_function_of(contact: Any) -> tuple[Any, tuple[str, ...]]:
+    """Return the user function of a contact along a line, and the variables that it is given after each step.
+
+    Compiled code, which takes the contact's address for its connector's ``stiffness``; where the engine does not call such: an
+    expression, or for laws that call others by their addresses the compiled code from Python.
+    """
+    if (function := pointers.line_function()) is not None:
+        contact._words[at.COMPILED] = int(not contact.true_stick)
+        contact.route = "compiled"
+        return function, ()
     normal, friction = contact._normal, contact.friction
+    if not friction.law.traceable:
+        return pointers.line_in_python, ()
     n = None if normal.changes else normal.at(0.0)
-    return force_expression(friction.law, friction.process, n, contact.given_mass)
+    expression = force_expression(friction.law, friction.process, n, contact.given_mass)
+    contact._make_symbols(expression.names)
+    contact.route = "symbolic"
+    return contact._function(expression.force), expression.names
 
 
 def bind_own(words: Any, own: Any) -> None:

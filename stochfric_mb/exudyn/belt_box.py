@@ -26,8 +26,7 @@ from stochfric_mb.scenario import Scenario
 from stochfric_mb.trajectory import Trajectory
 
 CARRIES_EFFECTS = True
-HOOK = "symbolic user function, PostStep commit"
-HOOK_CALLED = "Python user function, PostStep commit"
+HOOK = "{} user function, PostStep commit"
 
 
 @dataclasses.dataclass
@@ -142,7 +141,7 @@ def integrate(
     attributes = {
         "engine": "exudyn",
         "version": exudyn.__version__,
-        "hook": HOOK if built.law.traceable else HOOK_CALLED,
+        "hook": HOOK.format(built.contact.route),
         "solver": solver,
         "located": locate,
         "dt": built.dt,

@@ -84,6 +84,8 @@ class FrictionContact:
 
     true_stick = False
     """Whether a constraint holds the contact while it sticks."""
+    route = "Python"
+    """What evaluates the law within a step: "compiled" code, a "symbolic" expression, or "Python" that calls compiled code."""
     is_load = False
     """Whether the force is a load, which implicit solvers differentiate only where they are told to."""
 

@@ -116,12 +116,30 @@ def ask(address, t, motion, n, pair, numbers, into):
 
 
 @compiled
-def force_at(t, u, v, address):
-    """Return the friction force [N] at time t [s], displacement u [m] and velocity v [m/s]; nothing is committed."""
+def pull(t, displacement, velocity, address):
+    """Return what a connector along a line or about an axis pulls marker 1 back with: minus the friction [N or N m]."""
+    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    w, r, n = numbers[SURFACE_VELOCITY], numbers[RADIUS], normal_force_at(t, numbers, words)
+    if n <= 0.0:
+        return 0.0
+    u, hold = w * t - r * displacement, numbers[HOLD]
+    numbers[HOLD] = 0.0  # a constraint gives what holds
+    ask(words[FORCE], t, (u, 0.0, w - r * velocity, 0.0), n, pair_at(t, u, numbers, words), numbers, NEW)
+    numbers[HOLD] = hold
+    return -r * numbers[NEW]
+
+
+@compiled
+def load_force(t, address):
+    """Return the friction force [N] of a contact whose coordinates are in place, as a load on marker 1."""
     words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
     numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
     n = normal_force_at(t, numbers, words)
-    ask(words[FORCE], t, (u, 0.0, v, 0.0), n, pair_at(t, u, numbers, words), numbers, NEW)
+    if n <= 0.0:
+        return 0.0
+    motion = kinematics(t, numbers, words)
+    ask(words[FORCE], t, motion, n, pair_at(t, motion[0], numbers, words), numbers, NEW)
     return numbers[NEW]
 
 

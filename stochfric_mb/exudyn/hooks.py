@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, Protocol
 
 from stochfric_mb.exudyn import methods
+from stochfric_mb.exudyn.commits import Commits
 from stochfric_mb.exudyn.stepping import advance
 from stochfric_mb.exudyn.symbolic import symbolic
 
@@ -98,6 +99,8 @@ class Hooks:
         """Whether a solver runs whose contacts have been started."""
         self._mbs = mbs
         self._locating, self._joined = False, 0
+        self._commits: Commits | None = None
+        self._failure: BaseException | None = None
         self._own: dict[str, Callable[..., Any]] = {}
         self._other: dict[str, Callable[..., Any] | None] = {"PostStep": None, "PostNewton": None}
 
@@ -125,12 +128,15 @@ class Hooks:
 
     @contextlib.contextmanager
     def in_progress(self) -> Iterator[None]:
-        """Say while it lasts that a solver runs whose contacts have been started."""
+        """Say while it lasts that a solver runs whose contacts have been started; raise what went wrong after a step."""
         before, self.running = self.running, True
         try:
             yield
+            failure = self._failure
         finally:
-            self.running = before
+            self.running, self._failure = before, None
+        if failure is not None:
+            raise failure
 
     def install(self, *, locate: bool) -> None:
         """Take the system's slots, remembering what is there; ``locate``: whether steps end where a law switches."""
@@ -176,20 +182,27 @@ class Hooks:
             methods.fill(self._mbs, "PostNewton", other or 0)
 
     def _post_step(self) -> Callable[[Any, float], bool]:
-        """Return the function that commits all contacts, then calls the user's (a closure: it runs every step)."""
-        contacts = [(c.where, c.settle) for c in self.contacts]
-        watch, other, followers = self.watch, self._other["PostStep"], tuple(self.followers)
+        """Return the function that commits all contacts, then calls the user's: compiled where the engine calls such."""
+        contacts, other, followers = self.contacts, self._other["PostStep"], tuple(self.followers)
+        wheres, settles = [c.where for c in contacts], [c.settle for c in contacts]
 
-        def post_step(mbs: Any, t: float) -> bool:
-            for where, settle in contacts:
-                bits = advance(t, where)
-                if bits and settle(t, bits):
-                    watch()
-            for follow in followers:
-                follow(t)
-            return True if other is None else other(mbs, t)
+        def finish(t: float, bits: Sequence[int]) -> bool:
+            if self._failure is not None:
+                return False
+            try:
+                for settle, its in zip(settles, bits, strict=True):
+                    if its and settle(t, its):
+                        self.watch()
+                for follow in followers:
+                    follow(t)
+                return True if other is None else bool(other(self._mbs, t))
+            except BaseException as error:
+                self._failure = error
+                return False
 
-        return post_step
+        self._commits = self._commits or Commits(self, self._mbs)
+        function = self._commits.serve(wheres, finish, always=bool(followers or other))
+        return function or (lambda _mbs, t: finish(t, [advance(t, where) for where in wheres]))
 
     def _post_newton(self) -> Callable[[Any, float], list[float]]:
         """Return the function that asks for a shorter step where a contact switches, and otherwise calls the user's."""

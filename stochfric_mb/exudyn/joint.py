@@ -11,7 +11,7 @@ from exudyn.itemInterface import LinearSpringDamper, MarkerBodyRigid, TorsionalS
 
 from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.exudyn import layout as at
-from stochfric_mb.exudyn.attach import bind_own, line_expression
+from stochfric_mb.exudyn.attach import bind_own, line_function_of
 from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
 from stochfric_mb.exudyn.normal import Normal, ReactionNormal, as_normal
 from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, lower
@@ -110,20 +110,22 @@ class JointContact(FrictionContact):
         self._velocity = OUTPUT.AngularVelocityLocal if self._turns else OUTPUT.VelocityLocal
         self._reaction = OUTPUT.TorqueLocal if self._turns else OUTPUT.ForceLocal
         markers = [with_orientation(mbs, m) for m in entry["markerNumbers"]]
-        expression = line_expression(self)
-        self._make_symbols(expression.names)
-        function = self._function(expression.force)
+        function, names = line_function_of(self)
         if self._turns:
             cycle = _CYCLES[free - 3]  # the connector turns about z
             rotations = [np.asarray(entry.get(f"rotationMarker{i}", np.eye(3))) @ cycle for i in range(2)]
             pairs = [_turned(mbs, m, rotation, i) for i, (m, rotation) in enumerate(zip(markers, rotations, strict=True))]
             markers, turn = [marker for marker, _ in pairs], pairs[0][1] | pairs[1][1]
-            connector = TorsionalSpringDamper(markerNumbers=markers, springTorqueUserFunction=function, **turn)
+            connector = TorsionalSpringDamper(
+                markerNumbers=markers, stiffness=self.where, springTorqueUserFunction=function, **turn
+            )
         else:
             axis = entry["axisMarker0"] if "axisMarker0" in entry else entry["rotationMarker0"][:, free]
-            connector = LinearSpringDamper(markerNumbers=markers, axisMarker0=axis, springForceUserFunction=function)
+            connector = LinearSpringDamper(
+                markerNumbers=markers, stiffness=self.where, axisMarker0=axis, springForceUserFunction=function
+            )
         self.object = mbs.AddObject(connector)
-        self._begin(expression.names)
+        self._begin(names)
 
     @property
     def torque(self) -> float:

@@ -75,7 +75,9 @@ STARTED, ASK_FIRST, LOCATING, WATCHING = 17, 18, 19, 20
 """Whether the contact has begun, its coordinates must be fetched first, steps are located, and one may switch soon."""
 PLANE, PENALTY, FORCE = 21, 22, 23
 """Whether it slides in a plane, whether the normal force follows from the penetration, address of the law's force."""
-N_WORDS = 24
+COMPILED = 24
+"""Whether the engine runs the law's compiled force: it needs no numbers passed on, and samples need no force from it."""
+N_WORDS = 25
 
 RECORD_COLUMNS = 11
 """time, displacement, velocity, friction force, mu_s, mu_k, stick, normal force; second displacement, velocity, force."""
@@ -109,6 +111,28 @@ def words_from(typingctx, address):
         return builder.inttoptr(args[0], ir.IntType(64).as_pointer())
 
     return types.CPointer(types.int64)(types.int64), generate
+
+
+@intrinsic
+def put_word(typingctx, address, value):
+    """Write an integer at an address."""
+
+    def generate(context, builder, signature, args):
+        builder.store(args[1], builder.inttoptr(args[0], ir.IntType(64).as_pointer()))
+        return context.get_dummy_value()
+
+    return types.void(types.int64, types.int64), generate
+
+
+@intrinsic
+def call_at(typingctx, function, t):
+    """Return what the function at an address, int(double), says of the time t."""
+
+    def generate(context, builder, signature, args):
+        kind = ir.FunctionType(ir.IntType(32), [ir.DoubleType()])
+        return builder.zext(builder.call(builder.inttoptr(args[0], kind.as_pointer()), [args[1]]), ir.IntType(64))
+
+    return types.int64(types.int64, types.float64), generate
 
 
 def blank(n_law: int, n_path: int) -> tuple[np.ndarray, np.ndarray]:

@@ -10,6 +10,7 @@ from exudyn.itemInterface import LoadCoordinate, LoadForceVector
 
 from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.exudyn import layout as at
+from stochfric_mb.exudyn import pointers
 from stochfric_mb.exudyn.attach import bind_coordinates, bind_own, coordinate_index, marker_kind
 from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
 from stochfric_mb.exudyn.contact_force import force_now
@@ -89,13 +90,8 @@ class CoordinateLoad(_Load):
         self._markers, self._own, self._zero = (marker,), np.zeros(4), np.zeros(1)
         self._numbers[at.SURFACE_VELOCITY] = require_number("surface_velocity", surface_velocity, unit="m/s")
         bind_own(self._words, self._own)
-        where, into, out = self.where, self._into, self._out
-
-        def load_function(mbs: Any, t: float, load: float) -> float:
-            force_now(t, where, into)
-            return out[0]
-
-        self.object = mbs.AddLoad(LoadCoordinate(markerNumber=marker, load=0.0, loadUserFunction=load_function))
+        function = pointers.load_function() or pointers.load_in_python
+        self.object = mbs.AddLoad(LoadCoordinate(markerNumber=marker, load=self.where, loadUserFunction=function))
         self._begin()
 
     def connect(self) -> None:

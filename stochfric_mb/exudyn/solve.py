@@ -14,6 +14,8 @@ from stochfric_mb.exudyn.normal import NO_CONSTRAINT, NO_REACTION
 from stochfric_mb.exudyn.outcome import EXPLICIT, SOLVERS, Outcome
 from stochfric_mb.exudyn.reactions import find_reactions
 
+CONTRACTIVITY = 1.0e-3
+"""Most that Newton's iterations may leave of a residual with an old Jacobian; 1e-2 to 1e-5 cost the same."""
 SAME_TIME = 1.0e-9
 """What the time at which a run stopped may differ from the start of the one that goes on [s]: sums of steps are rounded."""
 
@@ -104,7 +106,11 @@ def _resume(mbs: Any, hooks: Hooks, start: float) -> None:
 
 def _settle_settings(mbs: Any, integration: Any, hooks: Hooks, dt: float) -> None:
     """Set what friction needs of the solver, and with dt [s] > 0 what event location needs."""
-    integration.newton.modifiedNewtonJacUpdatePerStep = True  # stick is stiff, slip is not: 1 iteration a step instead of 5
+    # stick is stiff and slip is not: a new Jacobian where the old one is of little use makes 1 iteration a step instead of 5
+    newton, constrained = integration.newton, len(mbs.systemData.GetAECoordinates()) > 0
+    newton.modifiedNewtonContractivity = min(newton.modifiedNewtonContractivity, CONTRACTIVITY)
+    if constrained:  # an old one leaves reactions off by 3e-3, and knows nothing of constraints that come and go
+        newton.modifiedNewtonJacUpdatePerStep = True
     if any(contact.is_load for contact in hooks.contacts) and integration.computeLoadsJacobian == 0:
         integration.computeLoadsJacobian = 2
     integration.discontinuous.iterationTolerance = 0.1 * SWITCH_ERROR
@@ -112,7 +118,7 @@ def _settle_settings(mbs: Any, integration: Any, hooks: Hooks, dt: float) -> Non
     true_stick = any(contact.true_stick for contact in hooks.contacts)
     if dt > 0.0:
         _settle_location(integration, dt)
-    if true_stick or (dt > 0.0 and len(mbs.systemData.GetAECoordinates())):
+    if true_stick or (dt > 0.0 and constrained):
         # reactions of constraints on positions are spoilt by the short steps that location takes (error ~ 1/h^2)
         integration.generalizedAlpha.useNewmark = integration.generalizedAlpha.useIndex2Constraints = True
 

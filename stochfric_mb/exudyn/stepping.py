@@ -16,8 +16,10 @@ from stochfric_mb.exudyn.contact_force import ask, kinematics, pair_at, penalty,
 from stochfric_mb.exudyn.layout import (
     ASK_FIRST,
     COMMIT,
+    COMPILED,
     CONTACT,
     EVENTS,
+    FORCE,
     GIVEN_NORMAL,
     GIVEN_RATE,
     GUARD,
@@ -131,8 +133,12 @@ def _proceed(t, numbers, words):
             records[due, 4], records[due, 5], records[due, 6] = numbers[MU_S], numbers[MU_K], numbers[STUCK]
             records[due, 7] = n
             words[NEXT_RECORD] = due + 1
-            bits |= RECORDED
-    return bits
+            if words[COMPILED] == 1:
+                ask(words[FORCE], t, motion, n, pair_at(t, motion[0], numbers, words), numbers, NEW)
+                records[due, 3], records[due, 10] = (numbers[NEW], numbers[NEW + 1]) if n > 0.0 else (0.0, 0.0)
+            else:
+                bits |= RECORDED
+    return bits & ~CHANGED if words[COMPILED] == 1 else bits
 
 
 @compiled
