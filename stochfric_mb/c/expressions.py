@@ -17,6 +17,7 @@ from stochfric_mb.c.types import (
     INT,
     UNSIGNED,
     Array,
+    CannotTranslate,
     Known,
     Scalar,
     Several,
@@ -38,14 +39,6 @@ _DUAL: dict[type[ast.operator], str] = {ast.Add: "sum", ast.Sub: "difference", a
 _COMPARISONS: dict[type[ast.cmpop], str] = {
     ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
 }  # fmt: skip
-
-
-class CannotTranslate(Exception):  # noqa: N818  (caught inside this room)
-    """A construct that has no translation."""
-
-    def __init__(self, node: ast.AST, what: str) -> None:
-        super().__init__(what)
-        self.line = getattr(node, "lineno", 0)
 
 
 class Expressions:

@@ -12,8 +12,8 @@ import textwrap
 from collections.abc import Iterator
 from typing import Any
 
-from stochfric_mb.c.expressions import CannotTranslate, Expressions
-from stochfric_mb.c.types import DOUBLE, number
+from stochfric_mb.c.expressions import Expressions
+from stochfric_mb.c.types import DOUBLE, CannotTranslate, number
 
 
 @dataclasses.dataclass(frozen=True)

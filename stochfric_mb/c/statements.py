@@ -5,8 +5,22 @@ from __future__ import annotations
 import ast
 import itertools
 
-from stochfric_mb.c.expressions import CannotTranslate, Expressions, c_name
-from stochfric_mb.c.types import DOUBLE, INT, VOID, Array, Scalar, Several, Tuple, Type, Value, as_c, bare, unified
+from stochfric_mb.c.expressions import Expressions, c_name
+from stochfric_mb.c.types import (
+    DOUBLE,
+    INT,
+    VOID,
+    Array,
+    CannotTranslate,
+    Scalar,
+    Several,
+    Tuple,
+    Type,
+    Value,
+    as_c,
+    bare,
+    unified,
+)
 
 _OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 

@@ -13,10 +13,10 @@ import textwrap
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from stochfric_mb.c.expressions import CannotTranslate, Expressions, c_name
+from stochfric_mb.c.expressions import Expressions, c_name
 from stochfric_mb.c.intrinsics import DUALS, PRELUDE
 from stochfric_mb.c.statements import Body
-from stochfric_mb.c.types import DUAL, VOID, Array, Scalar, Tuple, Type, Value, as_c, unified
+from stochfric_mb.c.types import DUAL, VOID, Array, CannotTranslate, Scalar, Tuple, Type, Value, as_c, unified
 from stochfric_mb.errors import InputError
 
 ROUNDS = 8

@@ -2,9 +2,18 @@
 
 from __future__ import annotations
 
+import ast
 import dataclasses
 import math
 from typing import Any
+
+
+class CannotTranslate(Exception):  # noqa: N818  (caught inside this room)
+    """A construct that has no translation."""
+
+    def __init__(self, node: ast.AST | None, what: str) -> None:
+        super().__init__(what)
+        self.line = getattr(node, "lineno", 1)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -123,7 +132,7 @@ def as_c(value: Value, wanted: Type) -> str:
     if wanted == DUAL:
         return f"dual_of({as_c(value, DOUBLE)})"
     if value.type == DUAL:
-        raise TypeError("a number with a derivative cannot go where there is room for a number alone")
+        raise CannotTranslate(None, "a number with a derivative cannot go where there is room for a number alone")
     return f"(({wanted.c}){value.code})"
 
 

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import re
 from collections.abc import Callable, Sequence
 from importlib import resources
-from typing import Any
 
 import numpy as np
 
 from stochfric_mb import __version__, contact
-from stochfric_mb.c import Translation
+from stochfric_mb.c import Translation, UntranslatableError
 from stochfric_mb.c.dispatch import FLOW, NUMBERS, Dispatch
 from stochfric_mb.c.model import numbered_model
 from stochfric_mb.c.types import DOUBLE, DUAL, INT, Array, number
@@ -47,6 +47,8 @@ class Element:
     """Text of stochfric.c."""
     parameters: tuple[Parameter, ...]
     """What can be set, in the order of ``values``."""
+    derivative: bool
+    """Whether there is ``stochfric_derivative``."""
 
 
 def element(
@@ -80,7 +82,8 @@ def element(
         flow = translation.add(exported.law.functions().flow, FLOW).name
     derivative = ""
     if not exported.effects:
-        derivative = _derivative(translation, exported)
+        with contextlib.suppress(UntranslatableError):  # a law of one's own whose functions have no derivatives here
+            derivative = _derivative(translation, exported)
     after = more(translation) if more is not None else ""
     defines = _defines(exported, arrays, mechanism=mechanism, mass=effective_mass, numbers=dataclasses.asdict(numbers))
     defines |= {"LAW_FLOW": flow} if flow else {}
@@ -99,7 +102,7 @@ def element(
             after,
         ]
     )
-    return Element(_header(exported, parameters, arrays), source, parameters)
+    return Element(_header(exported, parameters, arrays, derivative=bool(derivative)), source, parameters, bool(derivative))
 
 
 def template(name: str) -> str:
@@ -114,6 +117,12 @@ def _derivative(translation: Translation, exported: Exported) -> str:
     evaluate = translation.add(path.evaluate, [NUMBERS, NUMBERS, INT, INT, INT, DOUBLE, DUAL, DOUBLE])
     names = {"@FORCE@": force.name, "@EVALUATE@": evaluate.name, "@PAIR@": force.returns.c, "@MU@": evaluate.returns.c}
     text = template("derivative.c")
+    flow = ""
+    if exported.law.has_flow:
+        made = translation.add(functions.flow, [*[DUAL] * 7, NUMBERS])
+        names |= {"@FLOWN@": made.returns.c, "@FLOW_NAME@": made.name}
+        flow = template("flow_derivative.c")
+    text = text.replace("@FLOW@", flow)
     for name, value in names.items():
         text = text.replace(name, value)
     return text
@@ -218,7 +227,7 @@ def _spread(parameters: Sequence[Parameter]) -> str:
     return "\n".join(["/* Put each parameter where the equations read it. */", head, *lines, "}", ""])
 
 
-def _header(exported: Exported, parameters: Sequence[Parameter], arrays: dict[str, list[float]]) -> str:
+def _header(exported: Exported, parameters: Sequence[Parameter], arrays: dict[str, list[float]], *, derivative: bool) -> str:
     law = exported.inner
     enumerators = "\n".join(f"    STOCHFRIC_{p.identifier.upper()},  /* {_clean(p.description)} */" for p in parameters)
     return template("element.h.in").format(
@@ -228,7 +237,7 @@ def _header(exported: Exported, parameters: Sequence[Parameter], arrays: dict[st
         enumerators=enumerators,
         mass_note="" if exported.law.needs_effective_mass else "; this law does not use it",
         hold_note="" if exported.law.needs_holding_force else ". This law does not use it",
-        derivative="" if exported.effects else _DERIVATIVE,
+        derivative=_DERIVATIVE if derivative else "",
         n_book=contact.BOOK,
         n_state=MAX_STATE,
         n_cursor=CURSOR,
@@ -239,8 +248,3 @@ def _header(exported: Exported, parameters: Sequence[Parameter], arrays: dict[st
 
 def _clean(text: str) -> str:
     return " ".join(text.split()).replace("*/", "* /")
-
-
-def notes(exported: Exported) -> Any:
-    """Return what stands in for what."""
-    return exported.notes

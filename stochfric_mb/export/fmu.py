@@ -80,7 +80,7 @@ def fmu_source(exported: Exported, *, fmi: int = 2, mechanism: bool = False, nam
         f"fmi{fmi}.c": template(f"fmi{fmi}.c"),
     }
     token = hashlib.sha256("".join(texts.values()).encode()).hexdigest()[:32]
-    derivatives = not mechanism and not exported.effects
+    derivatives = made.derivative
     texts["all.c"] = _all(fmi, token, flow=flow, derivatives=derivatives)
     kind = f"belt-box with law {exported.inner.kind}" if mechanism else f"friction element with law {exported.inner.kind}"
     line = "; ".join([exported.title or kind, *exported.notes])
@@ -124,7 +124,8 @@ def _model(exported: Exported, listed: Sequence[Variable], *, mechanism: bool) -
     ]
     if mechanism:
         lines += [f"#define BOX_{name} {getattr(motion, name)}" for name in (
-            "MASS", "NORMAL_FORCE", "BELT_VELOCITY", "INITIAL_POSITION", "INITIAL_VELOCITY")]  # fmt: skip
+            "MASS", "DAMPING", "STIFFNESS", "NORMAL_FORCE", "BELT_VELOCITY", "INITIAL_POSITION", "INITIAL_VELOCITY",
+        )]  # fmt: skip
         names = exported.law.state_names
         lines += [
             f"#define IS_HOLDING {int(exported.law.needs_holding_force)}",

@@ -226,11 +226,11 @@ static int directional(instance *c, const unsigned int *unknown, size_t n_unknow
     double tangent[N_VARIABLES + 1] = {0.0};
     if (c->now.phase <= INITIALIZING) return refused(c, "derivatives are to be had after the initialisation");
     for (size_t i = 0; i < n_known; i++) {
-        if (known[i] >= N_VARIABLES || KINDS[known[i]] != 'i') return refused(c, "derivatives are to be had for inputs alone");
+        if (known[i] >= N_VARIABLES || !strchr("ix", KINDS[known[i]])) return refused(c, "derivatives are to be had for inputs and states alone");
         tangent[known[i]] = seed[i];
     }
     for (size_t i = 0; i < n_unknown; i++)
-        if (unknown[i] >= N_VARIABLES || KINDS[unknown[i]] != 'o') return refused(c, "outputs alone have derivatives");
+        if (unknown[i] >= N_VARIABLES || !strchr("oxd", KINDS[unknown[i]])) return refused(c, "outputs and rates of states alone have derivatives");
     if (prepare(c) || failed(c, model_tangent(&c->now.model, c->now.values, tangent))) return 1;
     for (size_t i = 0; i < n_unknown; i++) out[i] = tangent[unknown[i]];
     return 0;

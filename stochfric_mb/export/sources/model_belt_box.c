@@ -126,6 +126,35 @@ static void pack(const double *y, double *values) {
     values[VR_POSITION] = y[0]; values[VR_BOX_VELOCITY] = y[1]; values[VR_BRISTLE] = y[2];
 }
 
+#ifdef WITH_DERIVATIVES
+/* Put the derivatives of outputs and rates along a direction of states and external force into their places. */
+static int model_tangent(const model *m, const double *values, double *tangent) {
+    const double *box = m->friction.mechanism, external = values[VR_EXTERNAL_FORCE];
+    double y[RATES], dy[RATES], force[2], derivative[2];
+    unpack(values, y);
+    unpack(tangent, dy);
+    if (pinned(m)) dy[1] = 0.0; /* the velocity is the belt's then */
+    const stochfric_contact at = contact_at(m, external, values[VR_TIME], y);
+    stochfric_contact along;
+    memset(&along, 0, sizeof along);
+    along.displacement[0] = -dy[0];
+    along.velocity[0] = -dy[1];
+    along.holding_force[0] = box[BOX_DAMPING] * dy[1] + box[BOX_STIFFNESS] * dy[0] - tangent[VR_EXTERNAL_FORCE];
+    double rate = 0.0;
+#ifdef WITH_FLOW
+    const int status = stochfric_flow_derivative(&m->friction, &m->state, &at, &along, y[2], dy[2], force, derivative, &rate);
+#else
+    const int status = stochfric_derivative(&m->friction, &m->state, &at, &along, force, derivative);
+#endif
+    if (status) return status;
+    const double rates[RATES] = {dy[1], (derivative[0] - along.holding_force[0]) / box[BOX_MASS], rate};
+    for (int j = 0; j < N_STATES; j++) tangent[VR_DERIVATIVES + j] = pinned(m) ? 0.0 : rates[j];
+    tangent[VR_FRICTION_FORCE] = derivative[0];
+    tangent[VR_MU] = derivative[0] / at.normal_force;
+    return STOCHFRIC_OK;
+}
+#endif
+
 static int model_parameters(model *m, const double *values) {
     m->internal_step = values[VR_STEP];
     return m->internal_step > 0.0 ? STOCHFRIC_OK : STOCHFRIC_RULE + RULE_STEP;
