@@ -203,7 +203,9 @@ def precursors(w: World, a: float) -> None:
 @form(UNKNOWN, source="Paxson 1999 (packets that are written twice)")
 def packets_repeated(w: World, a: float) -> None:
     def sensor(t, motion, rng):
-        times = arrivals(rng, w.duration, 0.12 / w.nominal.period)
+        apart = 7.5 * w.nominal.period  # one at some time in each stretch
+        stretches = np.arange(int(np.ceil(w.duration / apart)))
+        times = apart * (stretches + rng.uniform(0.0, 0.8, stretches.size))
         late = np.searchsorted(times, t) * 0.08 * a * w.nominal.period
         return np.interp(t - late, t, motion.position)
 
