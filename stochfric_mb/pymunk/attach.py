@@ -103,7 +103,7 @@ class ContactFriction:
 
     @time.setter
     def time(self, value: float) -> None:
-        self._clock[r.NOW] = value
+        self._clock[[r.NOW, r.STEP_TIME]] = value
 
     @property
     def initial_displacement(self) -> float:
@@ -285,7 +285,7 @@ def _table(friction: Friction, path: CoefficientPath, capacity: int) -> npt.NDAr
     table[r.HAS_MODE] = law.state_names[:1] == ("mode",)
     table[r.PER_EVENT] = isinstance(friction.process, PerEvent)
     table[r.HOLDING] = law.needs_holding_force
-    table[r.STATEFUL] = bool(law.state_names)
+    table[r.STATEFUL], table[r.N_STATE] = bool(law.state_names), functions.n_state
     table[r.LAYOUT :] = layout()
     return table
 

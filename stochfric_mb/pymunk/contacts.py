@@ -28,8 +28,7 @@ from typing import Any
 import numba
 from numba import types
 
-from stochfric_mb.coefficients.path import canonical_time
-from stochfric_mb.compile import compiled, native
+from stochfric_mb.compile import compiled, compiled_inline, native
 from stochfric_mb.pymunk import records as r
 from stochfric_mb.pymunk.kinematics import advance_clock, free_acceleration, impulses, motion, push
 from stochfric_mb.pymunk.matching import find_slot, slot_for
@@ -130,10 +129,10 @@ def before_solve(table, arbiter, space, data):
     return slot >= 0
 
 
-@compiled
+@compiled_inline
 def respond(table, clock, s, pair, arbiter, space, dt):
     """Apply the friction force of a contact, or set its cap."""
-    s[r.TIME] = canonical_time(clock[r.NOW], 0.5 * dt)
+    s[r.TIME] = clock[r.STEP_TIME]
     a, b = load_word(arbiter + table[r.BODY_A]), load_word(arbiter + table[r.BODY_B])
     body_is_a = pair[r.NUMBER_A] == load_word(load_word(arbiter + table[r.ARBITER_A]) + table[r.SHAPE_NUMBER])
     sign = 1.0 if body_is_a else -1.0
@@ -186,7 +185,7 @@ def respond(table, clock, s, pair, arbiter, space, dt):
     s[r.PUSH] = force
 
 
-@compiled
+@compiled_inline
 def apply(table, s, a, b, fx, fy, ax, ay, bx, by):
     """Write a force into body ``a`` and its opposite into ``b``; it acts in this step."""
     s[r.PUSH_X], s[r.PUSH_Y] = fx, fy
@@ -214,7 +213,7 @@ def begin_contact(clock, s):
     s[r.EXTRA_NORMAL], s[r.EXTRA_TANGENT] = 0.0, 0.0
 
 
-@compiled
+@compiled_inline
 def move_on(table, s, arbiter, rate, dt):
     """Bring a contact to this step; return the relative acceleration [m/s^2] of the last one without friction."""
     normal, tangent = impulses(table, arbiter)
@@ -224,7 +223,7 @@ def move_on(table, s, arbiter, rate, dt):
     return (rate - s[r.RATE]) / s[r.STEP] + s[r.FORCE] / s[r.EFFECTIVE_MASS]
 
 
-@compiled
+@compiled_inline
 def expect_normal(table, s, arbiter, first, acceleration, v_normal, inverse_normal, dt):
     """Set the normal force [N] to expect of this step: what the pair alone would need, and what was amiss last time.
 
@@ -238,7 +237,7 @@ def expect_normal(table, s, arbiter, first, acceleration, v_normal, inverse_norm
     s[r.ISOLATED] = alone
 
 
-@compiled
+@compiled_inline
 def watch_step(table, clock, s, stiff):
     """Count a step that is ``stiff`` beyond the stability limit: slow, turned round, or with a force that jumped.
 

@@ -7,23 +7,25 @@
 
 from __future__ import annotations
 
-from stochfric_mb.compile import compiled
+from stochfric_mb.coefficients.path import canonical_time
+from stochfric_mb.compile import compiled_inline
 from stochfric_mb.pymunk import records as r
 from stochfric_mb.pymunk.memory import get_double, get_int, load_double, load_int, load_word, store_double
 
 
-@compiled
+@compiled_inline
 def advance_clock(table, clock, space):
     """Return the step [s] and the stamp of the space; the clock moves on once a step."""
     stamp = get_int(table[r.GET_STAMP], space)
     dt = get_double(table[r.GET_STEP], space)
     if stamp != table[r.LAST_STAMP]:
         clock[r.NOW] += (stamp - table[r.LAST_STAMP]) * dt
+        clock[r.STEP_TIME] = canonical_time(clock[r.NOW], 0.5 * dt)
         table[r.LAST_STAMP] = stamp
     return dt, stamp
 
 
-@compiled
+@compiled_inline
 def motion(table, arbiter, body_is_a, first):
     """Return the frame and the motion of a contact, relative quantities as counter-surface minus body.
 
@@ -39,13 +41,13 @@ def motion(table, arbiter, body_is_a, first):
     count = load_int(arbiter + table[r.COUNT])
     point = load_word(arbiter + table[r.POINTS])
     ax, ay, bx, by = 0.0, 0.0, 0.0, 0.0
-    pressed = 0
+    pressed, share = 0, 1.0 / count
     for _ in range(count):
         pressed += 1 if first or load_double(point + table[r.NORMAL_IMPULSE]) > 0.0 else 0
-        ax += load_double(point + table[r.ARM_1]) / count
-        ay += load_double(point + table[r.ARM_1] + 8) / count
-        bx += load_double(point + table[r.ARM_2]) / count
-        by += load_double(point + table[r.ARM_2] + 8) / count
+        ax += share * load_double(point + table[r.ARM_1])
+        ay += share * load_double(point + table[r.ARM_1] + 8)
+        bx += share * load_double(point + table[r.ARM_2])
+        by += share * load_double(point + table[r.ARM_2] + 8)
         point += table[r.POINT_SIZE]
     a = load_word(arbiter + table[r.BODY_A])
     b = load_word(arbiter + table[r.BODY_B])
@@ -67,7 +69,7 @@ def motion(table, arbiter, body_is_a, first):
     return nx, ny, ax, ay, bx, by, v_rel, v_normal, inverse_tangential, inverse_normal
 
 
-@compiled
+@compiled_inline
 def free_acceleration(table, space, body, rx, ry):
     """Return the acceleration of a body's point at an arm by gravity and applied forces, (x, y) [m/s^2]."""
     m_inv = load_double(body + table[r.M_INV])
@@ -79,7 +81,7 @@ def free_acceleration(table, space, body, rx, ry):
     return x - turn * ry, y + turn * rx
 
 
-@compiled
+@compiled_inline
 def push(table, body, fx, fy, torque):
     """Add a force and a torque to a dynamic body; they act in this step."""
     if load_double(body + table[r.M_INV]) > 0.0:
@@ -90,7 +92,7 @@ def push(table, body, fx, fy, torque):
         store_double(at, load_double(at) + torque)
 
 
-@compiled
+@compiled_inline
 def impulses(table, arbiter):
     """Return the sums of the contact's recorded normal and tangential impulses [N s]."""
     normal, tangent = 0.0, 0.0

@@ -13,12 +13,12 @@ from __future__ import annotations
 
 import numba
 
-from stochfric_mb.compile import compiled
+from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.pymunk import records as r
 from stochfric_mb.pymunk.memory import as_words, get_byte, get_word, load_int, load_word, store_word
 
 
-@compiled
+@compiled_inline
 def find_slot(table, arbiter):
     """Return the number of the slot of the arbiter's pair of shapes, -1 where it has none."""
     a = load_word(load_word(arbiter + table[r.ARBITER_A]) + table[r.SHAPE_NUMBER])
@@ -34,7 +34,7 @@ def find_slot(table, arbiter):
     return -1
 
 
-@compiled
+@compiled_inline
 def _is_pair(pair, a, b):
     return (pair[r.NUMBER_A] == a and pair[r.NUMBER_B] == b) or (pair[r.NUMBER_A] == b and pair[r.NUMBER_B] == a)
 

@@ -21,8 +21,8 @@ CONTEXT = TABLES + MAX_TABLES
 # --- table ---
 (
     USED, CAPACITY, COUNTER, PAIRS, SLOTS, CLOCK, INIT, FORCE_LAW, COMMIT, GUARD, PARAMETERS, DESCRIPTOR, DESCRIPTOR_SIZE,
-    SEED, SAMPLE, HAS_MODE, PER_EVENT, HOLDING, STATEFUL, CAP_WHEN_STIFF, LAST_STAMP, PROBLEM, SIDE_A,
-) = range(23)  # fmt: skip
+    SEED, SAMPLE, HAS_MODE, PER_EVENT, HOLDING, STATEFUL, N_STATE, CAP_WHEN_STIFF, LAST_STAMP, PROBLEM, SIDE_A,
+) = range(24)  # fmt: skip
 SIDE_KIND, SIDE_TYPE, SIDE_SIZE, SIDE_ADDRESSES, SIDE_NUMBERS, SIDE = range(6)
 """Which shapes belong to a side: all, those of a collision type, or listed ones (addresses, sorted, with numbers)."""
 SIDE_B = SIDE_A + SIDE
@@ -38,8 +38,8 @@ OVERFLOW, NOT_FINITE, UNSTABLE = 1, 2, 4
 NUMBER_A, NUMBER_B, CONTACT, STAMP, PAIR = range(5)
 
 # --- clock: time, the largest normal force per effective mass that is stable at the step CHECKED_STEP, and the speed at which
-# the law's steady friction is largest (its static cap) ---
-NOW, STICK_SPEED, START, CHECKED_STEP, LARGEST_LOAD, WORST_LOAD, PEAK_SPEED, CLOCK_SIZE = range(8)
+# the law's steady friction is largest (its static cap); and the time as the coefficients take it ---
+NOW, STICK_SPEED, START, CHECKED_STEP, LARGEST_LOAD, WORST_LOAD, PEAK_SPEED, STEP_TIME, CLOCK_SIZE = range(9)
 
 # --- slot ---
 # RATE is the relative velocity over the last drift, VELOCITY the one at the time of the force. NORMAL is what is expected

@@ -17,7 +17,7 @@ import math
 import numba
 
 from stochfric_mb.coefficients.path import CURSOR, evaluate
-from stochfric_mb.compile import compiled
+from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.laws.abi import MAX_STATE, call_law
 from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.numerics.cubic import hermite, value
@@ -107,7 +107,8 @@ def locate(table, clock, s, contact, v):
         if s[r.GUARDS_KNOWN] == 0.0:
             guards_at(table, s, v, low)
             before[:] = out
-        at_end = least_guard(table, s, v, 1.0)
+        ask_guards(table, s, s[r.TIME], s[r.DISPLACEMENT], v, s[r.MU_S], s[r.MU_K])
+        at_end = least_armed(before, out)
         if at_end > 0.0:
             before[:] = out
             s[r.GUARDS_KNOWN] = 1.0
@@ -146,9 +147,14 @@ def between(s, v, theta):
 def guards_at(table, s, v, theta):
     """Write the law's guards at a fraction of the last step into the slot's scratch space."""
     u, w, mu_s, mu_k = between(s, v, theta)
+    ask_guards(table, s, s[r.TIME] - (1.0 - theta) * s[r.STEP], u, w, mu_s, mu_k)
+
+
+@compiled_inline
+def ask_guards(table, s, time, u, v, mu_s, mu_k):
+    """Write the law's guards there into the slot's scratch space."""
     call_law(
-        table[r.GUARD], s[r.TIME] - (1.0 - theta) * s[r.STEP], u, 0.0, w, 0.0, s[r.NORMAL], mu_s, mu_k,
-        s[r.EFFECTIVE_MASS], 0.0, 0.0,
+        table[r.GUARD], time, u, 0.0, v, 0.0, s[r.NORMAL], mu_s, mu_k, s[r.EFFECTIVE_MASS], 0.0, 0.0,
         s[r.STATE : r.STATE + MAX_STATE].ctypes.data, table[r.PARAMETERS], s[r.OUT : r.OUT + MAX_STATE].ctypes.data,
     )  # fmt: skip
 
@@ -200,7 +206,7 @@ def remember(table, clock, s, contact, first, time, u, v, mu_s, mu_k, load):
         state.ctypes.data, table[r.PARAMETERS], out.ctypes.data,
     )  # fmt: skip
     changed = False
-    for i in range(MAX_STATE):
+    for i in range(table[r.N_STATE]):
         changed = changed or state[i] != out[i]
         state[i] = out[i]
     stuck = state[0] == 0.0 if table[r.HAS_MODE] == 1 else abs(v) <= clock[r.STICK_SPEED]
@@ -213,7 +219,7 @@ def remember(table, clock, s, contact, first, time, u, v, mu_s, mu_k, load):
     return changed
 
 
-@compiled
+@compiled_inline
 def coefficients(table, s, contact):
     """Evaluate mu_s and mu_k of the contact at its time, displacement and number of stick phases."""
     s[r.MU_S], s[r.MU_K] = evaluate(
@@ -248,7 +254,7 @@ def steady_force(table, s, speed, peak, normal_force):
     return out[0]
 
 
-@compiled
+@compiled_inline
 def law_force(table, s, v, normal_force, load):
     """Return the friction force [N] of the law at velocity v [m/s] and load [N]."""
     out = s[r.OUT : r.OUT + MAX_STATE]

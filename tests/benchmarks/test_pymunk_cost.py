@@ -82,7 +82,7 @@ def step_seconds(space: pymunk.Space, n: int, dt: float) -> float:
 
 
 @pytest.mark.parametrize("law", ["elastic_stick", "havsin", "coulomb"])
-def test_a_hundred_contacts_cost_at_most_twice_the_plain_scene(law: str) -> None:
+def test_a_hundred_contacts_cost_little_over_the_plain_scene(law: str) -> None:
     """Short blocks in turn, so that both scenes meet the machine's best moments; sliding first, then stuck."""
     spaces = [belt_with_boxes(law), belt_with_boxes(None)]
     for space in spaces:
@@ -91,8 +91,7 @@ def test_a_hundred_contacts_cost_at_most_twice_the_plain_scene(law: str) -> None
     with_friction, plain = (min(b[i] for b in blocks) for i in (0, 1))
     us = [1e6 * s for s in (with_friction, plain)]
     print(f"{N_CONTACTS} contacts, {law}: {us[0]:.0f} us/step, plain {us[1]:.0f} us/step, {us[0] / us[1]:.2f}")
-    # measured 1.5 (elastic_stick), 1.3 (havsin), 1.3 (coulomb)
-    assert with_friction < RATIO_LIMIT * plain
+    assert with_friction < 1.3 * plain  # the goal; measured 1.23 (elastic_stick), 1.16 (havsin), 1.12 (coulomb)
 
 
 @pytest.mark.benchmark(group="pymunk")
