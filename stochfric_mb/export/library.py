@@ -12,7 +12,7 @@ MARKER = "stochfric.h"
 GLUE = {
     "adams_vfosub.c": "Adams/Solver, C interface: a VFORCE (three force components)",
     "adams_gfosub.c": "Adams/Solver, C interface: a GFORCE (three forces, three torques)",
-    "recurdyn_friction.c": "RecurDyn, user subroutine of a general force",
+    "recurdyn_friction.c": "RecurDyn, user subroutine of a screw force",
     "simulink_sfunction.c": "Simulink, level-2 C MEX S-function",
 }
 """File of vendor glue -> what it is for."""

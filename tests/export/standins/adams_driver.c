@@ -12,7 +12,8 @@
 #define EXPORT __attribute__((visibility("default")))
 void SUBROUTINE(const struct STRUCTURE *, double, int, int, double *);
 static double displacement[3], velocity[3], converged;
-static int errors;
+static int errors, n_par = 6;
+EXPORT void give_parameters(int n) { n_par = n; }
 void c_sysary(const char *name, const int *ipar, int n, double *states, int *count, int *error) {
     const double *from = name[1] == 'D' ? displacement : velocity;
     (void)ipar;
@@ -24,7 +25,7 @@ void c_errmes(int error, const char *message, int id, const char *stop) { (void)
 void c_timget(double *time) { *time = converged; }
 EXPORT int call(double time, const double *u, const double *v, double accepted, int dflag, int iflag, const double *par, double *result) {
     double all[COMPONENTS];
-    const struct STRUCTURE force = {1, 6, par, 10, 11, 20};
+    const struct STRUCTURE force = {1, n_par, par, 10, 11, 20};
     for (int i = 0; i < 2; i++) { displacement[i] = -u[i]; velocity[i] = -v[i]; }
     converged = accepted;
     errors = 0;

@@ -11,21 +11,23 @@
 #include "stochfric_steps.h"
 
 #define MOST_CONTACTS 64
+#define LAST_CALL_BEFORE_MOTION 3 /* iflag: 0 the force, to 3 before the motion, above at other times (saving, reloading, the end) */
 
 adams_c_Gfosub Gfosub;
 
 static stochfric_steps contacts[MOST_CONTACTS]; /* Adams keeps no memory for a force: one place for each contact */
 
 void Gfosub(const struct sAdamsGforce *gforce, double time, int dflag, int iflag, double *result) {
-    const int number = (int)gforce->PAR[5];
-    const int markers[3] = {(int)gforce->PAR[0], (int)gforce->PAR[1], (int)gforce->PAR[1]};
     double displacement[3], velocity[3], force[2] = {0.0, 0.0}, accepted = 0.0;
     int count, error = 0;
     for (int i = 0; i < 6; i++) result[i] = 0.0;
-    if (number < 0 || number >= MOST_CONTACTS) {
-        c_errmes(1, "stochfric: the number of the contact, PAR(6), is not in 0..63", gforce->ID, "STOP");
+    if (iflag > LAST_CALL_BEFORE_MOTION) return;
+    if (gforce->NPAR < 6 || !(gforce->PAR[5] >= 0.0 && gforce->PAR[5] < MOST_CONTACTS)) {
+        c_errmes(1, "stochfric: six parameters are needed, the last one, the number of the contact, from 0 to 63", gforce->ID, "STOP");
         return;
     }
+    const int number = (int)gforce->PAR[5];
+    const int markers[3] = {(int)gforce->PAR[0], (int)gforce->PAR[1], (int)gforce->PAR[1]};
     stochfric_steps *contact = &contacts[number];
     c_sysary("TDISP", markers, 3, displacement, &count, &error);
     c_errmes(error, "stochfric: no displacement of the markers", gforce->ID, "STOP");

@@ -1,4 +1,4 @@
-/* Friction in RecurDyn: user subroutine of a general force; its first two components are the friction on the action body.
+/* Friction in RecurDyn: user subroutine of a screw force; its first two components are the friction on the action body.
 
    UPAR: action marker, base marker (its x-y plane is the plane of contact; it belongs to the counter-surface), normal
    force [N], seed, sample, number of the contact (below 64). Model units: kg, m, s, N. The solver tells no time of its
@@ -11,22 +11,25 @@
 
 #define MOST_CONTACTS 64
 #define NOT_TOLD 1.0e300
+#ifndef RECURDYN_FAILED
+#define RECURDYN_FAILED(error) ((error) != 0 && (error) != -1) /* its subroutines say -1 (true in Fortran) or 0 where all is well */
+#endif
 
 static stochfric_steps contacts[MOST_CONTACTS];
 
-RECURDYN_EXPORT void general_force(double time, double upar[], int npar, int jflag, int iflag, double result[6]) {
+RECURDYN_EXPORT void screw_force(double time, double upar[], int npar, int jflag, int iflag, double result[6]) {
     int error = 0, count = 6;
     double displacement[6] = {0.0}, velocity[6] = {0.0}, force[2] = {0.0, 0.0};
     for (int i = 0; i < 6; i++) result[i] = 0.0;
-    if (npar < 6 || upar[5] < 0.0 || upar[5] >= MOST_CONTACTS) {
+    if (npar < 6 || !(upar[5] >= 0.0 && upar[5] < MOST_CONTACTS)) {
         errmes(0, "stochfric: six parameters are needed, the last one from 0 to 63", 0, 1);
         return;
     }
     stochfric_steps *contact = &contacts[(int)upar[5]];
     int markers[3] = {(int)upar[0], (int)upar[1], (int)upar[1]};
     sysary("TDISP", markers, 3, displacement, count, &error);
-    if (!error) sysary("TVEL", markers, 3, velocity, count, &error);
-    if (error) {
+    if (!RECURDYN_FAILED(error)) sysary("TVEL", markers, 3, velocity, count, &error);
+    if (RECURDYN_FAILED(error)) {
         errmes(0, "stochfric: no displacement or velocity of the markers", 0, 1);
         return;
     }
