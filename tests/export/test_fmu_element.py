@@ -18,7 +18,7 @@ H = 1.0e-3
 
 
 def motion(rng, n):
-    """Return displacement, velocity, normal force and holding force at n instants of a contact that slides, turns and creeps."""
+    """Return displacement, velocity, normal force and holding force at n instants of a contact that slides, turns, creeps."""
     v = 2.0e-3 * np.cumsum(rng.standard_normal((n, 2)), axis=0) / np.sqrt(n) + [1.0e-3, 0.0]
     v[n // 4 : n // 2] *= 0.01  # slow enough to stick
     u = H * np.cumsum(v, axis=0)
