@@ -17,6 +17,7 @@ from stochfric_mb.c.model import numbered_model
 from stochfric_mb.c.types import DOUBLE, DUAL, INT, Array, number
 from stochfric_mb.coefficients import path
 from stochfric_mb.coefficients.path import CURSOR, constant_descriptor
+from stochfric_mb.coefficients.processes import EVENT
 from stochfric_mb.effects import augmented_law as augmented
 from stochfric_mb.effects.augmented_law import Augmented
 from stochfric_mb.export.exported import Exported
@@ -171,6 +172,7 @@ def _defines(
         "MODED": str(contact.MODED),
         "STUCK": str(contact.STUCK),
         "EVENTS_SO_FAR": str(contact.EVENTS),
+        "CLOCK_EVENT": number(EVENT),
         "BOOK_MU_S": str(contact.MU_S),
         "BOOK_MU_K": str(contact.MU_K),
         "INNER_P": str(augmented.INNER_P),

@@ -13,8 +13,8 @@ REAL, NUMBER, FLAG = "r", "n", "b"
 """Types of variables: real, whole number, truth value."""
 TIME, PARAMETER, INPUT, OUTPUT, STATE, DERIVATIVE, INDICATOR = "t", "p", "i", "o", "x", "d", "z"
 """Kinds of variables."""
-INDICATORS = GUARDS + 1
-"""Event indicators: the law's guards, and the turning point of the velocity."""
+INDICATORS = GUARDS + 2
+"""Event indicators: the law's guards, the turning point of the velocity, and the speed at which stick begins or ends."""
 DEFAULT_STEP = 1.0e-4
 """Internal step of a belt-box in co-simulation [s], unless the law needs a smaller one."""
 

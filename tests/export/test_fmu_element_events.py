@@ -5,6 +5,7 @@ import pytest
 
 from stochfric_mb.contact import Contact
 from stochfric_mb.export.exported import Exported
+from stochfric_mb.export.variables import INDICATORS
 from stochfric_mb.friction import Friction
 from stochfric_mb.laws import make_law
 
@@ -21,11 +22,11 @@ def at(fmu, t, u, v):
 
 def indicators(fmu):
     if fmu.fmi == 3:
-        return np.array([fmu.get(f"event_indicator[{i + 1}]") for i in range(7)])
+        return np.array([fmu.get(f"event_indicator[{i + 1}]") for i in range(INDICATORS)])
     import ctypes
 
-    z = (ctypes.c_double * 7)()
-    fmu.fmu.getEventIndicators(z, 7)
+    z = (ctypes.c_double * INDICATORS)()
+    fmu.fmu.getEventIndicators(z, INDICATORS)
     return np.array(z)
 
 

@@ -54,19 +54,18 @@ static int rates_at(const model *m, double external, double t, const double *y, 
 }
 
 /* Commit an accepted step: the law's state, and the velocity of a box that has come to rest on the belt. */
-static int settle(model *m, double external, double t, double *y) {
+static int settle(model *m, double external, double t, double *y, int *switched) {
     const stochfric_contact at = contact_at(m, external, t, y);
-    const double mode = m->state.state[0];
     double before[INDICATORS];
     int status = measure(&m->friction, &m->state, &at, &m->watched, before);
-    if (!status) status = stochfric_commit(&m->friction, &m->state, &at, &m->state);
+    if (!status) status = commit_all(&m->friction, &at, &m->state, switched);
     if (status) return status;
 #ifdef WITH_FLOW
     m->state.state[BRISTLE] = y[2];
 #endif
     if (pinned(m)) y[1] = m->friction.mechanism[BOX_BELT_VELOCITY];
     const stochfric_contact then = contact_at(m, external, t, y);
-    return arm(&m->friction, &m->state, &then, before, IS_MODED && m->state.state[0] != mode, &m->watched);
+    return arm(&m->friction, &m->state, &then, before, *switched, &m->watched);
 }
 
 /* The classical Runge-Kutta step of size h. */
@@ -112,7 +111,8 @@ static int march(model *m, double external, double t, double h, double *y) {
         located += switches;
         memcpy(y, end, sizeof end);
         done = switches ? done + high : h;
-        status = settle(m, external, t + done, y);
+        int switched = 0;
+        status = settle(m, external, t + done, y, &switched);
         if (status) return status;
     }
     return STOCHFRIC_OK;
@@ -208,9 +208,7 @@ static int model_step(model *m, double *values, double time, double h) {
 static int model_accept(model *m, double *values, int *switched) {
     double y[RATES];
     unpack(values, y);
-    const double before = m->state.state[0];
-    const int status = settle(m, values[VR_EXTERNAL_FORCE], values[VR_TIME], y);
-    *switched = IS_MODED && m->state.state[0] != before;
+    const int status = settle(m, values[VR_EXTERNAL_FORCE], values[VR_TIME], y, switched);
     pack(y, values);
     return status;
 }

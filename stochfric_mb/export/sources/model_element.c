@@ -70,11 +70,11 @@ static int model_step(model *m, double *values, double time, double h) {
 
 static int model_accept(model *m, double *values, int *switched) {
     const stochfric_contact at = contact_now(values);
-    const double mode = m->state.state[0], alive = m->state.book[ALIVE];
+    const double alive = m->state.book[ALIVE];
     double before[INDICATORS];
     int status = measure(&m->friction, &m->state, &at, &m->watched, before);
-    if (!status) status = stochfric_commit(&m->friction, &m->state, &at, &m->state);
-    *switched = (IS_MODED && m->state.state[0] != mode) || m->state.book[ALIVE] != alive;
+    if (!status) status = commit_all(&m->friction, &at, &m->state, switched);
+    *switched |= m->state.book[ALIVE] != alive;
     return status ? status : arm(&m->friction, &m->state, &at, before, *switched, &m->watched);
 }
 
