@@ -17,7 +17,7 @@ import numpy as np
 from stochfric_mb.effects.contract import NORMAL_FORCE, SPEED, VISCOUS_FORCE, Effect, parameter
 from stochfric_mb.effects.joints import JointSignature, JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips
-from stochfric_mb.effects.traits import POSITIVE, SHAPES_SLIPS
+from stochfric_mb.effects.traits import MORE_DAMPING, POSITIVE, SHAPES_SLIPS
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -46,6 +46,7 @@ class ViscousFriction(Effect):
     source: ClassVar[str] = "Reynolds 1886; Armstrong-Helouvry, Dupont and Canudas de Wit 1994, eq. 6"
     group: ClassVar[str] = "friction law"
     traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS, POSITIVE})
+    found_as: ClassVar[tuple[str, ...]] = (MORE_DAMPING,)
     answers_to: ClassVar[str] = "speed"
     told_from: ClassVar[Mapping[str, str]] = {
         "quadratic_damping": "runs at other belt speeds and normal loads",

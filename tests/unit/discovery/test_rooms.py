@@ -48,7 +48,6 @@ def test_engines_are_imported_by_name_where_that_is_meant_alone():
     assert imported_by_name(PACKAGE / "discovery/export.py") & ENGINES  # the search finds what is there
 
 
-@pytest.mark.xfail(reason="driven_joint/decision/verdict.py names viscous_friction and sensor_delay", strict=True)
 def test_no_module_of_discovery_names_an_effect():
     """Effects say of themselves what discovery needs to know; else a new effect would be a change of discovery."""
     kinds = set(EFFECTS) - set(kinds_with(ANONYMOUS))  # which is a word of ours, too

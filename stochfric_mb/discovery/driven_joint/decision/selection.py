@@ -16,7 +16,7 @@ from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, setti
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.free_parameters import MOST_OFF
 from stochfric_mb.discovery.driven_joint.fit.gains import predicted_rms
-from stochfric_mb.discovery.driven_joint.fit.joint_model import STEP, JointModel, factor_of
+from stochfric_mb.discovery.driven_joint.fit.joint_model import STEP, JointModel, change_of
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM
 from stochfric_mb.discovery.inference.paired import Paired
 
@@ -380,7 +380,7 @@ class Selector:
 def explained(rest: Array, design: Array, b: Array, slopes: Array) -> Array:
     """Return what ``design`` times ``b`` leaves of the drive, whose last columns change with the drive by ``slopes``."""
     by_drive = 1.0 - slopes @ b[len(b) - slopes.shape[1] :]
-    return (rest - design @ b) / factor_of(by_drive)
+    return (rest - design @ b) / change_of(by_drive)
 
 
 def _may_be_zero(fitted: JointFit, owner: int) -> bool:

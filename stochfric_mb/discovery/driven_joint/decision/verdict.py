@@ -20,7 +20,7 @@ from stochfric_mb.discovery.inference.free_parameter import MECHANISM
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.effects import effect_kinds, kind_found_as, kinds_with
-from stochfric_mb.effects.traits import ANONYMOUS, BELT, DRAWN_ANEW, LATE
+from stochfric_mb.effects.traits import ANONYMOUS, BELT, DRAWN_ANEW, LATE, MORE_DAMPING
 from stochfric_mb.measurement.dataset import Dataset
 
 AWAY = 2.0
@@ -29,10 +29,10 @@ the scatter of such errors, which starts and contacts decide, rejects nothing.""
 IMITATED = 0.99
 """Part of an effect's change of friction that other numbers imitate, from which it cannot be identified [-]."""
 BEYOND = {
-    "mass": "payload", "inertia": "payload", "armature": "payload", "damping": "viscous_friction", "gain": "drive_gain",
-    "force_gain": "drive_gain", "torque_gain": "drive_gain", "offset": "constant_force", "piston_area": "effective_area",
+    "mass": "payload", "inertia": "payload", "armature": "payload", "gain": "drive_gain", "force_gain": "drive_gain",
+    "torque_gain": "drive_gain", "offset": "constant_force", "piston_area": "effective_area",
 }  # fmt: skip
-"""Number of the mechanism -> what it is called where it is off by more than is believed."""
+"""Number of the mechanism -> what it is called where it is off by more than is believed; more damping is an effect's."""
 FLOOR = 1.5
 """What a model may leave, over the noise floor, for `none` [-]. Nulls of tests/discovery/joint_generator stay below 1.32, which
 drives with noise that lasts as long as the window come to."""
@@ -53,7 +53,7 @@ def verdict(
     inert = getattr(dataset.scenario.mechanism, "mass", 1.0) > 0.0
     idle = _idle(places[0]) if effects else ""
     if idle:
-        effects = [e for e in effects if e.kind == "sensor_delay"]
+        effects = [e for e in effects if e.kind == kind_found_as(LATE)]
     unknown = next((p for p in places if (p.selected.unknown or (inert and _above_floor(p))) and not effects), None)
     kind = "effect" if effects else "unknown" if unknown is not None else "none"
     where = None
@@ -131,7 +131,16 @@ def _released(place: PlaceOutcome) -> list[Found]:
             f"{place.fit[0].unit} on the runs that were learned from."
         )
         chance = float(np.exp(-0.5 * max(number.score, 0.0)))
-        found.append(Found(BEYOND[number.name], (), Where("motion", text), {number.name: size}, number.score, chance))
+        found.append(
+            Found(
+                BEYOND.get(number.name) or kind_found_as(MORE_DAMPING),
+                (),
+                Where("motion", text),
+                {number.name: size},
+                number.score,
+                chance,
+            )
+        )
     return found
 
 

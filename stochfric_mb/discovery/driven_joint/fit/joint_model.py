@@ -1,10 +1,10 @@
 """What is believed of a joint in the making: corrections of the mechanism, friction law and effects.
 
 A drive is explained only by motion. Where friction F depends on the drive tau itself, the balance is r = g tau - F(tau) - needs
-with g the factor by which data have corrected the drive, and the likelihood of the drive given the motion has the Jacobian
-|g - dF/dtau|. With r normal, -2 log L = n ln(sum r^2) - 2 sum ln|g - dF/dtau|: least squares of r over the geometric mean of
-the Jacobian (Box and Cox, J. R. Stat. Soc. B 26, 1964, 211-252, section 3, for the same with transformations). Without it
-"friction in proportion to the drive" leaves nothing of any drive, and neither does a drive of factor 0.
+with g the factor by which data have corrected the drive. The drive that the motion needs solves r = 0; the measured one is off
+by e = r/|g - dF/dtau|, to first order, and least squares of e is maximum likelihood where the errors are the drive's. Without
+the divisor, the Jacobian of r (Box and Cox, J. R. Stat. Soc. B 26, 1964, 211-252, section 3, for the same with
+transformations), "friction in proportion to the drive" leaves nothing of any drive, and neither does a drive of factor 0.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Array = npt.NDArray[np.float64]
 
 STEP = 1.0e-3
 """Step of the load by which the change of friction with it is taken, over the mean load [-]."""
-LEAST = 1.0e-6
+LEAST = 1.0e-3
 """Least change of the balance with the drive [-]: at 0 the joint locks itself, and no drive moves it."""
 
 
@@ -61,7 +61,7 @@ class JointModel:
                     by_drive = by_drive * self.nuisances[n.name] / n.value
         if balance.load_by_drive is not None and reads_load(self.law, self.effects, self.load):
             by_drive = by_drive - self._friction_by_drive(balance, balance.load_by_drive, friction)
-        return rest / factor_of(by_drive[balance.sliding])
+        return rest / change_of(by_drive)
 
     def friction(self, balance: ForceBalance) -> Array:
         """Return the friction against the motion at the centres of windows [N or N m], shape (n_centres,)."""
@@ -74,6 +74,6 @@ class JointModel:
         return (self.friction(moved) - friction) / step
 
 
-def factor_of(by_drive: Array) -> float:
-    """Return the geometric mean of the change of a balance with the drive [-]."""
-    return float(np.exp(np.mean(np.log(np.maximum(np.abs(by_drive), LEAST))))) if len(by_drive) else 1.0
+def change_of(by_drive: Array) -> Array:
+    """Return by what the error of a balance is divided to be one of the drive [-], shape as ``by_drive``."""
+    return np.maximum(np.abs(by_drive), LEAST)

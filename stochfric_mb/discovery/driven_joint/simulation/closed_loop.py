@@ -28,12 +28,12 @@ FIRST = 15
 def closed_loop(
     run: Run, joint: PrismaticJoint, model: JointModel, controller: Cascade, before: float = 0.0
 ) -> tuple[Array, Array]:
-    """Return voltage [V] and position [m] that the joint and its controller give for the reference of a run, shape (n,).
+    """Return output [V or N] and position [m] that the joint and its controller give for the reference of a run, shape (n,).
 
     Semi-implicit Euler with friction that holds: where the friction available can stop the mass within a step, it does.
 
     Args:
-        run: holds the reference position as a covariate, and the measured voltage for the state at its start.
+        run: holds the reference position as a covariate, and the measured output for the state at its start.
         joint: mass, gain and offset are those of ``model`` where it has corrected them.
         model: friction and corrections.
         controller: the cascade.
@@ -52,11 +52,11 @@ def closed_loop(
         name: model.nuisances.get(name, float(getattr(joint, name))) for name in ("mass", "damping", "offset", "force_gain")
     }
     links = chain(model.law, model.effects, model.load)
-    plant = np.array([value["mass"], value["damping"], value["offset"], value["force_gain"]])
+    plant = np.array([value["mass"], value["damping"], value["offset"], value["force_gain"] if joint.force_gain else 1.0])
     loop = np.array([controller.position_gain, controller.velocity_gain, controller.limit])
     start = float(np.polyfit(np.arange(FIRST), q[:FIRST], 2)[2])
     # the voltage that the controller gave tells the velocity that it saw
-    u = _voltage(run)[0]
+    u = controller_output(run, joint)[0]
     rate = controller.position_gain * (reference[0] - start) - u / controller.velocity_gain
     if abs(u) >= controller.limit:
         rate = float(np.polyfit(np.arange(FIRST), q[:FIRST], 1)[0]) / run.sample_interval
@@ -68,10 +68,16 @@ def closed_loop(
     return voltage, position
 
 
-def _voltage(run: Run) -> Array:
-    if "voltage" not in run.channels:
-        raise InputError(f"run {run.name!r} has no voltage, which its controller gives; name its column with columns")
-    return run.channels["voltage"]
+def controller_output(run: Run, joint: PrismaticJoint) -> Array:
+    """Return what the controller gave, shape (n,): a voltage [V] where the joint has a force gain, else the force [N].
+
+    Raises:
+        InputError: the run has no such channel.
+    """
+    name = "voltage" if joint.force_gain else "force"
+    if name not in run.channels:
+        raise InputError(f"run {run.name!r} has no {name}, which its controller gives; name its column with columns")
+    return run.channels[name]
 
 
 @compiled

@@ -37,7 +37,7 @@ def simulated(
     mechanism = dataset.scenario.mechanism
     floor = None
     if dataset.scenario.controller is not None and not isinstance(mechanism, Mjcf):
-        return list(places), loop_floor(dataset.test)
+        return list(places), loop_floor(dataset.test, mechanism)
     if not isinstance(mechanism, Mjcf) and not _moves_freely(dataset):
         return list(places), None
     from stochfric_mb.discovery.driven_joint.mjcf.forward import drive_floor, forward

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
-from stochfric_mb.discovery.driven_joint.simulation.closed_loop import closed_loop
+from stochfric_mb.discovery.driven_joint.simulation.closed_loop import closed_loop, controller_output
 from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Cascade, PrismaticJoint
@@ -68,17 +68,17 @@ def loop_error(model: JointModel, runs: Sequence[Run], scenario: Scenario, befor
             return None
         voltage, _ = closed_loop(run, joint, model, controller, slid)
         late = round(SETTLED / controller.position_gain / run.sample_interval)
-        measured = run.channels["voltage"][late:]
+        measured = controller_output(run, joint)[late:]
         wrong += float(np.sum((voltage[late:] - measured) ** 2))
         right += float(np.sum(measured**2))
     return float(np.sqrt(wrong / right))
 
 
-def loop_floor(runs: Sequence[Run]) -> float:
-    """Return the noise of the measured voltage over its size [-], from third differences."""
-    noise = sum(white_noise(r.channels["voltage"]) ** 2 * len(r.time) for r in runs)
-    size = sum(float(np.sum(r.channels["voltage"] ** 2)) for r in runs)
-    return float(np.sqrt(noise / size))
+def loop_floor(runs: Sequence[Run], joint: PrismaticJoint) -> float:
+    """Return the noise of what the controller gave over its size [-], from third differences."""
+    given = [controller_output(r, joint) for r in runs]
+    noise = sum(white_noise(u) ** 2 * len(u) for u in given)
+    return float(np.sqrt(noise / sum(float(np.sum(u**2)) for u in given)))
 
 
 def noise_floor(model: JointModel, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]) -> float:
