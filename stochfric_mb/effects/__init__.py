@@ -28,6 +28,7 @@ EFFECTS: dict[str, str | type[Effect]] = {
     "load_dependence": "LoadDependence",
     "presliding_compliance": "PreslidingCompliance",
     "position_dependent_friction": "PositionDependentFriction",
+    "position_dependent_force": "PositionDependentForce",
     "friction_drift": "FrictionDrift",
     "distance_drift": "DistanceDrift",
     "temperature_drift": "TemperatureDrift",

@@ -214,8 +214,11 @@ class Effect:
         return ()
 
     @classmethod
-    def at_joint(cls, span: JointSpan) -> JointSignature | None:
-        """Return what it does at a driven joint that moves so; None: it is not looked for there."""
+    def at_joint(cls, span: JointSpan) -> JointSignature | tuple[JointSignature, ...] | None:
+        """Return what it does at a driven joint that moves so, in one form or several; None: it is not looked for there.
+
+        A number that is at its default where a fit begins stays there: it is no part of that form.
+        """
         return None
 
     @classmethod

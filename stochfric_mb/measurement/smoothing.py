@@ -7,6 +7,8 @@ nothing, and may be placed between samples, so that a signal is shifted without 
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 import numpy.typing as npt
 from numpy.polynomial import Polynomial
@@ -19,6 +21,7 @@ POWER = 6
 """Power p of the window (1 - (t/w)^2)^p: p - 1 derivatives vanish at its ends."""
 
 
+@functools.lru_cache(maxsize=256)
 def window(half_width: float, sample_interval: float, *, derivative: int = 0, shift: float = 0.0) -> Array:
     """Return samples of a derivative of the window phi(t) = (1 - (t/w)^2)^6 / norm, of integral 1, for convolution.
 
@@ -29,8 +32,14 @@ def window(half_width: float, sample_interval: float, *, derivative: int = 0, sh
         shift: time by which convolution with the window delays a signal [s]; below one sample interval.
 
     Returns:
-        float64[2 m + 1], centred on the middle sample, times the sample interval, in 1/s^derivative.
+        float64[2 m + 1], centred on the middle sample, times the sample interval, in 1/s^derivative; to be read only.
     """
+    taps = _window(half_width, sample_interval, derivative, shift)
+    taps.flags.writeable = False  # it is remembered
+    return taps
+
+
+def _window(half_width: float, sample_interval: float, derivative: int, shift: float) -> Array:
     m = int(np.ceil(half_width / sample_interval)) + 1
     s = (np.arange(-m, m + 1) * sample_interval - shift) / half_width
     shape = Polynomial([1.0, 0.0, -1.0]) ** POWER

@@ -56,6 +56,11 @@ class Box:
             f -= self.k * e.get("share_below", 0.0) * e["gap"]
         if e := self.get("harmonic_force"):
             f += e["amplitude"] * math.cos(2 * math.pi * e["frequency"] * t + e["phase"])
+        if e := self.get("position_dependent_force"):
+            away = x - e["rest"]
+            f -= e["stiffness"] * away + e["cubic"] * away**3
+            f += e["amplitude"] * math.cos(2 * math.pi * x / e["wavelength"] + e["phase"])
+            f += e["amplitude_2"] * math.cos(4 * math.pi * x / e["wavelength"] + e["phase_2"])
         if e := self.get("second_mode"):
             big = 2 * math.pi * e["frequency"]
             f += e["mass_ratio"] * self.m * (big**2 * (q - x) + 2 * e["damping_ratio"] * big * (w - v))

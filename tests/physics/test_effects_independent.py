@@ -24,6 +24,10 @@ CASES = {
         "amplitude": 0.04, "wavelength": 0.01, "phase": 0.7, "axis": "belt", "amplitude_2": 0.01, "phase_2": 1.0,
         "amplitude_3": 0.005, "phase_3": -0.5,
     },
+    "position_dependent_force": {
+        "stiffness": 200.0, "cubic": 3.0e7, "rest": 1.0e-3, "amplitude": 0.3, "wavelength": 2.0e-3, "phase": 0.4,
+        "amplitude_2": 0.1, "phase_2": 1.0,
+    },
     "friction_drift": {"rate": 0.01, "time_constant": 4.0},
     "distance_drift": {"rate": 5.0, "settling_distance": 0.02},
     "normal_load_ripple": {"amplitude": 0.05, "frequency": 3.3, "phase": 0.3},

@@ -45,6 +45,13 @@ class PlaceOutcome:
     """Errors of forecasts that allow for that scatter; None where there is none."""
     undelayed: JointModel | None = None
     """The recalibrated model without the delay that was found; None: none was."""
+    timing: Timing | None = None
+    """Delay between drive and motion; None where none could be looked for, or none shows."""
+
+    @property
+    def late(self) -> float:
+        """By how much positions come after the driving force, beyond what is believed [s]."""
+        return self.timing.seconds if self.timing is not None and self.timing.named else 0.0
 
 
 @dataclasses.dataclass(frozen=True)
@@ -53,7 +60,5 @@ class JointOutcome(Outcome):
 
     places: tuple[PlaceOutcome, ...] = ()
     """The joints, those with effects first."""
-    timing: Timing | None = None
-    """Delay between drive and motion; None where none could be looked for."""
     pictures: tuple[Picture, ...] = ()
     """Pictures for the report."""

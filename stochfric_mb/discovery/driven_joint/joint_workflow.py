@@ -77,27 +77,15 @@ def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
     for name, _ in source.places:
         for role in ("fit", "test"):
             _require_sliding(source.balances(name, role, believed_delay(dataset.scenario)), name, role)
-    found: Timing | None = None
-    base = believed_delay(dataset.scenario)
-    if not isinstance(dataset.scenario.mechanism, PrismaticJoint) or dataset.scenario.mechanism.mass > 0.0:
-        tell("timing")  # a slow prescribed motion has no inertia by which it could be late
-        first = source.places[0][0]
-        found = timing(
-            lambda d, w: source.balances(first, "fit", base + d, w),
-            source.nuisances(first),
-            dataset.fit[0].sample_interval,
-            float(np.median([s.window.half_width for s in source.balances(first, "fit", base)])),
-        )
-        if found is not None and not found.named and found.material:
-            found = found.against(_best_friction(source, dataset.scenario))
-    more = found.seconds if found is not None and found.named else 0.0
     notes: list[str] = []
-    places = [_place(dataset, tell, source, name, load, (base, base + more), notes) for name, load in source.places]
-    places = _beside(dataset, tell, source, places, (base, base + more))
+    base = believed_delay(dataset.scenario)
+    places = [_place(dataset, tell, source, name, load, base, notes) for name, load in source.places]
+    places = _beside(dataset, tell, source, places, base)
     places.sort(key=_evidence)
-    places, floor = simulated(dataset, tell, source, places, (base, base + more))
+    found = places[0].timing
+    places, floor = simulated(dataset, tell, source, places, (base, base + places[0].late))
     notes += _run_notes(dataset)
-    result = verdict(dataset, places, found, notes, floor)
+    result = verdict(dataset, places, notes, floor)
     pictures = tuple(
         friction_picture(
             p.place and f"{p.thing} {p.place}", p.test, p.nuisances, p.selected.recalibrated.model, p.selected.final.model
@@ -105,7 +93,7 @@ def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
         for p in places
     )
     scenario = augmented(dataset.scenario, places, found)
-    return JointOutcome(result, scenario, dataset, places=tuple(places), timing=found, pictures=pictures)
+    return JointOutcome(result, scenario, dataset, places=tuple(places), pictures=pictures)
 
 
 def _evidence(place: PlaceOutcome) -> float:
@@ -113,9 +101,7 @@ def _evidence(place: PlaceOutcome) -> float:
     return -sum(max(t.score, 0.0) for t in place.selected.found)
 
 
-def _beside(
-    dataset: Dataset, tell: Progress, source: Any, places: list[PlaceOutcome], delays: tuple[float, float]
-) -> list[PlaceOutcome]:
+def _beside(dataset: Dataset, tell: Progress, source: Any, places: list[PlaceOutcome], base: float) -> list[PlaceOutcome]:
     """Return the places anew, judged beside the one with the most evidence, where friction in one enters another's balance."""
     names = [(p, load) for p, load in source.places if isinstance(dataset.scenario.mechanism, Mjcf) and source.coupled(p)]
     found = {name: place for (name, _), place in zip(source.places, places, strict=True)}
@@ -126,31 +112,37 @@ def _beside(
     source.known[first] = found[first].selected.final.model
     for name, load in names:
         if name != first:
-            found[name] = _place(dataset, tell, source, name, load, delays, [])
+            found[name] = _place(dataset, tell, source, name, load, base, [])
             source.known[name] = found[name].selected.final.model
     return [found[name] for name, _ in source.places]
 
 
 def _place(
-    dataset: Dataset, tell: Progress, source: Any, name: str, load: float, delays: tuple[float, float], notes: list[str]
+    dataset: Dataset, tell: Progress, source: Any, name: str, load: float, base: float, notes: list[str]
 ) -> PlaceOutcome:
     scenario = dataset.scenario
-    base, delay = delays
-    fit_balances, test_balances = source.balances(name, "fit", delay), source.balances(name, "test", delay)
-    notes += sign_notes(dataset, name, load, fit_balances)
     nuisances = source.nuisances(name)
     believed = prior_model(scenario, name, nuisances, load)
+    fit_balances = source.balances(name, "fit", base)
+    notes += sign_notes(dataset, name, load, fit_balances)
     where = f"{name}: " if name else ""
     selected = Selector(fit_balances, nuisances, believed, lambda text: tell(where + text)).run()
+    undelayed, found = None, _timing(dataset, tell, source, name, base, fit_balances)
+    if found is not None:
+        balances = source.balances(name, "fit", base + found.seconds)
+        late = Selector(balances, nuisances, believed, lambda text: tell(f"{where}{text}, a delay compensated")).run()
+        found = found.beside(_better(selected, late))
+        if found.named:  # what was believed knows nothing of the delay that was found
+            undelayed, selected, fit_balances = selected.recalibrated.model, late, balances
+    delay = base + (found.seconds if found is not None and found.named else 0.0)
+    test_balances = source.balances(name, "test", delay)
     tell(f"{where}held-out runs")
     scores = {
         label: score(model, test_balances, nuisances, dataset.test, scenario)
         for label, model in _models(believed, selected).items()
     }
-    undelayed = None
-    if delay != base:  # what was believed knows nothing of the delay that was found
+    if undelayed is not None:
         early = source.balances(name, "test", base)
-        undelayed = Selector(source.balances(name, "fit", base), nuisances, believed).recalibrated.model
         scores["baseline"] = score(believed, early, nuisances, dataset.test, scenario)
         scores["recalibrated"] = score(undelayed, early, nuisances, dataset.test, scenario)
     final = selected.final.model
@@ -171,7 +163,7 @@ def _place(
         forecasts = Forecasts(*(score for score, _ in each), floor=each[-1][1])
     seen = tuple(fit_balances), tuple(test_balances)
     return PlaceOutcome(
-        name, selected, tuple(nuisances), believed, *seen, scores, floor, thing, random, runs, forecasts, undelayed
+        name, selected, tuple(nuisances), believed, *seen, scores, floor, thing, random, runs, forecasts, undelayed, found
     )
 
 
@@ -191,13 +183,29 @@ def _require_sliding(balances: Sequence[ForceBalance], name: str, role: str) -> 
         )
 
 
-def _best_friction(source: Any, scenario: Scenario[Any]) -> float:
-    """Return the best score of a friction effect at the first joint, with no further delay compensated."""
-    name, load = source.places[0]
-    nuisances = source.nuisances(name)
-    base = believed_delay(scenario)
-    stage = Selector(source.balances(name, "fit", base), nuisances, prior_model(scenario, name, nuisances, load)).first()
-    return stage.trials[0].score if stage.trials else 0.0
+def _timing(
+    dataset: Dataset, tell: Progress, source: Any, name: str, base: float, balances: Sequence[ForceBalance]
+) -> Timing | None:
+    """Return by how much the motion at a place may come late; None: it does not, or nothing could be late."""
+    mechanism = dataset.scenario.mechanism
+    if isinstance(mechanism, PrismaticJoint) and mechanism.mass <= 0.0:
+        return None  # a slow prescribed motion has no inertia by which it could be late
+    tell("timing")
+    half_width = float(np.median([s.window.half_width for s in balances]))
+    return timing(
+        lambda d, w: source.balances(name, "fit", base + d, w),
+        source.nuisances(name),
+        dataset.fit[0].sample_interval,
+        half_width,
+    )
+
+
+def _better(plain: Selected, late: Selected) -> float:
+    """Return the evidence for a delay: by how much the record is explained better with it, numbers counted."""
+    before, after = plain.final, late.final
+    n = max(min(before.independent, after.independent), 4.0)
+    more = len(after.free) - len(before.free) + 1
+    return float(2.0 * n * np.log(before.rms / after.rms) + before.strain - after.strain - more * np.log(n))
 
 
 def _models(believed: JointModel, selected: Selected) -> dict[str, JointModel]:

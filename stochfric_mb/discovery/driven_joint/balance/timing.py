@@ -1,14 +1,16 @@
-"""Timing: whether the motion comes later in the record than the force that drives it; asked before friction is judged.
+"""Timing: whether the motion comes later in the record than the force that drives it.
 
-A delay looks like friction: m q''(t - T) has a part along q'. And friction looks like a delay. So a delay is asked for twice:
-beside a generous friction law, where what it explains is surely timing; and beside the believed law alone, where it has to
-do better than every friction effect does without it. Only windows in which the joint slides one way count: at reversals,
-friction that gives before it slides looks late.
+A delay looks like friction: m q''(t - T) has a part along q'. And friction looks like a delay. So a delay is sought beside a
+generous friction law, where what it explains is surely timing, and beside the believed law alone; and what it could be is
+named only if the record is explained better with it than by any effects without it (`Timing.beside`). Only windows in which
+the joint slides one way count: at reversals, friction that gives before it slides looks late.
 """
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
+import functools
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -33,9 +35,7 @@ NARROWEST = 16
 LEAST_SAMPLES = 1.5
 """A delay of fewer samples is how signals are sampled and held, and is not called one."""
 NAMED = 14.0
-"""Score above which a delay is named: it is one question, not one of many."""
-AHEAD = 10.0
-"""Score by which it must be ahead of friction effects where these could stand in for it."""
+"""Score above which a delay is asked for, and named: it is one question, not one of many."""
 MATERIAL = 0.03
 """Least part of the error that a delay must take away."""
 
@@ -54,34 +54,18 @@ class Timing:
     """Evidence: n ln(S_0/S) - ln n - 2 ln(grid size), n counting independent windows."""
     gain: float
     """Part of the error (rms) that it takes away [-]."""
-    named: bool
-    """Whether it is a finding whatever friction is, and compensated."""
-    plain_score: float
-    """Evidence beside the believed friction law alone."""
-    plain_seconds: float
-    """The delay in that case [s]."""
+    named: bool = False
+    """Whether it is a finding, and compensated."""
 
-    def against(self, friction: float) -> Timing:
-        """Return the timing once the best score of a friction effect without it is known."""
-        better = self.plain_score > NAMED and self.plain_score > friction + AHEAD and self.material
-        if self.named or not better:
-            return self
-        far = 1.96 * self.plain_deviation
-        low, high = self.plain_seconds - far, self.plain_seconds + far
-        return dataclasses.replace(
-            self, seconds=self.plain_seconds, low=low, high=high, score=self.plain_score, named=low * high > 0.0
-        )
-
-    plain_deviation: float = np.inf
-    """Its standard deviation [s]."""
-    material: bool = False
-    """Whether the delay beside the believed law takes away enough error and is longer than sampling explains."""
+    def beside(self, evidence: float) -> Timing:
+        """Return the timing once it is known by how much the record is explained better with it than by effects without it."""
+        return dataclasses.replace(self, score=evidence, named=evidence > NAMED)
 
 
 def timing(
     make: Callable[[float, int], Sequence[ForceBalance]], nuisances: Sequence[Nuisance], interval: float, half_width: float
 ) -> Timing | None:
-    """Return the delay between drive and motion; None if the runs are too short to tell.
+    """Return the delay between drive and motion that the record may hold; None: none, or the runs are too short to tell.
 
     Args:
         make: delay [s] and half width of the window [samples] -> the balances to learn from, that delay compensated.
@@ -90,38 +74,18 @@ def timing(
         half_width: half width of the windows through which friction is seen [s].
     """
     names = [n.name for n in nuisances]
-    best: dict[bool, _Seen] = {}
-    for width in sorted({max(round(w * half_width / interval), NARROWEST) for w in HALF_WIDTHS}):
-        for generous in (True, False):
-            try:
-                seen = _through(lambda d, w=width: make(d, w), names, interval, generous)
-            except InputError:  # a run is too short for this window
-                continue
-            if generous not in best or seen.score > best[generous].score:
-                best[generous] = seen
-    if not best:
-        return None
-    sure, plain = best[True], best[False]
-    within = confidence_interval(sure.seconds, sure.deviation, "s")
-    return Timing(
-        sure.seconds, within.low, within.high, sure.score, sure.gain,
-        sure.material and sure.score > NAMED and within.low * within.high > 0.0, plain.score, plain.seconds,
-        plain.deviation, plain.material,
-    )  # fmt: skip
+    make = functools.cache(make)
+    found: list[Timing] = []
+    for generous in (True, False):
+        seen: list[Timing] = []
+        for width in sorted({max(round(w * half_width / interval), NARROWEST) for w in HALF_WIDTHS}):
+            with contextlib.suppress(InputError):  # a run is too short for this window
+                seen.append(_through(lambda d, w=width: make(d, w), names, interval, generous))
+        found += sorted(seen, key=lambda t: -t.score)[:1]
+    return next((t for t in found if t.score > NAMED and t.low * t.high > 0.0), None)
 
 
-@dataclasses.dataclass(frozen=True)
-class _Seen:
-    """A delay as seen through one window beside one friction law."""
-
-    seconds: float
-    deviation: float
-    score: float
-    gain: float
-    material: bool
-
-
-def _through(make: Callable[[float], Sequence[ForceBalance]], names: Sequence[str], interval: float, generous: bool) -> _Seen:
+def _through(make: Callable[[float], Sequence[ForceBalance]], names: Sequence[str], interval: float, generous: bool) -> Timing:
     span = min(LONGEST, 40.0 * interval)
     grid = np.linspace(-span, span, GRID)
     errors = np.array([_left(make(d), names, generous)[0] for d in grid])
@@ -139,8 +103,9 @@ def _through(make: Callable[[float], Sequence[ForceBalance]], names: Sequence[st
     tried = len(HALF_WIDTHS) * max(2.0 * span / (4.0 * deviation), 1.0)
     score = n * np.log(still / rest) - np.log(n) - 2.0 * np.log(tried)
     gain = 1.0 - float(np.sqrt(rest / still))
-    material = bool(inside and gain > MATERIAL and abs(delay) > LEAST_SAMPLES * interval)
-    return _Seen(delay, deviation, float(score), gain, material)
+    material = inside and gain > MATERIAL and abs(delay) > LEAST_SAMPLES * interval
+    within = confidence_interval(delay, deviation, "s")
+    return Timing(delay, within.low, within.high, float(score) if material else 0.0, gain)
 
 
 def lowest(x: Array, y: Array) -> float:

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
 from stochfric_mb.effects import Effect, effect_class, effect_kinds
-from stochfric_mb.effects.joints import JointSpan
+from stochfric_mb.effects.joints import JointSignature, JointSpan
 
 Array = npt.NDArray[np.float64]
 
@@ -70,8 +70,12 @@ def candidates(span: JointSpan, believed: Sequence[Effect]) -> list[Candidate]:
         believed: effects in the model.
     """
     have = {e.kind for e in believed}
-    marks = {kind: effect_class(kind).at_joint(span) for kind in effect_kinds() if kind not in have}
-    return [Candidate(kind, m.starts, m.axis, m.parameters) for kind, m in marks.items() if m is not None]
+    found: list[Candidate] = []
+    for kind in effect_kinds():
+        forms = effect_class(kind).at_joint(span) if kind not in have else None
+        forms = (forms,) if isinstance(forms, JointSignature) else forms or ()
+        found += [Candidate(kind, form.starts, form.axis, form.parameters) for form in forms]
+    return found
 
 
 @dataclasses.dataclass(frozen=True)

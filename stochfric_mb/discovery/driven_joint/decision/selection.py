@@ -167,9 +167,14 @@ class Selector:
         final, found = self._without_zero(self._fit(current.model), found)
         unknown = self._unknown(stages[-1]) if not stages[-1].accepted else ""
         return Selected(
-            self.recalibrated, final, tuple(found), tuple(self._equivalents(final, i) for i in range(len(found))),
-            tuple(stages), unknown, tuple(released),
-        )  # fmt: skip
+            self.recalibrated,
+            final,
+            tuple(found),
+            tuple(self._equivalents(final, i, t.candidate.parameters) for i, t in enumerate(found)),
+            tuple(stages),
+            unknown,
+            tuple(released),
+        )
 
     def _released(self, current: JointFit, stage: Stage) -> tuple[Released, JointFit] | None:
         """Return the number of the mechanism that is off by more than is believed, if that explains more than any effect.
@@ -188,7 +193,8 @@ class Selector:
             seen = Released(number.name, number.value, number.deviation, float(score), current.rms, freed.rms)
             if best is None or seen.score > best[0].score:
                 best = seen, freed, wide
-        if best is None or best[0].score < max(NAMED, stage.trials[0].score):
+        # what is believed is given up only where it explains more than any effect that leaves it alone
+        if best is None or best[0].score < max(NAMED, stage.trials[0].score + TIE):
             return None
         self._nuisances = best[2]
         self._noise = prior_weight(best[1])
@@ -322,8 +328,8 @@ class Selector:
                 current, found = fitted, [t for t in found if t.candidate.kind != kind]
         return current, found
 
-    def _equivalents(self, final: JointFit, number: int) -> tuple[str, ...]:
-        """Return the kinds that could stand in the place of an effect of the final model, within `TIE`."""
+    def _equivalents(self, final: JointFit, number: int, size: int) -> tuple[str, ...]:
+        """Return the kinds that could stand in the place of an effect of ``size`` numbers of the final model, within `TIE`."""
         added = len(final.model.effects) - len(self.recalibrated.model.effects)
         own = final.model.effects[len(final.model.effects) - added + number]
         others = tuple(e for e in final.model.effects if e is not own)
@@ -332,14 +338,15 @@ class Selector:
         choices = [c for c in candidates(span, others) if c.kind != own.kind]
         fits = [(c, self._best(without, c)) for c in choices]
         n = max(final.independent, 4.0)
-        size = {c.kind: c.parameters for c in candidates(span, others)}[own.kind]
         mine = self._evidence(without, final, final, n)
         theirs = [(c, self._evidence(without, f, final, n)) for c, f in fits]
         # one that explains next to nothing stands in for nothing, however close the scores
         return tuple(
-            c.kind
-            for c, gain in theirs
-            if gain > ALIKE * mine and gain - c.parameters * np.log(n) > mine - size * np.log(n) - TIE
+            dict.fromkeys(
+                c.kind
+                for c, gain in theirs
+                if gain > ALIKE * mine and gain - c.parameters * np.log(n) > mine - size * np.log(n) - TIE
+            )
         )
 
     def _unknown(self, last: Stage) -> str:

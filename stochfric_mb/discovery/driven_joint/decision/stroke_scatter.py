@@ -20,6 +20,7 @@ from scipy.stats import chi2
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.fitting import PER_STROKE
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
 
 Array = npt.NDArray[np.float64]
 
@@ -67,6 +68,15 @@ class StrokeScatter:
     """Scatter of the friction force [N or N m]."""
     believed: float
     """Standard deviation of mu_k that was believed already [-]."""
+    inside: float
+    """What is left within strokes (rms), each with a mu_k of its own [N or N m]."""
+    floor: float
+    """Noise of the balance [N or N m]."""
+
+    @property
+    def all_of_it(self) -> bool:
+        """Whether next to nothing but noise is left within strokes: what changes within them is not drawn anew for each."""
+        return self.inside <= FLOOR * self.floor
 
     @property
     def wanders(self) -> bool:
@@ -81,7 +91,7 @@ class StrokeScatter:
     @property
     def named(self) -> bool:
         """Whether it is a finding."""
-        return self.score > NAMED and self.gain > MATERIAL and not self.wanders and not self.slow_noise
+        return self.score > NAMED and self.gain > MATERIAL and self.all_of_it and not self.wanders and not self.slow_noise
 
     @property
     def accounted(self) -> bool:
@@ -104,6 +114,7 @@ def stroke_scatter(
     within: list[float] = []
     precision: list[float] = []
     settings: list[int] = []
+    lengths: list[int] = []
     squares: list[float] = []
     forces: list[float] = []
     halves: list[float] = []
@@ -123,6 +134,7 @@ def stroke_scatter(
             deltas.append(delta)
             within.append(float(np.mean((r - delta * f) ** 2)))
             precision.append(independent * size / (end - start))
+            lengths.append(end - start)
             squares.append(float(np.mean(r**2)))
             half = len(r) // 2
             first, second = (float(f[p] @ r[p]) / max(float(f[p] @ f[p]), 1.0e-300) for p in (slice(half), slice(half, None)))
@@ -156,6 +168,8 @@ def stroke_scatter(
         strokes=len(delta),
         level=force,
         believed=believed,
+        inside=float(np.sqrt(np.average(within, weights=lengths))),
+        floor=noise_floor(model, balances, nuisances),
     )
 
 

@@ -9,13 +9,11 @@ from typing import Any
 import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_clock, confounded, spoken_of, stand_ins
-from stochfric_mb.discovery.driven_joint.balance.timing import NAMED as SURE
-from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.estimates import believed, parameters
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
-from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD, noise_floor
+from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD, FLOOR, noise_floor
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
@@ -33,28 +31,25 @@ BEYOND = {
     "torque_gain": "drive_gain", "offset": "constant_force", "piston_area": "effective_area",
 }  # fmt: skip
 """Number of the mechanism -> what it is called where it is off by more than is believed; more damping is an effect's."""
-FLOOR = 1.5
-"""What a model may leave, over the noise floor, for `none` [-]. Nulls of tests/discovery/joint_generator stay below 1.32, which
-drives with noise that lasts as long as the window come to."""
+HALF = 0.5
+"""Part of the squared error, noise apart, that effects have to explain on held-out runs to be named: more than they leave."""
 PLAIN = 14.0
 """Fall of the deviance from which a scatter between settings is spoken of."""
 
 
-def verdict(
-    dataset: Dataset, places: Sequence[PlaceOutcome], timing: Timing | None, notes: Sequence[str], loop_floor: float | None
-) -> Result:
+def verdict(dataset: Dataset, places: Sequence[PlaceOutcome], notes: Sequence[str], loop_floor: float | None) -> Result:
     """Return the result of a dataset."""
     pairs = confounded(places[0].fit)
-    effects = [_delay(timing)] if timing is not None and timing.named else []
+    effects: list[Found] = []
     for place in places:
-        effects += _released(place) + _found(place, pairs) + _drawn(place) + _drawn_by_run(place)
+        effects += _delay(place) + _released(place) + _found(place, pairs) + _drawn(place) + _drawn_by_run(place)
     gap = _gap(places, loop_floor)
     # slow and prescribed, the motion shows the noise of a force sensor alone: what friction itself does is far above that
     inert = getattr(dataset.scenario.mechanism, "mass", 1.0) > 0.0
     idle = _idle(places[0]) if effects else ""
     if idle:
         effects = [e for e in effects if e.kind == kind_found_as(LATE)]
-    unknown = next((p for p in places if (p.selected.unknown or (inert and _above_floor(p))) and not effects), None)
+    unknown = next((p for p in places if (p.selected.unknown or (inert and _above_floor(p, bool(idle)))) and not effects), None)
     kind = "effect" if effects else "unknown" if unknown is not None else "none"
     where = None
     if unknown is not None:
@@ -64,7 +59,7 @@ def verdict(
         verdict=kind,
         effects=tuple(effects),
         where=where,
-        ranking=_ranking(places, timing),
+        ranking=_ranking(places),
         gap=gap,
         not_identifiable=_unseen(places),
         next_experiment=_advice(pairs, places),
@@ -74,20 +69,26 @@ def verdict(
             *([idle] if idle else []),
             *notes,
             *_forward_notes(places[0]),
-            *_timing_notes(timing),
             *map(str, spoken_of(pairs, [e.kind for e in effects])),
             *_remarks(places),
         ),
-        details=_details(places, timing, pairs),
+        details=_details(places, pairs),
     )
 
 
-def _delay(timing: Timing) -> Found:
+def _delay(place: PlaceOutcome) -> list[Found]:
+    """Return the finding that the motion of a place comes late, if it is one."""
+    timing = place.timing
+    if timing is None or not timing.named:
+        return []
     size = Interval(abs(timing.seconds), min(abs(timing.low), abs(timing.high)), max(abs(timing.low), abs(timing.high)), "s")
     first = "position" if timing.seconds > 0.0 else "driving force"
-    text = f"The {first} comes {1e3 * size.value:.1f} ms late in the record; this is compensated before friction is judged."
+    text = (
+        f"The {first}{_at(place)} comes {1e3 * size.value:.1f} ms late in the record; this is compensated before friction is "
+        "judged, and explains more than effects do without it."
+    )
     chance = float(np.exp(-0.5 * max(timing.score, 0.0)))
-    return Found(kind_found_as(LATE), (), Where("time", text), {"delay": size}, timing.score, chance)
+    return [Found(kind_found_as(LATE), (), Where("time", text), {"delay": size}, timing.score, chance)]
 
 
 def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
@@ -144,12 +145,21 @@ def _released(place: PlaceOutcome) -> list[Found]:
     return found
 
 
-def _above_floor(place: PlaceOutcome) -> bool:
-    """Return whether the final model leaves more than noise explains, on the runs that were learned from."""
-    accounted = any(s is not None and s.accounted for s in (place.random, place.runs))
-    accounted = accounted or (place.random is not None and place.random.slow_noise)  # noise, which a note speaks of
-    floor = noise_floor(place.selected.final.model, place.fit, place.nuisances)
-    rest = np.concatenate(place.selected.final.remainders)
+def _above_floor(place: PlaceOutcome, idle: bool) -> bool:
+    """Return whether the final model leaves more than noise explains, on the runs that were learned from.
+
+    Args:
+        place: what was found at a joint.
+        idle: whether that is not named, so that the recalibrated model is asked.
+    """
+    strokes, runs = place.random, place.runs
+    if strokes is not None and strokes.accounted:
+        return not strokes.all_of_it
+    # slow noise is noise, which a note speaks of
+    accounted = (runs is not None and runs.accounted) or (strokes is not None and strokes.slow_noise)
+    last = place.selected.recalibrated if idle else place.selected.final
+    floor = noise_floor(last.model, place.fit, place.nuisances)
+    rest = np.concatenate(last.remainders)
     # runs that differ for no known reason are said in a note: what counts is what is left within them
     settings = np.unique(settings_of(place.fit), return_inverse=True)[1]
     means = np.bincount(settings, rest) / np.bincount(settings)
@@ -165,21 +175,22 @@ def _axis(place: PlaceOutcome) -> str:
 def _idle(place: PlaceOutcome) -> str:
     """Return why what was found is not named: it brings the model no closer to the held-out runs; empty if it does."""
     before, after = (place.scores[k] for k in ("recalibrated", "augmented"))
-    if place.forecasts is not None or (place.random is not None and place.random.named):
-        return ""
-    inverse = after.sliding >= before.sliding
-    pairs = ((before.forward, after.forward), (before.loop, after.loop))
-    ahead = [(a, b) for b, a in pairs if a is not None and b is not None]
-    lost = any(not a < AWAY * b for a, b in ahead)
-    if not lost and not (inverse and all(a >= b for a, b in ahead)):
-        return ""
     kinds = ", ".join(t.candidate.kind for t in place.selected.found)
-    how = f"simulated, it is off by {ahead[0][0]:.3g} for {ahead[0][1]:.3g}" if lost else "it is off by as much with it"
-    return (
-        f"{kinds} explains the runs that were learned from, but not the held-out ones ({how}), and is not named"
-        if kinds
-        else ""
-    )
+    if not kinds or place.forecasts is not None or (place.random is not None and place.random.named):
+        return ""
+    pairs = ((before.forward, after.forward), (before.loop, after.loop))
+    ahead = [(b, a) for b, a in pairs if a is not None and b is not None]
+    lost = [f"simulated, it is off by {a:.3g} for {b:.3g}" for b, a in ahead if not a < AWAY * b]
+    explained = max(_explained(before.sliding, after.sliding, place.floor), *(_explained(b, a, 0.0) for b, a in ahead), -1.0)
+    if not lost and explained >= HALF:
+        return ""
+    how = lost[0] if lost else f"it explains {max(100.0 * explained, 0.0):.0f} % of the squared error there"
+    return f"{kinds} explains the runs that were learned from, but not the held-out ones ({how}), and is not named"
+
+
+def _explained(before: float, after: float, floor: float) -> float:
+    """Return the part of the squared error, noise apart, that is gone [-]."""
+    return (before**2 - after**2) / max(before**2 - floor**2, 1.0e-12 * before**2, 1.0e-300)
 
 
 def _drawn(place: PlaceOutcome) -> list[Found]:
@@ -212,15 +223,16 @@ def _at(place: PlaceOutcome) -> str:
     return f" in {place.thing} {place.place}" if place.place else ""
 
 
-def _ranking(places: Sequence[PlaceOutcome], timing: Timing | None) -> tuple[tuple[str, float], ...]:
+def _ranking(places: Sequence[PlaceOutcome]) -> tuple[tuple[str, float], ...]:
     best: dict[str, float] = {}
     for place in places:
         for stage in place.selected.stages:
             for trial in stage.trials:
                 name = f"{trial.candidate.kind} ({place.place})" if len(places) > 1 else trial.candidate.kind
                 best[name] = max(best.get(name, -np.inf), trial.score)
-    if timing is not None:
-        best[kind_found_as(LATE)] = timing.score if timing.named else min(timing.score, 0.0)
+    late = [p.timing.score for p in places if p.timing is not None]
+    if late:
+        best[kind_found_as(LATE)] = max(late)
     return tuple(sorted(best.items(), key=lambda item: -item[1]))
 
 
@@ -294,15 +306,6 @@ def _forward_notes(place: PlaceOutcome) -> list[str]:
     ]
 
 
-def _timing_notes(timing: Timing | None) -> list[str]:
-    if timing is None or timing.named or timing.score < SURE:
-        return []
-    return [
-        f"drive and motion are {1e3 * timing.seconds:.2g} ms apart, no more than sampling or a compliant drive "
-        "explains: not compensated"
-    ]
-
-
 def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
     remarks: list[str] = []
     for place in places:
@@ -333,15 +336,15 @@ def _between_settings(place: PlaceOutcome) -> list[str]:
     ]
 
 
-def _details(places: Sequence[PlaceOutcome], timing: Timing | None, pairs: Sequence[Confounded]) -> dict[str, Any]:
+def _details(places: Sequence[PlaceOutcome], pairs: Sequence[Confounded]) -> dict[str, Any]:
     return {
-        "timing": dataclasses.asdict(timing) if timing is not None else None,
         "confounded": [dataclasses.asdict(p) for p in pairs],
         "places": [
             {
                 "place": p.place,
                 "held_out": {k: dataclasses.asdict(v) for k, v in p.scores.items()},
                 "floor": p.floor,
+                "timing": dataclasses.asdict(p.timing) if p.timing is not None else None,
                 "runs": dataclasses.asdict(p.runs) if p.runs is not None else None,
                 "strokes": dataclasses.asdict(p.random) if p.random is not None else None,
                 "half_width": [s.window.half_width for s in p.fit],

@@ -61,12 +61,9 @@ def _believed(model: JointModel, n: Nuisance) -> FreeParameter:
 
 
 def _fitted(model: JointModel, effect: Effect, name: str, value: float) -> bool:
-    """Return whether a number of an effect is to be fitted."""
-    if not np.isfinite(value) or name in GIVEN or (name[-2:] in ("_2", "_3") and value == 0.0):
-        return False
-    if name in effect.kept_at_joints(model.contact):
-        return False
-    return not (name == "reference_load" and value == 0.0)  # viscous friction that does not depend on load
+    """Return whether a number of an effect is to be fitted: one at its default is no part of this form of the effect."""
+    default = effect.__dataclass_fields__[name].default
+    return bool(np.isfinite(value)) and value != default and name not in (*GIVEN, *effect.kept_at_joints(model.contact))
 
 
 def _parameter(model: JointModel, owner: int, name: str, value: float, about: Mapping[str, Any]) -> FreeParameter:

@@ -74,15 +74,16 @@ def friction_along(balance: ForceBalance, law: Law, effects: Sequence[Effect], l
         load: believed load [N or N m].
     """
     links = chain(law, effects, load, contact=balance.normal_force is not None)
-    n = len(balance.time)
+    n, every = len(balance.time), balance.window.stride
     pressed = np.ones(n) if balance.normal_force is None else balance.normal_force / load
     temperature = np.zeros(n) if balance.temperature is None else balance.temperature
-    force = np.empty(n)
-    along(
-        links.numbers, links.calls, links.parameters, balance.time, balance.position, balance.velocity, balance.load,
-        balance.slip, balance.travelled, temperature, pressed, force,
+    signals = (
+        balance.time, balance.position, balance.velocity, balance.load, balance.slip, balance.travelled, temperature, pressed,
     )  # fmt: skip
-    return balance.window.at_centres(force)
+    some = [np.ascontiguousarray(x[::every]) for x in signals]
+    force = np.empty(len(some[0]))
+    along(links.numbers, links.calls, links.parameters, *some, force)
+    return balance.window.means @ force
 
 
 @compiled

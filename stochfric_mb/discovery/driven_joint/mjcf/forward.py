@@ -166,7 +166,7 @@ class _Plant:
                     self._push(place, -force)
                 now = float(run.time[self.start + i]) + k * model.opt.timestep
                 for place in places:
-                    place.set(model, data, now, forces, drives, self.start + i)
+                    self._push(place.name, place.set(model, data, now, forces, drives, self.start + i))
                 mujoco.mj_step(model, data)
         return positions, given
 

@@ -20,7 +20,7 @@ from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import geom_numbers, touch
 from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import in_si
-from stochfric_mb.effects.contract import WORLD
+from stochfric_mb.effects.contract import LOAD, WORLD
 from stochfric_mb.measurement.run import Run
 
 Array = npt.NDArray[np.float64]
@@ -43,7 +43,7 @@ class LossPlace:
     """Friction in one joint or tendon while the model runs: what is available there is MuJoCo's ``frictionloss``."""
 
     def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> None:
-        self._source, self._name, self._links = source, name, chain(model.law, model.effects, load)
+        self._source, self.name, self._links = source, name, chain(model.law, model.effects, load)
         self._joint = name in source.names
         self._number = (source.names if self._joint else source.tendons).index(name)
         self._world, self._memory = np.zeros(WORLD), np.zeros(8)
@@ -66,13 +66,13 @@ class LossPlace:
 
     def set(
         self, model: Any, data: Any, t: float, forces: Mapping[str, float], drives: Mapping[str, Array], sample: int
-    ) -> None:
-        """Give the engine the friction that is available now."""
+    ) -> float:
+        """Give the engine the friction that is available now; returns what else pushes along the place [N or N m]."""
         q, v = self._seen(data)
         side = 1.0 if v > 0.0 else -1.0 if v < 0.0 else self._side
         if side != self._side:
             self._turned, self._side = q, side
-        drive = forces.get(self._name, float(drives[self._name][sample]) if self._name in drives else 0.0)
+        drive = forces.get(self.name, float(drives[self.name][sample]) if self.name in drives else 0.0)
         # the load that friction knows of is that of the drive as believed, as in the fits
         load = abs(drive / self._gain - self._damping * v)
         links = self._links
@@ -82,15 +82,17 @@ class LossPlace:
                 abs(q - self._turned), side, self._travelled[sample], self._temperature[sample], 1.0,
             )
         )  # fmt: skip
+        pushed = float(self._world[LOAD])
         loss = model.dof_frictionloss if self._joint else model.tendon_frictionloss
-        loss[self._number] = max(against, LEAST)
+        loss[self._number] = max(against + side * pushed, LEAST)
+        return pushed
 
 
 class PairPlace:
     """Friction in a pair while the model runs: our plugin's coefficients are what is available over the normal force."""
 
     def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> None:
-        self._source, self._name, self._load = source, name, load
+        self._source, self.name, self._load = source, name, load
         self._links = chain(model.law, model.effects, load, contact=True)
         self._more = model.law.mu_s / model.law.mu_k
         self._world, self._memory = np.zeros(WORLD), np.zeros(8)
@@ -110,14 +112,14 @@ class PairPlace:
 
     def set(
         self, model: Any, data: Any, t: float, forces: Mapping[str, float], drives: Mapping[str, Array], sample: int
-    ) -> None:
-        """Give the plugin the coefficients that friction has now."""
+    ) -> float:
+        """Give the plugin the coefficients that friction has now; returns what else pushes along the pair [N]."""
         found = self._attach.readings(model, data)
         instance, contacts = next(iter(found.items()))
         pressed = sum(c.normal_force for c in contacts)
         if pressed < LOOSE * self._load:
-            return
-        v = float(pair_direction(self._source, model, data, self._name) @ data.qvel)
+            return 0.0
+        v = float(pair_direction(self._source, model, data, self.name) @ data.qvel)
         self._at += v * model.opt.timestep
         side = 1.0 if v > 0.0 else -1.0 if v < 0.0 else self._side
         if side != self._side:
@@ -130,10 +132,12 @@ class PairPlace:
                 abs(self._at - self._turned), side, self._travelled[sample], self._temperature[sample], normal / self._load,
             )
         )  # fmt: skip
-        mu = max(against, LEAST) / pressed
+        pushed = float(self._world[LOAD])
+        mu = max(against + side * pushed, LEAST) / pressed
         if self._slots is None:
             self._slots = _Slots.of(self._attach, model, data, instance)
         self._slots.write(data, self._more * mu, mu)
+        return pushed
 
 
 @dataclasses.dataclass(frozen=True)

@@ -96,7 +96,7 @@ def _march(
         voltage[i], position[i] = u, q
         for k in range(FINER):
             t = start + i * interval + k * h
-            pushed = gain * u - offset - damping * v
+            pushed = gain * u - offset - damping * v + world[e.LOAD]
             free = v + h * pushed / mass
             side = np.sign(v) if v != 0.0 else np.sign(free)
             if side not in (0.0, before):
@@ -104,7 +104,7 @@ def _march(
             friction = resistance(
                 numbers, calls, parameters, world, memory, t, q, v, 0.0, abs(q - turned), side, travelled, temperature[i], 1.0
             )
-            v = free - h * friction / mass
+            v = free - h * (friction + world[e.LOAD]) / mass  # the other forces were in ``pushed``, those of a moment ago
             if v * side < 0.0:  # friction stops a mass, it does not turn it
                 v = 0.0
             q += h * v

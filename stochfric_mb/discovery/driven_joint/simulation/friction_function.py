@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from stochfric_mb.discovery.driven_joint.fit.friction_along import chain, resistance
-from stochfric_mb.effects.contract import WORLD
+from stochfric_mb.effects.contract import LOAD, WORLD
 from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.mechanisms import BeltBox, SpringSlider
 from stochfric_mb.scenario import Scenario
@@ -20,7 +20,8 @@ FrictionFunction = Callable[..., float]
 def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint: str = "") -> FrictionFunction:
     """Return ``force(t, q, v, load=0.0, travelled=0.0, temperature=0.0)``: the friction on a joint along +q [N or N m].
 
-    F = -R(abs(v)) tanh(v/smoothing_velocity) with the scenario's law and effects in R: what multi-step integrators can take.
+    F = P - R(abs(v)) tanh(v/smoothing_velocity) with the scenario's law and effects in R, and in P what effects push with
+    whichever way the joint moves: what multi-step integrators can take.
     Friction does not hold at rest then; it creeps at a part of ``smoothing_velocity``. ``load`` is what the joint transmits
     (at a pair of geoms: its normal force), ``travelled`` the distance slid and ``temperature`` the measured one, for effects
     that ask for them.
@@ -64,6 +65,7 @@ def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint:
             temperature,
             pressed,
         )
-        return -side * float(against) * math.tanh(v / smoothing_velocity)
+        pushed = float(world[LOAD])
+        return pushed - (float(against) + pushed) * math.tanh(abs(v) / smoothing_velocity)
 
     return force

@@ -22,6 +22,9 @@ SETTLED = 10.0
 """Time constants of the position loop after which the state at the start, which is not known, plays no part."""
 AHEAD = 0.5
 """Time after which a simulation without a controller starts again from the measured state [s]."""
+FLOOR = 1.5
+"""What a model may leave, over the noise floor, for nothing to be missing [-]. Nulls of tests/discovery/joint_generator stay
+below 1.32, which drives with noise that lasts as long as the window come to."""
 APART = 4
 """Centres between windows that share no samples that matter."""
 

@@ -1,0 +1,97 @@
+"""Position-dependent force: a force that the place alone decides, whichever way the joint moves."""
+
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import ClassVar
+
+from stochfric_mb.effects.contract import LOAD, POSITION, Effect, parameter
+from stochfric_mb.effects.joints import JointSignature, JointSpan
+
+WAVES_OF_STROKE = (4.0, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08)
+"""Wavelengths from which fits begin, over the stroke [-]; the longest is an unbalance seen over a part of its turn."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class PositionDependentForce(Effect):
+    """Further force amplitude cos(2 pi x/wavelength + phase) - stiffness d - cubic d^3, d = x - rest; and its second harmonic.
+
+    Cogging and unbalance are waves, cables and bellows springs. It is no friction: it does not turn with the direction.
+
+    References: Z. Q. Zhu, D. Howe, IEEE Trans. Energy Convers. 15, 2000, 407-412 (cogging); J. P. Den Hartog, Mechanical
+    Vibrations, 4th ed., McGraw-Hill 1956, sections 6.1 (unbalance) and 8.1 (springs that stiffen).
+    """
+
+    stiffness: float = parameter("N/m", "force per displacement", scale=10.0, default=0.0)
+    """Force per displacement, towards ``rest`` [N/m]."""
+    cubic: float = parameter("N/m^3", "force per displacement cubed", scale=1.0e3, default=0.0)
+    """Force per displacement cubed [N/m^3]."""
+    rest: float = parameter("m", "position at which the spring rests", scale=0.01, default=0.0)
+    """Position at which the spring rests [m]."""
+    amplitude: float = parameter("N", "amplitude of the wave", scale=0.3, default=0.0)
+    """Amplitude of the wave [N]."""
+    wavelength: float = parameter("m", "wavelength", scale=0.01, low=0.0, strict=True, default=1.0)
+    """Its wavelength [m]."""
+    phase: float = parameter("rad", "phase of the wave at x = 0", scale=1.0, default=0.0)
+    """Its phase at x = 0 [rad]."""
+    amplitude_2: float = parameter("N", "amplitude of the second harmonic", scale=0.1, default=0.0)
+    """Amplitude of the second harmonic [N]."""
+    phase_2: float = parameter("rad", "phase of the second harmonic at x = 0", scale=1.0, default=0.0)
+    """Phase of the second harmonic at x = 0 [rad]."""
+
+    kind: ClassVar[str] = "position_dependent_force"
+    equation: ClassVar[str] = (
+        "further force amplitude cos(2 pi x/wavelength + phase) - stiffness (x - rest) - cubic (x - rest)^3, and a second harmonic"
+    )
+    source: ClassVar[str] = "Zhu and Howe 2000 (cogging); Den Hartog 1956, sections 6.1 and 8.1 (unbalance, springs)"
+    group: ClassVar[str] = "mechanism"
+    answers_to: ClassVar[str] = "position"
+    told_from: ClassVar[Mapping[str, str]] = {
+        "position_dependent_friction": "strokes both ways over the same place: friction turns with the direction, a force does not",
+    }
+    shows_on: ClassVar[str] = "position"
+    shows: ClassVar[str] = "a force depends on the place, whichever way the joint moves"
+
+    @property
+    def own_to_run(self) -> tuple[str, ...]:
+        """None: the stroke is the same in all runs."""
+        return ()
+
+    def shortest_time(self, speed: float) -> float:
+        """Return the time [s] in which the contact passes the shorter wavelength that acts."""
+        waves = 0.0 if self.amplitude == self.amplitude_2 == 0.0 else 2.0 if self.amplitude_2 != 0.0 else 1.0
+        return self.wavelength / (waves * speed) if waves * speed > 0.0 else math.inf
+
+    @classmethod
+    def at_joint(cls, span: JointSpan) -> tuple[JointSignature, ...]:
+        """Return springs and waves along the stroke, of which both directions tell that they are no friction."""
+        if not span.both_ways:
+            return ()
+        force, away = 0.1 * span.friction, 0.01 * span.stroke
+        spring = cls(stiffness=force / span.stroke, rest=away)
+        stiffening = cls(stiffness=force / span.stroke, cubic=force / span.stroke**3, rest=away)
+        waves = tuple(cls(amplitude=force, wavelength=span.stroke * part, phase=0.7) for part in WAVES_OF_STROKE)
+        twice = tuple(
+            dataclasses.replace(w, amplitude_2=0.5 * force, phase_2=0.7)
+            for w in waves
+            if 0.2 < w.wavelength / span.stroke < 3.0
+        )
+        return (
+            JointSignature((spring,), "position", 2),
+            JointSignature((stiffening,), "position", 3),
+            JointSignature(waves, "position", 3),
+            JointSignature(twice, "position", 5),
+        )
+
+
+def surroundings(world, memory, rates, p):
+    """Add the force."""
+    d = world[POSITION] - p[2]
+    angle = 2.0 * math.pi * world[POSITION] / p[4]
+    world[LOAD] += p[3] * math.cos(angle + p[5]) + p[6] * math.cos(2.0 * angle + p[7]) - p[0] * d - p[1] * d * d * d
