@@ -57,7 +57,7 @@ class Box:
         if e := self.get("harmonic_force"):
             f += e["amplitude"] * math.cos(2 * math.pi * e["frequency"] * t + e["phase"])
         if e := self.get("position_dependent_force"):
-            away = x - e["rest"]
+            away = x - e["zero"]
             f -= e["stiffness"] * away + e["cubic"] * away**3
             f += e["amplitude"] * math.cos(2 * math.pi * x / e["wavelength"] + e["phase"])
             f += e["amplitude_2"] * math.cos(4 * math.pi * x / e["wavelength"] + e["phase_2"])

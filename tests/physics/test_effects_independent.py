@@ -25,7 +25,7 @@ CASES = {
         "amplitude_3": 0.005, "phase_3": -0.5,
     },
     "position_dependent_force": {
-        "stiffness": 200.0, "cubic": 3.0e7, "rest": 1.0e-3, "amplitude": 0.3, "wavelength": 2.0e-3, "phase": 0.4,
+        "stiffness": 200.0, "cubic": 3.0e7, "zero": 1.0e-3, "amplitude": 0.3, "wavelength": 2.0e-3, "phase": 0.4,
         "amplitude_2": 0.1, "phase_2": 1.0,
     },
     "friction_drift": {"rate": 0.01, "time_constant": 4.0},

@@ -12,7 +12,8 @@ from stochfric_mb.discovery.driven_joint.balance.timing import Timing, timing
 from stochfric_mb.discovery.driven_joint.decision.run_scatter import Forecasts, crps_of, run_scatter
 from stochfric_mb.discovery.driven_joint.decision.selection import Selected, Selector
 from stochfric_mb.discovery.driven_joint.decision.signs import sign_notes
-from stochfric_mb.discovery.driven_joint.decision.stroke_scatter import dependence, stroke_scatter
+from stochfric_mb.discovery.driven_joint.decision.stroke_coefficients import dependence
+from stochfric_mb.discovery.driven_joint.decision.stroke_scatter import stroke_scatter
 from stochfric_mb.discovery.driven_joint.decision.verdict import verdict
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome, PlaceOutcome

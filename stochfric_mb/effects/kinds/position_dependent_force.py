@@ -20,7 +20,7 @@ WAVES_OF_STROKE = (4.0, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08)
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class PositionDependentForce(Effect):
-    """Further force amplitude cos(2 pi x/wavelength + phase) - stiffness d - cubic d^3, d = x - rest; and its second harmonic.
+    """Further force amplitude cos(2 pi x/wavelength + phase) - stiffness d - cubic d^3, d = x - zero; and its second harmonic.
 
     Cogging and unbalance are waves, cables and bellows springs. It is no friction: it does not turn with the direction.
 
@@ -29,10 +29,10 @@ class PositionDependentForce(Effect):
     """
 
     stiffness: float = parameter("N/m", "force per displacement", scale=10.0, default=0.0)
-    """Force per displacement, towards ``rest`` [N/m]."""
+    """Force per displacement, towards ``zero`` [N/m]."""
     cubic: float = parameter("N/m^3", "force per displacement cubed", scale=1.0e3, default=0.0)
     """Force per displacement cubed [N/m^3]."""
-    rest: float = parameter("m", "position at which the spring rests", scale=0.01, default=0.0)
+    zero: float = parameter("m", "position at which the spring rests", scale=0.01, default=0.0)
     """Position at which the spring rests [m]."""
     amplitude: float = parameter("N", "amplitude of the wave", scale=0.3, default=0.0)
     """Amplitude of the wave [N]."""
@@ -47,13 +47,13 @@ class PositionDependentForce(Effect):
 
     kind: ClassVar[str] = "position_dependent_force"
     equation: ClassVar[str] = (
-        "further force amplitude cos(2 pi x/wavelength + phase) - stiffness (x - rest) - cubic (x - rest)^3, and a second harmonic"
+        "further force amplitude cos(2 pi x/wavelength + phase) - stiffness (x - zero) - cubic (x - zero)^3, and an overtone"
     )
     source: ClassVar[str] = "Zhu and Howe 2000 (cogging); Den Hartog 1956, sections 6.1 and 8.1 (unbalance, springs)"
     group: ClassVar[str] = "mechanism"
     answers_to: ClassVar[str] = "position"
     told_from: ClassVar[Mapping[str, str]] = {
-        "position_dependent_friction": "strokes both ways over the same place: friction turns with the direction, a force does not",
+        "position_dependent_friction": "strokes both ways over the same place: friction turns with the direction",
     }
     shows_on: ClassVar[str] = "position"
     shows: ClassVar[str] = "a force depends on the place, whichever way the joint moves"
@@ -74,8 +74,8 @@ class PositionDependentForce(Effect):
         if not span.both_ways:
             return ()
         force, away = 0.1 * span.friction, 0.01 * span.stroke
-        spring = cls(stiffness=force / span.stroke, rest=away)
-        stiffening = cls(stiffness=force / span.stroke, cubic=force / span.stroke**3, rest=away)
+        spring = cls(stiffness=force / span.stroke, zero=away)
+        stiffening = cls(stiffness=force / span.stroke, cubic=force / span.stroke**3, zero=away)
         waves = tuple(cls(amplitude=force, wavelength=span.stroke * part, phase=0.7) for part in WAVES_OF_STROKE)
         twice = tuple(
             dataclasses.replace(w, amplitude_2=0.5 * force, phase_2=0.7)

@@ -18,8 +18,8 @@ from .plant import PRESSURE, Array, Plant, plain_plant
 VOCABULARY = frozenset(
     (
         "random_coefficients", "correlated_coefficients", "velocity_weakening", "viscous_friction", "frictional_lag",
-        "direction_asymmetry", "load_dependence", "position_dependent_friction", "friction_drift", "distance_drift",
-        "temperature_drift", "quadratic_damping", "sensor_delay",
+        "direction_asymmetry", "load_dependence", "position_dependent_friction", "position_dependent_force", "friction_drift",
+        "distance_drift",        "temperature_drift", "quadratic_damping", "sensor_delay",
     )
 )  # fmt: skip
 """Kinds that docs/joints.md says are searched at joints. Any other kind is rightly answered `unknown`."""

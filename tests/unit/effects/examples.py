@@ -15,7 +15,7 @@ EXAMPLES: dict[str, dict[str, float | str]] = {
     "load_dependence": {"exponent": -0.3, "reference_load": 10.0},
     "presliding_compliance": {"elastic_limit": 1.0e-5},
     "position_dependent_friction": {"amplitude": 0.03, "wavelength": 0.01, "phase": 1.0},
-    "position_dependent_force": {"stiffness": 100.0, "rest": 1.0e-3, "amplitude": 0.3, "wavelength": 0.01, "phase": 1.0},
+    "position_dependent_force": {"stiffness": 100.0, "zero": 1.0e-3, "amplitude": 0.3, "wavelength": 0.01, "phase": 1.0},
     "friction_drift": {"rate": 0.01},
     "distance_drift": {"rate": 4.0},
     "temperature_drift": {"rate": 0.01},

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.weak_form import Window
+from stochfric_mb.measurement.smoothing import window
 
 Array = npt.NDArray[np.float64]
 
@@ -72,6 +73,8 @@ class ForceBalance:
     """Noise to be expected on ``driven`` from white noise of the channels [N or N m]."""
     factors: Mapping[str, Array]
     """Known conditions for the search of confounding, such as temperature, shape (n_centres,)."""
+    white: Mapping[int, float] = dataclasses.field(default_factory=dict[int, float])
+    """Derivative -> white noise of what enters the balance with it."""
     before: float = 0.0
     """Distance slid in the pieces of the same record that come before this one [m or rad]."""
     temperature: Array | None = None
@@ -80,6 +83,24 @@ class ForceBalance:
     """Change of ``load`` with the driving force, -1 or 1, shape (count,); None: the load is known without it."""
     normal_force: Array | None = None
     """Normal force of a contact [N], shape (count,), >= 0; None: the believed load, which stays."""
+
+    def white_variance(self, along: Array, centres: npt.NDArray[np.int64]) -> float:
+        """Return the variance that white noise of the channels gives the coefficient of ``along`` [1/(N or N m)^2 of it].
+
+        Windows overlap, and a derivative's noise in one is made up for in the next: the sum over windows is of one signal.
+
+        Args:
+            along: what the balance is projected on, at the centres of some windows, shape (n,).
+            centres: samples of those centres, shape (n,).
+        """
+        half, size = len(self.window.taps) // 2, float(along @ along)
+        spread = np.zeros(int(centres[-1] - centres[0]) + 1)
+        spread[centres - centres[0]] = along
+        total = 0.0
+        for derivative, noise in self.white.items():
+            taps = window(self.window.half_width, self.window.interval, derivative=derivative)
+            total += noise**2 * float(np.sum(np.convolve(spread, taps[: 2 * half + 1]) ** 2))
+        return total / size**2
 
     @functools.cached_property
     def travelled(self) -> Array:

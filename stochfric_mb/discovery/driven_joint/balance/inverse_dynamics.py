@@ -176,6 +176,7 @@ def balance_of(
         sliding=slides(window, velocity, least),
         noise=float(np.sqrt(sum((window.gain(d) * s) ** 2 for d, s in noise.items()))),
         factors=known_factors(run, window, position, velocity, load, before + distance_slid(velocity, window)),
+        white=noise,
         before=before,
         temperature=temperature_through(run, window),
         load_by_drive=load_by_drive,

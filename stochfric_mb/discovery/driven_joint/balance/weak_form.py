@@ -22,6 +22,8 @@ Array = npt.NDArray[np.float64]
 
 NARROWEST = 8
 """Half width of the narrowest window [sample intervals]."""
+SHORTEST = 3
+"""The same of a record so short that it would hold fewer than `RECORD` over two of them: a slide of some 40 samples."""
 WIDER = 2.0**0.5
 """Ratio of half widths that are tried."""
 QUIET = 0.05
@@ -106,7 +108,12 @@ class Window:
 
 def narrowest(run: Run) -> Window:
     """Return the narrowest window that a run is seen through."""
-    return Window(NARROWEST * run.sample_interval, run.sample_interval, len(run.time))
+    return Window(least_width(len(run.time)) * run.sample_interval, run.sample_interval, len(run.time))
+
+
+def least_width(count: int) -> float:
+    """Return the half width of the narrowest window in a record of ``count`` samples [sample intervals]."""
+    return float(np.clip(2.0 * count / RECORD, SHORTEST, NARROWEST))
 
 
 def chosen_window(interval: float, count: int, noise: dict[int, float], friction: float) -> Window:
@@ -120,7 +127,7 @@ def chosen_window(interval: float, count: int, noise: dict[int, float], friction
         noise: derivative -> noise of what enters the balance with that derivative (coefficients included).
         friction: believed size of the friction [N or N m].
     """
-    half = NARROWEST * interval
+    half = least_width(count) * interval
     widest = count * interval / RECORD
     loudest = min(count * interval / NARROWEST, LONGER * widest)
     while True:

@@ -1,8 +1,8 @@
 """Friction that is drawn anew for each run: the scatter of runs beyond what the strokes within them explain.
 
 Each run i has its own mu_k: delta_i from what the model leaves of it, the mean of both directions, so that a zero of the drive
-cancels. The scatter of strokes gives it a variance v_i. Then delta_i ~ N(mean, sigma^2 + v_i), and sigma is asked for by
-restricted likelihood.
+cancels; a run may be a single slide one way. What is left within strokes, and how strokes differ, give it a variance v_i. Then
+delta_i ~ N(mean, sigma^2 + v_i), and sigma is asked for by restricted likelihood.
 
 No model foretells such a run. Held-out runs are therefore scored by the CRPS of a forecast that knows how far runs scatter.
 
@@ -20,15 +20,14 @@ import numpy.typing as npt
 from scipy.stats import chi2, norm
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.decision.stroke_scatter import CONFIDENCE, MATERIAL, NAMED, dependence, deviance_of
+from stochfric_mb.discovery.driven_joint.decision.stroke_coefficients import Stroke, dependence, strokes_of, variances
+from stochfric_mb.discovery.driven_joint.decision.stroke_scatter import CONFIDENCE, MATERIAL, NAMED, deviance_of
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 
 Array = npt.NDArray[np.float64]
 
 FEWEST = 5
 """Fewest runs from which a scatter between them is asked for: of fewer, any scatter fits."""
-STROKES = 2
-"""Fewest strokes of a run in a direction."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -48,7 +47,7 @@ class RunScatter:
     p_value: float
     """Chance of that fall without it."""
     gain: float
-    """Part of the error (rms) that it is [-]."""
+    """Part of the error of a run's mean (rms) that it is [-]."""
     runs: int
     """Number of runs."""
     believed: float
@@ -73,7 +72,7 @@ class RunScatter:
 def run_scatter(
     model: JointModel, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance], believed: float = 0.0
 ) -> RunScatter | None:
-    """Return the scatter of mu_k over runs; None if these are too few, or slide too seldom in both directions.
+    """Return the scatter of mu_k over runs; None if these are too few.
 
     Args:
         model: what is known of the friction.
@@ -81,14 +80,21 @@ def run_scatter(
         nuisances: numbers of the mechanism.
         believed: standard deviation of mu_k from run to run that is believed already [-].
     """
-    seen = [_of_run(model, balance, nuisances) for balance in balances]
-    runs = [s for s in seen if s is not None]
-    if len(runs) < FEWEST:
+    along = [dependence(model, s) for s in balances]
+    seen = [strokes_of(model.remainder(s, nuisances), f, s, 1) for s, f in zip(balances, along, strict=True)]
+    slid = [i for i, strokes in enumerate(seen) if strokes]
+    both = [i for i in slid if len({s.forward for s in seen[i]}) == 2]
+    chosen = both if len(both) >= FEWEST else slid
+    if len(chosen) < FEWEST:
         return None
-    delta = np.array([r.delta for r in runs])
-    spread = np.concatenate([r.spread for r in runs])
-    freedom = len(spread) - 2 * len(runs)
-    variance = float(np.sum(spread**2)) / max(freedom, 1) / np.array([len(r.spread) for r in runs])
+    runs = [seen[i] for i in chosen]
+    strokes = [s for run in runs for s in run]
+    delta, spread = np.array([_mean(run) for run in runs]), _spread(runs)
+    if spread > 0.0:
+        parts = np.split(np.maximum(variances(strokes), spread), np.cumsum([len(run) for run in runs])[:-1])
+    else:  # where no stroke repeats another, only the channels' noise says how well it is known
+        parts = [np.array([_white(balances[i], along[i], s) for s in seen[i]]) for i in chosen]
+    variance = np.array([float(np.mean(v)) / len(v) for v in parts])
     groups = np.zeros(len(runs), dtype=np.int64)
     grid = np.r_[0.0, np.sqrt(np.median(variance)) * np.logspace(-2.0, 4.0, 300)]
     deviance = np.array([deviance_of(s, delta, variance, groups) for s in grid])
@@ -96,7 +102,6 @@ def run_scatter(
     sigma = float(grid[best])
     inside = grid[deviance < deviance[best] + CONFIDENCE]
     fall = deviance_of(believed, delta, variance, groups) - float(deviance[best]) if sigma > believed else 0.0
-    force, left = sigma**2 * float(np.mean([r.force for r in runs])), float(np.mean([r.square for r in runs]))
     return RunScatter(
         sigma=sigma,
         low=float(inside[0]),
@@ -104,42 +109,28 @@ def run_scatter(
         share=sigma / model.law.mu_k,
         score=fall - float(np.log(len(runs))),
         p_value=0.5 * float(chi2.sf(fall, 1)) if fall > 0.0 else 1.0,
-        gain=1.0 - float(np.sqrt(max(1.0 - force / left, 0.0))),
+        gain=1.0 - float(np.sqrt(np.mean(variance) / (sigma**2 + np.mean(variance)))),
         runs=len(runs),
         believed=believed,
     )
 
 
-@dataclasses.dataclass(frozen=True)
-class _Run:
-    delta: float
-    """Its mu_k less the model's [-]."""
-    spread: Array
-    """That of its strokes, less the mean of their direction [-]."""
-    force: float
-    """Mean square of friction's change with mu_k [N^2 or N^2 m^2]."""
-    square: float
-    """Mean square of what the model leaves [N^2 or N^2 m^2]."""
+def _mean(run: list[Stroke]) -> float:
+    """Return the mu_k of a run less the model's [-]: the mean over its directions, so that a zero of the drive cancels."""
+    sides = [[s.delta for s in run if s.forward == side] for side in (True, False)]
+    return float(np.mean([np.mean(side) for side in sides if side]))
 
 
-def _of_run(model: JointModel, balance: ForceBalance, nuisances: Sequence[Nuisance]) -> _Run | None:
-    """Return what a run says of its mu_k; None if it hardly slides in one of the directions."""
-    rest, along = model.remainder(balance, nuisances), dependence(model, balance)
-    forward = balance.velocity[balance.window.centres] > 0.0
-    edges = np.flatnonzero(np.diff(np.r_[0, balance.sliding.astype(np.int8), 0]))
-    strokes: dict[bool, list[float]] = {True: [], False: []}
-    for start, end in zip(edges[::2], edges[1::2], strict=True):
-        f = along[start:end]
-        if float(f @ f) > 0.0:
-            strokes[bool(forward[start])].append(float(f @ rest[start:end]) / float(f @ f))
-    if min(map(len, strokes.values())) < STROKES:
-        return None
-    means = {side: float(np.mean(values)) for side, values in strokes.items()}
-    spread = np.concatenate([np.array(values) - means[side] for side, values in strokes.items()])
-    sliding = balance.sliding
-    return _Run(
-        0.5 * (means[True] + means[False]), spread, float(np.mean(along[sliding] ** 2)), float(np.mean(rest[sliding] ** 2))
-    )
+def _white(balance: ForceBalance, along: Array, stroke: Stroke) -> float:
+    own = slice(*stroke.at)
+    return balance.white_variance(along[own], balance.window.centres[own])
+
+
+def _spread(runs: list[list[Stroke]]) -> float:
+    """Return the variance of strokes about the mean of their run and direction [-]; 0 where none repeats."""
+    groups = [[s.delta for s in run if s.forward == side] for run in runs for side in (True, False)]
+    freedom = sum(max(len(g) - 1, 0) for g in groups)
+    return sum(float(np.sum((np.array(g) - np.mean(g)) ** 2)) for g in groups if g) / freedom if freedom else 0.0
 
 
 @dataclasses.dataclass(frozen=True)

@@ -18,9 +18,9 @@ import numpy.typing as npt
 from scipy.stats import chi2
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.fit.fitting import PER_STROKE
+from stochfric_mb.discovery.driven_joint.decision.stroke_coefficients import Stroke, dependence, strokes_of, variances
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
-from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
+from stochfric_mb.discovery.driven_joint.simulation.scores import APART, FLOOR, noise_floor
 
 Array = npt.NDArray[np.float64]
 
@@ -30,12 +30,8 @@ MATERIAL = 0.05
 """Least part of the error (rms) that the scatter is."""
 FEWEST = 8
 """Fewest strokes beyond one in each setting."""
-APART = 4
-"""Centres between windows that share no samples that matter."""
 REVERSAL = 10
 """Longest reversal across which noise is followed [windows that share no samples]."""
-STEP = 1.0e-3
-"""Relative change of mu_k by which friction's dependence on it is taken."""
 CONFIDENCE = 3.84
 """Rise of the deviance at the ends of a 95 % interval."""
 
@@ -110,51 +106,27 @@ def stroke_scatter(
         nuisances: numbers of the mechanism.
         believed: standard deviation of mu_k that is believed already [-].
     """
-    deltas: list[float] = []
-    within: list[float] = []
-    precision: list[float] = []
+    strokes: list[Stroke] = []
     settings: list[int] = []
-    lengths: list[int] = []
-    squares: list[float] = []
-    forces: list[float] = []
-    halves: list[float] = []
     reversals: list[tuple[float, float]] = []
     for i, balance in enumerate(balances):
         rest = model.remainder(balance, nuisances)
-        along = dependence(model, balance)
-        edges = np.flatnonzero(np.diff(np.r_[0, balance.sliding.astype(np.int8), 0]))
-        reversals += _across(rest, edges)
-        for start, end in zip(edges[::2], edges[1::2], strict=True):
-            r, f = rest[start:end], along[start:end]
-            size = float(f @ f)
-            if end - start < 2 * APART or size <= 0.0:
-                continue
-            delta = float(f @ r) / size
-            independent = min((end - start) / APART, float(PER_STROKE))
-            deltas.append(delta)
-            within.append(float(np.mean((r - delta * f) ** 2)))
-            precision.append(independent * size / (end - start))
-            lengths.append(end - start)
-            squares.append(float(np.mean(r**2)))
-            half = len(r) // 2
-            first, second = (float(f[p] @ r[p]) / max(float(f[p] @ f[p]), 1.0e-300) for p in (slice(half), slice(half, None)))
-            halves.append(0.25 * (first - second) ** 2)
-            forces.append(size / (end - start))
-            settings.append(2 * i + int(balance.velocity[balance.window.centres][start] > 0.0))
+        reversals += _across(rest, np.flatnonzero(np.diff(np.r_[0, balance.sliding.astype(np.int8), 0])))
+        own = strokes_of(rest, dependence(model, balance), balance, 2 * APART)
+        strokes += own
+        settings += [2 * i + int(s.forward) for s in own]
     groups = np.unique(settings, return_inverse=True)[1] if settings else np.zeros(0, dtype=np.int64)
-    if len(deltas) - (int(groups.max(initial=-1)) + 1) < FEWEST:
+    if len(strokes) - (int(groups.max(initial=-1)) + 1) < FEWEST:
         return None
-    delta = np.array(deltas)
-    # noise as slow as a stroke shows in how its halves differ: independent ones would make this the variance of delta
-    variance = np.maximum(float(np.mean(within)) / np.array(precision), float(np.mean(halves)))
+    delta, variance = np.array([s.delta for s in strokes]), variances(strokes)
     grid = np.r_[0.0, np.sqrt(np.median(variance)) * np.logspace(-2.0, 2.5, 200)]
     deviance = np.array([deviance_of(s, delta, variance, groups) for s in grid])
     best = int(np.argmin(deviance))
     sigma = float(grid[best])
     inside = grid[deviance < deviance[best] + CONFIDENCE]
     fall = deviance_of(believed, delta, variance, groups) - float(deviance[best]) if sigma > believed else 0.0
-    force = sigma * float(np.sqrt(np.mean(forces)))
-    left = max(1.0 - force**2 / float(np.mean(squares)), 0.0)
+    force = sigma * float(np.sqrt(np.mean([s.slope for s in strokes])))
+    left = max(1.0 - force**2 / float(np.mean([s.square for s in strokes])), 0.0)
     return StrokeScatter(
         sigma=sigma,
         low=float(inside[0]),
@@ -168,7 +140,7 @@ def stroke_scatter(
         strokes=len(delta),
         level=force,
         believed=believed,
-        inside=float(np.sqrt(np.average(within, weights=lengths))),
+        inside=float(np.sqrt(np.average([s.inside for s in strokes], weights=[s.windows for s in strokes]))),
         floor=noise_floor(model, balances, nuisances),
     )
 
@@ -187,15 +159,6 @@ def _correlation(pairs: Sequence[tuple[float, float]]) -> float:
         return 0.0
     before, after = (np.array(x) for x in zip(*pairs, strict=True))
     return float(before @ after / max(float(np.sqrt((before @ before) * (after @ after))), 1.0e-300))
-
-
-def dependence(model: JointModel, balance: ForceBalance) -> Array:
-    """Return the change of the drive that the motion needs with mu_k at the centres [N or N m], shape (n_centres,)."""
-    law = dataclasses.replace(
-        model.law, mu_k=model.law.mu_k * (1.0 + STEP), mu_s=max(model.law.mu_s, model.law.mu_k * (1.0 + STEP))
-    )
-    moved = dataclasses.replace(model, law=law)
-    return (model.remainder(balance, ()) - moved.remainder(balance, ())) / (STEP * model.law.mu_k)
 
 
 def _means(delta: Array, variance: Array, groups: npt.NDArray[np.int64]) -> tuple[Array, Array]:

@@ -169,6 +169,7 @@ class MjcfSource(Rig):
             sliding=sliding,
             noise=float(np.hypot(window.gain(0) * noise[0], window.gain(2) * noise[2])),
             factors=known_factors(run, window, path.position, path.velocity, load, travelled),
+            white=noise,
             before=before,
             temperature=temperature_through(run, window),
             normal_force=normal,
