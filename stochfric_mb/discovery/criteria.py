@@ -35,9 +35,6 @@ STALLED = 0.6
 LEFT_OVER = 0.35
 """Share of the scatter that named effects may leave where what is left is of no known kind: as in the forecasts, a name
 must explain the larger part, 65 %."""
-LEVELS_AS_WELL = 0.1
-"""Share of the scatter that an effect may leave which explains two levels as well [-]: a square ripple's fundamental and
-third harmonic leave as much, a ripple fitted to random levels a third or more."""
 LEAST_KEPT = 0.5
 """Share of the slips that a model with effects must not miss for a search in what it leaves to make sense [-]."""
 ENTRAINED = 0.03
@@ -173,10 +170,6 @@ STEPS_OF_A_SENSOR = 2.0
 """Changes of level a run that a sensor's steps may make."""
 OUT_OF_STEP = 0.25
 """Share of the rarer level's slips that a regular alternation may miss [-]; random ones miss half."""
-LONGEST_COUNT = 8
-"""Slips after which a pattern may repeat that goes by their number."""
-FREQUENCY_RESOLVED = 0.15
-"""Error of a ripple's frequency, in units of one over the record's length: the search's grid has steps of a fifth [-]."""
 
 # Records
 

@@ -98,9 +98,14 @@ class Gap:
         )
 
     @property
+    def reducible(self) -> float:
+        """Part of the recalibrated model's error that lies above the floor."""
+        return self.recalibrated - self.floor
+
+    @property
     def closed(self) -> float | None:
         """Share of the reducible gap that the effects close; None where there is none."""
-        reducible = self.recalibrated - self.floor
+        reducible = self.reducible
         # below a fiftieth of the score itself the quotient would be noise over noise
         return (self.recalibrated - self.augmented) / reducible if reducible > 0.02 * self.recalibrated else None
 
@@ -132,6 +137,8 @@ class Result:
     scenario."""
     slip_forces: Gap | None = None
     """The same in the forces of single slips, where evidence is found; None where nothing was named, or they cannot show it."""
+    leading: Literal["gap", "slip_forces"] = "gap"
+    """The score in which the effects show: that of forecasts, or, where those can hardly be made better, that of the forces."""
     power: dict[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Smallest strength of an effect that would have been named, by kind."""
     details: dict[str, Any] = dataclasses.field(default_factory=dict[str, Any])
@@ -151,6 +158,7 @@ class Result:
             "ranking": [{"kind": kind, "score": score} for kind, score in self.ranking],
             "gap": gap,
             "slip_forces": forces,
+            "leading": self.leading,
             "not_identifiable": list(self.not_identifiable),
             "next_experiment": self.next_experiment,
             "believed": {k: dataclasses.asdict(v) for k, v in self.believed.items()},

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
+from typing import Literal
 
 import numpy as np
 from scipy.special import ndtr
@@ -51,6 +52,14 @@ def slip_force_gap(believed: Model, recalibrated: Model, augmented: Model, slips
     before, middle, after, floor = (float(x) for x in joined.mean(axis=0))
     source = "what the final model would score if it were true"
     return Gap("crps_slip_forces", "-", True, before, middle, after, min(floor, after), source)
+
+
+def leading(gap: Gap | None, forces: Gap | None) -> Literal["gap", "slip_forces"]:
+    """Return the score in which effects show: that of the forces where forecasts could hardly be made better."""
+    if forces is None or forces.closed is None or gap is None:
+        return "gap"
+    seen, felt = (g.reducible / g.recalibrated for g in (gap, forces))
+    return "slip_forces" if seen < criteria.LEAST_REDUCIBLE and felt > seen else "gap"
 
 
 def _scores(models: Sequence[Model], slips: Slips, calibration: Calibration, rows: np.ndarray) -> Array:

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.stick_slip.screening.switching import JUMPS, SWITCHES, in_step, switching
+from stochfric_mb.discovery.stick_slip.screening.switching import JUMPS, SWITCHES, switching
 
 N, RUNS, CYCLE = 50, 2, 1.1
 NOISE = 0.003
@@ -89,21 +89,3 @@ def test_one_step_of_a_sensor_is_no_switching():
 
 def test_noise_alone_does_not_switch():
     assert found(np.zeros(N * RUNS)).where is None
-
-
-def test_harder_slips_with_longer_cycles_are_counted_all_the_same():
-    pattern = np.array([1.0, 1.0, 1.3, 1.3, 1.0, 1.3, 1.0])
-    pool = Pool()
-    box = SimpleNamespace(belt_velocity=2.5e-3)
-    onset = np.cumsum(np.resize(pattern, N))
-    slips = [SimpleNamespace(onset_time=onset, record=SimpleNamespace(mechanism=box))] * RUNS
-    counted = SimpleNamespace(slips=slips, belt_velocity=pool.belt_velocity, duration=onset[-1])
-    assert in_step(1.0 / pattern.sum(), counted, along_belt=False)
-
-
-def test_a_pattern_of_seven_slips_is_in_step_with_them_and_another_frequency_is_not():
-    pool = Pool()
-    assert in_step(1.0 / (7.0 * CYCLE), pool, along_belt=False)
-    assert in_step(3.0 / (7.0 * CYCLE), pool, along_belt=True)
-    # half way between 1/7 and 1/6 of the slips' frequency, and no other ratio of small numbers near
-    assert not in_step(0.1548 / CYCLE, pool, along_belt=False)

@@ -21,8 +21,9 @@ from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.naming import as_harmonic, with_candidate
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms, believed
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate, screen
-from stochfric_mb.discovery.stick_slip.screening.switching import JUMPS, SWITCHES, in_step, switching
+from stochfric_mb.discovery.stick_slip.screening.switching import JUMPS, SWITCHES, levels_score, switching
 from stochfric_mb.discovery.stick_slip.screening.variance_components import Randomness, randomness
+from stochfric_mb.discovery.stick_slip.screening.waves import shared_by_runs
 from stochfric_mb.discovery.stick_slip.simulation.delay_compensation import delay_compensated, driven, with_delay, without_delay
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import refit
@@ -31,6 +32,7 @@ from stochfric_mb.discovery.stick_slip.where import where_of
 from stochfric_mb.effects import kind_found_as, kinds_with, make_effect
 from stochfric_mb.effects.traits import (
     BELT_RIPPLE,
+    BETWEEN_POINTS,
     CLIPPED,
     COURSE_OF_RUN,
     DRIFTS,
@@ -173,50 +175,67 @@ class _Search:
         self.kept: list[Array] = []
         self.cases: list[Case] = []
         self.confirmed: Confirmed | None = None
+        self.unaided: Confirmed | None = None
+        self.first = 0.0
         if any(n.kind in (kind_found_as(BELT_RIPPLE), kind_found_as(YIELDING)) for n in named):
             self._take_out()
 
     def run(self) -> Decision:
         """Return the decision."""
-        first = 0.0
         for round_ in range(MOST_ROUNDS):
-            kinds = [n.kind for n in self.named]
-            if len(kinds) >= MOST_EFFECTS:
+            if len(self.named) >= MOST_EFFECTS:
                 break
-            candidates = screen(
-                self.pool, self.regression, self.terms, self.solution, without=[k for k in kinds if k not in kinds_with(WAVES)]
-            )
-            if round_ == 0:
-                self.ranking = tuple(_scores(candidates).items())
-                first = candidates[0].score
-            self.details[f"round_{round_ + 1}"] = _scores(candidates[:8])
-            if round_ == 0 and (step := seen_step(candidates, self.details)) is not None:
-                self._add(Chosen(step, (), with_candidate(self.model, step, self.pool, self._n_terms), None, False))
-                continue
-            if candidates[0].score < max(
-                criteria.NAMED if round_ == 0 else criteria.FOLLOWED_UP, criteria.SECOND_SHARE * first if round_ else 0.0
-            ):
-                break
-            if round_ == 0 and not self.named and (of_chance := self._of_chance(candidates)) is not False:
-                if isinstance(of_chance, Where):
-                    return self._unknown(of_chance)
-                break
-            self.progress("confirmation")
-            self._look_at(candidates)
-            outcome = choose(self.study, self.model, self.terms, candidates, self.cases, self.confirmed, self.details)
-            if isinstance(outcome, Where):
-                if not self.named:
-                    return self._unknown(outcome)
-                # what was found stands; the rest is noted, not named
-                self.details["left_over"] = dataclasses.asdict(outcome)
-                break
-            if outcome is None or not self._stands_alone(outcome, candidates):
-                break
-            self.confirmed = outcome.confirmed
-            self._add(outcome)
-            if self.stalled:
+            found = self._round(round_)
+            if isinstance(found, Where):
+                return self._unknown(found)
+            if not found:
                 break
         return self.by_chance()
+
+    def _round(self, round_: int) -> Where | bool:
+        """Look for one effect; return whether to look for another one, or where what no known effect explains lives."""
+        candidates = self._screened(round_)
+        if round_ == 0 and (step := seen_step(candidates, self.details)) is not None:
+            self._add(Chosen(step, (), with_candidate(self.model, step, self.pool, self._n_terms), None, False))
+            return True
+        if not candidates or candidates[0].score < self._needed(round_):
+            return False
+        if round_ == 0 and not self.named and (of_chance := self._of_chance(candidates)) is not False:
+            return of_chance if of_chance is not True else False
+        return self._chosen(candidates)
+
+    def _chosen(self, candidates: Sequence[Candidate]) -> Where | bool:
+        """Take the effect that is meant into the model, if one is; return as `_round` does."""
+        self.progress("confirmation")
+        self._look_at(candidates)
+        outcome = choose(self.study, self.model, self.terms, candidates, self.cases, self.confirmed, self.details)
+        if isinstance(outcome, Where) and self.named:
+            # what was found stands; the rest is noted, not named
+            self.details["left_over"] = dataclasses.asdict(outcome)
+            return False
+        if isinstance(outcome, Where):
+            return outcome
+        if outcome is None or not self._stands_alone(outcome, candidates):
+            return False
+        self.confirmed = outcome.confirmed
+        self._add(outcome)
+        return not self.stalled
+
+    def _screened(self, round_: int) -> list[Candidate]:
+        """Return what may be missing beside the effects that are named, best first."""
+        kinds = [n.kind for n in self.named if n.kind not in kinds_with(WAVES)]
+        candidates = screen(self.pool, self.regression, self.terms, self.solution, without=kinds)
+        if self._form_alone():
+            candidates = self._beside_form(candidates)
+        if round_ == 0:
+            self.ranking = tuple(_scores(candidates).items())
+            self.first = candidates[0].score
+        self.details[f"round_{round_ + 1}"] = _scores(candidates[:8])
+        return candidates
+
+    def _needed(self, round_: int) -> float:
+        """Return the score that is worth a look."""
+        return criteria.NAMED if round_ == 0 else max(criteria.FOLLOWED_UP, criteria.SECOND_SHARE * self.first)
 
     @property
     def _n_terms(self) -> int:
@@ -227,6 +246,7 @@ class _Search:
         if self.confirmation and not self.cases:
             self.cases = cases_of(steady(self.regression, self.terms, candidates, self.kept, self.solution), self.model)
             self.confirmed = confirm(self.cases, self.model, self.study.uncertainty) if self.cases else None
+            self.unaided = self.unaided or self.confirmed
 
     def _of_chance(self, candidates: Sequence[Candidate]) -> Where | bool:
         """Return whether no effect is to be named before friction that wanders or is kicked, or where it switches."""
@@ -261,8 +281,9 @@ class _Search:
         self.details["switching"] = dataclasses.asdict(found)
         best = next((c for c in candidates if c.is_effect), None)
         if found.two_levels:
-            explained = best is not None and _scatter(best.solution) < criteria.LEVELS_AS_WELL * _scatter(self.solution)
-            return None if explained and not (best is not None and self._counts(best)) else SWITCHES
+            score = levels_score(self.regression, self.terms, self.solution)
+            self.details["two_levels"] = score
+            return None if best is not None and best.score > score else SWITCHES
         if found.where is None:
             return None
         if best is not None:
@@ -270,14 +291,27 @@ class _Search:
             found = switching(self.regression, self.regression.residuals(with_best, best.solution))
         return JUMPS if found.at_rest_between_jumps else None
 
-    def _counts(self, ripple: Candidate) -> bool:
-        """Return whether a ripple is one of the slips' number, not of time or place."""
-        if not ripple.is_wave:
-            return False
-        along_belt = ripple.along_belt
-        main = float(ripple.hypothesis.setting[0])
-        frequency = float(self.pool.belt_velocity.min()) / main if along_belt else main
-        return in_step(frequency, self.pool, along_belt=along_belt)
+    def _shape_left(self) -> float:
+        """Return the misfit of simulated slips with the effects named over that without [-]; 1 where none were simulated."""
+        now, before = self.confirmed, self.unaided
+        return 1.0 if now is None or before is None else now.chi2 / before.chi2
+
+    def _form_alone(self) -> bool:
+        """Return whether what the simulated effects leave of all slips alike is no more than another form of theirs would."""
+        return self._shape_left() < criteria.FORM_MISSES
+
+    def _beside_form(self, candidates: Sequence[Candidate]) -> list[Candidate]:
+        """Return the candidates that have evidence beside what all slips of a run share: the rest would mend a form."""
+        alike = (SHAPES_SLIPS, BETWEEN_POINTS)
+        candidates = [c for c in candidates if c.name not in SHAPES and not (c.any_shape or any(map(c.has, alike)))]
+        beside = self.terms.plus(shared_by_runs(self.pool))
+        gains = self.regression.gains(beside, self.solution.scatter, [c.hypothesis.columns for c in candidates])
+        cost = float(np.log(self.regression.n))
+        return [
+            c
+            for c, gain in zip(candidates, gains, strict=True)
+            if 2.0 * gain - len(c.hypothesis.columns) * cost >= criteria.FOLLOWED_UP
+        ]
 
     def _stands_alone(self, chosen: Chosen, candidates: Sequence[Candidate]) -> bool:
         """Return whether an effect outside the family of shapes has evidence beside the shapes that beat it.
@@ -375,7 +409,7 @@ class _Search:
         levels = switching(self.regression, self.regression.residuals(self.terms, self.solution))
         found = kick or random_effects(self.study, scatter, levels, self.solution, kinds)
         if isinstance(found, Where):
-            left = _scatter(self.solution) / _scatter(self.study.solution)
+            left = min(_scatter(self.solution) / _scatter(self.study.solution), self._shape_left())
             if not self.named or (self.in_forces and left > criteria.LEFT_OVER):
                 return self._unknown(found, scatter)
             self.details["left_over"] = dataclasses.asdict(found)

@@ -20,12 +20,16 @@ from stochfric_mb.effects.traits import JUMP, MOVES_ZERO
 def seen_step(candidates: Sequence[Candidate], details: Mapping[str, object]) -> Candidate | None:
     """Return a step of the sensor that was seen in stick, too: it is there, whatever else the forces hold.
 
+    Only another way in which the sensor's zero moves may stand for it: a drift of it jumps a little at every look.
+
     Args:
         candidates: the screening's outcome.
         details: what the stick phases told.
     """
     step = next((c for c in candidates if c.name == kind_found_as(JUMP)), None)
-    return step if STEP_SEEN in details and step is not None and step.score >= criteria.NAMED else None
+    if STEP_SEEN not in details or step is None or step.score < criteria.NAMED:
+        return None
+    return step if all(c.score <= step.score for c in candidates if c.has(MOVES_ZERO)) else None
 
 
 def steady(

@@ -15,12 +15,13 @@ from __future__ import annotations
 import dataclasses
 
 import numpy as np
+from scipy.special import gammaln
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
 from stochfric_mb.numerics.robust import deviation
 
 PHASES, DUTIES = 24, (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
@@ -77,6 +78,27 @@ def switching(regression: Regression, residuals: Array) -> Switching:
     regular = separation > criteria.LEVELS_APART and _regular(pool, upper)
     jumps, still = max((_jumps(pool, residuals[:, c], finest[:, c]) for c in (0, 1)), key=lambda j: j[0])
     return Switching(separation, changes, regular, jumps, still)
+
+
+def levels_score(regression: Regression, terms: Terms, solution: Solution) -> float:
+    """Return the evidence for two levels of friction, each run's own, between which slips change without a rule [-].
+
+    Which slip is at which level costs the logarithm of the number of ways in which as many changes may fall.
+    """
+    pool = regression.pool
+    residuals = regression.residuals(terms, solution)
+    finest = np.stack([np.sqrt(np.diag(c.covariance)[:2]) for c in pool.calibrations])
+    found: list[float] = []
+    for column in (0, 1):
+        upper = _levels(pool, residuals[:, column], finest[:, column])[1]
+        columns, cost = list[Array](), 0.0
+        for run in range(pool.n_runs):
+            mine = pool.run == run
+            columns += [pool.column(pool.static * upper * mine, None), pool.column(None, pool.kinetic * upper * mine)]
+            n, changes = int(mine.sum()), int(np.count_nonzero(np.diff(upper[mine])))
+            cost += float(np.log(regression.n)) * 2 + 2.0 * float(gammaln(n) - gammaln(changes + 1) - gammaln(n - changes))
+        found.append(2.0 * (solution.cost - regression.fit(terms.plus(columns), solution.scatter).cost) - cost)
+    return max(found)
 
 
 def _levels(pool: Pool, values: Array, finest: Array) -> tuple[float, np.ndarray]:
@@ -145,24 +167,3 @@ def _regular(pool: Pool, upper: np.ndarray) -> bool:
             if len(grid) and missed.min() <= criteria.OUT_OF_STEP * rarer:
                 return True
     return False
-
-
-def in_step(frequency: float, pool: Pool, *, along_belt: bool) -> bool:
-    """Return whether a pattern repeats after a whole number of slips, up to `LONGEST_COUNT`, in every run: slips are counted.
-
-    A ripple of another origin has no reason to; of all frequencies up to half the slips' about one in six would by chance.
-
-    Args:
-        frequency: its frequency [Hz]; along the belt the one at the slowest belt.
-        pool: the slips.
-        along_belt: whether it lies on the belt, and is passed faster by a faster belt.
-    """
-    slowest = float(pool.belt_velocity.min())
-    counts: list[set[int]] = []
-    for slips in pool.slips:
-        own = frequency * (slips.record.mechanism.belt_velocity / slowest if along_belt else 1.0)
-        # the mean: where every few slips are harder, their cycles are longer
-        cycle = float(np.mean(np.diff(slips.onset_time)))
-        off = {n: abs(own * cycle * n - round(own * cycle * n)) for n in range(2, criteria.LONGEST_COUNT + 1)}
-        counts.append({n for n, miss in off.items() if miss < criteria.FREQUENCY_RESOLVED * n * cycle / pool.duration})
-    return bool(set.intersection(*counts))

@@ -69,6 +69,14 @@ def _features(place: Array, weight: Array, grid: Array, harmonics: int) -> npt.N
     return found
 
 
+def shared_by_runs(pool: Pool) -> list[Array]:
+    """Return a regressor for every feature and run: whatever all slips of a run share."""
+    columns = [pool.column(None, None) for _ in range(pool.n_runs * N_FEATURES)]
+    for i, column in enumerate(columns):
+        column[pool.run == i // N_FEATURES, i % N_FEATURES] = 1.0
+    return columns
+
+
 def best_wave(
     kind: str, wave: Wave, pool: Pool, regression: Regression, terms: Terms, scatter: Array
 ) -> tuple[Hypothesis, int]:
@@ -86,9 +94,7 @@ def best_wave(
     cost = 2.0 * pool.n_runs * float(np.log(regression.n))
     whole = frequencies(pool, wave.pace)
     # a wave that all slips of a run keep to looks like a shape that they share: it must tell more with less
-    alike = [pool.column(None, None) for _ in range(pool.n_runs * N_FEATURES)]
-    for i, column in enumerate(alike):
-        column[pool.run == i // N_FEATURES, i % N_FEATURES] = 1.0
+    alike = shared_by_runs(pool)
     shaped = 2.0 * float(regression.gains(terms, scatter, [alike])[0]) - len(alike) * float(np.log(regression.n))
     rates = _slip_rates(pool)
     share = criteria.SHARE_OF_SHAPE if rates.max() > criteria.RATES_DIFFER * rates.min() else 1.0

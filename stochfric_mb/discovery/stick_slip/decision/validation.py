@@ -1,0 +1,133 @@
+"""Names on trial: fitted, judged by what they explain of the runs they come from, and by the forecasts of held-out runs."""
+
+from __future__ import annotations
+
+import dataclasses
+
+from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.decision.explained import unexplained
+from stochfric_mb.discovery.stick_slip.decision.held_out_check import Comparison, compared, without_last
+from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, Named, of_wander
+from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, deterministic, floor_of, mean_score, settled
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit, with_deviations
+from stochfric_mb.discovery.stick_slip.simulation.scatter import matched
+from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.effects import kinds_with
+from stochfric_mb.effects.traits import OUTSIDE_FORECASTS, SCATTER
+
+
+@dataclasses.dataclass(frozen=True)
+class Answer:
+    """A decision with its model."""
+
+    decision: Decision
+    """What is named."""
+    fit: Fit | None
+    """The fit of the model with the effects; None where there are none."""
+    model: Model
+    """That model; the recalibrated one where there are none."""
+
+
+def fitted(decision: Decision, found: Study, recalibrated: Fit) -> Answer:
+    """Return a decision with the model that has its effects, fitted to the fit runs."""
+    fit = _fit(decision, found, recalibrated) if decision.verdict == "effect" else None
+    return Answer(decision, fit, fit.model if fit is not None else recalibrated.model)
+
+
+def _fit(decision: Decision, found: Study, recalibrated: Fit) -> Fit:
+    model = decision.model
+    calm = deterministic(model)
+    if calm.effects:
+        starts = (calm, dataclasses.replace(calm, law=recalibrated.model.law, corrections=recalibrated.model.corrections))
+        fit = min((refit(m, found.windows, found.uncertainty, evaluations=25) for m in starts), key=lambda f: f.cost)
+        fit = with_deviations(fit, found.windows, found.uncertainty)
+    else:
+        fit = recalibrated
+    places = [i for i, e in enumerate(model.effects) if e in calm.effects]
+    effects = list(model.effects)
+    for place, effect in zip(places, fit.model.effects, strict=False):
+        effects[place] = effect
+    own = {}
+    for run, values in fit.model.own.items():
+        full: list[dict[str, float]] = [{} for _ in effects]
+        for place, value in zip(places, values, strict=True):
+            full[place] = dict(value)
+        own[run] = tuple(full)
+    joined = Model(fit.model.law, fit.model.corrections, tuple(effects), model.process, own, model.measured)
+    return dataclasses.replace(fit, model=matched(joined, found.pool))
+
+
+def explaining(answer: Answer, found: Study, recalibrated: Fit) -> Answer:
+    """Return the answer as far as it explains the fit runs.
+
+    What the first effect's form leaves may look like another effect, which in a fit of both takes the first one along.
+    """
+    decision = answer.decision
+    poor = unexplained(found, decision, recalibrated.model, answer.model)
+    if poor is None:
+        return answer
+    for other in _instead(decision, found):
+        tried = fitted(other, found, recalibrated)
+        if unexplained(found, other, recalibrated.model, tried.model) is None:
+            return tried
+    return Answer(poor, None, recalibrated.model)
+
+
+def _instead(decision: Decision, found: Study) -> list[Decision]:
+    """Return what may be named instead: fewer of the effects, or a wander of friction."""
+    others: list[Decision] = []
+    fewer = decision
+    while len(fewer.named) > 1 and (before := fewer.named[-1].before) is not None:
+        fewer = dataclasses.replace(fewer, named=fewer.named[:-1], model=before)
+        others.append(fewer)
+    wander = of_wander(found, decision)
+    return others if wander is None else [*others, wander]
+
+
+def checked_on_held_out(answer: Answer, found: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
+    """Return the answer less the effects that held-out runs do not bear out, last found first.
+
+    An effect must not make their forecasts worse; a further one must make them better.
+    """
+    dropped: dict[str, object] = {}
+    last: Named | None = None
+    while answer.decision.named and answer.decision.named[-1].kind not in kinds_with(OUTSIDE_FORECASTS):
+        last = answer.decision.named[-1]
+        fewer = _without_last(answer, found, recalibrated, runs)
+        seen = compared(fewer.model, answer.model, runs)
+        if seen is None or not _refused(seen, last, fewer):
+            break
+        dropped[last.kind] = {name: error * found.size.length for name, error in dataclasses.asdict(seen).items()}
+        answer = fewer
+    if not dropped or last is None:
+        return answer
+    answer.decision.details["not_borne_out"] = dropped
+    return answer if answer.decision.named else dataclasses.replace(answer, decision=_nothing_left(answer, last, runs))
+
+
+def _without_last(answer: Answer, found: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
+    decision, kind = answer.decision, answer.decision.named[-1].kind
+    fewer = dataclasses.replace(decision, named=decision.named[:-1], model=without_last(decision.model, kind))
+    if not fewer.named:
+        return Answer(fewer, None, recalibrated.model)
+    again = fitted(fewer, found, recalibrated)
+    return dataclasses.replace(again, model=settled(again.model, runs))
+
+
+def _refused(seen: Comparison, last: Named, fewer: Answer) -> bool:
+    """Return whether held-out runs speak against the effect that was found last."""
+    # what is beside a named effect needs evidence of its own; a wander's forecasts hang on where the record happens to be
+    idle = bool(fewer.decision.named) and last.kind not in kinds_with(SCATTER) and not seen.better
+    return seen.worse or idle
+
+
+def _nothing_left(answer: Answer, last: Named, runs: HeldOut) -> Decision:
+    """Return the decision where held-out runs have refused every effect: none, or unknown where much is to be explained."""
+    error = mean_score(answer.model, runs)
+    reducible = error - min(floor_of(answer.model, runs), error)
+    if reducible < criteria.LEAST_REDUCIBLE * error:
+        return dataclasses.replace(answer.decision, verdict="none")
+    text = f"{last.kind} comes closest on the fit runs, but makes forecasts of the held-out runs worse"
+    return dataclasses.replace(answer.decision, verdict="unknown", where=Where(last.where.axis, text))

@@ -1,0 +1,63 @@
+"""What a reader should know beside the verdict: the sensor, the belt, what was refused, where an effect shows."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from stochfric_mb.discovery.result import Gap
+from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
+from stochfric_mb.discovery.stick_slip.decision.rounds import Decision
+from stochfric_mb.discovery.stick_slip.simulation.prior_model import NOT_STATED
+from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.measurement.dataset import Dataset
+
+
+def notes(found: Study, decision: Decision, gap: Gap | None, forces: Gap | None, given: Dataset) -> tuple[str, ...]:
+    """Return the notes of a result.
+
+    Args:
+        found: what the fit runs told.
+        decision: what was decided, with the numbers behind it.
+        gap: errors of forecasts on the held-out runs.
+        forces: errors of the forces of their slips.
+        given: the data set in SI units.
+    """
+    details: dict[str, Any] = decision.details
+    beyond = details["parameters"]["moved_beyond_uncertainty"]
+    return (
+        *_of_the_record(found),
+        *(
+            f"{kind} is not borne out by the held-out runs: error {seen['with_']:.3g} m with it, "
+            f"{seen['without']:.3g} m without"
+            for kind, seen in details.get("not_borne_out", {}).items()
+        ),
+        *(gap.notes if gap is not None else ()),
+        *([details["unnamed_term"]] if "unnamed_term" in details else []),
+        *_seen_in_forces(gap, forces),
+        *(f"{name} is {abs(by):.2g} stated standard deviations off from what is stated" for name, by in beyond.items()),
+        *([] if given.scenario.uncertainty else [NOT_STATED]),
+    )
+
+
+def _of_the_record(found: Study) -> list[str]:
+    said: list[str] = []
+    if found.outliers > 0.0:
+        said.append(f"{found.outliers:.2e} of the samples were outliers and were replaced by a running median")
+    colour = max((s.noise for s in found.pool.slips), key=lambda n: n.coloured)
+    if colour.coloured > 0.0:
+        size = colour.coloured * found.size.length
+        said.append(f"the sensor's noise is coloured: {size:.2g} m with a memory of {colour.memory:.2f} a sample")
+    if (belt := belt_speed(found)) is not None:
+        said.append(belt.note)
+    return said
+
+
+def _seen_in_forces(gap: Gap | None, forces: Gap | None) -> tuple[str, ...]:
+    """Return where an effect shows that one-cycle forecasts of the position do not show."""
+    if gap is None or gap.closed is not None or forces is None or forces.closed is None:
+        return ()
+    return (
+        f"forecasts of the position do not show the effect; the forces of held-out slips do: off by "
+        f"{forces.recalibrated:.3g} times their noise without it, {forces.augmented:.3g} with it, "
+        f"{forces.floor:.3g} if the model is true",
+    )
