@@ -107,7 +107,7 @@ def _show(content: Mapping[str, Any]) -> None:
     for effect in content["effects"]:
         if effect["equivalent_to"]:
             say(f"These data cannot tell {effect['kind']} from {', '.join(effect['equivalent_to'])}")
-    if (gap := content["gap"]) is not None:
+    if (gap := content[content["leading"]]) is not None:
         stages = ("baseline", "recalibrated", "augmented", "floor")
         rows = [[f"{gap[stage]:.3g}" if gap[stage] is not None else "-" for stage in stages]]
         rows[0].append("-" if gap["closed"] is None else f"{100.0 * gap['closed']:.3g} %")

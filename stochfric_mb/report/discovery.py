@@ -30,6 +30,7 @@ CAPTIONS = {
 
 METRICS = {
     "crps_one_cycle": "error of forecasts one cycle ahead (CRPS; without scatter, the mean absolute error)",
+    "crps_slip_forces": "error of the forces of single slips over their noise (CRPS)",
     "closed_loop_voltage": "error of the simulated closed loop: root mean square of the voltage's, over that of the voltage",
     "closed_loop_drive": "error of the simulated closed loop: root mean square of what the controller gives, over its size",
     "crps_friction": "error of forecasts of friction while the joint slides that know how far runs scatter (CRPS)",

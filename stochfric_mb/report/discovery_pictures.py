@@ -52,8 +52,8 @@ def figures(content: Mapping[str, Any], evidence: Evidence | None) -> dict[str, 
         wanted["events"] = functools.partial(_events, evidence)
     if content["ranking"]:
         wanted["ranking"] = functools.partial(_ranking, content)
-    if content["gap"] is not None:
-        wanted["gap"] = functools.partial(_gap, content["gap"])
+    if (gap := content[content["leading"]]) is not None:
+        wanted["gap"] = functools.partial(_gap, gap)
     return {name: png(draw) for name, draw in wanted.items()}
 
 
@@ -233,7 +233,8 @@ def _ranking(content: Mapping[str, Any]) -> Figure:
 
 def _gap(gap: Mapping[str, Any]) -> Figure:
     names = ["baseline", "recalibrated", "augmented"]
-    scale, unit = {"m": (1.0e6, "µm"), "-": (100.0, "%")}.get(gap["unit"], (1.0, gap["unit"]))
+    shown = {"m": (1.0e6, "µm"), "-": (100.0, "%")} if gap["metric"] != "crps_slip_forces" else {}
+    scale, unit = shown.get(gap["unit"], (1.0, gap["unit"]))
     figure, (axes,) = new_figure(4.8, 2.5)
     colours = {"baseline": COLOURS["believed"]} | COLOURS
     labels = {"baseline": LABELS["believed"]} | LABELS

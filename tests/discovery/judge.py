@@ -92,7 +92,8 @@ def judge(truth: dict[str, Any], result: dict[str, Any] | None, seconds: float, 
 
 def _closed(result: dict[str, Any] | None) -> float | None:
     """The reported closed share, where the reported reducible share is large enough to count."""
-    gap = (result or {}).get("gap") or {}
+    leading = (result or {}).get("leading", "gap")
+    gap = (result or {}).get(leading) or {}
     recalibrated, floor, closed = gap.get("recalibrated"), gap.get("floor"), gap.get("closed")
     if closed is None or not recalibrated or floor is None or (recalibrated - floor) / recalibrated < REDUCIBLE:
         return None

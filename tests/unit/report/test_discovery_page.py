@@ -261,7 +261,7 @@ def test_a_model_that_never_slips_is_shown_as_such(found):
 
 
 def test_without_held_out_cycles_the_rest_is_shown(found):
-    result = dataclasses.replace(found.result, gap=None)
+    result = dataclasses.replace(found.result, gap=None, slip_forces=None, leading="gap")
     content, text, drawn = written(dataclasses.replace(found, result=result, runs=dataclasses.replace(found.runs, second=())))
     check_backed(content, text)
     assert {"map", "left_over"} <= set(drawn)

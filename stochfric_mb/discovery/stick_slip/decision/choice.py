@@ -10,7 +10,7 @@ import numpy as np
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, confirm
-from stochfric_mb.discovery.stick_slip.decision.entrainment import entrained
+from stochfric_mb.discovery.stick_slip.decision.entrainment import Trial, entrained
 from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING
 from stochfric_mb.discovery.stick_slip.screening.naming import with_candidate
 from stochfric_mb.discovery.stick_slip.screening.regression import Terms
@@ -69,26 +69,28 @@ def choose(
         before: the simulated model so far.
         details: gets the numbers of the confirmation.
     """
-    family, shape = _family(candidates, cases)
-
-    def shapes(candidate: Candidate) -> bool:
-        """Return whether it is of the family, or a competitor on its axes."""
-        return candidate.name in family + SHAPES or candidate.any_shape
-
-    effects = [c for c in candidates if c.is_effect]
-    others = [c for c in candidates if not c.is_effect]
-    rest = _best_score(c for c in candidates if not shapes(c))
-    if before is not None and shape >= criteria.NAMED and shape >= rest:
+    family = _family(candidates, cases)
+    rest = [c for c in candidates if not family.holds(c)]
+    if before is not None and family.score >= criteria.NAMED and family.score >= _best_score(rest):
         # refuted once, shapes stay refuted: the slips that simulated ones are compared with are the same
         if REFUTED not in details:
-            outcome = _by_simulation(study, model, terms, [c for c in effects if shapes(c)], cases, before, details)
+            simulation = _Simulation(study, model, terms, cases, before, details)
+            outcome = simulation.outcome([c for c in candidates if c.is_effect and family.holds(c)])
             if outcome is not None:
                 return outcome
             details[REFUTED] = True
         # simulation does not bear the shape out: what remains are effects that change from slip to slip
-        effects = [c for c in effects if not shapes(c) and c.score > criteria.WORTH_SIMULATING * shape]
-        others = [c for c in others if c.name not in SHAPES]
-    nameless = _nameless(effects, others)
+        least = criteria.WORTH_SIMULATING * family.score
+        candidates = [c for c in candidates if c.name not in SHAPES and (not c.is_effect or (c in rest and c.score > least))]
+    return _by_score(study, model, terms, candidates, before)
+
+
+def _by_score(
+    study: Study, model: Model, terms: Terms, candidates: Sequence[Candidate], before: Confirmed | None
+) -> Chosen | Where | None:
+    """Return the effect with most evidence, or where a pattern without a name has more."""
+    effects = [c for c in candidates if c.is_effect]
+    nameless = _nameless(effects, [c for c in candidates if not c.is_effect])
     if nameless is not None or not effects or effects[0].score < criteria.NAMED:
         return nameless
     best = effects[0]
@@ -101,18 +103,30 @@ def _best_score(candidates: Iterable[Candidate]) -> float:
     return max((c.score for c in candidates), default=-np.inf)
 
 
-def _family(candidates: Sequence[Candidate], cases: Sequence[Case]) -> tuple[tuple[str, ...], float]:
-    """Return the effects that simulating tells apart here, and the best score of their family and its competitors."""
+@dataclasses.dataclass(frozen=True)
+class _Family:
+    """The effects that simulating tells apart here, with the competitors on their axes."""
+
+    kinds: tuple[str, ...]
+    """The effects."""
+    score: float
+    """Best score among them all [-]."""
+
+    def holds(self, candidate: Candidate) -> bool:
+        """Return whether a candidate is one of them."""
+        return candidate.name in self.kinds + SHAPES or candidate.any_shape
+
+
+def _family(candidates: Sequence[Candidate], cases: Sequence[Case]) -> _Family:
     several = len(cases) > 1 and not cases[0].record.mechanism.excitation_amplitude
     # an effect of another package says what it marks, not how slips differ: simulating it decides
     own = tuple(c.name for c in candidates if c.is_effect and not effect_class(c.name).__module__.startswith("stochfric_mb."))
-    family = kinds_with(SHAPES_SLIPS) + (kinds_with(BETWEEN_POINTS) if several else ()) + own
-    shape = _best_score(c for c in candidates if c.name in family + SHAPES or c.any_shape)
-    if any(c.has(SHAPED_IF_FORCED) and criteria.OUTDONE * c.score < shape for c in candidates):
-        # where slips keep step with a known force, a late sensor shapes every slip alike, too
-        family += kinds_with(SHAPED_IF_FORCED)
-        shape = max(shape, *(c.score for c in candidates if c.has(SHAPED_IF_FORCED)))
-    return family, shape
+    kinds = kinds_with(SHAPES_SLIPS) + (kinds_with(BETWEEN_POINTS) if several else ()) + own
+    first = _Family(kinds, -np.inf)
+    shape = _best_score(c for c in candidates if first.holds(c))
+    # where slips keep step with a known force, a late sensor shapes every slip alike, too
+    forced = [c for c in candidates if c.has(SHAPED_IF_FORCED) and criteria.OUTDONE * c.score < shape]
+    return _Family(kinds + (kinds_with(SHAPED_IF_FORCED) if forced else ()), max(shape, _best_score(forced)))
 
 
 def _nameless(effects: Sequence[Candidate], others: Sequence[Candidate]) -> Where | None:
@@ -137,48 +151,76 @@ def _nameless(effects: Sequence[Candidate], others: Sequence[Candidate]) -> Wher
     return None
 
 
-def _by_simulation(
-    study: Study,
-    model: Model,
-    terms: Terms,
-    mine: Sequence[Candidate],
-    cases: Sequence[Case],
-    before: Confirmed,
-    details: dict[str, object],
-) -> Chosen | Where | None:
-    n_terms = terms.columns.shape[2]
-    # over the best effect, not the shape: where none comes near it the marks are too far from linear to choose by
-    least = max(criteria.WORTH_SIMULATING * mine[0].score if mine else 0.0, criteria.FOLLOWED_UP / 2.0)
-    rounds = sum(key.startswith("confirmation") for key in details)
-    most = MOST_SIMULATED_LATER if rounds else MOST_SIMULATED
-    worth = [c for c in mine if c.score > least]
-    firm, loose = [c for c in worth if not c.any_shape][:most], [c for c in worth if c.any_shape]
-    tried = [(c, confirm(cases, with_candidate(model, c, study.pool, n_terms), study.uncertainty)) for c in (*firm, *loose)]
-    if not model.effects:
-        tried += entrained(study, model, terms, cases)
-    tried.sort(key=lambda t: t[1].criterion)
-    # of several variants of an effect the best one counts
-    details[f"confirmation_{rounds + 1}"] = {c.name: [f.chi2, f.criterion] for c, f in reversed(tried)} | {
-        "believed": [before.chi2, before.criterion]
-    }
-    if not tried:
-        return None
-    # of names about equally good the one stands first that could have been refuted: hardly any shape refutes the others
-    fits = [t for t in tried if not t[0].any_shape and _adequate(t[1], before)] or tried
-    spread = _spread([f for _, f in fits])
-    best, fitted = min(fits, key=lambda t: t[1].scaled(spread))
-    if before.criterion - fitted.criterion < criteria.FOLLOWED_UP:
-        return None
-    if fitted.chi2 > fitted.freedom + criteria.LACK_OF_FIT and fitted.chi2 > criteria.LACK_OF_FIT_SHARE * before.chi2:
-        return Where(
-            "shape of the friction force within a slip",
-            f"no known effect explains the force within the slips; {best.name} comes closest",
-        )
+@dataclasses.dataclass(frozen=True)
+class _Simulation:
+    """Candidates told apart by simulating them."""
+
+    study: Study
+    """What was measured."""
+    model: Model
+    """The model so far."""
+    terms: Terms
+    """Its terms in the regression."""
+    cases: Sequence[Case]
+    """Slips to be predicted."""
+    before: Confirmed
+    """The simulated model so far."""
+    details: dict[str, object]
+    """Gets the numbers."""
+
+    def outcome(self, mine: Sequence[Candidate]) -> Chosen | Where | None:
+        """Return the candidate that explains the slips best, or where their shape disagrees with all, or None."""
+        tried = self._tried(mine)
+        if not tried:
+            return None
+        # of names about equally good the one stands first that could have been refuted: hardly any shape refutes the others
+        fits = [t for t in tried if not t[0].any_shape and _adequate(t[1], self.before)] or tried
+        spread = _spread([f for _, f in fits])
+        best, fitted = min(fits, key=lambda t: t[1].scaled(spread))
+        if self.before.criterion - fitted.criterion < criteria.FOLLOWED_UP:
+            return None
+        if _lacking(fitted, self.before):
+            return Where(
+                "shape of the friction force within a slip",
+                f"no known effect explains the force within the slips; {best.name} comes closest",
+            )
+        return Chosen(best, _alike(best, fitted, tried, spread, self.before), fitted.model, fitted, True)
+
+    def _tried(self, mine: Sequence[Candidate]) -> list[Trial]:
+        """Return the candidates that are worth it, simulated, best first."""
+        n_terms = self.terms.columns.shape[2]
+        # over the best effect, not the shape: where none comes near it the marks are too far from linear to choose by
+        least = max(criteria.WORTH_SIMULATING * mine[0].score if mine else 0.0, criteria.FOLLOWED_UP / 2.0)
+        rounds = sum(key.startswith("confirmation") for key in self.details)
+        most = MOST_SIMULATED_LATER if rounds else MOST_SIMULATED
+        worth = [c for c in mine if c.score > least]
+        chosen = [c for c in worth if not c.any_shape][:most] + [c for c in worth if c.any_shape]
+        starts = [with_candidate(self.model, c, self.study.pool, n_terms) for c in chosen]
+        tried = [(c, confirm(self.cases, m, self.study.uncertainty)) for c, m in zip(chosen, starts, strict=True)]
+        if not self.model.effects:
+            tried += entrained(self.study, self.model, self.terms, self.cases)
+        tried.sort(key=lambda t: t[1].criterion)
+        # of several variants of an effect the best one counts
+        told = {c.name: [f.chi2, f.criterion] for c, f in reversed(tried)}
+        self.details[f"confirmation_{rounds + 1}"] = told | {"believed": [self.before.chi2, self.before.criterion]}
+        return tried
+
+
+def _lacking(fitted: Confirmed, before: Confirmed) -> bool:
+    """Return whether even the best candidate leaves too much of the slips' shape."""
+    beyond = fitted.chi2 > fitted.freedom + criteria.LACK_OF_FIT
+    return beyond and fitted.chi2 > criteria.LACK_OF_FIT_SHARE * before.chi2
+
+
+def _alike(best: Candidate, fitted: Confirmed, tried: Sequence[Trial], spread: float, before: Confirmed) -> tuple[str, ...]:
+    """Return the other candidates that explain the slips about as well."""
     near = fitted.scaled(spread) + criteria.ALIKE_SIMULATED
-    tried.sort(key=lambda t: t[1].scaled(spread))
-    alike = [c for c, f in tried if f.scaled(spread) < near and (_adequate(f, before) or not (c.any_shape or c.is_wave))]
-    class_ = tuple(dict.fromkeys(c.name for c in alike if c.name != best.name))
-    return Chosen(best, class_, fitted.model, fitted, True)
+    alike = [
+        c
+        for c, f in sorted(tried, key=lambda t: t[1].scaled(spread))
+        if f.scaled(spread) < near and (_adequate(f, before) or not (c.any_shape or c.is_wave))
+    ]
+    return tuple(dict.fromkeys(c.name for c in alike if c.name != best.name))
 
 
 def _adequate(fitted: Confirmed, before: Confirmed) -> bool:

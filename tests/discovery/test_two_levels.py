@@ -1,0 +1,21 @@
+"""Friction that switches between two levels is told from effects by likelihoods: what explains the slips better stands."""
+
+import pytest
+
+from stochfric_mb.discovery.stick_slip.screening.screen import screen
+from stochfric_mb.discovery.stick_slip.screening.switching import levels_score
+from stochfric_mb.discovery.stick_slip.simulation.scaling import USUAL
+from stochfric_mb.discovery.stick_slip.study import study
+from tests.discovery.generator.case import Case
+from tests.discovery.net.rigs import belt_box
+
+
+@pytest.mark.parametrize(
+    ("form", "design", "switches"),
+    [("unknown.two_states", "one_free", True), ("second_mode.attached", "belt_speeds", False)],
+)
+def test_the_better_explanation_stands(form, design, switches):
+    found = study(belt_box(Case(form, design, 1.0, 17)), USUAL)
+    levels = levels_score(found.regression, found.terms, found.solution)
+    best = max(c.score for c in screen(found.pool, found.regression, found.terms, found.solution) if c.is_effect)
+    assert (levels > best) == switches
