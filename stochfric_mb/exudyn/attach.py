@@ -84,16 +84,16 @@ def add_friction(
     options: dict[str, Any] = {"effective_mass": effective_mass, "seed": seed, "sample": sample, "contact": contact}
     kinds = {marker_kind(mbs, m) for m in (marker0, marker1)}
     markers = (marker0, marker1)
-    if kinds == {"coordinate"} and as_friction(friction).law.needs_holding_force:
-        from stochfric_mb.exudyn.true_stick import TrueStickContact
-
-        if normal is not None or contact_stiffness is not None or radius != 0.0:
-            raise InputError("normal, contact_stiffness and radius are for position markers; give coordinates a normal_force")
-        return TrueStickContact(mbs, markers, friction, as_normal(mbs, normal_force), surface_velocity, **options)
     if kinds == {"coordinate"}:
         if normal is not None or contact_stiffness is not None or radius != 0.0:
             raise InputError("normal, contact_stiffness and radius are for position markers; give coordinates a normal_force")
-        return CoordinateContact(mbs, markers, friction, as_normal(mbs, normal_force), surface_velocity, **options)
+        kind, source, law = CoordinateContact, as_normal(mbs, normal_force), as_friction(friction).law
+        if law.needs_holding_force:
+            from stochfric_mb.exudyn.true_stick import TrueStickCoordinate, require_holdable
+
+            require_holdable(law.kind, source)
+            kind = TrueStickCoordinate
+        return kind(mbs, markers, friction, source, surface_velocity, **options)
     if kinds == {"position"}:
         if (normal_force is None) == (contact_stiffness is None):
             raise InputError("give either normal_force or contact_stiffness, which makes one")
@@ -187,7 +187,7 @@ def line_function_of(contact: Any) -> tuple[Any, tuple[str, ...]]:
         contact.route = "compiled"
         return function, ()
     normal, friction = contact._normal, contact.friction
-    if not friction.law.traceable:
+    if not friction.law.traceable or contact.true_stick:
         return pointers.line_in_python, ()
     n = None if normal.changes else normal.at(0.0)
     expression = force_expression(friction.law, friction.process, n, contact.given_mass)

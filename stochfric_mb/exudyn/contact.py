@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import exudyn
@@ -177,7 +179,9 @@ class FrictionContact:
 
     def reset(self, start: float = 0.0) -> None:
         """Start the contact afresh, at the system's initial displacement and velocity and the time ``start`` [s]."""
-        self._read_initial_motion()
+        if self._mbs.systemIsConsistent and len(self._mbs.systemData.GetODE2Coordinates(INITIAL)):  # assembled as it is
+            with self._initial_motion():
+                self._read_motion()
         self._words[at.STARTED] = 0
         if self._normal.changes and not self._normal.reaction:  # implicit solvers ask for the force before the first step
             self._read_normal(start)
@@ -392,16 +396,15 @@ class FrictionContact:
             rate = (self._normal.at(t + ahead) - now) / ahead
         numbers[[at.GIVEN_NORMAL, at.GIVEN_RATE]] = now, rate
 
-    def _read_initial_motion(self) -> None:
-        """Take the relative motion at the start of a simulation; connectors tell the current one only."""
+    @contextlib.contextmanager
+    def _initial_motion(self) -> Iterator[None]:
+        """Let the system's state be the one at the start of a simulation; connectors tell the current one only."""
         data = self._mbs.systemData
-        if not self._mbs.systemIsConsistent or len(data.GetODE2Coordinates(INITIAL)) == 0:
-            return  # not assembled, or not since it has grown
         x, v = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
         data.SetODE2Coordinates(data.GetODE2Coordinates(INITIAL))
         data.SetODE2Coordinates_t(data.GetODE2Coordinates_t(INITIAL))
         try:
-            self._read_motion()
+            yield
         finally:
             data.SetODE2Coordinates(x)
             data.SetODE2Coordinates_t(v)
@@ -418,8 +421,8 @@ def _require_no_holding_force(law: Law) -> None:
     """
     if law.needs_holding_force:
         raise InputError(
-            f"law {law.kind} needs the force that would hold the contact still, which Exudyn gives between two coordinates "
-            "alone (add_friction with coordinate markers); use "
+            f"law {law.kind} needs the force that would hold the contact still, which Exudyn gives along a line alone "
+            "(add_friction with coordinate markers, add_joint_friction); use "
             "stochfric_mb.laws.substitute.elastic_substitute(law, dt, normal_force, effective_mass)"
         )
 

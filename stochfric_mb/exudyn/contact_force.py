@@ -39,6 +39,7 @@ from stochfric_mb.exudyn.layout import (
     SPUN,
     STEP,
     STIFFNESS,
+    STUCK,
     SURFACE_VELOCITY,
     SURFACE_VELOCITY_2,
     TOUCH,
@@ -124,7 +125,8 @@ def pull(t, displacement, velocity, address):
     if n <= 0.0:
         return 0.0
     u, hold = w * t - r * displacement, numbers[HOLD]
-    numbers[HOLD] = 0.0  # a constraint gives what holds
+    if numbers[STUCK] == 1.0:
+        numbers[HOLD] = 0.0  # a constraint holds
     ask(words[FORCE], t, (u, 0.0, w - r * velocity, 0.0), n, pair_at(t, u, numbers, words), numbers, NEW)
     numbers[HOLD] = hold
     return -r * numbers[NEW]

@@ -16,7 +16,7 @@ from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
 from stochfric_mb.exudyn.normal import Normal, ReactionNormal, as_normal
 from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, lower
 from stochfric_mb.exudyn.turning import with_orientation
-from stochfric_mb.friction import Friction
+from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 
 _FREE = {"JointRevoluteZ": 5, "JointRevolute2D": 5, "JointPrismaticX": 0, "JointPrismatic2D": 0}
@@ -63,7 +63,13 @@ def add_joint_friction(
     across = [i for i in range(3) if i != axis % 3]
     normal = ReactionNormal(mbs, joint, across) if normal_force is None else as_normal(mbs, normal_force)
     options: dict[str, Any] = {"effective_mass": effective_mass, "seed": seed, "sample": sample, "contact": contact}
-    return JointContact(mbs, joint, axis, friction, normal, require_number("radius", radius, above=0.0, unit="m"), **options)
+    kind, law = JointContact, as_friction(friction).law
+    if law.needs_holding_force:
+        from stochfric_mb.exudyn.true_stick import TrueStickJoint, require_holdable
+
+        require_holdable(law.kind, normal)
+        kind = TrueStickJoint
+    return kind(mbs, joint, axis, friction, normal, require_number("radius", radius, above=0.0, unit="m"), **options)
 
 
 def _free_axis(mbs: Any, joint: Any) -> int:
@@ -116,14 +122,17 @@ class JointContact(FrictionContact):
             rotations = [np.asarray(entry.get(f"rotationMarker{i}", np.eye(3))) @ cycle for i in range(2)]
             pairs = [_turned(mbs, m, rotation, i) for i, (m, rotation) in enumerate(zip(markers, rotations, strict=True))]
             markers, turn = [marker for marker, _ in pairs], pairs[0][1] | pairs[1][1]
+            self._axes = np.asarray(turn.get("rotationMarker0", np.eye(3)))
             connector = TorsionalSpringDamper(
                 markerNumbers=markers, stiffness=self.where, springTorqueUserFunction=function, **turn
             )
         else:
-            axis = entry["axisMarker0"] if "axisMarker0" in entry else entry["rotationMarker0"][:, free]
+            axis = np.asarray(entry["axisMarker0"] if "axisMarker0" in entry else entry["rotationMarker0"][:, free])
+            self._axes = _axes_along(axis)
             connector = LinearSpringDamper(
                 markerNumbers=markers, stiffness=self.where, axisMarker0=axis, springForceUserFunction=function
             )
+        self._markers = tuple(markers)
         self.object = mbs.AddObject(connector)
         self._begin(names)
 
@@ -160,6 +169,14 @@ class JointContact(FrictionContact):
             userFunctionName="springTorqueUserFunction" if self._turns else "springForceUserFunction",
             itemTypeName=f"ObjectConnector{name}SpringDamper",
         )
+
+
+def _axes_along(axis: Any) -> Any:
+    """Return axes (columns) of which the first is along ``axis``."""
+    first = axis / np.linalg.norm(axis)
+    second = np.cross(first, np.eye(3)[np.argmin(np.abs(first))])
+    second /= np.linalg.norm(second)
+    return np.column_stack([first, second, np.cross(first, second)])
 
 
 def _turned(mbs: Any, marker: Any, rotation: Any, i: int) -> tuple[Any, dict[str, Any]]:

@@ -1,4 +1,4 @@
-"""Laws with true stick on a line: a constraint holds the contact while it sticks.
+"""Laws with true stick along a line or about an axis: a constraint holds the contact while it sticks.
 
 The constraint on velocities is active while the law sticks; its reaction is the friction. At a switch velocities and
 accelerations are set as they are just after it, since the trapezoidal rule would carry a jump of the acceleration on for ever
@@ -11,51 +11,37 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from exudyn.itemInterface import CoordinateConstraint
+from exudyn.itemInterface import CoordinateConstraint, GenericJoint, MarkerBodyRigid
 
 from stochfric_mb.errors import InputError
 from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.attach import CoordinateContact
-from stochfric_mb.exudyn.contact import OUTPUT
+from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
+from stochfric_mb.exudyn.joint import JointContact
 from stochfric_mb.exudyn.mass import response
 from stochfric_mb.exudyn.normal import Normal
-from stochfric_mb.friction import Friction, as_friction
-from stochfric_mb.laws import Law
 
 
-class TrueStickContact(CoordinateContact):
-    """Friction with true stick between two coordinates; made by `add_friction`."""
+class TrueStick(FrictionContact):
+    """What contacts with true stick share; a base beside the kind of contact."""
 
     true_stick = True
+    _rows: Any = None
+    _hold: Any = None
 
-    def __init__(
-        self,
-        mbs: Any,
-        markers: tuple[Any, Any],
-        friction: Law | Friction,
-        normal: Normal,
-        surface_velocity: Any,
-        **options: Any,
-    ) -> None:
-        law = as_friction(friction).law
-        if normal.reaction:
-            raise InputError(
-                f"law {law.kind}: a constraint holds it while it sticks, and its normal force cannot be the reaction of "
-                "another; give normal_force as a number or a function of time, or take elastic_stick"
-            )
-        if law.kind == "karnopp":
-            raise InputError(
-                "law karnopp: within its zone it slides under the force that would hold it, which neither a constraint nor "
-                "a force of velocity gives; take coulomb or stribeck"
-            )
-        self._rows: Any = None
-        self._hold = mbs.AddObject(
-            CoordinateConstraint(
-                markerNumbers=list(markers), velocityLevel=True, offset=float(surface_velocity), activeConnector=False
-            )
-        )
-        super().__init__(mbs, markers, friction, normal, surface_velocity, **options)
-        mbs.SetObjectParameter(self._hold, "name", f"{self._name} hold")
+    def _make_hold(self) -> Any:
+        """Return the constraint on the relative velocity, not active yet."""
+        raise NotImplementedError
+
+    def _held(self) -> float:
+        """Return the constraint's force [N] on the body, along the friction force."""
+        raise NotImplementedError
+
+    def _begin(self, names: tuple[str, ...] = ()) -> None:
+        """Join the system's hooks, with the constraint that holds."""
+        self._hold = self._make_hold()
+        self._mbs.SetObjectParameter(self._hold, "name", f"{self._name} hold")
+        super()._begin(names)
 
     def find(self) -> bool:
         """Find both objects again."""
@@ -78,7 +64,8 @@ class TrueStickContact(CoordinateContact):
         inverse = float(rows[0] @ accelerations[:, 0])
         self._mass_felt = 1.0 / inverse
         self._unit = accelerations[:, 0] / inverse
-        self._keep_still(self.stick)
+        with self._initial_motion():
+            self._keep_still(self.stick)
 
     def settle(self, t: float, bits: int) -> bool:
         """Commit, and where the law has switched hold the contact or let it go, with the motion just after that."""
@@ -96,7 +83,7 @@ class TrueStickContact(CoordinateContact):
             acceleration -= self._unit * float(self._rows @ acceleration)
             data.SetODE2Coordinates_t(velocity)
             self._numbers[at.V] = 0.0
-        elif before[0] == 0.0 or float(before[1] * self.state[1]) < 0.0:
+        elif before[0] != self.state[0] or float(before[1] * self.state[1]) < 0.0:
             acceleration -= self._unit * (self._forces()[0] - force) / self._mass_felt
         data.SetODE2Coordinates_tt(acceleration)
         return watch
@@ -105,8 +92,7 @@ class TrueStickContact(CoordinateContact):
         self._mbs.SetObjectParameter(self._hold, "activeConnector", bool(stuck))
 
     def _forces(self) -> tuple[float, float]:
-        held = float(self._mbs.GetObjectOutput(self._hold, OUTPUT.Force)) if self.stick else 0.0
-        return super()._forces()[0] - held, 0.0
+        return super()._forces()[0] + (self._held() if self.stick else 0.0), 0.0
 
     def _read_motion(self) -> None:
         """Take displacement and velocity, and the force that would hold the contact still."""
@@ -114,3 +100,76 @@ class TrueStickContact(CoordinateContact):
         if self._rows is not None and self._words[at.STARTED]:
             relative = float(self._rows @ self._mbs.systemData.GetODE2Coordinates_tt())
             self._numbers[at.HOLD] = self._forces()[0] + self._mass_felt * relative
+
+
+class TrueStickCoordinate(TrueStick, CoordinateContact):
+    """Friction with true stick between two coordinates; made by `add_friction`."""
+
+    def _make_hold(self) -> Any:
+        offset = float(self._numbers[at.SURFACE_VELOCITY])
+        return self._mbs.AddObject(
+            CoordinateConstraint(markerNumbers=list(self._markers), velocityLevel=True, offset=offset, activeConnector=False)
+        )
+
+    def _held(self) -> float:
+        return -float(self._mbs.GetObjectOutput(self._hold, OUTPUT.Force))
+
+
+class TrueStickJoint(TrueStick, JointContact):
+    """Friction with true stick in a joint; made by `add_joint_friction`."""
+
+    def _make_hold(self) -> Any:
+        axes = [0] * 6
+        axes[5 if self._turns else 0] = 1
+        self._pair = [self._own_marker(marker) for marker in self._markers]
+        return self._mbs.AddObject(GenericJoint(markerNumbers=self._pair, constrainedAxes=axes, activeConnector=False))
+
+    def _own_marker(self, marker: Any) -> Any:
+        """Return a new marker at the place of another, with the axes of the joint.
+
+        Raises:
+            InputError: the joint's marker is on a node, whose axes cannot be chosen.
+        """
+        entry = self._mbs.GetMarker(marker)
+        if entry["markerType"] != "BodyRigid":
+            raise InputError(
+                f"law {self.friction.law.kind}: marker {int(marker)} of the joint is a {entry['markerType']}; a constraint "
+                "holds it while it sticks, which needs markers of rigid bodies (MarkerBodyRigid)"
+            )
+        return self._mbs.AddMarker(
+            MarkerBodyRigid(bodyNumber=entry["bodyNumber"], localHT=_turned(entry["localHT"], self._axes))
+        )
+
+    def _held(self) -> float:
+        if self._turns:
+            return float(self._mbs.GetObjectOutput(self._hold, OUTPUT.TorqueLocal)[2]) / self._radius
+        return -float(self._mbs.GetObjectOutput(self._hold, OUTPUT.ForceLocal)[0])
+
+    def _keep_still(self, stuck: bool) -> None:
+        """Hold or let go; its axes on both bodies are those of the moment, since its force goes with 1/cos of their angle."""
+        if stuck and self._turns:
+            self._pair = [int(m) for m in self._mbs.GetObject(self._hold)["markerNumbers"]]  # deleted items renumber them
+            first, second = (self._mbs.GetMarkerOutput(m, OUTPUT.RotationMatrix).reshape(3, 3) for m in self._pair)
+            place = self._mbs.GetMarker(self._pair[1])["localHT"]
+            self._mbs.SetMarkerParameter(self._pair[1], "localHT", _turned(place, second.T @ first))
+        super()._keep_still(stuck)
+
+
+def _turned(place: Any, rotation: Any) -> Any:
+    """Return a marker's place on its body with its axes turned."""
+    turned = np.array(place, dtype=np.float64)
+    turned[:3, :3] = turned[:3, :3] @ rotation
+    return turned
+
+
+def require_holdable(kind: str, normal: Normal) -> None:
+    """Do nothing if a constraint can hold a law with true stick.
+
+    Raises:
+        InputError: its normal force is the reaction of another constraint.
+    """
+    if normal.reaction:
+        raise InputError(
+            f"law {kind}: a constraint holds it while it sticks, and its normal force cannot be the reaction of another; give "
+            "normal_force as a number or a function of time, or take elastic_stick"
+        )

@@ -95,4 +95,5 @@ def guards(t, ux, uy, vx, vy, normal_force, state, mu_s, mu_k, effective_mass, h
         return slack, 1.0, 1.0, 1.0, 1.0, 1.0
     if state[0] == ZONE:
         return p[2] - speed, -slack, 1.0, 1.0, 1.0, 1.0
-    return speed - p[2], 1.0, 1.0, 1.0, 1.0, 1.0
+    # along the committed direction: a step may pass the whole zone
+    return vx * state[1] + vy * state[2] - p[2], 1.0, 1.0, 1.0, 1.0, 1.0

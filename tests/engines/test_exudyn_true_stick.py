@@ -15,11 +15,22 @@ exudyn = pytest.importorskip("exudyn", reason="exudyn is not installed")
 from exudyn.itemInterface import (
     CoordinateConstraint,
     CoordinateSpringDamper,
+    Force,
+    GenericJoint,
     LoadCoordinate,
+    MarkerBodyPosition,
+    MarkerBodyRigid,
     MarkerNodeCoordinate,
     Mass1D,
     Node1D,
+    NodeRigidBody2D,
+    ObjectGround,
+    RevoluteJoint2D,
+    RevoluteJointZ,
+    RigidBody2D,
+    Torque,
 )
+from exudyn.utilities import HomogeneousTransformation, RigidBodyInertia, RotationMatrixZ
 
 from stochfric_mb import reference
 from stochfric_mb.coefficients import Knots
@@ -46,6 +57,8 @@ def solve(mbs: Any, dt: float, duration: float, *, locate: bool = True) -> None:
         ("coulomb", "kang2015_table1", KNOTS, 1e-3, 1e-6),
         ("coulomb", "kang2015_table2_13_8", KNOTS, 1e-3, 1e-6),
         ("stribeck", "kang2015_table1", None, 1e-3, 5e-6),
+        ("karnopp", "kang2015_table1", None, 1e-3, 1e-6),
+        ("karnopp", "kang2015_table2_13_8", KNOTS, 1e-3, 1e-6),
     ],
 )
 def test_the_belt_box_follows_the_reference(kind: str, name: str, process: Any, dt: float, tolerance: float) -> None:
@@ -131,8 +144,91 @@ def test_what_cannot_be_held_is_named() -> None:
         solve_dynamic(mbs, silent_settings(1e-3, 0.1), solver="rk44")
     with pytest.raises(InputError, match="useNewmark"):
         mbs.SolveDynamic(silent_settings(1e-3, 0.1))
-    with pytest.raises(InputError, match="karnopp: within its zone"):
-        add_friction(mbs, ground, slide, make_law("karnopp", mu_s=0.4, mu_k=0.3), normal_force=10.0)
     system = four_bar(make_law("elastic_stick", mu_s=0.4, mu_k=0.3), speed=1.0, radius=0.02)
-    with pytest.raises(InputError, match=r"between two coordinates alone.*elastic_substitute"):
-        add_joint_friction(system.mbs, system.contacts[0]._normal._object, COULOMB, normal_force=1.0)
+    with pytest.raises(InputError, match="cannot be the reaction of another"):
+        add_joint_friction(system.mbs, system.contacts[0]._normal._object, COULOMB)
+    mbs, ground, point = point_on_a_plane()
+    with pytest.raises(InputError, match=r"along a line alone.*elastic_substitute"):
+        add_friction(mbs, ground, point, COULOMB, normal=(0.0, 0.0, 1.0), normal_force=1.0)
+
+
+def point_on_a_plane() -> tuple[Any, Any, Any]:
+    mbs = exudyn.SystemContainer().AddSystem()
+    body = mbs.CreateMassPoint(mass=1.0)
+    return mbs, *(mbs.AddMarker(MarkerBodyPosition(bodyNumber=b)) for b in (mbs.AddObject(ObjectGround()), body))
+
+
+# --- joints -----------------------------------------------------------------------------------------------------------
+
+
+def wheel(kind: str, angle: float, speed: float, load: float) -> tuple[Any, Any, Any]:
+    """A wheel of 0.2 kg m^2 on a pin, with a torque [N m]."""
+    mbs = exudyn.SystemContainer().AddSystem()
+    ground = mbs.AddMarker(MarkerBodyRigid(bodyNumber=mbs.AddObject(ObjectGround())))
+    if kind == "planar":
+        node = mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[0.0, 0.0, angle], initialVelocities=[0.0, 0.0, speed]))
+        body = mbs.AddObject(RigidBody2D(nodeNumber=node, mass=1.0, inertia=0.2))
+    else:
+        inertia = RigidBodyInertia(1.0, 0.2 * np.eye(3))
+        turned = RotationMatrixZ(angle)
+        body = mbs.CreateRigidBody(inertia=inertia, referenceRotationMatrix=turned, initialAngularVelocity=[0.0, 0.0, speed])
+    hub = mbs.AddMarker(MarkerBodyRigid(bodyNumber=body))
+    joint = mbs.AddObject((RevoluteJoint2D if kind == "planar" else RevoluteJointZ)(markerNumbers=[ground, hub]))
+    mbs.AddLoad(Torque(markerNumber=hub, loadVector=[0.0, 0.0, load]))
+    contact = add_joint_friction(mbs, joint, COULOMB, radius=0.1, normal_force=50.0)
+    mbs.Assemble()
+    return mbs, body, contact
+
+
+@pytest.mark.parametrize("kind", ["planar", "spatial"])
+@pytest.mark.parametrize("angle", [0.0, 0.5 * np.pi, 2.5])
+def test_a_pin_holds_up_to_mu_s(kind: str, angle: float) -> None:
+    """mu_s N r = 2 N m, mu_k N r = 1.5 N m."""
+    mbs, body, contact = wheel(kind, angle, 0.0, 1.99)
+    solve(mbs, 1e-3, 0.3)
+    assert contact.stick
+    assert contact.torque == pytest.approx(-1.99, rel=1e-9)
+    assert abs(mbs.GetObjectOutputBody(body, OUT.AngularVelocity, [0.0] * 3)[2]) <= 1e-12
+    mbs, body, contact = wheel(kind, angle, 0.0, 2.01)
+    solve(mbs, 1e-3, 0.3)
+    assert contact.torque == pytest.approx(-1.5, rel=1e-9)
+    # it lets go within the first step
+    assert mbs.GetObjectOutputBody(body, OUT.AngularVelocity, [0.0] * 3)[2] == pytest.approx(0.51 / 0.2 * 0.2995, abs=2e-3)
+
+
+@pytest.mark.parametrize("kind", ["planar", "spatial"])
+def test_a_wheel_on_a_pin_stops_and_stays(kind: str) -> None:
+    mbs, body, contact = wheel(kind, 0.3, 3.0, 0.0)
+    solve(mbs, 1e-3, 0.7)
+    assert contact.stick
+    assert abs(mbs.GetObjectOutputBody(body, OUT.AngularVelocity, [0.0] * 3)[2]) <= 1e-12
+    # w^2/(2 a) with a = mu_k N r/I = 7.5 rad/s^2
+    assert mbs.GetObjectOutput(contact.object, OUT.Rotation) - 0.3 == pytest.approx(3.0**2 / 15.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(("load", "holds"), [(3.99, True), (4.01, False)])
+def test_a_slide_holds_up_to_mu_s(load: float, holds: bool) -> None:
+    mbs = exudyn.SystemContainer().AddSystem()
+    turned = RotationMatrixZ(0.4)
+    ground = mbs.AddMarker(
+        MarkerBodyRigid(bodyNumber=mbs.AddObject(ObjectGround()), localHT=HomogeneousTransformation(turned, np.zeros(3)))
+    )
+    body = mbs.CreateRigidBody(inertia=RigidBodyInertia(1.0, 0.1 * np.eye(3)), referenceRotationMatrix=turned)
+    slider = mbs.AddMarker(MarkerBodyRigid(bodyNumber=body))
+    joint = mbs.AddObject(
+        GenericJoint(
+            markerNumbers=[ground, slider],
+            constrainedAxes=[0, 1, 1, 1, 1, 1],
+        )
+    )
+    mbs.AddLoad(Force(markerNumber=slider, loadVector=list(load * turned[:, 0])))
+    contact = add_joint_friction(mbs, joint, COULOMB, normal_force=10.0)
+    mbs.Assemble()
+    solve(mbs, 1e-3, 0.3)
+    speed = np.linalg.norm(mbs.GetObjectOutputBody(body, OUT.Velocity, [0.0] * 3))
+    if holds:
+        assert contact.force == pytest.approx(-load, rel=1e-9)
+        assert speed <= 1e-12
+    else:
+        assert contact.force == pytest.approx(-3.0, rel=1e-9)
+        assert speed == pytest.approx(1.01 * 0.2995, abs=1e-3)
