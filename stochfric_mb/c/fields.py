@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import builtins
 import dataclasses
 import functools
 import inspect
@@ -40,8 +41,8 @@ class Rule:
 
 @functools.cache
 def about_fields(cls: type) -> dict[str, About]:
-    """Return what the docstrings under the fields of a dataclass say, those of its bases included."""
-    found: dict[str, About] = {}
+    """Return what is said of each field of a dataclass: in the docstring under it, otherwise in its metadata."""
+    found = {f.name: _of_field(f) for f in dataclasses.fields(cls)}
     for base in reversed(cls.__mro__):
         for statement, after in _pairs(base):
             if isinstance(statement, ast.AnnAssign) and isinstance(statement.target, ast.Name):
@@ -49,6 +50,12 @@ def about_fields(cls: type) -> dict[str, About]:
                 if isinstance(text, str) and text:
                     found[statement.target.id] = _about(text)
     return found
+
+
+def _of_field(field: dataclasses.Field[Any]) -> About:
+    """Return what the metadata of an effect's parameter say; a field without any goes by its name."""
+    unit = str(field.metadata.get("unit", ""))
+    return About(str(field.metadata.get("meaning", field.name)), "" if unit == "-" else unit)
 
 
 def _about(text: str) -> About:
@@ -84,7 +91,7 @@ def rules(cls: type) -> tuple[Rule, ...]:
         for statement, _ in _pairs(base):
             if isinstance(statement, ast.FunctionDef) and statement.name == "__post_init__":
                 found += [r for r in map(functools.partial(_rule, base), ast.walk(statement)) if r is not None]
-    numeric = {f.name for f in dataclasses.fields(cls) if str(f.type) in ("float", "float | None")}
+    numeric = {f.name for f in dataclasses.fields(cls) if f.type in (float, "float", "float | None")}
     return tuple(r for r in found if r.names <= numeric)
 
 
@@ -111,16 +118,30 @@ _LIMITS = {"low": "<", "above": "<=", "high": ">", "below": ">="}
 def _rule(cls: type, node: ast.AST) -> Rule | None:
     """Return the rule that a statement of ``__post_init__`` states, None where it states none about numbers."""
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "require_number":
-        about = node.args[1]
+        about = node.args[1] if len(node.args) > 1 else None
         if not (isinstance(about, ast.Attribute) and isinstance(about.value, ast.Name) and about.value.id == "self"):
             return None
-        limits = {k.arg: float(ast.literal_eval(k.value)) for k in node.keywords if k.arg in _LIMITS}
-        bounds = list(_bounds(about.attr, [(_LIMITS[str(name)], bound) for name, bound in limits.items()]))
+        limits = {str(k.arg): _constant(cls, k.value) for k in node.keywords if k.arg in _LIMITS}
+        bounds = list(_bounds(about.attr, [(_LIMITS[name], bound) for name, bound in limits.items() if bound is not None]))
         broken = " || ".join(f"({b.broken})" for b in bounds)
         return Rule(broken, bounds[-1].message, frozenset([about.attr]))
     if isinstance(node, ast.If) and len(node.body) == 1 and isinstance(node.body[0], ast.Raise):
         return _condition(cls, node, node.body[0])
     return None
+
+
+def _constant(cls: type, node: ast.expr) -> float | None:
+    """Return the number that a bound stands for, None where it is no constant of its module."""
+    try:
+        value = Expressions(_scope(cls), {}, lambda _function, _args: None).number(node).constant
+    except CannotTranslate:
+        return None
+    return None if value is None else float(value)
+
+
+def _scope(cls: type) -> dict[str, Any]:
+    module = inspect.getmodule(cls)
+    return {"__builtins__": builtins, **({} if module is None else vars(module))}
 
 
 def _condition(cls: type, node: ast.If, raised: ast.Raise) -> Rule | None:
@@ -134,9 +155,8 @@ def _condition(cls: type, node: ast.If, raised: ast.Raise) -> Rule | None:
             return self.generic_visit(node)
 
     test = OwnNames().visit(ast.parse(ast.unparse(node.test), mode="eval").body)
-    scope = dict(vars(inspect.getmodule(cls)))
     try:
-        broken = Expressions(scope, dict.fromkeys(names, DOUBLE), lambda _function, _args: None).condition(test)
+        broken = Expressions(_scope(cls), dict.fromkeys(names, DOUBLE), lambda _function, _args: None).condition(test)
     except CannotTranslate:
         return None
     return Rule(broken, _message(raised), frozenset(names))

@@ -1,19 +1,24 @@
 """What is exported, and what is refused: friction files, scenarios, what discovery writes, laws of one's own."""
 
 import dataclasses
+import math
 import sys
 import types
+from typing import ClassVar
 
 import numpy as np
 import pytest
 import tomli_w
 from click.testing import CliRunner
+from fmpy.fmi1 import FMICallException
 
+from stochfric_mb import reference
 from stochfric_mb.__main__ import main
 from stochfric_mb.c import UntranslatableError
 from stochfric_mb.compile import compiled
 from stochfric_mb.contact import Contact
-from stochfric_mb.errors import InputError
+from stochfric_mb.effects.contract import MU_K, SPEED, Effect, parameter
+from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.export import load_exported
 from stochfric_mb.export.element import element
 from stochfric_mb.export.exported import Exported, exported_scenario
@@ -21,7 +26,7 @@ from stochfric_mb.friction import Friction
 from stochfric_mb.laws import Law, register_law
 from stochfric_mb.laws import coulomb as coulomb_module
 
-from .fmus import Driven, built
+from .fmus import Driven, built, table_1
 
 FRICTION = """
 schema = "stochfric.friction/1"
@@ -142,6 +147,43 @@ def test_friction_found_at_a_joint_is_exported(tmp_path, kind):
 def test_effects_on_more_than_the_friction_of_a_joint_are_refused(tmp_path, kind):
     with pytest.raises(InputError, match=kind):
         load_exported(toml(tmp_path, JOINT.format(effect=kind, parameters=typical(kind))))
+
+
+FASTEST = 10.0
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class PowerLaw(Effect):  # an effect of one's own as its page shows it, with no docstrings under its fields
+    exponent: float = parameter("-", "exponent of the speed", scale=0.1)
+    reference_speed: float = parameter("m/s", "speed at which it sets in", scale=1e-3, low=0.0, strict=True, default=1e-3)
+    kind: ClassVar[str] = "power_law_of_a_test"
+    equation: ClassVar[str] = "mu_k times (1 + abs(v)/reference_speed)^exponent"
+    source: ClassVar[str] = "a test"
+    group: ClassVar[str] = "friction law"
+    order: ClassVar[int] = 3
+
+    def __post_init__(self):
+        super().__post_init__()
+        require_number("reference_speed", self.reference_speed, above=0.0, high=FASTEST, unit="m/s")
+
+
+def friction(world, memory, rates, p):
+    world[MU_K] *= math.exp(p[0] * math.log(1.0 + world[SPEED] / p[1]))
+
+
+def test_an_effect_of_ones_own_is_exported():
+    scenario = dataclasses.replace(table_1(), effects=(PowerLaw(exponent=0.2),), duration=1.2)
+    run = reference.simulate(scenario, seed=1)
+    fmu = Driven(built(exported_scenario(scenario), 3, True), seed=1, effects__power_law_of_a_test__exponent=0.2)
+    about = fmu.variables["effects.power_law_of_a_test.reference_speed"]
+    assert (about.unit, about.description) == ("m/s", "speed at which it sets in")
+    for _ in range(1200):
+        fmu.step(1.0e-3)
+    assert fmu.get("position") == pytest.approx(run.position[1200], abs=1e-8)
+    assert abs(run.position[1200] - reference.simulate(dataclasses.replace(scenario, effects=()), seed=1).position[1200]) > 1e-6
+    fmu.end()
+    with pytest.raises(FMICallException):
+        Driven(built(exported_scenario(scenario), 3, True), effects__power_law_of_a_test__reference_speed=2.0 * FASTEST)
 
 
 def own_law():
