@@ -29,16 +29,12 @@ from stochfric_mb.c.types import (
     plain,
     unified,
 )
+from stochfric_mb.scalar_function import ARITHMETIC, BITS, COMPARISONS
 
 Anything = Value | Several | Known
 
-_ARITHMETIC: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*"}
-_BITS: dict[type[ast.operator], str] = {ast.LShift: "<<", ast.RShift: ">>", ast.BitAnd: "&", ast.BitOr: "|", ast.BitXor: "^"}
 _DUAL: dict[type[ast.operator], str] = {ast.Add: "sum", ast.Sub: "difference", ast.Mult: "product", ast.Div: "quotient",
                                         ast.Pow: "power"}  # fmt: skip
-_COMPARISONS: dict[type[ast.cmpop], str] = {
-    ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
-}  # fmt: skip
 
 
 class Expressions:
@@ -125,8 +121,8 @@ class Expressions:
 
     def _binop(self, node: ast.BinOp) -> Value:
         left, right, kind = self.number(node.left), self.number(node.right), type(node.op)
-        if kind in _BITS and left.type == right.type and left.type in (INT, UNSIGNED):
-            return Value(f"({left.code} {_BITS[kind]} {right.code})", left.type)
+        if kind in BITS and left.type == right.type and left.type in (INT, UNSIGNED):
+            return Value(f"({left.code} {BITS[kind]} {right.code})", left.type)
         if DUAL in (left.type, right.type):
             return self._dual(node, kind, left, right)
         if kind is ast.Div:
@@ -137,15 +133,15 @@ class Expressions:
 
     def _arithmetic(self, node: ast.BinOp, kind: type[ast.operator], left: Value, right: Value) -> Value:
         wide = UNSIGNED if left.type == right.type == UNSIGNED else unified(left.type, right.type)
-        if kind not in _ARITHMETIC or not isinstance(wide, Scalar) or wide == BOOL:
+        if kind not in ARITHMETIC or not isinstance(wide, Scalar) or wide == BOOL:
             raise CannotTranslate(node, f"no translation of {ast.unparse(node)}")
         constant = None
         if isinstance(left.constant, int) and isinstance(right.constant, int):
             constant = {"+": left.constant + right.constant, "-": left.constant - right.constant}.get(
-                _ARITHMETIC[kind], left.constant * right.constant
+                ARITHMETIC[kind], left.constant * right.constant
             )
             return Value(number(constant), INT, constant)
-        return Value(f"({as_c(left, wide)} {_ARITHMETIC[kind]} {as_c(right, wide)})", wide)
+        return Value(f"({as_c(left, wide)} {ARITHMETIC[kind]} {as_c(right, wide)})", wide)
 
     def _dual(self, node: ast.BinOp, kind: type[ast.operator], left: Value, right: Value) -> Value:
         """Return an operation on numbers with derivatives."""
@@ -180,9 +176,9 @@ class Expressions:
                 return self._among(node, left, right_node, isinstance(op, ast.NotIn))
             right = plain(self.number(right_node))
             wide = UNSIGNED if left.type == right.type == UNSIGNED else unified(left.type, right.type)
-            if type(op) not in _COMPARISONS or not isinstance(wide, Scalar):
+            if type(op) not in COMPARISONS or not isinstance(wide, Scalar):
                 raise CannotTranslate(node, f"no translation of {ast.unparse(node)}")
-            parts.append(f"({as_c(left, wide)} {_COMPARISONS[type(op)]} {as_c(right, wide)})")
+            parts.append(f"({as_c(left, wide)} {COMPARISONS[type(op)]} {as_c(right, wide)})")
             left = right
         return Value(parts[0] if len(parts) == 1 else f"({' && '.join(parts)})", BOOL)
 

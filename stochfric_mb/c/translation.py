@@ -6,10 +6,8 @@ cannot be translated is refused by name; nothing is left out.
 
 from __future__ import annotations
 
-import ast
 import dataclasses
 import inspect
-import textwrap
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -17,14 +15,10 @@ from stochfric_mb.c.expressions import Expressions, c_name
 from stochfric_mb.c.intrinsics import DUALS, PRELUDE
 from stochfric_mb.c.statements import Body
 from stochfric_mb.c.types import DUAL, VOID, Array, CannotTranslate, Scalar, Tuple, Type, Value, as_c, unified
-from stochfric_mb.errors import InputError
+from stochfric_mb.scalar_function import ScalarFunction, UntranslatableError, plain_function, read, where
 
 ROUNDS = 8
 """Most passes over a body until the types of its local names stand."""
-
-
-class UntranslatableError(InputError):
-    """A function that has no translation into C."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -93,11 +87,8 @@ class Translation:
         return made
 
     def _translated(self, plain: Any, arguments: tuple[Type, ...]) -> Function:
-        tree = _syntax(plain)
-        names = [a.arg for a in tree.args.args]
-        if len(names) != len(arguments):
-            raise UntranslatableError(f"{where(plain)} takes {len(names)} arguments, not {len(arguments)}")
-        variables: dict[str, Any] = dict(zip(names, arguments, strict=True))
+        source = read(plain)
+        variables = source.types_of(arguments)
         calls: list[str] = []
 
         def call(callee: Any, args: list[Value]) -> Value | None:
@@ -108,7 +99,7 @@ class Translation:
             code = ", ".join(as_c(a, t) for a, t in zip(args, made.arguments, strict=True))
             return Value(f"{made.name}({code})", made.returns)
 
-        expressions = Expressions(_scope(plain), variables, call)
+        expressions = Expressions(source.scope, variables, call)
         body, returned = Body(expressions), None
         for _ in range(ROUNDS):
             before, before_returned = dict(variables), returned
@@ -116,10 +107,10 @@ class Translation:
             body = Body(expressions)
             body.returned = returned
             try:
-                body.block(tree.body)
+                body.block(source.tree.body)
             except CannotTranslate as problem:
                 raise UntranslatableError(
-                    f"{where(plain)}, line {plain.__code__.co_firstlineno + problem.line - 1}: {problem}; C is made from "
+                    f"{source.where}, line {source.line(problem.line)}: {problem}; C is made from "
                     "plain scalar Python: numbers, arrays of floats, if, for over range, while, math"
                 ) from None
             returned = body.returned if before_returned is None else unified(before_returned, body.returned or before_returned)
@@ -127,9 +118,7 @@ class Translation:
                 break
         result = returned or VOID
         name = self._free_name(plain)
-        made = Function(
-            name, result, arguments, _source(name, plain, names, variables, body, result), tuple(dict.fromkeys(calls))
-        )
+        made = Function(name, result, arguments, _text(name, source, variables, body, result), tuple(dict.fromkeys(calls)))
         self._by_name[name] = made
         return made
 
@@ -155,40 +144,15 @@ def _scalars(function: Function) -> set[Type]:
     return found | {item for kind in found if isinstance(kind, Tuple) for item in kind.items}
 
 
-def plain_function(function: Any) -> Any:
-    """Return the Python function behind a compiled one."""
-    return getattr(function, "py_func", function)
-
-
-def where(plain: Any) -> str:
-    """Return what a function is called in messages."""
-    return f"{plain.__module__}.{plain.__qualname__}"
-
-
 def _is_ours(callee: Any) -> bool:
     return inspect.isfunction(plain_function(callee))
 
 
-def _scope(plain: Any) -> dict[str, Any]:
-    closed = inspect.getclosurevars(plain).nonlocals
-    return {**plain.__globals__, **closed}
-
-
-def _syntax(plain: Any) -> ast.FunctionDef:
-    try:
-        source = textwrap.dedent(inspect.getsource(plain))
-    except (OSError, TypeError):
-        raise UntranslatableError(f"{where(plain)}: its source is not at hand; put the function into a file") from None
-    tree = ast.parse(source).body[0]
-    if not isinstance(tree, ast.FunctionDef):
-        raise UntranslatableError(f"{where(plain)} is not a plain function; write it with def")
-    return tree
-
-
-def _source(name: str, plain: Any, names: list[str], variables: dict[str, Any], body: Body, result: Type) -> str:
+def _text(name: str, source: ScalarFunction, variables: dict[str, Any], body: Body, result: Type) -> str:
     """Return the C text of a function: comment, head, local names, body."""
+    names = source.arguments
     head = ", ".join(_declared(variables[n], c_name(n)) for n in names) or "void"
-    lines = [f"/* {where(plain)}: {_first_line(plain)} */", f"static {result.c} {name}({head}) {{"]
+    lines = [f"/* {source.where}: {_first_line(source.function)} */", f"static {result.c} {name}({head}) {{"]
     for variable, kind in variables.items():
         if variable in names:
             continue

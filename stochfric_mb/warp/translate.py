@@ -13,10 +13,8 @@ from __future__ import annotations
 import ast
 import dataclasses
 import hashlib
-import inspect
 import linecache
 import math
-import textwrap
 from collections.abc import Callable
 from typing import Any
 
@@ -24,6 +22,7 @@ import numpy as np
 import warp as wp
 
 from stochfric_mb.errors import InputError
+from stochfric_mb.scalar_function import ARITHMETIC, BITS, COMPARISONS, UntranslatableError, plain_function, read
 
 REAL, INT, WORD, BOOL, ARRAY = "real", "int", "word", "bool", "array"
 
@@ -38,11 +37,7 @@ class Numbers:
 
 Kind = str | Numbers | tuple[Any, ...]
 _RANK = {BOOL: 0, INT: 1, WORD: 2, REAL: 3}
-_OPERATORS: dict[type, str] = {
-    ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.RShift: ">>", ast.LShift: "<<", ast.BitXor: "^",
-    ast.BitAnd: "&", ast.BitOr: "|", ast.Mod: "%",
-    ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
-}  # fmt: skip
+_OPERATORS = ARITHMETIC | BITS | COMPARISONS | {ast.Div: "/", ast.Mod: "%"}
 _ONE_ARGUMENT = {"sqrt", "exp", "log", "sin", "cos", "tan", "atan", "tanh", "erf", "erfc", "floor", "asin", "acos"}
 _HELPERS = """
 @wp.func
@@ -88,9 +83,9 @@ class Translator:
             arguments: the type of each argument.
 
         Raises:
-            InputError: the function holds Python that has no counterpart.
+            UntranslatableError: the function holds Python that has no counterpart.
         """
-        plain = getattr(function, "py_func", function)
+        plain = plain_function(function)
         key = (plain.__module__, plain.__qualname__, arguments)
         if key not in self._made:
             self._names += 1
@@ -120,17 +115,9 @@ class _Function:
 
     def __init__(self, translator: Translator, function: Any, arguments: tuple[Kind, ...]) -> None:
         self.all = translator
-        self.globals = function.__globals__
-        self.where = f"{function.__module__}.{function.__qualname__}"
-        source = textwrap.dedent(inspect.getsource(function))
-        tree = ast.parse(source).body[0]
-        if not isinstance(tree, ast.FunctionDef):
-            raise InputError(f"{self.where} is no plain function; write it with def")
-        self.tree = tree
-        names = [a.arg for a in tree.args.args]
-        if len(names) != len(arguments):
-            raise InputError(f"{self.where} has {len(names)} arguments, but {len(arguments)} are given")
-        self.types: dict[str, Kind] = dict(zip(names, arguments, strict=True))
+        self.source = read(function)
+        self.globals = self.source.scope
+        self.types: dict[str, Kind] = self.source.types_of(arguments)
         self.arguments = dict(self.types)
         self.locals: dict[str, Kind] = {}
         self.returns: Kind | None = None
@@ -138,7 +125,7 @@ class _Function:
 
     def translated(self, name: str) -> tuple[str, Kind]:
         """Return the source and the type of what is returned."""
-        body = self._block(self.tree.body, "    ")
+        body = self._block(self.source.tree.body, "    ")
         head = [self._declared(variable, kind) for variable, kind in self.locals.items()]
         parameters = ", ".join(self._parameter(n, k) for n, k in self.arguments.items())
         lines = [f"@wp.func\ndef {name}({parameters}):", *head, *body]
@@ -160,8 +147,10 @@ class _Function:
         ]
 
     def _no(self, node: ast.AST, what: str) -> InputError:
-        line = getattr(node, "lineno", 0)
-        return InputError(f"{self.where}, line {line}: {what} cannot run in Warp; use plain arithmetic, if, for and math")
+        line = self.source.line(getattr(node, "lineno", 1))
+        return UntranslatableError(
+            f"{self.source.where}, line {line}: {what} cannot run in Warp; use plain arithmetic, if, for and math"
+        )
 
     # Statements
 
@@ -407,7 +396,7 @@ class _Function:
 
     def _index(self, code: str, kind: Kind) -> str:
         if kind not in {INT, WORD, REAL}:
-            raise InputError(f"{self.where}: {code} is no index")
+            raise UntranslatableError(f"{self.source.where}: {code} is no index")
         return f"wp.int32({code})"
 
 
