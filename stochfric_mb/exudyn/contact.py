@@ -17,7 +17,7 @@ from stochfric_mb.errors import InputError, SimulationError, require_number
 from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.contact_force import kinematics
 from stochfric_mb.exudyn.hooks import Hooks
-from stochfric_mb.exudyn.location import FINE, locate
+from stochfric_mb.exudyn.location import FINE, SHORTEST, locate
 from stochfric_mb.exudyn.mass import effective_masses
 from stochfric_mb.exudyn.normal import NO_REACTION, Normal
 from stochfric_mb.exudyn.stepping import CHANGED, FETCH, LOST, RECORDED, RESTARTED, WATCH, advance, proceed
@@ -76,7 +76,7 @@ class FrictionContact:
         self._symbols: dict[str, Any] = {}
         self._places: list[tuple[int, Any]] = []
         self._given = [math.nan] * len(self._names)
-        self._unsure = False
+        self._unsure = self._after_jump = False
         self._refined = (math.nan, 0)
         self.where = int(self._words.ctypes.data)
         """Address of the contact for compiled code."""
@@ -393,7 +393,16 @@ class FrictionContact:
             if started and behind > 0.0:
                 rate = (now - numbers[at.NORMAL_FORCE]) / max(behind, FINE * numbers[at.STEP])
         elif (ahead := numbers[at.STEP] or (behind if started else 0.0)) > 0.0:
-            rate = (self._normal.at(t + ahead) - now) / ahead
+            before, after = math.inf, math.inf
+            at_jump = not self._after_jump and abs(t - numbers[at.JUMP]) <= SHORTEST * numbers[at.STEP]
+            self._after_jump = at_jump and not self._hooks.explicit
+            if self._after_jump:  # implicit solvers begin the step with the acceleration before it: a short one
+                after = t + SHORTEST * numbers[at.STEP]
+            elif self._words[at.LOCATING]:
+                before, after = self._normal.jump(t, ahead)
+            ahead = min(ahead, before - t)
+            rate = (self._normal.at(t + ahead) - now) / ahead if ahead > 0.0 else 0.0
+            numbers[at.JUMP] = after
         numbers[[at.GIVEN_NORMAL, at.GIVEN_RATE]] = now, rate
 
     @contextlib.contextmanager
@@ -434,7 +443,7 @@ def _arrays(law: Law, path: CoefficientPath) -> tuple[Any, Any]:
     numbers[at.LAW : at.LAW + len(parameters)] = parameters
     numbers[at.LAW + len(parameters) :] = path.descriptor
     numbers[at.HAS_MODE] = float(law.state_names[:1] == ("mode",))
-    numbers[at.STICK_SPEED] = law.stick_speed
+    numbers[at.STICK_SPEED], numbers[at.JUMP] = law.stick_speed, math.inf
     words[[at.COMMIT, at.GUARD, at.INIT, at.FORCE]] = native.commit, native.guards, native.init, native.force
     words[[at.N_STATE, at.N_LAW]] = native.n_state, len(parameters)
     words[[at.SEED, at.SAMPLE, at.CONTACT]] = path.seed, path.sample, path.contact

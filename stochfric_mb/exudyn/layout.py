@@ -53,7 +53,9 @@ GUARDS_BEFORE = NEW + MAX_STATE
 """The law's guards at the last accepted step."""
 HOLD, HOLD_BEFORE = GUARDS_BEFORE + 6, GUARDS_BEFORE + 7
 """Friction force [N] that would hold the contact still, now and at the last accepted step; 0 where nothing tells it."""
-CURSOR_AT = GUARDS_BEFORE + 8
+JUMP = GUARDS_BEFORE + 8
+"""Time [s] just after a jump of the normal force as a function of time that lies in the next step; infinity: none does."""
+CURSOR_AT = GUARDS_BEFORE + 9
 WINDOW_CURSOR_AT = CURSOR_AT + CURSOR
 """Cursors on the path: of the coefficients now, and of the engine's window."""
 LIVE = WINDOW_CURSOR_AT + CURSOR

@@ -37,6 +37,10 @@ def locate(t, address):
     n = math.floor((t_0 - numbers[at.START]) / step + GRID) + 1.0
     grid = numbers[at.START] + n * step
     end = min(grid, t_0 + FINE * step) if settling(t_0, numbers) else grid
+    if numbers[at.JUMP] < end:
+        end = numbers[at.JUMP]
+        if t > end + RESOLUTION * step:
+            return end - t_0
     if t > end + GRID * step:
         return end - t_0
     motion, normal_force = kinematics(t, numbers, words), normal_force_at(t, numbers, words)

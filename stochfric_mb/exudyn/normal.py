@@ -13,6 +13,10 @@ from stochfric_mb.errors import InputError, require_number
 _OUTPUT = exudyn.OutputVariableType
 _OBJECT_INDEX: Any = exudyn.ObjectIndex  # pyright: ignore[reportAttributeAccessIssue]  # a compiled name
 
+JUMP, RESOLUTION = 1.0e-3, 1.0e-9
+"""Part of the normal force that it must change by in a step to be looked at for a jump, and part of the step to which one is
+located."""
+
 
 class ConstantNormal:
     """The same normal force at all times."""
@@ -46,6 +50,25 @@ class TimedNormal:
             InputError: it is not a finite number.
         """
         return max(require_number(f"normal_force at t = {t:g} s", self._function(t), unit="N"), 0.0)
+
+    def jump(self, t: float, ahead: float) -> tuple[float, float]:
+        """Return the times [s] just before and after the first jump in the interval ``ahead`` [s] from t on; infinity: none.
+
+        A step in which the middle is far from half way is halved; what then still changes as much has jumped.
+        """
+        low, high = t, t + ahead
+        at_low, at_high = self.at(low), self.at(high)
+        whole = abs(at_high - at_low)
+        if whole <= JUMP * max(at_low, at_high) or abs(self.at(t + 0.5 * ahead) - 0.5 * (at_low + at_high)) <= 0.25 * whole:
+            return math.inf, math.inf
+        while high - low > RESOLUTION * ahead and low < 0.5 * (low + high) < high:
+            middle = 0.5 * (low + high)
+            at_middle = self.at(middle)
+            if abs(at_middle - at_low) > 0.25 * whole:
+                high, at_high = middle, at_middle
+            else:
+                low, at_low = middle, at_middle
+        return (low, high) if abs(at_high - at_low) > 0.25 * whole else (math.inf, math.inf)
 
 
 class ReactionNormal:

@@ -28,6 +28,7 @@ from stochfric_mb.exudyn.layout import (
     HOLD,
     HOLD_BEFORE,
     INIT,
+    JUMP,
     LARGEST_NORMAL,
     LAW,
     LIVE,
@@ -229,7 +230,7 @@ def _watch(t, motion, n, pair, bent, switched, numbers, words):
     steps = (t - numbers[START]) / numbers[STEP]
     if switched:
         numbers[SWITCHED] = t
-    watch = settling(t, numbers) or abs(steps - math.floor(steps + 0.5)) > GRID
+    watch = settling(t, numbers) or numbers[JUMP] < math.inf or abs(steps - math.floor(steps + 0.5)) > GRID
     for i in range(GUARDS):
         new = numbers[NEW + i]
         change = new - numbers[GUARDS_BEFORE + i]

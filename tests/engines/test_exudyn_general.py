@@ -41,6 +41,7 @@ from stochfric_mb.coefficients import Knots, PerEvent
 from stochfric_mb.errors import InputError, SimulationError, StabilityError
 from stochfric_mb.exudyn import add_bristle, add_friction, add_friction_load, add_joint_friction, silent_settings, solve_dynamic
 from stochfric_mb.exudyn.belt_box import without_friction
+from stochfric_mb.exudyn.normal import TimedNormal
 from stochfric_mb.exudyn.solve import SOLVERS
 from stochfric_mb.friction import Friction
 from stochfric_mb.laws import make_law
@@ -854,3 +855,33 @@ def test_markers_of_two_kinds_are_refused() -> None:
         add_friction(mbs, coordinate, body, ELASTIC, effective_mass=1.0, normal_force=1.0)
     with pytest.raises(InputError, match="for position markers"):
         add_friction(mbs, coordinate, coordinate, ELASTIC, effective_mass=1.0, normal_force=1.0, normal=(0, 1, 0))
+
+
+@pytest.mark.parametrize(
+    ("solver", "tolerance"),
+    [  # m/s; located to 1e-9 of a step. The trapezoidal rule takes a first step of 2e-4 of one, in which half the jump of 3 m/s^2
+        # counts (3e-7), and from which it goes on with an acceleration rounded to eps x/h^2 (measured 2.9e-6)
+        ("rk44", 1e-8),
+        ("generalized_alpha", 6e-6),
+    ],
+)
+def test_steps_end_at_jumps_of_the_normal_force(solver: str, tolerance: float) -> None:
+    """A block slides at 5 m/s; its load doubles at a time that no step ends at: v = v0 - mu_k (N1 t1 + N2 t2)/m."""
+    law, jump = make_law("elastic_stick", mu_s=0.4, mu_k=0.3), 0.05037
+    errors = []
+    for locate in (True, False):
+        mbs, node, ground, slide = block(5.0)
+        add_friction(mbs, ground, slide, law, normal_force=lambda t: 10.0 if t < jump else 20.0)
+        mbs.Assemble()
+        solve_dynamic(mbs, silent_settings(1e-3, 0.1), solver=solver, locate=locate)
+        exact = 5.0 - 0.3 * (10.0 * jump + 20.0 * (0.1 - jump))
+        errors.append(abs(float(mbs.GetNodeOutput(node, exudyn.OutputVariableType.Coordinates_t)) - exact))
+    assert errors[0] < tolerance
+    assert errors[1] > 1e-4  # and not without
+
+
+def test_a_load_that_changes_smoothly_has_no_jumps() -> None:
+    wave = TimedNormal(lambda t: 10.0 + 3.0 * math.sin(200.0 * t))
+    assert all(wave.jump(0.001 * i, 0.001)[0] == math.inf for i in range(100))
+    ramp = TimedNormal(lambda t: 10.0 + 1000.0 * max(t - 0.0005, 0.0))  # a bend is none
+    assert ramp.jump(0.0, 0.001)[0] == math.inf
