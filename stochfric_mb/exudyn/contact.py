@@ -19,7 +19,7 @@ from stochfric_mb.exudyn.contact_force import kinematics
 from stochfric_mb.exudyn.hooks import Hooks
 from stochfric_mb.exudyn.location import FINE, SHORTEST, locate
 from stochfric_mb.exudyn.mass import effective_masses
-from stochfric_mb.exudyn.normal import NO_REACTION, Normal
+from stochfric_mb.exudyn.normal import NO_REACTION, Normal, TimedNormal
 from stochfric_mb.exudyn.stepping import CHANGED, FETCH, LOST, RECORDED, RESTARTED, WATCH, advance, proceed
 from stochfric_mb.exudyn.symbolic import MASS, NORMAL_LINE, live_names, symbolic
 from stochfric_mb.friction import Friction, as_friction
@@ -398,7 +398,7 @@ class FrictionContact:
             self._after_jump = at_jump and not self._hooks.explicit
             if self._after_jump:  # implicit solvers begin the step with the acceleration before it: a short one
                 after = t + SHORTEST * numbers[at.STEP]
-            elif self._words[at.LOCATING]:
+            elif self._words[at.LOCATING] and isinstance(self._normal, TimedNormal):
                 before, after = self._normal.jump(t, ahead)
             ahead = min(ahead, before - t)
             rate = (self._normal.at(t + ahead) - now) / ahead if ahead > 0.0 else 0.0

@@ -859,8 +859,8 @@ def test_markers_of_two_kinds_are_refused() -> None:
 
 @pytest.mark.parametrize(
     ("solver", "tolerance"),
-    [  # m/s; located to 1e-9 of a step. The trapezoidal rule takes a first step of 2e-4 of one, in which half the jump of 3 m/s^2
-        # counts (3e-7), and from which it goes on with an acceleration rounded to eps x/h^2 (measured 2.9e-6)
+    [  # m/s; located to 1e-9 of a step. The trapezoidal rule takes a first step of 2e-4 of one, in which half the jump of
+        # 3 m/s^2 counts (3e-7), and from which it goes on with an acceleration rounded to eps x/h^2 (measured 2.9e-6)
         ("rk44", 1e-8),
         ("generalized_alpha", 6e-6),
     ],
