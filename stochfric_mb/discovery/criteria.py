@@ -77,6 +77,10 @@ SURPRISING = 2.0
 
 # Stick phases and the sensor
 
+STICK_EXPLAINED, STICK_SLACK = 0.75, 60.0
+"""Share of what stick phases show beyond noise that a name must explain, but for so much of chi^2 [-]: chosen."""
+SINGLE_MOMENTS = 0.2
+"""Share of what stick phases show beyond noise from which on jumps at single moments count [-]: chosen."""
 YIELDS_FOR_CREEP = 0.5
 """Share of the evidence for creep that a yielding or ringing contact must reach to be named in its place [-]."""
 LEAST_OUTLIERS, FEWEST_OUTLIERS = 5.0e-5, 5

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -80,6 +81,14 @@ def mjcf(scenario: Scenario[Any]) -> str:
         spec, loads, acts_in = mujoco.MjSpec.from_string(plain_mjcf(mechanism)), {"joint": mechanism.normal_force}, ()
     else:
         raise InputError(f"mechanism {mechanism.kind!r} has no joint; its augmented.toml can be run by itself")
+    _with_friction(attach, spec, scenario, loads, acts_in)
+    spec.compile()
+    return f"<!-- {scenario.title}; import stochfric_mb.mujoco before loading -->{_left_out(scenario)}{spec.to_xml()}"
+
+
+def _with_friction(attach: Any, spec: Any, scenario: Scenario[Any], loads: dict[str, float], acts_in: Sequence[str]) -> None:
+    """Add friction, and viscous friction as damping, to the places of a model that carry load."""
+    mechanism = scenario.mechanism
     law = ElasticStick(mu_s=scenario.law.mu_s, mu_k=scenario.law.mu_k, e_lim=PRESLIDING)
     viscous = sum(e.linear_damping for e in scenario.effects)
     tendons, pairs = getattr(mechanism, "tendons", ()), getattr(mechanism, "pairs", {})
@@ -92,14 +101,15 @@ def mjcf(scenario: Scenario[Any]) -> str:
         if not acts_in or place in acts_in:
             element = next(j for j in (spec.tendons if tied else spec.joints) if j.name == place)
             _damp(element, viscous)
-    spec.compile()
+
+
+def _left_out(scenario: Scenario[Any]) -> str:
+    """Return a comment on the effects that the file does not hold, between two lines."""
+    pairs = getattr(scenario.mechanism, "pairs", {})
     left = [e.kind for e in scenario.effects if LATE not in e.found_as and (pairs or not e.linear_damping)]
-    note = (
-        f"\n<!-- not in this file, since neither damping nor the plugin's laws hold it: {', '.join(left)} -->\n"
-        if left
-        else "\n"
-    )
-    return f"<!-- {scenario.title}; import stochfric_mb.mujoco before loading -->{note}{spec.to_xml()}"
+    if not left:
+        return "\n"
+    return f"\n<!-- not in this file, since neither damping nor the plugin's laws hold it: {', '.join(left)} -->\n"
 
 
 def _corrected(mujoco: Any, mechanism: Mjcf) -> Any:

@@ -9,7 +9,6 @@ from stochfric_mb.discovery.result import Result
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.stick_slip.decision.anonymous import Anonymous, anonymous, told
 from stochfric_mb.discovery.stick_slip.decision.rounds import decide
-from stochfric_mb.discovery.stick_slip.decision.validation import Answer, checked_on_held_out, explaining, fitted
 from stochfric_mb.discovery.stick_slip.feature_skill import leading, slip_force_gap
 from stochfric_mb.discovery.stick_slip.notes import notes
 from stochfric_mb.discovery.stick_slip.parameters import found_effect, moved, not_measured, own_parameters
@@ -30,6 +29,7 @@ from stochfric_mb.discovery.stick_slip.simulation.prior_model import assumed
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit, with_deviations
 from stochfric_mb.discovery.stick_slip.simulation.scaling import USUAL, Scaling
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study, slips_of_run, study
+from stochfric_mb.discovery.stick_slip.validation import Answer, checked_on_held_out, explaining, fitted
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
 

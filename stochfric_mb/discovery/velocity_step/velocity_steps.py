@@ -157,17 +157,7 @@ def _result(
     floor = float(np.sqrt(np.sum([white_noise(x) ** 2 * len(x) for x in test]) / sum(map(len, test))))
     believed = float(np.sqrt(np.mean(np.concatenate([x - dataset.scenario.law.mu_k for x in test]) ** 2)))
     after = _held_out(best or plain, tracks)
-    effects: tuple[Found, ...] = ()
-    if best is not None:
-        kind = best.law.kind
-        same = tuple(k for k, s in scores.items() if k != kind and s > scores[kind] - TIE)
-        text = (
-            f"A constant friction coefficient is off by {plain.rms:.3g} (rms), {kind} by {best.rms:.3g}, on the runs that were "
-            "learned from."
-        )
-        axes = {MEMORY: "distance since a change of speed", SLOPE_IN_DISTANCE: "displacement", RATE: "speed"}
-        axis = next(axes[finding] for finding in effect_class(kind).found_as if finding in axes)
-        effects = (Found(kind, same, Where(axis, text), _numbers(best), scores[kind], None),)
+    effects = () if best is None else (_found(plain, best, scores),)
     source = "high-frequency content of the friction coefficient (third differences)"
     gap = Gap("friction_coefficient", "-", True, believed, _held_out(plain, tracks), after, floor, source)
     return Result(
@@ -194,6 +184,19 @@ def _result(
             }
         },
     )
+
+
+def _found(plain: Fitted, best: Fitted, scores: dict[str, float]) -> Found:
+    """Return the law that is named, as an effect is told."""
+    kind = best.law.kind
+    same = tuple(k for k, s in scores.items() if k != kind and s > scores[kind] - TIE)
+    text = (
+        f"A constant friction coefficient is off by {plain.rms:.3g} (rms), {kind} by {best.rms:.3g}, on the runs that were "
+        "learned from."
+    )
+    axes = {MEMORY: "distance since a change of speed", SLOPE_IN_DISTANCE: "displacement", RATE: "speed"}
+    axis = next(axes[finding] for finding in effect_class(kind).found_as if finding in axes)
+    return Found(kind, same, Where(axis, text), _numbers(best), scores[kind], None)
 
 
 def _numbers(fitted: Fitted) -> dict[str, Interval]:

@@ -135,7 +135,8 @@ def _answer(data: Path) -> dict:
     start = time.perf_counter()
     result = discover(data).result
     first = result.effects[0].kind if result.effects else None
-    closed = result.gap.closed if result.gap else None
+    gap = result.gap if result.leading == "gap" else result.slip_forces
+    closed = gap.closed if gap else None
     return {"verdict": result.verdict, "first": first, "closed": closed, "seconds": time.perf_counter() - start}
 
 

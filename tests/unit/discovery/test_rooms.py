@@ -69,3 +69,28 @@ def test_findings_have_one_effect_each():
 
 def test_an_effect_is_told_from_known_ones():
     assert {other for kind in EFFECTS for other in effect_class(kind).told_from} <= set(EFFECTS)
+
+
+STRAIGHT = ("stick_slip", "velocity_step", "inference")
+"""Rooms in which functions are held to `MOST_BRANCHES`."""
+MOST_BRANCHES = 15
+BRANCHES = (ast.If, ast.IfExp, ast.For, ast.While, ast.ExceptHandler, ast.Assert, ast.comprehension)
+
+
+def branches(function: ast.AST) -> int:
+    """Cyclomatic complexity by McCabe, comprehensions and operators between conditions included."""
+    count = 1
+    for node in ast.walk(function):
+        count += isinstance(node, BRANCHES)
+        count += len(node.values) - 1 if isinstance(node, ast.BoolOp) else 0
+        count += len(node.ifs) if isinstance(node, ast.comprehension) else 0
+    return count
+
+
+@pytest.mark.parametrize("room", STRAIGHT)
+def test_functions_are_straight(room):
+    for file in (PACKAGE / "discovery" / room).rglob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.FunctionDef):
+                inner = sum(branches(n) - 1 for n in ast.walk(node) if isinstance(n, ast.FunctionDef) and n is not node)
+                assert branches(node) - inner <= MOST_BRANCHES, f"{file.name}: {node.name}"

@@ -71,18 +71,19 @@ def choose(
     """
     family = _family(candidates, cases)
     rest = [c for c in candidates if not family.holds(c)]
-    if before is not None and family.score >= criteria.NAMED and family.score >= _best_score(rest):
-        # refuted once, shapes stay refuted: the slips that simulated ones are compared with are the same
-        if REFUTED not in details:
-            simulation = _Simulation(study, model, terms, cases, before, details)
-            outcome = simulation.outcome([c for c in candidates if c.is_effect and family.holds(c)])
-            if outcome is not None:
-                return outcome
-            details[REFUTED] = True
-        # simulation does not bear the shape out: what remains are effects that change from slip to slip
-        least = criteria.WORTH_SIMULATING * family.score
-        candidates = [c for c in candidates if c.name not in SHAPES and (not c.is_effect or (c in rest and c.score > least))]
-    return _by_score(study, model, terms, candidates, before)
+    if before is None or family.score < max(criteria.NAMED, _best_score(rest)):
+        return _by_score(study, model, terms, candidates, before)
+    # refuted once, shapes stay refuted: the slips that simulated ones are compared with are the same
+    if REFUTED not in details:
+        simulation = _Simulation(study, model, terms, cases, before, details)
+        outcome = simulation.outcome([c for c in candidates if c.is_effect and family.holds(c)])
+        if outcome is not None:
+            return outcome
+        details[REFUTED] = True
+    # simulation does not bear the shape out: what remains are effects that change from slip to slip
+    least = criteria.WORTH_SIMULATING * family.score
+    left = [c for c in rest if c.score > least or not c.is_effect]
+    return _by_score(study, model, terms, left, before)
 
 
 def _by_score(
@@ -131,21 +132,21 @@ def _family(candidates: Sequence[Candidate], cases: Sequence[Case]) -> _Family:
 
 def _nameless(effects: Sequence[Candidate], others: Sequence[Candidate]) -> Where | None:
     """Return where the unknown lives, if a competitor that names no physics beats the best effect; None if none does."""
-    best = effects[0] if effects else None
-    other = others[0] if others else None
-    if other is not None and other.score >= criteria.NAMED and (best is None or best.score < criteria.OUTDONE * other.score):
-        return Where(other.axis, f"the disagreement lives on the axis: {other.axis}; no known effect explains it")
-    if best is None or best.score < criteria.NAMED:
+    score = effects[0].score if effects else -np.inf
+    if others and others[0].score >= criteria.NAMED and score < criteria.OUTDONE * others[0].score:
+        axis = others[0].axis
+        return Where(axis, f"the disagreement lives on the axis: {axis}; no known effect explains it")
+    if score < criteria.NAMED:
         return None
-    softer = next((c for c in others if c.name == SOFTENING), None)
+    pattern = {c.name: c for c in reversed(others)}
+    softer, parity = pattern.get(SOFTENING), pattern.get("parity")
     if (
         softer is not None
-        and best.has(DRIFTS)
-        and softer.score > best.score + max(criteria.SOFTER, criteria.ALIKE_SHARE * best.score)
+        and effects[0].has(DRIFTS)
+        and softer.score > score + max(criteria.SOFTER, criteria.ALIKE_SHARE * score)
     ):
         return Where(softer.axis, "the spring, not the friction, drifts in the course of a run")
-    parity = next((c for c in others if c.name == "parity"), None)
-    if parity is not None and best.is_wave and parity.score > criteria.ALTERNATES * best.score:
+    if parity is not None and effects[0].is_wave and parity.score > criteria.ALTERNATES * score:
         text = "friction alternates from slip to slip: no ripple that has its own frequency stays in step so"
         return Where(parity.axis, text)
     return None

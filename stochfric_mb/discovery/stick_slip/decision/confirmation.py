@@ -9,6 +9,7 @@ cancels. mu_s, mu_k, mass, stiffness and damping are refitted with every candida
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -256,18 +257,14 @@ def confirm(
         entrained: whether the last effect is a wave to which the slips keep: what they leave open is its phase, not its
             frequency.
     """
-    last = len(candidate.effects) - 1
-    runs = list(dict.fromkeys(case.record.name for case in cases)) if entrained else []
-    free = [k for k in free_parameters(candidate, uncertainty, runs) if not k.run or k.owner == last]
-    free = [k for k in free if not (entrained and k.owner == last and k.name in TUNED)]
+    free = _free_in(candidate, cases, uncertainty, entrained=entrained)
     load = cases[0].record.mechanism.normal_force
     steps = steps_of(free, np.array([_step(k, load) for k in free]))
 
     def errors(step: Array) -> Array:
         values = steps.values(step)
         trial = adjusted(candidate, free, values)
-        parts = [_error(trial, case) for case in cases]
-        return np.concatenate([*parts, steps.surprise(values)])
+        return np.concatenate([*map(functools.partial(_error, trial), cases), steps.surprise(values)])
 
     def levelled(step: Array) -> Array:
         """Return the step with mu_s and mu_k moved to where the break-away and the mean force in slip are right."""
@@ -287,9 +284,7 @@ def confirm(
         evaluations=evaluations,
         tolerance=1.0e-3,
     )
-    # what of the believed model an effect leaves open is a number of its own, too
-    freed = {name for e in candidate.effects for name in e.frees if name in CORRECTED}
-    n_parameters = sum(k.owner >= 0 or k.name in freed for k in free)
+    n_parameters = _own(candidate, free)
     return Confirmed(
         tuple(e.kind for e in candidate.effects),
         adjusted(candidate, free, steps.values(found.x)),
@@ -297,6 +292,24 @@ def confirm(
         n_parameters,
         N_FEATURES * len(cases) - 2 - n_parameters,
     )
+
+
+def _free_in(
+    candidate: Model, cases: Sequence[Case], uncertainty: Mapping[str, float], *, entrained: bool
+) -> list[FreeParameter]:
+    """Return what is fitted; of a wave to which the slips keep the phase, but not the frequency."""
+    last = len(candidate.effects) - 1
+    if not entrained:
+        return [k for k in free_parameters(candidate, uncertainty, []) if not k.run]
+    runs = list(dict.fromkeys(case.record.name for case in cases))
+    free = [k for k in free_parameters(candidate, uncertainty, runs) if not k.run or k.owner == last]
+    return [k for k in free if k.owner != last or k.name not in TUNED]
+
+
+def _own(candidate: Model, free: Sequence[FreeParameter]) -> int:
+    """Return the number of the effects' parameters, and of those of the believed model that they leave open."""
+    freed = {name for e in candidate.effects for name in e.frees if name in CORRECTED}
+    return sum(k.owner >= 0 or k.name in freed for k in free)
 
 
 def _levels_away(model: Model, cases: Sequence[Case]) -> dict[str, float]:

@@ -145,16 +145,27 @@ def _in_stick(study: Study, details: dict[str, object]) -> Blamed | Where:
     if (line := _line(study, details)) is not None and _gain_of_line(study) > criteria.LINE_OUTSHINES * score:
         return line
     if score <= criteria.NAMED:
-        forced = any(r.mechanism.excitation_amplitude for r in study.records)
-        if sticking.scores[JUMP] > max(criteria.NAMED, 0.2 * sticking.excess) and not forced:
-            details["single_moments"] = sticking.scores[JUMP]
-    if score > criteria.NAMED and best == JUMP:
+        _single_moments(study, sticking, details)
+        return line if line is not None else []
+    if best == JUMP:
         details[STEP_SEEN] = score
-    if score <= criteria.NAMED or best in (CREEPING_ZERO, JUMP):
-        return line if line is not None and score <= criteria.NAMED else []
-    if best in CREEP or score < 0.75 * sticking.excess - 60.0:
+    if best in (CREEPING_ZERO, JUMP):
+        return []
+    share, slack = criteria.STICK_EXPLAINED, criteria.STICK_SLACK
+    if best in CREEP or score < share * sticking.excess - slack:
         return Where(*CREEP.get(best, ELSE))
-    settings = sticking.settings[best]
+    return _in_stick_named(study, best, score, sticking.settings[best])
+
+
+def _single_moments(study: Study, sticking: Sticking, details: dict[str, object]) -> None:
+    """Note that the box jumps at single moments, where nothing else is seen in stick and no known force shakes it."""
+    forced = any(r.mechanism.excitation_amplitude for r in study.records)
+    if sticking.scores[JUMP] > max(criteria.NAMED, criteria.SINGLE_MOMENTS * sticking.excess) and not forced:
+        details["single_moments"] = sticking.scores[JUMP]
+
+
+def _in_stick_named(study: Study, best: str, score: float, settings: dict[str, float]) -> Blamed:
+    """Return the effect that stands for what is seen in stick, at numbers to start from."""
     if best == BELT_RIPPLE:
         return [Blame(kind_found_as(best), likely("stick", score), {"amplitude": 0.01, "frequency": settings["frequency"]})]
     box = study.records[0].mechanism

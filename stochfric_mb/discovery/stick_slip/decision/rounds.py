@@ -28,8 +28,7 @@ from stochfric_mb.discovery.stick_slip.simulation.delay_compensation import dela
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import refit
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study
-from stochfric_mb.discovery.stick_slip.where import where_of
-from stochfric_mb.effects import kind_found_as, kinds_with, make_effect
+from stochfric_mb.effects import effect_class, kind_found_as, kinds_with, make_effect
 from stochfric_mb.effects.traits import (
     BELT_RIPPLE,
     BETWEEN_POINTS,
@@ -103,7 +102,7 @@ def decide(study: Study, *, channels: Channels = EVERYTHING, progress: Progress 
     late_kind = kind_found_as(LATE)
     for blame in blamed:
         kind, values = blame.kind, blame.values
-        named.append(Named(kind, (), blame.evidence, where_of(kind), model if late is None else with_delay(model, late)))
+        named.append(Named(kind, (), blame.evidence, _shown_by(kind), model if late is None else with_delay(model, late)))
         if kind == late_kind and driven(study):
             # forces are looked at on time
             late = values["delay"]
@@ -135,6 +134,12 @@ def of_wander(study: Study, refuted: Decision) -> Decision | None:
     found = _Search(study, _levels(study.model, study), [], dict(refuted.details), lambda _: None, confirmation=False)
     decision = dataclasses.replace(found.by_chance(), ranking=refuted.ranking)
     return decision if [n.kind for n in decision.named] == [kind_found_as(WANDER)] else None
+
+
+def _shown_by(kind: str) -> Where:
+    """Return where an effect shows."""
+    cls = effect_class(kind)
+    return Where(cls.shows_on or kind, cls.shows or f"{kind} explains the disagreement")
 
 
 def _levels(model: Model, study: Study) -> Model:
@@ -338,7 +343,7 @@ class _Search:
             self.model = chosen.model
         else:
             self.named.append(
-                Named(kind, chosen.class_, likely("slips", chosen.candidate.score), where_of(kind), self._timed())
+                Named(kind, chosen.class_, likely("slips", chosen.candidate.score), _shown_by(kind), self._timed())
             )
             self.model = chosen.model
         self.any_shape |= chosen.candidate.any_shape
@@ -415,7 +420,7 @@ class _Search:
             self.details["left_over"] = dataclasses.asdict(found)
         elif found is not None:
             self.model = self.model.plus(make_effect(found.kind, **found.values))
-            self.named.append(Named(found.kind, (), found.evidence, where_of(found.kind)))
+            self.named.append(Named(found.kind, (), found.evidence, _shown_by(found.kind)))
         verdict = "effect" if self.named else "none"
         return Decision(verdict, tuple(self.named), None, self._timed(), self.ranking, scatter, self.details)
 

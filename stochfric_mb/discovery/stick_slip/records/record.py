@@ -184,6 +184,11 @@ def noise_of(residuals: list[Array], white: float) -> Noise:
     # the autocorrelation at lag 1..3 of pure white noise scatters by 1/sqrt(n); four of those count as colour
     if covariance[1:].mean() < 4.0 * covariance[0] / math.sqrt(pairs[0]):
         return Noise(deviation)
+    return _coloured(usable)
+
+
+def _coloured(usable: list[Array]) -> Noise:
+    """Return white and coloured noise that fit half the mean squared differences best."""
     longest = float(np.median([len(r) for r in usable])) / 3.0
     apart = np.array([lag for lag in LAGS if lag < longest])
     halves = np.array([_half_difference(usable, lag) for lag in apart])

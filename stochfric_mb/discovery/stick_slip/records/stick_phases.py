@@ -82,42 +82,57 @@ def analyse(slips: Sequence[Slips]) -> Sticking | None:
     log_n = float(np.log(max(freedom, 2)))
     scores: dict[str, float] = {}
     settings: dict[str, dict[str, float]] = {}
-
-    def gain(columns: Callable[[_Phases], Sequence[Array]]) -> float:
-        return sum(float(r @ r) - float(np.sum(run.rest(columns(run)) ** 2)) for run, r in zip(runs, rests, strict=True))
-
-    n = len(runs)
-    duration = max(float(run.slips.record.time[-1] - run.slips.record.time[0]) for run in runs)
-    grid = np.arange(2.0 / duration, 3.0, 1.0 / (4.0 * duration))
-    gains = _ripple_gains(runs, rests, grid)
-    best = int(np.argmax(gains))
-    scores[BELT_RIPPLE] = float(gains[best]) - 2 * n * log_n - 2.0 * np.log(len(grid))
-    settings[BELT_RIPPLE] = {"frequency": float(grid[best])}
-
-    ringing = [(f, z) for f in np.geomspace(1.5, 15.0, 40) * runs[0].slips.record.angular_frequency for z in (0.03, 0.08, 0.2)]
-    gains = np.array([gain(lambda run, w=w, z=z: _ringing(run, w, z)) for w, z in ringing])
-    best = int(np.argmax(gains))
-    scores[YIELDING] = float(gains[best]) - 2 * n * log_n - 2.0 * np.log(len(ringing))
-    settings[YIELDING] = {"angular_frequency": float(ringing[best][0]), "damping_ratio": ringing[best][1]}
-    # a contact whose stiffness changes with its load follows the belt at one speed no longer
-    yields = gain(lambda run: [*_ringing(run, *ringing[best]), *_yielding(run)]) - 5 * n * log_n - 2.0 * np.log(len(ringing))
-    if scores[YIELDING] > criteria.RINGS * yields:
-        scores[YIELDING] = max(scores[YIELDING], yields)
-
-    def hats(column: Array, places: Sequence[float]) -> list[Array]:
-        return [np.clip(1.0 - np.abs(column - p) / 0.05, 0.0, 1.0) for p in places]
-
-    scores["creep_before"] = gain(lambda run: hats(run.samples.to_onset, (0.0, 0.05, 0.1, 0.15))) - 4 * n * log_n
-    scores[CREEPING_ZERO] = (
-        gain(lambda run: [np.sqrt(run.samples.time - run.samples.time[0]), run.samples.time**2]) - 2 * n * log_n
-    )
-    scores["yielding"] = gain(_yielding) - 3 * n * log_n
-    scores["creep_after"] = gain(lambda run: hats(run.samples.since_restick, (0.0, 0.05, 0.1))) - 3 * n * log_n
-    scores[JUMP] = step - n * (log_n + 2.0 * np.log(max(freedom, 2)))
+    scores[BELT_RIPPLE], settings[BELT_RIPPLE] = _ripple(runs, rests, log_n)
+    scores[YIELDING], settings[YIELDING] = _yields(runs, rests, log_n)
+    scores |= _creep(runs, rests, log_n)
+    scores[JUMP] = step - len(runs) * (log_n + 2.0 * np.log(max(freedom, 2)))
     settings[JUMP] = {f"time_{i}": t for i, t in enumerate(times)}
     errors = np.array([_belt_error(run) for run in runs]).T
     stated = tuple((run.slips.record.name, run.slips.record.mechanism.belt_velocity) for run in runs)
     return Sticking(scores, settings, stated, errors[0], errors[1], chi2 - freedom, chi2 / max(freedom, 1), jumps)
+
+
+def _gain(runs: Sequence[_Phases], rests: Sequence[Array], columns: Callable[[_Phases], Sequence[Array]]) -> float:
+    """Return the fall of chi^2 by columns in all runs."""
+    return sum(float(r @ r) - float(np.sum(run.rest(columns(run)) ** 2)) for run, r in zip(runs, rests, strict=True))
+
+
+def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tuple[float, dict[str, float]]:
+    """Return score and frequency [Hz] of a ripple of the belt's speed."""
+    duration = max(float(run.slips.record.time[-1] - run.slips.record.time[0]) for run in runs)
+    grid = np.arange(2.0 / duration, 3.0, 1.0 / (4.0 * duration))
+    gains = _ripple_gains(runs, rests, grid)
+    best = int(np.argmax(gains))
+    return float(gains[best]) - 2 * len(runs) * log_n - 2.0 * np.log(len(grid)), {"frequency": float(grid[best])}
+
+
+def _yields(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tuple[float, dict[str, float]]:
+    """Return score, angular frequency [rad/s] and damping ratio of a contact that rings, and may yield besides."""
+    n = len(runs)
+    ringing = [(f, z) for f in np.geomspace(1.5, 15.0, 40) * runs[0].slips.record.angular_frequency for z in (0.03, 0.08, 0.2)]
+    gains = np.array([_gain(runs, rests, lambda run, w=w, z=z: _ringing(run, w, z)) for w, z in ringing])
+    best = int(np.argmax(gains))
+    choice = 2.0 * np.log(len(ringing))
+    score = float(gains[best]) - 2 * n * log_n - choice
+    # a contact whose stiffness changes with its load follows the belt at one speed no longer
+    both = _gain(runs, rests, lambda run: [*_ringing(run, *ringing[best]), *_yielding(run)]) - 5 * n * log_n - choice
+    settings = {"angular_frequency": float(ringing[best][0]), "damping_ratio": ringing[best][1]}
+    return max(score, both) if score > criteria.RINGS * both else score, settings
+
+
+def _creep(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> dict[str, float]:
+    """Return the scores of other ways in which a stuck box, or its reading, may creep."""
+
+    def hats(column: Array, places: Sequence[float]) -> list[Array]:
+        return [np.clip(1.0 - np.abs(column - p) / 0.05, 0.0, 1.0) for p in places]
+
+    ways: dict[str, tuple[int, Callable[[_Phases], Sequence[Array]]]] = {
+        "creep_before": (4, lambda run: hats(run.samples.to_onset, (0.0, 0.05, 0.1, 0.15))),
+        CREEPING_ZERO: (2, lambda run: [np.sqrt(run.samples.time - run.samples.time[0]), run.samples.time**2]),
+        "yielding": (3, _yielding),
+        "creep_after": (3, lambda run: hats(run.samples.since_restick, (0.0, 0.05, 0.1))),
+    }
+    return {name: _gain(runs, rests, columns) - p * len(runs) * log_n for name, (p, columns) in ways.items()}
 
 
 def _phases(slips: Slips) -> _Phases:

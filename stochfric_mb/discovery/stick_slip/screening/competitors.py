@@ -52,45 +52,48 @@ def competitors(pool: Pool) -> dict[str, tuple[str, Sequence[Array]]]:
     Returns:
         Name -> (axis on which the disagreement lives, columns).
     """
-    n = len(pool.run)
-    load = pool.normal_force
-    found: dict[str, tuple[str, Sequence[Array]]] = {}
-    shape: Columns = []
-    for q in range(1, pool.features.shape[1] - 1):
-        column = np.zeros_like(pool.features)
-        column[:, 1 + q] = load
-        shape.append(column)
-    found["slip_shape"] = ("shape of the friction force within a slip", shape)
-    alternating = np.concatenate([(-1.0) ** np.arange(len(s)) for s in pool.slips])
     runs = [pool.run == r for r in range(pool.n_runs)]
-    found["parity"] = (
-        "alternates from slip to slip",
-        [pool.column(pool.static * alternating * r, None) for r in runs]
-        + [pool.column(None, pool.kinetic * alternating * r) for r in runs],
-    )
+    everywhere = [np.ones(len(pool.run), dtype=bool)]
+    alternating = np.concatenate([(-1.0) ** np.arange(len(s)) for s in pool.slips])
+    parity = [pool.column(pool.static * alternating * r, None) for r in runs]
+    parity += [pool.column(None, pool.kinetic * alternating * r) for r in runs]
+    return {
+        "slip_shape": ("shape of the friction force within a slip", _of_moments(pool)),
+        "parity": ("alternates from slip to slip", parity),
+        "time": ("time within the run", _along_time(pool, runs)),
+        "time_common": ("time within the run", _along_time(pool, everywhere)),
+        "position": ("position of the box", _along_position(pool)),
+    }
+
+
+def _of_moments(pool: Pool) -> Columns:
+    """Return a column for each moment of the force within a slip, its mean apart."""
+    shape: Columns = []
+    for q in range(2, pool.features.shape[1]):
+        column = np.zeros_like(pool.features)
+        column[:, q] = pool.normal_force
+        shape.append(column)
+    return shape
+
+
+def _along_time(pool: Pool, parts: Sequence[np.ndarray]) -> Columns:
+    """Return hats along the time in each part of the slips, of the break-away's force and of the force in slip."""
     knots = np.linspace(0.0, pool.duration, 8)
-    hats = [np.clip(1.0 - np.abs(t - k) / knots[1], 0.0, 1.0) for k in knots[1:] for t in (pool.onset_time, pool.mean_time)]
-    found["time"] = (
-        "time within the run",
-        [pool.column(h * r, None) for h in hats[0::2] for r in runs]
-        + [pool.column(None, h * r) for h in hats[1::2] for r in runs],
-    )
+
+    def hats(time: Array) -> list[Array]:
+        return [np.clip(1.0 - np.abs(time - k) / knots[1], 0.0, 1.0) for k in knots[1:]]
+
+    at_onset = [pool.column(h * part, None) for h in hats(pool.onset_time) for part in parts]
+    return at_onset + [pool.column(None, h * part) for h in hats(pool.mean_time) for part in parts]
+
+
+def _along_position(pool: Pool) -> Columns:
+    """Return hats along the stroke."""
     low, high = np.quantile(pool.typical_position, (0.02, 0.98))
     places = np.linspace(low, high, 10)
     width = places[1] - places[0]
-    found["time_common"] = (
-        "time within the run",
-        [pool.column(h, None) for h in hats[0::2]] + [pool.column(None, h) for h in hats[1::2]],
-    )
-    found["position"] = (
-        "position of the box",
-        [
-            pool.column(
-                np.clip(1.0 - np.abs(pool.typical_onset - p) / width, 0.0, 1.0),
-                np.clip(1.0 - np.abs(pool.typical_position - p) / width, 0.0, 1.0),
-            )
-            for p in places[1:-1]
-        ],
-    )
-    assert all(c.shape[0] == n for _, columns in found.values() for c in columns)
-    return found
+
+    def hat(position: Array, place: float) -> Array:
+        return np.clip(1.0 - np.abs(position - place) / width, 0.0, 1.0)
+
+    return [pool.column(hat(pool.typical_onset, p), hat(pool.typical_position, p)) for p in places[1:-1]]

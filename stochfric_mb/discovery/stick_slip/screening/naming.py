@@ -90,26 +90,36 @@ def _periodic(model: Model, candidate: Candidate, pool: Pool, coefficients: Arra
     amplitudes = np.hypot(pairs[..., 0], pairs[..., 1]).mean(axis=0)
     # a cos + b sin = A cos(theta + phase)
     phases = np.arctan2(-pairs[..., 1], pairs[..., 0])
-    directions = [s.record.direction for s in pool.slips]
-    names = [s.record.name for s in pool.slips]
     if candidate.along_belt:
         # a mirrored run sees the belt coordinate with the opposite sign
-        phases = phases * np.array(directions)[:, None]
-        values = {"amplitude": amplitudes[0], "wavelength": main}
-        values |= {f"amplitude_{h + 1}": amplitudes[h] for h in range(1, harmonics)}
-        effects: list[Effect] = [_bounded(candidate.name, values)]
-        own = [
-            {("phase" if h == 0 else f"phase_{h + 1}"): float(phases[r, h]) for h in range(harmonics)}
-            for r in range(len(names))
-        ]
-        added = [(values_,) for values_ in own]
+        phases = phases * np.array([s.record.direction for s in pool.slips])[:, None]
+        effects, added = _along_belt(candidate.name, main, amplitudes, phases)
     else:
-        large = [h for h in range(harmonics) if h == 0 or amplitudes[h] > 0.1 * amplitudes[0]]
-        effects = [_bounded(candidate.name, {"amplitude": amplitudes[h], "frequency": main * (h + 1)}) for h in large]
-        added = [tuple({"phase": float(phases[r, h])} for h in large) for r in range(len(names))]
-    before = {name: model.own.get(name, ({},) * len(model.effects)) for name in names}
-    own_all = {name: (*before[name], *added[r]) for r, name in enumerate(names)}
-    return dataclasses.replace(model, effects=(*model.effects, *effects), own=own_all)
+        effects, added = _in_time(candidate.name, main, amplitudes, phases)
+    own = {
+        s.record.name: (*model.own.get(s.record.name, ({},) * len(model.effects)), *mine)
+        for s, mine in zip(pool.slips, added, strict=True)
+    }
+    return dataclasses.replace(model, effects=(*model.effects, *effects), own=own)
+
+
+Waves = tuple[list[Effect], list[tuple[dict[str, float], ...]]]
+"""Effects, and for each run the values of each that are its own."""
+
+
+def _along_belt(kind: str, wavelength: float, amplitudes: Array, phases: Array) -> Waves:
+    """Return one effect with its harmonics along the belt."""
+    values = {"amplitude": amplitudes[0], "wavelength": wavelength}
+    values |= {f"amplitude_{h + 1}": amplitudes[h] for h in range(1, len(amplitudes))}
+    own = [({("phase" if h == 0 else f"phase_{h + 1}"): float(p) for h, p in enumerate(row)},) for row in phases]
+    return [_bounded(kind, values)], own
+
+
+def _in_time(kind: str, frequency: float, amplitudes: Array, phases: Array) -> Waves:
+    """Return one effect for every harmonic that is large."""
+    large = [h for h in range(len(amplitudes)) if h == 0 or amplitudes[h] > 0.1 * amplitudes[0]]
+    effects = [_bounded(kind, {"amplitude": amplitudes[h], "frequency": frequency * (h + 1)}) for h in large]
+    return effects, [tuple({"phase": float(row[h])} for h in large) for row in phases]
 
 
 def as_harmonic(model: Model, candidate: Candidate, pool: Pool, n_terms: int) -> Model | None:

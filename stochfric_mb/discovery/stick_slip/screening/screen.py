@@ -6,12 +6,13 @@ Score = 2 delta log L - p ln n - 2 ln(grid size); found one after the other, eac
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
+from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING, competitors, softening, step_times, steps
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
@@ -68,6 +69,20 @@ class Candidate:
         return self.hypothesis.start(self.solution.coefficients[terms:])
 
 
+@dataclasses.dataclass(frozen=True)
+class _Kind:
+    """The ways in which one effect, or a pattern without a name, may have marked the slips."""
+
+    name: str
+    """Kind of effect, or name of the pattern."""
+    axis: str
+    """Axis of a pattern; empty for an effect."""
+    hypotheses: list[Hypothesis]
+    """The ways that are looked at."""
+    grid: int
+    """Among how many they were chosen."""
+
+
 def screen(
     pool: Pool, regression: Regression, terms: Terms, solution: Solution, *, without: Sequence[str] = ()
 ) -> list[Candidate]:
@@ -80,34 +95,18 @@ def screen(
         solution: its fit.
         without: kinds that the model holds already.
     """
-    log_n = float(np.log(regression.n))
-    families: list[tuple[str, str, list[Hypothesis], int]] = []  # name, axis, hypotheses, size of the grid
-    for kind, found_of in hypotheses_in(pool, without=without).items():
-        for variant in dict.fromkeys(h.variant for h in found_of):
-            families.append((kind, "", [h for h in found_of if h.variant == variant], len(found_of)))
-    for kind, wave in waves_in(pool, without=without).items():
-        best_one, looked_at = best_wave(kind, wave, pool, regression, terms, solution.scatter)
-        families.append((kind, "", [best_one], looked_at))
-    for name, (axis, columns) in competitors(pool).items():
-        families.append((name, axis, [Hypothesis(name, list(columns))], 1))
-    softer = softening(pool)
-    families.append((SOFTENING, "stiffness, time within the run", softer, len(softer)))
-    for kind, axis, multiplied in (("friction_step", "abrupt change of the friction", True), (kind_found_as(JUMP), "", False)):
-        if kind not in without:
-            step = _step(pool, regression, terms, solution, kind, multiplied=multiplied)
-            families.append((kind, axis, [step], len(step_times(pool)) ** pool.n_runs))
-    rough: list[tuple[float, str, str, Hypothesis, float]] = []
-    for kind, axis, hypotheses, grid in families:
-        gains = regression.gains(terms, solution.scatter, [h.columns for h in hypotheses])
-        cost = np.array([len(h.columns) * log_n for h in hypotheses])
-        order = np.argsort(cost - 2.0 * gains, kind="stable")
-        # a curved hypothesis whose strength comes out negative must not stand before a straight one that is possible
-        best = next((int(j) for j in order if _can_be(kind, hypotheses[j], regression, terms, solution)), int(order[0]))
-        penalty = float(cost[best]) + 2.0 * np.log(grid)
-        rough.append((2.0 * float(gains[best]) - penalty, kind, axis, hypotheses[best], penalty))
+    rough = [
+        _best(kind, regression, terms, solution)
+        for kinds in (
+            _effects(pool, regression, terms, solution, without),
+            _patterns(pool),
+            _steps(pool, regression, terms, solution, without),
+        )
+        for kind in kinds
+    ]
     rough.sort(key=lambda r: -r[0])
     found: list[Candidate] = []
-    for i, (score, kind, axis, hypothesis, penalty) in enumerate(rough):
+    for i, (score, kind, hypothesis, penalty) in enumerate(rough):
         wider = terms.plus(hypothesis.columns)
         if i < REFITTED:
             fitted = regression.fit(wider, solution.scatter)
@@ -115,8 +114,46 @@ def screen(
         else:
             fitted = regression.solve(wider, solution.scatter)
             final = score
-        found.append(Candidate(kind, axis, final, hypothesis, fitted))
+        found.append(Candidate(kind.name, kind.axis, final, hypothesis, fitted))
     return sorted((c for c in found if _sign_possible(c.name, c.solution, terms)), key=lambda c: -c.score)
+
+
+def _effects(pool: Pool, regression: Regression, terms: Terms, solution: Solution, without: Sequence[str]) -> Iterator[_Kind]:
+    """Yield the effects by their variants, then those that are waves."""
+    for kind, ways in hypotheses_in(pool, without=without).items():
+        for variant in dict.fromkeys(h.variant for h in ways):
+            yield _Kind(kind, "", [h for h in ways if h.variant == variant], len(ways))
+    for kind, wave in waves_in(pool, without=without).items():
+        best_one, looked_at = best_wave(kind, wave, pool, regression, terms, solution.scatter)
+        yield _Kind(kind, "", [best_one], looked_at)
+
+
+def _patterns(pool: Pool) -> Iterator[_Kind]:
+    """Yield what names no physics."""
+    for name, (axis, columns) in competitors(pool).items():
+        yield _Kind(name, axis, [Hypothesis(name, list(columns))], 1)
+    softer = softening(pool)
+    yield _Kind(SOFTENING, "stiffness, time within the run", softer, len(softer))
+
+
+def _steps(pool: Pool, regression: Regression, terms: Terms, solution: Solution, without: Sequence[str]) -> Iterator[_Kind]:
+    """Yield steps of the friction, which have no name, and of the sensor."""
+    for kind, axis, multiplied in (("friction_step", "abrupt change of the friction", True), (kind_found_as(JUMP), "", False)):
+        if kind not in without:
+            step = _step(pool, regression, terms, solution, kind, multiplied=multiplied)
+            yield _Kind(kind, axis, [step], len(step_times(pool)) ** pool.n_runs)
+
+
+def _best(kind: _Kind, regression: Regression, terms: Terms, solution: Solution) -> tuple[float, _Kind, Hypothesis, float]:
+    """Return score, kind, hypothesis and cost of the best way of a kind at fixed variance components."""
+    gains = regression.gains(terms, solution.scatter, [h.columns for h in kind.hypotheses])
+    cost = np.array([len(h.columns) for h in kind.hypotheses]) * float(np.log(regression.n))
+    order = np.argsort(cost - 2.0 * gains, kind="stable")
+    # a curved hypothesis whose strength comes out negative must not stand before a straight one that is possible
+    possible = (int(j) for j in order if _can_be(kind.name, kind.hypotheses[j], regression, terms, solution))
+    best = next(possible, int(order[0]))
+    penalty = float(cost[best]) + 2.0 * np.log(kind.grid)
+    return 2.0 * float(gains[best]) - penalty, kind, kind.hypotheses[best], penalty
 
 
 def _positive(kind: str) -> bool:
@@ -140,17 +177,20 @@ def _step(pool: Pool, regression: Regression, terms: Terms, solution: Solution, 
     """Return one step a run, each where it explains most; two of a sensor where the second one explains enough more."""
     place = step_times(pool)
     trials = [steps(pool, run, multiplied=multiplied) for run in range(pool.n_runs)]
-    firsts = [int(np.argmax(regression.gains(terms, solution.scatter, [[t] for t in mine]))) for mine in trials]
+    firsts, _ = _best_steps(trials, regression, terms, solution)
     columns = [mine[best] for mine, best in zip(trials, firsts, strict=True)]
-    once = Hypothesis(kind, columns, tuple(float(place[best]) for best in firsts))
-    if multiplied:
-        return once
-    wider = terms.plus(columns)
-    gains = [regression.gains(wider, solution.scatter, [[t] for t in mine]) for mine in trials]
-    worth = 2.0 * sum(float(g.max()) for g in gains) - pool.n_runs * (np.log(regression.n) + 2.0 * np.log(len(place)))
-    if worth < criteria.SECOND_STEP:
-        return once
-    seconds = [int(np.argmax(g)) for g in gains]
-    both = [c for mine, a, b in zip(trials, firsts, seconds, strict=True) for c in (mine[a], mine[b])]
-    when = [float(place[i]) for a, b in zip(firsts, seconds, strict=True) for i in (a, b)]
-    return Hypothesis(kind, both, tuple(when))
+    if not multiplied:
+        seconds, gain = _best_steps(trials, regression, terms.plus(columns), solution)
+        if 2.0 * gain - pool.n_runs * (np.log(regression.n) + 2.0 * np.log(len(place))) >= criteria.SECOND_STEP:
+            pairs = list(zip(trials, firsts, seconds, strict=True))
+            both = [mine[i] for mine, *pair in pairs for i in pair]
+            return Hypothesis(kind, both, tuple(float(place[i]) for _, *pair in pairs for i in pair))
+    return Hypothesis(kind, columns, tuple(float(place[best]) for best in firsts))
+
+
+def _best_steps(
+    trials: Sequence[Sequence[Array]], regression: Regression, terms: Terms, solution: Solution
+) -> tuple[list[int], float]:
+    """Return the number of the best step of each run, and by how much they lower the cost together, run by run."""
+    gains = [regression.gains(terms, solution.scatter, [[t] for t in mine]) for mine in trials]
+    return [int(np.argmax(g)) for g in gains], sum(float(g.max()) for g in gains)
