@@ -180,14 +180,14 @@ def line_function_of(contact: Any) -> tuple[Any, tuple[str, ...]]:
     """Return the user function of a contact along a line, and the variables that it is given after each step.
 
     Compiled code, which takes the contact's address for its connector's ``stiffness``; where the engine does not call such: an
-    expression, or for laws that call others by their addresses the compiled code from Python.
+    expression, or for laws that call others by their addresses, for true stick and for turns the compiled code from Python.
     """
     if (function := pointers.line_function()) is not None:
         contact._words[at.COMPILED] = int(not contact.true_stick)
         contact.route = "compiled"
         return function, ()
     normal, friction = contact._normal, contact.friction
-    if not friction.law.traceable or contact.true_stick:
+    if not friction.law.traceable or contact.true_stick or contact._numbers[at.PERIOD] > 0.0:
         return pointers.line_in_python, ()
     n = None if normal.changes else normal.at(0.0)
     expression = force_expression(friction.law, friction.process, n, contact.given_mass)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from numba import carray  # pyright: ignore[reportPrivateImportUsage]
 
 from stochfric_mb.coefficients.path import CURSOR, canonical_time, evaluate
@@ -27,6 +29,7 @@ from stochfric_mb.exudyn.layout import (
     NORMAL,
     NUMBERS,
     PENALTY,
+    PERIOD,
     PLANE,
     POSITION_0,
     POSITION_1,
@@ -37,6 +40,7 @@ from stochfric_mb.exudyn.layout import (
     SPIN,
     SPIN_BEFORE,
     SPUN,
+    STARTED,
     STEP,
     STIFFNESS,
     STUCK,
@@ -46,6 +50,7 @@ from stochfric_mb.exudyn.layout import (
     VELOCITY_0,
     VELOCITY_1,
     T,
+    U,
     number_at,
     numbers_from,
     words_from,
@@ -66,6 +71,14 @@ def spun(t, i, numbers):
 
 
 @compiled
+def unwrapped(u, numbers, words):
+    """Return the displacement u [m] with the whole turns that bring it nearest to the last accepted one."""
+    if numbers[PERIOD] > 0.0 and words[STARTED] == 1:
+        return u + numbers[PERIOD] * math.floor((numbers[U] - u) / numbers[PERIOD] + 0.5)
+    return u
+
+
+@compiled
 def kinematics(t, numbers, words):
     """Return relative displacements [m] and velocities [m/s], counter-surface minus body, from the engine's coordinates."""
     w = numbers[SURFACE_VELOCITY]
@@ -76,7 +89,7 @@ def kinematics(t, numbers, words):
         return w * t - dx, w_2 * t - dy, w - vx, w_2 - vy
     d = number_at(words[POSITION_1]) - number_at(words[POSITION_0])  # pyright: ignore[reportCallIssue]
     v = number_at(words[VELOCITY_1]) - number_at(words[VELOCITY_0])  # pyright: ignore[reportCallIssue]
-    return w * t - numbers[RADIUS] * d, 0.0, w - numbers[RADIUS] * v, 0.0
+    return unwrapped(w * t - numbers[RADIUS] * d, numbers, words), 0.0, w - numbers[RADIUS] * v, 0.0
 
 
 @compiled
@@ -124,7 +137,7 @@ def pull(t, displacement, velocity, address):
     w, r, n = numbers[SURFACE_VELOCITY], numbers[RADIUS], normal_force_at(t, numbers, words)
     if n <= 0.0:
         return 0.0
-    u, hold = w * t - r * displacement, numbers[HOLD]
+    u, hold = unwrapped(w * t - r * displacement, numbers, words), numbers[HOLD]
     if numbers[STUCK] == 1.0:
         numbers[HOLD] = 0.0  # a constraint holds
     ask(words[FORCE], t, (u, 0.0, w - r * velocity, 0.0), n, pair_at(t, u, numbers, words), numbers, NEW)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -111,7 +112,7 @@ class JointContact(FrictionContact):
         self._turns = free >= 3
         """Whether the joint turns."""
         self._radius = radius if self._turns else 1.0
-        self._numbers[at.RADIUS] = self._radius
+        self._numbers[[at.RADIUS, at.PERIOD]] = self._radius, 2.0 * math.pi * self._radius if self._turns else 0.0
         self._displacement = OUTPUT.Rotation if self._turns else OUTPUT.DisplacementLocal
         self._velocity = OUTPUT.AngularVelocityLocal if self._turns else OUTPUT.VelocityLocal
         self._reaction = OUTPUT.TorqueLocal if self._turns else OUTPUT.ForceLocal

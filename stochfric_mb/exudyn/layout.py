@@ -55,7 +55,9 @@ HOLD, HOLD_BEFORE = GUARDS_BEFORE + 6, GUARDS_BEFORE + 7
 """Friction force [N] that would hold the contact still, now and at the last accepted step; 0 where nothing tells it."""
 JUMP = GUARDS_BEFORE + 8
 """Time [s] just after a jump of the normal force as a function of time that lies in the next step; infinity: none does."""
-CURSOR_AT = GUARDS_BEFORE + 9
+PERIOD = GUARDS_BEFORE + 9
+"""Displacement [m] of a whole turn, after which the engine's angle begins again; 0 for displacements."""
+CURSOR_AT = GUARDS_BEFORE + 10
 WINDOW_CURSOR_AT = CURSOR_AT + CURSOR
 """Cursors on the path: of the coefficients now, and of the engine's window."""
 LIVE = WINDOW_CURSOR_AT + CURSOR

@@ -39,7 +39,15 @@ from exudyn.utilities import InertiaCuboid, RigidBodyInertia
 from stochfric_mb import reference
 from stochfric_mb.coefficients import Knots, PerEvent
 from stochfric_mb.errors import InputError, SimulationError, StabilityError
-from stochfric_mb.exudyn import add_bristle, add_friction, add_friction_load, add_joint_friction, silent_settings, solve_dynamic
+from stochfric_mb.exudyn import (
+    add_bristle,
+    add_friction,
+    add_friction_load,
+    add_joint_friction,
+    pointers,
+    silent_settings,
+    solve_dynamic,
+)
 from stochfric_mb.exudyn.belt_box import without_friction
 from stochfric_mb.exudyn.normal import TimedNormal
 from stochfric_mb.exudyn.solve import SOLVERS
@@ -885,3 +893,25 @@ def test_a_load_that_changes_smoothly_has_no_jumps() -> None:
     assert all(wave.jump(0.001 * i, 0.001)[0] == math.inf for i in range(100))
     ramp = TimedNormal(lambda t: 10.0 + 1000.0 * max(t - 0.0005, 0.0))  # a bend is none
     assert ramp.jump(0.0, 0.001)[0] == math.inf
+
+
+@pytest.mark.parametrize("where", ["compiled", "Python"])
+def test_a_joint_turns_on_and_on(where: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The engine's angle begins again after each turn; the way that a pin has slid does not."""
+    if where == "Python":
+        monkeypatch.setattr(pointers, "line_function", lambda: None)
+    mbs = exudyn.SystemContainer().AddSystem()
+    ground = mbs.AddMarker(MarkerBodyRigid(bodyNumber=mbs.AddObject(ObjectGround())))
+    node = mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[0.0] * 3, initialVelocities=[0.0, 0.0, 30.0]))
+    hub = mbs.AddMarker(MarkerBodyRigid(bodyNumber=mbs.AddObject(RigidBody2D(nodeNumber=node, mass=1.0, inertia=0.2))))
+    joint = mbs.AddObject(RevoluteJoint2D(markerNumbers=[ground, hub]))
+    law = make_law("dahl", mu_s=0.4, mu_k=0.4)
+    contact = add_joint_friction(mbs, joint, law, radius=0.05, normal_force=20.0)
+    mbs.Assemble()
+    rows = contact.record(1e-3 * np.arange(1, 501))
+    solve_dynamic(mbs, silent_settings(1e-3, 0.5), solver="generalized_alpha")
+    turned = 30.0 * 0.5 - 0.5 * (0.4 * 20.0 * 0.05 / 0.2) * 0.5**2  # two turns
+    # the bristle begins loaded, within 1e-5 m of sliding
+    assert -rows[-1, 1] == pytest.approx(0.05 * turned, abs=1e-4)
+    assert np.max(np.abs(np.diff(rows[:, 1]))) < 0.05 * 30.0 * 1.1e-3
+    assert np.max(np.abs(np.diff(rows[5:, 3]))) < 1e-9  # steady sliding, across whole turns, too
