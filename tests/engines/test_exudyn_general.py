@@ -923,7 +923,7 @@ def test_a_joint_turns_on_and_on(where: str, monkeypatch: pytest.MonkeyPatch) ->
 def test_stick_slip_of_lugre_as_exudyns_own_example_has_it(solver: str, dt: float, tolerance: float) -> None:
     """A mass pulled by a spring, Canudas de Wit et al. 1995: 1.9088391992 m after 25 s, as three variables of the same ODE.
 
-    That is what Exudyn's example lugreFrictionTest.py gives with DOPRI5 at 5e-5 s. Ours is second order: measured 4.7e-6, 1.2e-6
+    So Exudyn's example lugreFrictionTest.py has it with DOPRI5 at 5e-5 s. Ours is second order: measured 4.7e-6, 1.2e-6
     and 4.9e-8 m.
     """
     mbs, node, ground, slide = block(0.0)
