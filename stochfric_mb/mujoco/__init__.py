@@ -10,6 +10,7 @@ Rooms: ``memory`` (the structs of MuJoCo and ours, for compiled code), ``plugin`
 ``joint`` (the friction itself), ``check`` (what friction a model really has).
 """
 
+from stochfric_mb.mujoco.anisotropy import Anisotropy
 from stochfric_mb.mujoco.attach import ConeWarning, add_friction
 from stochfric_mb.mujoco.callback import friction
 from stochfric_mb.mujoco.joints import Joint, Tendon
@@ -21,6 +22,7 @@ from stochfric_mb.mujoco.reading import Reading, readings
 from stochfric_mb.mujoco.states import set_friction, state_index, untouched
 
 __all__ = [
+    "Anisotropy",
     "ConeWarning",
     "ContactWarning",
     "IntegratorWarning",

@@ -13,10 +13,11 @@ import mujoco
 from stochfric_mb.errors import InputError
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
+from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
 from stochfric_mb.mujoco.joints import Joint, Tendon, add_joint_friction
 from stochfric_mb.mujoco.pairs import ANY, colliding_pairs, require_free, require_geoms, take_over, warn_of_filters
-from stochfric_mb.mujoco.plugin.configuration import MAX_SLOTS, configuration
-from stochfric_mb.mujoco.plugin.options import ELLIPTIC, check_options
+from stochfric_mb.mujoco.plugin.configuration import MAX_SLOTS, configuration, require_slots
+from stochfric_mb.mujoco.plugin.options import ELLIPTIC, check_options, require_primal
 from stochfric_mb.mujoco.plugin.pair import NAME, register
 
 
@@ -36,6 +37,7 @@ def add_friction(
     contact: int = 0,
     slots: int | None = None,
     mode: str = "auto",
+    anisotropy: Anisotropy = ISOTROPIC,
 ) -> str:
     """Return the name of the plugin instance that now sets the friction between two geoms, or of a joint or tendon.
 
@@ -58,6 +60,7 @@ def add_friction(
         slots: most contacts at a time; 16, or four for each pair of a ``"*"``, if not given.
         mode: ``solver``: the law steers MuJoCo's own friction solver; ``explicit``: its force at each instant; ``auto``:
             explicit where the integrator is RK4 and the step below half the law's limit, otherwise solver.
+        anisotropy: how the coefficients of a pair differ by direction; only in ``solver``.
 
     Raises:
         InputError: unknown geom, a law that cannot run here, an address out of range, or options that switch passive
@@ -77,6 +80,8 @@ def add_friction(
     friction = as_friction(friction)
     steered = mode != "explicit" and friction.law.rest != "bristle"
     if isinstance(geoms, Joint | Tendon):
+        if anisotropy != ISOTROPIC:
+            raise InputError(f"anisotropy = {anisotropy}: a joint or tendon has one direction; give it to a pair of geoms")
         check_options(spec.option.disableflags, spec.option.integrator, ELLIPTIC)
         return add_joint_friction(
             spec,
@@ -99,10 +104,20 @@ def add_friction(
     require_free(spec, pairs)
     slots = max(16, min(4 * len(pairs), MAX_SLOTS)) if slots is None else slots
     texts = configuration(
-        friction, body, surface, seed=seed, sample=sample, contact=contact, slots=require_slots(slots), mode=mode
+        friction,
+        body,
+        surface,
+        seed=seed,
+        sample=sample,
+        contact=contact,
+        slots=require_slots(slots),
+        mode=mode,
+        anisotropy=anisotropy,
     )
     name = free_name(spec, f"friction_{body}_{surface}".replace(ANY, "any"), "pair")
     check_options(spec.option.disableflags, spec.option.integrator, ELLIPTIC)
+    if anisotropy != ISOTROPIC:
+        require_primal(spec.option.solver, spec.option.noslip_iterations)
     warn_of_filters(spec, body, surface)
     if steered:
         make_elliptic(spec)
@@ -124,17 +139,6 @@ def make_elliptic(spec: mujoco.MjSpec) -> None:
             ConeWarning,
             stacklevel=3,
         )
-
-
-def require_slots(slots: int) -> int:
-    """Return a number of slots.
-
-    Raises:
-        InputError: it is no whole number, or out of range.
-    """
-    if int(slots) != slots or not 0 < slots <= MAX_SLOTS:
-        raise InputError(f"slots = {slots!r} must be a whole number from 1 to {MAX_SLOTS}; 16 suits most pairs")
-    return int(slots)
 
 
 def free_name(spec: mujoco.MjSpec, name: str, what: str) -> str:

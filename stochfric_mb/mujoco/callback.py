@@ -24,7 +24,7 @@ import numpy as np
 from stochfric_mb.errors import InputError, SimulationError, require_name
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
-from stochfric_mb.mujoco.attach import require_slots
+from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
 from stochfric_mb.mujoco.callback_steps import CAPACITY, ROWS, callback
 from stochfric_mb.mujoco.contact import replay
 from stochfric_mb.mujoco.contact.tracking import report
@@ -32,8 +32,15 @@ from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.engine import library
 from stochfric_mb.mujoco.pairs import ContactWarning, can_collide
-from stochfric_mb.mujoco.plugin.configuration import configuration, record_of
-from stochfric_mb.mujoco.plugin.options import NO_PASSIVE_FORCES, SWITCHED_OFF, check_options
+from stochfric_mb.mujoco.plugin.configuration import configuration, record_of, require_slots
+from stochfric_mb.mujoco.plugin.options import (
+    NO_PASSIVE_FORCES,
+    SWITCHED_OFF,
+    check_options,
+    require_primal,
+    stiffest_damping,
+    warn_of_stiff_damping,
+)
 from stochfric_mb.mujoco.plugin.pair import register
 from stochfric_mb.mujoco.reading import Reading, reading_of
 from stochfric_mb.mujoco.states import touched
@@ -55,6 +62,7 @@ class friction:  # noqa: N801  (a context, used like a function)
         sample: int = 0,
         slots: int = 16,
         mode: str = "auto",
+        anisotropy: Mapping[tuple[str, str], Anisotropy] | None = None,
     ) -> None:
         """Prepare friction; nothing changes before the context is entered.
 
@@ -66,6 +74,7 @@ class friction:  # noqa: N801  (a context, used like a function)
             sample: second part: the run of an ensemble.
             slots: most contacts of a pair at a time.
             mode: ``auto``, ``solver`` or ``explicit``, as of `add_friction`.
+            anisotropy: pair of ``pairs`` -> how its coefficients differ by direction, for those whose do.
 
         Raises:
             InputError: data of another model, unknown geoms, geoms that cannot touch or touch without friction, pyramidal
@@ -81,12 +90,26 @@ class friction:  # noqa: N801  (a context, used like a function)
         if data.model is not model and data.model._address != model._address:
             raise InputError("data belongs to another model; pass the model that it was made with")
         check_options(model.opt.disableflags, model.opt.integrator, model.opt.cone)
+        warn_of_stiff_damping(stiffest_damping(model._address), model.opt.timestep)
+        directed = dict(anisotropy or {})
+        for names in directed:
+            require_name("pair of anisotropy", names, pairs)
+        if directed:
+            require_primal(model.opt.solver, model.opt.noslip_iterations)
         self._model, self._data = model, data
         self._states: dict[tuple[str, str], Array] = {}
         self._kept: dict[tuple[str, str], Array] = {}
         for contact, (names, law) in enumerate(pairs.items()):
             geoms = _geoms_of(model, names)
-            state = _fresh_state(as_friction(law), require_slots(slots), mode, seed=seed, sample=sample, contact=contact)
+            state = _fresh_state(
+                as_friction(law),
+                require_slots(slots),
+                mode,
+                directed.get(names, ISOTROPIC),
+                seed=seed,
+                sample=sample,
+                contact=contact,
+            )
             header = s.header_of(state)
             header.geom_body, header.geom_surface = geoms
             self._states[names] = state
@@ -148,15 +171,14 @@ class friction:  # noqa: N801  (a context, used like a function)
         return {names: touched(state) for names, state in self._states.items()}
 
 
-def _fresh_state(friction: Friction, slots: int, mode: str, **address: int) -> Array:
+def _fresh_state(friction: Friction, slots: int, mode: str, anisotropy: Anisotropy, **address: int) -> Array:
     """Return the state that the plugin would start with (no model is compiled: that would run others' callbacks)."""
-    texts = configuration(friction, "", "", mode=mode, slots=slots, **address)
-    record = record_of(texts["law"], texts["coefficients"], 0)[1:]
+    texts = configuration(friction, "", "", mode=mode, slots=slots, anisotropy=anisotropy, **address)
+    record = record_of(texts)
     state = np.zeros(s.state_size(len(record) - s.N_HEADER, slots))
     state[: len(record)] = record
     header = s.header_of(state)
     header.seed, header.sample, header.contact = address["seed"], address["sample"], address["contact"]
-    header.n_slots, header.mode = slots, s.MODES.index(mode)
     return state
 
 

@@ -91,7 +91,7 @@ def evaluate_row(model, data, row):
         if not stages or row.phase >= 4:
             tracking.commit(model, data, state)
             replay.settle(model, data, state, row.kept)
-            tracking.close(m, d, state)
+            tracking.close(model, data, state)
             row.phase = 0
     elif d.time != header.evaluated:
         header.n_committed, header.started, header.advanced, row.phase = 0.0, 0.0, s.UNSET, 0

@@ -178,6 +178,23 @@ def test_what_switches_passive_forces_off_is_said():
     assert row.ours_problem in row.advice
 
 
+def test_a_solver_that_stops_early_is_said():
+    text = incline().replace("<option", '<option iterations="2" tolerance="0"')
+    assert any("stopped at option.iterations = 2 in " in note for note in checked(text, settle=0.2, duration=0.05).notes)
+    assert not any("iterations" in note for note in checked(incline(), settle=0.2, duration=0.05).notes)
+
+
+@pytest.mark.parametrize(("step", "said"), [("1e-2", True), ("2e-3", False)])
+def test_implicit_damping_with_which_nothing_holds_is_said(step, said):
+    text = f"""<mujoco><option timestep="{step}" integrator="implicitfast" cone="elliptic"/><worldbody>
+      <body name="table"><joint name="x" type="slide" axis="1 0 0"/>
+        <geom name="table" type="box" size=".3 .3 .02" mass="2"/></body>
+      <body pos="0 0 .07"><freejoint/><geom name="box" type="box" size=".05 .05 .05" mass="1"/></body></worldbody>
+      <actuator><position joint="x" kp="20000" kv="1000"/></actuator></mujoco>"""
+    notes = checked(text, settle=0.2, duration=0.05).notes
+    assert any("h kv/m = 5" in note for note in notes) is said
+
+
 def test_pairs_that_never_touch_are_named():
     spec = mujoco.MjSpec.from_string(
         """<mujoco><worldbody><geom name="floor" type="plane" size="1 1 1"/><geom name="wall" size=".1" pos="9 0 0"/>

@@ -426,7 +426,7 @@ def test_hand_written_xml():
 def test_malformed_configurations_say_why(key, value, message):
     texts = config.configuration(Friction(ELASTIC), "box", "floor") | {key: value}
     with pytest.raises(InputError, match=message):
-        config.record_of(texts["law"], texts["coefficients"], 0)
+        config.record_of(texts)
 
 
 def test_a_law_with_true_stick_cannot_be_explicit():
@@ -450,7 +450,7 @@ def raw_plugin(**changes):
         ({"seed": "-1"}, "seed = '-1'"),
         ({"seed": "4294967296"}, "seed = '4294967296'"),
         ({"sample": "1.5"}, "sample = '1.5'"),
-        ({"slots": "0"}, "slots = '0'"),
+        ({"slots": "0"}, "slots = 0 must be a whole number"),
         ({"geom2": "flor"}, "geom2 = 'flor'"),
         ({"geom1": "*", "geom2": "*"}, "geom1 = '*'"),
         ({"law": "kind = 'hafsin'"}, "did you mean 'havsin'"),

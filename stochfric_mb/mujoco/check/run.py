@@ -65,6 +65,7 @@ def check(
             compiled = spec.compile()
         settled = leave_alone(compiled, keyframe, settle, stage)
         found, notes = find_sites(compiled, settled, most)
+        notes = [*notes, *settled.convergence_note(int(compiled.opt.iterations))]
         bench = Bench(spec, compiled, invented, settled.state, law, mu_k_ratio, duration)
         rows = tuple(bench.row(site, problem, stage(site.name, bench.probe_time())) for site, problem in found)
     option = compiled.opt

@@ -16,6 +16,7 @@ from stochfric_mb.errors import SimulationError
 from stochfric_mb.mujoco.check import probes
 from stochfric_mb.mujoco.check.loading import keyframe_number
 from stochfric_mb.mujoco.check.sites import contact_forces
+from stochfric_mb.mujoco.contact.tracking import stopped_early
 
 Array = npt.NDArray[np.float64]
 Stage = Callable[[str, float], Callable[[float], None]]
@@ -49,6 +50,19 @@ class Settled:
     """All pairs of geoms that have touched."""
     duration: float
     """Time simulated [s]."""
+    unconverged: int
+    """Steps in which MuJoCo's solver stopped at its limit of iterations."""
+    steps: int
+    """All steps."""
+
+    def convergence_note(self, limit: int) -> list[str]:
+        """Return what to say of steps that MuJoCo's solver left early, at most one note; ``limit`` is ``option.iterations``."""
+        if not self.unconverged:
+            return []
+        return [
+            f"MuJoCo's solver stopped at option.iterations = {limit} in {self.unconverged} of {self.steps} steps of settling, "
+            "with forces that are not the solution, friction's too; raise it"
+        ]
 
 
 def settle(model: mujoco.MjModel, keyframe: str | None, duration: float, stage: Stage) -> Settled:
@@ -63,7 +77,7 @@ def settle(model: mujoco.MjModel, keyframe: str | None, duration: float, stage: 
         mujoco.mj_resetDataKeyframe(model, data, keyframe_number(model, keyframe))
     tail: dict[tuple[int, int], Seen] = {}
     met: set[frozenset[int]] = set()
-    steps = round(duration / model.opt.timestep)
+    steps, unconverged = round(duration / model.opt.timestep), 0
     advance = stage("settling", duration)
     for i in range(steps + 1):
         mujoco.mj_forward(model, data)
@@ -72,13 +86,14 @@ def settle(model: mujoco.MjModel, keyframe: str | None, duration: float, stage: 
             _look(model, data, tail)
         if i < steps:
             mujoco.mj_step(model, data)
+            unconverged += stopped_early(model._address, data._address)
             advance((i + 1) * model.opt.timestep)
         if not np.isfinite(data.qvel).all() or probes.diverged(data):
             raise SimulationError(
                 f"the model itself breaks at t = {data.time:.4g} s with timestep {model.opt.timestep:g} s; "
                 "lower its timestep, or shorten the settling time"
             )
-    return Settled(probes.snapshot(model, data), tail, met, float(data.time))
+    return Settled(probes.snapshot(model, data), tail, met, float(data.time), unconverged, steps)
 
 
 def _look(model: mujoco.MjModel, data: mujoco.MjData, tail: dict[tuple[int, int], Seen]) -> None:

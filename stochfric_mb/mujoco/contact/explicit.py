@@ -282,7 +282,7 @@ def apply(model, data, state):
             last_body, last_surface = body, surface
         if contact.dim > 2 and m.cone != ELLIPTIC:
             engine.mju_error(w.entry(w.CONE_MESSAGE))
-        set_cap(m, d, contact, OFF)
+        set_cap(m, d, contact, OFF, 1.0)
         apply_contact(model, data, state, contact, sign, body, surface, number, w.entry(row + w.FORCE), t, starting)
     if last_body >= 0:
         push(model, data, header, last_body, last_surface, target)

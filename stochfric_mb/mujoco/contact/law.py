@@ -16,10 +16,11 @@ from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.laws.plane import length
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
+from stochfric_mb.numerics.root import bracket, is_wide, narrowed, trial
 
-SWITCHES, SEARCHES = 4, 120
-"""Most switches of a law looked for within one step, and instants looked at to find one."""
-INSTANT = 5.0e-13
+SWITCHES = 4
+"""Most switches of a law looked for within one step."""
+INSTANT = 1.0e-12
 """Part of a step to which the instant of a switch is found."""
 
 
@@ -152,27 +153,13 @@ def switch_at_crossings(state, address, row, t):
 def first_crossing(state, address, row, t, low):
     """Return the part of the step, after ``low``, just behind which no guard that was positive is so any more.
 
-    False position on the least of them (Dahlquist and Bjorck, the Illinois method), which ends on both sides of the root.
+    False position on the least of them, which ends on both sides of the root.
     """
-    end, at_low, at_end = 1.0, least_guard(state, address, row, t, low), least_guard(state, address, row, t, 1.0)
-    last = 0
-    for k in range(SEARCHES):
-        if end - low <= 2.0 * INSTANT:
-            break
-        middle = low - at_low * (end - low) / (at_end - at_low) if at_low > 0.0 else 0.5 * (low + end)
-        if k % 4 == 3:
-            middle = 0.5 * (low + end)
-        middle = min(max(middle, low + INSTANT), end - INSTANT)
-        value = least_guard(state, address, row, t, middle)
-        if value > 0.0:
-            low, at_low = middle, value
-            at_end *= 0.5 if last > 0 else 1.0
-            last = 1
-        else:
-            end, at_end = middle, value
-            at_low *= 0.5 if last < 0 else 1.0
-            last = -1
-    return end
+    b = bracket(low, least_guard(state, address, row, t, low), 1.0, least_guard(state, address, row, t, 1.0))
+    while is_wide(b, INSTANT):
+        part = trial(b, INSTANT)
+        b = narrowed(b, part, least_guard(state, address, row, t, part))
+    return b.negative
 
 
 @compiled

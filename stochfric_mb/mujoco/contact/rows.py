@@ -79,16 +79,27 @@ def spring_of(resistance, stiffness, damping, h):
 
 
 @compiled
-def set_cap(m, d, contact, cap):
-    """Give an elliptic contact its coefficient of sliding friction; torsional and rolling friction stay what they are."""
+def resistances(m, d, row):
+    """Return R [1/kg] of a contact's normal row and of its tangents, as MuJoCo made them (constraint model, impratio)."""
+    impedance = w.at(d.efc_KBIP, 4 * row + 2)
+    normal = w.at(d.efc_diagA, row) * (1.0 - impedance) / impedance
+    return normal, normal / m.impratio
+
+
+@compiled
+def set_cap(m, d, contact, cap, across):
+    """Give an elliptic contact its coefficient of sliding friction; torsional and rolling friction stay what they are.
+
+    ``across`` is the coefficient along the second tangent over that along the first.
+    """
     if contact.dim < 3 or contact.efc_address < 0:
         return
     row, friction = contact.efc_address, contact.friction
     resistance = w.at(d.efc_R, row + 1)
     friction[0] = cap
-    friction[1] = cap
+    friction[1] = cap * across
     if resistance <= 0.0:  # the discrete integrator makes these rows later, and mu with them
         return
     contact.mu = cap * math.sqrt(resistance / w.at(d.efc_R, row))
-    for j in range(2, contact.dim - 1):  # a cone is circular where R_j friction_j^2 is the same for all
+    for j in range(1, contact.dim - 1):  # a cone is circular where R_j friction_j^2 is the same for all
         set_resistance(d, row + 1 + j, resistance * (cap / friction[j]) ** 2)

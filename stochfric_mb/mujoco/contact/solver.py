@@ -23,13 +23,24 @@ from stochfric_mb.coefficients.path import canonical_time
 from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.laws.abi import call_slide, call_spring
 from stochfric_mb.laws.plane import length
+from stochfric_mb.mujoco.contact.directions import force_stretch_of, product, size, stretch_of, turn
 from stochfric_mb.mujoco.contact.kinematics import bodies_of, dot, ordinal_of, put, set_axes, side, spin
 from stochfric_mb.mujoco.contact.law import coefficients
-from stochfric_mb.mujoco.contact.rows import LEAST, RIGID, rate_of, set_cap, set_reference, set_resistance, spring_of
+from stochfric_mb.mujoco.contact.rows import (
+    LEAST,
+    RIGID,
+    rate_of,
+    resistances,
+    set_cap,
+    set_reference,
+    set_resistance,
+    spring_of,
+)
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import contact_at, data_at, model_at
+from stochfric_mb.numerics.root import ROUNDING, bracket, is_wide, narrowed, trial
 
 RUNGE_KUTTA, DISCRETE = 1, 4
 """mjtIntegrator. The discrete one makes its references anew after the passive stage: of all that is written here only the
@@ -43,8 +54,11 @@ SLIDING_SHARE = 0.99
 """Least share of the cap that sliding friction has where a contact slides and torsion or rolling does not do it alone."""
 LIGHTEST = 0.01
 """Smallest weight of a contact among others: a lighter one is as stiff as one of this weight."""
-BISECTIONS = 30
-"""Halvings in which the speed of creep is found: to 1e-9 of the law's peak speed."""
+CLOSE = 1.0e-6
+"""Part of the force to which the speed of creep gives it: creep over ten minutes is then right to less than a micrometre."""
+
+NOTHING = 1.0e-12
+"""Part of the cap below which a force is the solver's rounding."""
 
 
 @compiled
@@ -93,6 +107,8 @@ def go_on(model, data, state):
             number, header.n_current = count, count + 1.0
             follow(m, d, state, row, i, sign, 0, number)
         slot = s.slot_at(state, 1, number)
+        if header.across != 1.0:
+            turn(m, d, header, slot, contact, bodies_of(m, contact, sign)[0])
         slot.mu_s, slot.mu_k = coefficients(state, canonical_time(d.time, 0.5 * m.timestep), slot.ux, slot.events)
         steer(m, d, state, row, contact, sign, s.slot_address(state, 1, number), d.time - header.evaluated)
 
@@ -125,11 +141,14 @@ def follow(m, d, state, row, i, sign, known, k):
     mobility = w.at(m.body_invweight0, 2 * body) + w.at(m.body_invweight0, 2 * surface)
     slot.felt = 1.0 / mobility if mobility > 0.0 else 0.0
     slot.mass = slot.felt if header.needs_mass != 0.0 else 0.0
-    speed = length(slot.vx, slot.vy)
+    if header.across != 1.0:
+        turn(m, d, header, slot, contact, body)
+    speed = size(stretch_of(header), slot.side, slot.w)
     if number < 0:
         born(header, slot, speed)
     else:
         slot.given, slot.weight, slot.events, slot.energy = old.given, old.weight, old.events, old.energy
+        slot.creep = 0.0
         put(slot.pull, old.pull[0], old.pull[1], old.pull[2])
         move(m, d, header, contact, slot, old, body, surface)
         switch(state, row, slot, old, speed, h * mobility)
@@ -146,7 +165,7 @@ def born(header, slot, speed):
     put(slot.pull, 0.0, 0.0, 0.0)
     put(slot.a, 0.0, 0.0, 0.0)
     put(slot.lead, 0.0, 0.0, 0.0)
-    slot.weight = 1.0
+    slot.weight, slot.creep = 1.0, 0.0
 
 
 @compiled
@@ -192,13 +211,13 @@ def switch(state, row, slot, old, speed, step_mobility):
         if old.saturated != 0.0 and not breaks:  # the other contacts hold the bodies: its force stays at the cap
             put(z, old.z[0], old.z[1], old.z[2])
         if header.rest == s.CREEP:
-            slip_back(state, row, slot, old)
+            creep(state, row, slot, old)
         elif header.rest == s.ELASTIC:
-            limit = spring_at(state, row, old, old.given)[2]
-            size = size_of(z)
-            breaks = breaks and size >= limit and dot(z, v[0], v[1], v[2]) > 0.0
-            if old.saturated != 0.0 and size > limit:
-                put(z, z[0] * limit / size, z[1] * limit / size, z[2] * limit / size)
+            limit, stretch = spring_at(state, row, old, old.given)[2], stretch_of(header)
+            out = size(stretch, slot.side, z)
+            breaks = breaks and out >= limit and product(stretch, slot.side, z, v) > 0.0
+            if old.saturated != 0.0 and out > limit:
+                put(z, z[0] * limit / out, z[1] * limit / out, z[2] * limit / out)
         slot.slides = 1.0 if breaks or speed > stoppable else 0.0
     else:
         fast = speed > header.peak_speed if header.rest == s.CREEP else old.saturated != 0.0
@@ -206,10 +225,12 @@ def switch(state, row, slot, old, speed, step_mobility):
         if slot.slides == 0.0:
             slot.events += 1.0
             put(z, 0.0, 0.0, 0.0)
-            if header.rest == s.ELASTIC:  # the deflection that keeps the force
+            if header.rest == s.CREEP:
+                creep(state, row, slot, old)
+            elif header.rest == s.ELASTIC:  # the deflection that keeps the force
                 stiffness = spring_at(state, row, old, old.given)[0]
                 if stiffness > 0.0:
-                    put(z, old.pull[0] / stiffness, old.pull[1] / stiffness, old.pull[2] / stiffness)
+                    move_along(header, slot, old.pull, 1.0 / stiffness)
 
 
 @compiled
@@ -223,28 +244,46 @@ def spring_at(state, row, slot, load):
 
 
 @compiled
-def slip_back(state, row, slot, old):
-    """Let the anchor of a law that creeps at rest follow at the speed at which the law has the force at hand."""
-    force = size_of(old.pull)
-    if force > 0.0:
-        back = (slot.since - old.since) * creep_speed(state, row, old, force) / force
-        z, f = slot.z, old.pull
-        put(z, z[0] - back * f[0], z[1] - back * f[1], z[2] - back * f[2])
+def creep(state, row, slot, old):
+    """Find the speed at which the law has the force at hand, at which the anchor of a law that creeps at rest follows."""
+    header = s.header_record(state)
+    force = size(force_stretch_of(header), slot.side, old.pull)
+    slot.creep = creep_speed(state, row, old, force) if force > 0.0 else 0.0
+    if old.slides == 0.0 and force > 0.0:
+        move_along(header, slot, old.pull, (old.since - slot.since) * slot.creep / force)
+
+
+@compiled
+def move_along(header, slot, force, part):
+    """Add to the deflection what a spring of stiffness 1/``part`` [N/m] gives under a force."""
+    z, e = slot.z, slot.side
+    more = force_stretch_of(header) * dot(e, force[0], force[1], force[2])
+    x, y, k = force[0] + more * e[0], force[1] + more * e[1], force[2] + more * e[2]
+    put(z, z[0] + part * x, z[1] + part * y, z[2] + part * k)
 
 
 @compiled
 def creep_speed(state, row, slot, force):
-    """Return the speed [m/s], up to the peak, at which the law's coefficient times the normal force is ``force`` [N]."""
+    """Return the speed [m/s], up to the peak, at which the law's coefficient times the normal force is ``force`` [N].
+
+    The search starts at the speed that the slot had a step ago.
+    """
     header = s.header_record(state)
-    low, high = 0.0, header.peak_speed
-    for _ in range(BISECTIONS):
-        middle = 0.5 * (low + high)
-        mu = call_slide(w.entry(row + w.SLIDE), middle, slot.mu_s, slot.mu_k, s.parameters_of(state))
-        if mu * slot.given < force:
-            low = middle
-        else:
-            high = middle
-    return 0.5 * (low + high)
+    slide, parameters, fastest = w.entry(row + w.SLIDE), s.parameters_of(state), header.peak_speed
+    most = slot.cap if slot.slides == 0.0 else call_slide(slide, fastest, slot.mu_s, slot.mu_k, parameters)
+    cap = most * slot.given
+    excess, close = force - cap, CLOSE * force + NOTHING * cap
+    if excess > 0.0:
+        return fastest
+    b, least = bracket(0.0, force, fastest, excess), ROUNDING * fastest
+    speed = slot.creep if 0.0 < slot.creep < fastest else trial(b, least)
+    while is_wide(b, least):
+        lack = force - call_slide(slide, speed, slot.mu_s, slot.mu_k, parameters) * slot.given
+        if abs(lack) <= close:
+            return speed
+        b = narrowed(b, speed, lack)
+        speed = trial(b, least)
+    return b.negative
 
 
 @compiled
@@ -270,8 +309,10 @@ def steer(m, d, state, row, contact, sign, address, since):
 @compiled
 def let_slide(m, d, state, row, contact, slot, vx, vy, vz):
     """Steer a sliding contact: the law's coefficient at its speed, and the cone's lift taken out of the normal row."""
-    h, first = m.timestep, contact.efc_address
-    speed = math.sqrt(vx * vx + vy * vy + vz * vz)
+    h, first, header = m.timestep, contact.efc_address, s.header_record(state)
+    e, stretch = slot.side, stretch_of(header)
+    v = vx, vy, vz
+    speed = size(stretch, e, v)
     cap = max(call_slide(w.entry(row + w.SLIDE), speed, slot.mu_s, slot.mu_k, s.parameters_of(state)), LEAST)
     native = m.integrator == DISCRETE or m.solver == PGS
     for j in (first + 1, first + 2):
@@ -279,25 +320,25 @@ def let_slide(m, d, state, row, contact, slot, vx, vy, vz):
             set_reference(d, j, 1.0 / h, 0.0, 0.0)
     stiffness = w.at(d.efc_KBIP, 4 * first) * w.at(d.efc_KBIP, 4 * first + 2)
     if speed > 0.0 and stiffness > 0.0 and not native:
-        lift = cap * max(0.0, speed / h + dot(slot.a, vx, vy, vz) / speed)
-        w.put(d.efc_pos, first, w.at(d.efc_pos, first) + lift / stiffness)
-        keep_normal(d, first, cap)
-    set_cap(m, d, contact, cap)
+        lift = cap * max(0.0, speed / h + product(stretch, e, slot.a, v) / speed)
+        w.put(d.efc_pos, first, contact.dist + lift / stiffness)
+        keep_normal(m, d, first, cap)
+    set_cap(m, d, contact, cap, header.across)
     slot.cap = cap
 
 
 @compiled
-def keep_normal(d, first, cap):
+def keep_normal(m, d, first, cap):
     """Let the normal force of a sliding contact be that of a frictionless one.
 
     In slip the cone's normal force is (...)/(R_n (1 + mu^2)) with mu^2 = cap^2 R_t/R_n; R_n - cap^2 R_t in place of R_n
     makes that (...)/R_n. Where that would be less than 3/4 of R_n, R_t is lowered, which in slip changes nothing else.
     """
-    normal, tangent = w.at(d.efc_R, first), w.at(d.efc_R, first + 1)
+    normal, tangent = resistances(m, d, first)
     if 4.0 * cap * cap * tangent > normal:
         tangent = 0.25 * normal / (cap * cap)
-        set_resistance(d, first + 1, tangent)
-        set_resistance(d, first + 2, tangent)
+    set_resistance(d, first + 1, tangent)
+    set_resistance(d, first + 2, tangent)
     set_resistance(d, first, normal - cap * cap * tangent)
 
 
@@ -312,9 +353,9 @@ def spring_and_cap(state, row, slot, resistance, h):
     stiffness, cap = RIGID / (h * h), slot.mu_s
     if header.rest == s.CREEP:
         cap = call_slide(w.entry(row + w.SLIDE), header.peak_speed, slot.mu_s, slot.mu_k, s.parameters_of(state))
-        force = size_of(slot.pull)
+        force = size(force_stretch_of(header), slot.side, slot.pull)
         if force > 0.0:
-            resistance += creep_speed(state, row, slot, force) / (h * force)
+            resistance += slot.creep / (h * force)
     elif header.rest == s.ELASTIC:
         weight = max(slot.weight, LIGHTEST)  # contacts of one pair share what they hold together, by their normal forces
         k, c, _ = spring_at(state, row, slot, slot.given / weight)
@@ -326,8 +367,8 @@ def spring_and_cap(state, row, slot, resistance, h):
 @compiled
 def hold(m, d, state, row, contact, sign, slot, x, y, z):
     """Steer a stuck contact with the deflection (x, y, z)."""
-    f, first = contact.frame, contact.efc_address
-    resistance = w.at(d.efc_R, first + 1) / max(slot.weight, LIGHTEST)  # so contacts share a load by their normal forces
+    f, first, across = contact.frame, contact.efc_address, s.header_record(state).across
+    resistance = resistances(m, d, first)[1] / max(slot.weight, LIGHTEST)  # so contacts share a load by their normal forces
     resistance, stiffness, slot.cap = spring_and_cap(state, row, slot, resistance, m.timestep)
     if m.integrator == DISCRETE:
         contact.solreffriction[0], contact.solreffriction[1] = 2.0 * m.timestep, 1.0
@@ -337,13 +378,7 @@ def hold(m, d, state, row, contact, sign, slot, x, y, z):
         ex, ey, ez = sign * f[3 * j], sign * f[3 * j + 1], sign * f[3 * j + 2]
         lead = dot(slot.lead, ex, ey, ez) / stiffness
         set_reference(d, first + j, 1.0 / m.timestep, stiffness, x * ex + y * ey + z * ez + lead)
-    set_cap(m, d, contact, slot.cap)
-
-
-@compiled_inline
-def size_of(vector):
-    """Return the length of a vector."""
-    return math.sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2])
+    set_cap(m, d, contact, slot.cap, across)
 
 
 @compiled
@@ -371,10 +406,10 @@ def settle(header, slot, f, sign, normal, a, b, others, p, q, accepted, foresees
     x, y, z = -sign * (a * f[3] + b * f[6]), -sign * (a * f[4] + b * f[7]), -sign * (a * f[5] + b * f[8])
     slot.normal = max(normal, 0.0)
     slot.fx, slot.fy = dot(slot.axis_1, x, y, z), dot(slot.axis_2, x, y, z)
-    force = length(a, b)
+    force = length(a, b / header.across)
     at_cone = normal > 0.0 and math.sqrt((force / slot.cap) ** 2 + others) >= SATURATED * normal
     saturated = at_cone and force >= SLIDING_SHARE * slot.cap * normal
-    slow = length(slot.vx, slot.vy) <= max(header.stick_speed, header.peak_speed)
+    slow = size(stretch_of(header), slot.side, slot.w) <= max(header.stick_speed, header.peak_speed)
     slot.stick = 1.0 if slot.slides == 0.0 and not saturated and slow else 0.0
     if not accepted:
         return

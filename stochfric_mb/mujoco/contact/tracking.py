@@ -54,7 +54,7 @@ def finish(model, data, state):
     m, header = model_at(model), s.header_record(state)
     commit(model, data, state)
     header.n_committed = learn(data, state, 0, int(header.n_committed), m)
-    close(m, data_at(data), state)
+    close(model, data, state)
 
 
 @compiled
@@ -69,15 +69,15 @@ def commit(model, data, state):
 
 
 @compiled
-def close(m, d, state):
+def close(model, data, state):
     """End a step whose forces are known."""
-    header = s.header_record(state)
+    m, d, header = model_at(model), data_at(data), s.header_record(state)
     if header.solved != 0.0:
         compare(m, state, int(header.n_committed))
     else:
         header.velocities, header.finished = explicit.told_by(m, d), 1.0
     header.latched = 1.0 if header.solved != 0.0 and header.n_committed > 0.0 else 0.0
-    header.unconverged += 1.0 if stopped_early(m, d) else 0.0
+    header.unconverged += 1.0 if stopped_early(model, data) else 0.0
     header.advanced, header.started = d.time, 0.0
 
 
@@ -167,8 +167,9 @@ def normal_force(d, contact):
 
 
 @compiled
-def stopped_early(m, d):
+def stopped_early(model, data):
     """Return whether MuJoCo's solver stopped at its limit of iterations in the last solution."""
+    m, d = model_at(model), data_at(data)
     most = 0
     for i in range(max(1, min(d.nisland, len(d.solver_niter)))):
         most = max(most, d.solver_niter[i])

@@ -212,7 +212,7 @@ def finish(model, data, state):
         learn(m, d, state, 0)
     if header.radius > 0.0:
         header.load = bearing_load(model, data, m, d, header)
-    header.unconverged += 1.0 if tracking.stopped_early(m, d) else 0.0
+    header.unconverged += 1.0 if tracking.stopped_early(model, data) else 0.0
     header.latched = header.solved
     header.n_committed, header.advanced, header.started = 1.0, d.time, 0.0
 

@@ -47,7 +47,7 @@ HEADER = _record(
     "origin",  # displacement of a new contact [m]
     "mode",  # asked for
     "load", "radius",  # of a joint or tendon: given [N or N m], or the radius [m] at which its bearing's reaction rubs
-    "along", "across",  # anisotropic friction: factors of the coefficients along and across ``direction``
+    "across",  # anisotropic friction: the coefficients across ``direction`` over those along it
     ("direction", 3),  # in the body's frame
     "advanced", "evaluated",  # times of the last advance and of the last evaluation at a step's start [s]
     "n_committed", "n_current", "started",  # contacts in each block; 1 within a step
@@ -71,6 +71,7 @@ SLOT = _record(
     "mu_s", "mu_k", "since",  # coefficients, time [s]
     "ux", "uy", "vx", "vy", "fx", "fy", "sx", "sy",  # displacement, velocity, force on the body, surface velocity
     ("axis_1", 3), ("axis_2", 3),  # the tangent frame, world axes
+    ("side", 3),  # the tangent across the direction of anisotropic friction, world axes; 0 if there is none
     "solved",  # 1 if the engine's solver found the force
     "given",  # normal force [N] of the step before, by which the solver is steered
     "slides", "saturated", "loose",  # sliding; the force was at its cap, and so were all those between the two bodies
@@ -78,6 +79,7 @@ SLOT = _record(
     ("z", 3), ("w", 3),  # deflection while stuck [m], relative velocity [m/s], world axes
     ("a", 3),  # relative acceleration that the solver foresaw in the step before [m/s^2], world axes
     "foreseen", ("lead", 3),  # 1 if it was for a step; the acceleration over that step less the foreseen one [m/s^2]
+    "creep",  # speed at which a law that creeps at rest has the force [m/s]
     "weight",  # its normal force over the mean of those between the two bodies
     ("pull", 3),  # friction force on the body in the step before [N], world axes
     ("on_body", 3), ("on_surface", 3),  # the contact point in the frames of the two bodies

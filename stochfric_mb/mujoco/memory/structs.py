@@ -25,13 +25,15 @@ _MODEL = (
     "body_invweight0", "body_subtreemass", "dof_parentid", "jnt_type", "jnt_dofadr", "jnt_qposadr", "jnt_bodyid",
     "pair_geom1", "pair_geom2", "pair_dim", "ten_J_rownnz", "ten_J_rowadr", "ten_J_colind", "plugin", "plugin_stateadr",
     "sensor_plugin", "sensor_adr", "opt.timestep", "opt.integrator", "opt.disableflags", "opt.cone", "opt.iterations",
-    "opt.jacobian", "opt.solver", "opt.gravity",
+    "opt.jacobian", "opt.solver", "opt.gravity", "nu", "actuator_biasprm", "actuator_gear",
+    "actuator_acc0", "dof_damping", "dof_invweight0", "opt.impratio", "opt.noslip_iterations",
 )  # fmt: skip
 _DATA = (
     "time", "ncon", "contact", "nefc", "nisland", "solver_niter", "cvel", "subtree_com", "xpos", "xmat", "xaxis", "cdof",
     "qpos", "qvel", "qacc", "qacc_warmstart", "ctrl", "qfrc_passive", "plugin_state", "sensordata", "ten_J", "ten_length",
     "efc_type", "efc_id", "efc_J", "efc_J_rownnz", "efc_J_rowadr", "efc_J_colind", "efc_pos", "efc_margin", "efc_frictionloss",
-    "efc_KBIP", "efc_D", "efc_R", "efc_aref", "efc_force", "map_efc2iefc", "iefc_frictionloss", "iefc_D", "iefc_R", "cfrc_int",
+    "efc_diagA", "efc_KBIP", "efc_D", "efc_R", "efc_aref", "efc_force", "map_efc2iefc", "iefc_frictionloss", "iefc_D",
+    "iefc_R", "cfrc_int",
 )  # fmt: skip
 _CONTACT = ("dist", "pos", "frame", "friction", "surfacevel", "solreffriction", "mu", "dim", "geom", "exclude", "efc_address")
 

@@ -24,12 +24,14 @@ from numba.extending import intrinsic
 from stochfric_mb.compile import compiled
 
 (
-    READER, EXPLAINER, OPTIONS_CHECKER, NO_PASSIVE_MESSAGE, SLOTS_MESSAGE, JOINTS_PLUGIN, NUMBER_READER, JOINT_EXPLAINER,
-    SENSOR_EXPLAINER, SENSED_PLUGIN, CALLBACK_BEFORE, CALLBACK_ROWS, CALLBACK_MESSAGE, CONDIM_MESSAGE, CONE_MESSAGE,
-) = range(15)  # fmt: skip
+    OPTIONS_CHECKER, NO_PASSIVE_MESSAGE, SLOTS_MESSAGE, JOINTS_PLUGIN, SENSED_PLUGIN, CALLBACK_BEFORE, CALLBACK_ROWS,
+    CALLBACK_MESSAGE, CONDIM_MESSAGE, CONE_MESSAGE, PRIMAL_MESSAGE, WARNER,
+) = range(12)  # fmt: skip
 """Places of addresses (functions of Python's, texts, the callback's rows) and of MuJoCo's numbers of our plugins."""
 PAIR_KEYS, JOINT_KEYS, SENSOR_KEYS = 16, 32, 48
 """First places of the addresses of each plugin's configuration keys."""
+READER = 15
+"""Place, after a plugin's first one, of the Python function that reads its configurations."""
 LAW_ROWS, N_LAWS = 64, 256
 """First place and number of the rows of the laws."""
 IDENTIFIER, INIT, FORCE, COMMIT, GUARDS, SLIDE, SPRING, N_STATE = range(8)

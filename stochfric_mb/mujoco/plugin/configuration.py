@@ -1,8 +1,7 @@
-"""Configurations of the plugin: written into a model as the scenario file's own words, and read back from there.
+"""Configurations of the plugins: written into a model as the scenario file's own words, and read back from there.
 
-A model carries ``law`` and ``coefficients`` as TOML keys, such as ``kind = 'elastic_stick', mu_s = 0.8, mu_k = 0.46``.
-The first time a process meets a text, compiled code calls `read` here, which parses it with the scenario's parser,
-loads the law's compiled functions and keeps the numbers; from then on no Python runs.
+A model carries ``law`` and ``coefficients`` as TOML keys, such as ``kind = 'elastic_stick', mu_s = 0.8, mu_k = 0.46``, and
+other keys as numbers or names. `reader` makes the functions with which compiled code has them read (`instance.record_of`).
 """
 
 # pyright: reportMissingParameterType=false
@@ -14,37 +13,26 @@ from __future__ import annotations
 import ctypes
 import tomllib
 import zlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.compile import compiled
-from stochfric_mb.errors import InputError, require_name
+from stochfric_mb.errors import InputError, require_name, require_number
 from stochfric_mb.friction import Friction
 from stochfric_mb.laws.abi import MAX_STATE, native_law
 from stochfric_mb.laws.contract import Law
+from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
 from stochfric_mb.mujoco.memory import words as w
-from stochfric_mb.mujoco.memory.engine import plugin_text
-from stochfric_mb.mujoco.memory.state import (
-    MAX_PARAMETERS,
-    MODES,
-    N_HEADER,
-    N_LIMITS,
-    RESTS,
-    UNSET,
-    header_of,
-)
+from stochfric_mb.mujoco.memory.engine import library, plugin_text
+from stochfric_mb.mujoco.memory.state import MAX_PARAMETERS, MODES, N_HEADER, N_LIMITS, RESTS, UNSET, header_of
 from stochfric_mb.scenario import law_from_dict, process_from_dict
 
-ATTRIBUTES = ("law", "coefficients", "geom1", "geom2", "seed", "sample", "contact", "slots", "mode")
-"""Configuration keys of the plugin; geom1 is the body, geom2 the counter-surface, slots the most contacts at a time,
-mode one of MODES."""
-
-MAX_SLOTS = 1024
-"""Most contacts of an instance."""
+DEFAULT_SLOTS, MAX_SLOTS = 16, 1024
+"""Contacts of an instance at a time: if nothing is said, and at most."""
 NO_LIMIT = 1.0e300
 """Stands for infinity in states, which engines and rollouts expect to be finite."""
 _records: dict[int, npt.NDArray[np.float64]] = {}
@@ -58,8 +46,9 @@ def configuration(
     seed: int = 0,
     sample: int = 0,
     contact: int = 0,
-    slots: int = 16,
+    slots: int = DEFAULT_SLOTS,
     mode: str = "auto",
+    anisotropy: Anisotropy = ISOTROPIC,
 ) -> dict[str, str]:
     """Return the plugin's configuration as MJCF keys and values.
 
@@ -67,7 +56,6 @@ def configuration(
         InputError: the friction cannot run here, or an address is out of range; says why.
     """
     friction.path(seed, sample, contact)  # checks the address and the process against the law
-    require_mode(friction.law, mode)
     texts = {
         "law": _inline(friction.law.to_dict()),
         "coefficients": _inline(friction.process.to_dict()) if friction.process is not None else "",
@@ -78,8 +66,10 @@ def configuration(
         "contact": str(int(contact)),
         "slots": str(int(slots)),
         "mode": mode,
+        "across": repr(anisotropy.across) if anisotropy != ISOTROPIC else "",
+        "direction": " ".join(repr(x) for x in anisotropy.direction) if anisotropy != ISOTROPIC else "",
     }
-    record_of(texts["law"], texts["coefficients"], 0)
+    record_of(texts)
     return texts
 
 
@@ -95,21 +85,66 @@ def friction_of(law: str, coefficients: str) -> Friction:
     return Friction(made, process)
 
 
-def record_of(law: str, coefficients: str, key: int) -> npt.NDArray[np.float64]:
-    """Return a configuration's key and the header and descriptor that its states start with.
+def record_of(texts: Mapping[str, str]) -> npt.NDArray[np.float64]:
+    """Return the header and the descriptor that the states of a configuration start with.
+
+    Args:
+        texts: the plugin's keys and values; those left out are as if empty.
 
     Raises:
-        InputError: the texts are malformed, or the law cannot run in this engine.
+        InputError: a text is malformed, or the law cannot run in this engine, this mode or with this anisotropy.
     """
-    friction = friction_of(law, coefficients)
+    friction = friction_of(texts["law"], texts.get("coefficients", ""))
+    mode = texts.get("mode") or "auto"
     _require_runnable(friction.law)
+    require_mode(friction.law, mode)
     descriptor = friction.path(0).descriptor
-    record = np.zeros(1 + N_HEADER + len(descriptor))
-    record[0] = key
-    record[1 : 1 + N_HEADER] = law_header(friction.law)
-    header_of(record[1:]).n_descriptor = len(descriptor)
-    record[1 + N_HEADER :] = np.nan_to_num(descriptor, posinf=NO_LIMIT, neginf=-NO_LIMIT)
+    record = np.zeros(N_HEADER + len(descriptor))
+    record[:N_HEADER] = law_header(friction.law)
+    header = header_of(record)
+    header.n_descriptor, header.mode, header.n_slots = len(descriptor), MODES.index(mode), 1
+    record[N_HEADER:] = np.nan_to_num(descriptor, posinf=NO_LIMIT, neginf=-NO_LIMIT)
+    for key, field in {"normal_force": "load", "radius": "radius"}.items():
+        if texts.get(key):
+            header[field] = require_number(f"plugin key {key}", _number(texts[key]), above=0.0)
+    if "slots" in texts:
+        header.n_slots = require_slots(_number(texts["slots"] or str(DEFAULT_SLOTS)))
+    anisotropy = _anisotropy(texts.get("across", ""), texts.get("direction", ""))
+    if anisotropy.across != 1.0 and (mode == "explicit" or friction.law.rest == "bristle"):
+        raise InputError(
+            f"across = {anisotropy.across:g}: friction that differs by direction is found by MuJoCo's solver; use mode "
+            "'solver' "
+            f"(not {mode!r}) and a law that runs in it (law {friction.law.kind!r} has rest {friction.law.rest!r})"
+        )
+    header.across, header.direction[:] = anisotropy.across, anisotropy.direction
     return record
+
+
+def _anisotropy(across: str, direction: str) -> Anisotropy:
+    if not across and not direction:
+        return ISOTROPIC
+    numbers = [_number(word) for word in direction.split()]
+    return Anisotropy(_number(across or "1"), tuple(numbers))  # type: ignore[arg-type]
+
+
+def _number(text: str) -> Any:
+    """Return the number that a text stands for, or the text itself."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def require_slots(slots: Any) -> int:
+    """Return a number of slots.
+
+    Raises:
+        InputError: it is no whole number, or out of range.
+    """
+    if not isinstance(slots, int | float) or int(slots) != slots or not 0 < slots <= MAX_SLOTS:
+        shown = f"{slots:g}" if isinstance(slots, float) else repr(slots)
+        raise InputError(f"slots = {shown} must be a whole number from 1 to {MAX_SLOTS}; {DEFAULT_SLOTS} suits most pairs")
+    return int(slots)
 
 
 def law_header(law: Law) -> npt.NDArray[np.float64]:
@@ -125,6 +160,7 @@ def law_header(law: Law) -> npt.NDArray[np.float64]:
     header.limits[:] = np.nan_to_num(limits, posinf=NO_LIMIT)
     header.parameters[: len(parameters)] = parameters
     header.advanced = header.evaluated = header.path_time = UNSET
+    header.across = 1.0
     return numbers
 
 
@@ -201,73 +237,31 @@ def _toml(value: Any) -> str:
     return repr(value.item() if isinstance(value, np.generic) else value)
 
 
-def _read(law: bytes | None, coefficients: bytes | None, key: int) -> int:
-    """Keep the numbers of a configuration under its key; return 1, or print the error and return 0."""
-    record = record_of((law or b"").decode(), (coefficients or b"").decode(), key)
-    _records[key] = record
-    w.TABLE[w.CONFIGURATIONS + key % w.N_CONFIGURATIONS] = record.ctypes.data
-    return 1
+def reader(attributes: Sequence[str], require_place: Callable[[int, Mapping[str, str]], None]) -> Any:
+    """Return the C function with which compiled code has an instance of a plugin read; its errors are printed.
+
+    Args:
+        attributes: the plugin's configuration keys.
+        require_place: called with the model's address and the texts, refuses names that the model does not have.
+    """
+
+    def read(model: int, instance: int, key: int) -> int:
+        texts = {name: plugin_text(model, instance, name) for name in attributes}
+        record = record_of(texts)
+        for name in ("seed", "sample", "contact"):
+            if texts[name] and not (texts[name].isdecimal() and int(texts[name]) < 2**32):
+                raise InputError(f"plugin key {name} = {texts[name]!r} is not a whole number in [0, 2^32); write one")
+        require_place(model, texts)
+        kept = np.concatenate([[float(key)], record])
+        _records[key] = kept
+        w.TABLE[w.CONFIGURATIONS + key % w.N_CONFIGURATIONS] = kept.ctypes.data
+        return 1
+
+    return ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64)(read)
 
 
-READER = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int64)(_read)
-"""`_read` as a C function; an exception in it is printed and 0 comes back."""
-
-
-def _explain(model: int, instance: int, _: int) -> int:
-    """Raise the error that says why an instance was refused; ctypes prints it, MuJoCo refuses the model."""
-    texts = {key: plugin_text(model, instance, key) for key in ATTRIBUTES}
-    record_of(texts["law"], texts["coefficients"], 0)
-    require_mode(friction_of(texts["law"], "").law, texts["mode"] or "auto")
-    for key in ("seed", "sample", "contact", "slots"):
-        if texts[key] and not (texts[key].isdecimal() and int(texts[key]) < 2**32):
-            raise InputError(f"plugin key {key} = {texts[key]!r} is not a whole number in [0, 2^32); write one")
-    raise InputError(
-        f"plugin keys geom1 = {texts['geom1']!r}, geom2 = {texts['geom2']!r}, slots = {texts['slots']!r}: the geoms must be "
-        f"two of the model's (one may be '*'), and slots a number from 1 to {MAX_SLOTS}"
-    )
-
-
-EXPLAINER = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64)(_explain)
-"""`_explain` as a C function."""
-
-
-@compiled
-def text_hash(address, h):
-    """Return the FNV-1a hash, continued from ``h``, of the C string at ``address`` (0: an empty one), below 2^53."""
-    if address != 0:
-        byte = w.load_byte(address)
-        while byte != 0:
-            h = (h ^ byte) * 1099511628211
-            address += 1
-            byte = w.load_byte(address)
-    return (h ^ 255) * 1099511628211
-
-
-@compiled
-def find_record(law, coefficients):
-    """Return the address of the record of a configuration given by its two C strings, 0 if it is malformed."""
-    key = text_hash(coefficients, text_hash(law, 1469598103934665603)) & 9007199254740991
-    place = w.CONFIGURATIONS + key % w.N_CONFIGURATIONS
-    for _ in range(2):
-        address = w.entry(place)
-        if address != 0 and w.load(address) == float(key):
-            return address
-        if w.call_python(w.entry(w.READER), law, coefficients, key) != 1:
-            return 0
-    return 0
-
-
-@compiled
-def parse_integer(address, default):
-    """Return the whole number of the C string at ``address``; ``default`` for an empty one, -1 for anything else."""
-    if address == 0 or w.load_byte(address) == 0:
-        return default
-    value = 0
-    byte = w.load_byte(address)
-    while byte != 0:
-        if byte < 48 or byte > 57 or value > 429496729600:
-            return -1
-        value = 10 * value + byte - 48
-        address += 1
-        byte = w.load_byte(address)
-    return value
+def id_in(model: int, kind: mujoco.mjtObj, name: str) -> int:
+    """Return the id of an object in the model at an address, -1 if there is none of that name."""
+    function = library().mj_name2id
+    function.restype, function.argtypes = ctypes.c_int, [ctypes.c_void_p, ctypes.c_int, ctypes.c_char_p]
+    return int(function(model, int(kind), name.encode()))

@@ -27,14 +27,23 @@ SWITCHED_OFF = (
     "friction too; enable one of them (and set stiffness or damping to 0 instead)"
 )
 """What is said of that."""
-DISCRETE, ELLIPTIC = 4, 1
-"""mjtIntegrator and mjtCone."""
+DISCRETE, ELLIPTIC, PGS = 4, 1, 0
+"""mjtIntegrator, mjtCone and mjtSolver."""
 PYRAMIDAL = (
     "option.cone is pyramidal: the coefficients of pyramidal contacts are fixed before friction can set them; use "
     "cone='elliptic' (on a compiled model: model.opt.cone = mujoco.mjtCone.mjCONE_ELLIPTIC), or mode='explicit' with a step "
     "below the law's limit"
 )
 """What is said of pyramidal cones."""
+
+
+EULER, IMPLICIT, IMPLICITFAST = 0, 2, 3
+"""mjtIntegrator: those that damp implicitly, Euler joints alone."""
+STIFF = 1.0
+"""Step times damping over mass [-] above which a step with implicit damping is another one than the solver foresaw."""
+LONG = 4.0e-3
+"""Step [s] above which stuck contacts slip by it: on a servo table that shakes at 1 Hz with 2 m/s^2 by 1 um at 2 ms, 30 um at
+5 ms, .4 mm at 10 ms, with the fourth power of the step, and alike for all dampings above `STIFF`."""
 
 
 class IntegratorWarning(UserWarning):
@@ -70,11 +79,46 @@ def check_options(disabled: int, integrator: int, cone: int, *, steered: bool = 
         )
 
 
+def require_primal(solver: int, noslip_iterations: int) -> None:
+    """Refuse solvers that make the rows' matrix before friction that differs by direction can turn them.
+
+    Raises:
+        InputError: PGS, or noslip iterations.
+    """
+    if solver == PGS or noslip_iterations > 0:
+        raise InputError(
+            f"option.solver = {mujoco.mjtSolver(solver).name}, noslip_iterations = {noslip_iterations}: friction that differs "
+            "by direction needs Newton or CG, without noslip iterations (stuck contacts do not creep without them)"
+        )
+
+
 def _check(steered: int, options: int, cone: int) -> int:
     check_options(options >> 8, options & 255, cone, steered=bool(steered))
     return 1
 
 
+def warn_of_stiff_damping(ratio: float, timestep: float, *, stacklevel: int = 2) -> None:
+    """Warn where implicit damping and a long step let stuck contacts slip.
+
+    Warns:
+        IntegratorWarning: they do.
+    """
+    if ratio > STIFF and timestep > LONG:
+        warnings.warn(
+            f"timestep = {timestep:g} s with h kv/m = {ratio:.3g} of an actuator or joint: contacts that it carries slip while "
+            "stuck, by tenths of a millimetre at 10 ms where it shakes them; use a timestep of 2 ms, or integrator discrete",
+            IntegratorWarning,
+            stacklevel=stacklevel + 1,
+        )
+
+
+def _warn(thousandths: int, nanoseconds: int, _: int) -> int:
+    warn_of_stiff_damping(1.0e-3 * thousandths, 1.0e-9 * nanoseconds)
+    return 1
+
+
+WARNER = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64)(_warn)
+"""`warn_of_stiff_damping` as a C function, of thousandths and nanoseconds."""
 MESSAGE = ctypes.create_string_buffer(f"stochfric_mb: {SWITCHED_OFF}".encode())
 """`SWITCHED_OFF` as a C string."""
 CHECKER = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64)(_check)
@@ -82,9 +126,26 @@ CHECKER = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctype
 
 
 @compiled
+def stiffest_damping(model):
+    """Return the largest h c/m of what the integrator damps implicitly: joints, and actuators with kv (not with Euler)."""
+    m = model_at(model)
+    ratio = 0.0
+    if m.integrator in (EULER, IMPLICIT, IMPLICITFAST):
+        for i in range(m.nv):
+            ratio = max(ratio, w.at(m.dof_damping, i) * w.at(m.dof_invweight0, i))
+    if m.integrator in (IMPLICIT, IMPLICITFAST):
+        for i in range(m.nu):
+            moved = abs(w.at(m.actuator_gear, 6 * i)) * w.at(m.actuator_acc0, i)
+            ratio = max(ratio, -w.at(m.actuator_biasprm, 10 * i + 2) * moved)
+    return m.timestep * ratio
+
+
+@compiled
 def options_allow(model, steered):
     """Return whether friction can act with the model's options; says why not, or warns."""
     m = model_at(model)
+    if m.timestep > LONG and stiffest_damping(model) > STIFF:
+        w.call_python(w.entry(w.WARNER), int(1.0e3 * min(stiffest_damping(model), 1.0e12)), int(1.0e9 * m.timestep), 0)
     allowed = m.disableflags & NO_PASSIVE_FORCES != NO_PASSIVE_FORCES and m.integrator != DISCRETE
     if allowed and (m.cone == ELLIPTIC or not steered):
         return True

@@ -9,26 +9,31 @@ from __future__ import annotations
 
 import ctypes
 import functools
+from collections.abc import Mapping
 from typing import Any
 
 import mujoco
 from numba import types
 
 from stochfric_mb.compile import compiled
+from stochfric_mb.errors import InputError
 from stochfric_mb.mujoco.contact import tracking
 from stochfric_mb.mujoco.memory import engine, layout
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import model_at
 from stochfric_mb.mujoco.plugin import configuration, options
+from stochfric_mb.mujoco.plugin import instance as instances
 from stochfric_mb.mujoco.plugin.registration import register_plugin
 
 NAME = "stochfric.pair"
 """Name of the plugin in MJCF."""
-LAW, COEFFICIENTS, GEOM1, GEOM2, SEED, SAMPLE, CONTACT, SLOTS, MODE = range(9)
-"""Places of the keys in `configuration.ATTRIBUTES`."""
-DEFAULT_SLOTS = 16
-_GEOM_OBJECT = 5
+ATTRIBUTES = (
+    "law", "coefficients", "mode", "slots", "across", "direction", "seed", "sample", "contact", "geom1", "geom2",
+)  # fmt: skip
+"""Configuration keys; geom1 is the body, geom2 the counter-surface, either may be ``*``."""
+GEOM1, GEOM2 = w.PAIR_KEYS + 9, w.PAIR_KEYS + 10
+_GEOM_OBJECT = int(mujoco.mjtObj.mjOBJ_GEOM)
 _POINTER, _INT = types.intp, types.int32
 _SLOTS_MESSAGE = ctypes.create_string_buffer(
     b"stochfric_mb: more contacts than a friction has slots for; give add_friction(..., slots=...) the most that there can be"
@@ -42,6 +47,10 @@ _CONE_MESSAGE = ctypes.create_string_buffer(
     b"taken out; give the pair condim 1, or the model cone='elliptic'"
 )
 
+_PRIMAL_MESSAGE = ctypes.create_string_buffer(
+    b"stochfric_mb: friction that differs by direction needs the Newton or CG solver, without noslip iterations"
+)
+
 
 @functools.cache
 def register() -> int:
@@ -53,28 +62,37 @@ def register() -> int:
     layout.verify()
     w.publish()
     for place, function in (
-        (w.READER, configuration.READER), (w.EXPLAINER, configuration.EXPLAINER), (w.OPTIONS_CHECKER, options.CHECKER)
-    ):  # fmt: skip
+        (w.PAIR_KEYS + w.READER, _READER),
+        (w.OPTIONS_CHECKER, options.CHECKER),
+        (w.WARNER, options.WARNER),
+    ):
         w.TABLE[place] = ctypes.cast(function, ctypes.c_void_p).value or 0
     w.TABLE[w.NO_PASSIVE_MESSAGE] = ctypes.addressof(options.MESSAGE)
     for place, message in (
-        (w.SLOTS_MESSAGE, _SLOTS_MESSAGE), (w.CONDIM_MESSAGE, _CONDIM_MESSAGE), (w.CONE_MESSAGE, _CONE_MESSAGE)
+        (w.SLOTS_MESSAGE, _SLOTS_MESSAGE), (w.CONDIM_MESSAGE, _CONDIM_MESSAGE), (w.CONE_MESSAGE, _CONE_MESSAGE),
+        (w.PRIMAL_MESSAGE, _PRIMAL_MESSAGE),
     ):  # fmt: skip
         w.TABLE[place] = ctypes.addressof(message)
     passive = int(mujoco.mjtPluginCapabilityBit.mjPLUGIN_PASSIVE)
-    return register_plugin(NAME, configuration.ATTRIBUTES, keys=w.PAIR_KEYS, capability=passive, callbacks=_CALLBACKS)
+    return register_plugin(NAME, ATTRIBUTES, keys=w.PAIR_KEYS, capability=passive, callbacks=_CALLBACKS)
 
 
-@compiled
-def text_of(model, instance, key):
-    """Return the address of a configuration value, 0 if there is none."""
-    return engine.mj_getPluginConfig(model, instance, w.entry(w.PAIR_KEYS + key))
+def _require_geoms(model: int, texts: Mapping[str, str]) -> None:
+    names = texts["geom1"], texts["geom2"]
+    known = [name == "*" or configuration.id_in(model, mujoco.mjtObj.mjOBJ_GEOM, name) >= 0 for name in names]
+    if not all(known) or names[0] == names[1]:
+        raise InputError(
+            f"plugin keys geom1 = {names[0]!r}, geom2 = {names[1]!r}: they must be two geoms of the model (one may be '*')"
+        )
+
+
+_READER = configuration.reader(ATTRIBUTES, _require_geoms)
 
 
 @compiled
 def geom_of(model, instance, key):
     """Return the id of the geom that a key names, -1 for ``*``, -2 if there is none of that name."""
-    text = text_of(model, instance, key)
+    text = instances.text_of(model, instance, key)
     if text == 0:
         return -2
     if w.load_byte(text) == 42 and w.load_byte(text + 1) == 0:
@@ -83,53 +101,18 @@ def geom_of(model, instance, key):
     return geom if geom >= 0 else -2
 
 
-@compiled
-def record_of(model, instance):
-    """Return the address of the header that the instance's state starts with, 0 if its configuration is malformed."""
-    record = configuration.find_record(text_of(model, instance, LAW), text_of(model, instance, COEFFICIENTS))
-    return record + 8 if record != 0 else 0
-
-
-@compiled
-def slots_of(model, instance):
-    """Return the most contacts of the instance at a time, -1 if its configuration is malformed."""
-    slots = configuration.parse_integer(text_of(model, instance, SLOTS), DEFAULT_SLOTS)
-    return slots if 0 < slots <= configuration.MAX_SLOTS else -1
-
-
-@compiled
-def mode_of(model, instance):
-    """Return the mode asked for, by its first letter; -1 if there is none such (auto by default)."""
-    text = text_of(model, instance, MODE)
-    if text == 0 or w.load_byte(text) in (0, 97):
-        return s.AUTO
-    return s.EXPLICIT if w.load_byte(text) == 101 else s.SOLVER if w.load_byte(text) == 115 else -1
-
-
 def _nstate(model, instance):
-    record, slots = record_of(model, instance), slots_of(model, instance)
-    if record == 0:
-        return _INT(-1)
-    if slots < 0:
-        w.call_python(w.entry(w.EXPLAINER), model, instance, 0)
-        return _INT(-1)
-    return _INT(s.state_size(int(s.header_record(record).n_descriptor), slots))
+    return _INT(instances.size_of(model, instance, w.PAIR_KEYS))
 
 
 def _init(model, data, instance):
-    record = record_of(model, instance)
-    body, surface, mode = geom_of(model, instance, GEOM1), geom_of(model, instance, GEOM2), mode_of(model, instance)
-    bad = record == 0 or slots_of(model, instance) < 0 or body == -2 or surface in (-2, body) or mode < 0
-    if not bad:
-        rest = s.header_record(record).rest
-        bad = (mode == s.EXPLICIT and rest == s.RIGID) or (mode == s.SOLVER and rest == s.BRISTLE)
-    for key in (SEED, SAMPLE, CONTACT):
-        number = configuration.parse_integer(text_of(model, instance, key), 0)
-        bad = bad or number < 0 or number > 4294967295
-    if bad:
-        w.call_python(w.entry(w.EXPLAINER), model, instance, 0)
+    record = instances.record_of(model, instance, w.PAIR_KEYS)
+    body, surface = geom_of(model, instance, GEOM1), geom_of(model, instance, GEOM2)
+    if record == 0 or body == -2 or surface in (-2, body) or not instances.has_address(model, instance, w.PAIR_KEYS):
+        instances.explain(model, instance, w.PAIR_KEYS, 0)
         return _INT(-1)
-    steered = mode != s.EXPLICIT and s.header_record(record).rest != s.BRISTLE
+    header = s.header_record(record)
+    steered = header.mode != s.EXPLICIT and header.rest != s.BRISTLE
     if not steered:
         drop_native(model, body, surface)
     return _INT(0) if options.options_allow(model, steered) else _INT(-1)
@@ -149,17 +132,9 @@ def drop_native(model, body, surface):
 
 
 def _reset(model, state, plugin_data, instance):
-    record, slots = record_of(model, instance), slots_of(model, instance)
-    length = s.N_HEADER + int(s.header_record(record).n_descriptor)
-    w.copy_bytes(record, state, 8 * length)
-    for j in range(length, s.state_size(length - s.N_HEADER, slots)):
-        w.put(state, j, 0.0)
+    instances.reset(model, state, instance, w.PAIR_KEYS)
     header = s.header_record(state)
     header.geom_body, header.geom_surface = geom_of(model, instance, GEOM1), geom_of(model, instance, GEOM2)
-    header.seed = configuration.parse_integer(text_of(model, instance, SEED), 0)
-    header.sample = configuration.parse_integer(text_of(model, instance, SAMPLE), 0)
-    header.contact = configuration.parse_integer(text_of(model, instance, CONTACT), 0)
-    header.n_slots, header.mode = slots, mode_of(model, instance)
 
 
 def _compute(model, data, instance, capability):

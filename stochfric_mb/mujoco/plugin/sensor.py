@@ -31,7 +31,7 @@ from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import data_at, model_at
-from stochfric_mb.mujoco.plugin.configuration import parse_integer
+from stochfric_mb.mujoco.plugin.instance import parse_integer
 from stochfric_mb.mujoco.plugin.joint import NAME as JOINTS
 from stochfric_mb.mujoco.plugin.joint import register_joints
 from stochfric_mb.mujoco.plugin.pair import NAME as PAIRS
@@ -58,7 +58,7 @@ def register_sensors() -> int:
     """Return MuJoCo's slot number of the plugin, registered now unless it was before."""
     register_joints()
     w.TABLE[w.SENSED_PLUGIN] = register()
-    w.TABLE[w.SENSOR_EXPLAINER] = ctypes.cast(_EXPLAIN, ctypes.c_void_p).value or 0
+    w.TABLE[w.SENSOR_KEYS + w.READER] = ctypes.cast(_EXPLAIN, ctypes.c_void_p).value or 0
     stage = int(mujoco.mjtStage.mjSTAGE_ACC)
     sensor = int(mujoco.mjtPluginCapabilityBit.mjPLUGIN_SENSOR)
     return register_plugin(NAME, ATTRIBUTES, keys=w.SENSOR_KEYS, capability=sensor, callbacks=_CALLBACKS, stage=stage)
@@ -184,7 +184,7 @@ def _nsensordata(model, instance, sensor):
 
 def _init(model, data, instance):
     if watched(model, instance) < 0 or listed(model, instance) < 0:
-        w.call_python(w.entry(w.SENSOR_EXPLAINER), model, instance, 0)
+        w.call_python(w.entry(w.SENSOR_KEYS + w.READER), model, instance, 0)
         return _INT(-1)
     return _INT(0)
 
