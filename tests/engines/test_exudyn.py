@@ -611,7 +611,6 @@ def test_a_contact_tells_its_state_and_starts_afresh() -> None:
 @pytest.mark.parametrize(
     ("law", "options", "message"),
     [
-        ("karnopp", {}, "within its zone"),
         ("elastic_stick", {"normal_force": 0.0}, "normal_force"),
         ("elastic_stick", {"effective_mass": -1.0}, "effective_mass"),
         ("elastic_stick", {"surface_velocity": math.inf}, "surface_velocity"),
