@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing, timing
 from stochfric_mb.discovery.driven_joint.decision.run_scatter import Forecasts, crps_of, run_scatter
 from stochfric_mb.discovery.driven_joint.decision.selection import Selected, Selector
@@ -15,6 +15,7 @@ from stochfric_mb.discovery.driven_joint.decision.signs import sign_notes
 from stochfric_mb.discovery.driven_joint.decision.stroke_coefficients import dependence
 from stochfric_mb.discovery.driven_joint.decision.stroke_scatter import stroke_scatter
 from stochfric_mb.discovery.driven_joint.decision.verdict import verdict
+from stochfric_mb.discovery.driven_joint.fit.fitting import fit, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome, PlaceOutcome
 from stochfric_mb.discovery.driven_joint.simulation.augmented import augmented, believed_delay, believed_scatter
@@ -22,6 +23,7 @@ from stochfric_mb.discovery.driven_joint.simulation.pictures import friction_pic
 from stochfric_mb.discovery.driven_joint.simulation.resimulation import simulated
 from stochfric_mb.discovery.driven_joint.simulation.scores import noise_floor, score
 from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
+from stochfric_mb.discovery.inference.noise import independent_count
 from stochfric_mb.discovery.result import Result
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
@@ -132,7 +134,8 @@ def _place(
     if found is not None:
         balances = source.balances(name, "fit", base + found.seconds)
         late = Selector(balances, nuisances, believed, lambda text: tell(f"{where}{text}, a delay compensated")).run()
-        found = found.beside(_better(selected, late))
+        narrow = [source.balances(name, "fit", d, found.half_width) for d in (base, base + found.seconds)]
+        found = found.beside(_better(selected, late, narrow, nuisances))
         if found.named:  # what was believed knows nothing of the delay that was found
             undelayed, selected, fit_balances = selected.recalibrated.model, late, balances
     delay = base + (found.seconds if found is not None and found.named else 0.0)
@@ -201,10 +204,23 @@ def _timing(
     )
 
 
-def _better(plain: Selected, late: Selected) -> float:
-    """Return the evidence for a delay: by how much the record is explained better with it, numbers counted."""
-    before, after = plain.final, late.final
-    n = max(min(before.independent, after.independent), 4.0)
+def _better(
+    plain: Selected, late: Selected, balances: Sequence[Sequence[ForceBalance]], nuisances: Sequence[Nuisance]
+) -> float:
+    """Return the evidence for a delay: by how much the record is explained better with it, numbers counted.
+
+    Args:
+        plain: what was selected without it.
+        late: the same with it compensated.
+        balances: without and with it, through the window that shows it: friction may need a wider one.
+        nuisances: numbers of the mechanism.
+    """
+    models = plain.final.model, late.final.model
+    before, after = (
+        fit(model, seen, nuisances, noise=prior_weight(selected.final))
+        for model, seen, selected in zip(models, balances, (plain, late), strict=True)
+    )
+    n = max(sum(map(independent_count, after.remainders)), 4.0)  # timing shows within strokes, too
     more = len(after.free) - len(before.free) + 1
     return float(2.0 * n * np.log(before.rms / after.rms) + before.strain - after.strain - more * np.log(n))
 

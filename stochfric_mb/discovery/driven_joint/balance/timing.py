@@ -54,6 +54,8 @@ class Timing:
     """Evidence: n ln(S_0/S) - ln n - 2 ln(grid size), n counting independent windows."""
     gain: float
     """Part of the error (rms) that it takes away [-]."""
+    half_width: int
+    """Half width of the window through which it shows [samples]."""
     named: bool = False
     """Whether it is a finding, and compensated."""
 
@@ -80,12 +82,14 @@ def timing(
         seen: list[Timing] = []
         for width in sorted({max(round(w * half_width / interval), NARROWEST) for w in HALF_WIDTHS}):
             with contextlib.suppress(InputError):  # a run is too short for this window
-                seen.append(_through(lambda d, w=width: make(d, w), names, interval, generous))
+                seen.append(_through(lambda d, w=width: make(d, w), names, interval, generous, width))
         found += sorted(seen, key=lambda t: -t.score)[:1]
     return next((t for t in found if t.score > NAMED and t.low * t.high > 0.0), None)
 
 
-def _through(make: Callable[[float], Sequence[ForceBalance]], names: Sequence[str], interval: float, generous: bool) -> Timing:
+def _through(
+    make: Callable[[float], Sequence[ForceBalance]], names: Sequence[str], interval: float, generous: bool, width: int
+) -> Timing:
     span = min(LONGEST, 40.0 * interval)
     grid = np.linspace(-span, span, GRID)
     errors = np.array([_left(make(d), names, generous)[0] for d in grid])
@@ -105,7 +109,7 @@ def _through(make: Callable[[float], Sequence[ForceBalance]], names: Sequence[st
     gain = 1.0 - float(np.sqrt(rest / still))
     material = inside and gain > MATERIAL and abs(delay) > LEAST_SAMPLES * interval
     within = confidence_interval(delay, deviation, "s")
-    return Timing(delay, within.low, within.high, float(score) if material else 0.0, gain)
+    return Timing(delay, within.low, within.high, float(score) if material else 0.0, gain, width)
 
 
 def lowest(x: Array, y: Array) -> float:

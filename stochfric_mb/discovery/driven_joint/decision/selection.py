@@ -32,7 +32,7 @@ BETTER = 0.5
 """Least share of the blocks that must get better: an effect that shows in one place only is one that was fitted to it."""
 CHANCE = 0.05
 """Without that score an effect is taken where strokes left out, one by one, say so with no more chance than this of error,
-the kinds that were tried counted, and where each half of the record foretells the other better with it."""
+the axes that were tried counted, and where each half of the record foretells the other better with it."""
 FEWEST_STROKES = 8
 """Fewest strokes that can."""
 TIE = 10.0
@@ -229,7 +229,8 @@ class Selector:
         repeats = None
         if not enough and len(parts := strokes(self._balances)) >= FEWEST_STROKES:
             repeats = compared(*models, self._balances, self._nuisances, self._noise, parts)
-            repeats = dataclasses.replace(repeats, p_value=min(1.0, repeats.p_value * len(trials)))
+            questions = len({t.candidate.where for t in trials})  # effects along one axis ask nearly the same
+            repeats = dataclasses.replace(repeats, p_value=min(1.0, repeats.p_value * questions))
             enough = repeats.rms_gain > MATERIAL and repeats.p_value < CHANCE and self._foretold(*models)
         return Stage(current, tuple(trials), tuple(rivals), inside, repeats, enough)
 

@@ -11,6 +11,7 @@ import numpy as np
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector
 from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
+from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.measurement.signs import SEGMENTS, probable_sign_error
@@ -18,35 +19,51 @@ from stochfric_mb.mechanisms import Mjcf
 
 TURNED = 0.5
 """Part of the error that is left with the drive turned round, below which its sign is probably wrong."""
-DRIVES = ("force", "torque", "voltage")
+DRIVES = ("voltage", "force", "torque")
 """Channels that drive a slide or hinge."""
 
 
 def sign_notes(dataset: Dataset, place: str, load: float, balances: Sequence[ForceBalance]) -> list[str]:
-    """Return what looks like a wrong sign at a place: of runs one by one by their energy, of all by the balance of forces.
+    """Return what looks like a wrong sign at a place, by the balance of forces with the drive as given and turned round.
 
     Args:
         dataset: the dataset.
         place: name of the joint, tendon or pair; empty where there is one only.
         load: its believed load [N or N m].
         balances: its runs to learn from.
+
+    Raises:
+        InputError: friction brings in energy in a run.
     """
-    notes = [note for balance in balances if (note := _brings_energy(balance)) is not None]
-    return notes or _fits_turned(dataset, place, load, balances)
+    for balance in balances:
+        _require_dissipation(balance, _remedy(dataset, place))
+    return _fits_turned(dataset, place, load, balances)
 
 
-def _brings_energy(balance: ForceBalance) -> str | None:
-    """Return a note if friction, as inverse dynamics has it, feeds the motion of a run."""
+def _require_dissipation(balance: ForceBalance, remedy: str) -> None:
+    """Return if friction, as inverse dynamics has it, takes energy out of the motion of a run.
+
+    Raises:
+        InputError: it feeds the motion.
+    """
     resistance, velocity = balance.driven[balance.sliding], balance.velocity[balance.window.centres][balance.sliding]
     if len(resistance) < 2 * SEGMENTS:
-        return None
+        return
     wrong = probable_sign_error(-(resistance - np.median(resistance)), velocity)
-    if wrong is None:
-        return None
-    return (
-        f"run {balance.run}: friction brings in energy ({100 * wrong.created:.0f} % of what it exchanges): the sign of "
-        "the driving force, or of the position, is probably wrong; give sign = { force = -1 }"
-    )
+    if wrong is not None:
+        raise InputError(
+            f"run {balance.run!r}: friction brings in energy ({100 * wrong.created:.0f} % of what it exchanges): the sign of "
+            f"the driving force, or of the position, is wrong; {remedy}"
+        )
+
+
+def _remedy(dataset: Dataset, place: str) -> str:
+    """Return how the sign of the drive of a place is turned."""
+    mechanism: Any = dataset.scenario.mechanism
+    if isinstance(mechanism, Mjcf):
+        return f"turn the sign of the gain of mechanism.drives.{place or next(iter(mechanism.friction))}"
+    name = next((k for k in DRIVES if k in dataset.fit[0].channels), DRIVES[0])
+    return f"give sign = {{ {name} = -1 }}"
 
 
 def _fits_turned(dataset: Dataset, place: str, load: float, balances: Sequence[ForceBalance]) -> list[str]:
@@ -67,7 +84,7 @@ def _fits_turned(dataset: Dataset, place: str, load: float, balances: Sequence[F
     return [
         f"the balance of forces{where} is off by {as_given:.3g} {balances[0].unit} as given, by {turned:.3g} "
         f"{balances[0].unit} with the drive turned round: the sign of the driving force, or of the position, is probably "
-        "wrong; give sign = { force = -1 }"
+        f"wrong; {_remedy(dataset, place)}"
     ]
 
 
