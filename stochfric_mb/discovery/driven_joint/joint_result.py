@@ -45,6 +45,10 @@ class PlaceOutcome:
     """Errors of forecasts that allow for that scatter; None where there is none."""
     undelayed: JointModel | None = None
     """The recalibrated model without the delay that was found; None: none was."""
+    idle: str = ""
+    """Why what was found is not named; empty: it is."""
+    unnamed: float | None = None
+    """Evidence for a term without a name that carries over to held-out runs; it is the last effect of the final model."""
     timing: Timing | None = None
     """Delay between drive and motion; None where none could be looked for, or none shows."""
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing, timing
+from stochfric_mb.discovery.driven_joint.decision.carry_over import with_idle, with_unnamed
 from stochfric_mb.discovery.driven_joint.decision.run_scatter import Forecasts, crps_of, run_scatter
 from stochfric_mb.discovery.driven_joint.decision.selection import Selected, Selector
 from stochfric_mb.discovery.driven_joint.decision.signs import sign_notes
@@ -87,6 +88,7 @@ def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
     places.sort(key=_evidence)
     found = places[0].timing
     places, floor = simulated(dataset, tell, source, places, (base, base + places[0].late))
+    places[0] = with_unnamed(dataset, with_idle(places[0]))
     notes += _run_notes(dataset)
     result = verdict(dataset, places, notes, floor)
     pictures = tuple(

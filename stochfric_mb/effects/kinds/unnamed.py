@@ -79,6 +79,10 @@ class Unnamed(Effect):
         """Return the axis in words, and that it has no name."""
         return WORDS[self.axis], f"friction changes along the {WORDS[self.axis]}, in a way that no known effect explains"
 
+    def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
+        """Return the ends of the table, which are those of the motion."""
+        return ("low", "high")
+
     def unit_of(self, name: str) -> str:
         """Return the unit of a parameter; that of the ends is the axis's."""
         return AXES[self.axis] if name in ("low", "high") else super().unit_of(name)

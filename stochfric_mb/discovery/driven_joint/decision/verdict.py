@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_clock, confounded, spoken_of, stand_ins
+from stochfric_mb.discovery.driven_joint.decision.carry_over import above_floor
 from stochfric_mb.discovery.driven_joint.decision.estimates import believed, parameters
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
-from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD, FLOOR, noise_floor
+from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
@@ -21,9 +22,6 @@ from stochfric_mb.effects import effect_kinds, kind_found_as, kinds_with
 from stochfric_mb.effects.traits import ANONYMOUS, BELT, DRAWN_ANEW, LATE, MORE_DAMPING
 from stochfric_mb.measurement.dataset import Dataset
 
-AWAY = 2.0
-"""Factor on the error of forward simulation from which an effect is not named, whatever else it explains [-]: chosen, so that
-the scatter of such errors, which starts and contacts decide, rejects nothing."""
 IMITATED = 0.99
 """Part of an effect's change of friction that other numbers imitate, from which it cannot be identified [-]."""
 BEYOND = {
@@ -31,8 +29,6 @@ BEYOND = {
     "torque_gain": "drive_gain", "offset": "constant_force", "piston_area": "effective_area",
 }  # fmt: skip
 """Number of the mechanism -> what it is called where it is off by more than is believed; more damping is an effect's."""
-HALF = 0.5
-"""Part of the squared error, noise apart, that effects have to explain on held-out runs to be named: more than they leave."""
 PLAIN = 14.0
 """Fall of the deviance from which a scatter between settings is spoken of."""
 
@@ -46,15 +42,16 @@ def verdict(dataset: Dataset, places: Sequence[PlaceOutcome], notes: Sequence[st
     gap = _gap(places, loop_floor)
     # slow and prescribed, the motion shows the noise of a force sensor alone: what friction itself does is far above that
     inert = getattr(dataset.scenario.mechanism, "mass", 1.0) > 0.0
-    idle = _idle(places[0]) if effects else ""
-    if idle:
+    if places[0].idle:
         effects = [e for e in effects if e.kind == kind_found_as(LATE)]
-    unknown = next((p for p in places if (p.selected.unknown or (inert and _above_floor(p, bool(idle)))) and not effects), None)
+    lacks = (p for p in places if p.selected.unknown or p.unnamed is not None or (inert and above_floor(p)))
+    unknown = None if effects else next(lacks, None)
     kind = "effect" if effects else "unknown" if unknown is not None else "none"
     where = None
     if unknown is not None:
         axis = unknown.selected.unknown or _axis(unknown)
         where = Where(axis, f"What is missing depends on {axis}{_at(unknown)}; no known effect explains it.")
+    nameless = places[0] if places[0].unnamed is not None else None
     return Result(
         verdict=kind,
         effects=tuple(effects),
@@ -66,14 +63,28 @@ def verdict(dataset: Dataset, places: Sequence[PlaceOutcome], notes: Sequence[st
         believed={f"{p.place}.{k}" if len(places) > 1 else k: v for p in places for k, v in believed(p).items()},
         notes=(
             *gap.notes,
-            *([idle] if idle else []),
+            *([places[0].idle] if places[0].idle else []),
             *notes,
             *_forward_notes(places[0]),
             *map(str, spoken_of(pairs, [e.kind for e in effects])),
             *_remarks(places),
         ),
+        unnamed=_unnamed(nameless) if nameless is not None else None,
         details=_details(places, pairs),
     )
+
+
+def _unnamed(place: PlaceOutcome) -> Found:
+    """Return the term without a name that is part of the final model of a place."""
+    before, after = (place.scores[k].sliding for k in ("recalibrated", "augmented"))
+    effect = place.selected.final.model.effects[-1]
+    axis, how = effect.appears()
+    text = (
+        f"{how[0].upper()}{how[1:]}{_at(place)}: with a table of it the error on the held-out runs falls from {before:.4g} to "
+        f"{after:.4g} {place.fit[0].unit}."
+    )
+    numbers = parameters(place, len(place.selected.final.model.effects) - 1)
+    return Found(effect.kind, (), Where(axis, text), numbers, place.unnamed or 0.0, 1.0)
 
 
 def _delay(place: PlaceOutcome) -> list[Found]:
@@ -145,52 +156,10 @@ def _released(place: PlaceOutcome) -> list[Found]:
     return found
 
 
-def _above_floor(place: PlaceOutcome, idle: bool) -> bool:
-    """Return whether the final model leaves more than noise explains, on the runs that were learned from.
-
-    Args:
-        place: what was found at a joint.
-        idle: whether that is not named, so that the recalibrated model is asked.
-    """
-    strokes, runs = place.random, place.runs
-    if strokes is not None and strokes.accounted:
-        return not strokes.all_of_it
-    # slow noise is noise, which a note speaks of
-    accounted = (runs is not None and runs.accounted) or (strokes is not None and strokes.slow_noise)
-    last = place.selected.recalibrated if idle else place.selected.final
-    floor = noise_floor(last.model, place.fit, place.nuisances)
-    rest = np.concatenate(last.remainders)
-    # runs that differ for no known reason are said in a note: what counts is what is left within them
-    settings = np.unique(settings_of(place.fit), return_inverse=True)[1]
-    means = np.bincount(settings, rest) / np.bincount(settings)
-    return not accounted and float(np.std(rest - means[settings])) > FLOOR * floor
-
-
 def _axis(place: PlaceOutcome) -> str:
     """Return the axis along which most is left; time where no smooth dependence says more than chance."""
     rivals = place.selected.stages[-1].competitors
     return rivals[0][0] if rivals and rivals[0][1] > 0.0 else "time"
-
-
-def _idle(place: PlaceOutcome) -> str:
-    """Return why what was found is not named: it brings the model no closer to the held-out runs; empty if it does."""
-    before, after = (place.scores[k] for k in ("recalibrated", "augmented"))
-    kinds = ", ".join(t.candidate.kind for t in place.selected.found)
-    if not kinds or place.forecasts is not None or (place.random is not None and place.random.named):
-        return ""
-    pairs = ((before.forward, after.forward), (before.loop, after.loop))
-    ahead = [(b, a) for b, a in pairs if a is not None and b is not None]
-    lost = [f"simulated, it is off by {a:.3g} for {b:.3g}" for b, a in ahead if not a < AWAY * b]
-    explained = max(_explained(before.sliding, after.sliding, place.floor), *(_explained(b, a, 0.0) for b, a in ahead), -1.0)
-    if not lost and explained >= HALF:
-        return ""
-    how = lost[0] if lost else f"it explains {max(100.0 * explained, 0.0):.0f} % of the squared error there"
-    return f"{kinds} explains the runs that were learned from, but not the held-out ones ({how}), and is not named"
-
-
-def _explained(before: float, after: float, floor: float) -> float:
-    """Return the part of the squared error, noise apart, that is gone [-]."""
-    return (before**2 - after**2) / max(before**2 - floor**2, 1.0e-12 * before**2, 1.0e-300)
 
 
 def _drawn(place: PlaceOutcome) -> list[Found]:

@@ -1,0 +1,108 @@
+"""What carries over to held-out runs: effects that do not are not named, and where no name is known an unnamed term may."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from stochfric_mb.discovery.driven_joint.decision.evidence import settings_of
+from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
+from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor, score
+from stochfric_mb.effects import kinds_with, make_effect
+from stochfric_mb.effects.traits import ANONYMOUS
+from stochfric_mb.measurement.dataset import Dataset
+
+AWAY = 2.0
+"""Factor on the error of forward simulation from which an effect is not named, whatever else it explains [-]: chosen, so that
+the scatter of such errors, which starts and contacts decide, rejects nothing."""
+HALF = 0.5
+"""Part of the squared error, noise apart, that effects have to explain on held-out runs to be named: more than they leave."""
+CARRIES = 0.05
+"""The same for a term without a name: that something is missing is known already, so any part that carries over is of use."""
+SMOOTH = {"position and direction": "position", "speed and direction": "speed", "time and direction": "time"}
+"""Axis of a smooth competitor that turns with the direction, as friction does -> axis of an unnamed term."""
+KNOTS = 7
+"""Knots of its table."""
+ENDS = 0.01, 0.99
+"""Quantiles of what the motion visits along an axis, at which the table begins and ends [-]."""
+BEGIN = 1.0e-3
+"""Size of the table from which its fit begins, over mu_k [-]."""
+
+
+def with_idle(place: PlaceOutcome) -> PlaceOutcome:
+    """Return the outcome at a place with why what was found there is not named; the model without it, where no delay is."""
+    reason = _reason(place)
+    if not reason or place.late:
+        return dataclasses.replace(place, idle=reason)
+    plain = dataclasses.replace(place.selected, final=place.selected.recalibrated, found=(), equivalents=(), released=())
+    scores = place.scores | {"augmented": place.scores["recalibrated"]}
+    return dataclasses.replace(place, selected=plain, scores=scores, idle=reason)
+
+
+def _reason(place: PlaceOutcome) -> str:
+    """Return why what was found is not named: it brings the model no closer to the held-out runs; empty if it does."""
+    before, after = (place.scores[k] for k in ("recalibrated", "augmented"))
+    kinds = ", ".join(t.candidate.kind for t in place.selected.found)
+    if not kinds or place.forecasts is not None or (place.random is not None and place.random.named):
+        return ""
+    pairs = ((before.forward, after.forward), (before.loop, after.loop))
+    ahead = [(b, a) for b, a in pairs if a is not None and b is not None]
+    lost = [f"simulated, it is off by {a:.3g} for {b:.3g}" for b, a in ahead if not a < AWAY * b]
+    explained = max(_explained(before.sliding, after.sliding, place.floor), *(_explained(b, a, 0.0) for b, a in ahead), -1.0)
+    if not lost and explained >= HALF:
+        return ""
+    how = lost[0] if lost else f"it explains {max(100.0 * explained, 0.0):.0f} % of the squared error there"
+    return f"{kinds} explains the runs that were learned from, but not the held-out ones ({how}), and is not named"
+
+
+def _explained(before: float, after: float, floor: float) -> float:
+    """Return the part of the squared error, noise apart, that is gone [-]."""
+    return (before**2 - after**2) / max(before**2 - floor**2, 1.0e-12 * before**2, 1.0e-300)
+
+
+def above_floor(place: PlaceOutcome) -> bool:
+    """Return whether the final model leaves more than noise explains, on the runs that were learned from."""
+    strokes, runs = place.random, place.runs
+    if strokes is not None and strokes.accounted:
+        return not strokes.all_of_it
+    accounted = runs is not None and runs.accounted
+    last = place.selected.recalibrated if place.idle else place.selected.final
+    floor = noise_floor(last.model, place.fit, place.nuisances)
+    rest = np.concatenate(last.remainders)
+    # runs that differ for no known reason are said in a note: what counts is what is left within them
+    settings = np.unique(settings_of(place.fit), return_inverse=True)[1]
+    means = np.bincount(settings, rest) / np.bincount(settings)
+    return not accounted and float(np.std(rest - means[settings])) > FLOOR * floor
+
+
+def with_unnamed(dataset: Dataset, place: PlaceOutcome) -> PlaceOutcome:
+    """Return the outcome at a place with an unnamed term in its model, if nothing has a name there and one carries over."""
+    selected = place.selected
+    named = selected.found or selected.released or place.late or place.idle
+    drawn = any(s is not None and s.accounted for s in (place.random, place.runs))
+    rivals = [(SMOOTH[axis], evidence) for axis, evidence in selected.stages[-1].competitors if axis in SMOOTH]
+    if named or drawn or not rivals or rivals[0][1] <= 0.0 or not (selected.unknown or above_floor(place)):
+        return place
+    axis, evidence = rivals[0]
+    fitted = _fitted(place, axis)
+    after = score(fitted.model, place.test, place.nuisances, dataset.test, dataset.scenario)
+    before = place.scores["augmented"]
+    if _explained(before.sliding, after.sliding, place.floor) < CARRIES:
+        return place
+    scores = place.scores | {"augmented": after}
+    return dataclasses.replace(place, selected=dataclasses.replace(selected, final=fitted), scores=scores, unnamed=evidence)
+
+
+def _fitted(place: PlaceOutcome, axis: str) -> JointFit:
+    """Return the final model of a place with a table along an axis, fitted."""
+    final = place.selected.final
+    visited = {
+        "position": lambda s: s.position, "speed": lambda s: np.abs(s.velocity), "time": lambda s: s.time,
+    }[axis]  # fmt: skip
+    values = np.concatenate([visited(s)[s.window.centres][s.sliding] for s in place.fit])
+    low, high = (float(np.quantile(values, q)) for q in ENDS)
+    start = {f"change_{i}": BEGIN * final.model.law.mu_k for i in range(1, KNOTS)}
+    term = make_effect(kinds_with(ANONYMOUS)[0], axis=axis, low=low, high=high, static_share=1.0, **start)
+    return fit(final.model.plus(term), place.fit, place.nuisances, noise=prior_weight(final))
