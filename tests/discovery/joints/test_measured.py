@@ -104,10 +104,10 @@ def test_servo_load_dependence_and_temperature_with_gain():
     # the firmware's controller in the loop, rest and reversals included
     assert gap.metric == "closed_loop_drive"
     assert gap.recalibrated > 0.2
-    assert gap.augmented < 0.12  # half of what is left without; the firmware, which is not known, is part of the rest
+    assert gap.augmented < 0.105  # half of what is left without; the firmware, which is not known, is part of the rest
     scores = found.places[0].scores
     assert scores["augmented"].sliding < 0.85 * scores["recalibrated"].sliding
-    assert scores["augmented"].forward < 0.6 * scores["recalibrated"].forward
+    assert scores["augmented"].forward < 0.55 * scores["recalibrated"].forward
     assert any("temperature and kp are confounded" in note for note in found.result.notes)
 
 
