@@ -169,7 +169,19 @@ def _place(
         forecasts = Forecasts(*(score for score, _ in each), floor=each[-1][1])
     seen = tuple(fit_balances), tuple(test_balances)
     return PlaceOutcome(
-        name, selected, tuple(nuisances), believed, *seen, scores, floor, thing, random, runs, forecasts, undelayed, found
+        name,
+        selected,
+        tuple(nuisances),
+        believed,
+        *seen,
+        scores,
+        floor,
+        thing,
+        random,
+        runs,
+        forecasts,
+        undelayed,
+        timing=found,
     )
 
 
