@@ -144,7 +144,7 @@ def stiffest_damping(model):
 def options_allow(model, steered):
     """Return whether friction can act with the model's options; says why not, or warns."""
     m = model_at(model)
-    if m.timestep > LONG and stiffest_damping(model) > STIFF:
+    if steered and m.timestep > LONG and stiffest_damping(model) > STIFF:
         w.call_python(w.entry(w.WARNER), int(1.0e3 * min(stiffest_damping(model), 1.0e12)), int(1.0e9 * m.timestep), 0)
     allowed = m.disableflags & NO_PASSIVE_FORCES != NO_PASSIVE_FORCES and m.integrator != DISCRETE
     if allowed and (m.cone == ELLIPTIC or not steered):
