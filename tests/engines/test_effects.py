@@ -48,6 +48,18 @@ def test_each_effect_agrees_with_the_reference(kind: str, engine: str, reference
 
 
 @pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize(("axis", "high"), [("position", 2.8e-3), ("slip", 3.0e-3), ("time", 2.2)])
+def test_an_unnamed_term_runs_along_each_axis(axis: str, high: float, engine: str) -> None:
+    pytest.importorskip(engine)
+    term = example("unnamed", axis=axis, high=high, static_share=1.0)
+    plain, scenario = _scenario(), dataclasses.replace(_scenario(), effects=(term,))
+    reference, run = adapter("reference").simulate(scenario, seed=1), adapter(engine).simulate(scenario, seed=1)
+    assert rms_difference(run.position, reference.position) < RMS
+    # the term does something here: without it the box is elsewhere by several times the tolerance
+    assert rms_difference(adapter("reference").simulate(plain, seed=1).position, reference.position) > 5.0 * RMS
+
+
+@pytest.mark.parametrize("engine", ENGINES)
 def test_a_lag_in_time_agrees_with_the_reference(engine: str) -> None:
     pytest.importorskip(engine)
     scenario = dataclasses.replace(_scenario(), effects=(make_effect("frictional_lag", time_constant=0.02),))
