@@ -28,6 +28,7 @@ from stochfric_mb.discovery.stick_slip.simulation.scaling import USUAL
 from stochfric_mb.discovery.stick_slip.study import study
 from stochfric_mb.discovery.stick_slip.validation import Answer, explaining, fitted
 from stochfric_mb.discovery.stick_slip.workflow import recalibrated_model
+from stochfric_mb.effects import make_effect
 from tests.discovery.generator.case import Case
 from tests.discovery.net.rigs import belt_box
 
@@ -108,6 +109,15 @@ def test_a_name_that_explains_stands_and_one_that_does_not_falls(found, decision
     poor = unexplained(found, decision, recalibrated.model, idle.model)
     assert poor is not None
     assert poor.verdict == "unknown"
+
+
+def test_a_model_that_cannot_run_by_itself_is_no_answer(found, decision, recalibrated):
+    # a spring that softens without end holds nothing once the box is far out
+    runaway = recalibrated.model.plus(make_effect("nonlinear_stiffness", cubic=-1.0e9))
+    poor = unexplained(found, decision, recalibrated.model, runaway)
+    assert poor is not None
+    assert poor.verdict == "unknown"
+    assert "cannot run by itself" in poor.where.text
 
 
 def test_the_belt_runs_as_stated_and_a_wrong_statement_is_seen(data, found):

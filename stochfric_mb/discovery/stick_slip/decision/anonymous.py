@@ -21,6 +21,7 @@ from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit, with_
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import kinds_with, make_effect
 from stochfric_mb.effects.traits import ANONYMOUS
+from stochfric_mb.errors import SimulationError
 
 KNOTS = 7
 """Knots of the term's table."""
@@ -100,7 +101,11 @@ def anonymous(found: Study, recalibrated: Fit, runs: HeldOut) -> Anonymous | Non
     fit = with_deviations(fit, found.windows, found.uncertainty)
     term = fit.model.effects[-1]
     named = Named(term.kind, (), Evidence(score, None), Where(*term.appears()))
-    return Anonymous(named, fit, compared(recalibrated.model, fit.model, runs))
+    try:
+        seen = compared(recalibrated.model, fit.model, runs)
+    except SimulationError:  # a model that cannot run by itself does not carry over
+        seen = None
+    return Anonymous(named, fit, seen)
 
 
 def _axes(pool: Pool) -> list[_Axis]:

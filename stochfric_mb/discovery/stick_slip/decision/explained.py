@@ -15,6 +15,7 @@ from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import kind_found_as, kinds_with
 from stochfric_mb.effects.traits import JUMP, KICKS, OUTSIDE_FORECASTS, SCATTER
+from stochfric_mb.errors import SimulationError
 
 GOLDEN = 0.6180339887498949
 """The ratio whose multiples repeat least."""
@@ -39,7 +40,10 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
     before, after = mean_score(recalibrated, runs), mean_score(augmented, runs)
     if _unfelt(kinds, recalibrated, found, runs, before):
         return dataclasses.replace(decision, verdict="none", named=())
-    floor = min(floor_of(augmented, runs, recalibrated if kind_found_as(KICKS) in kinds else None), after)
+    try:
+        floor = min(floor_of(augmented, runs, recalibrated if kind_found_as(KICKS) in kinds else None), after)
+    except SimulationError as error:
+        return _taken_back(decision, f"comes closest, but its model cannot run by itself: {error}")
     reducible, unit = before - floor, found.size.length
     if not kinds:
         decision.details["explained"] = {"before": before * unit, "floor": floor * unit}
@@ -48,15 +52,20 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
     decision.details["explained"] = {
         "before": before * unit, "after": after * unit, "floor": floor * unit, "share": share
     }  # fmt: skip
+    why = f"comes closest, but explains only {max(share, 0.0):.0%} of what the runs show"
+    return None if share >= _least_share(augmented, kinds) else _taken_back(decision, why)
+
+
+def _least_share(augmented: Model, kinds: set[str]) -> float:
+    """Return the share of the reducible error that a name must explain [-]."""
     lenient = augmented.random or kind_found_as(JUMP) in kinds
-    if share >= (criteria.EXPLAINED_RANDOM if lenient else criteria.EXPLAINED):
-        return None
+    return criteria.EXPLAINED_RANDOM if lenient else criteria.EXPLAINED
+
+
+def _taken_back(decision: Decision, why: str) -> Decision:
+    """Return the decision without its names; ``why`` is said of the first one."""
     best = decision.named[0]
-    where = Where(
-        best.where.axis,
-        f"{best.kind} comes closest, but explains only {max(share, 0.0):.0%} of what the runs show",
-    )
-    return dataclasses.replace(decision, verdict="unknown", named=(), where=where)
+    return dataclasses.replace(decision, verdict="unknown", named=(), where=Where(best.where.axis, f"{best.kind} {why}"))
 
 
 def _unfelt(kinds: set[str], recalibrated: Model, found: Study, runs: HeldOut, before: float) -> bool:
