@@ -92,8 +92,8 @@ class friction:  # noqa: N801  (a context, used like a function)
         check_options(model.opt.disableflags, model.opt.integrator, model.opt.cone)
         warn_of_stiff_damping(stiffest_damping(model._address), model.opt.timestep)
         directed = dict(anisotropy or {})
-        for names in directed:
-            require_name("pair of anisotropy", names, pairs)
+        for names in directed.keys() - pairs.keys():
+            raise InputError(f"anisotropy of {names!r}, which is none of the pairs {list(pairs)}; name one of them")
         if directed:
             require_primal(model.opt.solver, model.opt.noslip_iterations)
         self._model, self._data = model, data

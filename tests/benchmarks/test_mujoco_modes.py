@@ -17,12 +17,13 @@ from stochfric_mb.scenario import load_scenario  # noqa: E402
 from tests.benchmarks.test_mujoco_cost import ROUNDS, native_model, seconds_per_step, started  # noqa: E402
 
 
-# Rate over the native rate; the implicit mode repeats the solution of the step, so the engine's own part counts twice.
+# Rate over the native rate with elliptic cones: the goals are .90 for the belt-box and .92 for robots. Limits leave .07 for
+# what a shared machine scatters, and for HAVSIN, which creeps where others stand, what MuJoCo's solver then iterates more.
 @pytest.mark.parametrize(("mode", "law", "least"), [
     ("explicit", "elastic_stick", 0.87),
     ("explicit", "havsin", 0.87),
-    ("implicit", "elastic_stick", 0.3),
-    ("implicit", "havsin", 0.3),
+    ("solver", "elastic_stick", 0.83),
+    ("solver", "havsin", 0.75),
 ])  # fmt: skip
 def test_rate_against_native_friction(benchmark, mode, law, least):
     case = load_scenario("kang2015_table1", law=law)
@@ -46,10 +47,14 @@ HOLD = 0.05
 
 
 def robots(name, law, integrator=None):
-    """Return the model with native friction and with ours, at all contacts of the floor."""
+    """Return the model with native friction and with ours, at all contacts of the floor; both with elliptic cones."""
     gymnasium = pytest.importorskip("gymnasium")
     path = Path(gymnasium.__file__).parent / "envs" / "mujoco" / "assets" / f"{name}.xml"
     ours, native = mujoco.MjSpec.from_file(str(path)), mujoco.MjSpec.from_file(str(path))
+    for spec in (ours, native):
+        spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    for geom in native.geoms:
+        geom.friction[0] = law.mu_s
     engine.add_friction(ours, ("*", "floor"), law)
     models = [spec.compile() for spec in (native, ours)]
     for model in models:
@@ -64,7 +69,7 @@ def measure(benchmark, one_round, rounds):
     return float(np.median(ratios))
 
 
-# Robots that stand, at their own step with Euler: one solution of MuJoCo's own, one of the contacts together.
+# Robots that stand, at their own step with Euler.
 @pytest.mark.filterwarnings("ignore:compiler attribute 'settotalmass'")  # in half_cheetah.xml
 @pytest.mark.parametrize("law", [ELASTIC, HAVSIN, COULOMB], ids=lambda law: law.kind)
 @pytest.mark.parametrize("robot", ["ant", "half_cheetah", "hopper", "humanoid", "walker2d_v5"])
@@ -75,29 +80,33 @@ def test_rate_of_a_standing_robot(benchmark, robot, law):
         mujoco.mj_step(model, data, nstep=round(4.0 / model.opt.timestep))  # it stands by then
         runs.append((model, data))
     rate = measure(benchmark, lambda: seconds_per_step(*runs[0]) / seconds_per_step(*runs[1]), 5)
-    assert rate >= 0.35  # 0.48 to 0.63, on a machine with nothing else to do
+    assert rate >= (0.78 if law.rest == "creep" else 0.85)
 
 
-# Robots in motion, with the same random controls: contacts begin, end, stick and slip in most steps.
+# Robots in motion, with the same random controls, from the same states: every 0.05 s the native one is put where ours is.
+# The ant has a lower limit: its native contacts lift off as they slide (0.5 a step, of ours 1.4), and cost nothing then.
 @pytest.mark.filterwarnings("ignore:compiler attribute 'settotalmass'")
 @pytest.mark.parametrize("law", [ELASTIC, HAVSIN, COULOMB], ids=lambda law: law.kind)
 @pytest.mark.parametrize("robot", ["ant", "half_cheetah", "hopper", "humanoid", "walker2d_v5"])
 def test_rate_of_a_moving_robot(benchmark, robot, law):
     models = robots(robot, law)
-    datas = [mujoco.MjData(model) for model in models]
+    native, ours = (mujoco.MjData(model) for model in models)
     rng = np.random.default_rng(1)
     steps = max(1, round(HOLD / models[0].opt.timestep))
     largest = 0.5 * np.abs(models[0].actuator_ctrlrange).max(axis=1)
 
     def one_round():
         seconds = [0.0, 0.0]
-        for _ in range(10):
+        mujoco.mj_resetData(models[1], ours)
+        for _ in range(30):
             controls = largest * rng.uniform(-1.0, 1.0, models[0].nu)
-            for k in range(2):
-                datas[k].ctrl[:] = controls
+            native.qpos[:], native.qvel[:], native.time = ours.qpos, ours.qvel, ours.time
+            native.qacc_warmstart[:] = ours.qacc_warmstart
+            for k, data in enumerate((native, ours)):
+                data.ctrl[:] = controls
                 began = time.process_time()
-                mujoco.mj_step(models[k], datas[k], nstep=steps)
+                mujoco.mj_step(models[k], data, nstep=steps)
                 seconds[k] += time.process_time() - began
         return seconds[0] / seconds[1]
 
-    assert measure(benchmark, one_round, 15) >= 0.2  # 0.35 to 0.62, on a machine with nothing else to do
+    assert measure(benchmark, one_round, 15) >= (0.75 if robot == "ant" else 0.85)
