@@ -7,8 +7,9 @@ import dataclasses
 import pytest
 
 from stochfric_mb.discovery import discover
+from stochfric_mb.discovery.inference.false_alarms import Evidence
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip import workflow
+from stochfric_mb.discovery.stick_slip import validation, workflow
 from stochfric_mb.discovery.stick_slip.decision.held_out_check import Comparison, without_last
 from stochfric_mb.discovery.stick_slip.decision.rounds import Named
 from stochfric_mb.effects import make_effect
@@ -23,15 +24,15 @@ def test_an_effect_that_worsens_forecasts_of_held_out_runs_is_not_named(monkeypa
 
     def misled(*arguments, **options):
         decision = decide(*arguments, **options)
-        named = (Named("harmonic_force", (), 100.0, Where("time", "a force")),)
+        named = (Named("harmonic_force", (), Evidence(100.0, None), Where("time", "a force")),)
         return dataclasses.replace(decision, verdict="effect", named=named, model=decision.model.plus(BOGUS))
 
     def unfitted(decision, found, recalibrated):
-        return dataclasses.replace(recalibrated, model=recalibrated.model.plus(BOGUS)) if decision.named else None
+        return dataclasses.replace(recalibrated, model=recalibrated.model.plus(BOGUS))
 
     monkeypatch.setattr(workflow, "decide", misled)
-    monkeypatch.setattr(workflow, "_augmented", unfitted)
-    monkeypatch.setattr(workflow, "unexplained", lambda *_: None)  # it, too, would refuse the force
+    monkeypatch.setattr(validation, "_fit", unfitted)
+    monkeypatch.setattr(validation, "unexplained", lambda *_: None)  # it, too, would refuse the force
     result = discover(plain()).result
     assert result.verdict == "none"
     assert not result.effects
