@@ -108,7 +108,7 @@ _BUILT_IN = {
         ),
         Engine(
             "warp",
-            "stochfric_mb.warp.belt_box",
+            "stochfric_mb.warp.simulate",
             "mujoco_warp",
             "steers the constraint solver, float32, a world for each sample",
             "Google DeepMind and NVIDIA",

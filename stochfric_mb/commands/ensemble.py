@@ -76,11 +76,11 @@ def ensemble(
     from stochfric_mb.ensemble.planning import MAX_BYTES
     from stochfric_mb.ensemble.produce import check_memory, checked_workers, produce
     from stochfric_mb.outputs import check_target
-    from stochfric_mb.scenario import load_scenario
+    from stochfric_mb.scenario import load_any_scenario, load_scenario
 
     target = check_ensemble_target(out, force=force)
     plots = check_target(plots_folder(target), force=force, marker=MARKER) if plot else None
-    problem = load_scenario(scenario, law=law, overrides=overrides)
+    problem: Any = (load_any_scenario if engine == "warp" else load_scenario)(scenario, law=law, overrides=overrides)
     times = times_of(output_times)
     task = job(problem, n_runs, seed=seed, engine=engine, dt=dt, output_times=times, statistics_only=statistics_only)
     here = checked_workers(workers, scheduler)
@@ -183,7 +183,8 @@ def _show(result: EnsembleResult, done: Produced) -> None:
 
     rows: list[list[str]] = []
     few = at_times(result, chosen(result))
-    for name, unit in (("position", "mm"), ("velocity", "mm/s")):
+    of = result.attributes.get("position_unit", "m")
+    for name, unit in (("position", f"m{of}"), ("velocity", f"m{of}/s")):
         numbers = [few.mean(name), few.std(name), *few.quantiles(name, LEVELS)]
         for i, t in enumerate(few.time):
             rows.append([f"{name} [{unit}]", f"{t:g}", *(f"{1e3 * values[i]:.4g}" for values in numbers)])

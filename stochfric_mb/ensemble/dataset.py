@@ -21,7 +21,7 @@ from stochfric_mb.ensemble.result import Block, EnsembleResult
 from stochfric_mb.ensemble.sketch import Sketch
 from stochfric_mb.errors import InputError, MissingEngineError
 from stochfric_mb.outputs import check_target, whole_file, whole_folder
-from stochfric_mb.scenario import Scenario, scenario_from_dict
+from stochfric_mb.scenario import Scenario, any_scenario_from_dict
 from stochfric_mb.storage import versions, write_netcdf
 
 SCHEMA = "stochfric.ensemble/1"
@@ -32,7 +32,6 @@ CHUNK_BYTES = 2**23
 """Size of a chunk of a Zarr store, about [bytes]."""
 LEVELS = (0.005, 0.025, 0.05, 0.25, 0.5, 0.75, 0.95, 0.975, 0.995)
 """Quantiles that are stored where the runs are not."""
-UNITS = {"position": "m", "velocity": "m s-1"}
 
 TALLY_VARIABLES: dict[str, tuple[int, str, str]] = {
     "n_break_aways": (BREAK_AWAYS, "1", "number of break-aways"),
@@ -154,7 +153,7 @@ def read_ensemble(path: str | Path) -> tuple[EnsembleResult, Scenario]:
         about = {str(k): v.item() if isinstance(v, np.generic) else v for k, v in dataset.attrs.items()}
         if about.get("schema") != SCHEMA:
             raise InputError(f"{path}: schema = {about.get('schema')!r}; this version reads {SCHEMA!r}")
-        scenario = scenario_from_dict(tomllib.loads(about["scenario"]))
+        scenario: Any = any_scenario_from_dict(tomllib.loads(about["scenario"]))
         about["notes"] = str(about.get("notes", "")).splitlines()
         tallies = np.empty((dataset.sizes["run"], TALLIES))
         for name, (place, _, _) in TALLY_VARIABLES.items():
@@ -199,7 +198,7 @@ def to_dataset(result: EnsembleResult, scenario: Scenario, *, first_run: int = 0
         coordinates["level"] = ("level", np.array(LEVELS), _about("1", "level of a quantile"))
     else:
         for name in QUANTITIES:
-            about = _about(UNITS[name], f"{name} of the body")
+            about = _about(_unit(result, name), f"{name} of the body")
             variables[name] = (("run", "time"), getattr(result, name), about)
         assert result.stick is not None
         flags = {"flag_values": np.array([0, 1], np.int8), "flag_meanings": "slip stick"}
@@ -223,7 +222,7 @@ def _of_statistics(result: EnsembleResult) -> Variables:
     found: Variables = {"stuck_runs": ("time", result.stuck, _about("1", "number of runs that stick"))}
     found["stick_probability"] = ("time", result.stick_probability, _about("1", "share of the runs that stick"))
     for name, sketch in result.sketches.items():
-        unit = UNITS[name]
+        unit = _unit(result, name)
         over = {"mean": ("run: mean", sketch.mean), "standard_deviation": ("run: standard_deviation", sketch.std)}
         over |= {"minimum": ("run: minimum", sketch.moments[3]), "maximum": ("run: maximum", sketch.moments[4])}
         for what, (cell, values) in over.items():
@@ -250,6 +249,11 @@ def _sketch(dataset: Any, name: str) -> Sketch:
         moments=dataset[f"{name}_moments"].values,
         n=int(dataset.sizes["run"]),
     )
+
+
+def _unit(result: EnsembleResult, name: str) -> str:
+    unit = str(result.attributes.get("position_unit", "m"))
+    return unit if name == "position" else f"{unit} s-1"
 
 
 def _about(unit: str, text: str) -> dict[str, Any]:

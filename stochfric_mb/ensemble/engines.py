@@ -14,7 +14,7 @@ from stochfric_mb.scenario import Scenario
 
 MANY: dict[str, str] = {
     "mujoco": "stochfric_mb.mujoco.batch:simulate_many",
-    "warp": "stochfric_mb.warp.belt_box:simulate_many",
+    "warp": "stochfric_mb.warp.simulate:simulate_many",
 }
 """Engine -> its function (scenario, *, seed, first_sample, n, dt, threads) -> trajectories."""
 RUNS: dict[str, int] = {"mujoco": 16, "warp": 256}

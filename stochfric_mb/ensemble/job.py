@@ -23,6 +23,7 @@ from stochfric_mb.ensemble.result import Block
 from stochfric_mb.ensemble.schedule import checked_times
 from stochfric_mb.ensemble.sketch import BINS
 from stochfric_mb.errors import SimulationError
+from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.scenario import Scenario
 
 THREADS, BATCH, PROCESSES = "threads", "batch", "processes"
@@ -103,7 +104,7 @@ class Job:
             "bins": self.bins,
             "block": self.block,
             "versions": versions(self.engine),
-        }
+        } | _identity(self)
 
 
 def job(
@@ -146,6 +147,13 @@ def _largest_block(engine: str, known: Plan) -> int:
     return RUNS.get(engine, SINGLE_RUNS)
 
 
+def _identity(given: Job) -> dict[str, str]:
+    """Return what the scenario leaves to other files, such as a user's own model; empty if nothing."""
+    if isinstance(given.scenario.mechanism, BeltBox):
+        return {}
+    return {"model": adapter(given.engine).identity(given.scenario)}
+
+
 @dataclasses.dataclass(frozen=True)
 class Description:
     """What an engine says about its runs."""
@@ -156,6 +164,8 @@ class Description:
     """What differs from the scenario, such as a law that stands in for another."""
     dt: float
     """Step [s]; 0 where there is none."""
+    unit: str = "m"
+    """Unit of the position."""
 
 
 def describe(given: Job) -> Description:
@@ -172,7 +182,9 @@ def describe(given: Job) -> Description:
     short = dataclasses.replace(given.scenario, duration=given.scenario.output_step)
     about = adapter(given.engine).simulate(short, seed=given.seed, sample=given.first_sample, dt=given.dt).attributes
     known.prepare(np.array(given.times))
-    return Description(str(about["law"]), tuple(about.get("notes", ())), float(about["dt"]))
+    return Description(
+        str(about["law"]), tuple(about.get("notes", ())), float(about["dt"]), str(about.get("position_unit", "m"))
+    )
 
 
 def versions(engine: str) -> dict[str, str]:

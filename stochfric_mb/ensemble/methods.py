@@ -15,6 +15,7 @@ from stochfric_mb.ensemble.result import Block, empty_block
 from stochfric_mb.ensemble.schedule import Array
 from stochfric_mb.ensemble.single import one_at_a_time
 from stochfric_mb.errors import SimulationError, require_number
+from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.metrics import least_slip
 from stochfric_mb.scenario import Scenario
 
@@ -65,7 +66,11 @@ def method(scenario: Scenario, engine: str, dt: float | None) -> Method:
             lambda times: _fixed_step(FIXED_STEP[kind], scenario, times, step),
         )  # fmt: skip
     adapter(engine)
-    step = 0.0 if engine == "reference" else scenario.default_dt() if dt is None else dt
+    step = 0.0 if dt is None else dt
+    if engine == "reference":
+        step = 0.0
+    elif dt is None and isinstance(scenario.mechanism, BeltBox):
+        step = scenario.default_dt()
     return Method(f"{engine}, one sample at a time", False, step, 16, lambda times: one_at_a_time(scenario, engine, dt, times))
 
 

@@ -175,6 +175,7 @@ def _write(parts: Parts, target: Path, description: Description, force: bool) ->
         "law": description.law,
         "notes": list(description.notes),
         "dt": description.dt,
+        "position_unit": description.unit,
         "seed": job.seed,
         "first_sample": job.first_sample,
         "n_runs": job.n_runs,

@@ -14,6 +14,7 @@ from stochfric_mb.engines import adapter
 from stochfric_mb.ensemble.result import Block, empty_block
 from stochfric_mb.ensemble.schedule import SAME_TIME, Array
 from stochfric_mb.errors import InputError
+from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.scenario import Scenario
 from stochfric_mb.trajectory import Trajectory
 
@@ -68,8 +69,19 @@ class Sampling:
 def _tallies(trajectory: Trajectory, scenario: Scenario) -> Array:
     """Return the events of one run, as the kernels count them, but located between samples."""
     law, mechanism = scenario.law, scenario.mechanism
+    if not isinstance(mechanism, BeltBox):
+        return _switches(trajectory)
     breaks = metrics.break_aways(trajectory, law, mechanism)
     at = np.searchsorted(trajectory.time, breaks) - 1
     first, last = (breaks[0], breaks[-1]) if len(breaks) else (math.nan, math.nan)
     stuck = metrics.stick_fraction(trajectory, law, mechanism) * trajectory.time[-1]
     return np.array([len(breaks), first, last, trajectory.mu_s[at].sum(), stuck])
+
+
+def _switches(trajectory: Trajectory) -> Array:
+    """Return the events of a run of a user's own model: the contact's own state, in the middle between two samples."""
+    stick, time = trajectory.stick == 1.0, trajectory.time
+    at = np.flatnonzero(stick[:-1] & ~stick[1:])
+    breaks = 0.5 * (time[at] + time[at + 1])
+    first, last = (breaks[0], breaks[-1]) if len(breaks) else (math.nan, math.nan)
+    return np.array([len(breaks), first, last, trajectory.mu_s[at].sum(), stick.mean() * time[-1]])

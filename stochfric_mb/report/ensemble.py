@@ -33,7 +33,6 @@ CHUNK = 100
 """Runs counted at a time in the phase portrait."""
 SHOWN = 4
 """Output times at which distributions are shown, unless told otherwise."""
-QUANTITIES = {"position": ("mm", "position"), "velocity": ("mm/s", "velocity")}
 
 Array = npt.NDArray[np.float64]
 
@@ -83,11 +82,17 @@ def at_times(result: EnsembleResult, numbers: Sequence[int]) -> EnsembleResult:
     )  # fmt: skip
 
 
+def _units(result: EnsembleResult) -> dict[str, str]:
+    """Return the quantities that are drawn and their units."""
+    unit = f"m{result.attributes.get('position_unit', 'm')}"
+    return {"position": unit, "velocity": f"{unit}/s"}
+
+
 def _fan_chart(result: EnsembleResult) -> Figure:
     result = at_times(result, range(0, len(result.time), -(-len(result.time) // MAX_TIMES)))
     figure, panels = new_figure(9.2, 3.5, columns=2)
     ink = colour(str(result.attributes.get("engine", "")))
-    for axes, (name, (unit, label)) in zip(panels, QUANTITIES.items(), strict=True):
+    for axes, (name, unit) in zip(panels, _units(result).items(), strict=True):
         levels = sorted({0.5, *(level for low, high, _ in BANDS for level in (low, high))})
         found = dict(zip(levels, 1.0e3 * result.quantiles(name, levels), strict=True))
         for low, high, opacity in BANDS:
@@ -99,7 +104,7 @@ def _fan_chart(result: EnsembleResult) -> Figure:
                 axes.vlines(result.time, found[low], found[high], color="#0072b2", alpha=opacity, linewidth=9.0, label=text)
         dots: dict[str, Any] = {} if len(result.time) > FEW_TIMES else {"marker": "o", "linestyle": ""}
         axes.plot(result.time, found[0.5], color=ink, linewidth=1.0, label="median", **dots)
-        axes.set(xlabel="time [s]", ylabel=f"{label} [{unit}]")
+        axes.set(xlabel="time [s]", ylabel=f"{name} [{unit}]")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper left", ncols=4)
     return figure
@@ -109,14 +114,14 @@ def _distributions(result: EnsembleResult, shown: Sequence[int]) -> Figure:
     figure = Figure(figsize=(9.2, 1.0 + 1.7 * len(shown)), layout="constrained")
     panels = figure.subplots(len(shown), 2, squeeze=False)
     for row, i in zip(panels, shown, strict=True):
-        for axes, (name, (unit, label)) in zip(row, QUANTITIES.items(), strict=True):
+        for axes, (name, unit) in zip(row, _units(result).items(), strict=True):
             low, high = at_times(result, [i]).quantiles(name, [0.0, 1.0])[:, 0]
             if high - low <= ONE_VALUE * abs(high):
                 _one_value(axes, float(high), unit)
             else:
                 _histogram_of(axes, *_coarse(*result.histogram(name, i, bins=60)))
             axes.set_title(f"t = {result.time[i]:g} s")
-            axes.set(ylabel="share of the runs", xlabel=f"{label} [{unit}]" if i == shown[-1] else "")
+            axes.set(ylabel="share of the runs", xlabel=f"{name} [{unit}]" if i == shown[-1] else "")
     return figure
 
 
@@ -151,9 +156,12 @@ def _phase_portrait(result: EnsembleResult, scenario: Scenario) -> Figure:
         counts += np.histogram2d(x, v, bins=edges)[0]
     shown = np.where(counts > 0.0, counts, np.nan).T
     mesh = axes.pcolormesh(1.0e3 * edges[0], 1.0e3 * edges[1], shown, cmap="viridis", norm=LogNorm())
-    axes.axhline(1.0e3 * scenario.mechanism.belt_velocity, color="#d55e00", linestyle="--", linewidth=0.8, label="belt")
-    axes.legend(loc="lower left")
-    axes.set(xlabel="position [mm]", ylabel="velocity [mm/s]")
+    if hasattr(scenario.mechanism, "belt_velocity"):
+        belt: dict[str, Any] = {"color": "#d55e00", "linestyle": "--", "linewidth": 0.8, "label": "belt"}
+        axes.axhline(1.0e3 * scenario.mechanism.belt_velocity, **belt)
+        axes.legend(loc="lower left")
+    across, along = _units(result).values()
+    axes.set(xlabel=f"position [{across}]", ylabel=f"velocity [{along}]")
     axes.grid(visible=False)
     figure.colorbar(mesh, ax=axes, label="samples")
     return figure

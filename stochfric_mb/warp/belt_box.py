@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
 from typing import Any
 
 import mujoco
@@ -16,7 +15,6 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
-from stochfric_mb.effects.combine import any_but_random
 from stochfric_mb.errors import InputError
 from stochfric_mb.friction import Friction
 from stochfric_mb.mechanisms import BeltBox
@@ -36,24 +34,7 @@ RIGID = "elastic_stick ran rigid while stuck: MuJoCo Warp's solver holds a stuck
 Array = npt.NDArray[np.float64]
 
 
-def simulate(
-    scenario: Scenario[BeltBox],
-    *,
-    seed: int = 0,
-    sample: int = 0,
-    dt: float | None = None,
-    progress: Callable[[float], None] | None = None,
-) -> Trajectory:
-    """Return one sample; arguments and errors as for `simulate_many`."""
-    (trajectory,) = simulate_many(scenario, seed=seed, first_sample=sample, n=1, dt=dt)
-    if progress is not None:
-        progress(scenario.duration)
-    return trajectory
-
-
-def simulate_many(
-    scenario: Scenario[BeltBox], *, seed: int = 0, first_sample: int = 0, n: int, dt: float | None = None, threads: int = 1
-) -> list[Trajectory]:
+def run_worlds(scenario: Scenario[BeltBox], *, seed: int, first_sample: int, n: int, dt: float | None) -> list[Trajectory]:
     """Return samples ``first_sample`` .. ``first_sample + n - 1``, a world each.
 
     Args:
@@ -61,15 +42,12 @@ def simulate_many(
         seed: first part of the address of the coefficient paths.
         first_sample: second part of the first one.
         n: number of samples.
-        dt: step [s], dividing the output step; `STEP` or the largest that fits below it if not given.
-        threads: without effect: Warp's device does the work.
+        dt: step [s], dividing the output step; `STEP` or the largest that fits below it if None.
 
     Raises:
-        InputError: ``dt`` does not divide the output step, the scenario has effects, or its law cannot run there.
+        InputError: ``dt`` does not divide the output step, or the law cannot run there.
         SimulationError: a state is beyond reason.
     """
-    if any_but_random(scenario.effects):
-        raise InputError("MuJoCo Warp carries no effects; take engine mujoco, or remove the [[effects]] tables")
     step = _step(scenario, dt)
     model, data = _start(scenario.mechanism, step)
     m, d = mjw.put_model(model), mjw.put_data(model, data, nworld=n)

@@ -11,7 +11,7 @@ from stochfric_mb.engines import ENGINES, adapter, installed_engines
 from stochfric_mb.ensemble.dataset import read_ensemble
 from stochfric_mb.errors import InputError
 from stochfric_mb.scenario import load_scenario
-from stochfric_mb.warp.belt_box import simulate, simulate_many
+from stochfric_mb.warp.simulate import simulate, simulate_many
 
 
 @pytest.fixture(scope="module")
