@@ -18,7 +18,8 @@ GRAVITY = 9.81
 STIFFNESS, SPEED = 100.0, 0.5  # of the spring that pulls the box of 1 kg at its foot [N/m], and of its other end [m/s]
 MODEL = """<mujoco><option timestep="1e-3" cone="elliptic" integrator="Euler"/>
 <worldbody><geom name="floor" type="plane" size="50 50 .1" condim="3"/>
-<body pos="0 0 .0499"><freejoint/><geom name="box" type="box" size=".1 .1 .05" mass="1" condim="3"/><site name="mark" pos="0 0 -.05"/></body>
+<body pos="0 0 .0499"><freejoint/><geom name="box" type="box" size=".1 .1 .05" mass="1" condim="3"/>
+<site name="mark" pos="0 0 -.05"/></body>
 <body pos="0 3 1"><joint name="arm" type="hinge" axis="0 1 0" frictionloss="1"/>
 <geom type="capsule" fromto="0 0 0 .5 0 0" size=".02" mass=".1" contype="0" conaffinity="0"/></body>
 <body pos="1 0 0"><joint type="slide" axis="1 0 0"/><geom size=".05" mass="1000" contype="0" conaffinity="0"/>
