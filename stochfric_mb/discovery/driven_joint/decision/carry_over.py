@@ -62,12 +62,22 @@ def _explained(before: float, after: float, floor: float) -> float:
     return (before**2 - after**2) / max(before**2 - floor**2, 1.0e-12 * before**2, 1.0e-300)
 
 
+def lacks(dataset: Dataset, place: PlaceOutcome) -> bool:
+    """Return whether a place leaves more than noise explains, where the noise of its records can tell.
+
+    Slow and prescribed, without a mass, motion shows the noise of a force sensor alone: what friction itself does is far above
+    that.
+    """
+    return getattr(dataset.scenario.mechanism, "mass", 1.0) > 0.0 and above_floor(place)
+
+
 def above_floor(place: PlaceOutcome) -> bool:
     """Return whether the final model leaves more than noise explains, on the runs that were learned from."""
     strokes, runs = place.random, place.runs
     if strokes is not None and strokes.accounted:
         return not strokes.all_of_it
-    accounted = runs is not None and runs.accounted
+    # noise of the drive that goes on across reversals is noise, which a note speaks of
+    accounted = (runs is not None and runs.accounted) or (strokes is not None and strokes.slow_noise)
     last = place.selected.recalibrated if place.idle else place.selected.final
     floor = noise_floor(last.model, place.fit, place.nuisances)
     rest = np.concatenate(last.remainders)
@@ -83,7 +93,7 @@ def with_unnamed(dataset: Dataset, place: PlaceOutcome) -> PlaceOutcome:
     named = selected.found or selected.released or place.late or place.idle
     drawn = any(s is not None and s.accounted for s in (place.random, place.runs))
     rivals = [(SMOOTH[axis], evidence) for axis, evidence in selected.stages[-1].competitors if axis in SMOOTH]
-    if named or drawn or not rivals or rivals[0][1] <= 0.0 or not (selected.unknown or above_floor(place)):
+    if named or drawn or not rivals or rivals[0][1] <= 0.0 or not (selected.unknown or lacks(dataset, place)):
         return place
     axis, evidence = rivals[0]
     fitted = _fitted(place, axis)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_clock, confounded, spoken_of, stand_ins
-from stochfric_mb.discovery.driven_joint.decision.carry_over import above_floor
+from stochfric_mb.discovery.driven_joint.decision.carry_over import lacks
 from stochfric_mb.discovery.driven_joint.decision.estimates import believed, parameters
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
@@ -40,12 +40,10 @@ def verdict(dataset: Dataset, places: Sequence[PlaceOutcome], notes: Sequence[st
     for place in places:
         effects += _delay(place) + _released(place) + _found(place, pairs) + _drawn(place) + _drawn_by_run(place)
     gap = _gap(places, loop_floor)
-    # slow and prescribed, the motion shows the noise of a force sensor alone: what friction itself does is far above that
-    inert = getattr(dataset.scenario.mechanism, "mass", 1.0) > 0.0
     if places[0].idle:
         effects = [e for e in effects if e.kind == kind_found_as(LATE)]
-    lacks = (p for p in places if p.selected.unknown or p.unnamed is not None or (inert and above_floor(p)))
-    unknown = None if effects else next(lacks, None)
+    lacking = (p for p in places if p.selected.unknown or p.unnamed is not None or lacks(dataset, p))
+    unknown = None if effects else next(lacking, None)
     kind = "effect" if effects else "unknown" if unknown is not None else "none"
     where = None
     if unknown is not None:
