@@ -31,7 +31,7 @@ from stochfric_mb.mujoco.contact.tracking import report
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.engine import library
-from stochfric_mb.mujoco.pairs import ContactWarning, can_collide
+from stochfric_mb.mujoco.pairs import ContactWarning, condim_of
 from stochfric_mb.mujoco.plugin.configuration import configuration, record_of, require_slots
 from stochfric_mb.mujoco.plugin.options import (
     NO_PASSIVE_FORCES,
@@ -196,27 +196,17 @@ def _geoms_of(model: mujoco.MjModel, names: tuple[str, str]) -> tuple[int, int]:
     body, surface = (model.geom(require_name("geom", name, known)).id for name in names)
     if model.body_weldid[model.geom_bodyid[body]] == model.body_weldid[model.geom_bodyid[surface]]:
         raise InputError(f"geoms {names!r} belong to one rigid body, so they never slide on each other; choose geoms that move")
-    if not can_collide(model, body, surface):
+    if condim_of(model, body, surface) == 0:
         raise InputError(
             f"geoms {names!r} never touch: their contype and conaffinity exclude each other and there is no pair of them; "
             "add a contact pair or change the masks"
         )
-    if _dimension(model, body, surface) < 3:
+    if condim_of(model, body, surface) < 3:
         raise InputError(
             f"geoms {names!r} touch without friction (condim 1), so there is none for the law to set; give the pair, or one "
             "of the geoms, condim 3"
         )
     return body, surface
-
-
-def _dimension(model: mujoco.MjModel, a: int, b: int) -> int:
-    """Return the dimension of the contacts of two geoms."""
-    for i in range(model.npair):
-        if {int(model.pair_geom1[i]), int(model.pair_geom2[i])} == {a, b}:
-            return int(model.pair_dim[i])
-    if model.geom_priority[a] != model.geom_priority[b]:
-        return int(model.geom_condim[a if model.geom_priority[a] > model.geom_priority[b] else b])
-    return int(max(model.geom_condim[a], model.geom_condim[b]))
 
 
 def _require_free(model: mujoco.MjModel, data: mujoco.MjData, states: Mapping[tuple[str, str], Array]) -> None:

@@ -53,17 +53,26 @@ def colliding_pairs(spec: mujoco.MjSpec, body: str, surface: str) -> list[tuple[
         warnings.simplefilter("ignore")  # the user's own compilation gives them
         model = copy.compile()
     named = model.geom(surface if body == ANY else body).id
-    others = [model.geom(i).name for i in range(model.ngeom) if can_collide(model, named, i)]
+    others = [model.geom(i).name for i in range(model.ngeom) if condim_of(model, named, i)]
     if not others:
         raise InputError(f"geom {model.geom(named).name!r} can collide with no other; check contype, conaffinity and excludes")
     return [(other, surface) if body == ANY else (body, other) for other in others]
 
 
-def can_collide(model: mujoco.MjModel, a: int, b: int) -> bool:
-    """Return whether MuJoCo lets two geoms collide (its documentation, computation chapter, collision detection)."""
-    pairs = {frozenset((int(i), int(j))) for i, j in zip(model.pair_geom1, model.pair_geom2, strict=True)}
-    if frozenset((a, b)) in pairs:
-        return True
+def condim_of(model: mujoco.MjModel, a: int, b: int) -> int:
+    """Return the dimension of the contacts of two geoms, 0 if they cannot touch."""
+    for i in range(model.npair):
+        if {int(model.pair_geom1[i]), int(model.pair_geom2[i])} == {a, b}:
+            return int(model.pair_dim[i])
+    if not _passes_filters(model, a, b):
+        return 0
+    if model.geom_priority[a] != model.geom_priority[b]:
+        return int(model.geom_condim[a if model.geom_priority[a] > model.geom_priority[b] else b])
+    return int(max(model.geom_condim[a], model.geom_condim[b]))
+
+
+def _passes_filters(model: mujoco.MjModel, a: int, b: int) -> bool:
+    """Return whether two geoms without a pair collide (MuJoCo's documentation, computation chapter, collision detection)."""
     kinds = {mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD}
     if a == b or {int(model.geom_type[a]), int(model.geom_type[b])} <= {int(k) for k in kinds}:
         return False

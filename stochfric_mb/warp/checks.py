@@ -13,6 +13,7 @@ import numpy as np
 
 from stochfric_mb.errors import InputError, require_name
 from stochfric_mb.mujoco import Joint, Tendon
+from stochfric_mb.mujoco.pairs import condim_of
 
 ANY = "*"
 """Stands for every geom that the other one can collide with."""
@@ -68,7 +69,7 @@ def partners_of(model: mujoco.MjModel, geoms: tuple[str, str]) -> np.ndarray[Any
     condims: set[int] = set()
     for b in bodies:
         for s in surfaces:
-            condim = _condim(model, b, s)
+            condim = condim_of(model, b, s)
             if condim:
                 partners[b, s], partners[s, b] = 1, -1
                 condims.add(condim)
@@ -128,30 +129,3 @@ def check_contacts(model: mujoco.MjModel, d: mjw.Data, partners: Any, slots: int
     most = max(np.bincount(ours)) if ours else 0
     if most > slots:
         raise InputError(f"{most} contacts in one world, but slots = {slots}; give at least that many, or leave slots out")
-
-
-def _condim(model: mujoco.MjModel, a: int, b: int) -> int:
-    """Return the condim of contacts between two geoms, 0 if they cannot touch (MuJoCo's documentation, collision detection)."""
-    for i in range(model.npair):
-        if {int(model.pair_geom1[i]), int(model.pair_geom2[i])} == {a, b}:
-            return int(model.pair_dim[i])
-    if not _can_collide(model, a, b):
-        return 0
-    if model.geom_priority[a] != model.geom_priority[b]:
-        return int(model.geom_condim[a if model.geom_priority[a] > model.geom_priority[b] else b])
-    return max(int(model.geom_condim[a]), int(model.geom_condim[b]))
-
-
-def _can_collide(model: mujoco.MjModel, a: int, b: int) -> bool:
-    still = {int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD)}
-    if a == b or {int(model.geom_type[a]), int(model.geom_type[b])} <= still:
-        return False
-    if not (model.geom_contype[a] & model.geom_conaffinity[b] or model.geom_contype[b] & model.geom_conaffinity[a]):
-        return False
-    bodies = sorted((int(model.geom_bodyid[a]), int(model.geom_bodyid[b])))
-    if (bodies[0] << 16) + bodies[1] in model.exclude_signature:
-        return False
-    welds = [int(model.body_weldid[i]) for i in bodies]
-    parents = [int(model.body_weldid[model.body_parentid[w]]) for w in welds]
-    filtered = not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_FILTERPARENT
-    return welds[0] != welds[1] and not (filtered and 0 not in welds and (welds[0] == parents[1] or welds[1] == parents[0]))
