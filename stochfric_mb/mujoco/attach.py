@@ -15,9 +15,10 @@ from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
 from stochfric_mb.mujoco.joints import Joint, Tendon, add_joint_friction
+from stochfric_mb.mujoco.memory.structs import ELLIPTIC
 from stochfric_mb.mujoco.pairs import ANY, colliding_pairs, require_free, require_geoms, take_over, warn_of_filters
 from stochfric_mb.mujoco.plugin.configuration import MAX_SLOTS, configuration, require_slots
-from stochfric_mb.mujoco.plugin.options import ELLIPTIC, check_options, require_primal
+from stochfric_mb.mujoco.plugin.options import check_options, require_primal
 from stochfric_mb.mujoco.plugin.pair import NAME, register
 
 

@@ -20,11 +20,11 @@ from numba import types
 from numba.extending import intrinsic
 
 from stochfric_mb.compile import compiled, native
-from stochfric_mb.mujoco.contact import replay, solver, tracking
+from stochfric_mb.mujoco.contact import replay, tracking
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
-from stochfric_mb.mujoco.memory.structs import data_at, model_at, record_view
+from stochfric_mb.mujoco.memory.structs import RUNGE_KUTTA, data_at, model_at, record_view
 
 ROW = np.dtype([("model", np.int64), ("data", np.int64), ("state", np.int64), ("kept", np.int64), ("phase", np.int64)])
 """A context's pair: addresses of model, data, state and kept rows, evaluations since the step began."""
@@ -87,7 +87,7 @@ def evaluate_row(model, data, row):
     header = s.header_record(state)
     if header.started != 0.0 and header.evaluated < d.time <= header.evaluated + 1.0001 * m.timestep:
         row.phase += 1
-        stages = m.integrator == solver.RUNGE_KUTTA and (row.phase > 1 or d.time < header.evaluated + 0.75 * m.timestep)
+        stages = m.integrator == RUNGE_KUTTA and (row.phase > 1 or d.time < header.evaluated + 0.75 * m.timestep)
         if not stages or row.phase >= 4:
             tracking.commit(model, data, state)
             replay.settle(model, data, state, row.kept)

@@ -17,9 +17,8 @@ from stochfric_mb.mujoco.contact.kinematics import dot, put, turned
 from stochfric_mb.mujoco.contact.rows import is_sparse
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import words as w
+from stochfric_mb.mujoco.memory.structs import PGS
 
-PGS = 0
-"""mjtSolver. It and noslip iterations make the rows' matrix before the passive stage."""
 ALONG_NORMAL = 1.0e-6
 """Part of the direction in the tangent plane below which it has none: the contact's own tangents count."""
 
@@ -51,6 +50,7 @@ def force_stretch_of(header):
 @compiled
 def turn(m, d, header, slot, contact, body):
     """Turn a contact's tangents, and its rows, so that the first lies along the direction; note the second in the slot."""
+    # these make the rows' matrix before the passive stage
     if m.solver == PGS or m.noslip_iterations > 0:
         engine.mju_error(w.entry(w.PRIMAL_MESSAGE))
     f, e = contact.frame, header.direction

@@ -37,10 +37,8 @@ from stochfric_mb.mujoco.contact.rows import rate_of, set_cap
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
-from stochfric_mb.mujoco.memory.structs import contact_at, data_at, model_at
+from stochfric_mb.mujoco.memory.structs import ELLIPTIC, contact_at, data_at, model_at
 
-ELLIPTIC = 1
-"""mjtCone."""
 GOLDEN = 0.6180339887498949
 """Golden ratio: its multiples spread evenly over their fractional parts."""
 SUDDEN = 0.05

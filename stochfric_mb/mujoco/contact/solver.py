@@ -9,6 +9,11 @@ Two terms make the step first order in everything. The elliptic cone of a slidin
 a + mu abs(a_t - aref_t) instead of a (MuJoCo's computation chapter, elliptic cones), which lifts sliding bodies off; that
 is taken out of the normal row's reference, with the last step's a_t. And integrators with implicit
 damping move a contact otherwise than the solver foresaw; a stuck row is told the difference of the last step.
+
+The discrete integrator makes its references anew after the passive stage: of all that is written here only the coefficients
+and a contact's ``solreffriction`` count, so its stuck contacts creep as natively, if less, and sliding lifts. PGS holds the
+rows' R in a matrix of its own, made before the passive stage, and does not converge on stiff sliding rows, so sliding contacts
+keep MuJoCo's own reference there, which lifts bodies a little.
 """
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
@@ -39,15 +44,9 @@ from stochfric_mb.mujoco.contact.rows import (
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
-from stochfric_mb.mujoco.memory.structs import contact_at, data_at, model_at
+from stochfric_mb.mujoco.memory.structs import DISCRETE, PGS, RUNGE_KUTTA, contact_at, data_at, model_at
 from stochfric_mb.numerics.root import ROUNDING, bracket, is_wide, narrowed, trial
 
-RUNGE_KUTTA, DISCRETE = 1, 4
-"""mjtIntegrator. The discrete one makes its references anew after the passive stage: of all that is written here only the
-coefficients and a contact's ``solreffriction`` count, so its stuck contacts creep as natively, if less, and sliding lifts."""
-PGS = 0
-"""mjtSolver. It holds the rows' R in a matrix of its own, made before the passive stage, and does not converge on stiff sliding
-rows, so sliding contacts keep MuJoCo's own reference, which lifts bodies a little."""
 SATURATED = 0.9999
 """Share of the cap from which on a force counts as at its cap: the solver's tolerance leaves 1e-6 of it."""
 SLIDING_SHARE = 0.99

@@ -13,7 +13,7 @@ from stochfric_mb.mujoco.contact.kinematics import ordinal_of, side
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
-from stochfric_mb.mujoco.memory.structs import contact_at, data_at, model_at
+from stochfric_mb.mujoco.memory.structs import RUNGE_KUTTA, contact_at, data_at, model_at
 
 
 @compiled
@@ -45,7 +45,7 @@ def tries_explicit(m, d, header):
     if header.mode == s.SOLVER or header.rest == s.RIGID:
         return False
     known = header.advanced == d.time
-    return m.integrator == solver.RUNGE_KUTTA and not (known and header.latched != 0.0)
+    return m.integrator == RUNGE_KUTTA and not (known and header.latched != 0.0)
 
 
 @compiled

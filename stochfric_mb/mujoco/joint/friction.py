@@ -34,7 +34,7 @@ from stochfric_mb.mujoco.joint.coordinate import (
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
-from stochfric_mb.mujoco.memory.structs import data_at, model_at
+from stochfric_mb.mujoco.memory.structs import RUNGE_KUTTA, data_at, model_at
 
 STIFFER = 1.0e-4
 """Stuck rows' R over that which MuJoCo gives friction rows: (1 - d)/d times the mobility of a chain of light links lets it
@@ -127,7 +127,7 @@ def follow(m, d, state, slot, old, known):
             slot.events, slot.energy = old.events, old.energy
     else:
         slot.given = header.load
-        early = 0.5 if m.integrator == solver.RUNGE_KUTTA else 0.0
+        early = 0.5 if m.integrator == RUNGE_KUTTA else 0.0
         slot.z[0] = old.z[0] + h * (slot.vx + early * (old.vx - slot.vx)) if old.slides == 0.0 else 0.0
         slot.energy = old.energy + old.pull[0] * (slot.ux - old.ux)
         slot.lead[0] = (slot.vx - old.w[0]) / h - old.a[0] if old.foreseen != 0.0 else 0.0
@@ -196,7 +196,7 @@ def learn(m, d, state, current):
         return
     slot.pull[0], slot.saturated = force, 1.0 if saturated else 0.0
     slot.loose = slot.saturated
-    slot.foreseen = 1.0 if slot.slides == 0.0 and not saturated and m.integrator != solver.RUNGE_KUTTA and place >= 0 else 0.0
+    slot.foreseen = 1.0 if slot.slides == 0.0 and not saturated and m.integrator != RUNGE_KUTTA and place >= 0 else 0.0
     if slot.foreseen != 0.0:
         slot.a[0] = w.at(d.efc_R, place) * force - w.at(d.efc_aref, place)
 

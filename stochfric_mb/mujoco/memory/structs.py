@@ -37,6 +37,11 @@ _DATA = (
 )  # fmt: skip
 _CONTACT = ("dist", "pos", "frame", "friction", "surfacevel", "solreffriction", "mu", "dim", "geom", "exclude", "efc_address")
 
+EULER, RUNGE_KUTTA, IMPLICIT, IMPLICITFAST, DISCRETE = range(5)
+"""mjtIntegrator."""
+PGS, ELLIPTIC = 0, 1
+"""One of mjtSolver, one of mjtCone."""
+
 
 def _format(kind: Any) -> Any:
     """Return the NumPy format of a ctypes field."""

@@ -18,7 +18,7 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.errors import InputError
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import words as w
-from stochfric_mb.mujoco.memory.structs import model_at
+from stochfric_mb.mujoco.memory.structs import DISCRETE, ELLIPTIC, EULER, IMPLICIT, IMPLICITFAST, PGS, model_at
 
 NO_PASSIVE_FORCES = int(mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER)
 """With both of these disabled, MuJoCo leaves out all passive forces."""
@@ -27,8 +27,6 @@ SWITCHED_OFF = (
     "friction too; enable one of them (and set stiffness or damping to 0 instead)"
 )
 """What is said of that."""
-DISCRETE, ELLIPTIC, PGS = 4, 1, 0
-"""mjtIntegrator, mjtCone and mjtSolver."""
 PYRAMIDAL = (
     "option.cone is pyramidal: the coefficients of pyramidal contacts are fixed before friction can set them; use "
     "cone='elliptic' (on a compiled model: model.opt.cone = mujoco.mjtCone.mjCONE_ELLIPTIC), or mode='explicit' with a step "
@@ -37,8 +35,8 @@ PYRAMIDAL = (
 """What is said of pyramidal cones."""
 
 
-EULER, IMPLICIT, IMPLICITFAST = 0, 2, 3
-"""mjtIntegrator: those that damp implicitly, Euler joints alone."""
+N_BIAS, DAMPING, N_GEAR = int(mujoco.mjNBIAS), 2, 6
+"""Numbers of an actuator's bias, the place of minus kv among them, numbers of its gear."""
 STIFF = 1.0
 """Step times damping over mass [-] above which a step with implicit damping is another one than the solver foresaw."""
 LONG = 4.0e-3
@@ -135,8 +133,8 @@ def stiffest_damping(model):
             ratio = max(ratio, w.at(m.dof_damping, i) * w.at(m.dof_invweight0, i))
     if m.integrator in (IMPLICIT, IMPLICITFAST):
         for i in range(m.nu):
-            moved = abs(w.at(m.actuator_gear, 6 * i)) * w.at(m.actuator_acc0, i)
-            ratio = max(ratio, -w.at(m.actuator_biasprm, 10 * i + 2) * moved)
+            moved = abs(w.at(m.actuator_gear, N_GEAR * i)) * w.at(m.actuator_acc0, i)
+            ratio = max(ratio, -w.at(m.actuator_biasprm, N_BIAS * i + DAMPING) * moved)
     return m.timestep * ratio
 
 
