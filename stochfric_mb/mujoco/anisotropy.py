@@ -23,7 +23,10 @@ class Anisotropy:
     across: float
     """mu_s and mu_k across the direction over those along it [-], > 0; 1 is isotropic."""
     direction: tuple[float, float, float] = (1.0, 0.0, 0.0)
-    """The direction, in the frame of the body's geom's body; what counts is its part in the contact's tangent plane."""
+    """The direction, in the frame of the body's geom's body; what counts is its part in the contact's tangent plane.
+
+    Where it has none, because it stands normal to the contact, friction is that along it, the same in all directions.
+    """
 
     def __post_init__(self) -> None:
         require_number("across", self.across, above=0.0)

@@ -96,6 +96,41 @@ def test_the_direction_turns_with_the_body():
     assert np.degrees(slopes) == pytest.approx(np.degrees(expected), abs=0.1)
 
 
+@pytest.mark.parametrize("downhill", [0.0, 0.5 * math.pi])
+def test_a_direction_normal_to_the_contact_is_none(downhill):
+    slope = slope_at_break_away(scene(LAWS[0], (0.0, 0.0, 1.0)).compile(), downhill)
+    assert math.degrees(slope) == pytest.approx(math.degrees(math.atan(MU_S)), abs=0.1)
+
+
+def test_a_spinning_skate_stays_within_the_ellipse_and_loses_energy():
+    """A long box that slides and spins on uneven ground: every contact's force within its ellipse, energy never up by 1 %."""
+    rng = np.random.default_rng(3)
+    spec = mujoco.MjSpec.from_string("""
+      <mujoco><option cone="elliptic" timestep="1e-3"><flag energy="enable"/></option><size memory="16M"/><asset>
+      <hfield name="h" nrow="30" ncol="30" size="3 3 .02 .1"/></asset><worldbody><geom name="floor" type="hfield" hfield="h"/>
+      <body pos="0 0 .06"><freejoint/><geom name="box" type="box" size=".3 .05 .02" mass="1"/></body></worldbody></mujoco>""")
+    spec.hfields[0].userdata = rng.uniform(0.0, 1.0, 900).astype(np.float32)
+    engine.add_friction(spec, ("box", "floor"), LAWS[0], slots=64, anisotropy=engine.Anisotropy(ACROSS, (1.0, 0.0, 0.0)))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, nstep=300)
+    data.qvel[:2], data.qvel[5] = (0.8, 0.4), 4.0
+    mujoco.mj_forward(model, data)
+    start, loaded = data.energy.sum(), 0
+    kinetic = data.energy[1]
+    for _ in range(800):
+        mujoco.mj_step(model, data)
+        for contact in data.contact:
+            row = contact.efc_address
+            if row >= 0 and data.efc_force[row] > 0.1:
+                loaded += 1
+                a, b = data.efc_force[row + 1 : row + 3]
+                assert math.hypot(a, b / ACROSS) <= MU_S * data.efc_force[row] * (1.0 + 1e-9)
+        assert data.energy.sum() <= start + 0.01 * kinetic
+    assert loaded > 500
+    assert data.energy[1] < 1e-4 * kinetic  # it has come to rest
+
+
 def test_a_ratio_of_one_is_isotropic_to_rounding():
     ends = []
     for across in (1.0, 1.0 + 1.0e-12):

@@ -20,7 +20,7 @@ from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import PGS
 
 ALONG_NORMAL = 1.0e-6
-"""Part of the direction in the tangent plane below which it has none: the contact's own tangents count."""
+"""Part of the direction in the tangent plane below which it has none, and friction is the same in all directions."""
 
 
 @compiled_inline
@@ -50,6 +50,8 @@ def force_stretch_of(header):
 @compiled
 def turn(m, d, header, slot, contact, body):
     """Turn a contact's tangents, and its rows, so that the first lies along the direction; note the second in the slot."""
+    put(slot.side, 0.0, 0.0, 0.0)
+    slot.across = 1.0
     # these make the rows' matrix before the passive stage
     if m.solver == PGS or m.noslip_iterations > 0:
         engine.mju_error(w.entry(w.PRIMAL_MESSAGE))
@@ -57,16 +59,18 @@ def turn(m, d, header, slot, contact, body):
     x, y, z = turned(d, body, e[0], e[1], e[2])
     c, b = x * f[3] + y * f[4] + z * f[5], x * f[6] + y * f[7] + z * f[8]
     part = math.sqrt(c * c + b * b)
-    if part > ALONG_NORMAL * math.sqrt(dot(e, e[0], e[1], e[2])):
-        c, b = c / part, b / part
-        for j in range(3):
-            f[3 + j], f[6 + j] = c * f[3 + j] + b * f[6 + j], c * f[6 + j] - b * f[3 + j]
-        v = contact.surfacevel
-        v[0], v[1] = c * v[0] + b * v[1], c * v[1] - b * v[0]
-        turn_rows(m, d, contact.efc_address + 1, c, b)
-        if contact.dim == 6:
-            turn_rows(m, d, contact.efc_address + 4, c, b)
+    if not part > ALONG_NORMAL * math.sqrt(dot(e, e[0], e[1], e[2])):
+        return
+    c, b = c / part, b / part
+    for j in range(3):
+        f[3 + j], f[6 + j] = c * f[3 + j] + b * f[6 + j], c * f[6 + j] - b * f[3 + j]
+    v = contact.surfacevel
+    v[0], v[1] = c * v[0] + b * v[1], c * v[1] - b * v[0]
+    turn_rows(m, d, contact.efc_address + 1, c, b)
+    if contact.dim == 6:
+        turn_rows(m, d, contact.efc_address + 4, c, b)
     put(slot.side, f[6], f[7], f[8])
+    slot.across = header.across
 
 
 @compiled

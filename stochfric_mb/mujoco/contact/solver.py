@@ -140,6 +140,8 @@ def follow(m, d, state, row, i, sign, known, k):
     mobility = w.at(m.body_invweight0, 2 * body) + w.at(m.body_invweight0, 2 * surface)
     slot.felt = 1.0 / mobility if mobility > 0.0 else 0.0
     slot.mass = slot.felt if header.needs_mass != 0.0 else 0.0
+    slot.across = 1.0
+    put(slot.side, 0.0, 0.0, 0.0)
     if header.across != 1.0:
         turn(m, d, header, slot, contact, body)
     speed = size(stretch_of(header), slot.side, slot.w)
@@ -322,7 +324,7 @@ def let_slide(m, d, state, row, contact, slot, vx, vy, vz):
         lift = cap * max(0.0, speed / h + product(stretch, e, slot.a, v) / speed)
         w.put(d.efc_pos, first, contact.dist + lift / stiffness)
         keep_normal(m, d, first, cap)
-    set_cap(m, d, contact, cap, header.across)
+    set_cap(m, d, contact, cap, slot.across)
     slot.cap = cap
 
 
@@ -366,7 +368,7 @@ def spring_and_cap(state, row, slot, resistance, h):
 @compiled
 def hold(m, d, state, row, contact, sign, slot, x, y, z):
     """Steer a stuck contact with the deflection (x, y, z)."""
-    f, first, across = contact.frame, contact.efc_address, s.header_record(state).across
+    f, first = contact.frame, contact.efc_address
     resistance = resistances(m, d, first)[1] / max(slot.weight, LIGHTEST)  # so contacts share a load by their normal forces
     resistance, stiffness, slot.cap = spring_and_cap(state, row, slot, resistance, m.timestep)
     if m.integrator == DISCRETE:
@@ -377,7 +379,7 @@ def hold(m, d, state, row, contact, sign, slot, x, y, z):
         ex, ey, ez = sign * f[3 * j], sign * f[3 * j + 1], sign * f[3 * j + 2]
         lead = dot(slot.lead, ex, ey, ez) / stiffness
         set_reference(d, first + j, 1.0 / m.timestep, stiffness, x * ex + y * ey + z * ez + lead)
-    set_cap(m, d, contact, slot.cap, across)
+    set_cap(m, d, contact, slot.cap, slot.across)
 
 
 @compiled
@@ -405,7 +407,7 @@ def settle(header, slot, f, sign, normal, a, b, others, p, q, accepted, foresees
     x, y, z = -sign * (a * f[3] + b * f[6]), -sign * (a * f[4] + b * f[7]), -sign * (a * f[5] + b * f[8])
     slot.normal = max(normal, 0.0)
     slot.fx, slot.fy = dot(slot.axis_1, x, y, z), dot(slot.axis_2, x, y, z)
-    force = length(a, b / header.across)
+    force = length(a, b / slot.across)
     at_cone = normal > 0.0 and math.sqrt((force / slot.cap) ** 2 + others) >= SATURATED * normal
     saturated = at_cone and force >= SLIDING_SHARE * slot.cap * normal
     slow = size(stretch_of(header), slot.side, slot.w) <= max(header.stick_speed, header.peak_speed)

@@ -72,6 +72,7 @@ SLOT = _record(
     "ux", "uy", "vx", "vy", "fx", "fy", "sx", "sy",  # displacement, velocity, force on the body, surface velocity
     ("axis_1", 3), ("axis_2", 3),  # the tangent frame, world axes
     ("side", 3),  # the tangent across the direction of anisotropic friction, world axes; 0 if there is none
+    "across",  # coefficients along it over those along the direction
     "solved",  # 1 if the engine's solver found the force
     "given",  # normal force [N] of the step before, by which the solver is steered
     "slides", "saturated", "loose",  # sliding; the force was at its cap, and so were all those between the two bodies
