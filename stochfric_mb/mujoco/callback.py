@@ -38,7 +38,7 @@ from stochfric_mb.mujoco.plugin.options import (
     SWITCHED_OFF,
     check_options,
     require_primal,
-    stiffest_damping,
+    stiff_damping,
     warn_of_stiff_damping,
 )
 from stochfric_mb.mujoco.plugin.pair import register
@@ -90,7 +90,7 @@ class friction:  # noqa: N801  (a context, used like a function)
         if data.model is not model and data.model._address != model._address:
             raise InputError("data belongs to another model; pass the model that it was made with")
         check_options(model.opt.disableflags, model.opt.integrator, model.opt.cone)
-        warn_of_stiff_damping(stiffest_damping(model._address), model.opt.timestep)
+        warn_of_stiff_damping(stiff_damping(model._address), model.opt.timestep)
         directed = dict(anisotropy or {})
         for names in directed.keys() - pairs.keys():
             raise InputError(f"anisotropy of {names!r}, which is none of the pairs {list(pairs)}; name one of them")

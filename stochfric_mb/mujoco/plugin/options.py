@@ -18,7 +18,7 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.errors import InputError
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import words as w
-from stochfric_mb.mujoco.memory.structs import DISCRETE, ELLIPTIC, EULER, IMPLICIT, IMPLICITFAST, PGS, model_at
+from stochfric_mb.mujoco.memory.structs import DISCRETE, ELLIPTIC, EULER, IMPLICIT, IMPLICITFAST, PGS, RUNGE_KUTTA, model_at
 
 NO_PASSIVE_FORCES = int(mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER)
 """With both of these disabled, MuJoCo leaves out all passive forces."""
@@ -41,7 +41,8 @@ STIFF = 1.0
 """Step times damping over mass [-] above which a step with implicit damping is another one than the solver foresaw."""
 LONG = 4.0e-3
 """Step [s] above which stuck contacts slip by it: on a servo table that shakes at 1 Hz with 2 m/s^2 by 1 um at 2 ms, 30 um at
-5 ms, .4 mm at 10 ms, with the fourth power of the step, and alike for all dampings above `STIFF`."""
+5 ms, .4 mm at 10 ms, with the fourth power of the step, and alike for all dampings above `STIFF`. With RK4, whose stages
+damping changes, at any step: 10 um at h c/m = 1, 2.4 mm at 2.5."""
 
 
 class IntegratorWarning(UserWarning):
@@ -96,15 +97,16 @@ def _check(steered: int, options: int, cone: int) -> int:
 
 
 def warn_of_stiff_damping(ratio: float, timestep: float, *, stacklevel: int = 2) -> None:
-    """Warn where implicit damping and a long step let stuck contacts slip.
+    """Warn where damping and a long step let stuck contacts slip; ``ratio`` is `stiff_damping`.
 
     Warns:
         IntegratorWarning: they do.
     """
-    if ratio > STIFF and timestep > LONG:
+    if ratio > 0.0:
         warnings.warn(
             f"timestep = {timestep:g} s with h kv/m = {ratio:.3g} of an actuator or joint: contacts that it carries slip while "
-            "stuck, by tenths of a millimetre at 10 ms where it shakes them; use a timestep of 2 ms, or integrator discrete",
+            "stuck, by tenths of a millimetre at 10 ms where it shakes them; use implicitfast with a timestep of 2 ms, or "
+            "integrator discrete",
             IntegratorWarning,
             stacklevel=stacklevel + 1,
         )
@@ -124,26 +126,27 @@ CHECKER = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctype
 
 
 @compiled
-def stiffest_damping(model):
-    """Return the largest h c/m of what the integrator damps implicitly: joints, and actuators with kv (not with Euler)."""
+def stiff_damping(model):
+    """Return the largest h c/m [-] of joints and of actuators with kv, where stuck contacts slip by it; otherwise 0."""
     m = model_at(model)
+    joints = m.integrator in (EULER, IMPLICIT, IMPLICITFAST, RUNGE_KUTTA)
+    actuators = joints and m.integrator != EULER
     ratio = 0.0
-    if m.integrator in (EULER, IMPLICIT, IMPLICITFAST):
-        for i in range(m.nv):
-            ratio = max(ratio, w.at(m.dof_damping, i) * w.at(m.dof_invweight0, i))
-    if m.integrator in (IMPLICIT, IMPLICITFAST):
-        for i in range(m.nu):
-            moved = abs(w.at(m.actuator_gear, N_GEAR * i)) * w.at(m.actuator_acc0, i)
-            ratio = max(ratio, -w.at(m.actuator_biasprm, N_BIAS * i + DAMPING) * moved)
-    return m.timestep * ratio
+    for i in range(m.nv if joints else 0):
+        ratio = max(ratio, m.timestep * w.at(m.dof_damping, i) * w.at(m.dof_invweight0, i))
+    for i in range(m.nu if actuators else 0):
+        moved = abs(w.at(m.actuator_gear, N_GEAR * i)) * w.at(m.actuator_acc0, i)
+        ratio = max(ratio, -m.timestep * w.at(m.actuator_biasprm, N_BIAS * i + DAMPING) * moved)
+    return ratio if ratio > STIFF and (m.timestep > LONG or m.integrator == RUNGE_KUTTA) else 0.0
 
 
 @compiled
 def options_allow(model, steered):
     """Return whether friction can act with the model's options; says why not, or warns."""
     m = model_at(model)
-    if steered and m.timestep > LONG and stiffest_damping(model) > STIFF:
-        w.call_python(w.entry(w.WARNER), int(1.0e3 * min(stiffest_damping(model), 1.0e12)), int(1.0e9 * m.timestep), 0)
+    ratio = stiff_damping(model) if steered else 0.0
+    if ratio > 0.0:
+        w.call_python(w.entry(w.WARNER), int(1.0e3 * min(ratio, 1.0e12)), int(1.0e9 * m.timestep), 0)
     allowed = m.disableflags & NO_PASSIVE_FORCES != NO_PASSIVE_FORCES and m.integrator != DISCRETE
     if allowed and (m.cone == ELLIPTIC or not steered):
         return True
