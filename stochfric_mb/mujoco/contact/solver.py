@@ -140,8 +140,7 @@ def follow(m, d, state, row, i, sign, known, k):
     mobility = w.at(m.body_invweight0, 2 * body) + w.at(m.body_invweight0, 2 * surface)
     slot.felt = 1.0 / mobility if mobility > 0.0 else 0.0
     slot.mass = slot.felt if header.needs_mass != 0.0 else 0.0
-    slot.across = 1.0
-    put(slot.side, 0.0, 0.0, 0.0)
+    slot.across = 1.0  # and no side, as after a reset
     if header.across != 1.0:
         turn(m, d, header, slot, contact, body)
     speed = size(stretch_of(header), slot.side, slot.w)
