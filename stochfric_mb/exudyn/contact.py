@@ -443,7 +443,7 @@ def _arrays(law: Law, path: CoefficientPath) -> tuple[Any, Any]:
     numbers[at.LAW : at.LAW + len(parameters)] = parameters
     numbers[at.LAW + len(parameters) :] = path.descriptor
     numbers[at.HAS_MODE] = float(law.state_names[:1] == ("mode",))
-    numbers[at.STICK_SPEED], numbers[at.JUMP] = law.stick_speed, math.inf
+    numbers[at.STICK_SPEED], numbers[at.JUMP], numbers[at.PAIR] = law.stick_speed, math.inf, math.nan
     words[[at.COMMIT, at.GUARD, at.INIT, at.FORCE]] = native.commit, native.guards, native.init, native.force
     words[[at.N_STATE, at.N_LAW]] = native.n_state, len(parameters)
     words[[at.SEED, at.SAMPLE, at.CONTACT]] = path.seed, path.sample, path.contact

@@ -7,7 +7,8 @@ import math
 from numba import carray  # pyright: ignore[reportPrivateImportUsage]
 
 from stochfric_mb.coefficients.path import CURSOR, canonical_time, evaluate
-from stochfric_mb.compile import compiled
+from stochfric_mb.coefficients.processes import TIME
+from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.exudyn.layout import (
     AXIS_1,
     AXIS_2,
@@ -28,6 +29,7 @@ from stochfric_mb.exudyn.layout import (
     NEW,
     NORMAL,
     NUMBERS,
+    PAIR,
     PENALTY,
     PERIOD,
     PLANE,
@@ -58,19 +60,19 @@ from stochfric_mb.exudyn.layout import (
 from stochfric_mb.laws.abi import call_law
 
 
-@compiled
+@compiled_inline
 def dot(numbers, a, b):
     """Return the product of the vectors at ``numbers[a:]`` and ``numbers[b:]``."""
     return numbers[a] * numbers[b] + numbers[a + 1] * numbers[b + 1] + numbers[a + 2] * numbers[b + 2]
 
 
-@compiled
+@compiled_inline
 def spun(t, i, numbers):
     """Return the displacement [m] that turning has added by time t along axis i, by the trapezoidal rule in the step."""
     return numbers[SPUN + i] + 0.5 * (t - numbers[T]) * (numbers[SPIN_BEFORE + i] + numbers[SPIN + i])
 
 
-@compiled
+@compiled_inline
 def unwrapped(u, numbers, words):
     """Return the displacement u [m] with the whole turns that bring it nearest to the last accepted one."""
     if numbers[PERIOD] > 0.0 and words[STARTED] == 1:
@@ -78,7 +80,7 @@ def unwrapped(u, numbers, words):
     return u
 
 
-@compiled
+@compiled_inline
 def kinematics(t, numbers, words):
     """Return relative displacements [m] and velocities [m/s], counter-surface minus body, from the engine's coordinates."""
     w = numbers[SURFACE_VELOCITY]
@@ -92,7 +94,7 @@ def kinematics(t, numbers, words):
     return unwrapped(w * t - numbers[RADIUS] * d, numbers, words), 0.0, w - numbers[RADIUS] * v, 0.0
 
 
-@compiled
+@compiled_inline
 def normal_force_at(t, numbers, words):
     """Return the normal force [N] that the engine uses at time t: penalty, or the line on from the last step."""
     if words[PENALTY] == 1:
@@ -101,7 +103,7 @@ def normal_force_at(t, numbers, words):
     return max(numbers[line] + numbers[line + 1] * t, 0.0)
 
 
-@compiled
+@compiled_inline
 def penalty(numbers):
     """Return the unilateral normal force [N] of the penetration, k p + c dp/dt while it is positive and p > 0."""
     depth = numbers[TOUCH] - dot(numbers, NORMAL, DISTANCE)
@@ -110,16 +112,21 @@ def penalty(numbers):
     return max(numbers[STIFFNESS] * depth - numbers[DAMPING] * dot(numbers, NORMAL, RATE), 0.0)
 
 
-@compiled
+@compiled_inline
 def pair_at(t, u, numbers, words):
     """Return (mu_s, mu_k) [-] at time t and relative displacement u."""
+    if t == numbers[PAIR]:
+        return numbers[PAIR + 1], numbers[PAIR + 2]
     descriptor = numbers[LAW + words[N_LAW] :]
     cursor = numbers[CURSOR_AT : CURSOR_AT + CURSOR]
     time = canonical_time(t, 0.5 * numbers[STEP])
-    return evaluate(descriptor, cursor, words[SEED], words[SAMPLE], words[CONTACT], time, u, numbers[EVENTS])
+    pair = evaluate(descriptor, cursor, words[SEED], words[SAMPLE], words[CONTACT], time, u, numbers[EVENTS])
+    if descriptor[0] == 0.0 or descriptor[1] == TIME:
+        numbers[PAIR], numbers[PAIR + 1], numbers[PAIR + 2] = t, pair[0], pair[1]
+    return pair
 
 
-@compiled
+@compiled_inline
 def ask(address, t, motion, n, pair, numbers, into):
     """Call a function of the law with the committed state; its output goes to ``numbers[into:]``."""
     at = numbers.ctypes.data

@@ -57,7 +57,9 @@ JUMP = GUARDS_BEFORE + 8
 """Time [s] just after a jump of the normal force as a function of time that lies in the next step; infinity: none does."""
 PERIOD = GUARDS_BEFORE + 9
 """Displacement [m] of a whole turn, after which the engine's angle begins again; 0 for displacements."""
-CURSOR_AT = GUARDS_BEFORE + 10
+PAIR = GUARDS_BEFORE + 10
+"""Time [s], mu_s and mu_k of the last coefficients asked for that depend on time alone: solvers ask several times for one."""
+CURSOR_AT = PAIR + 3
 WINDOW_CURSOR_AT = CURSOR_AT + CURSOR
 """Cursors on the path: of the coefficients now, and of the engine's window."""
 LIVE = WINDOW_CURSOR_AT + CURSOR

@@ -11,7 +11,7 @@ from numba import carray  # pyright: ignore[reportPrivateImportUsage]
 
 from stochfric_mb.coefficients.path import CURSOR, canonical_time, seek
 from stochfric_mb.coefficients.processes import EVENT, POSITION, TIME
-from stochfric_mb.compile import compiled
+from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.exudyn.contact_force import ask, kinematics, pair_at, penalty, spun
 from stochfric_mb.exudyn.layout import (
     ASK_FIRST,
@@ -44,6 +44,7 @@ from stochfric_mb.exudyn.layout import (
     NEXT_RECORD,
     NORMAL_FORCE,
     NUMBERS,
+    PAIR,
     PENALTY,
     REACH,
     RECORD_COLUMNS,
@@ -112,7 +113,7 @@ def proceed(t, address):
     return _proceed(t, numbers, words)
 
 
-@compiled
+@compiled_inline
 def _proceed(t, numbers, words):
     motion = kinematics(t, numbers, words)
     n = penalty(numbers) if words[PENALTY] == 1 else max(numbers[GIVEN_NORMAL], 0.0)
@@ -142,7 +143,7 @@ def _proceed(t, numbers, words):
     return bits & ~CHANGED if words[COMPILED] == 1 else bits
 
 
-@compiled
+@compiled_inline
 def _moved(motion, numbers):
     ux, uy, vx, vy = motion
     return ux != numbers[U] or uy != numbers[U_2] or vx != numbers[V] or vy != numbers[V_2]
@@ -156,7 +157,7 @@ def _forget_spin(t, numbers):
     numbers[T] = t
 
 
-@compiled
+@compiled_inline
 def _keep(t, motion, n, numbers):
     """Remember the accepted step."""
     for i in range(2):
@@ -174,7 +175,7 @@ def restart(t, motion, n, numbers, words):
     numbers[EVENTS], numbers[LARGEST_NORMAL] = 0.0, 0.0
     _keep(t, motion, n, numbers)
     numbers[REACH] = 1.5 * numbers[STEP]
-    numbers[SWITCHED] = -math.inf
+    numbers[SWITCHED], numbers[PAIR] = -math.inf, math.nan
     words[STARTED] = 1
     pair = pair_at(t, motion[0], numbers, words)
     _law_gives(words[INIT], t, motion, n, pair, numbers, words)
@@ -187,7 +188,7 @@ def restart(t, motion, n, numbers, words):
     words[WATCHING] = 1
 
 
-@compiled
+@compiled_inline
 def _commit(t, motion, n, numbers, words):
     pair = pair_at(t, motion[0], numbers, words)
     mode, h, before = numbers[LIVE], t - numbers[T], (numbers[MU_S], numbers[MU_K])
@@ -209,7 +210,7 @@ def _commit(t, motion, n, numbers, words):
     return bits
 
 
-@compiled
+@compiled_inline
 def _law_gives(address, t, motion, n, pair, numbers, words):
     """Take the state that ``init`` or ``commit`` gives; return CHANGED if it differs."""
     ask(address, t, motion, n, pair, numbers, NEW)
@@ -243,7 +244,7 @@ def _watch(t, motion, n, pair, bent, switched, numbers, words):
     return WATCH
 
 
-@compiled
+@compiled_inline
 def _bent_pair(pair, before, steps, numbers, words):
     """Return the pair with what a bend of the path adds to it in the next step, on a path in time that is linear between knots.
 
@@ -258,13 +259,13 @@ def _bent_pair(pair, before, steps, numbers, words):
     return pair[0] + bend_s, pair[1] + bend_k
 
 
-@compiled
+@compiled_inline
 def settling(t, numbers):
     """Return whether a step that begins at t follows a change of mode closely."""
     return t - numbers[SWITCHED] < (FINE_STEPS - GRID) * numbers[STEP]
 
 
-@compiled
+@compiled_inline
 def _sticks(motion, n, numbers):
     if n <= 0.0:
         return 0.0
@@ -273,7 +274,7 @@ def _sticks(motion, n, numbers):
     return 1.0 if math.hypot(motion[2], motion[3]) <= numbers[STICK_SPEED] else 0.0
 
 
-@compiled
+@compiled_inline
 def _set_pair(pair, numbers, words):
     """Take the coefficients; return CHANGED if the engine's own pair differs (a path along events only)."""
     numbers[MU_S], numbers[MU_K] = pair
@@ -284,7 +285,7 @@ def _set_pair(pair, numbers, words):
     return CHANGED
 
 
-@compiled
+@compiled_inline
 def _set_normal_line(t, numbers, words):
     """Put the engine's normal force on the line from now on; return CHANGED if it is another one."""
     line = LIVE + words[N_STATE] + 2
