@@ -12,6 +12,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "run": ("stochfric_mb.commands.run:run", "Simulate one trajectory and write it to a file."),
     "compare": ("stochfric_mb.commands.compare:compare", "Compare engines with the reference and write a report."),
     "init": ("stochfric_mb.commands.init:init", "Write a scenario and a dataset for a rig of your own, to fill in."),
+    "plan": ("stochfric_mb.commands.plan:plan", "Say what planned runs could show, before anything is measured."),
     "discover": ("stochfric_mb.commands.discover:discover", "Find the effect that a model lacks, from measured data."),
     "check": ("stochfric_mb.commands.check:check", "Probe the friction of a MuJoCo model and say what to change."),
     "ensemble": ("stochfric_mb.commands.ensemble:ensemble", "Simulate many runs into one dataset; resumes."),

@@ -15,11 +15,17 @@ WIDTH = 100
 """Width of a table where stdout is no terminal."""
 
 
+def _console() -> Console:
+    """Return a console as wide as the terminal, or as `WIDTH`: one that is no terminal would cut tables at 80 columns."""
+    console = Console()
+    return console if console.is_terminal else Console(width=WIDTH)
+
+
 def print_table(head: Sequence[str], rows: Sequence[Sequence[str]], *, title: str | None = None) -> None:
     """Print a table; its first column is never broken, the others fold."""
     if not speaks():
         return
-    console = Console()
+    console = _console()
     if title is not None:
         console.print(title, style="bold", highlight=False)
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
@@ -27,14 +33,14 @@ def print_table(head: Sequence[str], rows: Sequence[Sequence[str]], *, title: st
         table.add_column(Text(name), no_wrap=number == 0, overflow="fold")
     for row in rows:
         table.add_row(*map(Text, row))
-    console.print(table, width=console.width if console.is_terminal else WIDTH)
+    console.print(table)
 
 
 def print_cards(cards: Sequence[tuple[str, Sequence[tuple[str, str]]]], *, title: str) -> None:
     """Print one card each: a name, and lines of what and text; made for texts too long for a table's cells."""
     if not speaks():
         return
-    console = Console()
+    console = _console()
     console.print(title, style="bold", highlight=False)
     table = Table("name", "", "", box=box.SIMPLE_HEAD, pad_edge=False, show_header=False)
     table.columns[0].no_wrap = table.columns[1].no_wrap = True
@@ -43,4 +49,4 @@ def print_cards(cards: Sequence[tuple[str, Sequence[tuple[str, str]]]], *, title
         for number, (what, text) in enumerate(lines):
             table.add_row(Text(name if number == 0 else "", style="bold"), Text(what, style="dim"), Text(text))
         table.add_section()
-    console.print(table, width=console.width if console.is_terminal else WIDTH)
+    console.print(table)

@@ -6,6 +6,7 @@ import numpy as np
 
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision
+from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import effect_class, effect_kinds
 
@@ -15,13 +16,12 @@ SEEN_BY = {"dwell": "a second belt speed", "direction": "a reversed belt", "load
 
 def not_identifiable(study: Study) -> tuple[str, ...]:
     """Return the effects that this experiment cannot see, whatever their strength."""
-    constant = _constant(study)
+    constant = constant_conditions(study.pool)
     return tuple(kind for kind in effect_kinds() if effect_class(kind).answers_to in constant)
 
 
-def _constant(study: Study) -> set[str]:
-    """Return the conditions that effects may answer to, and that do not change in this experiment."""
-    pool = study.pool
+def constant_conditions(pool: Pool) -> set[str]:
+    """Return the conditions that effects may answer to, and that do not change in an experiment."""
     same = {
         "dwell": bool(np.std(np.log(pool.dwell)) < 0.08),
         "direction": len(set(pool.direction)) < 2,

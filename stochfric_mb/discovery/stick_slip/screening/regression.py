@@ -143,6 +143,17 @@ class Regression:
             first = at.stop
         return found
 
+    def beyond(self, terms: Terms, scatter: Array, columns: Sequence[Array]) -> Array:
+        """Return what the terms cannot imitate of further columns, whitened, shape (rows + p, len(columns)).
+
+        The last p rows are what priors of the terms say against the imitation.
+        """
+        design, _, _ = self._whitened(terms.columns, scatter)
+        more, _, _ = self._whitened(np.stack(columns, axis=2), scatter)
+        basis, _ = np.linalg.qr(np.r_[design, np.diag(1.0 / terms.priors)])
+        padded = np.r_[more, np.zeros((design.shape[1], len(columns)))]
+        return padded - basis @ (basis.T @ padded)
+
     def _rest(self, terms: Terms, scatter: Array) -> tuple[Array, Array]:
         """Return an orthonormal basis of the whitened terms, and what they leave of the whitened features."""
         design, target, _ = self._whitened(terms.columns, scatter)

@@ -36,6 +36,12 @@ def frequencies(pool: Pool, pace: float = 1.0) -> Array:
     return np.arange(3.0 / (pace * pool.duration), max(fastest, SLOW * _slip_rate(pool)), 1.0 / (COARSE * pool.duration))
 
 
+def slow_frequencies(pool: Pool, pace: float = 1.0) -> Array:
+    """Return those of the `frequencies` at which a wave differs from slip to slip [Hz]."""
+    every = frequencies(pool, pace)
+    return every[every <= SLOW * _slip_rate(pool)]
+
+
 def _slip_rate(pool: Pool) -> float:
     return float(np.median(_slip_rates(pool)))
 

@@ -1,0 +1,277 @@
+"""Planned runs of a belt-box: simulated as believed, taken through discovery's own extraction, and asked what they show.
+
+The regressors by which discovery screens for effects are the change of the slips' features with each effect, to first order;
+the covariance of these features comes from simulating the believed model with the sensor's noise.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from scipy.optimize import brentq
+
+from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.planning.planned_run import PlannedRun
+from stochfric_mb.discovery.planning.signature import Signature
+from stochfric_mb.discovery.stick_slip.advice import SEEN_BY, constant_conditions
+from stochfric_mb.discovery.stick_slip.records.calibration import Calibration, calibrate
+from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
+from stochfric_mb.discovery.stick_slip.records.preconditions import require_usable
+from stochfric_mb.discovery.stick_slip.records.slips import Slips, extract
+from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms, believed
+from stochfric_mb.discovery.stick_slip.screening.waves import slow_frequencies, wave_columns
+from stochfric_mb.discovery.stick_slip.simulation.prior_model import assumed, prior_model
+from stochfric_mb.discovery.stick_slip.simulation.scaling import Scaling
+from stochfric_mb.discovery.stick_slip.study import record_of
+from stochfric_mb.effects import effect_class, effect_kinds, kind_found_as
+from stochfric_mb.effects.marks import WAVE, Hypothesis
+from stochfric_mb.effects.traits import ANONYMOUS, DRAWN_ANEW
+from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.dataset import Dataset
+from stochfric_mb.measurement.run import Run
+from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.reference.augmented import Start, augmented_system
+from stochfric_mb.scenario import Scenario
+
+LOOKED_AT = 6
+"""Frequencies that stand for all: periodic effects are all alike."""
+PROBE = 0.5
+"""Coefficient at which a hypothesis is asked for its size: below, the size may have reached a bound of fits."""
+SETTLING = 4.0
+"""Time that is simulated before a record [s], at least; so are `CYCLES`."""
+CYCLES = 3.0
+"""Times that the belt needs to stretch the spring to break-away, before a record [-]."""
+SHARE_OF_TRAVEL = 1.0e-3
+"""Noise of a sensor of which nobody said how good it is, over the motion that it sees [-]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Part:
+    """One planned run, as discovery would see it."""
+
+    run: PlannedRun
+    """The run, its noise stated."""
+    slips: Slips
+    """The slips of its simulated record."""
+    calibration: Calibration
+    """Errors of their features."""
+
+    def facts(self) -> dict[str, Any]:
+        """Return what there is to say of it."""
+        about = {"name": self.run.name, "seconds": self.run.duration, "sample_rate": self.run.sample_rate}
+        return about | {"noise": self.run.noise, "set": dict(self.run.settings), "slips": len(self.slips)}
+
+
+@dataclasses.dataclass(frozen=True)
+class BeltPlan:
+    """Planned runs of a belt-box."""
+
+    scenario: Scenario[BeltBox]
+    """What is believed."""
+
+    def part(self, run: PlannedRun, seed: int) -> Part:
+        """Return a planned run, simulated and taken through discovery's extraction.
+
+        Raises:
+            InputError: the belt rests, the sampling is too slow, or the box slips too seldom; says what would do.
+        """
+        run, measured = self._measured(run, seed)
+        data = assumed(Dataset(title="", scenario_path=None, scenario=self.scenario, runs=(measured,)))
+        require_usable(data)
+        size = Scaling.of_rig(self.scenario.mechanism)
+        reduced = size.reduced(data)
+        slips = extract(record_of(reduced.fit[0], reduced))
+        if len(slips) < criteria.FEWEST_SLIPS:
+            cycle = run.duration / max(len(slips), 1)
+            raise InputError(
+                f"{run.name}: {len(slips)} slips in {run.duration:g} s; at least {criteria.FEWEST_SLIPS} are needed"
+                + (f": plan {math.ceil(1.2 * criteria.FEWEST_SLIPS * cycle)} s or more" if len(slips) else "; the box does "
+                   "not slip as believed: check mu_s against mu_k, and the speed of the belt")
+            )  # fmt: skip
+        return Part(run, slips, calibrate(slips, seed=11 + seed))
+
+    def signatures(self, parts: Sequence[Part]) -> tuple[list[Signature], dict[str, str]]:
+        """Return what effects would leave in some runs, and effect -> what would show it, for those that leave nothing."""
+        pool = make_pool([p.slips for p in parts], [p.calibration for p in parts])
+        terms = believed(pool, dict(assumed_uncertainty(self.scenario)))
+        regression = Regression(pool)
+        solution = regression.fit(terms)
+        size = Scaling.of_rig(self.scenario.mechanism)
+        forms = list(_forms(pool, regression, terms, solution, size))
+        constant = constant_conditions(pool)
+        blind = {
+            kind: SEEN_BY.get(effect_class(kind).answers_to, f"another {effect_class(kind).answers_to}")
+            for kind in effect_kinds()
+            if effect_class(kind).answers_to in constant
+        }
+        believed_kinds = {e.kind for e in self.scenario.effects}
+        if self.scenario.process is not None:
+            believed_kinds |= {kind_found_as(DRAWN_ANEW)}
+        return [f for f in forms if f.kind not in {*blind, *believed_kinds}], blind
+
+    @property
+    def no_limit(self) -> tuple[str, ...]:
+        """Return the effects for which discovery has detectors and no regressors."""
+        return tuple(k for k in effect_kinds() if ANONYMOUS not in effect_class(k).traits)
+
+    def extra_runs(self, first: PlannedRun) -> list[tuple[str, PlannedRun]]:
+        """Return runs that may be added, each with its words."""
+        box = self._box(first)
+        speed, load = box.belt_velocity, box.normal_force
+
+        def with_(**settings: float) -> PlannedRun:
+            return dataclasses.replace(first, name="extra run", settings=dict(first.settings) | settings)
+
+        slower = dataclasses.replace(with_(belt_velocity=0.5 * speed), duration=2.0 * first.duration)
+        return [
+            (f"another {first.duration:g} s as in {first.name}", dataclasses.replace(first, name="extra run")),
+            (f"a run at belt_velocity = {2.0 * speed:.3g} m/s", with_(belt_velocity=2.0 * speed)),
+            (f"a run of {slower.duration:g} s at belt_velocity = {0.5 * speed:.3g} m/s", slower),
+            (f"a run with the belt reversed, belt_velocity = {-speed:.3g} m/s", with_(belt_velocity=-speed)),
+            (f"a run at normal_force = {2.0 * load:.3g} N", with_(normal_force=2.0 * load)),
+            (
+                f"a run at {2.0 * first.sample_rate:g} samples a second",
+                dataclasses.replace(first, name="extra run", sample_rate=2.0 * first.sample_rate),
+            ),
+        ]
+
+    def _box(self, run: PlannedRun) -> BeltBox:
+        empty = np.zeros(0)
+        bare = Run(name=run.name, role="fit", time=empty, channels={}, settings=run.settings, sample_interval=1.0)
+        return bare.mechanism(self.scenario)
+
+    def _measured(self, run: PlannedRun, seed: int) -> tuple[PlannedRun, Run]:
+        """Return a planned run with its noise stated, and what would be measured as believed."""
+        if run.stroke is not None or run.period is not None:
+            raise InputError(f"{run.name}: stroke and period are those of a driven joint; a belt-box has belt_velocity")
+        box, step = self._box(run), 1.0 / run.sample_rate
+        if box.belt_velocity == 0.0:
+            raise InputError(f"{run.name}: belt_velocity is 0 m/s; plan a belt that runs")
+        model = prior_model(self.scenario)
+        system = augmented_system(box, model.law, model.effects, model.process, seed=seed + 1)
+        loaded = CYCLES * model.law.mu_s * box.normal_force / (box.stiffness * abs(box.belt_velocity))
+        settling = max(SETTLING, loaded)
+        start = Start(-settling, 0.0, box.belt_velocity, stick=True)
+        settled = system.march(start, step, round(settling * run.sample_rate)).end
+        position = system.march(settled, step, round(run.duration * run.sample_rate)).position
+        noise = run.noise if run.noise is not None else SHARE_OF_TRAVEL * float(np.ptp(position))
+        position = position + noise * np.random.default_rng(seed).standard_normal(len(position))
+        stated = dataclasses.replace(run, noise=noise)
+        time = np.asarray(step * np.arange(len(position)), dtype=np.float64)
+        return stated, Run(
+            name=run.name, role="fit", time=time, channels={"position": position}, settings=run.settings, sample_interval=step
+        )
+
+
+def assumed_uncertainty(scenario: Scenario[Any]) -> Mapping[str, float]:
+    """Return the uncertainty of a scenario, the usual one where it states none."""
+    return assumed(Dataset(title="", scenario_path=None, scenario=scenario, runs=())).scenario.uncertainty
+
+
+@dataclasses.dataclass(frozen=True)
+class _Form:
+    """A hypothesis or a wave before the terms of the believed model are taken out."""
+
+    kind: str
+    variant: str
+    columns: Sequence[Any]
+    signals: int
+    """How many of the columns are the effect at its phases, 0: the first one is the effect."""
+    grid: int
+    value: Callable[[float], tuple[str, float, dict[str, float | str], bool]]
+
+
+def _forms(pool: Pool, regression: Regression, terms: Terms, solution: Solution, size: Scaling) -> list[Signature]:
+    """Return the forms of all effects that the slips could show."""
+    families = hypotheses_in(pool)
+    forms = [
+        _Form(kind, h.variant, h.columns, 0, len(ways), _value_of(kind, h, len(h.columns), size))
+        for kind, ways in families.items()
+        for h in ways
+    ]
+    for kind, wave in waves_in(pool).items():
+        every = slow_frequencies(pool, wave.pace)
+        for f in every[len(every) // (2 * LOOKED_AT) :: max(len(every) // LOOKED_AT, 1)]:
+            place = _wave_value(kind, wave.setting(float(f)), size)
+            forms.append(_Form(kind, WAVE, wave_columns(pool, wave, float(f), 1), 2, 3 * len(every), place))
+    found: list[Signature] = []
+    periodic = {f.kind for f in forms if f.signals}
+    plainest = {kind: ways[0].variant for kind, ways in families.items()}
+    for form in forms:
+        columns = regression.beyond(terms, solution.scatter, form.columns)
+        other = not form.signals and (form.kind in periodic or form.variant != plainest[form.kind])
+        signature = _signature(form, columns, regression.n, limited=not other)
+        if signature is not None:
+            found.append(signature)
+    found.append(_scatter_signature(pool, regression, solution))
+    return found
+
+
+def _signature(form: _Form, columns: Any, n: int, *, limited: bool) -> Signature | None:
+    """Return a form at its limit; without ``limited`` as what another effect may be taken for: it has no limit of its own."""
+    needed = criteria.NAMED + columns.shape[1] * math.log(n) + 2.0 * math.log(form.grid)
+    plain = (columns[:, :1],) if not form.signals else (columns[:, 0::2], columns[:, 1::2])
+    signals = [c.sum(axis=1) for c in plain]
+    evidence = float(np.mean([s @ s for s in signals]))
+    raw = float(sum(np.sum(np.square(c)) for c in form.columns))
+    if evidence <= 1.0e-9 * raw:
+        return None
+    strength = math.sqrt(needed / evidence)
+    name, value, beside, at_most = form.value(strength)
+    limit = abs(value) if limited and name else math.inf
+    unit = effect_class(form.kind).__dataclass_fields__[name].metadata["unit"] if name else "-"
+    return Signature(form.kind, name, unit, limit, beside, tuple(strength * s for s in signals), columns, at_most)
+
+
+def _value_of(kind: str, hypothesis: Hypothesis, n: int, size: Scaling) -> Any:
+    """Return strength -> name of the parameter that is the size, its value, those beside it [SI], and whether it is a bound."""
+    fields = effect_class(kind).__dataclass_fields__
+
+    def at(strength: float) -> tuple[str, float, dict[str, float | str]]:
+        values = {k: v for k, v in hypothesis.start(strength * np.eye(n)[0]).items() if k in fields}
+        si = {k: v if isinstance(v, str) else float(v * size.of(fields[k].metadata["unit"])) for k, v in values.items()}
+        name = next(iter(si), "")
+        return name, float(si.pop(name, math.inf)), si
+
+    def value(strength: float) -> tuple[str, float, dict[str, float | str], bool]:
+        name, here, others = at(strength)
+        proportional = at(PROBE)[1] * strength / PROBE
+        return name, here, others, not math.isclose(here, proportional, rel_tol=1.0e-6)
+
+    return value
+
+
+def _wave_value(kind: str, setting: float, size: Scaling) -> Any:
+    fields = effect_class(kind).__dataclass_fields__
+    where = "wavelength" if "wavelength" in fields else "frequency"
+
+    def value(strength: float) -> tuple[str, float, dict[str, float | str], bool]:
+        scale, place = (size.of(fields[k].metadata["unit"]) for k in ("amplitude", where))
+        return "amplitude", strength * scale, {where: setting * place}, False
+
+    return value
+
+
+def _scatter_signature(pool: Pool, regression: Regression, solution: Solution) -> Signature:
+    """Return scatter of the force at break-away from slip to slip: a variance has no signal that another effect could imitate.
+
+    A component that multiplies a slip's variance by 1 + r raises 2 delta log L by r - ln(1 + r) on average.
+    """
+    information = np.zeros(len(pool.run))
+    for r in range(pool.n_runs):
+        covariance = regression.covariance(r, solution.scatter)
+        information[pool.run == r] = np.linalg.inv(covariance)[0, 0] * pool.normal_force[pool.run == r] ** 2
+    kept = information[pool.kept]
+
+    def lacking(log_sigma: float) -> float:
+        ratio = math.exp(2.0 * log_sigma) * kept
+        return float(np.sum(ratio - np.log1p(ratio))) - criteria.SCATTER_CERTAIN
+
+    sigma = math.exp(float(brentq(lacking, -30.0, 5.0)))  # pyright: ignore[reportArgumentType]  # a number, without full_output
+    kind = kind_found_as(DRAWN_ANEW)
+    return Signature(kind, "sigma_s", "-", sigma, {"process": "per_event"}, (), np.zeros((0, 0)))

@@ -1,0 +1,190 @@
+"""Planned runs of a prismatic joint or a hinge pendulum: driven to and fro, in weak form, and asked what they show.
+
+The motion is harmonic and the drive what the believed model needs for it, each with its sensor's noise. What an effect does
+to the force balance is linearised about the fitted model, as the search for effects does it.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate, candidates, span_of
+from stochfric_mb.discovery.driven_joint.decision.selection import MATERIAL, NAMED, SIZES, Selector
+from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
+from stochfric_mb.discovery.driven_joint.fit.gains import effect_columns
+from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
+from stochfric_mb.discovery.planning.planned_run import PlannedRun
+from stochfric_mb.discovery.planning.signature import Signature
+from stochfric_mb.effects import Effect, effect_class, effect_kinds
+from stochfric_mb.effects.traits import ANONYMOUS, BELT
+from stochfric_mb.errors import InputError
+from stochfric_mb.measurement.dataset import Dataset
+from stochfric_mb.measurement.run import Run
+from stochfric_mb.mechanisms import HingePendulum, PrismaticJoint
+from stochfric_mb.scenario import Scenario
+
+SHARE_OF_STROKE, SHARE_OF_FRICTION = 1.0e-4, 0.01
+"""Noise of sensors of which nobody said how good they are, over the stroke and over the friction [-]."""
+RICHER = {"direction": "strokes both ways", "load": "a measured load that varies", "temperature": "a measured temperature"}
+"""Condition that effects answer to -> what a run must have to show them."""
+FEWEST_CYCLES = 3.0
+"""Strokes there and back below which a run says too little [-]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class JointPart:
+    """One planned run of a joint."""
+
+    run: PlannedRun
+    """The run, its noise stated."""
+    measured: Run
+    """What would be measured as believed."""
+
+    def facts(self) -> dict[str, Any]:
+        """Return what there is to say of it."""
+        run = self.run
+        about = {"name": run.name, "seconds": run.duration, "sample_rate": run.sample_rate, "noise": run.noise}
+        return about | {"force_noise": run.force_noise, "stroke": run.stroke, "period": run.period, "set": dict(run.settings)}
+
+
+@dataclasses.dataclass(frozen=True)
+class JointPlan:
+    """Planned runs of a driven joint."""
+
+    scenario: Scenario[Any]
+    """What is believed."""
+
+    def part(self, run: PlannedRun, seed: int) -> JointPart:
+        """Return a planned run, simulated.
+
+        Raises:
+            InputError: no motion is planned, or the mechanism needs a channel that is not planned.
+        """
+        joint: PrismaticJoint | HingePendulum = self.scenario.mechanism
+        if run.stroke is None or run.period is None:
+            raise InputError(
+                f"{run.name}: a driven joint needs its motion; plan stroke and period, such as --run stroke=0.1,period=2"
+            )
+        if run.duration < FEWEST_CYCLES * run.period:
+            raise InputError(
+                f"{run.name}: {run.duration:g} s are {run.duration / run.period:.3g} periods; plan "
+                f"{FEWEST_CYCLES * run.period:g} s or more"
+            )
+        if run.settings:
+            raise InputError(f"{run.name}: set = {dict(run.settings)!r}; at a joint plan stroke, period, duration and noise")
+        if getattr(joint, "piston_area", 0.0):
+            raise InputError(f"{run.name}: a pressure cannot be planned; leave piston_area out of the scenario for the plan")
+        friction = self.scenario.law.mu_k * joint.normal_force
+        noise = SHARE_OF_STROKE * run.stroke if run.noise is None else run.noise
+        force_noise = SHARE_OF_FRICTION * friction if run.force_noise is None else run.force_noise
+        stated = dataclasses.replace(run, noise=noise, force_noise=force_noise)
+        return JointPart(stated, _measured(stated, joint, friction, seed))
+
+    def signatures(self, parts: Sequence[JointPart]) -> tuple[list[Signature], dict[str, str]]:
+        """Return what effects would leave in some runs, and effect -> what would show it, for those that leave nothing."""
+        scenario = self.scenario
+        source = source_of(Dataset(title="", scenario_path=None, scenario=scenario, runs=tuple(p.measured for p in parts)))
+        name, load = source.places[0]
+        balances, nuisances = source.balances(name, "fit", 0.0), source.nuisances(name)
+        fitted = Selector(balances, nuisances, prior_model(scenario, name, nuisances, load)).recalibrated
+        span = span_of(balances, fitted.model.law.mu_k * load, load)
+        tried = candidates(span, fitted.model.effects)
+        forms = [
+            form
+            for candidate in tried
+            for effect in candidate.starts
+            if (form := _form(candidate, effect, balances, fitted, len(tried))) is not None
+        ]
+        richer = dataclasses.replace(span, both_ways=True, load=load, temperature=(20.0, 10.0))
+        missing = {c.kind for c in candidates(richer, fitted.model.effects)} - {c.kind for c in tried}
+        return forms, {k: RICHER.get(effect_class(k).answers_to, "another motion") for k in effect_kinds() if k in missing}
+
+    @property
+    def no_limit(self) -> tuple[str, ...]:
+        """Return the effects that a joint may have: those without a signature have no limit."""
+        return tuple(k for k in effect_kinds() if not {ANONYMOUS, BELT} & effect_class(k).traits)
+
+    def extra_runs(self, first: PlannedRun) -> list[tuple[str, PlannedRun]]:
+        """Return runs that may be added, each with its words."""
+        again = dataclasses.replace(first, name="extra run")
+        stroke, period = first.stroke or 1.0, first.period or 1.0
+        quiet = None if first.force_noise is None else 0.5 * first.force_noise
+        runs = [
+            (f"another {first.duration:g} s as in {first.name}", again),
+            (f"a run twice as fast, period = {0.5 * period:.3g} s", dataclasses.replace(again, period=0.5 * period)),
+            (
+                f"a run five times as slow, period = {5.0 * period:.3g} s, for {5.0 * first.duration:g} s",
+                dataclasses.replace(again, period=5.0 * period, duration=5.0 * first.duration),
+            ),
+            (f"a run with twice the stroke, {2.0 * stroke:.3g}", dataclasses.replace(again, stroke=2.0 * stroke)),
+        ]
+        if quiet is not None:
+            runs.append((f"a run with a force sensor of noise {quiet:.3g}", dataclasses.replace(again, force_noise=quiet)))
+        return runs
+
+
+def _measured(run: PlannedRun, joint: PrismaticJoint | HingePendulum, friction: float, seed: int) -> Run:
+    """Return what would be measured: a harmonic motion and the drive that the believed model needs for it."""
+    given = run.stroke, run.period, run.noise, run.force_noise
+    stroke, period, noise, force_noise = (float(x or 0.0) for x in given)
+    step, generator = 1.0 / run.sample_rate, np.random.default_rng(seed)
+    time = np.asarray(step * np.arange(round(run.duration * run.sample_rate)), dtype=np.float64)
+    rate = 2.0 * math.pi / period
+    q = joint.initial_position + 0.5 * stroke * np.sin(rate * time)
+    velocity, acceleration = 0.5 * stroke * rate * np.cos(rate * time), -(rate**2) * (q - joint.initial_position)
+    drive = joint.damping * velocity + joint.offset + friction * np.sign(velocity)
+    if isinstance(joint, PrismaticJoint):
+        drive, name, gain = drive + joint.mass * acceleration, "force", joint.force_gain
+    else:
+        inertia = joint.mass * joint.length**2 + joint.inertia
+        drive = drive + inertia * acceleration + joint.mass * joint.gravity * joint.length * np.sin(q)
+        name, gain = "torque", joint.torque_gain
+    drive = drive + force_noise * generator.standard_normal(len(q))
+    channels = {
+        "position": q + noise * generator.standard_normal(len(q)),
+        "voltage" if gain else name: drive / (gain or 1.0),
+    }
+    return Run(name=run.name, role="fit", time=time, channels=channels, settings=run.settings, sample_interval=step)
+
+
+def _form(candidate: Candidate, effect: Effect, balances: Any, fitted: JointFit, kinds: int) -> Signature | None:
+    """Return one start of a candidate at its limit; None: the numbers of the believed model imitate it.
+
+    Its score is n ln(1 + x) less its cost, x the share of the mean square that it takes away over what stays; it must also
+    lower the error by `MATERIAL`.
+    """
+    name = _size_of(effect)
+    if not getattr(effect, name):
+        effect = dataclasses.replace(effect, **{name: effect.__dataclass_fields__[name].metadata["scale"]})
+    columns = effect_columns(fitted.model, effect, balances)
+    rows, _ = prior_rows(fitted, prior_weight(fitted))
+    known = np.vstack([fitted.jacobian, rows])
+    basis, _ = np.linalg.qr(known / np.maximum(np.linalg.norm(known, axis=0), 1.0e-300))
+    padded = np.vstack([columns, np.zeros((len(rows), columns.shape[1]))])
+    left = padded - basis @ (basis.T @ padded)
+    change = left[:, 0]
+    size = float(change @ change)
+    if size <= 1.0e-9 * float(np.sum(columns**2)):
+        return None
+    n = max(fitted.independent, 4.0)
+    needed = NAMED + candidate.parameters * math.log(n) + 2.0 * math.log(len(candidate.starts) * kinds)
+    share = max(math.expm1(needed / n), 1.0 / (1.0 - MATERIAL) ** 2 - 1.0)
+    strength = math.sqrt(share * len(columns) * fitted.rms**2 / size)
+    numbers = {f.name: getattr(effect, f.name) for f in dataclasses.fields(effect)}
+    limit = abs(strength * numbers.pop(name))
+    beside = {k: v for k, v in numbers.items() if v != effect.__dataclass_fields__[k].default and k not in effect.own_to_run}
+    signal = change * math.sqrt(needed / size)
+    return Signature(candidate.kind, name, effect.unit_of(name), limit, beside, (signal,), left)
+
+
+def _size_of(effect: Effect) -> str:
+    """Return the parameter that is the size of one form of an effect."""
+    own = [f.name for f in dataclasses.fields(effect) if getattr(effect, f.name) != f.default]
+    sizes = [name for name in SIZES if hasattr(effect, name)]
+    moved = [name for name in (*sizes, *own) if getattr(effect, name)]
+    return next(iter(moved or sizes or own))

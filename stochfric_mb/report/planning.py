@@ -1,0 +1,39 @@
+"""The page of a plan: every number in it stands in ``plan.json``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from stochfric_mb.report.discovery import words
+from stochfric_mb.report.page import render
+
+UNITS = {"wavelength": "m", "frequency": "Hz", "decay_velocity": "m/s", "time_constant": "s", "position": "m"}
+"""Numbers that a limit belongs to, and their units at rigs that slide."""
+
+
+def plan_page(content: Mapping[str, Any], title: str, command: str) -> str:
+    """Return the page of a plan.
+
+    Args:
+        content: what ``plan.json`` holds.
+        title: title of the scenario.
+        command: the command that made it.
+    """
+    return render("planning.html", plan=content, title=title, command=command, words=words, beside=beside, pair_text=pair_text)
+
+
+def beside(limit: Mapping[str, Any]) -> str:
+    """Return the numbers that a detection limit belongs to, in words."""
+    shown = {k: v for k, v in limit["beside"].items() if not k.startswith("phase")}
+    parts = [
+        f"{words(k)} {v}" if isinstance(v, str) else f"{words(k)} {v:.3g} {UNITS.get(k, '')}".rstrip() for k, v in shown.items()
+    ]
+    return ", ".join(parts)
+
+
+def pair_text(pair: Mapping[str, Any]) -> str:
+    """Return two effects that are not told apart, and from which size on they are, in words."""
+    multiple = pair["told_apart_from"]
+    until = "at any size" if multiple is None else f"below {multiple:.2g} times their limits"
+    return f"{words(pair['first'])} and {words(pair['second'])}, {until}"
