@@ -67,7 +67,7 @@ class Augmented(Law):
     equation: ClassVar[str] = "the law inside, with motion, normal force and coefficients as the effects change them"
     source: ClassVar[str] = "the sources of the law inside and of the effects"
     state_names: ClassVar[tuple[str, ...]] = tuple(f"state_{i}" for i in range(MAX_STATE))
-    traceable: ClassVar[bool] = False
+    with_effects: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from exudyn.itemInterface import CoordinateSpringDamper
 
 from stochfric_mb.errors import InputError, require_number
@@ -15,7 +14,6 @@ from stochfric_mb.exudyn import pointers
 from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
 from stochfric_mb.exudyn.normal import Normal, as_normal
 from stochfric_mb.exudyn.plane import PlaneContact
-from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, force_expression, lower
 from stochfric_mb.exudyn.turning import TurningContact, must_turn
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
@@ -48,8 +46,8 @@ def add_friction(
     its velocity is that of the body's material there relative to the counter-surface's, so that turntables, drums, balls and
     wheels are right. Forces and torques act at that point on both bodies.
 
-    Compiled code (or a symbolic user function, see `pointers`) evaluates the law, so that it runs without Python in every
-    solver; the state is committed after each accepted step, in the system's PostStep function, which calls the one that was
+    Compiled code evaluates the law, which the engine calls without Python where its build allows it (see `pointers`); the
+    state is committed after each accepted step, in the system's PostStep function, which calls the one that was
     there. A simulation that starts again starts with fresh friction.
 
     Args:
@@ -121,13 +119,15 @@ class CoordinateContact(FrictionContact):
     ) -> None:
         super().__init__(mbs, friction, normal, **options)
         self._markers = markers
+        self.route = pointers.route()
         self._own = np.zeros(4)
         self._numbers[at.SURFACE_VELOCITY] = require_number("surface_velocity", surface_velocity, unit="m/s")
-        function, names = line_function_of(self)
         self.object = mbs.AddObject(
-            CoordinateSpringDamper(markerNumbers=list(markers), stiffness=self.where, springForceUserFunction=function)
+            CoordinateSpringDamper(
+                markerNumbers=list(markers), stiffness=self.where, springForceUserFunction=pointers.line_function()
+            )
         )
-        self._begin(names)
+        self._begin()
 
     def _forces(self) -> tuple[float, float]:
         return -float(self._mbs.GetObjectOutput(self.object, OUTPUT.Force)), 0.0
@@ -158,42 +158,6 @@ class CoordinateContact(FrictionContact):
 
     def _bind_own(self) -> None:
         bind_own(self._words, self._own)
-
-    def _function(self, force: Any) -> Any:
-        """Return the symbolic user function: the connector's force is what pulls marker 1 back, minus the friction."""
-        surface = float(self._numbers[at.SURFACE_VELOCITY])
-
-        def minus_friction(mbs, t, itemNumber, displacement, velocity, stiffness, damping, offset):
-            u = surface * t - displacement if surface else -displacement
-            v = surface - velocity if surface else -velocity
-            return -lower(force, {**self._symbols, TIME: t, DISPLACEMENT: u, VELOCITY: v})
-
-        return CreateSymbolicUserFunction(
-            self._mbs,
-            function=minus_friction,
-            userFunctionName="springForceUserFunction",
-            itemTypeName="ObjectConnectorCoordinateSpringDamper",
-        )
-
-
-def line_function_of(contact: Any) -> tuple[Any, tuple[str, ...]]:
-    """Return the user function of a contact along a line, and the variables that it is given after each step.
-
-    Compiled code, which takes the contact's address for its connector's ``stiffness``; where the engine does not call such: an
-    expression, or for laws that call others by their addresses, for true stick and for turns the compiled code from Python.
-    """
-    if (function := pointers.line_function()) is not None:
-        contact._words[at.COMPILED] = int(not contact.true_stick)
-        contact.route = "compiled"
-        return function, ()
-    normal, friction = contact._normal, contact.friction
-    if not friction.law.traceable or contact.true_stick or contact._numbers[at.PERIOD] > 0.0:
-        return pointers.line_in_python, ()
-    n = None if normal.changes else normal.at(0.0)
-    expression = force_expression(friction.law, friction.process, n, contact.given_mass)
-    contact._make_symbols(expression.names)
-    contact.route = "symbolic"
-    return contact._function(expression.force), expression.names
 
 
 def bind_own(words: Any, own: Any) -> None:

@@ -16,9 +16,8 @@ from stochfric_mb.effects.carry import reported, running_law
 from stochfric_mb.errors import InputError, SimulationError, StabilityError, require_number
 from stochfric_mb.exudyn.attach import add_friction
 from stochfric_mb.exudyn.contact import FrictionContact
-from stochfric_mb.exudyn.hooks import installed
+from stochfric_mb.exudyn.hooks import installed, symbolic
 from stochfric_mb.exudyn.solve import EXPLICIT, silent_settings, solve_dynamic
-from stochfric_mb.exudyn.symbolic import symbolic
 from stochfric_mb.friction import Friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mechanisms import BeltBox
@@ -98,8 +97,6 @@ def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, dt: float, solv
     box = scenario.mechanism
     dt = require_number("dt", dt, above=0.0, unit="s")
     law, notes = running_law(scenario.law, box, scenario.effects, dt, substitute=True, seed=seed, sample=sample)
-    if not law.traceable:
-        notes.append("effects: Exudyn calls the law through Python at each evaluation, which is slower than a symbolic law")
     _check_step(scenario, law, dt, explicit=solver in EXPLICIT)
     mbs, mass, ground, slide = without_friction(box)
     contact = add_friction(

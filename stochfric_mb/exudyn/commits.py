@@ -11,7 +11,6 @@ import weakref
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import llvmlite.binding as llvm
 import numpy as np
 import numpy.typing as npt
 from numba import carray, types  # pyright: ignore[reportPrivateImportUsage]
@@ -113,11 +112,8 @@ def _function() -> Any:
             ret i1 %on
         }}
         """
-    module = llvm.parse_assembly(text)
-    engine = llvm.create_mcjit_compiler(module, llvm.Target.from_default_triple().create_target_machine())
-    engine.finalize_object()
-    _alive.extend([inner, engine])
-    return pointers.step_function(engine.get_function_address("post_step"), _in_python)
+    _alive.append(inner)
+    return pointers.step_function(pointers.machine_code(text, "post_step"), _in_python)
 
 
 _alive: list[Any] = []

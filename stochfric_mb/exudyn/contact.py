@@ -20,8 +20,7 @@ from stochfric_mb.exudyn.hooks import Hooks
 from stochfric_mb.exudyn.location import FINE, SHORTEST, locate
 from stochfric_mb.exudyn.mass import effective_masses
 from stochfric_mb.exudyn.normal import NO_REACTION, Normal, TimedNormal
-from stochfric_mb.exudyn.stepping import CHANGED, FETCH, LOST, RECORDED, RESTARTED, WATCH, advance, proceed
-from stochfric_mb.exudyn.symbolic import MASS, NORMAL_LINE, live_names, symbolic
+from stochfric_mb.exudyn.stepping import FETCH, LOST, RECORDED, RESTARTED, WATCH, advance, proceed
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.laws.abi import MAX_STATE, native_law
@@ -71,11 +70,7 @@ class FrictionContact:
         self._numbers[[at.MASS, at.RADIUS]] = self.given_mass or 1.0, 1.0
         self._numbers[at.NORMAL_FORCE] = self._numbers[at.GIVEN_NORMAL] = 0.0 if normal.changes else normal.at(0.0)
         self._records = np.empty((0, at.RECORD_COLUMNS))
-        self._names = live_names(law)
-        self._live = self._numbers[at.LIVE : at.LIVE + len(self._names)]
-        self._symbols: dict[str, Any] = {}
-        self._places: list[tuple[int, Any]] = []
-        self._given = [math.nan] * len(self._names)
+        self._words[at.HELD] = int(self.true_stick)
         self._unsure = self._after_jump = False
         self._refined = (math.nan, 0)
         self.where = int(self._words.ctypes.data)
@@ -87,7 +82,7 @@ class FrictionContact:
     true_stick = False
     """Whether a constraint holds the contact while it sticks."""
     route = "Python"
-    """What evaluates the law within a step: "compiled" code, a "symbolic" expression, or "Python" that calls compiled code."""
+    """What evaluates the law within a step: "compiled" code, or "Python" that calls it."""
     is_load = False
     """Whether the force is a load, which implicit solvers differentiate only where they are told to."""
 
@@ -145,7 +140,7 @@ class FrictionContact:
     @property
     def state(self) -> npt.NDArray[np.float64]:
         """The law's committed state, shape (n_state,)."""
-        return self._numbers[at.LIVE : at.LIVE + self._words[at.N_STATE]].copy()
+        return self._numbers[at.STATE : at.STATE + self._words[at.N_STATE]].copy()
 
     @property
     def needs_reactions(self) -> bool:
@@ -188,7 +183,6 @@ class FrictionContact:
         proceed(start, self.where)
         locate(start, self.where)  # compiled now rather than in the middle of a run
         advance(start, self.where)
-        self._pass_on()
         self._words[[at.STARTED, at.NEXT_RECORD]] = 0
 
     def record(self, times: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -221,13 +215,9 @@ class FrictionContact:
                 f"a step that ends at t = {t:g} s crosses more than one knot of the coefficients; "
                 "use a step below their spacing"
             )
-        if bits & RESTARTED:
-            self._pass_on()
         if bits & RECORDED:
             row = self._words.item(at.NEXT_RECORD) - 1
             self._records[row, 3], self._records[row, 10] = self._forces()
-        if bits & CHANGED:
-            self._pass_on()
         return bool(bits & (WATCH | RESTARTED)) or was_unsure
 
     def refine(self, t: float) -> bool:
@@ -241,8 +231,7 @@ class FrictionContact:
         at_t, count = self._refined
         count = count + 1 if t == at_t else 1
         self._refined = (t, count)
-        line = self._names.index(NORMAL_LINE[0])
-        used = max(self._live[line] + self._live[line + 1] * t, 0.0)
+        used = max(numbers[at.LINE] + numbers[at.LINE + 1] * t, 0.0)
         settled = abs(now - used) <= REACTION_TOLERANCE * max(now, used, SMALL_REACTION * numbers[at.LARGEST_NORMAL])
         if settled or count > REPEATS:
             return False
@@ -251,8 +240,7 @@ class FrictionContact:
             self.guess_normal(now)
         else:
             rate = (now - numbers[at.NORMAL_FORCE]) / h
-            self._live[line], self._live[line + 1] = now - rate * t, rate
-            self._pass_on()
+            numbers[[at.LINE, at.LINE + 1]] = now - rate * t, rate
         return True
 
     def guess_normal(self, force: float | None) -> None:
@@ -261,10 +249,7 @@ class FrictionContact:
             if not self._normal.reaction:
                 return
             force = self._normal.at(0.0)
-        self._numbers[[at.NORMAL_FORCE, at.GIVEN_NORMAL, at.GIVEN_RATE]] = force, force, 0.0
-        line = self._names.index(NORMAL_LINE[0])
-        self._live[line], self._live[line + 1] = force, 0.0
-        self._pass_on()
+        self._numbers[[at.NORMAL_FORCE, at.GIVEN_NORMAL, at.GIVEN_RATE, at.LINE, at.LINE + 1]] = force, force, 0.0, force, 0.0
 
     def recommended_step(self, t: float) -> float:
         """Return the step [s] that ends at the law's next switch or the next grid point, or -1 to accept this one."""
@@ -304,8 +289,7 @@ class FrictionContact:
                 )
             return
         if self.given_mass is None:
-            self._numbers[at.MASS] = self._live[self._names.index(MASS)] = masses[0]
-            self._pass_on()
+            self._numbers[at.MASS] = masses[0]
         elif self.given_mass > TOO_LARGE * masses[-1]:
             raise InputError(
                 f"effective_mass = {self.given_mass:g} kg, but this contact feels {masses[-1]:.4g} kg by the system's mass "
@@ -359,28 +343,13 @@ class FrictionContact:
         """Say whether steps are to end where the law switches."""
         self._words[at.LOCATING] = int(on)
 
-    def _begin(self, names: tuple[str, ...] = ()) -> None:
-        """Join the system's hooks; ``names``: the variables that the engine is given after each step."""
-        self._places = [(self._names.index(name), self._symbols[name]) for name in names]
+    def _begin(self) -> None:
+        """Join the system's hooks."""
         self._words[at.ASK_FIRST] |= int(self._normal.changes)
         (self._mbs.SetLoadParameter if self._on_load else self._mbs.SetObjectParameter)(self.object, "name", self._name)
         self._hooks.contacts.append(self)
         self._hooks.install(locate=False)
         self.reset()
-
-    def _make_symbols(self, names: tuple[str, ...]) -> dict[str, Any]:
-        self._symbols = {name: symbolic.Real(name, 0.0) for name in names}
-        return self._symbols
-
-    def _pass_on(self) -> None:
-        """Set those of the engine's parameters that have changed."""
-        wanted, given = self._live.tolist(), self._given
-        if wanted == given:
-            return
-        for place, symbol in self._places:
-            if wanted[place] != given[place]:
-                symbol.SetValue(wanted[place])
-        self._given = wanted
 
     def _read_normal(self, t: float) -> None:
         """Take the normal force at the end of the step, and the rate at which it is likely to change in the next one."""

@@ -20,11 +20,10 @@ from stochfric_mb.exudyn.layout import (
     FORCE,
     HOLD,
     LAW,
-    LIVE,
+    LINE,
     MASS,
     N_LAW,
     N_NUMBERS,
-    N_STATE,
     N_WORDS,
     NEW,
     NORMAL,
@@ -43,6 +42,7 @@ from stochfric_mb.exudyn.layout import (
     SPIN_BEFORE,
     SPUN,
     STARTED,
+    STATE,
     STEP,
     STIFFNESS,
     STUCK,
@@ -99,8 +99,7 @@ def normal_force_at(t, numbers, words):
     """Return the normal force [N] that the engine uses at time t: penalty, or the line on from the last step."""
     if words[PENALTY] == 1:
         return penalty(numbers)
-    line = LIVE + words[N_STATE] + 2
-    return max(numbers[line] + numbers[line + 1] * t, 0.0)
+    return max(numbers[LINE] + numbers[LINE + 1] * t, 0.0)
 
 
 @compiled_inline
@@ -130,7 +129,7 @@ def pair_at(t, u, numbers, words):
 def ask(address, t, motion, n, pair, numbers, into):
     """Call a function of the law with the committed state; its output goes to ``numbers[into:]``."""
     at = numbers.ctypes.data
-    state, p, out = at + 8 * LIVE, at + 8 * LAW, at + 8 * into
+    state, p, out = at + 8 * STATE, at + 8 * LAW, at + 8 * into
     ux, uy, vx, vy = motion
     m, hold = numbers[MASS], numbers[HOLD]
     call_law(address, t, ux, uy, vx, vy, n, pair[0], pair[1], m, hold, 0.0, state, p, out)  # pyright: ignore[reportCallIssue]
@@ -150,6 +149,26 @@ def pull(t, displacement, velocity, address):
     ask(words[FORCE], t, (u, 0.0, w - r * velocity, 0.0), n, pair_at(t, u, numbers, words), numbers, NEW)
     numbers[HOLD] = hold
     return -r * numbers[NEW]
+
+
+@compiled
+def plane_pull(t, displacement, velocity, address, out):
+    """Put what a connector between positions pulls marker 1 back with [N], global, into ``out``: minus friction and contact.
+
+    ``displacement`` [m] and ``velocity`` [m/s] of marker 1 relative to marker 0, and ``out``, are shape (3,).
+    """
+    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    for i in range(3):
+        numbers[DISTANCE + i], numbers[RATE + i], out[i] = displacement[i], velocity[i], 0.0
+    n = normal_force_at(t, numbers, words)
+    if n <= 0.0:
+        return
+    motion = kinematics(t, numbers, words)
+    ask(words[FORCE], t, motion, n, pair_at(t, motion[0], numbers, words), numbers, NEW)
+    press = n if words[PENALTY] == 1 else 0.0
+    for i in range(3):
+        out[i] = -(numbers[NEW] * numbers[AXIS_1 + i] + numbers[NEW + 1] * numbers[AXIS_2 + i] + press * numbers[NORMAL + i])
 
 
 @compiled

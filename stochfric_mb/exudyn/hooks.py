@@ -6,11 +6,14 @@ import contextlib
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, Protocol
 
+import exudyn
+
 from stochfric_mb.exudyn import methods
 from stochfric_mb.exudyn.commits import Commits
 from stochfric_mb.exudyn.stepping import advance
-from stochfric_mb.exudyn.symbolic import symbolic
 
+symbolic: Any = exudyn.symbolic  # pyright: ignore[reportAttributeAccessIssue]  # a compiled submodule
+"""Exudyn's symbols."""
 SWITCH_ERROR = 10.0
 """Error that makes Exudyn repeat a step with the recommended size (its tolerance is set below it)."""
 

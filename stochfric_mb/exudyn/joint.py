@@ -7,15 +7,14 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from exudyn.itemInterface import LinearSpringDamper, MarkerBodyRigid, TorsionalSpringDamper
 
 from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.exudyn import layout as at
-from stochfric_mb.exudyn.attach import bind_own, line_function_of
+from stochfric_mb.exudyn import pointers
+from stochfric_mb.exudyn.attach import bind_own
 from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
 from stochfric_mb.exudyn.normal import Normal, ReactionNormal, as_normal
-from stochfric_mb.exudyn.symbolic import DISPLACEMENT, TIME, VELOCITY, lower
 from stochfric_mb.exudyn.turning import with_orientation
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
@@ -117,7 +116,7 @@ class JointContact(FrictionContact):
         self._velocity = OUTPUT.AngularVelocityLocal if self._turns else OUTPUT.VelocityLocal
         self._reaction = OUTPUT.TorqueLocal if self._turns else OUTPUT.ForceLocal
         markers = [with_orientation(mbs, m) for m in entry["markerNumbers"]]
-        function, names = line_function_of(self)
+        function, self.route = pointers.line_function(), pointers.route()
         if self._turns:
             cycle = _CYCLES[free - 3]  # the connector turns about z
             rotations = [np.asarray(entry.get(f"rotationMarker{i}", np.eye(3))) @ cycle for i in range(2)]
@@ -135,7 +134,7 @@ class JointContact(FrictionContact):
             )
         self._markers = tuple(markers)
         self.object = mbs.AddObject(connector)
-        self._begin(names)
+        self._begin()
 
     @property
     def torque(self) -> float:
@@ -153,23 +152,6 @@ class JointContact(FrictionContact):
         """Take angle or displacement, and its rate, from the connector."""
         self._own[1] = self._mbs.GetObjectOutput(self.object, self._displacement)
         self._own[3] = self._mbs.GetObjectOutput(self.object, self._velocity)
-
-    def _function(self, force: Any) -> Any:
-        """Return the symbolic user function: the torque or force that pulls the second body back, minus the friction."""
-        r, name = self._radius, "Torsional" if self._turns else "Linear"
-
-        def minus_friction(mbs, t, itemNumber, displacement, velocity, stiffness, damping, offset):
-            return -lower(force, {**self._symbols, TIME: t, DISPLACEMENT: -r * displacement, VELOCITY: -r * velocity}) * r
-
-        def minus_torque(mbs, t, itemNumber, rotation, angularVelocity, stiffness, damping, offset):
-            return minus_friction(mbs, t, itemNumber, rotation, angularVelocity, stiffness, damping, offset)
-
-        return CreateSymbolicUserFunction(
-            self._mbs,
-            function=minus_torque if self._turns else minus_friction,
-            userFunctionName="springTorqueUserFunction" if self._turns else "springForceUserFunction",
-            itemTypeName=f"ObjectConnector{name}SpringDamper",
-        )
 
 
 def _axes_along(axis: Any) -> Any:

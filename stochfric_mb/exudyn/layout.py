@@ -22,10 +22,8 @@ NORMAL_FORCE, MASS, STICK_SPEED, HAS_MODE = 9, 10, 11, 12
 """Normal force [N] at the last accepted step, mass that the contact feels [kg], and two properties of the law."""
 STEP, START = 13, 14
 """The solver's step [s] and start time [s], which span the grid that steps keep to."""
-WINDOW = 15
-"""Knot in the middle of the engine's window on the path."""
-SAFE, SAFE_WIDTH = 16, 17
-"""Middle and half width of the stretch, of time or displacement, in which the window stays."""
+LINE = 15
+"""The normal force of the next step is on a line in time: its value [N] at time 0 and its slope [N/s]."""
 REACH = 18
 """Longest time to the next step [s] after which the engine's coordinates are taken to be where they were."""
 SURFACE_VELOCITY, SURFACE_VELOCITY_2 = 19, 20
@@ -60,13 +58,10 @@ PERIOD = GUARDS_BEFORE + 9
 PAIR = GUARDS_BEFORE + 10
 """Time [s], mu_s and mu_k of the last coefficients asked for that depend on time alone: solvers ask several times for one."""
 CURSOR_AT = PAIR + 3
-WINDOW_CURSOR_AT = CURSOR_AT + CURSOR
-"""Cursors on the path: of the coefficients now, and of the engine's window."""
-LIVE = WINDOW_CURSOR_AT + CURSOR
-"""State, pair, line of the normal force, segment and mass, in the order of `symbolic.live_names`, as the engine should
-have them."""
-N_LIVE_MAX = MAX_STATE + 2 + 2 + 9 + 1
-LAW = LIVE + N_LIVE_MAX
+"""Cursor on the path of coefficients, where the last ones were asked for."""
+STATE = CURSOR_AT + CURSOR
+"""The law's committed state."""
+LAW = STATE + MAX_STATE
 """The law's parameter vector, then the path's descriptor."""
 
 # entries of ``words``
@@ -81,8 +76,8 @@ STARTED, ASK_FIRST, LOCATING, WATCHING = 17, 18, 19, 20
 """Whether the contact has begun, its coordinates must be fetched first, steps are located, and one may switch soon."""
 PLANE, PENALTY, FORCE = 21, 22, 23
 """Whether it slides in a plane, whether the normal force follows from the penetration, address of the law's force."""
-COMPILED = 24
-"""Whether the engine runs the law's compiled force: it needs no numbers passed on, and samples need no force from it."""
+HELD = 24
+"""Whether a constraint may hold the contact, so that samples need the force from the engine."""
 N_WORDS = 25
 
 RECORD_COLUMNS = 11

@@ -90,8 +90,10 @@ class CoordinateLoad(_Load):
         self._markers, self._own, self._zero = (marker,), np.zeros(4), np.zeros(1)
         self._numbers[at.SURFACE_VELOCITY] = require_number("surface_velocity", surface_velocity, unit="m/s")
         bind_own(self._words, self._own)
-        function = pointers.load_function() or pointers.load_in_python
-        self.object = mbs.AddLoad(LoadCoordinate(markerNumber=marker, load=self.where, loadUserFunction=function))
+        self.route = pointers.route()
+        self.object = mbs.AddLoad(
+            LoadCoordinate(markerNumber=marker, load=self.where, loadUserFunction=pointers.load_function())
+        )
         self._begin()
 
     def connect(self) -> None:

@@ -1,31 +1,49 @@
-"""User functions of Exudyn that are compiled code, called by their addresses: neither Python nor expressions in a step.
+"""User functions of Exudyn that are compiled code, called by their addresses, so that no Python runs in a step.
 
 pybind11, with which Exudyn is made, turns a Python callable into a C++ function. Where the callable is one of its own plain
 functions with the very type that is wanted, it takes the function's address instead. Such a callable is made here for a
 compiled function. What tells pybind11 that a callable is its own is private to it, so nothing is assumed: the place of each
 entry is looked up in a function of Exudyn's own, and a small system must show that the address is called. Where it is not
-(other builds, systems other than Linux) the functions here return None, and symbolic or Python functions serve.
+(other builds, systems other than Linux) Python functions call the same compiled code.
 """
 
 from __future__ import annotations
 
 import ctypes
 import functools
+import platform
 import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import exudyn
-from exudyn.itemInterface import CoordinateSpringDamper, LoadCoordinate, MarkerNodeCoordinate, Mass1D, Node1D, NodePointGround
-from numba import types
+import llvmlite.binding as llvm
+import numpy as np
+from exudyn.itemInterface import (
+    CartesianSpringDamper,
+    CoordinateSpringDamper,
+    LoadCoordinate,
+    MarkerBodyPosition,
+    MarkerNodeCoordinate,
+    MarkerNodePosition,
+    Mass1D,
+    MassPoint,
+    Node1D,
+    NodePoint,
+    NodePointGround,
+    ObjectGround,
+)
+from numba import carray, types  # pyright: ignore[reportPrivateImportUsage]
 
 from stochfric_mb.compile import native
-from stochfric_mb.exudyn.contact_force import load_force, pull
+from stochfric_mb.exudyn.contact_force import load_force, plane_pull, pull
 from stochfric_mb.exudyn.layout import put_word
 
 LINE, LOAD, STEP = b"PFdRK10MainSystemdidddddE", b"PFdRK10MainSystemddE", b"PFbRK10MainSystemdE"
-"""Types of user functions as C++ names them: connectors along a line or about an axis, loads on a coordinate, steps."""
+PLANE = b"PFSt5arrayIdLm3EERK10MainSystemdiS0_S0_S0_S0_S0_E"
+"""Types of user functions as C++ names them: connectors along a line or about an axis, loads on a coordinate, steps, and
+connectors between positions."""
 _SYSTEM_AT = 2
 """Word of a Python system with the address of the engine's."""
 _KNOWN, _KNOWN_TYPE = "Help", b"PFvvE"
@@ -38,6 +56,8 @@ _VARIABLE_ARGUMENTS = 1
 _PYTHON = ctypes.PYFUNCTYPE(ctypes.py_object, ctypes.py_object, ctypes.py_object)
 _LINE_SIGNATURE = types.float64(types.intp, types.float64, types.int32, *[types.float64] * 5)
 _LOAD_SIGNATURE = types.float64(types.intp, types.float64, types.float64)
+_VECTOR = types.CPointer(types.float64)
+_PLANE_SIGNATURE = types.void(types.float64, _VECTOR, _VECTOR, types.float64, _VECTOR)
 _alive: list[Any] = []
 
 
@@ -45,31 +65,29 @@ class _MethodDef(ctypes.Structure):
     _fields_ = (("name", ctypes.c_char_p), ("call", ctypes.c_void_p), ("flags", ctypes.c_int), ("doc", ctypes.c_char_p))
 
 
-@functools.cache
+def route() -> str:
+    """Return how the functions below are called: "compiled", by their addresses, or "Python"."""
+    return "compiled" if calls_addresses() else "Python"
+
+
 def line_function() -> Any:
-    """Return the user function of connectors along a line whose ``stiffness`` is the address of a contact; None: not here."""
-    return _checked(LINE, native(_line, _LINE_SIGNATURE), line_in_python)
+    """Return the user function of connectors along a line whose ``stiffness`` is the address of a contact."""
+    return _compiled_line() if calls_addresses() else _line_in_python
 
 
-def line_in_python(mbs: Any, t: float, item: Any, displacement: float, velocity: float, where: float, *_: Any) -> float:
-    """Return the same as `line_function` gives, called by Python."""
-    return pull(t, displacement, velocity, int(where))
+def plane_function() -> Any:
+    """Return the user function of connectors between positions whose first ``stiffness`` is the address of a contact."""
+    return _compiled_plane() if calls_addresses() else _plane_in_python
 
 
-@functools.cache
 def load_function() -> Any:
-    """Return the user function of loads on a coordinate whose ``load`` is the address of a contact; None: not here."""
-    return _checked(LOAD, native(_load, _LOAD_SIGNATURE), load_in_python)
-
-
-def load_in_python(mbs: Any, t: float, load: float) -> float:
-    """Return the same as `load_function` gives, called by Python."""
-    return load_force(t, int(load))
+    """Return the user function of loads on a coordinate whose ``load`` is the address of a contact."""
+    return _compiled_load() if calls_addresses() else _load_in_python
 
 
 def step_function(address: int, python: Callable[..., bool]) -> Any:
     """Return the function around steps that is compiled at an address; None: not here."""
-    return _callable(STEP, address, python) if _calls_addresses() else None
+    return _callable(STEP, address, python) if calls_addresses() else None
 
 
 def system_address(mbs: Any) -> int:
@@ -77,7 +95,19 @@ def system_address(mbs: Any) -> int:
     return int((ctypes.c_uint64 * (_SYSTEM_AT + 1)).from_address(id(mbs))[_SYSTEM_AT])
 
 
+def machine_code(text: str, name: str) -> int:
+    """Return the address of a function of that name in LLVM's language."""
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(text), llvm.Target.from_default_triple().create_target_machine())
+    engine.finalize_object()
+    _alive.append(engine)
+    return engine.get_function_address(name)
+
+
 def _line(mbs, t, item, displacement, velocity, where, damping, offset):
+    return pull(t, displacement, velocity, int(where))
+
+
+def _line_in_python(mbs: Any, t: float, item: Any, displacement: float, velocity: float, where: float, *_: Any) -> float:
     return pull(t, displacement, velocity, int(where))
 
 
@@ -85,23 +115,85 @@ def _load(mbs, t, where):
     return load_force(t, int(where))
 
 
-def _checked(kind: bytes, function: Any, python: Callable[..., float]) -> Any:
-    """Return a callable for a compiled function, or None where Exudyn would not call its address."""
-    _alive.append(function)
-    return _callable(kind, function.address, python) if _calls_addresses() else None
+def _load_in_python(mbs: Any, t: float, load: float) -> float:
+    return load_force(t, int(load))
+
+
+def _plane(t, displacement, velocity, where, out):
+    d, v, f = carray(displacement, (3,)), carray(velocity, (3,)), carray(out, (3,))
+    plane_pull(t, d, v, int(where), f)
+
+
+def _plane_in_python(mbs: Any, t: float, item: Any, displacement: Any, velocity: Any, stiffness: Any, *_: Any) -> Any:
+    out = np.empty(3)
+    plane_pull(t, np.array(displacement), np.array(velocity), int(stiffness[0]), out)
+    return out
 
 
 @functools.cache
-def _calls_addresses() -> bool:
-    """Return whether Exudyn takes the addresses of functions: tried on a mass with a spring and a load."""
-    if not sys.platform.startswith("linux") or _own_record() is None:
+def _compiled_line() -> Any:
+    function = native(_line, _LINE_SIGNATURE)
+    _alive.append(function)
+    return _callable(LINE, function.address, _line_in_python)
+
+
+@functools.cache
+def _compiled_load() -> Any:
+    function = native(_load, _LOAD_SIGNATURE)
+    _alive.append(function)
+    return _callable(LOAD, function.address, _load_in_python)
+
+
+@functools.cache
+def _compiled_plane() -> Any:
+    function = native(_plane, _PLANE_SIGNATURE)
+    _alive.append(function)
+    return _callable(PLANE, _passing_vectors(function.address), _plane_in_python)
+
+
+def _passing_vectors(address: int) -> int:
+    """Return the address of a connector's function that hands its vectors, which C++ passes by value, to the one at an address.
+
+    That one takes the time, pointers to displacement and velocity, the first stiffness, and a pointer for the outcome.
+    """
+    vectors = ", ".join(f"[3 x double]* byval([3 x double]) align 8 %v{i}" for i in range(5))
+    return machine_code(
+        f"""
+        define void @plane(
+            [3 x double]* noalias sret([3 x double]) align 8 %out, i64 %system, double %t, i32 %item, {vectors}) {{
+            %d = bitcast [3 x double]* %v0 to double*
+            %w = bitcast [3 x double]* %v1 to double*
+            %k = bitcast [3 x double]* %v2 to double*
+            %f = bitcast [3 x double]* %out to double*
+            %where = load double, double* %k
+            call void inttoptr (i64 {address} to void (double, double*, double*, double, double*)*)(
+                double %t, double* %d, double* %w, double %where, double* %f)
+            ret void
+        }}
+        """,
+        "plane",
+    )
+
+
+@functools.cache
+def calls_addresses() -> bool:
+    """Return whether Exudyn takes the addresses of functions: tried on a mass with a spring and a load, and on a point.
+
+    How vectors are handed over is that of x86-64.
+    """
+    known_machine = sys.platform.startswith("linux") and platform.machine() == "x86_64"
+    if not known_machine or _own_record() is None:
         return False
     called: list[str] = []
 
-    def python(*_: Any) -> float:
+    def python(*_: Any) -> Any:
         called.append("by Python")
         return 0.0
 
+    return _takes_numbers(python) and not called and _takes_vectors(lambda *_: [python()] * 3) and not called
+
+
+def _takes_numbers(python: Callable[..., Any]) -> bool:
     probes = native(_probe_line, _LINE_SIGNATURE), native(_probe_load, _LOAD_SIGNATURE)
     spring, load = (_callable(kind, probe.address, python) for kind, probe in zip((LINE, LOAD), probes, strict=True))
     seen = ctypes.c_int64()
@@ -127,7 +219,24 @@ def _calls_addresses() -> bool:
     solver = exudyn.DynamicSolverType.ExplicitEuler
     mbs.SolveDynamic(settings, solverType=solver, showHints=False)
     known = force == 6.0 and seen.value == system_address(mbs)
-    return known and float(mbs.systemData.GetODE2Coordinates_t()[0]) == 7.0 and not called
+    return known and float(mbs.systemData.GetODE2Coordinates_t()[0]) == 7.0
+
+
+def _takes_vectors(python: Callable[..., Any]) -> bool:
+    probe = native(_probe_plane, _PLANE_SIGNATURE)
+    function = _callable(PLANE, _passing_vectors(probe.address), python)
+    mbs: Any = exudyn.SystemContainer().AddSystem()
+    ground: Any = mbs.AddMarker(MarkerBodyPosition(bodyNumber=mbs.AddObject(ObjectGround())))
+    node: Any = mbs.AddNode(NodePoint())
+    point: Any = mbs.AddMarker(MarkerNodePosition(nodeNumber=node))
+    mbs.AddObject(MassPoint(nodeNumber=node, mass=1.0))
+    item: Any = mbs.AddObject(
+        CartesianSpringDamper(markerNumbers=[ground, point], stiffness=[3.0, 0.0, 0.0], springForceUserFunction=function)
+    )
+    mbs.Assemble()
+    mbs.systemData.SetODE2Coordinates([1.0, 2.0, 4.0])
+    mbs.systemData.SetODE2Coordinates_t([10.0, 20.0, 40.0])
+    return list(mbs.GetObjectOutput(item, exudyn.OutputVariableType.Force)) == [13.0, 26.0, 52.0]
 
 
 def _probe_line(mbs, t, item, displacement, velocity, stiffness, damping, offset):
@@ -137,6 +246,12 @@ def _probe_line(mbs, t, item, displacement, velocity, stiffness, damping, offset
 
 def _probe_load(mbs, t, load):
     return load
+
+
+def _probe_plane(t, displacement, velocity, where, out):
+    d, v, f = carray(displacement, (3,)), carray(velocity, (3,)), carray(out, (3,))
+    for i in range(3):
+        f[i] = where * d[i] + v[i]
 
 
 def _callable(kind: bytes, address: int, python: Callable[..., Any]) -> Any:

@@ -9,15 +9,14 @@ import math
 
 from numba import carray  # pyright: ignore[reportPrivateImportUsage]
 
-from stochfric_mb.coefficients.path import CURSOR, canonical_time, seek
+from stochfric_mb.coefficients.path import CURSOR, canonical_time
 from stochfric_mb.coefficients.processes import EVENT, POSITION, TIME
 from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.exudyn.contact_force import ask, kinematics, pair_at, penalty, spun
 from stochfric_mb.exudyn.layout import (
     ASK_FIRST,
     COMMIT,
-    COMPILED,
-    CONTACT,
+    CURSOR_AT,
     EVENTS,
     FORCE,
     GIVEN_NORMAL,
@@ -25,13 +24,14 @@ from stochfric_mb.exudyn.layout import (
     GUARD,
     GUARDS_BEFORE,
     HAS_MODE,
+    HELD,
     HOLD,
     HOLD_BEFORE,
     INIT,
     JUMP,
     LARGEST_NORMAL,
     LAW,
-    LIVE,
+    LINE,
     LOCATING,
     MU_K,
     MU_S,
@@ -49,15 +49,12 @@ from stochfric_mb.exudyn.layout import (
     REACH,
     RECORD_COLUMNS,
     RECORDS,
-    SAFE,
-    SAFE_WIDTH,
-    SAMPLE,
-    SEED,
     SPIN,
     SPIN_BEFORE,
     SPUN,
     START,
     STARTED,
+    STATE,
     STEP,
     STICK_SPEED,
     STUCK,
@@ -65,8 +62,6 @@ from stochfric_mb.exudyn.layout import (
     U_2,
     V_2,
     WATCHING,
-    WINDOW,
-    WINDOW_CURSOR_AT,
     T,
     U,
     V,
@@ -75,7 +70,7 @@ from stochfric_mb.exudyn.layout import (
 )
 from stochfric_mb.laws.contract import GUARDS
 
-NOTHING, CHANGED, RECORDED, LOST, RESTARTED, FETCH, WATCH = 0, 1, 2, 4, 8, 16, 32
+NOTHING, RECORDED, LOST, RESTARTED, FETCH, WATCH = 0, 1, 2, 4, 8, 16
 """Bits of what `advance` returns."""
 GRID = 5.0e-5
 """Part of a step that counts as on the grid of steps (as `canonical_time` has it, since engine time is a sum of steps)."""
@@ -123,7 +118,7 @@ def _proceed(t, numbers, words):
         motion = kinematics(t, numbers, words)
         restart(t, motion, n, numbers, words)
         numbers[START] = t
-        bits = CHANGED | RESTARTED
+        bits = RESTARTED
     elif t > numbers[T]:
         bits = _commit(t, motion, n, numbers, words)
     due = words[NEXT_RECORD]
@@ -135,12 +130,12 @@ def _proceed(t, numbers, words):
             records[due, 4], records[due, 5], records[due, 6] = numbers[MU_S], numbers[MU_K], numbers[STUCK]
             records[due, 7] = n
             words[NEXT_RECORD] = due + 1
-            if words[COMPILED] == 1:
+            if words[HELD] == 1:
+                bits |= RECORDED
+            else:
                 ask(words[FORCE], t, motion, n, pair_at(t, motion[0], numbers, words), numbers, NEW)
                 records[due, 3], records[due, 10] = (numbers[NEW], numbers[NEW + 1]) if n > 0.0 else (0.0, 0.0)
-            else:
-                bits |= RECORDED
-    return bits & ~CHANGED if words[COMPILED] == 1 else bits
+    return bits
 
 
 @compiled_inline
@@ -180,10 +175,8 @@ def restart(t, motion, n, numbers, words):
     pair = pair_at(t, motion[0], numbers, words)
     _law_gives(words[INIT], t, motion, n, pair, numbers, words)
     numbers[STUCK] = _sticks(motion, n, numbers)
-    _set_pair(pair, numbers, words)
-    _set_normal_line(t, numbers, words)
-    numbers[WINDOW], numbers[SAFE_WIDTH] = math.nan, 0.0
-    _move_window(t, motion[0], numbers, words)
+    numbers[MU_S], numbers[MU_K] = pair
+    _set_line(t, numbers)
     ask(words[GUARD], t, motion, n, pair, numbers, GUARDS_BEFORE)
     words[WATCHING] = 1
 
@@ -191,9 +184,10 @@ def restart(t, motion, n, numbers, words):
 @compiled_inline
 def _commit(t, motion, n, numbers, words):
     pair = pair_at(t, motion[0], numbers, words)
-    mode, h, before = numbers[LIVE], t - numbers[T], (numbers[MU_S], numbers[MU_K])
+    mode, h, before = numbers[STATE], t - numbers[T], (numbers[MU_S], numbers[MU_K])
     function = words[COMMIT] if n > 0.0 else words[INIT]  # without normal force the contact begins again
-    bits = _law_gives(function, t, motion, n, pair, numbers, words)
+    _law_gives(function, t, motion, n, pair, numbers, words)
+    bits = _skipped(t, motion[0], numbers, words)
     numbers[REACH] = 1.5 * max(numbers[STEP], t - numbers[T])
     _keep(t, motion, n, numbers)
     stuck = _sticks(motion, n, numbers)
@@ -201,10 +195,10 @@ def _commit(t, motion, n, numbers, words):
         numbers[EVENTS] += 1.0
         pair = pair_at(t, motion[0], numbers, words)
     numbers[STUCK] = stuck
-    bits |= _set_pair(pair, numbers, words) | _set_normal_line(t, numbers, words)
-    bits |= _move_window(t, motion[0], numbers, words)
+    numbers[MU_S], numbers[MU_K] = pair
+    _set_line(t, numbers)
     if words[LOCATING] == 1:
-        switched = numbers[HAS_MODE] == 1.0 and numbers[LIVE] != mode
+        switched = numbers[HAS_MODE] == 1.0 and numbers[STATE] != mode
         bent = _bent_pair(pair, before, numbers[STEP] / h, numbers, words)
         bits |= _watch(t, motion, n, pair, bent, switched, numbers, words)
     return bits
@@ -212,14 +206,10 @@ def _commit(t, motion, n, numbers, words):
 
 @compiled_inline
 def _law_gives(address, t, motion, n, pair, numbers, words):
-    """Take the state that ``init`` or ``commit`` gives; return CHANGED if it differs."""
+    """Take the state that ``init`` or ``commit`` gives."""
     ask(address, t, motion, n, pair, numbers, NEW)
-    bits = NOTHING
     for i in range(words[N_STATE]):
-        if numbers[LIVE + i] != numbers[NEW + i]:
-            numbers[LIVE + i] = numbers[NEW + i]
-            bits = CHANGED
-    return bits
+        numbers[STATE + i] = numbers[NEW + i]
 
 
 @compiled
@@ -253,9 +243,9 @@ def _bent_pair(pair, before, steps, numbers, words):
     descriptor = numbers[LAW + words[N_LAW] :]
     if descriptor[0] == 0.0 or descriptor[1] != TIME or descriptor[2] == 0.0:
         return pair
-    segment = numbers[LIVE + words[N_STATE] + 4 :]
-    bend_s = segment[3] * numbers[STEP] - (pair[0] - before[0]) * steps
-    bend_k = segment[4] * numbers[STEP] - (pair[1] - before[1]) * steps
+    cursor, part = numbers[CURSOR_AT : CURSOR_AT + CURSOR], numbers[STEP] / descriptor[3]
+    bend_s = (cursor[4] - cursor[2]) * part - (pair[0] - before[0]) * steps
+    bend_k = (cursor[5] - cursor[3]) * part - (pair[1] - before[1]) * steps
     return pair[0] + bend_s, pair[1] + bend_k
 
 
@@ -270,66 +260,24 @@ def _sticks(motion, n, numbers):
     if n <= 0.0:
         return 0.0
     if numbers[HAS_MODE] == 1.0:
-        return 1.0 if numbers[LIVE] == 0.0 else 0.0
+        return 1.0 if numbers[STATE] == 0.0 else 0.0
     return 1.0 if math.hypot(motion[2], motion[3]) <= numbers[STICK_SPEED] else 0.0
 
 
 @compiled_inline
-def _set_pair(pair, numbers, words):
-    """Take the coefficients; return CHANGED if the engine's own pair differs (a path along events only)."""
-    numbers[MU_S], numbers[MU_K] = pair
-    at = LIVE + words[N_STATE]
-    if numbers[LAW + words[N_LAW] + 1] != EVENT or (numbers[at] == pair[0] and numbers[at + 1] == pair[1]):
-        return NOTHING
-    numbers[at], numbers[at + 1] = pair
-    return CHANGED
+def _set_line(t, numbers):
+    """Put the normal force of the next step on the line from now on."""
+    numbers[LINE], numbers[LINE + 1] = numbers[GIVEN_NORMAL] - numbers[GIVEN_RATE] * t, numbers[GIVEN_RATE]
 
 
 @compiled_inline
-def _set_normal_line(t, numbers, words):
-    """Put the engine's normal force on the line from now on; return CHANGED if it is another one."""
-    line = LIVE + words[N_STATE] + 2
-    rate = numbers[GIVEN_RATE]
-    start = numbers[GIVEN_NORMAL] - rate * t
-    if numbers[line] == start and numbers[line + 1] == rate:
-        return NOTHING
-    numbers[line], numbers[line + 1] = start, rate
-    return CHANGED
-
-
-@compiled
-def _move_window(t, u, numbers, words):
-    """Put the engine's window on the path around the knot ahead (time) or the nearest one (position).
-
-    Returns LOST where the step has left the window it was computed with: then its coefficients were not the path's.
-    """
+def _skipped(t, u, numbers, words):
+    """Return LOST where the step that ends at t and u has passed more than one knot of the path."""
     descriptor = numbers[LAW + words[N_LAW] :]
     if descriptor[0] == 0.0 or descriptor[1] == EVENT:
         return NOTHING
-    spacing = descriptor[3]
-    place = u if descriptor[1] == POSITION else t
-    if abs(place - numbers[SAFE]) < numbers[SAFE_WIDTH]:
+    now, before = (u, numbers[U]) if descriptor[1] == POSITION else (t, numbers[T])
+    if abs(now - before) <= descriptor[3]:
         return NOTHING
-    if descriptor[1] == POSITION:
-        r = u / spacing
-        middle = math.floor(r + 0.5)
-    else:
-        r = canonical_time(t, 0.5 * numbers[STEP]) / spacing
-        middle = math.floor(r) + 1.0
-    reach = 0.0 if descriptor[1] == POSITION else 0.5
-    numbers[SAFE], numbers[SAFE_WIDTH] = (middle - reach) * spacing, (0.5 - GRID) * spacing
-    if middle == numbers[WINDOW]:
-        return NOTHING
-    bits = LOST if abs(r - numbers[WINDOW]) > 1.0 + GRID else NOTHING
-    numbers[WINDOW] = middle
-    cursor = numbers[WINDOW_CURSOR_AT : WINDOW_CURSOR_AT + CURSOR]
-    seek(descriptor, cursor, words[SEED], words[SAMPLE], words[CONTACT], middle - 1.0)
-    left_s, left_k, mid_s, mid_k = cursor[2], cursor[3], cursor[4], cursor[5]
-    seek(descriptor, cursor, words[SEED], words[SAMPLE], words[CONTACT], middle)
-    segment = numbers[LIVE + words[N_STATE] + 4 :]
-    segment[0] = middle * spacing
-    segment[1], segment[2] = left_s, left_k
-    segment[3], segment[4] = (mid_s - left_s) / spacing, (mid_k - left_k) / spacing
-    segment[5], segment[6] = (cursor[4] - mid_s) / spacing, (cursor[5] - mid_k) / spacing
-    segment[7], segment[8] = mid_s, mid_k
-    return bits | CHANGED
+    passed = math.floor(now / descriptor[3] + GRID) - math.floor(before / descriptor[3] + GRID)
+    return LOST if abs(passed) > 1 else NOTHING

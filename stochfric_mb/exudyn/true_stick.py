@@ -37,11 +37,11 @@ class TrueStick(FrictionContact):
         """Return the constraint's force [N] on the body, along the friction force."""
         raise NotImplementedError
 
-    def _begin(self, names: tuple[str, ...] = ()) -> None:
+    def _begin(self) -> None:
         """Join the system's hooks, with the constraint that holds."""
         self._hold = self._make_hold()
         self._mbs.SetObjectParameter(self._hold, "name", f"{self._name} hold")
-        super()._begin(names)
+        super()._begin()
 
     def find(self) -> bool:
         """Find both objects again."""

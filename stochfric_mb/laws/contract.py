@@ -88,8 +88,8 @@ class Law:
     0), or "bristle" (a memory of its own, which no cap on the force describes)."""
     has_flow: ClassVar[bool] = False
     """Whether the memory is a differential equation, given by ``flow``."""
-    traceable: ClassVar[bool] = True
-    """Whether the functions can be turned into expressions: they call nothing by its address."""
+    with_effects: ClassVar[bool] = False
+    """Whether effects change what it does as it runs."""
     exceptions: ClassVar[Mapping[str, str]] = {}
     """Axioms that do not hold, each with its reason."""
 

@@ -237,7 +237,7 @@ def add_friction(
     friction = as_friction(friction)
     capacity = int(require_number("max_contacts", max_contacts, low=1.0))
     require_name("beyond_limit", beyond_limit, BEYOND_LIMIT)
-    if beyond_limit == "cap" and not friction.law.traceable:
+    if beyond_limit == "cap" and friction.law.with_effects:
         raise InputError(
             f'beyond_limit = "cap" needs the steady friction of the law {friction.law.kind}, which effects change as it runs; '
             'use "raise" and a step within its limit'

@@ -899,7 +899,7 @@ def test_a_load_that_changes_smoothly_has_no_jumps() -> None:
 def test_a_joint_turns_on_and_on(where: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """The engine's angle begins again after each turn; the way that a pin has slid does not."""
     if where == "Python":
-        monkeypatch.setattr(pointers, "line_function", lambda: None)
+        monkeypatch.setattr(pointers, "calls_addresses", lambda: False)
     mbs = exudyn.SystemContainer().AddSystem()
     ground = mbs.AddMarker(MarkerBodyRigid(bodyNumber=mbs.AddObject(ObjectGround())))
     node = mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[0.0] * 3, initialVelocities=[0.0, 0.0, 30.0]))
