@@ -81,8 +81,8 @@ def write(outcome: Outcome, folder: Path, command: str) -> dict[str, Any]:
     evidence = gather(outcome)
     content = json.loads(complete(outcome, evidence, command).to_json())
     drawn = figures(content, evidence)
-    more, records = further(outcome), record_pictures(outcome.dataset.runs)
-    plots = drawn | {f"{number}_{title.lower().replace(' ', '_')}": png for number, (title, _, png) in enumerate(more, 1)}
+    more, records = further(outcome), record_pictures(outcome.dataset)
+    plots = drawn | {f"{number}_{title.lower().replace(' ', '_')}": svg for number, (title, _, svg) in enumerate(more, 1)}
     write_report(folder, numbers=MARKER, content=content, plots=plots, page=page(content, drawn, more, records))
     for name, text in files(outcome).items():
         (folder / name).write_text(text, encoding="utf-8")

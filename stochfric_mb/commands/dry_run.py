@@ -30,7 +30,7 @@ def dry_run(dataset: str, scenario: str | None, out: str, *, force: bool) -> Non
         data = load_dataset(dataset, scenario)
         runs, refused = _facts(data), _refusal(data)
         lines = [*(_line(run) for run in runs), *_plan(data, runs)]
-        page = render("records.html", title=data.title, records=record_pictures(data.runs), lines=lines, refused=refused)
+        page = render("records.html", title=data.title, records=record_pictures(data), lines=lines, refused=refused)
         with whole_folder(target, replace=force) as folder:
             (folder / MARKER).write_text(page, encoding="utf-8")
     answer({"out": str(target), "runs": runs, "refused": refused})
@@ -63,7 +63,7 @@ def _line(run: dict[str, Any]) -> str:
     channels = ", ".join(f"{name} [{unit}]" for name, unit in run["channels"].items())
     slips = "" if run["slips"] is None else f", {run['slips']} slips"
     notes = "".join(f"; {note}" for note in run["notes"])
-    use = "learned from" if run["role"] == "fit" else "held out"
+    use = "used to fit" if run["role"] == "fit" else "held out"
     return f"{run['name']}: {use}, {run['seconds']:.4g} s at {run['rate']:.4g} Hz{slips}; {channels}{notes}"
 
 

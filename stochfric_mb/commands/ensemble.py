@@ -25,8 +25,8 @@ EXAMPLE = """\b
 Example:
   stochfric ensemble kang2015_table1 --n-runs 1000 --seed 1 --output-times 2,10 --out ens.nc --plot
 """
-MARKER = "fan_chart.png"
-"""File that shows that a folder holds plots of an ensemble."""
+MARKER = "report.html"
+"""File that shows that a folder holds the page of an ensemble."""
 INTERRUPTED = 130
 LEVELS = (0.05, 0.5, 0.95)
 """Quantiles on the screen."""
@@ -49,7 +49,7 @@ LEVELS = (0.05, 0.5, 0.95)
 @click.option("--workers", type=int, metavar="W", help="Threads or processes on this machine; default: all cores.")
 @click.option("--scheduler", metavar="ADDRESS", help="Compute on a Dask cluster instead, such as tcp://host:8786.")
 @click.option("-o", "--out", required=True, metavar="FILE", help="What to write: .nc, or .zarr for what is beyond the memory.")
-@click.option("--plot", is_flag=True, help="Write figures into the folder OUT_plots as well.")
+@click.option("--plot", is_flag=True, help="Write a page with figures into the folder OUT_plots as well.")
 def ensemble(
     scenario: str,
     seed: int,
@@ -96,7 +96,7 @@ def ensemble(
         click.get_current_context().exit(INTERRUPTED)
     result, _ = read_ensemble(target)
     if plots is not None:
-        _plot(result, problem, plots, force=force)
+        _plot(result, problem, plots, _facts(result, done), force=force)
     answer(lambda: _facts(result, done))
     _show(result, done)
 
@@ -149,15 +149,17 @@ def _say_how_to_resume(target: Path) -> None:
     )
 
 
-def _plot(result: EnsembleResult, scenario: Scenario, folder: Path, *, force: bool) -> None:
+def _plot(result: EnsembleResult, scenario: Scenario, folder: Path, facts: dict[str, Any], *, force: bool) -> None:
+    from stochfric_mb.commands.options import command_line
     from stochfric_mb.outputs import whole_folder
-    from stochfric_mb.report.ensemble import figures
+    from stochfric_mb.report.ensemble import figures, page
 
     drawn = figures(result, scenario)
     with whole_folder(folder, replace=force) as temporary:
-        for name, png in drawn.items():
-            (temporary / f"{name}.png").write_bytes(png)
-    say(f"{folder}: {', '.join(drawn)}")
+        for name, svg in drawn.items():
+            (temporary / f"{name}.svg").write_text(svg, encoding="utf-8")
+        (temporary / MARKER).write_text(page(result, scenario.title, facts, drawn, command_line()), encoding="utf-8")
+    say(str(folder / MARKER))
 
 
 def _facts(result: EnsembleResult, done: Produced) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from matplotlib.ticker import NullLocator
 
 from stochfric_mb.comparison import Comparison
 from stochfric_mb.metrics import relative_velocity
-from stochfric_mb.report.figures import colour, legend, new_figure, png
+from stochfric_mb.report.figures import colour, dots, legend, new_figure, svg
 from stochfric_mb.report.page import render
 from stochfric_mb.storage import versions
 from stochfric_mb.trajectory import Trajectory
@@ -37,15 +37,15 @@ UNITS = {
 """Units of the scenario's keys, for the reader."""
 
 
-def figures(comparison: Comparison) -> dict[str, bytes]:
-    """Return the figures of a comparison as PNG: name -> content."""
+def figures(comparison: Comparison) -> dict[str, str]:
+    """Return the figures of a comparison as SVG: name -> content."""
     wanted = dict(_FIGURES)
     if any(engine.convergence for engine in comparison.engines):
         wanted["convergence"] = _convergence
-    return {name: png(functools.partial(draw, comparison)) for name, draw in wanted.items()}
+    return {name: svg(functools.partial(draw, comparison)) for name, draw in wanted.items()}
 
 
-def page(comparison: Comparison, drawn: Mapping[str, bytes], command: str) -> str:
+def page(comparison: Comparison, drawn: Mapping[str, str], command: str) -> str:
     """Return the report as one HTML text that needs no other file.
 
     Args:
@@ -144,9 +144,9 @@ def _friction(comparison: Comparison) -> Figure:
     figure, (axes,) = new_figure(4.8, 3.9)
     for name, run in _runs(comparison):
         v = 1.0e3 * relative_velocity(run, comparison.scenario.mechanism)
-        big = name == "reference"
+        big, kept = name == "reference", dots(v, run.friction_force)
         axes.plot(
-            v, run.friction_force, ".", label=name, color="#b8c0ca" if big else colour(name),
+            v[kept], run.friction_force[kept], ".", label=name, color="#b8c0ca" if big else colour(name),
             markersize=4.5 if big else 2.2, markeredgewidth=0.0,
         )  # fmt: skip
     axes.set(xlabel="relative velocity [mm/s]", ylabel="friction force [N]")

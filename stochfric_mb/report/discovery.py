@@ -45,8 +45,8 @@ DISPLAYED = {"m": ((1.0e-3, 1.0e6, "µm"), (1.0, 1.0e3, "mm")), "m/s": ((1.0, 1.
 AFTERWARDS = 3
 """Candidates shown of a search after the first."""
 
-Picture = tuple[str, str, bytes]
-"""Title, caption and PNG."""
+Picture = tuple[str, str, str]
+"""Title, caption and SVG."""
 
 
 def further(outcome: Outcome) -> list[Picture]:
@@ -56,9 +56,9 @@ def further(outcome: Outcome) -> list[Picture]:
 
 def page(
     content: Mapping[str, Any],
-    drawn: Mapping[str, bytes],
+    drawn: Mapping[str, str],
     pictures: Sequence[Picture] = (),
-    records: Sequence[tuple[str, Markup]] = (),
+    records: Sequence[tuple[str, str]] = (),
 ) -> str:
     """Return the report as one HTML text that needs no other file.
 

@@ -16,7 +16,7 @@ from matplotlib.ticker import NullLocator
 from stochfric_mb.discovery.stick_slip.simulation.forecast import N_OUTPUTS, REACH
 from stochfric_mb.effects import effect_kinds
 from stochfric_mb.report.discovery_evidence import PLACES, Evidence, LeftOver, band
-from stochfric_mb.report.figures import legend, new_figure, png
+from stochfric_mb.report.figures import legend, new_figure, svg
 
 COLOURS = {
     "data": "#1f2933", "believed": "#9aa5b1", "recalibrated": "#d55e00", "augmented": "#0072b2", "floor": "#009e73",
@@ -35,8 +35,8 @@ EVENT_LABELS = {"period": "cycle period [s]", "break_away_force": "force at brea
 """Axis of each statistic of events."""
 
 
-def figures(content: Mapping[str, Any], evidence: Evidence | None) -> dict[str, bytes]:
-    """Return the pictures of a discovery as PNG: name -> content.
+def figures(content: Mapping[str, Any], evidence: Evidence | None) -> dict[str, str]:
+    """Return the pictures of a discovery as SVG: name -> content.
 
     Args:
         content: what ``result.json`` holds.
@@ -54,17 +54,17 @@ def figures(content: Mapping[str, Any], evidence: Evidence | None) -> dict[str, 
         wanted["ranking"] = functools.partial(_ranking, content)
     if (gap := content[content["leading"]]) is not None:
         wanted["gap"] = functools.partial(_gap, gap)
-    return {name: png(draw) for name, draw in wanted.items()}
+    return {name: svg(draw) for name, draw in wanted.items()}
 
 
-def given(data: Mapping[str, Any]) -> bytes:
-    """Return a picture that came as data, as PNG.
+def given(data: Mapping[str, Any]) -> str:
+    """Return a picture that came as data, as SVG.
 
     Args:
         data: ``{"panels": [{"x": label, "y": label, "title": ..., "series": [{"name", "x", "y", "draw"}]}]}``, where
             ``draw`` is "line" (if not given) or "points", and a series' name may be one of `COLOURS`.
     """
-    return png(functools.partial(_given, data))
+    return svg(functools.partial(_given, data))
 
 
 def _given(data: Mapping[str, Any]) -> Figure:

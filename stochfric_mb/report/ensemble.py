@@ -1,4 +1,4 @@
-"""The figures of an ensemble: fan chart, distributions, phase portrait, stick fraction, break-aways."""
+"""The page of an ensemble and its figures: fan chart, distributions, phase portrait, stick fraction, break-aways."""
 
 # pyright: reportUnknownMemberType=false, reportUnknownVariableType=false
 # (matplotlib leaves keyword arguments untyped)
@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,8 +18,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from stochfric_mb.ensemble.result import EnsembleResult
-from stochfric_mb.report.figures import colour, new_figure, png
+from stochfric_mb.report.figures import colour, new_figure, svg
+from stochfric_mb.report.page import render
 from stochfric_mb.scenario import Scenario
+from stochfric_mb.storage import versions
 
 BANDS = ((0.005, 0.995, 0.15), (0.05, 0.95, 0.35), (0.25, 0.75, 0.65))
 """Lower and upper level of a band of the fan chart, and its opacity."""
@@ -37,8 +39,8 @@ SHOWN = 4
 Array = npt.NDArray[np.float64]
 
 
-def figures(result: EnsembleResult, scenario: Scenario, *, times: Sequence[float] | None = None) -> dict[str, bytes]:
-    """Return the figures of an ensemble as PNG: name -> content.
+def figures(result: EnsembleResult, scenario: Scenario, *, times: Sequence[float] | None = None) -> dict[str, str]:
+    """Return the figures of an ensemble as SVG: name -> content.
 
     Args:
         result: the runs, or statistics of them (then without the phase portrait, which needs both quantities of a run).
@@ -54,7 +56,49 @@ def figures(result: EnsembleResult, scenario: Scenario, *, times: Sequence[float
     }
     if result.position is not None:
         wanted["phase_portrait"] = functools.partial(_phase_portrait, result, scenario)
-    return {name: png(draw) for name, draw in wanted.items()}
+    return {name: svg(draw) for name, draw in wanted.items()}
+
+
+CAPTIONS = {
+    "fan_chart": "Median over the runs and the bands that hold 50, 90 and 99 % of them.",
+    "distributions": "Share of the runs at some output times, on a logarithmic scale.",
+    "phase_portrait": "How often the runs pass a state; dashed: the belt's speed.",
+    "stick": "Left: share of the runs that stick. Right: how the runs differ in the share of their time that they stick.",
+    "break_aways": "Number of break-aways in a run, time of the first, mean mu_s at break-away, mean period.",
+}
+"""What each figure shows."""
+EVENTS = (
+    ("period", "cycle period", "s"),
+    ("first_break_away", "first break-away", "s"),
+    ("break_away_mu_s", "mu_s at break-away", "-"),
+    ("stick_fraction", "share of the time in stick", "-"),
+    ("n_break_aways", "break-aways in a run", "-"),
+)
+"""Statistic, its name in words, its unit."""
+
+
+def page(result: EnsembleResult, title: str, facts: Mapping[str, Any], drawn: Mapping[str, str], command: str) -> str:
+    """Return the page of an ensemble as one HTML text that needs no other file.
+
+    Args:
+        result: the runs, or statistics of them.
+        title: of the scenario.
+        facts: what ``stochfric ensemble --json`` says of it.
+        drawn: its figures, from `figures`.
+        command: the command that made it.
+    """
+    few = at_times(result, chosen(result))
+    quantities = [
+        {
+            "name": name, "unit": unit, "time": few.time.tolist(), "mean": (1.0e3 * few.mean(name)).tolist(),
+            "std": (1.0e3 * few.std(name)).tolist(), "quantiles": (1.0e3 * few.quantiles(name, (0.05, 0.5, 0.95))).tolist(),
+        }
+        for name, unit in _units(result).items()
+    ]  # fmt: skip
+    return render(
+        "ensemble.html", title=title, facts=facts, drawn=drawn, captions=CAPTIONS, events=EVENTS, quantities=quantities,
+        command=command, versions=versions(),
+    )  # fmt: skip
 
 
 def chosen(result: EnsembleResult, times: Sequence[float] | None = None) -> list[int]:
@@ -155,7 +199,9 @@ def _phase_portrait(result: EnsembleResult, scenario: Scenario) -> Figure:
         x, v = result.position[i : i + CHUNK].ravel(), result.velocity[i : i + CHUNK].ravel()
         counts += np.histogram2d(x, v, bins=edges)[0]
     shown = np.where(counts > 0.0, counts, np.nan).T
-    mesh = axes.pcolormesh(1.0e3 * edges[0], 1.0e3 * edges[1], shown, cmap="viridis", norm=LogNorm())
+    sides = [1.0e3 * float(edge[i]) for edge in edges for i in (0, -1)]
+    style: dict[str, Any] = {"cmap": "viridis", "norm": LogNorm(), "origin": "lower", "aspect": "auto"}
+    mesh = axes.imshow(shown, extent=tuple(sides), interpolation="nearest", **style)
     if hasattr(scenario.mechanism, "belt_velocity"):
         belt: dict[str, Any] = {"color": "#d55e00", "linestyle": "--", "linewidth": 0.8, "label": "belt"}
         axes.axhline(1.0e3 * scenario.mechanism.belt_velocity, **belt)

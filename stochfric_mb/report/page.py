@@ -1,9 +1,9 @@
-"""A page as one HTML file: templates, with pictures and style inside."""
+"""A page as one HTML file: templates, with pictures, style and script inside."""
 
 from __future__ import annotations
 
-import base64
 import math
+import re
 from typing import Any
 
 import jinja2
@@ -40,7 +40,30 @@ def digits(value: float | None, n: int = 3) -> str:
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def picture(png: bytes, text: str) -> Markup:
-    """Return an ``<img>`` that holds the picture itself; ``text`` is what it shows, for those who cannot see it."""
-    data = base64.b64encode(png).decode("ascii")
-    return Markup('<img src="data:image/png;base64,{}" alt="{}">').format(data, text)
+INKS = {
+    "#1f2933": "var(--ink)", "#000000": "var(--ink)", "#52606d": "var(--soft)", "#9aa5b1": "var(--grey)",
+    "#e4e7eb": "var(--line)", "#b8c0ca": "var(--pale-line)", "#cbd2d9": "var(--pale-line)", "#ffffff": "none",
+}  # fmt: skip
+"""Colours of a figure -> those of the page, which differ in light and dark."""
+NARROW = 420.0
+"""A figure that is wider than this [pt] is scrolled sideways on a small screen, so that its text stays readable."""
+
+
+def picture(svg: str, text: str) -> Markup:
+    """Return a figure from `stochfric_mb.report.figures.svg` as part of a page.
+
+    Args:
+        svg: its text.
+        text: what it shows, for those who cannot see it.
+    """
+    for ink, meant in INKS.items():
+        svg = svg.replace(f": {ink}", f": {meant}")
+    svg = re.sub(r"font-family: sans-serif", "font-family: inherit", svg)
+    svg = re.sub(r' width="([\d.]+)pt" height="[\d.]+pt"', lambda found: _size(float(found[1])), svg, count=1)
+    svg = svg.replace(' xmlns="http://www.w3.org/2000/svg"', "", 1).replace(' xmlns:xlink="http://www.w3.org/1999/xlink"', "", 1)
+    svg = svg.replace("xlink:href", "href").replace("<svg ", Markup('<svg role="img" aria-label="{}" ').format(text), 1)
+    return Markup('<div class="plot">{}</div>').format(Markup(svg))
+
+
+def _size(width: float) -> str:
+    return f' class="{"wide" if width > NARROW else "narrow"}" style="max-width: {1.5 * width:.0f}px"'

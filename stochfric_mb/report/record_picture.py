@@ -1,86 +1,83 @@
-"""The raw record of a run as inline SVG: what was measured, before anything is made of it, with stick and slip shaded."""
+"""The raw record of a run: what was measured, before anything is inferred from it, with stick and slip shaded."""
+
+# pyright: reportUnknownMemberType=false, reportUnknownVariableType=false
+# (matplotlib leaves keyword arguments untyped)
 
 from __future__ import annotations
 
-import math
+import functools
+import itertools
 from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
-from markupsafe import Markup, escape
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from stochfric_mb.measurement.run import Run
+from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.scales import slip_spans
-from stochfric_mb.report.page import digits
+from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.report.figures import legend, new_figure, svg
 
 Array = npt.NDArray[np.float64]
 
-WIDTH, HEIGHT = 900.0, 190.0
-"""Size of a picture [px of its own]; it scales with the page."""
-LEFT, RIGHT, TOP, BOTTOM = 64.0, 20.0, 8.0, 30.0
-"""Margins [px]."""
 COLUMNS = 800
 """Columns in which a curve is drawn, each from its least to its largest value, so that no peak is lost."""
 MOST_RUNS = 6
 """Runs that a page shows."""
 SHOWN = ("position", "velocity", "force", "torque", "friction_force")
 """Channels of which the first that was measured is drawn."""
+STICK, SLIP = "#56b4e9", "#d55e00"
+"""Colours of the phases (Okabe and Ito's)."""
 
 
-def record_pictures(runs: Sequence[Run]) -> list[tuple[str, Markup]]:
-    """Return, for the first runs of a dataset, a caption and the picture of the raw record."""
-    found: list[tuple[str, Markup]] = []
-    for run in runs[:MOST_RUNS]:
+def record_pictures(data: Dataset) -> list[tuple[str, str]]:
+    """Return, for the first runs of a dataset, a caption and the picture of the raw record as SVG."""
+    drawn: list[tuple[str, str]] = []
+    sticks = isinstance(data.scenario.mechanism, BeltBox)
+    for run in data.runs[:MOST_RUNS]:
         name = next((n for n in SHOWN if n in run.channels), None)
         if name is not None:
-            spans = slip_spans(run.channels[name], run.sample_interval) if name == "position" else []
-            use = "learned from" if run.role == "fit" else "held out"
-            told = f"{run.name} ({use}): {name} as measured" + ("; shaded: slips" if spans else "")
-            found.append((told, curve(run.time, run.channels[name], f"{name} [{run.units.get(name, '')}]", spans)))
-    return found
+            slips = slip_spans(run.channels[name], run.sample_interval) if name == "position" and sticks else []
+            use = "used to fit" if run.role == "fit" else "held out"
+            caption = f"{run.name} ({use}): {name} as measured" + ("; stick and slip shaded" if slips else "")
+            drawn.append((caption, record(run.time, run.channels[name], f"{name} [{run.units.get(name, '')}]", slips)))
+    return drawn
 
 
-def curve(time: Array, values: Array, label: str, spans: Sequence[tuple[int, int]] = ()) -> Markup:
-    """Return a curve over time as SVG, with a shaded band for each span.
+def record(time: Array, values: Array, label: str, slips: Sequence[tuple[int, int]] = ()) -> str:
+    """Return a measured curve over time as SVG, with stick and slip shaded where slips were detected.
 
     Args:
         time: [s], shape (n,).
         values: what is drawn, shape (n,).
         label: of the upright axis.
-        spans: first and last sample of each band.
+        slips: first and last sample of each slip.
     """
-    low, high = float(np.min(values)), float(np.max(values))
-    high = high if high > low else low + 1.0
-    start, end = float(time[0]), float(time[-1])
+    return svg(functools.partial(_draw, time, values, label, slips))
 
-    def x(t: Array | float) -> Array:
-        return np.asarray(LEFT + (WIDTH - LEFT - RIGHT) * (np.asarray(t) - start) / (end - start))
 
-    def y(v: Array | float) -> Array:
-        return np.asarray(TOP + (HEIGHT - TOP - BOTTOM) * (high - np.asarray(v)) / (high - low))
+def _draw(time: Array, values: Array, label: str, slips: Sequence[tuple[int, int]]) -> Figure:
+    figure, (axes,) = new_figure(9.2, 2.6)
+    _shade(axes, time, slips)
+    axes.plot(*_thinned(time, values), color="#1f2933", linewidth=0.9, label=label.partition(" [")[0] if slips else None)
+    axes.set(xlabel="time [s]", ylabel=label, xlim=(float(time[0]), float(time[-1])))
+    axes.grid(visible=False, axis="x")
+    if slips:
+        legend(figure, axes)
+    return figure
 
-    bands = "".join(
-        f'<rect x="{x(time[i]):.1f}" y="{TOP:g}" width="{max(float(x(time[j]) - x(time[i])), 0.6):.1f}" '
-        f'height="{HEIGHT - TOP - BOTTOM:g}"><title>slip from {digits(float(time[i]), 6)} to {digits(float(time[j]), 6)} s'
-        "</title></rect>"
-        for i, j in spans
-    )
-    t, v = _thinned(time, values)
-    points = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x(t), y(v), strict=True))
-    ticks = "".join(
-        f'<text x="{x(at):.1f}" y="{HEIGHT - BOTTOM + 14:g}" text-anchor="middle">{digits(at)}</text>'
-        for at in _round(start, end)
-    ) + "".join(
-        f'<text x="{LEFT - 6:g}" y="{y(at) + 4:.1f}" text-anchor="end">{digits(at)}</text>'
-        f'<line x1="{LEFT:g}" x2="{WIDTH - RIGHT:g}" y1="{y(at):.1f}" y2="{y(at):.1f}"/>'
-        for at in _round(low, high, 3)
-    )
-    return Markup(
-        f'<svg class="record" viewBox="0 0 {WIDTH:g} {HEIGHT:g}" role="img" aria-label="{escape(label)} over time">'
-        f'<g class="slips">{bands}</g><g class="axis">{ticks}'
-        f'<text x="{WIDTH - RIGHT:g}" y="{HEIGHT - 4:g}" text-anchor="end">time [s]</text>'
-        f'<text x="{LEFT:g}" y="{HEIGHT - 4:g}">{escape(label)}</text></g><polyline points="{points}"/></svg>'
-    )
+
+def _shade(axes: Axes, time: Array, slips: Sequence[tuple[int, int]]) -> None:
+    """Shade what lies between slips as stick, the slips as slip."""
+    if not slips:
+        return
+    ends = [(float(time[i]), float(time[j])) for i, j in slips]
+    sticks = [(before[1], after[0]) for before, after in itertools.pairwise(ends)]
+    across = axes.get_xaxis_transform()
+    for spans, colour, word in ((sticks, STICK, "stick"), (ends, SLIP, "slip")):
+        bars = [(low, high - low) for low, high in spans]
+        axes.broken_barh(bars, (0.0, 1.0), transform=across, facecolor=colour, alpha=0.22, linewidth=0.0, label=word)
 
 
 def _thinned(time: Array, values: Array) -> tuple[Array, Array]:
@@ -92,12 +89,3 @@ def _thinned(time: Array, values: Array) -> tuple[Array, Array]:
     places = np.stack([whole.argmin(axis=1), whole.argmax(axis=1)], axis=1)
     places = (np.sort(places, axis=1) + size * np.arange(COLUMNS)[:, None]).ravel()
     return time[places], values[places]
-
-
-def _round(low: float, high: float, count: int = 6) -> list[float]:
-    """Return about ``count`` round numbers from ``low`` to ``high``."""
-    rough = (high - low) / count
-    unit = 10.0 ** math.floor(math.log10(rough))
-    step = unit * next(m for m in (1.0, 2.0, 5.0, 10.0) if m * unit >= rough)
-    first = math.ceil(low / step)
-    return [i * step for i in range(first, math.floor(high / step) + 1)]

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from stochfric_mb.report.figures import new_figure, png
+from stochfric_mb.report.figures import new_figure, svg
 from stochfric_mb.report.page import render
 from stochfric_mb.reproduction import Number, Reproduction
 from stochfric_mb.reproduction.coefficients import Rejection
@@ -35,8 +35,8 @@ MAX_RUNS = 20
 BINS = 60
 
 
-def figures(result: Reproduction) -> dict[str, bytes]:
-    """Return the figures of a reproduction as PNG: name -> content."""
+def figures(result: Reproduction) -> dict[str, str]:
+    """Return the figures of a reproduction as SVG: name -> content."""
     wanted: dict[str, Callable[[], Figure]] = {
         "step_position": functools.partial(_steps, result, "position", None),
         "step_position_few": functools.partial(_steps, result, "position", result.settings.n_paper),
@@ -50,10 +50,10 @@ def figures(result: Reproduction) -> dict[str, bytes]:
     }
     for number, p in enumerate(p for p in result.portraits if p.law == SHOWN_LAW):
         wanted[f"portrait_{number + 1}"] = functools.partial(_portrait, p)
-    return {name: png(draw) for name, draw in wanted.items()}
+    return {name: svg(draw) for name, draw in wanted.items()}
 
 
-def page(result: Reproduction, drawn: Mapping[str, bytes], command: str) -> str:
+def page(result: Reproduction, drawn: Mapping[str, str], command: str) -> str:
     """Return the report as one HTML text that needs no other file.
 
     Args:

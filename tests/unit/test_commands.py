@@ -92,22 +92,22 @@ def test_help_ends_with_an_example(name):
     assert example[-1].strip().startswith(f"stochfric {name} ")
 
 
-def test_examples_are_valid_commands(fake, tmp_path, monkeypatch):
+@pytest.mark.parametrize("name", COMMANDS)
+def test_examples_are_valid_commands(fake, tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
     few = dataclasses.replace(
         reproduction.QUICK, n_many=100, steps=(0.01, 0.001), resamples=9, n_grid=1, n_pairs=10_000, n_paths=100, n_portrait=2,
         discarded=dict.fromkeys(reproduction.QUICK.discarded, 10.0), portrait_time=5.0, n_sensitivity=2, n_cost=2,
     )  # fmt: skip
     monkeypatch.setattr(reproduction, "QUICK", few)
-    for name in COMMANDS:
-        before, words = (line.split() for line in invoke(name, "--help").output.rstrip().splitlines()[-2:])
-        if before[0] == "python":
-            monkeypatch.setattr(sys, "argv", before[1:])
-            runpy.run_path(str(Path(__file__).parents[2] / before[1]), run_name="__main__")
-        if before[0] == "stochfric":
-            assert invoke(*before[1:]).exit_code == 0
-        result = invoke(*words[1:])
-        assert result.exit_code == 0, result.output
+    before, words = (line.split() for line in invoke(name, "--help").output.rstrip().splitlines()[-2:])
+    if before[0] == "python":
+        monkeypatch.setattr(sys, "argv", before[1:])
+        runpy.run_path(str(Path(__file__).parents[2] / before[1]), run_name="__main__")
+    if before[0] == "stochfric":
+        assert invoke(*before[1:]).exit_code == 0
+    result = invoke(*words[1:])
+    assert result.exit_code == 0, result.output
 
 
 def test_run_writes_the_file_that_was_asked_for(fake, tmp_path):
@@ -280,10 +280,10 @@ def test_compare_writes_numbers_page_and_plots(fake, tmp_path):
         assert engine["period_relative_error"] is None  # no break-away in 0.05 s
         assert len(engine["convergence"]) == 4
     plots = {p.name for p in (out / "plots").iterdir()}
-    assert plots == {f"{n}.png" for n in ("position", "phase_portrait", "friction", "error", "convergence")}
+    assert plots == {f"{n}.svg" for n in ("position", "phase_portrait", "friction", "error", "convergence")}
     page = (out / "report.html").read_text(encoding="utf-8")
-    assert page.count('src="data:image/png;base64,') == len(plots)
-    assert not re.findall(r'(?:src|href)="(?!data:)|url\(|@import|<script', page)
+    assert page.count("<svg ") == len(plots)
+    assert not re.findall(r'(?:src|href)="(?!data:|#)|url\((?!#)|@import|<script ', page)
     assert "Kang 2015, Table 1" in page
     assert f"stochfric compare {SCENARIO} --seed 0 --set simulation.duration=0.05 --engines" in page
     assert [p.name for p in tmp_path.iterdir()] == ["out"]
@@ -295,7 +295,7 @@ def test_compare_defaults_to_what_is_installed_and_can_skip_convergence(fake, tm
     assert [name for name, *_ in fake] == ["reference", "mujoco", "exudyn"]
     numbers = json.loads((tmp_path / "out" / "compare.json").read_text(encoding="utf-8"))
     assert numbers["convergence_duration"] is None
-    assert not (tmp_path / "out" / "plots" / "convergence.png").exists()
+    assert not (tmp_path / "out" / "plots" / "convergence.svg").exists()
 
 
 def test_compare_replaces_its_own_folder_only(fake, tmp_path):

@@ -18,7 +18,6 @@ from stochfric_mb.ensemble.parts import parts_folder
 from stochfric_mb.report.ensemble import at_times, chosen, figures
 
 SHORT = ["kang2015_table1", "--law", "coulomb", "--set", "simulation.duration=1.5", "--seed", "3"]
-PNG = b"\x89PNG\r\n\x1a\n"
 
 
 def invoke(*words):
@@ -38,9 +37,12 @@ def test_runs_summary_and_plots(tmp_path):
     assert f"{1e3 * wanted.position[:, 1].mean():.4g}" in row.split()
     assert f"{1e3 * wanted.position[:, 1].std(ddof=1):.4g}" in row.split()
     assert "first break-away [s]" in done.output
-    names = ["break_aways", "distributions", "fan_chart", "phase_portrait", "stick"]
-    assert sorted(p.stem for p in (out.parent / "ens_plots").iterdir()) == names
-    assert all(p.read_bytes().startswith(PNG) for p in (out.parent / "ens_plots").iterdir())
+    names = ["break_aways.svg", "distributions.svg", "fan_chart.svg", "phase_portrait.svg", "report.html", "stick.svg"]
+    assert sorted(p.name for p in (out.parent / "ens_plots").iterdir()) == names
+    page = (out.parent / "ens_plots" / "report.html").read_text(encoding="utf-8")
+    assert page.count("<svg ") == 5
+    assert "80 runs" in page
+    assert f"{1e3 * wanted.position[:, 1].mean():.4g}"[:4] in page
     assert sorted(p.name for p in out.parent.iterdir()) == ["ens.nc", "ens_plots"]
 
 
@@ -55,7 +57,7 @@ def test_statistics_only(tmp_path):
         assert dataset["position_mean"].attrs == {
             "units": "m", "long_name": "mean of the position of the body", "cell_methods": "run: mean",
         }  # fmt: skip
-    assert not (tmp_path / "ens_plots" / "phase_portrait.png").exists()
+    assert not (tmp_path / "ens_plots" / "phase_portrait.svg").exists()
     again = invoke(*words)
     assert again.exit_code == 2
     assert "ens.nc exists; give another name, or --force" in again.output
@@ -134,7 +136,7 @@ def test_figures_of_odd_ensembles():
             result = ensemble.run(scenario, n, output_times=times, statistics_only=statistics_only)
             drawn = figures(result, scenario)
             assert ("phase_portrait" in drawn) != statistics_only
-            assert all(content.startswith(PNG) for content in drawn.values())
+            assert all(content.startswith("<svg ") for content in drawn.values())
 
 
 def test_times_on_the_screen():

@@ -11,7 +11,7 @@ ROOT = Path(__file__).parents[2]
 
 
 def test_ci_runs_exactly_the_readmes_test_command():
-    command = re.findall(r"^python3 -m venv .*pytest$", (ROOT / "README.md").read_text(encoding="utf-8"), re.M)
+    command = re.findall(r"^python3 -m venv .*/pytest .*$", (ROOT / "README.md").read_text(encoding="utf-8"), re.M)
     assert len(command) == 1
     assert command[0] in (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
 

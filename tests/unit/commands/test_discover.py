@@ -117,7 +117,7 @@ def test_what_was_found_is_shown_as_a_table(rig, tmp_path):
         "These data cannot tell velocity_weakening from viscous_friction", "Note: 8.3e-06", "Next experiment: a run at 2",
     ):  # fmt: skip
         assert part in result.stdout, part
-    assert {p.name for p in (tmp_path / "out" / "plots").iterdir()} == {"ranking.png", "gap.png"}
+    assert {p.name for p in (tmp_path / "out" / "plots").iterdir()} == {"ranking.svg", "gap.svg"}
 
 
 def test_the_augmented_scenario_is_the_outcomes(rig, tmp_path):

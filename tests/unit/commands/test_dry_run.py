@@ -11,7 +11,7 @@ from stochfric_mb import load_scenario
 from stochfric_mb.__main__ import main
 from stochfric_mb.measurement.scales import slip_spans
 from stochfric_mb.reference import simulate
-from stochfric_mb.report.record_picture import COLUMNS, _thinned, curve
+from stochfric_mb.report.record_picture import COLUMNS, _thinned, record
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +36,7 @@ def test_records_are_drawn_and_the_plan_is_told(tmp_path, motion):
     assert "Would search" in done.output
     assert "Expected time" in done.output
     page = (tmp_path / "raw" / "records.html").read_text()
-    assert page.count('<svg class="record"') == 2
+    assert page.count("<svg ") == 2
     assert "http" not in page
 
 
@@ -84,6 +84,6 @@ def test_a_thinned_curve_keeps_every_peak():
 
 
 def test_names_from_a_file_are_escaped():
-    svg = curve(np.arange(10.0), np.arange(10.0), "<script>")
+    svg = record(np.arange(10.0), np.arange(10.0), "<script>")
     assert "<script>" not in svg
     assert re.search("&lt;script&gt;", svg)

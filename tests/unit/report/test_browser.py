@@ -11,7 +11,7 @@ import pytest
 
 from stochfric_mb.report.discovery import page
 from stochfric_mb.report.page import render
-from stochfric_mb.report.record_picture import curve
+from stochfric_mb.report.record_picture import record
 
 from .test_discovery_page import RESULTS, outcome_of, written
 
@@ -19,7 +19,7 @@ playwright = pytest.importorskip("playwright.sync_api", reason="pages in a brows
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="pages in a browser need Chromium: apt-get install chromium")
 TIME = np.arange(20_000) * 1e-3
-RECORD = ("run (learned from): position as measured", curve(TIME, np.sin(TIME), "position [m]", [(100, 300), (900, 1000)]))
+RECORD = ("run (used to fit): position as measured", record(TIME, np.sin(TIME), "position [m]", [(100, 300), (900, 1000)]))
 
 
 @pytest.fixture(scope="module")
