@@ -60,7 +60,9 @@ def picture(svg: str, text: str) -> Markup:
         svg = svg.replace(f": {ink}", f": {meant}")
     svg = re.sub(r"font-family: sans-serif", "font-family: inherit", svg)
     svg = re.sub(r' width="([\d.]+)pt" height="[\d.]+pt"', lambda found: _size(float(found[1])), svg, count=1)
-    svg = svg.replace(' xmlns="http://www.w3.org/2000/svg"', "", 1).replace(' xmlns:xlink="http://www.w3.org/1999/xlink"', "", 1)
+    svg = svg.replace(' xmlns="http://www.w3.org/2000/svg"', "", 1).replace(
+        ' xmlns:xlink="http://www.w3.org/1999/xlink"', "", 1
+    )
     svg = svg.replace("xlink:href", "href").replace("<svg ", Markup('<svg role="img" aria-label="{}" ').format(text), 1)
     return Markup('<div class="plot">{}</div>').format(Markup(svg))
 
