@@ -199,9 +199,9 @@ def _phase_portrait(result: EnsembleResult, scenario: Scenario) -> Figure:
         x, v = result.position[i : i + CHUNK].ravel(), result.velocity[i : i + CHUNK].ravel()
         counts += np.histogram2d(x, v, bins=edges)[0]
     shown = np.where(counts > 0.0, counts, np.nan).T
-    sides = [1.0e3 * float(edge[i]) for edge in edges for i in (0, -1)]
+    (left, right), (low, high) = ((1.0e3 * float(edge[0]), 1.0e3 * float(edge[-1])) for edge in edges)
     style: dict[str, Any] = {"cmap": "viridis", "norm": LogNorm(), "origin": "lower", "aspect": "auto"}
-    mesh = axes.imshow(shown, extent=tuple(sides), interpolation="nearest", **style)
+    mesh = axes.imshow(shown, extent=(left, right, low, high), interpolation="nearest", **style)
     if hasattr(scenario.mechanism, "belt_velocity"):
         belt: dict[str, Any] = {"color": "#d55e00", "linestyle": "--", "linewidth": 0.8, "label": "belt"}
         axes.axhline(1.0e3 * scenario.mechanism.belt_velocity, **belt)
