@@ -14,7 +14,7 @@ from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import Joint, Tendon
-from stochfric_mb.warp.cap import require_along_time, require_runnable
+from stochfric_mb.warp.law import require_runnable
 from stochfric_mb.warp.checks import check_contacts, check_options, partners_of, row_of
 from stochfric_mb.warp.kinds import ContactFriction, JointFriction
 
@@ -60,7 +60,6 @@ def add_friction(
     """
     known = as_friction(friction)
     require_runnable(known.law)
-    require_along_time(known.process)
     check_options(model, m, d)
     for sample in (first_sample, first_sample + d.nworld - 1):
         known.path(seed, sample, contact)  # refuses what is out of range
@@ -69,9 +68,9 @@ def add_friction(
         "new_paths": new_paths,
     }  # fmt: skip
     if isinstance(geoms, Joint | Tendon):
-        place, impedance = row_of(model, geoms)
+        place, mobility = row_of(model, geoms)
         load = require_number("normal_force", normal_force, above=0.0, unit="N or N m")
-        made = JointFriction(known, d, place, load, impedance, **address)
+        made = JointFriction(known, d, place, load, mobility, **address)
     else:
         if normal_force is not None:
             raise InputError(f"normal_force = {normal_force!r} is for joints and tendons; contacts have the solver's own")

@@ -84,14 +84,14 @@ def partners_of(model: mujoco.MjModel, geoms: tuple[str, str]) -> np.ndarray[Any
 
 
 def row_of(model: mujoco.MjModel, place: Joint | Tendon) -> tuple[tuple[int, int], float]:
-    """Return type and number of the friction row of a joint or tendon, and its impedance.
+    """Return type and number of the friction row of a joint or tendon, and its mobility [1/kg, 1/(kg m^2)].
 
     Raises:
         InputError: it is unknown, has more than one coordinate, or no friction row.
     """
     if isinstance(place, Tendon):
         number = _numbered("tendon", place.name, [model.tendon(i).name for i in range(model.ntendon)])
-        kind, loss, solimp = "TENDON", model.tendon_frictionloss[number], model.tendon_solimp_fri[number]
+        kind, loss, mobility = "TENDON", model.tendon_frictionloss[number], model.tendon_invweight0[number]
     else:
         joint = _numbered("joint", place.name, [model.joint(i).name for i in range(model.njnt)])
         if int(model.jnt_type[joint]) not in {int(mujoco.mjtJoint.mjJNT_SLIDE), int(mujoco.mjtJoint.mjJNT_HINGE)}:
@@ -99,14 +99,14 @@ def row_of(model: mujoco.MjModel, place: Joint | Tendon) -> tuple[tuple[int, int
                 f"joint {place.name!r} is a ball or free joint; friction needs one coordinate: take a slide or hinge"
             )
         number = int(model.jnt_dofadr[joint])
-        kind, loss, solimp = "DOF", model.dof_frictionloss[number], model.dof_solimp[number]
+        kind, loss, mobility = "DOF", model.dof_frictionloss[number], model.dof_invweight0[number]
     if loss <= 0.0 or model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_FRICTIONLOSS:
         raise InputError(
             f"{place.name!r} has no friction row; give it frictionloss > 0 (any number: the law replaces it) and leave "
             "frictionloss enabled before put_model"
         )
     row = int(getattr(mujoco.mjtConstraint, f"mjCNSTR_FRICTION_{kind}"))
-    return (row, number), float(solimp[0])
+    return (row, number), float(mobility)
 
 
 def _numbered(what: str, name: str, names: list[str]) -> int:

@@ -7,7 +7,7 @@ from typing import Any
 
 import warp as wp
 
-from stochfric_mb.warp.cap import coefficient_functions
+from stochfric_mb.warp.law import coefficient_functions
 from stochfric_mb.warp.domain import CODE, HIGH, LOW, MEAN, PLACE, SIGMA, SPREAD
 from stochfric_mb.warp.state import Worlds
 
@@ -54,6 +54,7 @@ def begin_kernel() -> Any:
             worlds.parameters[w, place] = value
             if place == worlds.v_s:
                 worlds.stick_speed[w] = value
+                worlds.peak_speed[w] = worlds.peak_ratio * value
 
     @wp.kernel(module="unique", enable_backward=False)
     def begin(
@@ -76,8 +77,9 @@ def begin_kernel() -> Any:
         worlds.count[w] = worlds.count[w] + fresh
         used[worlds.count[w] % 2, w] = 0
         t = wp.float64(worlds.count[w]) * timestep
-        zero = wp.float64(0.0)
-        mu_s, mu_k = path(worlds.descriptor[w], worlds.cursor[w], seed, worlds.sample[w], contact, t, zero, zero)
+        place = worlds.origin  # where a path that is not along time begins
+        events = wp.float64(0.0)
+        mu_s, mu_k = path(worlds.descriptor[w], worlds.cursor[w], seed, worlds.sample[w], contact, t, place, events)
         worlds.mu_s[w] = wp.float32(mu_s)
         worlds.mu_k[w] = wp.float32(mu_k)
 

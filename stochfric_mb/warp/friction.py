@@ -30,7 +30,7 @@ class WarpFriction:
         self.nworld = nworld
         """Number of worlds."""
         self._timestep = timestep
-        self.worlds = world_arrays(friction, nworld, first_sample, timestep, new_paths=new_paths)
+        self.worlds = world_arrays(friction, nworld, first_sample, new_paths=new_paths)
         """What it keeps of each world."""
         self._begin = begin_kernel()
 
@@ -82,18 +82,21 @@ class WarpFriction:
             if given.shape not in {(), (self.nworld,)}:
                 raise InputError(f"{name} has shape {given.shape}; give a number or one for each of {self.nworld} worlds")
             rows[:, place] = given
+        peaks = np.empty(self.nworld)
         for w in range(self.nworld):
             own = {name: float(rows[w, names.index(name)]) for name in values}
             try:
-                dataclasses.replace(self.law, **{"mu_s": float(rows[w, 0]), "mu_k": float(rows[w, 1])} | own)
+                law = dataclasses.replace(self.law, **{"mu_s": float(rows[w, 0]), "mu_k": float(rows[w, 1])} | own)
             except InputError as error:
                 raise InputError(f"world {w}: {error}") from None
+            peaks[w] = law.peak_speed
         self.worlds.parameters.assign(rows)
         descriptor = self.worlds.descriptor.numpy()
         descriptor[:, 4:6] = rows[:, :2]
         self.worlds.descriptor.assign(descriptor)
         if self.worlds.v_s >= 0:
             self.worlds.stick_speed.assign(rows[:, self.worlds.v_s])
+        self.worlds.peak_speed.assign(peaks)
         cursor = self.worlds.cursor.numpy()
         cursor[:, 0] = 0.0
         self.worlds.cursor.assign(cursor)

@@ -36,7 +36,9 @@ class Worlds:
     parameters: wp.array2d[float]
     """The law's parameters, as `Law.parameters`."""
     stick_speed: wp.array[float]
-    """Speed above which a contact at its cap slides [m/s]."""
+    """Speed below which a new contact sticks [m/s]."""
+    peak_speed: wp.array[float]
+    """Speed at which a law that creeps at rest has its largest coefficient [m/s]; 0 for other laws."""
     mu_s: wp.array[float]
     mu_k: wp.array[float]
     overflow: wp.array[int]
@@ -47,6 +49,10 @@ class Worlds:
     """A row for each further parameter that is drawn for each episode: see `stochfric_mb.warp.domain`."""
     v_s: int
     """Place of the stick speed among the parameters, -1 if the law has none."""
+    peak_ratio: float
+    """Peak speed over stick speed [-]."""
+    origin: wp.float64
+    """Displacement at which coefficient paths along a contact's own path begin [m]."""
     stride: wp.int64
     """What is added to a world's sample with each episode."""
 
@@ -69,16 +75,32 @@ class Slots:
     """Position of the contact relative to its second geom [m]."""
     friction: wp.array3d[vec5]
     """What the solver was given."""
-    force: wp.array3d[wp.vec3]
-    """Normal force and the two tangential forces that the solver found [N]."""
-    saturation: wp.array3d[float]
-    """Square of the friction force over its cap [-]."""
+    scale: wp.array3d[float]
+    """What the tangential rows of the solver's Jacobian were multiplied by [-], and so their forces divided by."""
+    mu_s: wp.array3d[float]
+    mu_k: wp.array3d[float]
+    normal: wp.array3d[float]
+    """Normal force that the solver found [N]."""
+    pull: wp.array3d[wp.vec3]
+    """Friction force that the solver found, on the contact's second geom [N], in world coordinates."""
+    saturated: wp.array3d[int]
+    """1 where the friction force reached its cap."""
+    loose: wp.array3d[int]
+    """1 where it did so at every contact of the same two bodies."""
     drift: wp.array3d[wp.vec3]
     """Displacement since the contact stuck [m], in world coordinates."""
     velocity: wp.array3d[wp.vec3]
     """Relative velocity at the step's start [m/s], likewise."""
     urgency: wp.array3d[float]
     """Friction that a sliding contact was asked for, over its cap [-]."""
+    creep: wp.array3d[float]
+    """Speed at which a law that creeps at rest has the force at hand [m/s]."""
+    path: wp.array3d[wp.float64]
+    """Displacement along the contact's direction since it began [m]."""
+    events: wp.array3d[int]
+    """Number of stick phases that have begun."""
+    cursor: wp.array4d[wp.float64]
+    """Cursors of the contacts' own coefficient paths; empty where coefficients run along time."""
     mode: wp.array3d[int]
     """STICK, SLIP or STOPPING."""
 
@@ -95,7 +117,13 @@ class Rows:
     """Friction force or torque that the solver found [N or N m]."""
     drift: wp.array2d[float]
     """Displacement since it stuck [m or rad]."""
-    velocity: wp.array2d[float]
-    """Velocity at the step's start [m/s or rad/s]."""
+    creep: wp.array2d[float]
+    """Speed at which a law that creeps at rest has the force at hand [m/s or rad/s]."""
+    path: wp.array2d[wp.float64]
+    """Displacement since the world began [m or rad]."""
+    mu_s: wp.array2d[float]
+    mu_k: wp.array2d[float]
+    events: wp.array2d[int]
+    """Number of stick phases that have begun."""
     mode: wp.array2d[int]
     """STICK or STOPPING."""

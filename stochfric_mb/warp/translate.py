@@ -5,7 +5,7 @@ so a function is translated once for each list of argument types that it is call
 Nothing is rewritten by hand: a change of a law changes its Warp function.
 
 Types: ``REAL`` (float32 or float64, chosen by the `Translator`), ``INT``, ``WORD`` (64 bits without sign), ``BOOL``, ``ARRAY``
-(of REAL) and `Numbers`, a tuple of reals such as a law's state.
+(of REAL) and `Numbers`, a tuple of reals such as a law's state, or a NamedTuple of numbers.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import hashlib
 import linecache
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 import warp as wp
@@ -33,6 +33,8 @@ class Numbers:
 
     count: int
     """How many."""
+    fields: tuple[str, ...] = ()
+    """Their names, where it is a NamedTuple."""
 
 
 Kind = str | Numbers | tuple[Any, ...]
@@ -200,12 +202,18 @@ class _Function:
         return [*lines, f"{indent}return {', '.join(code for code, _ in parts)}"]
 
     def _is_tuple_call(self, node: ast.expr) -> bool:
-        return isinstance(node, ast.Call) and not isinstance(self._call(node)[1], str)
+        return self._is_named_tuple(node) or (isinstance(node, ast.Call) and not isinstance(self._call(node)[1], str))
+
+    def _is_named_tuple(self, node: ast.expr) -> TypeGuard[ast.Call]:
+        made = self.globals.get(node.func.id) if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) else None
+        return isinstance(made, type) and issubclass(made, tuple)
 
     def _several(self, node: ast.expr, indent: str) -> tuple[list[str], list[tuple[str, Kind]]]:
         """Return the values of a tuple, or of a call that returns one, and the lines that they need before."""
         if isinstance(node, ast.Tuple):
             return [], [self._value(e) for e in node.elts]
+        if self._is_named_tuple(node):
+            return [], [self._value(e) for e in node.args]
         code, kind = self._value(node)
         if isinstance(kind, str):
             return [], [(code, kind)]
@@ -269,7 +277,7 @@ class _Function:
         if isinstance(node, ast.Name):
             return self._name(node)
         if isinstance(node, ast.Attribute):
-            return self._constant(getattr(self._global(node.value), node.attr), node)
+            return self._attribute(node)
         if isinstance(node, ast.Subscript):
             return self._element(node)
         if isinstance(node, ast.Call):
@@ -312,6 +320,12 @@ class _Function:
             return self.globals[node.id]
         raise self._no(node, f"{ast.unparse(node)!r}")
 
+    def _attribute(self, node: ast.Attribute) -> tuple[str, Kind]:
+        kind = self.types.get(node.value.id) if isinstance(node.value, ast.Name) else None
+        if isinstance(kind, Numbers) and node.attr in kind.fields:
+            return f"{ast.unparse(node.value)}_{kind.fields.index(node.attr)}", REAL
+        return self._constant(getattr(self._global(node.value), node.attr), node)
+
     def _element(self, node: ast.Subscript) -> tuple[str, Kind]:
         array, kind = self._value(node.value)
         if isinstance(kind, Numbers):
@@ -333,6 +347,9 @@ class _Function:
         return f"({a} {self._operator(node.op)} {b})", kind
 
     def _comparison(self, node: ast.Compare) -> tuple[str, Kind]:
+        if isinstance(node.ops[0], ast.NotIn) and isinstance(node.comparators[0], ast.Tuple):
+            each = [ast.Compare(node.left, [ast.NotEq()], [e]) for e in node.comparators[0].elts]
+            return f"({' and '.join(self._comparison(e)[0] for e in each)})", BOOL
         terms = [self._value(e) for e in (node.left, *node.comparators)]
         parts: list[str] = []
         for left, operator, right in zip(terms, node.ops, terms[1:], strict=False):

@@ -12,14 +12,7 @@ from stochfric_mb.coefficients.path import CURSOR
 from stochfric_mb.friction import Friction
 from stochfric_mb.warp.state import Rows, Slots, Worlds, vec5
 
-LEAST_EXCESS = 0.002
-"""A contact at its cap slides, where the law has no v_s, once it is as fast as this acceleration makes it in a step [m/s^2].
-
-It lies above what a stuck contact moves while its load shifts to its neighbours (4e-6 m/s on an incline that tilts by 5
-degrees a second, in steps of 5 ms), and delays break-away by sqrt(2 v/(rate of the free acceleration))."""
-
-
-def world_arrays(friction: Friction, nworld: int, first_sample: int, timestep: float, *, new_paths: bool = False) -> Any:
+def world_arrays(friction: Friction, nworld: int, first_sample: int, *, new_paths: bool = False) -> Any:
     """Return the `Worlds` of a friction, none of which has begun."""
     law = friction.law
     worlds: Any = Worlds()
@@ -37,31 +30,32 @@ def world_arrays(friction: Friction, nworld: int, first_sample: int, timestep: f
     worlds.descriptor = _rows(friction.path(0).descriptor, nworld, wp.float64)
     worlds.cursor = wp.zeros((nworld, CURSOR), dtype=wp.float64)
     worlds.parameters = _rows(law.parameters(), nworld, wp.float32)
-    worlds.stick_speed = wp.full(nworld, float(getattr(law, "v_s", LEAST_EXCESS * timestep)), dtype=float)
+    worlds.stick_speed = wp.full(nworld, law.stick_speed, dtype=float)
+    worlds.peak_speed = wp.full(nworld, law.peak_speed, dtype=float)
+    worlds.peak_ratio = law.peak_speed / law.stick_speed
+    worlds.origin = 0.0
     worlds.mu_s = wp.full(nworld, law.mu_s, dtype=float)
     worlds.mu_k = wp.full(nworld, law.mu_k, dtype=float)
     worlds.overflow = wp.zeros(nworld, dtype=int)
     return worlds
 
 
-def slot_arrays(nworld: int, n: int) -> Any:
-    """Return empty `Slots` for ``n`` contacts in each world."""
+def slot_arrays(nworld: int, n: int, *, own_paths: bool) -> Any:
+    """Return empty `Slots` for ``n`` contacts in each world; with ``own_paths``, each has its own place on the path."""
     slots: Any = Slots()
     shape = (2, nworld, n)
     slots.used = wp.zeros((2, nworld), dtype=int)
-    slots.geoms = wp.zeros(shape, dtype=wp.vec2i)
-    slots.rows = wp.zeros(shape, dtype=wp.vec2i)
-    slots.axis_1 = wp.zeros(shape, dtype=wp.vec3)
-    slots.axis_2 = wp.zeros(shape, dtype=wp.vec3)
-    slots.side = wp.zeros(shape, dtype=int)
-    slots.place = wp.zeros(shape, dtype=wp.vec3)
+    for name in ("geoms", "rows"):
+        setattr(slots, name, wp.zeros(shape, dtype=wp.vec2i))
+    for name in ("axis_1", "axis_2", "place", "pull", "drift", "velocity"):
+        setattr(slots, name, wp.zeros(shape, dtype=wp.vec3))
+    for name in ("side", "saturated", "loose", "events", "mode"):
+        setattr(slots, name, wp.zeros(shape, dtype=int))
+    for name in ("scale", "mu_s", "mu_k", "normal", "urgency", "creep"):
+        setattr(slots, name, wp.zeros(shape, dtype=float))
     slots.friction = wp.zeros(shape, dtype=vec5)
-    slots.force = wp.zeros(shape, dtype=wp.vec3)
-    slots.saturation = wp.zeros(shape, dtype=float)
-    slots.drift = wp.zeros(shape, dtype=wp.vec3)
-    slots.velocity = wp.zeros(shape, dtype=wp.vec3)
-    slots.urgency = wp.zeros(shape, dtype=float)
-    slots.mode = wp.zeros(shape, dtype=int)
+    slots.path = wp.zeros(shape, dtype=wp.float64)
+    slots.cursor = wp.zeros((*shape, CURSOR) if own_paths else (0, 0, 0, 0), dtype=wp.float64)
     return slots
 
 
@@ -70,7 +64,9 @@ def row_arrays(nworld: int) -> Any:
     rows: Any = Rows()
     rows.row = wp.full((2, nworld), -1, dtype=int)
     rows.mode = wp.zeros((2, nworld), dtype=int)
-    for name in ("cap", "force", "drift", "velocity"):
+    rows.events = wp.zeros((2, nworld), dtype=int)
+    rows.path = wp.zeros((2, nworld), dtype=wp.float64)
+    for name in ("cap", "force", "drift", "creep", "mu_s", "mu_k"):
         setattr(rows, name, wp.zeros((2, nworld), dtype=float))
     return rows
 

@@ -10,7 +10,7 @@ from stochfric_mb.coefficients import CoefficientPath, Empirical, Knots, Lognorm
 from stochfric_mb.laws import LAWS, make_law
 from stochfric_mb.laws.stribeck import slip_coefficient
 from stochfric_mb.scalar_function import UntranslatableError
-from stochfric_mb.warp.cap import cap_function, coefficient_functions
+from stochfric_mb.warp.law import coefficient_functions, slide_function, spring_function
 from stochfric_mb.warp.translate import REAL, Translator
 
 SPEEDS = np.concatenate([[0.0], np.geomspace(1e-7, 10.0, 400)])
