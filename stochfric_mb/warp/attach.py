@@ -14,9 +14,10 @@ from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco import Joint, Tendon
-from stochfric_mb.warp.law import require_runnable
+from stochfric_mb.mujoco.joints import REACTION
 from stochfric_mb.warp.checks import check_contacts, check_options, partners_of, row_of
 from stochfric_mb.warp.kinds import ContactFriction, JointFriction
+from stochfric_mb.warp.law import require_runnable
 
 
 def add_friction(
@@ -26,7 +27,7 @@ def add_friction(
     geoms: tuple[str, str] | Joint | Tendon,
     friction: Law | Friction,
     *,
-    normal_force: float | None = None,
+    normal_force: float | str | None = None,
     seed: int = 0,
     contact: int = 0,
     first_sample: int = 0,
@@ -69,6 +70,11 @@ def add_friction(
     }  # fmt: skip
     if isinstance(geoms, Joint | Tendon):
         place, mobility = row_of(model, geoms)
+        if normal_force == REACTION:
+            raise InputError(
+                f"normal_force = {REACTION!r}: MuJoCo Warp has a joint's reaction only after the step; give its load as a "
+                "number [N, for a hinge N m], or use stochfric_mb.mujoco.add_friction, which follows the reaction"
+            )
         load = require_number("normal_force", normal_force, above=0.0, unit="N or N m")
         made = JointFriction(known, d, place, load, mobility, **address)
     else:

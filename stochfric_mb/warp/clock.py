@@ -7,8 +7,8 @@ from typing import Any
 
 import warp as wp
 
-from stochfric_mb.warp.law import coefficient_functions
 from stochfric_mb.warp.domain import CODE, HIGH, LOW, MEAN, PLACE, SIGMA, SPREAD
+from stochfric_mb.warp.law import coefficient_functions
 from stochfric_mb.warp.state import Worlds
 
 DOMAIN = wp.constant(wp.int64(0x80000000))

@@ -23,31 +23,19 @@ from typing import Any
 
 import warp as wp
 
-from stochfric_mb.coefficients.processes import TIME
 from stochfric_mb.mujoco.contact import solver
-from stochfric_mb.warp.law import Touch, coefficient_functions, rest_rules, slide_function
-from stochfric_mb.warp.state import SLIP, STICK, STOPPING, Slots, Worlds, vec5
+from stochfric_mb.warp.law import Touch, felt_mass, rest_rules
+from stochfric_mb.warp.rows import Now, allow, hold_rule, on_axes, path_direction, path_rule, seen, slide_rule
+from stochfric_mb.warp.state import SLIP, STICK, Slots, Worlds, vec5
 
 SATURATED = wp.constant(solver.SATURATED)
 """Share of the cap from which on a force counts as at its cap."""
 SLIDING_SHARE = wp.constant(solver.SLIDING_SHARE)
 """Least share of the cap that sliding friction has where a contact slides and torsion or rolling does not do it alone."""
-LEAST_FRICTION = wp.constant(1.0e-5)
-"""MuJoCo's mjMINMU."""
-LEAST_SPEED = wp.constant(1.0e-30)
-"""Keeps the direction of a sliding contact at rest a number [m/s]."""
-SOFTEST = wp.constant(1.0e-3)
-"""Least scale of a row's Jacobian: it is as soft as one of 1e6 times its resistance."""
 PUSHED = wp.constant(2.0)
 """Friction that a sliding contact is asked for, over the cap: the normal force may double in a step."""
 MOST_URGENT = wp.constant(1024.0)
 """Bound of that ratio, which doubles with each step in which a sliding contact stays below its cap."""
-
-
-@wp.func
-def on_axes(axis_1: wp.vec3, axis_2: wp.vec3, vector: wp.vec3):
-    """Return the two tangential components of a vector."""
-    return wp.vec2(wp.dot(axis_1, vector), wp.dot(axis_2, vector))
 
 
 @wp.func
@@ -85,9 +73,9 @@ def learn(force: wp.array2d[float], body: wp.array[int], worlds: Worlds, slots: 
             its = slots.geoms[old, w, i]
             for j in range(slots.used[old, w]):
                 other = slots.geoms[old, w, j]
-                if body[other[0]] == body[its[0]] and body[other[1]] == body[its[1]]:
-                    if slots.saturated[old, w, j] == 0 and slots.normal[old, w, j] > 0.0:
-                        loose = 0
+                same = body[other[0]] == body[its[0]] and body[other[1]] == body[its[1]]
+                if same and slots.saturated[old, w, j] == 0 and slots.normal[old, w, j] > 0.0:
+                    loose = 0
         slots.loose[old, w, i] = loose
 
 
@@ -107,49 +95,35 @@ def nearest_slot(slots: Slots, old: int, w: int, geoms: wp.vec2i, place: wp.vec3
 
 
 @wp.func
-def recalled(slots: Slots, old: int, w: int, i: int, axis_1: wp.vec3, axis_2: wp.vec3, v: wp.vec2, h: float):
-    """Return a contact that had slot ``i``, before its law decides whether it sticks."""
+def born(now: Now, still: float, origin: wp.float64):
+    """Return a new contact: sliding if it is faster than the law's stick speed (or peak speed), otherwise stuck."""
     touch = Touch()
-    touch.mode = slots.mode[old, w, i]
-    touch.load = slots.normal[old, w, i]
-    touch.pull = on_axes(axis_1, axis_2, slots.pull[old, w, i])
-    touch.drift = on_axes(axis_1, axis_2, slots.drift[old, w, i])
-    touch.acceleration = (v - on_axes(axis_1, axis_2, slots.velocity[old, w, i])) / h
-    touch.mu_s = slots.mu_s[old, w, i]
-    touch.mu_k = slots.mu_k[old, w, i]
-    touch.creep = slots.creep[old, w, i]
-    touch.events = slots.events[old, w, i]
-    touch.path = slots.path[old, w, i]
+    touch.mode = wp.where(now.speed > still, SLIP, STICK)
     touch.urgency = PUSHED
-    if touch.mode == SLIP and slots.saturated[old, w, i] == 0:
-        touch.urgency = wp.min(2.0 * slots.urgency[old, w, i], MOST_URGENT)
+    touch.path = origin
     return touch
 
 
 @wp.func
-def path_direction(normal: wp.vec3, belt: wp.vec3):
-    """Return the direction along which a contact's displacement is counted: of the surface velocity, or the world's x."""
-    chosen = wp.vec3(1.0, 0.0, 0.0)
-    if wp.abs(normal[0]) >= 0.9:
-        chosen = wp.vec3(0.0, 1.0, 0.0)
-    if wp.length_sq(belt) > 0.0:
-        chosen = belt
-        if belt[0] + belt[1] + belt[2] < 0.0:
-            chosen = -belt
-    return wp.normalize(chosen - wp.dot(chosen, normal) * normal)
-
-
-@wp.func
-def soften(
-    jacobian: wp.array3d[float], filled: wp.array2d[int], first: wp.array2d[int], sparse: bool, w: int, row: int, scale: float
-):  # fmt: skip
-    """Multiply a row of the Jacobian: its resistance, in terms of the force on the bodies, is divided by the square."""
-    if sparse:
-        for k in range(first[w, row], first[w, row] + filled[w, row]):
-            jacobian[w, 0, k] = scale * jacobian[w, 0, k]
-    else:
-        for k in range(jacobian.shape[2]):
-            jacobian[w, row, k] = scale * jacobian[w, row, k]
+def recalled(slots: Slots, old: int, w: int, i: int, now: Now):
+    """Return a contact that had slot ``i``, before its law decides whether it sticks."""
+    touch = Touch()
+    touch.mode = slots.mode[old, w, i]
+    touch.load = slots.normal[old, w, i]
+    touch.pull = on_axes(now, slots.pull[old, w, i])
+    if touch.mode == STICK:
+        touch.drift = on_axes(now, slots.drift[old, w, i])
+    touch.acceleration = (now.v - on_axes(now, slots.velocity[old, w, i])) / now.h
+    touch.mu_s = slots.mu_s[old, w, i]
+    touch.mu_k = slots.mu_k[old, w, i]
+    touch.creep = slots.creep[old, w, i]
+    touch.events = slots.events[old, w, i]
+    moved = now.h * wp.dot(now.direction, now.v[0] * now.axis_1 + now.v[1] * now.axis_2)
+    touch.path = slots.path[old, w, i] + wp.float64(float(now.side) * moved)
+    touch.urgency = PUSHED
+    if touch.mode == SLIP and slots.saturated[old, w, i] == 0:
+        touch.urgency = wp.min(2.0 * slots.urgency[old, w, i], MOST_URGENT)
+    return touch
 
 
 @wp.func
@@ -164,17 +138,19 @@ def reserve(worlds: Worlds, slots: Slots, new: int, w: int):
 
 
 @wp.func
-def keep(slots: Slots, new: int, w: int, k: int, axis_1: wp.vec3, axis_2: wp.vec3, v: wp.vec2, touch: Touch):
+def keep(slots: Slots, new: int, w: int, k: int, now: Now, touch: Touch):
     """Write a contact into its slot."""
-    slots.axis_1[new, w, k] = axis_1
-    slots.axis_2[new, w, k] = axis_2
+    slots.axis_1[new, w, k] = now.axis_1
+    slots.axis_2[new, w, k] = now.axis_2
+    slots.side[new, w, k] = now.side
+    slots.scale[new, w, k] = touch.scale
     slots.mu_s[new, w, k] = touch.mu_s
     slots.mu_k[new, w, k] = touch.mu_k
     slots.normal[new, w, k] = 0.0
     slots.saturated[new, w, k] = 0
     slots.loose[new, w, k] = 0
-    slots.drift[new, w, k] = touch.drift[0] * axis_1 + touch.drift[1] * axis_2
-    slots.velocity[new, w, k] = v[0] * axis_1 + v[1] * axis_2
+    slots.drift[new, w, k] = touch.drift[0] * now.axis_1 + touch.drift[1] * now.axis_2
+    slots.velocity[new, w, k] = now.v[0] * now.axis_1 + now.v[1] * now.axis_2
     slots.urgency[new, w, k] = touch.urgency
     slots.creep[new, w, k] = touch.creep
     slots.path[new, w, k] = touch.path
@@ -182,12 +158,19 @@ def keep(slots: Slots, new: int, w: int, k: int, axis_1: wp.vec3, axis_2: wp.vec
     slots.mode[new, w, k] = touch.mode
 
 
+@wp.func
+def ours(c: int, geom: wp.array[wp.vec2i], address: wp.array2d[int], dim: wp.array[int], partners: wp.array2d[int]):
+    """Return whether a contact has friction rows and is of the geoms asked for."""
+    geoms = geom[c]
+    if geoms[0] < 0 or geoms[1] < 0 or address[c, 0] < 0 or dim[c] < 3:
+        return False
+    return partners[geoms[0], geoms[1]] != 0
+
+
 @functools.cache
 def steer_kernel(kind: str, clock: float) -> Any:
     """Return the kernel that steers the solver at each contact, for a law's kind and a coefficient process's clock."""
-    slide, (decide, stuck_row) = slide_function(kind), rest_rules(kind)
-    coefficients = coefficient_functions()[0]
-    OWN_PATH = clock != TIME  # noqa: N806  # as MuJoCo Warp writes what a kernel is made for
+    decide, hold, let_slide, coefficients = rest_rules(kind)[0], hold_rule(kind), slide_rule(kind), path_rule(clock)
 
     @wp.kernel(module="unique", enable_backward=False)
     def steer(
@@ -221,112 +204,49 @@ def steer_kernel(kind: str, clock: float) -> Any:
         jacobian: wp.array3d[float],
     ):
         for c in range(wp.tid(), wp.min(nacon[0], geom.shape[0]), stride):
-            geoms = geom[c]
-            row = address[c, 0]
-            if geoms[0] < 0 or geoms[1] < 0 or row < 0 or dim[c] < 3:
-                continue
-            if partners[geoms[0], geoms[1]] == 0:
+            if not ours(c, geom, address, dim, partners):
                 continue
             w = world[c]
             new = worlds.count[w] % 2
             k = reserve(worlds, slots, new, w)
             if k < 0:
                 continue
-            h = timestep[w % timestep.shape[0]]
-            normal = wp.vec3(frame[c][0, 0], frame[c][0, 1], frame[c][0, 2])
-            axis_1 = wp.vec3(frame[c][1, 0], frame[c][1, 1], frame[c][1, 2])
-            axis_2 = wp.vec3(frame[c][2, 0], frame[c][2, 1], frame[c][2, 2])
-            side = partners[geoms[0], geoms[1]]
-            v = wp.vec2(velocity[w, row + 1], velocity[w, row + 2])
-            speed = wp.length(v)
+            geoms = geom[c]
+            now = seen(w, address[c, 0], frame[c], velocity, timestep[w % timestep.shape[0]], worlds.peak_speed[w])
+            bodies = wp.vec2i(geom_body[geoms[0]], geom_body[geoms[1]])
+            now.mobility = mobility[w % mobility.shape[0], bodies[0]][0] + mobility[w % mobility.shape[0], bodies[1]][0]
+            now.direction = path_direction(now.normal, belt[c][0] * now.axis_1 + belt[c][1] * now.axis_2)
+            now.side = partners[geoms[0], geoms[1]]
             place = position[c] - geom_position[w, geoms[1]]
-            some = w % mobility.shape[0]
-            yielding = mobility[some, geom_body[geoms[0]]][0] + mobility[some, geom_body[geoms[1]]][0]
-            felt = 1.0 / wp.max(yielding, 1.0e-12)
-            parameters = worlds.parameters[w]
-            peak = worlds.peak_speed[w]
-            still = wp.max(worlds.stick_speed[w], peak)
-
-            touch = Touch()
-            touch.mode = wp.where(speed > still, SLIP, STICK)
-            touch.urgency = PUSHED
-            touch.path = worlds.origin
             old = 1 - new
             i = nearest_slot(slots, old, w, geoms, place)
+            touch = born(now, wp.max(worlds.stick_speed[w], now.peak), worlds.origin)
             if i >= 0:
-                touch = recalled(slots, old, w, i, axis_1, axis_2, v, h)
-                stoppable = still + h * yielding * touch.mu_s * touch.load
-                was = touch.mode
-                if was != STICK:
-                    touch.drift = wp.vec2(0.0)
+                touch = recalled(slots, old, w, i, now)
+                was = int(touch.mode)  # a copy
+                stoppable = (
+                    wp.max(worlds.stick_speed[w], now.peak) + now.h * now.mobility * touch.mu_s * touch.load
+                )  # no contact sticks that friction could not stop within a step
                 touch = decide(
-                    touch, v, h, stoppable, peak, slots.saturated[old, w, i], slots.loose[old, w, i], felt, parameters
+                    touch, now.v, now.h, stoppable, now.peak, slots.saturated[old, w, i], slots.loose[old, w, i],
+                    felt_mass(now.mobility), worlds.parameters[w],
                 )  # fmt: skip
                 if was != STICK and touch.mode == STICK:
                     touch.events += 1
-            if wp.static(OWN_PATH):
-                direction = path_direction(normal, belt[c][0] * axis_1 + belt[c][1] * axis_2)
-                if i >= 0:
-                    touch.path += wp.float64(float(side) * h * wp.dot(direction, v[0] * axis_1 + v[1] * axis_2))
-                slots.cursor[new, w, k, 0] = wp.float64(0.0)
-                a, b = coefficients(
-                    worlds.descriptor[w], slots.cursor[new, w, k], seed, worlds.sample[w], contact, wp.float64(0.0),
-                    touch.path, wp.float64(touch.events),
-                )  # fmt: skip
-                touch.mu_s = float(a)
-                touch.mu_k = float(b)
-            else:
-                touch.mu_s = worlds.mu_s[w]
-                touch.mu_k = worlds.mu_k[w]
-
-            scale = wp.float32(1.0)
-            cap = wp.float32(0.0)
-            asked = wp.vec2(0.0)
+            touch = coefficients(touch, worlds, slots, new, w, k, seed, contact)
             if touch.mode == STICK:
-                resistance = 1.0 / mass[w, row + 1]
-                total, stiffness, cap_at_rest = stuck_row(touch, resistance, h, peak, felt, parameters)
-                cap = wp.max(cap_at_rest, LEAST_FRICTION)
-                scale = wp.max(wp.sqrt(resistance / total), SOFTEST)
-                asked = scale * (-v / h - stiffness * touch.drift)
-                if scale < 1.0:
-                    soften(jacobian, filled, first, sparse, w, row + 1, scale)
-                    soften(jacobian, filled, first, sparse, w, row + 2, scale)
+                touch = hold(touch, now, worlds.parameters[w], sparse, filled, first, mass, reference, jacobian)
             else:
-                touch.drift = wp.vec2(0.0)
-                cap = wp.max(slide(speed, touch.mu_s, touch.mu_k, parameters), LEAST_FRICTION)
-                along = v / wp.max(speed, LEAST_SPEED)
-                root = impratio[w % impratio.shape[0]]
-                kept = 1.0 + cap * cap * root * root  # the cone divides the normal row's mass by this
-                mass[w, row] = kept * mass[w, row]
-                mass[w, row + 1] = kept * mass[w, row + 1]
-                mass[w, row + 2] = kept * mass[w, row + 2]
-                pressing = wp.max(touch.load / mass[w, row], reference[w, row])
-                slowing = -wp.dot(touch.acceleration, along)
-                if touch.load <= 0.0:
-                    slowing = cap * (pressing + wp.length(gravity[w % gravity.shape[0]]))
-                beyond = touch.urgency * cap * pressing * mass[w, row] / mass[w, row + 1]
-                touch.mode = SLIP
-                if (beyond + slowing) * h >= speed:
-                    touch.mode = STOPPING
-                    beyond = wp.max(speed / h - slowing, 0.0)
-                    asked = -v / h
-                else:
-                    asked = -(beyond + slowing) * along
-                reference[w, row] = reference[w, row] - cap * beyond
-            given = friction[c]
-            given = vec5(cap / scale, cap / scale * given[1] / given[0], given[2], given[3], given[4])
-            friction[c] = given
-            for j in range(3, dim[c]):  # a cone is circular where this is the same for all
-                mass[w, row + j] = mass[w, row + 1] * given[j - 1] * given[j - 1] / (given[0] * given[0])
-            reference[w, row + 1] = asked[0]
-            reference[w, row + 2] = asked[1]
+                weight = wp.length(gravity[w % gravity.shape[0]])
+                touch = let_slide(
+                    touch, now, worlds.parameters[w], impratio[w % impratio.shape[0]], weight, mass, reference
+                )  # fmt: skip
+            allow(friction, c, dim[c], now, touch, mass)
             slots.geoms[new, w, k] = geoms
-            slots.rows[new, w, k] = wp.vec2i(row, dim[c])
-            slots.side[new, w, k] = side
+            slots.rows[new, w, k] = wp.vec2i(now.row, dim[c])
             slots.place[new, w, k] = place
-            slots.friction[new, w, k] = given
-            slots.scale[new, w, k] = scale
-            keep(slots, new, w, k, axis_1, axis_2, v, touch)
+            slots.friction[new, w, k] = friction[c]
+            keep(slots, new, w, k, now, touch)
 
     return steer
 
@@ -341,19 +261,23 @@ def observe(
     stick: wp.array[int],
     contacts: wp.array[int],
 ):
-    """Write the sums of the forces over the contacts of each world, and whether all of them stick."""
+    """Write the sums of the forces over the contacts of each world, whether all of them stick, and their mean coefficients."""
     w = wp.tid()
     now = worlds.count[w] % 2
     pressing = wp.float32(0.0)
     rubbing = wp.vec3(0.0)
     loaded = wp.int32(0)
     stuck = wp.int32(1)
+    mu_s = wp.float32(0.0)
+    mu_k = wp.float32(0.0)
     if worlds.count[w] >= 0:
         for i in range(slots.used[now, w]):
             row = slots.rows[now, w, i][0]
             if force[w, row] > 0.0:
                 loaded += 1
                 pressing += force[w, row]
+                mu_s += force[w, row] * slots.mu_s[now, w, i]
+                mu_k += force[w, row] * slots.mu_k[now, w, i]
                 vector = force[w, row + 1] * slots.axis_1[now, w, i] + force[w, row + 2] * slots.axis_2[now, w, i]
                 # rows push the contact's second geom
                 rubbing -= float(slots.side[now, w, i]) * slots.scale[now, w, i] * vector
@@ -362,4 +286,7 @@ def observe(
     normal_force[w] = pressing
     friction_force[w] = rubbing
     contacts[w] = loaded
+    if slots.cursor.shape[0] > 0 and pressing > 0.0:  # each contact has its own
+        worlds.mu_s[w] = mu_s / pressing
+        worlds.mu_k[w] = mu_k / pressing
     stick[w] = wp.where(loaded > 0, stuck, 0)

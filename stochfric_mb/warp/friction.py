@@ -36,12 +36,15 @@ class WarpFriction:
 
     @property
     def mu_s(self) -> wp.array[float]:
-        """Static coefficient of each world in the last step [-], on the device."""
+        """Static coefficient of each world in the last step [-], on the device.
+
+        Where each contact has its own, as of the last ``observe`` and their mean, weighted with the normal forces.
+        """
         return self.worlds.mu_s
 
     @property
     def mu_k(self) -> wp.array[float]:
-        """Kinetic coefficient of each world in the last step [-], on the device."""
+        """Kinetic coefficient of each world [-], likewise."""
         return self.worlds.mu_k
 
     def randomise(self, domain: Domain) -> None:

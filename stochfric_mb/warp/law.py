@@ -27,6 +27,8 @@ CLOSE = wp.constant(1.0e-6)
 """Part of the force to which the speed of creep gives it: beyond it, float32 ends."""
 ROUNDING = wp.constant(1.2e-7)
 """Relative distance of neighbouring numbers of float32 [-]."""
+LEAST_MOBILITY = wp.constant(1.0e-12)
+"""Keeps the mass of what cannot move a number [1/kg]."""
 TRIALS = wp.constant(64)
 """Most trials for the speed of creep: halving alone would need 24."""
 
@@ -55,6 +57,16 @@ class Touch:
     """In the step before [m/s^2]."""
     urgency: float
     """Friction to ask for, over the cap [-]."""
+    cap: float
+    """Coefficient of friction that the solver is allowed [-]."""
+    scale: float
+    """What the tangential rows of the solver's Jacobian are multiplied by [-]."""
+
+
+@wp.func
+def felt_mass(mobility: float):
+    """Return the mass [kg, kg m^2] that a mobility stands for."""
+    return 1.0 / wp.max(mobility, LEAST_MOBILITY)
 
 
 def require_runnable(law: Law) -> None:
@@ -195,7 +207,7 @@ def _creeping(kind: str) -> tuple[Any, Any]:
         touch: Touch, v: wp.vec2, h: float, stoppable: float, peak: float, saturated: int, loose: int, felt: float,
         p: wp.array[float],
     ):  # fmt: skip
-        was = touch.mode
+        was = int(touch.mode)  # a copy
         speed = wp.length(v)
         if was == STICK:
             if saturated == 0 or loose == 1:

@@ -21,7 +21,7 @@ from stochfric_mb.mujoco import Joint, Tendon
 from stochfric_mb.scenario import Scenario
 from stochfric_mb.trajectory import Trajectory
 from stochfric_mb.warp.attach import add_friction
-from stochfric_mb.warp.belt_box import HOOK, RIGID
+from stochfric_mb.warp.belt_box import HOOK
 from stochfric_mb.warp.kinds import ContactFriction, JointFriction
 
 REACH = 1.0e10
@@ -64,7 +64,7 @@ def run_worlds(scenario: Scenario[Mjcf], *, seed: int, first_sample: int, n: int
     n_steps = (scenario.n_outputs - 1) * per_output
     about = {
         "engine": "warp", "version": mjw.__version__, "hook": HOOK, "dt": step, "seed": seed, "law": scenario.law.kind,
-        "notes": [RIGID] if scenario.law.kind == "elastic_stick" else [], "n_steps": n_steps,
+        "notes": [], "n_steps": n_steps,
         "seconds_per_step": (time.perf_counter() - began) / n / max(n_steps, 1), "position_unit": position.unit,
     }  # fmt: skip
     names = ("position", "velocity", "friction_force", "normal_force", "mu_s", "mu_k", "stick")

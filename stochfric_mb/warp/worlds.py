@@ -12,6 +12,7 @@ from stochfric_mb.coefficients.path import CURSOR
 from stochfric_mb.friction import Friction
 from stochfric_mb.warp.state import Rows, Slots, Worlds, vec5
 
+
 def world_arrays(friction: Friction, nworld: int, first_sample: int, *, new_paths: bool = False) -> Any:
     """Return the `Worlds` of a friction, none of which has begun."""
     law = friction.law

@@ -69,7 +69,9 @@ def test_a_stribeck_box_stops_later_than_its_mu_s_says():
     v = np.linspace(0.0, 1.0, 100_001)
     mu = 0.4 + 0.4 * np.exp(-v / 0.5)
     exact = np.trapezoid(v / (mu * GRAVITY), v)
-    assert np.abs(d.qpos.numpy()[:, 0] + 1.0 * dt / 2.0 - exact).max() < 2e-3 * exact  # first order in dt
+    # mu is that of the step's start, where the box is faster by half a step's loss, dt/2 g mu, than in its middle
+    late = 0.5 * dt * np.trapezoid(v * (mu - 0.4) / 0.5 / mu, v)
+    assert np.abs(d.qpos.numpy()[:, 0] + 1.0 * dt / 2.0 - exact - late).max() < 5e-4 * exact  # second order, settling
 
 
 def test_coefficients_are_the_cpus_in_every_world():

@@ -80,5 +80,7 @@ def test_what_cannot_work_is_refused():
     scene = slider(0.002, nworld=1)
     with pytest.raises(InputError, match="normal_force = None is not a number"):
         add_friction(*scene, Joint("x"), LAW)
+    with pytest.raises(InputError, match=r"'reaction': .* stochfric_mb.mujoco.add_friction"):
+        add_friction(*scene, Joint("x"), LAW, normal_force="reaction")
     with pytest.raises(InputError, match="out of range"):
         add_friction(*scene, Joint("x"), LAW, normal_force=-1.0)

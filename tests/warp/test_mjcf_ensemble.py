@@ -152,7 +152,7 @@ def test_hinge_sticks_and_is_recorded_in_radians(scenario_file, tmp_path):
         ("scenario.toml", "where.0", "where.3", "has 3 numbers"),
         ("scenario.toml", ', "speed.0" = "velocity"', "", "velocity"),
         ("scenario.toml", "output_step = 0.002", "output_step = 0.0025", "does not divide"),
-        ("scenario.toml", 'kind = "coulomb"', 'kind = "tanh"', "no true stick"),
+        ("scenario.toml", 'kind = "coulomb"', 'kind = "dahl"', "is a bristle"),
         ("model.xml", 'cone="elliptic"', 'cone="pyramidal"', "elliptic"),
         ("model.xml", 'condim="3"', 'condim="1"', "condim 1"),
         ("model.xml", "<worldbody>", "<wordbody>", "MuJoCo does not read it"),
