@@ -7,6 +7,7 @@ from typing import Any
 from stochfric_mb.discovery.result import Gap
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision
+from stochfric_mb.discovery.stick_slip.records.long_records import FORECAST, SIMULATED
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import NOT_STATED
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.measurement.dataset import Dataset
@@ -47,6 +48,11 @@ def _of_the_record(found: Study) -> list[str]:
     if colour.coloured > 0.0:
         size = colour.coloured * found.size.length
         said.append(f"the sensor's noise is coloured: {size:.2g} m with a memory of {colour.memory:.2f} a sample")
+    if (most := max(map(len, found.pool.slips))) > SIMULATED:
+        said.append(
+            f"long records: all {len(found.pool.run)} slips count; what is simulated stands for {SIMULATED} slips in the "
+            f"middle of a run, and {min(most, FORECAST)} forecasts of a run are scored, spread evenly"
+        )
     if (belt := belt_speed(found)) is not None:
         said.append(belt.note)
     return said

@@ -10,6 +10,7 @@ import dataclasses
 
 import numpy as np
 
+from stochfric_mb.discovery.stick_slip.records.long_records import middle
 from stochfric_mb.discovery.stick_slip.records.record import Array, Record, make_record
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, extract
 from stochfric_mb.effects import kind_found_as, make_effect
@@ -62,8 +63,9 @@ def calibrate(slips: Slips, *, seed: int = 11, damping: float = 1.0) -> Calibrat
     observed: list[Array] = []
     true: list[Array] = []
     generator = np.random.default_rng(seed)
+    like = middle(slips)
     for repeat in range(REPEATS):
-        measured, truth = _simulated(slips, static, kinetic, damping, repeat, generator)
+        measured, truth = _simulated(like, static, kinetic, damping, repeat, generator)
         observed.append(measured)
         true.append(truth)
     features, forces = np.concatenate(observed), np.concatenate(true)

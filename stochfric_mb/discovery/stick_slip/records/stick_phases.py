@@ -13,9 +13,16 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.inference.frequency_search import worth_a_look
 from stochfric_mb.discovery.stick_slip.records.record import Array, Noise
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, StickSamples
+from stochfric_mb.discovery.stick_slip.records.stick_waves import wave_gains
 from stochfric_mb.effects.traits import BELT_RIPPLE, CREEPING_ZERO, JUMP, YIELDING
+
+FINENESS = 4.0
+"""Frequencies of a ripple are 1/(this times the length of the record) apart [-]."""
+STRETCH = 128.0
+"""Cycles of the slips in the stretch of a long record in which a ripple is looked for first [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -100,10 +107,18 @@ def _gain(runs: Sequence[_Phases], rests: Sequence[Array], columns: Callable[[_P
 def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tuple[float, dict[str, float]]:
     """Return score and frequency [Hz] of a ripple of the belt's speed."""
     duration = max(float(run.slips.record.time[-1] - run.slips.record.time[0]) for run in runs)
-    grid = np.arange(2.0 / duration, 3.0, 1.0 / (4.0 * duration))
+    every = np.arange(2.0 / duration, 3.0, 1.0 / (FINENESS * duration))
+    cycle = float(np.median([np.median(np.diff(run.slips.onset_time)) for run in runs]))
+    grid = worth_a_look(
+        lambda some, stretch: _ripple_gains(runs, rests, some, stretch),
+        every,
+        duration=duration,
+        stretch=STRETCH * cycle,
+        fineness=FINENESS,
+    )
     gains = _ripple_gains(runs, rests, grid)
     best = int(np.argmax(gains))
-    return float(gains[best]) - 2 * len(runs) * log_n - 2.0 * np.log(len(grid)), {"frequency": float(grid[best])}
+    return float(gains[best]) - 2 * len(runs) * log_n - 2.0 * np.log(len(every)), {"frequency": float(grid[best])}
 
 
 def _yields(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tuple[float, dict[str, float]]:
@@ -159,19 +174,20 @@ def _without_accidents(run: _Phases) -> _Phases:
     return dataclasses.replace(run, samples=samples, values=run.values[kept], line=run.line[kept])
 
 
-def _ripple_gains(runs: Sequence[_Phases], rests: Sequence[Array], grid: Array) -> Array:
-    """Return the fall of chi^2 by a cosine and a sine of each frequency, with each run's own phase."""
+def _ripple_gains(runs: Sequence[_Phases], rests: Sequence[Array], grid: Array, stretch: float = np.inf) -> Array:
+    """Return the fall of chi^2 by a cosine and a sine of each frequency, with each run's own phase.
+
+    Args:
+        runs: the stick phases.
+        rests: what the belt's line leaves of them.
+        grid: frequencies [Hz].
+        stretch: time from the first sample of each run after which there is no wave [s].
+    """
     gains = np.zeros(len(grid))
     for run, rest in zip(runs, rests, strict=True):
+        n = int(np.searchsorted(run.samples.time, run.samples.time[0] + stretch, "right"))
         line = run.line / np.sqrt(run.line @ run.line)
-        for i, frequency in enumerate(grid):
-            angle = 2.0 * np.pi * frequency * run.samples.time
-            a, b = run.centred(np.cos(angle)), run.centred(np.sin(angle))
-            a, b = a - line * (line @ a), b - line * (line @ b)
-            aa, bb, ab, ar, br = a @ a, b @ b, a @ b, a @ rest, b @ rest
-            determinant = aa * bb - ab * ab
-            if determinant > 1.0e-9 * aa * bb:
-                gains[i] += (bb * ar * ar - 2.0 * ab * ar * br + aa * br * br) / determinant
+        gains += wave_gains(grid, run.samples.time[:n], run.samples.segment[:n], line[:n], rest[:n])
     return gains
 
 

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.inference.frequency_search import worth_a_look
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, legendre_coefficients
@@ -26,8 +27,10 @@ SLOW = 1.6
 """Frequency over the rate of the slips up to which waves are slow [-]; harmonics are looked for in slow ones alone."""
 COARSE, FINE = 3.0, 15.0
 """Frequencies of the grid, and about its best one, in 1/(length of the record) [-]."""
-CHUNK = 64
-"""Frequencies that are looked at together."""
+CHUNK, MOST_AT_ONCE = 64, 400_000
+"""Frequencies that are looked at together, and numbers that one such array may hold."""
+STRETCH = 128.0
+"""Cycles of the slips in the stretch of a long record in which waves are looked for first [-]."""
 
 
 def frequencies(pool: Pool, pace: float = 1.0) -> Array:
@@ -71,7 +74,11 @@ def _features(place: Array, weight: Array, grid: Array, harmonics: int) -> npt.N
     for h in range(harmonics):
         turned = turned * first
         found[:, h, :, 0] = weight[:, 0] * turned[..., 0]
-        found[:, h, :, 1:] = legendre_coefficients(weight[:, 1:] * turned[..., 1:])
+        in_slip = weight[:, 1:] * turned[..., 1:]
+        # the projection is real: two real products are half the work of a complex one
+        found[:, h, :, 1:].real, found[:, h, :, 1:].imag = map(
+            legendre_coefficients, (in_slip.real.copy(), in_slip.imag.copy())
+        )
     return found
 
 
@@ -110,8 +117,15 @@ def best_wave(
     for harmonics, grid in ((1, slow), (HARMONICS, slow), (1, fast)):
         if len(grid) == 0:
             continue
-        gains = _gains(pool, wave, parts, grid, harmonics)
-        centre = float(grid[np.argmax(gains)])
+        near = worth_a_look(
+            lambda some, stretch, harmonics=harmonics: _gains(pool, wave, parts, some, harmonics, stretch),
+            grid,
+            duration=pool.duration,
+            stretch=STRETCH / _slip_rate(pool),
+            fineness=COARSE,
+        )
+        gains = _gains(pool, wave, parts, near, harmonics)
+        centre = float(near[np.argmax(gains)])
         close = centre + np.arange(-2, 3) / (FINE * pool.duration)
         close = close[(close <= limit) == (centre <= limit)]
         fine = _gains(pool, wave, parts, close, harmonics)
@@ -124,29 +138,42 @@ def best_wave(
     return Hypothesis(kind, columns, (wave.setting(frequency), float(harmonics)), variant=WAVE), looked_at
 
 
-def _gains(pool: Pool, wave: Wave, parts: list[Part], grid: Array, harmonics: int) -> Array:
-    """Return by how much waves of the grid's frequencies lower the cost at fixed variance components, shape (len(grid),)."""
-    found = [_some(pool, wave, parts, grid[i : i + CHUNK], harmonics) for i in range(0, len(grid), CHUNK)]
-    return np.concatenate(found)
+def _gains(pool: Pool, wave: Wave, parts: list[Part], grid: Array, harmonics: int, stretch: float = np.inf) -> Array:
+    """Return by how much waves of the grid's frequencies lower the cost at fixed variance components, shape (len(grid),).
+
+    Args:
+        pool: the slips.
+        wave: where the wave runs.
+        parts: what it meets, run by run.
+        grid: frequencies [Hz].
+        harmonics: how many of them a wave has.
+        stretch: time from the first slip of each run after which there is no wave [s].
+    """
+    first = np.array([s.onset_time[0] for s in pool.slips])[pool.run]
+    inside = np.asarray(pool.onset_time - first <= stretch)
+    chunk = max(1, min(CHUNK, MOST_AT_ONCE // (harmonics * wave.place.shape[1] * max(int(inside.sum()), 1))))
+    some = [_some(pool, wave, parts, grid[i : i + chunk], harmonics, inside) for i in range(0, len(grid), chunk)]
+    return np.concatenate(some)
 
 
-def _some(pool: Pool, wave: Wave, parts: list[Part], grid: Array, harmonics: int) -> Array:
+def _some(pool: Pool, wave: Wave, parts: list[Part], grid: Array, harmonics: int, inside: npt.NDArray[np.bool_]) -> Array:
     width = 2 * harmonics
     size = width * len(parts)
     gram = np.zeros((len(grid), size, size))
     along = np.zeros((len(grid), size))
     shared = np.zeros((len(grid), parts[0].basis.shape[1], size))
     for i, part in enumerate(parts):
-        mine = pool.run == part.run
+        mine = (pool.run == part.run) & inside
         features = _features(wave.place[mine], wave.weight[mine], grid, harmonics)
         if grid[0] <= SLOW * _slip_rate(pool):
             features -= features.mean(axis=2, keepdims=True)
         white = (features[:, :, pool.kept[mine]] @ part.inverse.T).reshape(len(grid), harmonics, -1)
         columns = np.stack([white.real, white.imag], axis=2).reshape(len(grid), width, -1)
         at = slice(i * width, (i + 1) * width)
+        rows = np.repeat(inside[(pool.run == part.run) & pool.kept], N_FEATURES)
         gram[:, at, at] = columns @ columns.transpose(0, 2, 1)
-        along[:, at] = columns @ part.rest
-        shared[:, :, at] = part.basis.T @ columns.transpose(0, 2, 1)
+        along[:, at] = columns @ part.rest[rows]
+        shared[:, :, at] = part.basis[rows].T @ columns.transpose(0, 2, 1)
     scale = np.sqrt(np.maximum(np.einsum("fii->fi", gram), 1.0e-300))
     # what of the waves the believed model cannot imitate
     gram = (gram - shared.transpose(0, 2, 1) @ shared) / (scale[:, :, None] * scale[:, None, :]) + 1.0e-6 * np.eye(size)

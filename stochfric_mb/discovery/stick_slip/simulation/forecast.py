@@ -10,6 +10,7 @@ import dataclasses
 
 import numpy as np
 
+from stochfric_mb.discovery.stick_slip.records.long_records import FORECAST
 from stochfric_mb.discovery.stick_slip.records.record import Array, Noise, Record
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.discovery.stick_slip.simulation.auxiliary_state import auxiliary_state
@@ -63,7 +64,8 @@ def windows_of(slips: Slips) -> Windows:
     stride = max(round(REACH * cycle * record.rate / N_OUTPUTS), 1)
     dwells = slips.onset_time[1:] - slips.restick_time[:-1]
     typical = float(np.median(dwells)) if n > 1 else 0.0
-    for i in range(n - 1):
+    # spread evenly over a long run
+    for i in np.unique(np.linspace(0, n - 2, min(n - 1, FORECAST)).astype(np.int64)) if n > 1 else ():
         if dwells[i] < 0.3 * typical or dwells[i] < 0.02:
             continue
         dwell = 0.45 * typical if dwells[i] > 0.6 * typical else 0.5 * dwells[i]

@@ -6,6 +6,7 @@ import dataclasses
 
 import numpy as np
 
+from stochfric_mb.discovery.stick_slip.records.long_records import middle
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array, make_record
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, extract
@@ -68,7 +69,8 @@ def _most(model: Model) -> float:
 
 
 def simulated_slips(model: Model, like: Slips, *, sample: int = 0, seed: int = 5) -> Slips:
-    """Return the slips of a run simulated from the model, as long as ``like`` and with its noise."""
+    """Return the slips of a run simulated from the model, with the noise of ``like``: the middle stretch of a long one."""
+    like = middle(like)
     generator = np.random.default_rng([seed, sample])
     return measured_slips(shown_by(model, like, generator, sample=sample, seed=seed), like, generator)
 

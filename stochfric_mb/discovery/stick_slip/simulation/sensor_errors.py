@@ -13,6 +13,7 @@ import dataclasses
 import numpy as np
 
 from stochfric_mb.discovery.stick_slip.records.calibration import FEWEST
+from stochfric_mb.discovery.stick_slip.records.long_records import middle
 from stochfric_mb.discovery.stick_slip.records.record import Array, make_record
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, extract
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
@@ -37,6 +38,7 @@ class Errors:
 
 def errors_by_noise(model: Model, like: Slips) -> Errors | None:
     """Return the errors that the noise of a run makes in the features of the model's slips; None for too few slips."""
+    like = middle(like)
     record = like.record
     generator = np.random.default_rng(SEED)
     try:
