@@ -2,7 +2,7 @@
 
 ::
 
-    python -m tests.discovery.unseen_forms --out DIR [--seed S] [--workers 1] [--limit-s 1200]
+    python -m tests.discovery.unseen_forms --out DIR [--series 1] [--seed S] [--workers 1] [--limit-s 1200]
 
 An interrupted run goes on where it stopped. ``DIR/cases.jsonl`` has a line a case, ``DIR/records`` the datasets.
 """
@@ -37,6 +37,7 @@ def main() -> None:
     parser.add_argument(
         "--plan", choices=("core", "all"), default="core", help="core: each form once; all: designs and strengths"
     )
+    parser.add_argument("--series", type=int, choices=(1, 2), default=1, help="the set: the first, or the one written later")
     parser.add_argument("--only", nargs="*", default=[], help="forms, families (named, unknown, none) or names of cases")
     parser.add_argument("--records-only", action="store_true", help="make the records, ask nothing")
     parser.add_argument("--table", action="store_true", help="print the table of what is there")
@@ -65,7 +66,7 @@ def _file(out: Path) -> Path:
 
 def _chosen(given: argparse.Namespace) -> list[Case]:
     """Return the cases of the plan; `core` takes each form at full strength, designs in turn."""
-    every = cases()
+    every = [case for case in cases() if case.form.series == given.series]
     if given.plan == "core":
         names = list(dict.fromkeys(case.form.name for case in every))
         every = [

@@ -62,6 +62,8 @@ class Form:
     """Author and year."""
     options: dict[str, object]
     """What is special about its records (`records.py`)."""
+    series: int = 1
+    """The set that it was written for: 1, or 2 (`second_forms.py`)."""
 
     def right(self, design: str) -> frozenset[str]:
         """Return the first names that count as right in `design`."""
@@ -85,6 +87,7 @@ def form(
     also_one: tuple[str, ...] = (),
     rig: str | None = None,
     designs: tuple[str, ...] = ("one", "several"),
+    series: int = 1,
     **options: object,
 ) -> Callable:
     """Enter a function (world, strength) into the list of forms under its own name."""
@@ -95,7 +98,7 @@ def form(
             raise ValueError(f"{name} stands twice")
         right = frozenset(truth)
         chosen = rig or ROTA[len(FORMS) % len(ROTA)]
-        FORMS[name] = Form(name, apply, right, right | set(also_one), chosen, designs, source, options)
+        FORMS[name] = Form(name, apply, right, right | set(also_one), chosen, designs, source, options, series)
         return apply
 
     return entered

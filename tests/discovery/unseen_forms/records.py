@@ -10,7 +10,13 @@ from zlib import crc32
 import numpy as np
 from scipy.signal import lfilter
 
-from . import friction_forms, mechanism_forms, nameless_forms, null_forms  # noqa: F401  (each enters its forms)
+from . import (  # each enters its forms; the second set last: the rigs that forms take in turn hang on their order
+    friction_forms,  # noqa: F401
+    mechanism_forms,  # noqa: F401
+    nameless_forms,  # noqa: F401
+    null_forms,  # noqa: F401
+    second_forms,  # noqa: F401
+)
 from .forms import FORMS, NONE, UNKNOWN, Form
 from .motion import Motion, World, simulate
 from .rigs import RIGS, UNCERTAINTY, Rig
@@ -117,13 +123,16 @@ def make_runs(case: Case, seed: int, *, strength: float | None = None, share: fl
 
 
 def noise(kind: str, size: float, count: int, rng: np.random.Generator) -> np.ndarray:
-    """Return a sensor's noise [m]: white, pink (1/f above 0.1 % of the sampling rate) or white on a zero that wanders."""
+    """Return a sensor's noise [m]: white, coloured, pink (1/f above 0.1 % of the rate) or white on a zero that wanders."""
     white = size * rng.standard_normal(count)
     if kind == "pink":
         spectrum = np.fft.rfft(white)
         f = np.maximum(np.fft.rfftfreq(count), 1.0e-3)
         pink = np.fft.irfft(spectrum / np.sqrt(f), count)
         return size * pink / pink.std()
+    if kind == "coloured":
+        decay = 0.9
+        return lfilter([np.sqrt(1.0 - decay**2)], [1.0, -decay], white)
     if kind == "wander":
         steps = rng.standard_normal(count)
         decay = np.exp(-1.0 / 4000.0)
