@@ -13,6 +13,7 @@ import numpy as np
 
 from stochfric_mb import load_scenario
 from stochfric_mb.effects import EFFECTS, GROUPS, Effect, effect_class, make_effect
+from stochfric_mb.effects.course import COURSE
 from stochfric_mb.engines import adapter
 
 ENGINES = ("mujoco", "exudyn", "pymunk")
@@ -33,7 +34,8 @@ def effects_table() -> str:
     """Return the table of effects: group, kind, equation, parameters, source."""
     lines = ["| group | kind | equation | parameters | source |", "|---|---|---|---|---|"]
     for cls in sorted(map(effect_class, EFFECTS), key=lambda cls: GROUPS.index(cls.group)):
-        parameters = ", ".join(_parameter(f) for f in dataclasses.fields(cls))
+        fields = [f for f in dataclasses.fields(cls) if f.name not in COURSE[:-1]]
+        parameters = ", ".join(_parameter(f) for f in fields).replace(f"`{COURSE[-1]}`", f"`{COURSE[0]}` to `{COURSE[-1]}`")
         lines.append(f"| {cls.group} | `{cls.kind}` | {cls.equation} | {parameters} | {cls.source} |")
     return "\n".join(lines)
 

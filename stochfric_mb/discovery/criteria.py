@@ -66,6 +66,11 @@ HELD_OUT_MOST = 2.0
 """Standard deviations of a fair coin by which better forecasts must outnumber worse ones to be most [-]."""
 LEAST_REDUCIBLE = 0.08
 """Reducible error, over the error itself, below which shares of it would be noise over noise [-]."""
+CLOSES_NOTHING = 0.02
+"""Share of the error of forecasts, or of predicted slip forces, below which a change of it is nothing over nothing: an effect
+that takes away no more of either is not named, and a gap no larger has no closed share [-]."""
+STRENGTH_TOLD = 3.84
+"""Likelihood ratio to a fit without the effect at which its strength is told from none: chi^2 of one degree, 5 % [-]."""
 UNNAMED_LEAST = 0.0
 """Score that an axis must reach: more evidence than its numbers and the choice between the axes cost."""
 FORCES_FEWEST = 6

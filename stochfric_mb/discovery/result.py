@@ -7,6 +7,8 @@ import json
 import math
 from typing import Any, Literal
 
+from stochfric_mb.discovery import criteria
+
 SCHEMA = "stochfric.discovery/1"
 
 Verdict = Literal["effect", "none", "unknown"]
@@ -106,8 +108,8 @@ class Gap:
     def closed(self) -> float | None:
         """Share of the reducible gap that the effects close; None where there is none."""
         reducible = self.reducible
-        # below a fiftieth of the score itself the quotient would be noise over noise
-        return (self.recalibrated - self.augmented) / reducible if reducible > 0.02 * self.recalibrated else None
+        told = reducible > criteria.CLOSES_NOTHING * self.recalibrated
+        return (self.recalibrated - self.augmented) / reducible if told else None
 
 
 @dataclasses.dataclass(frozen=True)

@@ -185,6 +185,11 @@ class Effect:
         """Return the unit of a parameter."""
         return str(self.__dataclass_fields__[name].metadata["unit"])
 
+    def lacks(self, name: str) -> bool:
+        """Return whether a parameter belongs to a form of the effect that this one has not."""
+        field = self.__dataclass_fields__[name]
+        return bool(field.metadata.get("optional")) and getattr(self, name) == field.default
+
     @property
     def late(self) -> float:
         """By how much it makes the reading late [s]."""
@@ -250,6 +255,7 @@ def parameter(
     fit_low: float | None = None,
     fit_high: float | None = None,
     fit_prior: float = math.inf,
+    optional: bool = False,
 ) -> Any:
     """Return a dataclass field of an effect.
 
@@ -264,12 +270,13 @@ def parameter(
         default: default value; none if not given.
         fit_low: lower bound of fits, where it is another.
         fit_high: upper one.
-        fit_prior: standard deviation by which a fit may move it from where it begins.
+        fit_prior: standard deviation by which a fit may move it from where it begins; 0: not at all.
+        optional: whether it belongs to some forms of the effect alone; those without it have it at its default.
     """
     metadata: dict[str, Any] = {"unit": unit, "meaning": meaning, "scale": scale, "low": low, "high": high}
     metadata |= {"strict": strict, "infinite": infinite}
     metadata |= {"fit_low": low if fit_low is None else fit_low, "fit_high": high if fit_high is None else fit_high}
-    metadata |= {"fit_prior": fit_prior}
+    metadata |= {"fit_prior": fit_prior, "optional": optional}
     return dataclasses.field(metadata=metadata, default=default)
 
 

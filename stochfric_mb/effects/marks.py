@@ -132,6 +132,8 @@ class Slips(Protocol):
 
 WAVE = "wave"
 """Variant of the hypothesis of a wave, see `Wave`."""
+COURSE_OF_ANY_SHAPE = "course of any shape"
+"""Variant of that of a course in time that is not held to a form."""
 ENTRAINED = "entrained wave"
 """Variant of that of a wave to which the slips keep, so that it shapes all of them alike."""
 

@@ -40,9 +40,11 @@ def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> F
     drawn = effect.deviations(effect.draws(time, max(found.regression.n, 2)))
     for field in dataclasses.fields(effect):
         value = getattr(effect, field.name)
-        if isinstance(value, str) or not np.isfinite(value):
+        if isinstance(value, str) or not np.isfinite(value) or effect.lacks(field.name):
             continue
         about = field.metadata
+        if about.get("fit_prior") == 0.0:
+            continue  # part of a shape, which stands in augmented.toml
         deviation = 0.0
         if fit is not None:
             deviations = [

@@ -9,10 +9,12 @@ from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.explained import unexplained
 from stochfric_mb.discovery.stick_slip.decision.held_out_check import Comparison, compared, without_last
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, Named, of_wander
+from stochfric_mb.discovery.stick_slip.feature_skill import slip_force_gap
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, deterministic, floor_of, mean_score, settled
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
-from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit, with_deviations
+from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, likelihood_ratio, refit, with_deviations
 from stochfric_mb.discovery.stick_slip.simulation.scatter import matched
+from stochfric_mb.discovery.stick_slip.simulation.strength import told_by_ratio, undecided
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import kinds_with
 from stochfric_mb.effects.traits import OUTSIDE_FORECASTS, SCATTER
@@ -89,7 +91,8 @@ def _instead(decision: Decision, found: Study) -> list[Decision]:
 def checked_on_held_out(answer: Answer, found: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
     """Return the answer less the effects that held-out runs do not bear out, last found first.
 
-    An effect must not make their forecasts worse; a further one must make them better.
+    An effect must not make their forecasts worse, and must make them or the forces of their slips better; a further one must
+    make the forecasts better. What is named then has a strength that is told from none.
     """
     dropped: dict[str, object] = {}
     last: Named | None = None
@@ -97,14 +100,46 @@ def checked_on_held_out(answer: Answer, found: Study, recalibrated: Fit, runs: H
         last = answer.decision.named[-1]
         fewer = _without_last(answer, found, recalibrated, runs)
         seen = compared(fewer.model, answer.model, runs)
-        if seen is None or not _refused(seen, last, fewer):
+        if seen is None or not (_refused(seen, last, fewer) or _closes_nothing(seen, last, fewer, answer, found, runs)):
             break
         dropped[last.kind] = {name: error * found.size.length for name, error in dataclasses.asdict(seen).items()}
         answer = fewer
+    answer = _with_strengths(answer, found, recalibrated)
     if not dropped or last is None:
         return answer
     answer.decision.details["not_borne_out"] = dropped
     return answer if answer.decision.named else dataclasses.replace(answer, decision=_nothing_left(answer, last, runs))
+
+
+def _closes_nothing(seen: Comparison, last: Named, fewer: Answer, answer: Answer, found: Study, runs: HeldOut) -> bool:
+    """Return whether the effect found last leaves the forecasts and the forces of held-out slips as they are without it."""
+    if last.kind in kinds_with(SCATTER) or seen.without - seen.with_ > criteria.CLOSES_NOTHING * seen.without:
+        return False
+    if any(e.group == "sensor" for e in answer.model.effects):
+        return bool(fewer.decision.named)  # predicted forces do not hold what a sensor adds
+    forces = slip_force_gap(found.model, fewer.model, answer.model, runs.slips)
+    return forces is not None and forces.recalibrated - forces.augmented < criteria.CLOSES_NOTHING * forces.recalibrated
+
+
+def _with_strengths(answer: Answer, found: Study, recalibrated: Fit) -> Answer:
+    """Return the answer with intervals that do not hold zero where a fit without the effect tells that its strength is none."""
+    fit, named = answer.fit, {n.kind: n for n in answer.decision.named}
+    for kind in [] if fit is None else undecided(fit, answer.model):
+        if kind not in named:
+            continue
+        model = answer.decision.model
+        while any(e.kind == kind for e in model.effects):
+            model = without_last(model, kind)
+        rest = tuple(n for n in answer.decision.named if n.kind != kind)
+        fewer = dataclasses.replace(answer.decision, named=rest, model=model)
+        assert fit is not None
+        other = _fit(fewer, found, recalibrated) if rest else recalibrated
+        ratio = likelihood_ratio(fit, other, found.windows)
+        told = max(ratio, named[kind].evidence.score or 0.0)
+        answer.decision.details.setdefault("strengths", {})[kind] = ratio  # pyright: ignore[reportIndexIssue, reportAttributeAccessIssue]
+        if told >= criteria.STRENGTH_TOLD:
+            fit = told_by_ratio(fit, answer.model, kind, told)
+    return dataclasses.replace(answer, fit=fit)
 
 
 def _without_last(answer: Answer, found: Study, recalibrated: Fit, runs: HeldOut) -> Answer:

@@ -8,7 +8,8 @@ from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.result import Result
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.stick_slip.decision.anonymous import Anonymous, anonymous, told
-from stochfric_mb.discovery.stick_slip.decision.rounds import decide
+from stochfric_mb.discovery.stick_slip.decision.explained import taken_back
+from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, decide
 from stochfric_mb.discovery.stick_slip.feature_skill import leading, slip_force_gap
 from stochfric_mb.discovery.stick_slip.notes import notes
 from stochfric_mb.discovery.stick_slip.parameters import found_effect, moved, not_measured, own_parameters
@@ -30,6 +31,7 @@ from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit, with_
 from stochfric_mb.discovery.stick_slip.simulation.scaling import USUAL, Scaling
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study, slips_of_run, study
 from stochfric_mb.discovery.stick_slip.validation import Answer, checked_on_held_out, explaining, fitted
+from stochfric_mb.errors import SimulationError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
 
@@ -55,12 +57,12 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     progress("recalibration")
     recalibrated = recalibrated_model(found.model, found)
     progress("refit")
-    answer = fitted(decision, found, recalibrated)
-    if channels.confirmation:
-        answer = explaining(answer, found, recalibrated)
-    progress("held-out runs")
-    runs = held_out(_held_out_slips(dataset), phased=phased(answer.model))
-    answer = checked_on_held_out(dataclasses.replace(answer, model=settled(answer.model, runs)), found, recalibrated, runs)
+    slips = _held_out_slips(dataset)
+    try:
+        answer, runs = _answer(decision, found, recalibrated, slips, channels, progress)
+    except SimulationError as error:
+        taken = taken_back(decision, f"comes closest, but its model cannot run by itself: {error}")
+        answer, runs = Answer(taken, None, recalibrated.model), held_out(slips, phased=False)
     term = None
     if channels.unnamed and answer.decision.verdict == "unknown":
         term = anonymous(found, recalibrated, runs)
@@ -74,6 +76,18 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
         # what is shown is in SI units
         found, runs = study(assumed(given), USUAL), held_out(_held_out_slips(given), phased=phased(models[2]))
     return Outcome(result, scenario, given, found, answer.decision, restored, runs)
+
+
+def _answer(
+    decision: Decision, found: Study, recalibrated: Fit, slips: list[Slips], channels: Channels, progress: Progress
+) -> tuple[Answer, HeldOut]:
+    """Return the decision as far as fit runs and held-out runs bear it out, with its model, and the held-out runs."""
+    answer = fitted(decision, found, recalibrated)
+    if channels.confirmation:
+        answer = explaining(answer, found, recalibrated)
+    progress("held-out runs")
+    runs = held_out(slips, phased=phased(answer.model))
+    return checked_on_held_out(dataclasses.replace(answer, model=settled(answer.model, runs)), found, recalibrated, runs), runs
 
 
 def _result(

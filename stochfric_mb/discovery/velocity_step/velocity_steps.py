@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.decision.selection import NAMED, TIE
 from stochfric_mb.discovery.driven_joint.fit.fitting import DIFFERENCE, TOLERANCE
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome
@@ -33,6 +34,10 @@ Array = npt.NDArray[np.float64]
 
 HALF_WIDTH = 12
 """Half width of the window through which the load point's speed is seen [samples]."""
+
+
+PARTS = 12
+"""Parts of an axis along which what is left of friction is looked at."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -157,13 +162,14 @@ def _result(
     floor = float(np.sqrt(np.sum([white_noise(x) ** 2 * len(x) for x in test]) / sum(map(len, test))))
     believed = float(np.sqrt(np.mean(np.concatenate([x - dataset.scenario.law.mu_k for x in test]) ** 2)))
     after = _held_out(best or plain, tracks)
-    effects = () if best is None else (_found(plain, best, scores),)
+    where = unexplained([t for t in tracks if t.run.role == "fit"], best or plain)
+    effects = () if best is None or where is not None else (_found(plain, best, scores),)
     source = "high-frequency content of the friction coefficient (third differences)"
     gap = Gap("friction_coefficient", "-", True, believed, _held_out(plain, tracks), after, floor, source)
     return Result(
-        verdict="effect" if effects else "none",
+        verdict=_verdict(effects, where),
         effects=effects,
-        where=None,
+        where=where,
         ranking=tuple(sorted(scores.items(), key=lambda s: -s[1])),
         gap=gap,
         not_identifiable=tuple(k for k in effect_kinds() if k not in (*scores, kind_found_as(LATE), *kinds_with(ANONYMOUS))),
@@ -184,6 +190,47 @@ def _result(
             }
         },
     )
+
+
+def _verdict(effects: Sequence[Found], where: Where | None) -> Literal["effect", "none", "unknown"]:
+    if where is not None:
+        return "unknown"
+    return "effect" if effects else "none"
+
+
+def unexplained(tracks: Sequence[Track], closest: Fitted) -> Where | None:
+    """Return where friction disagrees with the law that comes closest, if it leaves more than another form would; else None.
+
+    Noise is what third differences show; what is left beyond it must not be the larger part of friction's own changes.
+
+    Args:
+        tracks: the runs that were learned from.
+        closest: the best law, constant friction among them.
+    """
+    noise = sum(white_noise(t.friction) ** 2 * len(t.friction) for t in tracks)
+    left = sum(float(r @ r) for r in closest.rest) - noise
+    middle = float(np.mean(np.concatenate([t.friction for t in tracks])))
+    changes = sum(float(np.sum((t.friction - middle) ** 2)) for t in tracks) - noise
+    if left <= (1.0 - criteria.EXPLAINED) * changes or changes <= criteria.NONE_MISSES * noise:
+        return None
+    speed, slid, run = ([getattr(t, name) for t in tracks] for name in ("speed", "slid", "run"))
+    places = {"speed": speed, "displacement": slid, "time": [r.time for r in run]}
+    rest = np.concatenate(closest.rest)
+    shares = {axis: _share_along(np.concatenate(place), rest) for axis, place in places.items()}
+    axis = max(shares, key=lambda a: shares[a])
+    law = closest.law.kind or "constant friction"
+    return Where(
+        axis,
+        f"{law} comes closest, but leaves {left / changes:.0%} of the changes of friction; "
+        f"{shares[axis]:.0%} of what is left goes along the {axis}",
+    )
+
+
+def _share_along(place: Array, rest: Array) -> float:
+    """Return the share of a residual's squares that a step function of a place explains, in `PARTS` equally full parts [-]."""
+    part = np.minimum(PARTS * np.argsort(np.argsort(place, kind="stable")) // len(place), PARTS - 1)
+    means = np.bincount(part, rest) / np.bincount(part)
+    return float(np.sum(means[part] ** 2) / np.sum(rest**2))
 
 
 def _found(plain: Fitted, best: Fitted, scores: dict[str, float]) -> Found:

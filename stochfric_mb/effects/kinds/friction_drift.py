@@ -8,24 +8,30 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import MU_K, MU_S, TIME, Effect, parameter
+from stochfric_mb.effects.contract import MU_K, MU_S, TIME, Array, Effect, parameter
+from stochfric_mb.effects.course import COARSER, shape, sized, splines
 from stochfric_mb.effects.joints import JointSignature, JointSpan
-from stochfric_mb.effects.marks import Hypothesis, Slips, apart
+from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, Hypothesis, Slips, apart
 from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, SLOPE_IN_DISTANCE, WANDERS_ALIKE
+
+SHARES = (1.0, 0.0, 0.5, 2.0)
+"""Shares of the change that mu_s takes, of courses of any shape [-]."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class FrictionDrift(Effect):
-    """mu_k (and mu_s, by its share) times 1 + rate tau (1 - exp(-t/tau)), tau = time_constant; 1 + rate t for an infinite one.
+    """mu_k (and mu_s, by its share) times 1 + rate tau (1 - exp(-t/tau)) + change s(t/span), tau = time_constant.
+
+    1 + rate t for an infinite time constant; s is a sum of cubic B-splines, so that the course may have any smooth shape.
 
     Reference: P. J. Blau, Tribology International 38, 2005, 1007-1012, doi 10.1016/j.triboint.2005.07.020.
     """
 
-    rate: float = parameter("1/s", "relative rate of change at t = 0", scale=1.0e-3)
+    rate: float = parameter("1/s", "relative rate of change at t = 0", scale=1.0e-3, default=0.0, optional=True)
     """Relative rate of change at t = 0 [1/s]."""
     time_constant: float = parameter(
         "s", "time in which the change settles", scale=30.0, low=0.0, strict=True, infinite=True, default=math.inf
@@ -33,10 +39,52 @@ class FrictionDrift(Effect):
     """Time in which the change settles [s]."""
     static_share: float = parameter("-", "share of the change that mu_s takes", scale=1.0, default=1.0)
     """Share of the change that mu_s takes [-]: 1, both coefficients alike; 0, mu_k alone."""
+    change: float = parameter("-", "relative size of a course of any shape", scale=0.03, default=0.0, optional=True)
+    """Relative size of a course of any shape [-]."""
+    span: float = parameter(
+        "s", "time over which the course runs", scale=30.0, low=0.0, strict=True, default=1.0, fit_prior=0.0, optional=True
+    )
+    """Time over which the course runs [s]; friction stays as it is after it."""
+    course_1: float = shape(1)
+    """Weight of the first spline in the course [-]."""
+    course_2: float = shape(2)
+    """Weight of the second spline in the course [-]."""
+    course_3: float = shape(3)
+    """Weight of the third spline in the course [-]."""
+    course_4: float = shape(4)
+    """Weight of the 4th spline in the course [-]."""
+    course_5: float = shape(5)
+    """Weight of the 5th spline in the course [-]."""
+    course_6: float = shape(6)
+    """Weight of the 6th spline in the course [-]."""
+    course_7: float = shape(7)
+    """Weight of the 7th spline in the course [-]."""
+    course_8: float = shape(8)
+    """Weight of the 8th spline in the course [-]."""
+    course_9: float = shape(9)
+    """Weight of the 9th spline in the course [-]."""
+    course_10: float = shape(10)
+    """Weight of the 10th spline in the course [-]."""
+    course_11: float = shape(11)
+    """Weight of the 11th spline in the course [-]."""
+    course_12: float = shape(12)
+    """Weight of the 12th spline in the course [-]."""
+    course_13: float = shape(13)
+    """Weight of the 13th spline in the course [-]."""
+    course_14: float = shape(14)
+    """Weight of the 14th spline in the course [-]."""
+    course_15: float = shape(15)
+    """Weight of the 15th spline in the course [-]."""
+    course_16: float = shape(16)
+    """Weight of the 16th spline in the course [-]."""
+    course_17: float = shape(17)
+    """Weight of the 17th spline in the course [-]."""
+    course_18: float = shape(18)
+    """Weight of the 18th spline in the course [-]."""
 
     kind: ClassVar[str] = "friction_drift"
     equation: ClassVar[str] = (
-        "mu_k times 1 + rate tau (1 - exp(-t/tau)), tau = time_constant; 1 + rate t where it is infinite; mu_s by its share"
+        "mu_k times 1 + rate tau (1 - exp(-t/tau)) + change s(t/span), tau = time_constant, s of splines; mu_s by its share"
     )
     source: ClassVar[str] = "Blau 2005 (running-in of frictional contacts)"
     group: ClassVar[str] = "friction varies"
@@ -54,7 +102,7 @@ class FrictionDrift(Effect):
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
-        """Return friction that drifts in each run: linearly, or towards a limit."""
+        """Return friction that drifts in each run: linearly, towards a limit, or along a course of any smooth shape."""
         last, middle = slips.duration, slips.mean_time
         found = apart(
             cls.kind, slips.static * slips.onset_time / last, slips.kinetic * middle / last, slips, "rate", {}, 1.0 / last
@@ -66,11 +114,32 @@ class FrictionDrift(Effect):
                 level * -np.expm1(-t / tau) for level, t in ((slips.static, slips.onset_time), (slips.kinetic, middle))
             )
             found += apart(cls.kind, static, kinetic, slips, "rate", {"time_constant": tau}, 1.0 / tau)
-        return found
+        return found + [_course(slips, pieces, share) for pieces in COARSER for share in SHARES]
+
+
+def _course(slips: Slips, pieces: int, share: float) -> Hypothesis:
+    """Return a course of any smooth shape, the same in each run since its start."""
+    at_onset, inside = (splines(t / slips.duration, pieces) for t in (slips.onset_time, slips.node_time))
+
+    def start(b: Array) -> dict[str, Any]:
+        return sized(b, pieces, slips.duration) | {"static_share": share}
+
+    columns = [
+        slips.column(share * slips.static * at_onset[:, k], slips.kinetic[:, None] * inside[..., k]) for k in range(pieces + 2)
+    ]
+    return Hypothesis(FrictionDrift.kind, columns, (), start, COURSE_OF_ANY_SHAPE)
 
 
 def friction(world, memory, rates, p):
     """Multiply both coefficients by the drift."""
-    grown = world[TIME] if p[1] > 1.0e300 else -p[1] * math.expm1(-world[TIME] / p[1])
-    world[MU_S] *= 1.0 + p[0] * p[2] * grown
-    world[MU_K] *= 1.0 + p[0] * grown
+    grown = p[0] * (world[TIME] if p[1] > 1.0e300 else -p[1] * math.expm1(-world[TIME] / p[1]))
+    if p[3] != 0.0:
+        place = 16.0 * min(max(world[TIME] / p[4], 0.0), 1.0)
+        for k in range(18):
+            away = abs(place - k)
+            if away < 1.0:
+                grown += p[3] * p[5 + k] * (2.0 / 3.0 - away * away * (1.0 - away / 2.0))
+            elif away < 2.0:
+                grown += p[3] * p[5 + k] * (2.0 - away) * (2.0 - away) * (2.0 - away) / 6.0
+    world[MU_S] *= 1.0 + p[2] * grown
+    world[MU_K] *= 1.0 + grown

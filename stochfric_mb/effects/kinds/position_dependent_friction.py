@@ -41,11 +41,11 @@ class PositionDependentFriction(Effect):
     """Phase of the first harmonic at s = 0 [rad]."""
     axis: str = choice("along what friction varies", ("belt", "position"))
     """Along what friction varies: "belt" or "position"."""
-    amplitude_2: float = parameter("-", "relative amplitude of the second harmonic", scale=0.01, default=0.0)
+    amplitude_2: float = parameter("-", "relative amplitude of the second harmonic", scale=0.01, default=0.0, optional=True)
     """Relative amplitude of the second harmonic [-]."""
     phase_2: float = parameter("rad", "phase of the second harmonic at s = 0", scale=1.0, default=0.0)
     """Phase of the second harmonic at s = 0 [rad]."""
-    amplitude_3: float = parameter("-", "relative amplitude of the third harmonic", scale=0.01, default=0.0)
+    amplitude_3: float = parameter("-", "relative amplitude of the third harmonic", scale=0.01, default=0.0, optional=True)
     """Relative amplitude of the third harmonic [-]."""
     phase_3: float = parameter("rad", "phase of the third harmonic at s = 0", scale=1.0, default=0.0)
     """Phase of the third harmonic at s = 0 [rad]."""

@@ -1,5 +1,7 @@
 """Velocity steps: the laws that are fitted, and what they say of friction that remembers and friction that does not."""
 
+import dataclasses
+
 import numpy as np
 
 from stochfric_mb.discovery.velocity_step.laws import Track, laws, memory_start
@@ -22,3 +24,29 @@ def test_a_law_is_named_without_a_chance_that_nobody_counted():
     result = spring_slider_outcome(slider(0.01, 0.015, 2), lambda _: None).result
     assert [e.kind for e in result.effects] == ["frictional_lag"]
     assert result.effects[0].p_value is None
+
+
+def test_friction_that_no_law_follows_is_unknown_and_says_where():
+    """Friction that waves along the way: neither constant, nor straight, nor of the speed, nor of a memory."""
+    data = slider(0.01, 0.015, 2)
+    waved = []
+    for run in data.runs:
+        slid = run.channels["position"]
+        friction = run.covariates["friction_coefficient"] + 0.1 * np.sin(2.0 * np.pi * 4.3 * slid / np.ptp(slid))
+        waved.append(dataclasses.replace(run, covariates=run.covariates | {"friction_coefficient": friction}))
+    result = spring_slider_outcome(dataclasses.replace(data, runs=tuple(waved)), lambda _: None).result
+    assert result.verdict == "unknown"
+    assert not result.effects
+    assert result.where.axis in ("displacement", "time")
+    assert "comes closest, but leaves" in result.where.text
+
+
+def test_friction_that_is_constant_but_for_noise_is_none():
+    data, rng = slider(0.01, 0.015, 2), np.random.default_rng(1)
+    runs = tuple(
+        dataclasses.replace(run, covariates={"friction_coefficient": 0.6 + 2e-4 * rng.standard_normal(len(run.time))})
+        for run in data.runs
+    )
+    result = spring_slider_outcome(dataclasses.replace(data, runs=runs), lambda _: None).result
+    assert result.verdict == "none"
+    assert result.where is None

@@ -29,7 +29,7 @@ REFUTED = "shapes_refuted"
 
 SHAPES = ("slip_shape", "position")
 """Competitors on the axes on which those effects act."""
-IN_TIME = ("time", "time_common", "friction_step", "parity")
+IN_TIME = ("time", "friction_step", "parity")
 """Competitors on the axis of time: a random wander may be what they see."""
 
 
@@ -133,7 +133,9 @@ def _family(candidates: Sequence[Candidate], cases: Sequence[Case]) -> _Family:
 def _nameless(effects: Sequence[Candidate], others: Sequence[Candidate]) -> Where | None:
     """Return where the unknown lives, if a competitor that names no physics beats the best effect; None if none does."""
     score = effects[0].score if effects else -np.inf
-    if others and others[0].score >= criteria.NAMED and score < criteria.OUTDONE * others[0].score:
+    # a course of any shape follows what has fewer freedoms: only evidence as large tells that it is no less
+    least = 1.0 if effects and effects[0].any_course else criteria.OUTDONE
+    if others and others[0].score >= criteria.NAMED and score < least * others[0].score:
         axis = others[0].axis
         return Where(axis, f"the disagreement lives on the axis: {axis}; no known effect explains it")
     if score < criteria.NAMED:

@@ -22,6 +22,7 @@ from stochfric_mb.discovery.stick_slip.records.record import Array, Record
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, features_near
 from stochfric_mb.discovery.stick_slip.simulation.auxiliary_state import auxiliary_state
 from stochfric_mb.discovery.stick_slip.simulation.model import CORRECTED, TUNED, Model, adjusted, free_parameters
+from stochfric_mb.discovery.stick_slip.simulation.strength import STRENGTHS
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.reference.augmented import Start
 
@@ -33,11 +34,6 @@ PART, MOST_PARTS = 0.3, 4
 """Phases at which slips begin that one of them stands for [rad], and most parts that they are divided into."""
 ANY = np.eye(N_FEATURES)
 """Whitening of features that are not compared."""
-STRENGTHS = (
-    "amplitude", "coefficient", "distance", "cubic", "gap", "mass_ratio", "rate", "exponent", "asymmetry", "time_constant",
-    "quadratic",
-)  # fmt: skip
-"""Parameters that measure how strong an effect is."""
 LEVELLINGS = 2
 """Times that mu_s and mu_k are moved to their places before a fit begins."""
 DIFFERENCE = 0.01

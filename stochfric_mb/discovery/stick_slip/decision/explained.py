@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import cast
 
 import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip.decision.rounds import Decision
+from stochfric_mb.discovery.stick_slip.decision.rounds import SHAPE_LEFT, Decision
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of, mean_score
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
@@ -43,7 +44,7 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
     try:
         floor = min(floor_of(augmented, runs, recalibrated if kind_found_as(KICKS) in kinds else None), after)
     except SimulationError as error:
-        return _taken_back(decision, f"comes closest, but its model cannot run by itself: {error}")
+        return taken_back(decision, f"comes closest, but its model cannot run by itself: {error}")
     reducible, unit = before - floor, found.size.length
     if not kinds:
         decision.details["explained"] = {"before": before * unit, "floor": floor * unit}
@@ -53,7 +54,16 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
         "before": before * unit, "after": after * unit, "floor": floor * unit, "share": share
     }  # fmt: skip
     why = f"comes closest, but explains only {max(share, 0.0):.0%} of what the runs show"
-    return None if share >= _least_share(augmented, kinds) else _taken_back(decision, why)
+    return None if _in_shape(decision) or share >= _least_share(augmented, kinds) else taken_back(decision, why)
+
+
+def _in_shape(decision: Decision) -> bool:
+    """Return whether the one effect named leaves no more of the slips' forces than another form of its kind would.
+
+    What its form leaves of every slip adds up in a forecast of a whole cycle; of its kind the slips say more.
+    """
+    left = cast("float", decision.details.get(SHAPE_LEFT, 1.0))
+    return len(decision.named) == 1 and left < criteria.FORM_MISSES
 
 
 def _least_share(augmented: Model, kinds: set[str]) -> float:
@@ -62,7 +72,7 @@ def _least_share(augmented: Model, kinds: set[str]) -> float:
     return criteria.EXPLAINED_RANDOM if lenient else criteria.EXPLAINED
 
 
-def _taken_back(decision: Decision, why: str) -> Decision:
+def taken_back(decision: Decision, why: str) -> Decision:
     """Return the decision without its names; ``why`` is said of the first one."""
     best = decision.named[0]
     return dataclasses.replace(decision, verdict="unknown", named=(), where=Where(best.where.axis, f"{best.kind} {why}"))

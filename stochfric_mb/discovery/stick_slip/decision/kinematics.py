@@ -16,7 +16,8 @@ from stochfric_mb.discovery.stick_slip.screening.competitors import step_times, 
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import refit
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.effects import kind_found_as, make_effect
+from stochfric_mb.effects import effect_class, kind_found_as, make_effect
+from stochfric_mb.effects.course import PIECES
 from stochfric_mb.effects.traits import BELT_RIPPLE, CLIPPED, CREEPING_ZERO, JUMP, LATE, STRAY, YIELDING
 from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
 
@@ -149,12 +150,25 @@ def _in_stick(study: Study, details: dict[str, object]) -> Blamed | Where:
         return line if line is not None else []
     if best == JUMP:
         details[STEP_SEEN] = score
-    if best in (CREEPING_ZERO, JUMP):
+    if best in (CREEPING_ZERO, JUMP) or (best == BELT_RIPPLE and _of_the_zero(study, sticking.settings[best]["frequency"])):
         return []
     share, slack = criteria.STICK_EXPLAINED, criteria.STICK_SLACK
     if best in CREEP or score < share * sticking.excess - slack:
         return Where(*CREEP.get(best, ELSE))
     return _in_stick_named(study, best, score, sticking.settings[best])
+
+
+def _of_the_zero(study: Study, frequency: float) -> bool:
+    """Return whether a ripple is so slow that a sensor's zero may move so, and the forces say that it does.
+
+    While the box sticks the two look alike; at the break-away a zero that has moved takes the spring's force along.
+    """
+    if frequency * study.pool.duration >= PIECES / 2.0:
+        return False
+    ways = [h.columns for h in effect_class(kind_found_as(CREEPING_ZERO)).hypotheses(study.pool)]
+    gains = study.regression.gains(study.terms, study.solution.scatter, ways)
+    scores = [2.0 * gain - len(way) * np.log(study.regression.n) for gain, way in zip(gains, ways, strict=True)]
+    return max(scores) > criteria.NAMED
 
 
 def _single_moments(study: Study, sticking: Sticking, details: dict[str, object]) -> None:

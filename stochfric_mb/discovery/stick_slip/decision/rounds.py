@@ -29,6 +29,7 @@ from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import refit
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study
 from stochfric_mb.effects import effect_class, kind_found_as, kinds_with, make_effect
+from stochfric_mb.effects.course import PIECES
 from stochfric_mb.effects.traits import (
     BELT_RIPPLE,
     BETWEEN_POINTS,
@@ -45,6 +46,8 @@ from stochfric_mb.effects.traits import (
     YIELDING,
 )
 
+SHAPE_LEFT = "shape_left"
+"""Name under which the details hold the misfit of simulated slips with the effects named over that without."""
 MOST_EFFECTS = 3
 """Effects that are looked for."""
 MOST_ROUNDS = 5
@@ -175,7 +178,7 @@ class _Search:
         self.terms: Terms = study.terms
         self.solution: Solution = study.solution
         self.ranking: tuple[tuple[str, float], ...] = ()
-        self.stalled = self.any_shape = False
+        self.stalled = self.any_shape = self.course = False
         self.in_forces = not named
         self.kept: list[Array] = []
         self.cases: list[Case] = []
@@ -230,6 +233,8 @@ class _Search:
         """Return what may be missing beside the effects that are named, best first."""
         kinds = [n.kind for n in self.named if n.kind not in kinds_with(WAVES)]
         candidates = screen(self.pool, self.regression, self.terms, self.solution, without=kinds)
+        if self.course:
+            candidates = [c for c in candidates if not (c.has(DRIFTS) or c.any_course or self._slow(c))]
         if self._form_alone():
             candidates = self._beside_form(candidates)
         if round_ == 0:
@@ -237,6 +242,14 @@ class _Search:
             self.first = candidates[0].score
         self.details[f"round_{round_ + 1}"] = _scores(candidates[:8])
         return candidates
+
+    def _slow(self, candidate: Candidate) -> bool:
+        """Return whether a candidate is a wave that a course of any shape follows: what such a course leaves looks like it."""
+        if not candidate.is_wave:
+            return False
+        main = float(candidate.hypothesis.setting[0])
+        frequency = float(self.pool.belt_velocity.min()) / main if candidate.along_belt else main
+        return frequency * self.pool.duration < PIECES / 2.0
 
     def _needed(self, round_: int) -> float:
         """Return the score that is worth a look."""
@@ -272,12 +285,14 @@ class _Search:
     def _wanders(self, candidates: Sequence[Candidate]) -> bool:
         """Return whether a winner on the axis of time is better told as a random wander."""
         winner = candidates[0]
-        if winner.name not in (*IN_TIME, kind_found_as(JUMP)) and not winner.is_wave:
+        if winner.name not in (*IN_TIME, kind_found_as(JUMP)) and not (winner.is_wave or winner.any_course):
             return False
         drifts = max((c.score for c in candidates if c.has(DRIFTS)), default=-np.inf)
         scatter = randomness(self.regression, self.terms, self.solution)
         # what names physics has to be beaten; hats on the axis of time name none
-        rival = max(0.5 * winner.score if winner.name in IN_TIME else 1.2 * winner.score, drifts)
+        share = 0.5 if winner.name in IN_TIME else 1.0 if winner.any_course else 1.2
+        margin = criteria.NAMED if winner.any_course else 0.0
+        rival = max(share * winner.score, drifts) - margin
         return scatter.correlation > criteria.SCATTER_MEMORY and scatter.wander > rival
 
     def _sudden(self, candidates: Sequence[Candidate]) -> Where | None:
@@ -347,6 +362,7 @@ class _Search:
             )
             self.model = chosen.model
         self.any_shape |= chosen.candidate.any_shape
+        self.course |= chosen.candidate.any_course
         self.progress("what is left")
         before = _scatter(self.solution)
         if kind == kind_found_as(LATE):
@@ -399,6 +415,7 @@ class _Search:
 
     def by_chance(self) -> Decision:
         """Look for what is random, last of all."""
+        self.details[SHAPE_LEFT] = self._shape_left()
         self._without_accidents()
         scatter = randomness(self.regression, self.terms, self.solution)
         self.details["randomness"] = dataclasses.asdict(scatter)

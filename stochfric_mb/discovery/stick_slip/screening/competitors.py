@@ -53,7 +53,6 @@ def competitors(pool: Pool) -> dict[str, tuple[str, Sequence[Array]]]:
         Name -> (axis on which the disagreement lives, columns).
     """
     runs = [pool.run == r for r in range(pool.n_runs)]
-    everywhere = [np.ones(len(pool.run), dtype=bool)]
     alternating = np.concatenate([(-1.0) ** np.arange(len(s)) for s in pool.slips])
     parity = [pool.column(pool.static * alternating * r, None) for r in runs]
     parity += [pool.column(None, pool.kinetic * alternating * r) for r in runs]
@@ -61,7 +60,6 @@ def competitors(pool: Pool) -> dict[str, tuple[str, Sequence[Array]]]:
         "slip_shape": ("shape of the friction force within a slip", _of_moments(pool)),
         "parity": ("alternates from slip to slip", parity),
         "time": ("time within the run", _along_time(pool, runs)),
-        "time_common": ("time within the run", _along_time(pool, everywhere)),
         "position": ("position of the box", _along_position(pool)),
     }
 

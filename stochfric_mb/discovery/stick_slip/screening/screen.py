@@ -18,7 +18,7 @@ from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
 from stochfric_mb.discovery.stick_slip.screening.waves import best_wave
 from stochfric_mb.effects import effect_class, kind_found_as, kinds_with
-from stochfric_mb.effects.marks import ENTRAINED, WAVE, Hypothesis
+from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, ENTRAINED, WAVE, Hypothesis
 from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, JUMP, POSITIVE
 
 REFITTED = 14
@@ -54,6 +54,11 @@ class Candidate:
     def any_shape(self) -> bool:
         """Whether it can give slips nearly any shape, the same to all: friction along the stroke."""
         return self.has(ANY_SHAPE) and not self.is_wave
+
+    @property
+    def any_course(self) -> bool:
+        """Whether it is a course in time that is not held to a form."""
+        return self.hypothesis.variant == COURSE_OF_ANY_SHAPE
 
     @property
     def along_belt(self) -> bool:
@@ -96,7 +101,7 @@ def screen(
         without: kinds that the model holds already.
     """
     rough = [
-        _best(kind, regression, terms, solution)
+        _best(kind, regression, terms, solution, solution.scatter)
         for kinds in (
             _effects(pool, regression, terms, solution, without),
             _patterns(pool),
@@ -105,17 +110,27 @@ def screen(
         for kind in kinds
     ]
     rough.sort(key=lambda r: -r[0])
-    found: list[Candidate] = []
-    for i, (score, kind, hypothesis, penalty) in enumerate(rough):
-        wider = terms.plus(hypothesis.columns)
-        if i < REFITTED:
-            fitted = regression.fit(wider, solution.scatter)
-            final = 2.0 * (solution.cost - fitted.cost) - penalty
-        else:
-            fitted = regression.solve(wider, solution.scatter)
-            final = score
-        found.append(Candidate(kind.name, kind.axis, final, hypothesis, fitted))
+    found = [
+        _refitted(kind, hypothesis, regression, terms, solution)
+        if i < REFITTED
+        else Candidate(
+            kind.name, kind.axis, score, hypothesis, regression.solve(terms.plus(hypothesis.columns), solution.scatter)
+        )
+        for i, (score, kind, hypothesis, _) in enumerate(rough)
+    ]
     return sorted((c for c in found if _sign_possible(c.name, c.solution, terms)), key=lambda c: -c.score)
+
+
+def _refitted(kind: _Kind, hypothesis: Hypothesis, regression: Regression, terms: Terms, solution: Solution) -> Candidate:
+    """Return the best way of a kind with the variance components fitted anew.
+
+    The ways of a kind are told apart at the scatter that one of them leaves, not at that without any.
+    """
+    fitted = regression.fit(terms.plus(hypothesis.columns), solution.scatter)
+    _, _, best, penalty = _best(kind, regression, terms, solution, fitted.scatter)
+    if best is not hypothesis:
+        fitted = regression.fit(terms.plus(best.columns), fitted.scatter)
+    return Candidate(kind.name, kind.axis, 2.0 * (solution.cost - fitted.cost) - penalty, best, fitted)
 
 
 def _effects(pool: Pool, regression: Regression, terms: Terms, solution: Solution, without: Sequence[str]) -> Iterator[_Kind]:
@@ -144,9 +159,11 @@ def _steps(pool: Pool, regression: Regression, terms: Terms, solution: Solution,
             yield _Kind(kind, axis, [step], len(step_times(pool)) ** pool.n_runs)
 
 
-def _best(kind: _Kind, regression: Regression, terms: Terms, solution: Solution) -> tuple[float, _Kind, Hypothesis, float]:
+def _best(
+    kind: _Kind, regression: Regression, terms: Terms, solution: Solution, scatter: Array
+) -> tuple[float, _Kind, Hypothesis, float]:
     """Return score, kind, hypothesis and cost of the best way of a kind at fixed variance components."""
-    gains = regression.gains(terms, solution.scatter, [h.columns for h in kind.hypotheses])
+    gains = regression.gains(terms, scatter, [h.columns for h in kind.hypotheses])
     cost = np.array([len(h.columns) for h in kind.hypotheses]) * float(np.log(regression.n))
     order = np.argsort(cost - 2.0 * gains, kind="stable")
     # a curved hypothesis whose strength comes out negative must not stand before a straight one that is possible

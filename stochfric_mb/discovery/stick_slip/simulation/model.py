@@ -141,12 +141,14 @@ def _of_effect(model: Model, i: int, runs: Sequence[str]) -> Iterator[FreeParame
 
 
 def _stays(effect: Effect, name: str, value: float) -> bool:
-    """Return whether forecasts cannot fit a number, or it says what is fixed, or belongs to an overtone that is not there."""
+    """Return whether forecasts cannot fit a number, or it says what is fixed, or belongs to a form that is not this one."""
+    if effect.lacks(name) or effect.__dataclass_fields__[name].metadata["fit_prior"] == 0.0:
+        return True
     if name in NOT_FITTED:
         return not _shared(name, value)
     if name in PHASES and name != "phase":
         return not getattr(effect, name.replace("phase", "amplitude"))
-    return name in ("amplitude_2", "amplitude_3") and value == 0.0
+    return False
 
 
 def _bounds(name: str, value: float, about: Mapping[str, Any]) -> tuple[float, float]:

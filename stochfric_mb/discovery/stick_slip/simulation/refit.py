@@ -102,6 +102,11 @@ def cost_of(model: Model, windows: Sequence[Windows], *, most: int = MOST_WINDOW
     return float(TYPICAL**2 * np.sum(np.sqrt(1.0 + squares) - 1.0))
 
 
+def likelihood_ratio(fit: Fit, fewer: Fit, windows: Sequence[Windows]) -> float:
+    """Return twice the log likelihood ratio of a fit to one of a smaller model, in what forecasts count as independent [-]."""
+    return 2.0 * (fewer.cost - fit.cost) / _Misfit(fit.model, windows, {}, (), MOST_WINDOWS).spread(2.0 * fit.cost)
+
+
 def with_deviations(fit: Fit, windows: Sequence[Windows], uncertainty: Mapping[str, float], *, most: int = MOST_WINDOWS) -> Fit:
     """Return the fit with standard deviations from differences as wide as what the forecasts leave open.
 

@@ -1,0 +1,64 @@
+"""A course of any shape: the splines that effects sum, in compiled friction, in readings and in what discovery looks for."""
+
+import math
+
+import numpy as np
+import pytest
+
+from stochfric_mb.compile import compiled
+from stochfric_mb.effects import contract, make_effect
+from stochfric_mb.effects.course import COARSER, COURSE, PIECES, refined, sized, splines
+from stochfric_mb.effects.kinds.friction_drift import friction
+
+
+def test_splines_of_a_course_are_one_apart_from_its_beginning():
+    place = np.linspace(0.0, 1.0, 401)
+    inside = place >= 1.0 / PIECES  # where the spline that is left out has ended
+    np.testing.assert_allclose(splines(place, PIECES).sum(axis=-1)[inside], 1.0, atol=1e-14)
+
+
+@pytest.mark.parametrize("pieces", COARSER)
+def test_a_coarser_course_is_a_finer_one_too(pieces):
+    place, weights = np.linspace(0.0, 1.0, 333), np.random.default_rng(0).standard_normal(pieces + 2)
+    fine = splines(place, PIECES) @ refined(pieces) @ weights
+    coarse = splines(place, pieces) @ weights
+    # but for the constant that is left out of either
+    np.testing.assert_allclose(np.ptp(fine - coarse), 0.0, atol=2e-2)
+
+
+def test_a_smooth_course_is_followed():
+    place = np.linspace(0.0, 1.0, 500)
+    course = place * np.exp(1.0 - 4.0 * place)
+    design = np.column_stack([np.ones(500), splines(place, PIECES)])
+    rest = course - design @ np.linalg.lstsq(design, course, rcond=None)[0]
+    # the error of cubic splines is h^4/384 times the fourth derivative (de Boor, chapter V), here 1024 at most
+    assert np.abs(rest).max() < 1024.0 / PIECES**4 / 384.0
+
+
+def test_friction_follows_the_course():
+    weights = np.sin(np.arange(PIECES + 2))
+    effect = make_effect("friction_drift", **sized(weights, PIECES, 30.0), static_share=0.5)
+    world, nothing, p = np.zeros(contract.WORLD), np.zeros(1), effect.parameters()
+    for function in (friction, compiled(friction)):
+        for t in (0.0, 3.0, 29.9, 45.0):
+            world[contract.TIME], world[contract.MU_S], world[contract.MU_K] = t, 1.0, 1.0
+            function(world, nothing, nothing, p)
+            expected = float(splines(np.array([t / 30.0]), PIECES)[0] @ weights)
+            assert world[contract.MU_K] == pytest.approx(1.0 + expected, abs=1e-14)
+            assert world[contract.MU_S] == pytest.approx(1.0 + 0.5 * expected, abs=1e-14)
+
+
+def test_a_reading_follows_the_course():
+    weights = 1e-4 * np.cos(np.arange(PIECES + 2))
+    effect = make_effect("sensor_drift", **sized(weights, PIECES, 20.0))
+    t = np.linspace(0.0, 25.0, 100)
+    shown = effect.measure(t, np.zeros(100), np.random.default_rng(0))
+    np.testing.assert_allclose(shown, splines(t / 20.0, PIECES) @ weights, atol=1e-18)
+
+
+def test_a_form_without_a_course_lacks_its_numbers():
+    line = make_effect("friction_drift", rate=0.01)
+    assert math.isinf(line.time_constant)
+    assert all(line.lacks(name) for name in ("change", "span", *COURSE))
+    assert not line.lacks("rate")
+    assert make_effect("friction_drift", change=0.1).lacks("rate")
