@@ -1,0 +1,41 @@
+"""Strengths whose intervals hold zero: which they are, and where the likelihood ratio ends them."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from stochfric_mb.discovery.inference.free_parameter import LAW, FreeParameter
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.discovery.stick_slip.simulation.refit import Fit
+from stochfric_mb.discovery.stick_slip.simulation.strength import NORMAL, told_by_ratio, undecided
+from stochfric_mb.effects import make_effect
+
+WAVE = make_effect("harmonic_force", amplitude=0.3, frequency=2.0)
+SPRING = make_effect("nonlinear_stiffness", cubic=1.0e8, quadratic=1.0e5)
+
+
+def fit_of(names, values, deviations) -> Fit:
+    free = [FreeParameter(owner, name, v, 1.0, -np.inf, np.inf) for (owner, name), v in zip(names, values, strict=True)]
+    return Fit(None, free, np.array(values), np.array(deviations), np.array(deviations), 1.0)
+
+
+def model_of(*effects):
+    return Model(law=SimpleNamespace(), corrections={}, effects=effects)
+
+
+def test_a_kind_is_undecided_where_none_of_its_strengths_is_told():
+    names = [(LAW, "mu_s"), (0, "amplitude"), (0, "frequency"), (1, "cubic"), (1, "quadratic")]
+    model = model_of(WAVE, SPRING)
+    fit = fit_of(names, [0.8, 0.3, 2.0, 1e8, 1e5], [1.0, 3.0, 9.0, 1e9, 1e4])
+    assert undecided(fit, model) == ["harmonic_force"]  # the spring's square is told
+    fit = fit_of(names, [0.8, 0.3, 2.0, 1e8, 1e5], [1.0, 0.1, 9.0, 1e9, 1e6])
+    assert undecided(fit, model) == ["nonlinear_stiffness"]
+
+
+def test_the_likelihood_ratio_ends_an_interval():
+    fit = fit_of([(0, "amplitude"), (0, "frequency")], [0.3, 2.0], [3.0, 9.0])
+    cut = told_by_ratio(fit, model_of(WAVE), "harmonic_force", 100.0)
+    assert cut.deviations[0] == pytest.approx(0.03)  # the signed root of the ratio is 10 at the fitted value
+    assert cut.values[0] - NORMAL * cut.deviations[0] > 0.0
+    assert cut.deviations[1] == 9.0
