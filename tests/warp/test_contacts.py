@@ -31,6 +31,17 @@ def test_box_on_an_incline_holds(integrator):
     assert (friction.contacts.numpy() == 4).all()
 
 
+def test_a_box_set_down_at_rest_beyond_atan_mu_k_sticks_at_once():
+    dt = 0.002
+    model, m, d = box_on_plane(33.0, dt)  # atan mu_k = 24.7 degrees
+    friction = add_friction(model, m, d, ("box", "floor"), LAW)
+    run(m, d, 0.3, dt)
+    # the load comes on while the box settles by 1e-5 m on MuJoCo's soft contacts, on which it turns; MuJoCo itself: 1.7e-5 m
+    assert np.abs(d.qpos.numpy()[:, 0]).max() < 3e-5
+    friction.observe(d)
+    assert friction.stick.numpy().all()
+
+
 @pytest.mark.parametrize("dt", [0.002, 0.005])
 def test_box_breaks_away_at_atan_mu_s(dt):
     model, m, d = box_on_plane(20.0, dt)

@@ -119,3 +119,16 @@ def test_coefficients_of_each_stick_phase():
         path = Friction(law, process).path(5, world, 0)
         expected = [path.at(0.0, events=n)[0] for n in (0, 0, 1, 1, 2)]
         assert [row[world] for row in seen] == pytest.approx(expected, abs=1e-6)  # float32
+
+
+def test_each_world_creeps_by_its_own_law():
+    dt, v_s = 0.002, 1e-4 * np.array([1.0, 2.0, 3.0, 4.0])
+    model, m, d = box_on_plane(15.0, dt, nworld=4)
+    law = make_law("havsin", mu_s=0.8, mu_k=0.46)
+    friction = add_friction(model, m, d, ("box", "floor"), law)
+    friction.set_parameters(v_s=v_s)
+    run(m, d, 0.5, dt)
+    before = d.qpos.numpy()[:, 0].copy()
+    run(m, d, 0.3, dt)
+    creep = creep_of(law, math.tan(math.radians(15.0))) * v_s / law.v_s  # the rising branch scales with v_s
+    assert (d.qpos.numpy()[:, 0] - before) == pytest.approx(0.3 * creep, rel=1e-4, abs=1e-9)  # as above

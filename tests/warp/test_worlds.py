@@ -10,8 +10,10 @@ import warp as wp
 from stochfric_mb import Coulomb, ElasticStick, Friction, Knots, Stribeck
 from stochfric_mb.coefficients import Lognormal, Uniform
 from stochfric_mb.errors import InputError
+from stochfric_mb.mujoco import Joint
 from stochfric_mb.warp import Domain, Spread, add_friction
 from tests.warp.scenes import GRAVITY, box_on_plane, run
+from tests.warp.test_joints import slider
 
 LAW = Coulomb(0.8, 0.46)
 RANDOM = Friction(LAW, Knots(sigma_s=0.015, sigma_k=0.023, spacing=0.01))
@@ -129,6 +131,42 @@ def test_readings_are_arrays_on_the_device_that_others_read_without_a_copy():
     run(m, d, 0.3, DT)
     friction.observe(d)
     assert shared == pytest.approx([GRAVITY * math.cos(math.radians(20.0))] * 4, rel=1e-3)  # it still settles
+
+
+@pytest.mark.parametrize("bridge", ["torch", "jax"])
+def test_readings_go_to_other_libraries(bridge):
+    pytest.importorskip(bridge, reason=f"{bridge} is not installed")
+    model, m, d = box_on_plane(20.0, DT, nworld=2)
+    friction = add_friction(model, m, d, ("box", "floor"), LAW)
+    mjw.step(m, d)
+    friction.observe(d)
+    there = getattr(wp, f"to_{bridge}")(friction.normal_force)
+    assert np.asarray(there) == pytest.approx(friction.normal_force.numpy())
+
+
+def test_a_step_copies_nothing_to_the_host(monkeypatch):
+    model, m, d = box_on_plane(20.0, DT, nworld=2)
+    friction = add_friction(model, m, d, ("box", "floor"), RANDOM)
+    joint, (m_2, d_2) = slider_friction()
+    mjw.step(m, d)
+    mjw.step(m_2, d_2)
+
+    def refuse(*_args, **_kwargs):
+        raise AssertionError("copied to the host")
+
+    for name in ("numpy", "list", "__array__"):
+        monkeypatch.setattr(wp.array, name, refuse, raising=False)
+    monkeypatch.setattr(wp, "copy", refuse)
+    monkeypatch.setattr(wp, "synchronize", refuse)
+    friction.steer(m, d)
+    friction.observe(d)
+    joint.steer(m_2, d_2)
+    joint.observe(d_2)
+
+
+def slider_friction():
+    model, m, d = slider(DT, nworld=2)
+    return add_friction(model, m, d, Joint("x"), RANDOM, normal_force=10.0), (m, d)
 
 
 def test_a_captured_graph_does_what_single_calls_do():
