@@ -13,14 +13,14 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
 SLOW = tuple(
     line for line in Path(__file__).with_name("slow.txt").read_text(encoding="utf-8").splitlines() if line[:1] not in ("", "#")
 )
-"""Beginnings of the names of slow tests."""
+"""Beginnings of the names of slow tests; what follows a star may stand anywhere in the name."""
 
 
 @pytest.hookimpl(tryfirst=True)  # before options select by marker
 def pytest_collection_modifyitems(items):
     """Mark the slow tests."""
     for item in items:
-        if item.nodeid.startswith(SLOW):
+        if item.nodeid.startswith(SLOW) or any(part[1:] in item.nodeid for part in SLOW if part.startswith("*")):
             item.add_marker(pytest.mark.slow)
 
 

@@ -8,6 +8,7 @@ from typing import Any
 from markupsafe import Markup
 
 from stochfric_mb.discovery.outcome import Outcome
+from stochfric_mb.effects import effect_class, effect_kinds
 from stochfric_mb.report.comparison import UNITS
 from stochfric_mb.report.discovery_pictures import COLOURS, given
 from stochfric_mb.report.page import digits, render
@@ -19,8 +20,9 @@ CAPTIONS = {
     "Upright stripes: slips differ. Pale: explained.",
     "left_over": "The same slip by slip, against time and against the place on the belt: what has a pattern is missing from "
     "the model.",
-    "friction": "Friction force in the slips of the first run against sliding velocity, as smooth as the slips allow; area: "
-    "the middle of all slips.",
+    "folded": "The same, folded at the wavelength or period that was estimated: one round of what repeats, first run.",
+    "friction": "Friction force against sliding velocity in the slips of the first run, as smooth as the slips allow, without "
+    "their ends; area: the middle of all slips. At rest: the force at break-away. Lines: the fitted laws.",
     "events": "Events in the held-out runs, measured and simulated; bar: the middle of all values, tick: median.",
     "ranking": "How well each candidate explains what the recalibrated model leaves. Blue: named. Grey: other effects. Sand: "
     "patterns that name no physics.",
@@ -34,7 +36,7 @@ METRICS = {
     "closed_loop_voltage": "error of the simulated closed loop: root mean square of the voltage's, over that of the voltage",
     "closed_loop_drive": "error of the simulated closed loop: root mean square of what the controller gives, over its size",
     "crps_friction": "error of forecasts of friction while the joint slides that know how far runs scatter (CRPS)",
-    "inverse_dynamics_sliding": "error of the driving force that the model asks for while the joint slides (root mean square)",
+    "inverse_dynamics_sliding": "error of the driving force that the model needs while the joint slides (root mean square)",
 }
 """Metric -> what it is, in words; other metrics are told by their names."""
 
@@ -87,6 +89,7 @@ def page(
         percent=percent,
         said=said,
         words=words,
+        in_words=in_words,
         units=UNITS,
     )
 
@@ -130,6 +133,11 @@ def said(text: str) -> Markup:
 def words(kind: str) -> str:
     """Return the name of an effect as words."""
     return kind.replace("_", " ")
+
+
+def in_words(kind: str) -> str:
+    """Return what an effect does in the field's words, such as "friction differs between the two directions of sliding"."""
+    return (effect_class(kind).shows if kind in effect_kinds() else "") or words(kind)
 
 
 def _scale(value: float | None, unit: str) -> tuple[float, str]:

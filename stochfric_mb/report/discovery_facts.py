@@ -39,6 +39,8 @@ def complete(outcome: Outcome, evidence: Evidence | None, command: str) -> Resul
         "command": command,
         "versions": versions(),
     }
+    if outcome.result.power:
+        facts["detection_limits"] = [_limit(kind, size) for kind, size in outcome.result.power.items()]
     if evidence is not None:
         facts["band"] = BAND
         facts["events"] = _events(evidence)
@@ -46,6 +48,12 @@ def complete(outcome: Outcome, evidence: Evidence | None, command: str) -> Resul
             {"after": evidence.after.rms} if evidence.after is not None else {}
         )
     return dataclasses.replace(outcome.result, details={**outcome.result.details, **facts})
+
+
+def _limit(kind: str, size: float) -> dict[str, Any]:
+    """Return a detection limit with the name and the unit of the parameter that it is a value of: the effect's first number."""
+    first = next(f for f in dataclasses.fields(effect_class(kind)) if "choices" not in f.metadata or not f.metadata["choices"])
+    return {"kind": kind, "parameter": first.name, "value": size, "unit": first.metadata["unit"]}
 
 
 def _runs(outcome: Outcome) -> list[dict[str, Any]]:

@@ -10,9 +10,11 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
+from stochfric_mb.discovery.stick_slip.records.slips import NODES
 from stochfric_mb.discovery.stick_slip.simulation.forecast import N_OUTPUTS, REACH
 from stochfric_mb.effects import effect_kinds
 from stochfric_mb.report.discovery_evidence import PLACES, Evidence, LeftOver, band
@@ -23,7 +25,7 @@ COLOURS = {
 }  # fmt: skip
 """Colour of the data and of each model."""
 LABELS = {
-    "data": "measured", "believed": "model as stated", "recalibrated": "recalibrated", "augmented": "with the effects found",
+    "data": "measured", "believed": "model as stated", "recalibrated": "recalibrated", "augmented": "with the effects",
     "floor": "noise floor",
 }  # fmt: skip
 """What they are called in a legend."""
@@ -31,6 +33,8 @@ MOST_CYCLES = 60
 """Measured cycles that are drawn over each other."""
 PALE = 4.0
 """Standard deviations of the noise at which the colours of the map end, or further out [-]."""
+FOLDED_IN_TIME = ("normal_load_ripple", "harmonic_force", "belt_speed_ripple")
+"""Effects that repeat in time."""
 EVENT_LABELS = {"period": "cycle period [s]", "break_away_force": "force at break-away [N]", "slip_travel": "slip travel [mm]"}
 """Axis of each statistic of events."""
 
@@ -48,6 +52,8 @@ def figures(content: Mapping[str, Any], evidence: Evidence | None) -> dict[str, 
             wanted["cycles"] = functools.partial(_cycles, evidence)
         wanted["map"] = functools.partial(_map, evidence)
         wanted["left_over"] = functools.partial(_left_over, evidence)
+        if (repeated := _repeated(content)) is not None:
+            wanted["folded"] = functools.partial(_folded, evidence, *repeated)
         wanted["friction"] = functools.partial(_friction, evidence)
         wanted["events"] = functools.partial(_events, evidence)
     if content["ranking"]:
@@ -144,10 +150,7 @@ def _map(evidence: Evidence) -> Figure:
 def _left_over(evidence: Evidence) -> Figure:
     figure = Figure(figsize=(9.2, 4.9), layout="constrained")
     grid = figure.subplots(2, 2, sharex="col", sharey="row", squeeze=False)
-    states: list[tuple[str, LeftOver]] = [("recalibrated", evidence.before)]
-    if evidence.after is not None:
-        states.append(("augmented", evidence.after))
-    for name, left in states:
+    for name, left in _states(evidence):
         for row, values in enumerate((left.onset, left.mean)):
             for axes, along in zip(grid[row], (left.time, 1.0e3 * left.belt_position), strict=True):
                 axes.plot(
@@ -160,24 +163,77 @@ def _left_over(evidence: Evidence) -> Figure:
     return figure
 
 
+def _repeated(content: Mapping[str, Any]) -> tuple[str, float] | None:
+    """Return how the first periodic effect repeats: along "belt" with its wavelength [m], or in "time" with its period [s]."""
+    for effect in content["effects"]:
+        numbers = effect["parameters"]
+        if (wavelength := numbers.get("wavelength", {}).get("value")) and effect["kind"] == "position_dependent_friction":
+            return "belt", float(wavelength)
+        if (frequency := numbers.get("frequency", {}).get("value")) and effect["kind"] in FOLDED_IN_TIME:
+            return "time", 1.0 / float(frequency)
+    return None
+
+
+def _folded(evidence: Evidence, along: str, length: float) -> Figure:
+    """Draw what is left of each slip of the first run against its place in one round of what repeats."""
+    figure, axes_list = new_figure(9.2, 3.1, columns=2)
+    scale, unit = (1.0e3, "mm") if along == "belt" else (1.0, "s")
+    for name, left in _states(evidence):
+        mine = left.run == left.run[0]
+        places = scale * np.mod((left.belt_position if along == "belt" else left.time)[mine], length)
+        for axes, values in zip(axes_list, (left.onset, left.mean), strict=True):
+            style: dict[str, Any] = {"color": COLOURS[name], "markersize": 4.5, "markeredgewidth": 0.0}
+            axes.plot(places, 1.0e3 * values[mine], ".", label=LABELS[name], **style)
+    for axes, what in zip(axes_list, ("at break-away [mN]", "mean over the slip [mN]"), strict=True):
+        axes.set(ylabel=what, xlabel=f"position on the belt within {scale * length:.3g} mm [mm]" if along == "belt" else
+                 f"time within {length:.3g} s [{unit}]")  # fmt: skip
+    legend(figure, axes_list[0])
+    return figure
+
+
+def _states(evidence: Evidence) -> list[tuple[str, LeftOver]]:
+    """Return the residuals of the recalibrated model and, if there is one, of that with the effects."""
+    after: list[tuple[str, LeftOver]] = [] if evidence.after is None else [("augmented", evidence.after)]
+    return [("recalibrated", evidence.before), *after]
+
+
 def _friction(evidence: Evidence) -> Figure:
-    """Draw friction in the slip against relative velocity: as measured, and as each model has it."""
+    """Draw friction against relative velocity: as measured, and as each model has it."""
     figure, (axes,) = new_figure(4.8, 3.9)
     left = evidence.before
     mine = left.run == left.run[0]
     speed = 1.0e3 * np.median(left.relative_velocity[mine], axis=0)
     middle, low, high = band(evidence.kinetic + left.at_nodes[mine], axis=0)
-    # forces that turn on the box's motion differ on the way up and down in speed: both branches are drawn, joined at the top
-    axes.fill_between(speed[:16], low[:16], high[:16], color=COLOURS["data"], alpha=0.12, linewidth=0.0)
-    axes.fill_between(speed[16:], low[16:], high[16:], color=COLOURS["data"], alpha=0.12, linewidth=0.0)
-    axes.plot(speed, middle, "o-", color=COLOURS["data"], markersize=3.0, linewidth=0.8, label=LABELS["data"])
+    # forces that turn on the box's motion differ on the way up and down in speed: both branches are drawn, without their ends,
+    # where the polynomial is loose
+    half = len(NODES) // 2
+    inner = np.abs(NODES) <= float(PLACES[-1])
+    label: str | None = LABELS["data"]
+    for branch in (inner & (np.arange(len(NODES)) < half), inner & (np.arange(len(NODES)) >= half)):
+        axes.fill_between(speed[branch], low[branch], high[branch], color=COLOURS["data"], alpha=0.12, linewidth=0.0)
+        axes.plot(speed[branch], middle[branch], "o-", color=COLOURS["data"], markersize=3.0, linewidth=0.8, label=label)
+        label = None
     axes.axhline(evidence.kinetic, color=COLOURS["recalibrated"], linewidth=1.6, label=LABELS["recalibrated"])
     if evidence.after is not None and len(evidence.after.run) == len(left.run):
         model = middle - np.median(evidence.after.at_nodes[mine], axis=0)
-        axes.plot(speed, model, color=COLOURS["augmented"], linewidth=1.6, label=LABELS["augmented"])
+        order = np.argsort(speed[inner])
+        axes.plot(
+            speed[inner][order], model[inner][order], color=COLOURS["augmented"], linewidth=1.6, label=LABELS["augmented"]
+        )
+    _at_rest(axes, evidence)
     axes.set(xlabel="relative velocity [mm/s]", ylabel="friction force in the slip [N]")
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper left", ncols=2)
     return figure
+
+
+def _at_rest(axes: Axes, evidence: Evidence) -> None:
+    """Draw the force at break-away, measured and stated by the models, at zero velocity."""
+    for name in ("data", *(n for n in ("recalibrated", "augmented") if n in evidence.events)):
+        if len(values := evidence.events[name]["break_away_force"]):
+            middle, low, high = band(values)
+            marker = "s" if name == "data" else "_"
+            axes.plot([0.0, 0.0], [low, high], color=COLOURS[name], linewidth=3.0, alpha=0.35)
+            axes.plot([0.0], [middle], marker, color=COLOURS[name], markersize=5.0 if name == "data" else 12.0)
 
 
 def _events(evidence: Evidence) -> Figure:

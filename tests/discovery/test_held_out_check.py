@@ -36,7 +36,7 @@ def test_an_effect_that_worsens_forecasts_of_held_out_runs_is_not_named(monkeypa
     result = discover(plain()).result
     assert result.verdict == "none"
     assert not result.effects
-    assert any("harmonic_force is not borne out by the held-out runs" in note for note in result.notes)
+    assert any("harmonic_force is not validated on the held-out runs" in note for note in result.notes)
     assert result.gap.augmented == result.gap.recalibrated  # nothing of it is left in the model
 
 

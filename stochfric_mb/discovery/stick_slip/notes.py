@@ -28,7 +28,7 @@ def notes(found: Study, decision: Decision, gap: Gap | None, forces: Gap | None,
     return (
         *_of_the_record(found),
         *(
-            f"{kind} is not borne out by the held-out runs: error {seen['with_']:.3g} m with it, "
+            f"{kind} is not validated on the held-out runs: error {seen['with_']:.3g} m with it, "
             f"{seen['without']:.3g} m without"
             for kind, seen in details.get("not_borne_out", {}).items()
         ),

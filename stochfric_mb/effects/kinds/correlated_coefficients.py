@@ -33,7 +33,7 @@ class CorrelatedCoefficients(Effect):
     traits: ClassVar[frozenset[str]] = frozenset({SCATTER, WANDERS_ALIKE})
     found_as: ClassVar[tuple[str, ...]] = (WANDER,)
     shows_on: ClassVar[str] = "scatter, time"
-    shows: ClassVar[str] = "friction wanders slowly and at random"
+    shows: ClassVar[str] = "friction drifts slowly and at random"
 
     def draws(self, duration: float, slips: int) -> float:
         """Return T/(2 tau), which is what a mean over T knows of an exponential memory, at most one draw a slip."""

@@ -48,7 +48,7 @@ class Impacts(Effect):
     traits: ClassVar[frozenset[str]] = frozenset({RANDOM})
     found_as: ClassVar[tuple[str, ...]] = (KICKS,)
     shows_on: ClassVar[str] = "time"
-    shows: ClassVar[str] = "single kicks let the box break away early or jump"
+    shows: ClassVar[str] = "single impacts let the box break away early or jump"
 
     def draws(self, duration: float, slips: int) -> float:
         """Return the number of impacts in a duration, on average."""

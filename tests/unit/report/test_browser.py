@@ -4,6 +4,7 @@ Needs playwright and a Chromium: ``pip install -e '.[pages]'`` and, on Debian, `
 """
 
 import json
+import re
 import shutil
 
 import numpy as np
@@ -72,6 +73,32 @@ def test_a_page_is_quiet_complete_and_fits(opened, name, width, scheme):
     assert shown.evaluate("document.documentElement.scrollWidth") <= width
     ink, paper = shown.evaluate("[getComputedStyle(document.body).color, getComputedStyle(document.body).backgroundColor]")
     assert (_brightness(ink) > _brightness(paper)) == (scheme == "dark")
+
+
+def test_a_curve_tells_its_values_zooms_and_goes_back(opened):
+    shown, said, _ = opened("records", 1200, "light")
+    svg = shown.locator("svg[data-axes]").first
+    place = svg.bounding_box()
+
+    def tell(x, y):
+        shown.mouse.move(place["x"] + x * place["width"], place["y"] + y * place["height"])
+        return shown.locator(".tip").inner_text()
+
+    told = tell(0.5, 0.5)
+    assert "time [s]: " in told
+    assert 8.0 < float(re.search(r"time \[s\]: ([\d.]+)", told)[1]) < 12.0  # the middle of 20 s, and the margins
+    ticks = "all => all.map(one => one.textContent)"
+    assert shown.eval_on_selector_all("svg .zoomed", ticks) == []
+    shown.mouse.move(place["x"] + 0.4 * place["width"], place["y"] + 0.5 * place["height"])
+    shown.mouse.down()
+    shown.mouse.move(place["x"] + 0.6 * place["width"], place["y"] + 0.5 * place["height"], steps=4)
+    shown.mouse.up()
+    seen = [float(t) for t in shown.eval_on_selector_all("svg text.zoomed", ticks) if re.fullmatch(r"[\d.]+", t)]
+    assert sum(7.0 < t < 13.0 for t in seen) >= 4  # a fifth of 20 s has more ticks than the whole had there
+    assert 7.0 < float(re.search(r"time \[s\]: ([\d.]+)", tell(0.1, 0.5))[1]) < 9.5
+    shown.mouse.dblclick(place["x"] + 0.5 * place["width"], place["y"] + 0.5 * place["height"])
+    assert shown.eval_on_selector_all("svg .zoomed", ticks) == []
+    assert said == []
 
 
 @pytest.mark.parametrize("name", list(RESULTS))

@@ -1,6 +1,8 @@
 """The report of a discovery: every number on the page stands in result.json, whatever the verdict."""
 
+import csv
 import dataclasses
+import html
 import html.parser
 import json
 import re
@@ -11,6 +13,7 @@ import pytest
 
 from stochfric_mb import load_scenario
 from stochfric_mb.discovery import discover
+from stochfric_mb.discovery.export import files
 from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.effects import make_effect
@@ -58,8 +61,8 @@ RESULTS = {
     ),
 }  # fmt: skip
 HEADLINES = {
-    "one effect": "Missing from the model: velocity weakening",
-    "two effects": "Missing from the model: velocity weakening, random coefficients",
+    "one effect": "Missing from the model: friction in slip depends on the sliding velocity and falls as it rises",
+    "two effects": "as it rises; friction scatters from slip to slip with no memory",
     "none": "Nothing is missing that these data show",
     "unknown": "Something is missing, and no known effect explains it",
     "too few slips": "These data cannot tell",
@@ -230,6 +233,61 @@ def test_pictures_that_come_as_data_are_drawn():
     assert text.count("<svg ") == len(drawn) + 1
 
 
+def test_detection_limits_name_their_parameter_and_unit():
+    content, text, _ = written(outcome_of(RESULTS["none"]))
+    assert content["details"]["detection_limits"] == [
+        {"kind": "dwell_ageing", "parameter": "rate", "value": 0.0123, "unit": "-"},
+        {"kind": "viscous_friction", "parameter": "coefficient", "value": 1.7, "unit": "N s/m"},
+    ]
+    row = next(line for line in text.splitlines() if "viscous friction" in line and "<tr>" in line)
+    assert "coefficient" in row
+    assert "N s/m" in row
+
+
+def test_parameters_are_those_of_the_model_with_the_effects(found):
+    """Page, result and table show one set of numbers, and flag what moved beyond its uncertainty or was not measured."""
+    content, text, _ = written(found)
+    table = {(r["effect"], r["parameter"]): r for r in csv.DictReader(files(found)["parameters.csv"].splitlines())}
+    rows = {m[1]: m[0] for m in re.finditer(r'<tr><th><span class="said">(\w+)</span></th>.*?</tr>', text, re.DOTALL)}
+    stated = {**content["details"]["stated"]["mechanism"], **content["details"]["stated"]["law"]}
+    about = content["details"]["parameters"]
+    for name, number in content["believed"].items():
+        assert float(table["", name]["value"]) == pytest.approx(number["value"], rel=1e-5)  # six digits in the table
+        assert f'<data value="{number["value"]!r}">' in rows[name]
+        assert ("not measured" in rows[name]) == (name in about["not_measured"])
+        assert ("stated standard deviations off" in rows[name]) == (
+            name in about["moved_beyond_uncertainty"] and name not in about["not_measured"]
+        )
+        if name not in about["not_measured"]:
+            assert number["low"] < number["value"] < number["high"], f"{name}: a prior returned as a measurement"
+        augmented = {**found.scenario.mechanism.__dict__, "mu_s": found.scenario.law.mu_s, "mu_k": found.scenario.law.mu_k}
+        assert number["value"] == pytest.approx(augmented[name], rel=1e-6), name
+        assert name in stated
+
+
+def test_friction_against_speed_has_the_law_and_no_ends(found):
+    _, _, drawn = written(found)
+    facts = json.loads(html.unescape(re.search(r"data-axes='(.*?)'", drawn["friction"])[1]))
+    assert [name for name in facts[0]["series"] if name] == ["measured", "recalibrated", "with the effects"]
+    assert facts[0]["labels"] == ["relative velocity [mm/s]", "friction force in the slip [N]"]
+    evidence = gather(found)
+    swing = np.abs(evidence.before.at_nodes[:, [0, -1]]).max()  # what a polynomial does at the ends of a slip
+    low, high = facts[0]["y"]
+    assert high - low < max(2.0 * swing, 8.0)
+
+
+def test_what_repeats_is_drawn_folded(found):
+    effect = Found(
+        "position_dependent_friction", (), Where("belt position", "friction varies along the belt"),
+        {"amplitude": Interval(0.03, 0.02, 0.04, "-"), "wavelength": Interval(0.011, 0.0109, 0.0111, "m")}, 40.0, 1e-6,
+    )  # fmt: skip
+    _, text, drawn = written(dataclasses.replace(found, result=dataclasses.replace(found.result, effects=(effect,))))
+    facts = json.loads(html.unescape(re.search(r"data-axes='(.*?)'", drawn["folded"])[1]))
+    assert facts[0]["labels"][0] == "position on the belt within 11 mm [mm]"
+    assert facts[0]["x"][1] - facts[0]["x"][0] <= 11.0 * 1.2  # one round and its margins
+    assert "friction varies along the belt" in text
+
+
 def test_a_real_discovery_shows_where_the_model_fails(found):
     content, text, drawn = written(found)
     check_backed(content, text)
@@ -253,7 +311,7 @@ def test_without_effect_there_is_no_third_model(found):
     content, text, _ = written(nothing)
     check_backed(content, text)
     assert set(content["details"]["events"]) == {"data", "believed", "recalibrated"}
-    assert "with the effects found" not in re.sub(r"<[^>]+>", "", text)
+    assert "with the effects" not in re.sub(r"<[^>]+>", "", text)
 
 
 def test_a_model_that_never_slips_is_shown_as_such(found):

@@ -2,7 +2,7 @@
 
 Each run i has its own mu_k: delta_i from what the model leaves of it, the mean of both directions, so that a zero of the drive
 cancels; a run may be a single slide one way. What is left within strokes, and how strokes differ, give it a variance v_i. Then
-delta_i ~ N(mean, sigma^2 + v_i), and sigma is asked for by restricted likelihood.
+delta_i ~ N(mean, sigma^2 + v_i), and sigma is estimated by REML (restricted maximum likelihood).
 
 No model foretells such a run. Held-out runs are therefore scored by the CRPS of a forecast that knows how far runs scatter.
 

@@ -119,7 +119,7 @@ def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
             text += (
                 f" On strokes left out, one by one, it falls by {100.0 * stage.strokes.rms_gain:.0f} %, in "
                 f"{stage.strokes.better} of {stage.strokes.parts}, and each half of the record "
-                "foretells the other better; it is named for that."
+                "predicts the other better; it is named for that."
             )
         numbers = parameters(place, first + i)
         found.append(Found(effect.kind, others, Where(axis, text), numbers, trial.score, chance))

@@ -137,7 +137,7 @@ def _nameless(effects: Sequence[Candidate], others: Sequence[Candidate]) -> Wher
     least = 1.0 if effects and effects[0].any_course else criteria.OUTDONE
     if others and others[0].score >= criteria.NAMED and score < least * others[0].score:
         axis = others[0].axis
-        return Where(axis, f"the disagreement lives on the axis: {axis}; no known effect explains it")
+        return Where(axis, f"the disagreement shows along: {axis}; no known effect explains it")
     if score < criteria.NAMED:
         return None
     pattern = {c.name: c for c in reversed(others)}

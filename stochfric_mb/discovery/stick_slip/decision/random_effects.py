@@ -190,7 +190,7 @@ def _offset(study: Study, scatter: Randomness) -> Where | None:
     away = scatter.wander_share * float(np.median(pool.static)) / study.records[0].mechanism.stiffness
     if away < max(s.noise.deviation for s in pool.slips):
         return None
-    return Where("time", f"the same in stick and slip, a force or the sensor's zero wanders by {away:.2g} m")
+    return Where("time", f"the same in stick and slip, a force or the sensor's zero drifts by {away:.2g} m")
 
 
 def _scatters(study: Study, scatter: Randomness, solution: Solution, named: Sequence[str], share: float) -> bool:

@@ -23,7 +23,7 @@ def require_usable(dataset: Dataset) -> None:
         box = run.mechanism(dataset.scenario)
         if box.belt_velocity == 0.0:
             raise InputError(
-                f"run {run.name}: belt_velocity is 0 m/s, but friction is told from stick and slip on a belt that runs; "
+                f"run {run.name}: belt_velocity is 0 m/s, but friction is inferred from stick and slip on a moving belt; "
                 "state the speed at which it ran, in [mechanism] or in the run's set = { belt_velocity = ... }"
             )
         natural = math.sqrt(box.stiffness / box.mass) / (2.0 * math.pi)
