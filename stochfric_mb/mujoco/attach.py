@@ -68,7 +68,7 @@ def add_friction(
             forces off.
 
     Warns:
-        IntegratorWarning: the model uses the ``discrete`` integrator.
+        IntegratorWarning: the ``discrete`` integrator, for a joint or tendon, or in ``explicit``.
         ConeWarning: the model's cones were pyramidal, and are elliptic from now on.
         ContactWarning: the geoms did not collide before, or flexible bodies keep MuJoCo's friction.
     """
@@ -83,7 +83,7 @@ def add_friction(
     if isinstance(geoms, Joint | Tendon):
         if anisotropy != ISOTROPIC:
             raise InputError(f"anisotropy = {anisotropy}: a joint or tendon has one direction; give it to a pair of geoms")
-        check_options(spec.option.disableflags, spec.option.integrator, ELLIPTIC)
+        check_options(spec.option.disableflags, spec.option.integrator, ELLIPTIC, steered=False)
         return add_joint_friction(
             spec,
             geoms,
@@ -116,7 +116,7 @@ def add_friction(
         anisotropy=anisotropy,
     )
     name = free_name(spec, f"friction_{body}_{surface}".replace(ANY, "any"), "pair")
-    check_options(spec.option.disableflags, spec.option.integrator, ELLIPTIC)
+    check_options(spec.option.disableflags, spec.option.integrator, ELLIPTIC, steered=steered)
     if anisotropy != ISOTROPIC:
         require_primal(spec.option.solver, spec.option.noslip_iterations)
     warn_of_filters(spec, body, surface)

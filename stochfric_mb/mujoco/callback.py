@@ -31,6 +31,7 @@ from stochfric_mb.mujoco.contact.tracking import report
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.engine import library
+from stochfric_mb.mujoco.memory.structs import DISCRETE
 from stochfric_mb.mujoco.pairs import ContactWarning, condim_of
 from stochfric_mb.mujoco.plugin.configuration import configuration, record_of, require_slots
 from stochfric_mb.mujoco.plugin.options import (
@@ -78,10 +79,10 @@ class friction:  # noqa: N801  (a context, used like a function)
 
         Raises:
             InputError: data of another model, unknown geoms, geoms that cannot touch or touch without friction, pyramidal
-                cones, passive forces that are disabled, or a law that cannot run in this mode.
+                cones, passive forces that are disabled, the ``discrete`` integrator, or a law that cannot run in this mode.
 
         Warns:
-            IntegratorWarning: the model uses the ``discrete`` integrator.
+            IntegratorWarning: damping and a long step let stuck contacts slip, see `warn_of_stiff_damping`.
         """
         if not isinstance(model, mujoco.MjModel):
             raise InputError(f"model is a {type(model).__name__}; compile it first, or use add_friction(spec, ...)")
@@ -90,6 +91,11 @@ class friction:  # noqa: N801  (a context, used like a function)
         if data.model is not model and data.model._address != model._address:
             raise InputError("data belongs to another model; pass the model that it was made with")
         check_options(model.opt.disableflags, model.opt.integrator, model.opt.cone)
+        if model.opt.integrator == DISCRETE:
+            raise InputError(
+                "integrator discrete leaves nothing of its constraints to a context, which finds a step's forces when the next "
+                "one begins; use add_friction(spec, ...), or Euler, implicitfast, implicit or RK4"
+            )
         warn_of_stiff_damping(stiff_damping(model._address), model.opt.timestep)
         directed = dict(anisotropy or {})
         for names in directed.keys() - pairs.keys():

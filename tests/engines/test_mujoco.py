@@ -490,8 +490,8 @@ def test_unusable_requests_are_refused():
         engine.add_friction(spec, ("box", "floor"), ELASTIC)
     spec = box_spec()
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_DISCRETE
-    with pytest.warns(engine.IntegratorWarning, match="discrete"):
-        engine.add_friction(spec, ("box", "floor"), ELASTIC)
+    with pytest.warns(engine.IntegratorWarning, match="explicit friction is inaccurate"):
+        engine.add_friction(spec, ("box", "floor"), ELASTIC, mode="explicit")
 
 
 @pytest.mark.parametrize("place", [("box", "floor"), engine.Joint("turn")])

@@ -273,7 +273,7 @@ def test_what_cannot_work_is_refused():
     with pytest.raises(InputError, match="passive"):
         engine.friction(model, data, {PAIR: LAW})
     other.opt.integrator = mujoco.mjtIntegrator.mjINT_DISCRETE
-    with pytest.warns(engine.IntegratorWarning, match="discrete"):
+    with pytest.raises(InputError, match="integrator discrete leaves nothing"):
         engine.friction(other, others, {PAIR: LAW})
 
 

@@ -125,7 +125,6 @@ FLAGS = ("<option ", '<option><flag spring="disable" damper="disable"/></option>
     [
         ('("box", "floor")', "", [FLAGS], "leaves out all passive forces, friction too; enable one of them", True),
         ('engine.Joint("hinge")', ", normal_force=1.0", [FLAGS], "leaves out all passive forces", True),
-        ('("box", "floor")', "", [('integrator="RK4"', 'integrator="discrete"')], "use Euler, implicitfast", False),
         (
             'engine.Joint("hinge")',
             ", normal_force=1.0",

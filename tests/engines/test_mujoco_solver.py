@@ -206,14 +206,19 @@ def table_slip(dt, integrator):
     return most
 
 
-@pytest.mark.parametrize("integrator", ["Euler", "implicit", "implicitfast", "RK4"])
+@pytest.mark.parametrize("integrator", ["Euler", "implicit", "implicitfast", "RK4", "discrete"])
 @pytest.mark.parametrize("dt", [1e-3, 2e-3])
 def test_a_box_stays_on_a_servo_table(dt, integrator):
     assert table_slip(dt, integrator) < 2e-5  # native at 2 ms: 2.8e-3
 
 
-def test_and_at_long_steps():
-    with pytest.warns(engine.IntegratorWarning, match="h kv/m = 2.5"):
+@pytest.mark.parametrize("dt", [5e-3, 1e-2])
+def test_and_at_long_steps_with_the_integrator_that_solves_with_damping(dt):
+    assert table_slip(dt, "discrete") < 2e-5
+
+
+def test_with_implicitfast_long_steps_are_warned_of():
+    with pytest.warns(engine.IntegratorWarning, match="h kv/m = 2.5.*integrator discrete"):
         assert table_slip(5e-3, "implicitfast") < 1e-4
 
 
@@ -249,7 +254,9 @@ def lift_slip(dt, integrator, kind):
 # The servo itself, on 0.9 kg, is unstable above 1.8 ms with Euler and RK4.
 @pytest.mark.parametrize("kind", ["coulomb", "elastic_stick"])
 @pytest.mark.parametrize(
-    ("dt", "integrator"), [(1e-3, "Euler"), (1e-3, "implicitfast"), (2e-3, "implicit"), (2e-3, "implicitfast")]
+    ("dt", "integrator"),
+    [(1e-3, "Euler"), (1e-3, "implicitfast"), (2e-3, "implicit"), (2e-3, "implicitfast")]
+    + [(dt, "discrete") for dt in (1e-3, 2e-3, 5e-3, 1e-2)],
 )
 def test_a_gripper_holds_what_it_lifts(dt, integrator, kind):
     assert lift_slip(dt, integrator, kind) < 2e-5  # 25 mm a lift once

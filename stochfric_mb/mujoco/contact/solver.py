@@ -10,8 +10,9 @@ a + mu abs(a_t - aref_t) instead of a (MuJoCo's computation chapter, elliptic co
 is taken out of the normal row's reference, with the last step's a_t. And integrators with implicit
 damping move a contact otherwise than the solver foresaw; a stuck row is told the difference of the last step.
 
-The discrete integrator makes its references anew after the passive stage: of all that is written here only the coefficients
-and a contact's ``solreffriction`` count, so its stuck contacts creep as natively, if less, and sliding lifts. PGS holds the
+The discrete integrator, which alone solves with the damping of joints and actuators, makes its references anew after the
+passive stage. There a stuck row takes its deflection back through the surface's velocity, which it reads then (`set_target`);
+R stays MuJoCo's, so all laws at rest are as rigid as that. PGS holds the
 rows' R in a matrix of its own, made before the passive stage, and does not converge on stiff sliding rows, so sliding contacts
 keep MuJoCo's own reference there, which lifts bodies a little.
 """
@@ -34,11 +35,14 @@ from stochfric_mb.mujoco.contact.law import coefficients
 from stochfric_mb.mujoco.contact.rows import (
     LEAST,
     RIGID,
+    forget_target,
+    raise_normal,
     rate_of,
     resistances,
     set_cap,
     set_reference,
     set_resistance,
+    set_target,
     spring_of,
 )
 from stochfric_mb.mujoco.memory import engine
@@ -55,9 +59,10 @@ LIGHTEST = 0.01
 """Smallest weight of a contact among others: a lighter one is as stiff as one of this weight."""
 CLOSE = 1.0e-6
 """Part of the force to which the speed of creep gives it: creep over ten minutes is then right to less than a micrometre."""
-
 NOTHING = 1.0e-12
 """Part of the cap below which a force is the solver's rounding."""
+JUST_STUCK = -1.0
+"""Value of a slot's ``springs`` in the first step of a stick phase."""
 
 
 @compiled
@@ -77,6 +82,7 @@ def begin(model, data, state):
             engine.mju_error(w.entry(w.CONDIM_MESSAGE))
         if count == int(header.n_slots):
             engine.mju_error(w.entry(w.SLOTS_MESSAGE))
+        forget_target(m, contact, s.slot_at(state, 1, count))
         follow(m, d, state, row, i, sign, known, count)
         steer(m, d, state, row, contact, sign, s.slot_address(state, 1, count), 0.0)
         count += 1
@@ -209,10 +215,13 @@ def switch(state, row, slot, old, speed, step_mobility):
     if old.slides == 0.0:
         breaks = old.loose != 0.0
         if old.saturated != 0.0 and not breaks:  # the other contacts hold the bodies: its force stays at the cap
-            put(z, old.z[0], old.z[1], old.z[2])
+            stretch = stretch_of(header)
+            was, now = size(stretch, slot.side, old.z), size(stretch, slot.side, z)
+            if now > was:
+                put(z, z[0] * was / now, z[1] * was / now, z[2] * was / now)
         if header.rest == s.CREEP:
             creep(state, row, slot, old)
-        elif header.rest == s.ELASTIC:
+        elif old.springs != 0.0:
             limit, stretch = spring_at(state, row, old, old.given)[2], stretch_of(header)
             out = size(stretch, slot.side, z)
             breaks = breaks and out >= limit and product(stretch, slot.side, z, v) > 0.0
@@ -225,12 +234,9 @@ def switch(state, row, slot, old, speed, step_mobility):
         if slot.slides == 0.0:
             slot.events += 1.0
             put(z, 0.0, 0.0, 0.0)
+            slot.springs = JUST_STUCK
             if header.rest == s.CREEP:
                 creep(state, row, slot, old)
-            elif header.rest == s.ELASTIC:  # the deflection that keeps the force
-                stiffness = spring_at(state, row, old, old.given)[0]
-                if stiffness > 0.0:
-                    move_along(header, slot, old.pull, 1.0 / stiffness)
 
 
 @compiled
@@ -294,11 +300,11 @@ def steer(m, d, state, row, contact, sign, address, since):
         w.put(d.qfrc_passive, 0, math.nan)
         return
     vx, vy, vz = slot.w[0], slot.w[1], slot.w[2]
-    x, y, z = slot.z[0], slot.z[1], slot.z[2]
+    x, y, z = 0.0, 0.0, 0.0
     if since > 0.0:
         ux, uy, uz = measure_velocity(m, d, contact, sign)
         half = 0.5 * since
-        x, y, z = x + half * (vx + ux), y + half * (vy + uy), z + half * (vz + uz)
+        x, y, z = half * (vx + ux), half * (vy + uy), half * (vz + uz)
         vx, vy, vz = ux, uy, uz
     if slot.slides != 0.0:
         let_slide(m, d, state, row, contact, slot, vx, vy, vz)
@@ -314,15 +320,17 @@ def let_slide(m, d, state, row, contact, slot, vx, vy, vz):
     v = vx, vy, vz
     speed = size(stretch, e, v)
     cap = max(call_slide(w.entry(row + w.SLIDE), speed, slot.mu_s, slot.mu_k, s.parameters_of(state)), LEAST)
-    native = m.integrator == DISCRETE or m.solver == PGS
-    for j in (first + 1, first + 2):
-        if not native:
-            set_reference(d, j, 1.0 / h, 0.0, 0.0)
-    stiffness = w.at(d.efc_KBIP, 4 * first) * w.at(d.efc_KBIP, 4 * first + 2)
-    if speed > 0.0 and stiffness > 0.0 and not native:
-        lift = cap * max(0.0, speed / h + product(stretch, e, slot.a, v) / speed)
-        w.put(d.efc_pos, first, contact.dist + lift / stiffness)
-        keep_normal(m, d, first, cap)
+    lift = cap * max(0.0, speed / h + product(stretch, e, slot.a, v) / speed) if speed > 0.0 else 0.0
+    if m.integrator == DISCRETE:
+        set_target(m, contact, slot, 0.0, 0.0)
+        raise_normal(m, d, contact, lift)
+    elif m.solver != PGS:
+        set_reference(d, first + 1, 1.0 / h, 0.0, 0.0)
+        set_reference(d, first + 2, 1.0 / h, 0.0, 0.0)
+        stiffness = w.at(d.efc_KBIP, 4 * first) * w.at(d.efc_KBIP, 4 * first + 2)
+        if lift > 0.0 and stiffness > 0.0:
+            w.put(d.efc_pos, first, contact.dist + lift / stiffness)
+            keep_normal(m, d, first, cap)
     set_cap(m, d, contact, cap, slot.across)
     slot.cap = cap
 
@@ -346,11 +354,13 @@ def keep_normal(m, d, first, cap):
 def spring_and_cap(state, row, slot, resistance, h):
     """Return R [1/kg] and K I [1/s^2] of a stuck row that has R = ``resistance``, and its cap [-].
 
-    Rigid laws get the stiffest spring that suits the step, elastic ones their own. A law that creeps at rest is that rigid
+    Rigid laws get the stiffest spring that suits the step, elastic ones their own, where a step can follow it: it would not
+    take back more than all of the deflection at once. A law that creeps at rest is that rigid
     spring in series with a damper, of the force over the speed at which the law has it.
     """
     header = s.header_record(state)
     stiffness, cap = RIGID / (h * h), slot.mu_s
+    just_stuck, slot.springs = slot.springs == JUST_STUCK, 0.0
     if header.rest == s.CREEP:
         cap = call_slide(w.entry(row + w.SLIDE), header.peak_speed, slot.mu_s, slot.mu_k, s.parameters_of(state))
         force = size(force_stretch_of(header), slot.side, slot.pull)
@@ -360,18 +370,29 @@ def spring_and_cap(state, row, slot, resistance, h):
         weight = max(slot.weight, LIGHTEST)  # contacts of one pair share what they hold together, by their normal forces
         k, c, _ = spring_at(state, row, slot, slot.given / weight)
         if k > 0.0:
-            resistance, stiffness = spring_of(resistance, weight * k, weight * c, h)
+            total, own = spring_of(resistance, weight * k, weight * c, h)
+            if own <= 1.0 / (h * h):
+                resistance, stiffness, slot.springs = total, own, 1.0
+                if just_stuck:  # the deflection that keeps the force
+                    move_along(header, slot, slot.pull, 1.0 / (weight * k))
     return resistance, stiffness, max(cap, LEAST)
 
 
 @compiled
 def hold(m, d, state, row, contact, sign, slot, x, y, z):
-    """Steer a stuck contact with the deflection (x, y, z)."""
+    """Steer a stuck contact that has moved by (x, y, z) [m] since the step's start."""
     f, first = contact.frame, contact.efc_address
-    resistance = resistances(m, d, first)[1] / max(slot.weight, LIGHTEST)  # so contacts share a load by their normal forces
+    resistance = math.inf  # so contacts share a load by their normal forces
+    if m.integrator != DISCRETE:
+        resistance = resistances(m, d, first)[1] / max(slot.weight, LIGHTEST)
     resistance, stiffness, slot.cap = spring_and_cap(state, row, slot, resistance, m.timestep)
+    x, y, z = x + slot.z[0], y + slot.z[1], z + slot.z[2]
     if m.integrator == DISCRETE:
-        contact.solreffriction[0], contact.solreffriction[1] = 2.0 * m.timestep, 1.0
+        part = sign * RIGID / m.timestep
+        u, v = part * (x * f[3] + y * f[4] + z * f[5]), part * (x * f[6] + y * f[7] + z * f[8])
+        set_target(m, contact, slot, u, v)
+        set_cap(m, d, contact, slot.cap, slot.across)
+        return
     for j in (1, 2):
         if m.solver != PGS:
             set_resistance(d, first + j, resistance)

@@ -144,17 +144,17 @@ def steer(m, d, state, row, since):
     place = friction_row(m, d, header)
     if place < 0:
         return
-    v, z = slot.vx, slot.z[0]
+    v, z = slot.vx, 0.0
     if since > 0.0:
         v = -along_row(m, d, header, d.qvel)
-        z += 0.5 * since * (slot.vx + v)
+        z = 0.5 * since * (slot.vx + v)
     if slot.slides != 0.0:
         slot.cap = call_slide(w.entry(row + w.SLIDE), abs(v), slot.mu_s, slot.mu_k, s.parameters_of(state))
         set_reference(d, place, 1.0 / h, 0.0, 0.0)
     else:
         resistance, stiffness, slot.cap = solver.spring_and_cap(state, row, slot, STIFFER * w.at(d.efc_R, place), h)
         set_resistance(d, place, resistance)
-        set_reference(d, place, 1.0 / h, stiffness, -(z + slot.lead[0] / stiffness))
+        set_reference(d, place, 1.0 / h, stiffness, -(slot.z[0] + z + slot.lead[0] / stiffness))
     set_limit(d, place, slot.cap * slot.given)
 
 

@@ -26,7 +26,7 @@ _MODEL = (
     "pair_geom1", "pair_geom2", "pair_dim", "ten_J_rownnz", "ten_J_rowadr", "ten_J_colind", "plugin", "plugin_stateadr",
     "sensor_plugin", "sensor_adr", "opt.timestep", "opt.integrator", "opt.disableflags", "opt.cone", "opt.iterations",
     "opt.jacobian", "opt.solver", "opt.gravity", "nu", "actuator_biasprm", "actuator_gear",
-    "actuator_acc0", "dof_damping", "dof_invweight0", "opt.impratio", "opt.noslip_iterations",
+    "actuator_acc0", "dof_damping", "dof_invweight0", "opt.impratio", "opt.noslip_iterations", "flg_surfacevel",
 )  # fmt: skip
 _DATA = (
     "time", "ncon", "contact", "nefc", "nisland", "solver_niter", "cvel", "subtree_com", "xpos", "xmat", "xaxis", "cdof",
@@ -35,7 +35,10 @@ _DATA = (
     "efc_diagA", "efc_KBIP", "efc_D", "efc_R", "efc_aref", "efc_force", "map_efc2iefc", "iefc_frictionloss", "iefc_D",
     "iefc_R", "cfrc_int",
 )  # fmt: skip
-_CONTACT = ("dist", "pos", "frame", "friction", "surfacevel", "solreffriction", "mu", "dim", "geom", "exclude", "efc_address")
+_CONTACT = (
+    "dist", "pos", "frame", "includemargin", "friction", "surfacevel", "solref", "solreffriction", "solimp", "mu", "dim", "geom",
+    "exclude", "efc_address",
+)  # fmt: skip
 
 EULER, RUNGE_KUTTA, IMPLICIT, IMPLICITFAST, DISCRETE = range(5)
 """mjtIntegrator."""

@@ -63,16 +63,16 @@ def check_options(disabled: int, integrator: int, cone: int, *, steered: bool = 
         InputError: passive forces are off, and friction with them; or pyramidal cones.
 
     Warns:
-        IntegratorWarning: the ``discrete`` integrator.
+        IntegratorWarning: the ``discrete`` integrator, with what cannot be steered in it: joints, tendons, explicit friction.
     """
     if disabled & NO_PASSIVE_FORCES == NO_PASSIVE_FORCES:
         raise InputError(SWITCHED_OFF)
     if steered and cone != ELLIPTIC:
         raise InputError(PYRAMIDAL)
-    if integrator == DISCRETE:
+    if integrator == DISCRETE and not steered:
         warnings.warn(
-            "integrator discrete makes its constraints' references anew after friction has set them: stuck contacts creep, as "
-            "with native friction; use Euler, implicitfast, implicit or RK4",
+            "integrator discrete makes its constraints' references anew after friction has set them: joints and tendons creep "
+            "with it as with native friction, and explicit friction is inaccurate; use Euler, implicitfast, implicit or RK4",
             IntegratorWarning,
             stacklevel=stacklevel + 1,
         )
@@ -147,7 +147,7 @@ def options_allow(model, steered):
     ratio = stiff_damping(model) if steered else 0.0
     if ratio > 0.0:
         w.call_python(w.entry(w.WARNER), int(1.0e3 * min(ratio, 1.0e12)), int(1.0e9 * m.timestep), 0)
-    allowed = m.disableflags & NO_PASSIVE_FORCES != NO_PASSIVE_FORCES and m.integrator != DISCRETE
+    allowed = m.disableflags & NO_PASSIVE_FORCES != NO_PASSIVE_FORCES and (steered or m.integrator != DISCRETE)
     if allowed and (m.cone == ELLIPTIC or not steered):
         return True
     return w.call_python(w.entry(w.OPTIONS_CHECKER), int(steered), (m.disableflags << 8) + m.integrator, m.cone) == 1
