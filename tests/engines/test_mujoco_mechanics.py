@@ -272,7 +272,7 @@ def test_a_box_rides_an_accelerating_belt():
 
 
 @pytest.mark.parametrize("law", [ElasticStick(0.8, 0.6), Coulomb(0.8, 0.6), Havsin(0.8, 0.6)])
-@pytest.mark.parametrize("integrator", ["Euler", "implicitfast"])
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "discrete"])
 def test_extra_evaluations_change_nothing(law, integrator):
     ends = []
     for nosy in (False, True):

@@ -182,6 +182,25 @@ def test_derivatives_leave_the_data_as_it_was(integrator):
     assert np.array_equal(after(model, data), after(model, twin))
 
 
+@pytest.mark.parametrize("speed", [0.0, 1.0])
+def test_derivatives_with_the_discrete_integrator(speed):
+    """Its stuck contacts hold through the surface's velocity; evaluations without a position stage must not add it up."""
+    spec = mujoco.MjSpec.from_string(SCENE.format(integrator="discrete"))
+    engine.add_friction(spec, ("box", "floor"), LAW, mode="solver")
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    after(model, data, 200)
+    data.qvel[0] = speed
+    after(model, data, 1)
+    twin = copy.copy(data)
+    size = 2 * model.nv + model.na
+    a = np.zeros((size, size))
+    mujoco.mjd_transitionFD(model, data, 1e-6, True, a, None, None, None)
+    # a stuck box does not keep a velocity along the floor, a sliding one does
+    assert a[0, model.nv] == pytest.approx(model.opt.timestep if speed else 0.0, abs=0.2 * model.opt.timestep)
+    assert np.array_equal(after(model, data), after(model, twin))
+
+
 def test_a_stuck_scene_falls_asleep_and_wakes():
     spec = mujoco.MjSpec.from_string(SCENE.format(integrator="Euler"))
     spec.option.enableflags = mujoco.mjtEnableBit.mjENBL_SLEEP

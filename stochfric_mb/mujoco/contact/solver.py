@@ -215,10 +215,9 @@ def switch(state, row, slot, old, speed, step_mobility):
     if old.slides == 0.0:
         breaks = old.loose != 0.0
         if old.saturated != 0.0 and not breaks:  # the other contacts hold the bodies: its force stays at the cap
-            stretch = stretch_of(header)
-            was, now = size(stretch, slot.side, old.z), size(stretch, slot.side, z)
-            if now > was:
-                put(z, z[0] * was / now, z[1] * was / now, z[2] * was / now)
+            if old.springs == 0.0:
+                put(z, 0.0, 0.0, 0.0)
+                move_along(header, slot, old.pull, old.compliance)
         if header.rest == s.CREEP:
             creep(state, row, slot, old)
         elif old.springs != 0.0:
@@ -411,6 +410,7 @@ def learn(m, d, header, contact, sign, slot, accepted):
     for j in range(2, contact.dim - 1):
         others += (w.at(d.efc_force, first + 1 + j) / contact.friction[j]) ** 2
     p, q = 0.0, 0.0
+    slot.compliance = w.at(d.efc_R, first + 1) * m.timestep * m.timestep / RIGID
     if accepted:
         p, q = rate_of(m, d, first + 1, d.qacc), rate_of(m, d, first + 2, d.qacc)
     settle(header, slot, contact.frame, sign, normal, a, b, others, p, q, accepted, m.integrator != RUNGE_KUTTA)
