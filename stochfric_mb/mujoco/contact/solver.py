@@ -214,10 +214,9 @@ def switch(state, row, slot, old, speed, step_mobility):
     z, v = slot.z, slot.w
     if old.slides == 0.0:
         breaks = old.loose != 0.0
-        if old.saturated != 0.0 and not breaks:  # the other contacts hold the bodies: its force stays at the cap
-            if old.springs == 0.0:
-                put(z, 0.0, 0.0, 0.0)
-                move_along(header, slot, old.pull, old.compliance)
+        if old.saturated != 0.0 and not breaks and old.springs == 0.0:  # others hold the bodies: its force stays at the cap
+            put(z, 0.0, 0.0, 0.0)
+            move_along(header, slot, old.pull, old.compliance)
         if header.rest == s.CREEP:
             creep(state, row, slot, old)
         elif old.springs != 0.0:

@@ -36,8 +36,8 @@ _DATA = (
     "iefc_R", "cfrc_int",
 )  # fmt: skip
 _CONTACT = (
-    "dist", "pos", "frame", "includemargin", "friction", "surfacevel", "solref", "solreffriction", "solimp", "mu", "dim", "geom",
-    "exclude", "efc_address",
+    "dist", "pos", "frame", "includemargin", "friction", "surfacevel", "solref", "solreffriction", "solimp", "mu", "dim",
+    "geom", "exclude", "efc_address",
 )  # fmt: skip
 
 EULER, RUNGE_KUTTA, IMPLICIT, IMPLICITFAST, DISCRETE = range(5)
