@@ -10,7 +10,9 @@ import pytest
 mujoco = pytest.importorskip("mujoco")
 
 import stochfric_mb.mujoco as engine  # noqa: E402
+from stochfric_mb.coefficients import Knots, PerEvent  # noqa: E402
 from stochfric_mb.errors import InputError  # noqa: E402
+from stochfric_mb.friction import Friction  # noqa: E402
 from stochfric_mb.laws import make_law  # noqa: E402
 from stochfric_mb.mujoco import belt_box  # noqa: E402
 from stochfric_mb.scenario import load_scenario  # noqa: E402
@@ -417,3 +419,52 @@ def test_a_joint_with_true_stick(integrator, kind):
     mujoco.mj_step(model, data, nstep=1000)
     assert data.qpos[0] == pytest.approx(2.0 / (2.0 * 6.0), rel=5e-3)  # v^2 m/(2 mu_k N); Euler v h/2 less
     assert abs(data.qvel[0]) < 1e-9
+
+
+def test_contacts_of_flexible_bodies_keep_mujocos_friction_which_is_said():
+    spec = mujoco.MjSpec.from_string(
+        """<mujoco><option cone="elliptic"/><worldbody><geom name="floor" type="plane" size="5 5 1"/>
+        <body pos="0 0 .05"><freejoint/><geom name="box" type="box" size=".05 .05 .05"/></body>
+        <flexcomp name="cloth" type="grid" count="3 3 1" spacing=".1 .1 .1" mass=".1" radius=".01" pos="1 0 .1"/>
+        </worldbody></mujoco>"""
+    )
+    with pytest.warns(engine.ContactWarning, match="flexible bodies keep MuJoCo's own"):
+        engine.add_friction(spec, ("*", "floor"), law("coulomb"))
+
+
+@pytest.mark.parametrize(
+    "process", [Knots(sigma_s=0.015, sigma_k=0.023, spacing=0.01), PerEvent(sigma_s=0.015, sigma_k=0.023)], ids=lambda p: p.kind
+)
+def test_the_state_of_random_coefficients_is_finite(process):
+    """Rollouts and learning take the state as a vector of numbers."""
+    spec = scene()
+    engine.add_friction(spec, ("box", "floor"), Friction(law("elastic_stick"), process))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    for _ in range(3):
+        full = np.empty(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_INTEGRATION))
+        mujoco.mj_getState(model, data, full, mujoco.mjtState.mjSTATE_INTEGRATION)
+        assert np.isfinite(full).all()
+        mujoco.mj_step(model, data, nstep=50)
+
+
+PAGES = {
+    "mujoco.md": """<mujoco><option cone="elliptic"/><worldbody><geom name="floor" type="plane" size="5 5 1"/>
+        <body pos="0 0 .05"><freejoint/><geom name="foot" size=".05"/></body></worldbody></mujoco>""",
+    "mujoco_joints.md": """<mujoco><worldbody><body><joint name="elbow"/><geom size=".1"/></body></worldbody>
+        <tendon><fixed name="cable"><joint joint="elbow" coef="1"/></fixed></tendon></mujoco>""",
+}
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_the_first_snippet_of_a_page_runs(page, tmp_path, monkeypatch):
+    text = (Path(__file__).parents[2] / "docs" / page).read_text(encoding="utf-8")
+    code = text.split("```python\n")[1].split("```")[0]
+    monkeypatch.chdir(tmp_path)
+    for name in ("scene.xml", "arm.xml"):
+        Path(name).write_text(PAGES[page])
+    names = {}
+    exec(code, names)
+    model = names["model"]
+    mujoco.mj_step(model, mujoco.MjData(model), nstep=10)
+    assert model.nplugin > 0
