@@ -42,8 +42,9 @@ class FrictionDrift(Effect):
     change: float = parameter("-", "relative size of a course of any shape", scale=0.03, default=0.0, optional=True)
     """Relative size of a course of any shape [-]."""
     span: float = parameter(
-        "s", "time over which the course runs", scale=30.0, low=0.0, strict=True, default=1.0, fit_prior=0.0, optional=True
-    )
+        "s", "time over which the course runs", scale=30.0, low=0.0, strict=True, infinite=True, default=math.inf,
+        fit_prior=0.0, optional=True,
+    )  # fmt: skip
     """Time over which the course runs [s]; friction stays as it is after it."""
     course_1: float = shape(1)
     """Weight of the first spline in the course [-]."""

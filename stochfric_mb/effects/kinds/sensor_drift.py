@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Mapping
 from typing import ClassVar
 
@@ -26,8 +27,9 @@ class SensorDrift(Effect):
     change: float = parameter("m", "size of a course of any shape", scale=1.0e-5, default=0.0, optional=True)
     """Size of a course of any shape [m]."""
     span: float = parameter(
-        "s", "time over which the course runs", scale=30.0, low=0.0, strict=True, default=1.0, fit_prior=0.0, optional=True
-    )
+        "s", "time over which the course runs", scale=30.0, low=0.0, strict=True, infinite=True, default=math.inf,
+        fit_prior=0.0, optional=True,
+    )  # fmt: skip
     """Time over which the course runs [s]; the zero stays where it is after it."""
     course_1: float = shape(1)
     """Weight of the first spline in the course [-]."""
