@@ -193,6 +193,8 @@ def _elastic(kind: str) -> tuple[Any, Any]:
         stiffness, damping, _limit = spring(touch.load, felt, touch.mu_s, p)
         if stiffness > 0.0:
             total, own = spring_of(resistance, stiffness, damping, h)
+            if own * h * h > 1.0:  # a spring that a step cannot follow: rigid
+                own = RIGID / (h * h)
             return total, own, touch.mu_s
         return resistance, RIGID / (h * h), touch.mu_s
 

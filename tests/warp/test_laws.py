@@ -83,6 +83,19 @@ def test_an_elastic_contact_yields_by_its_own_stiffness():
     assert (moved[1] - moved[0]) == pytest.approx([yielded] * 64, rel=0.02)  # a rigid contact, too, yields by some 2 um
 
 
+def test_a_spring_that_a_step_cannot_follow_holds_as_a_rigid_law_does():
+    dt = 0.001
+    model, m, d = box_on_plane(0.0, dt)
+    add_friction(model, m, d, ("box", "floor"), ElasticStick(0.8, 0.46, e_lim=1e-8))
+    for degrees in np.linspace(0.0, 20.0, 400):
+        tilt(m, degrees)
+        mjw.step(m, d)
+    run(m, d, 0.2, dt)
+    before = d.qpos.numpy()[:, 0].copy()
+    run(m, d, 0.3, dt)
+    assert np.abs(d.qpos.numpy()[:, 0] - before).max() < 1e-6  # float32 of a position of micrometres; unclipped it shakes
+
+
 @pytest.mark.parametrize("law", [Coulomb(0.8, 0.46), make_law("havsin", mu_s=0.8, mu_k=0.46)], ids=lambda law: law.kind)
 def test_coefficients_along_the_path_of_a_contact(law):
     process = Spatial(sigma_s=0.03, sigma_k=0.03, spacing=0.02)
