@@ -80,12 +80,17 @@ def svg(draw: Callable[[], Figure]) -> str:
     text = buffer.getvalue()
     text = text[text.index("<svg ") :]
     text = re.sub(r"font-family: [^;\"]*", "font-family: sans-serif", text)
-    text = re.sub(r"\d+\.\d{3,}", lambda number: f"{float(number[0]):.2f}", text)
+    text = re.sub(r'"[^"]*\d\.\d{3}[^"]*"', _rounded, text)
     text = re.sub(r' id="axes_(\d+)"', r' class="axes" data-number="\1"', text)
     text = re.sub(r' id="matplotlib\.axis_\d+"', ' class="axis"', text)
     text = re.sub(r' id="series_(\d+)"', r' data-series="\1"', text)
     text = re.sub(r'<g id="[^"]*"', "<g", text)
     return text.replace("<svg ", f"<svg data-axes={quoteattr(json.dumps(facts))} ", 1)
+
+
+def _rounded(attribute: re.Match[str]) -> str:
+    """Return an attribute with its coordinates rounded to hundredths of a point; labels are no attributes."""
+    return re.sub(r"\d+\.\d{3,}", lambda number: f"{float(number[0]):.2f}", attribute[0])
 
 
 def _name_series(figure: Figure) -> list[list[str]]:

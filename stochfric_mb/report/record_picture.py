@@ -41,7 +41,8 @@ def record_pictures(data: Dataset) -> list[tuple[str, str]]:
             slips = slip_spans(run.channels[name], run.sample_interval) if name == "position" and sticks else []
             use = "used to fit" if run.role == "fit" else "held out"
             caption = f"{run.name} ({use}): {name} as measured" + ("; stick and slip shaded" if slips else "")
-            drawn.append((caption, record(run.time, run.channels[name], f"{name} [{run.units.get(name, '')}]", slips)))
+            unit = f" [{run.units[name]}]" if run.units.get(name) else ""
+            drawn.append((caption, record(run.time, run.channels[name], name + unit, slips)))
     return drawn
 
 

@@ -23,6 +23,7 @@ from stochfric_mb.report.discovery import further, page
 from stochfric_mb.report.discovery_evidence import gather
 from stochfric_mb.report.discovery_facts import complete
 from stochfric_mb.report.discovery_pictures import figures
+from stochfric_mb.report.record_picture import record
 
 SCENARIO = dataclasses.replace(load_scenario("kang2015_table1", law="coulomb"), process=None)
 GAP = Gap("crps_one_cycle", "m", True, 1.5e-4, 6.0e-5, 3.8e-5, 3.6e-5)
@@ -263,6 +264,14 @@ def test_parameters_are_those_of_the_model_with_the_effects(found):
         augmented = {**found.scenario.mechanism.__dict__, "mu_s": found.scenario.law.mu_s, "mu_k": found.scenario.law.mu_k}
         assert number["value"] == pytest.approx(augmented[name], rel=1e-6), name
         assert name in stated
+
+
+def test_what_an_axis_says_is_not_rounded():
+    drawn = record(np.linspace(0.0, 1.0, 50), np.linspace(0.0012, 0.0038, 50), "position [m]")
+    said = set(re.findall(r"<text[^>]*>([^<]+)</text>", drawn))
+    assert {"0.0015", "0.0025", "0.0035"} <= said
+    facts = json.loads(html.unescape(re.search(r"data-axes='(.*?)'", drawn)[1]))
+    assert facts[0]["y"] == pytest.approx([0.0012 - 0.00013, 0.0038 + 0.00013])  # matplotlib's margins of 5 %
 
 
 def test_friction_against_speed_has_the_law_and_no_ends(found):
