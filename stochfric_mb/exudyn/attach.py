@@ -99,7 +99,15 @@ def add_friction(
         touch = radius if touch is None else touch
         penalty = None if contact_stiffness is None else (contact_stiffness, contact_damping, touch)
         if not must_turn(mbs, markers, normal_turns_with, radius):
-            return PlaneContact(mbs, markers, friction, given, penalty, normal, surface_velocity, **options)
+            plane, law = PlaneContact, as_friction(friction).law
+            if law.needs_holding_force:
+                from stochfric_mb.exudyn.plane_stick import TrueStickPlane
+                from stochfric_mb.exudyn.true_stick import require_holdable
+
+                if given is not None:
+                    require_holdable(law.kind, given)
+                plane = TrueStickPlane
+            return plane(mbs, markers, friction, given, penalty, normal, surface_velocity, **options)
         turning: Any = (normal_turns_with, radius)
         return TurningContact(mbs, markers, friction, given, penalty, normal, surface_velocity, *turning, **options)
     raise InputError("friction acts between two coordinate markers or between two position markers; these are of both kinds")

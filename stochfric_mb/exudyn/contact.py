@@ -147,6 +147,11 @@ class FrictionContact:
         """Whether the normal force is a reaction, which explicit solvers do not compute."""
         return self._normal.reaction
 
+    @property
+    def refines(self) -> bool:
+        """Whether trial steps tell what friction needs: one before the first step, and steps that are repeated."""
+        return self._normal.reaction
+
     def add_sensor(self, **options: Any) -> Any:
         """Return the number of a new sensor with the entries `SENSOR_NAMES`; options are those of Exudyn's sensors."""
 
@@ -243,12 +248,12 @@ class FrictionContact:
             numbers[[at.LINE, at.LINE + 1]] = now - rate * t, rate
         return True
 
-    def guess_normal(self, force: float | None) -> None:
-        """Let the step to come have a constant normal force [N]; None: the reaction as it is now, other sources stay."""
-        if force is None:
-            if not self._normal.reaction:
-                return
-            force = self._normal.at(0.0)
+    def take_trial(self) -> None:
+        """Take what a trial step at the start tells: the reaction, as the normal force of the first step."""
+        self.guess_normal(self._normal.at(0.0))
+
+    def guess_normal(self, force: float) -> None:
+        """Let the step to come have a constant normal force [N]."""
         self._numbers[[at.NORMAL_FORCE, at.GIVEN_NORMAL, at.GIVEN_RATE, at.LINE, at.LINE + 1]] = force, force, 0.0, force, 0.0
 
     def recommended_step(self, t: float) -> float:
@@ -399,8 +404,8 @@ def _require_no_holding_force(law: Law) -> None:
     """
     if law.needs_holding_force:
         raise InputError(
-            f"law {law.kind} needs the force that would hold the contact still, which Exudyn gives along a line alone "
-            "(add_friction with coordinate markers, add_joint_friction); use "
+            f"law {law.kind} needs the force that would hold the contact still, which is not sought for loads and where the "
+            "plane or the body turns; use add_friction between coordinates or points, add_joint_friction, or "
             "stochfric_mb.laws.substitute.elastic_substitute(law, dt, normal_force, effective_mass)"
         )
 

@@ -18,6 +18,7 @@ from stochfric_mb.exudyn.layout import (
     DISTANCE,
     EVENTS,
     FORCE,
+    HELD,
     HOLD,
     LAW,
     LINE,
@@ -59,6 +60,10 @@ from stochfric_mb.exudyn.layout import (
 )
 from stochfric_mb.laws.abi import call_law
 
+SLOW = 1.0e-7
+"""Speed [m/s] below which a contact in a plane with true stick slides in the direction in which it let go: friction along v
+turns faster than any step can follow there, and engines take derivatives over 1e-9 m/s."""
+
 
 @compiled_inline
 def dot(numbers, a, b):
@@ -80,6 +85,16 @@ def unwrapped(u, numbers, words):
     return u
 
 
+@compiled
+def _let_go(vx, vy, numbers):
+    """Return the relative velocity; of a contact that has hardly let go without what is across the way in which it did."""
+    if vx * vx + vy * vy >= SLOW * SLOW:
+        return vx, vy
+    dx, dy = numbers[STATE + 1], numbers[STATE + 2]
+    along = vx * dx + vy * dy
+    return along * dx, along * dy
+
+
 @compiled_inline
 def kinematics(t, numbers, words):
     """Return relative displacements [m] and velocities [m/s], counter-surface minus body, from the engine's coordinates."""
@@ -88,6 +103,9 @@ def kinematics(t, numbers, words):
         w_2 = numbers[SURFACE_VELOCITY_2]
         dx, dy = dot(numbers, AXIS_1, DISTANCE) + spun(t, 0, numbers), dot(numbers, AXIS_2, DISTANCE) + spun(t, 1, numbers)
         vx, vy = dot(numbers, AXIS_1, RATE) + numbers[SPIN], dot(numbers, AXIS_2, RATE) + numbers[SPIN + 1]
+        if words[HELD] == 1 and numbers[STATE] != 0.0:
+            vx, vy = _let_go(w - vx, w_2 - vy, numbers)
+            return w * t - dx, w_2 * t - dy, vx, vy
         return w * t - dx, w_2 * t - dy, w - vx, w_2 - vy
     d = number_at(words[POSITION_1]) - number_at(words[POSITION_0])  # pyright: ignore[reportCallIssue]
     v = number_at(words[VELOCITY_1]) - number_at(words[VELOCITY_0])  # pyright: ignore[reportCallIssue]
@@ -131,8 +149,8 @@ def ask(address, t, motion, n, pair, numbers, into):
     at = numbers.ctypes.data
     state, p, out = at + 8 * STATE, at + 8 * LAW, at + 8 * into
     ux, uy, vx, vy = motion
-    m, hold = numbers[MASS], numbers[HOLD]
-    call_law(address, t, ux, uy, vx, vy, n, pair[0], pair[1], m, hold, 0.0, state, p, out)  # pyright: ignore[reportCallIssue]
+    m, hx, hy = numbers[MASS], numbers[HOLD], numbers[HOLD + 1]
+    call_law(address, t, ux, uy, vx, vy, n, pair[0], pair[1], m, hx, hy, state, p, out)  # pyright: ignore[reportCallIssue]
 
 
 @compiled
@@ -169,6 +187,15 @@ def plane_pull(t, displacement, velocity, address, out):
     press = n if words[PENALTY] == 1 else 0.0
     for i in range(3):
         out[i] = -(numbers[NEW] * numbers[AXIS_1 + i] + numbers[NEW + 1] * numbers[AXIS_2 + i] + press * numbers[NORMAL + i])
+
+
+@compiled
+def end_of_step(t, address):
+    """Return the relative velocity [m/s] in both directions and the largest friction mu_s N [N] at time t, motion in place."""
+    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    ux, _, vx, vy = kinematics(t, numbers, words)
+    return vx, vy, pair_at(t, ux, numbers, words)[0] * normal_force_at(t, numbers, words)
 
 
 @compiled

@@ -72,12 +72,17 @@ class Contact(Protocol):
         """Whether the normal force is a reaction, which explicit solvers do not compute."""
         ...
 
-    def refine(self, t: float) -> bool:
-        """Take the reaction of the trial step to t [s] as normal force; return whether the step must be repeated."""
+    @property
+    def refines(self) -> bool:
+        """Whether trial steps tell what friction needs: one before the first step, and steps that are repeated."""
         ...
 
-    def guess_normal(self, force: float | None) -> None:
-        """Let the step to come have a constant normal force [N]; None: the reaction as it is now, other sources stay."""
+    def refine(self, t: float) -> bool:
+        """Take what the trial step to t [s] tells; return whether the step must be repeated."""
+        ...
+
+    def take_trial(self) -> None:
+        """Take what a trial step at the start tells."""
         ...
 
     def recommended_step(self, t: float) -> float:
@@ -179,7 +184,7 @@ class Hooks:
         """Put PostNewton in place while it is needed, and take it away otherwise: it costs as much as a step."""
         other = self._other["PostNewton"]
         needed = self._locating and (other is not None or any(c.watched for c in self.contacts))
-        if needed or any(c.needs_reactions for c in self.contacts):
+        if needed or any(c.refines for c in self.contacts):
             methods.fill(self._mbs, "PostNewton", self._own["PostNewton"])
         else:
             methods.fill(self._mbs, "PostNewton", other or 0)

@@ -49,13 +49,14 @@ NEW = 50
 """Scratch for a law's output."""
 GUARDS_BEFORE = NEW + MAX_STATE
 """The law's guards at the last accepted step."""
-HOLD, HOLD_BEFORE = GUARDS_BEFORE + 6, GUARDS_BEFORE + 7
-"""Friction force [N] that would hold the contact still, now and at the last accepted step; 0 where nothing tells it."""
-JUMP = GUARDS_BEFORE + 8
+HOLD, HOLD_BEFORE = GUARDS_BEFORE + 6, GUARDS_BEFORE + 8
+"""Friction force [N] that would hold the contact still, in both directions, now and at the last accepted step; 0 where nothing
+tells it."""
+JUMP = GUARDS_BEFORE + 10
 """Time [s] just after a jump of the normal force as a function of time that lies in the next step; infinity: none does."""
-PERIOD = GUARDS_BEFORE + 9
+PERIOD = GUARDS_BEFORE + 11
 """Displacement [m] of a whole turn, after which the engine's angle begins again; 0 for displacements."""
-PAIR = GUARDS_BEFORE + 10
+PAIR = GUARDS_BEFORE + 12
 """Time [s], mu_s and mu_k of the last coefficients asked for that depend on time alone: solvers ask several times for one."""
 CURSOR_AT = PAIR + 3
 """Cursor on the path of coefficients, where the last ones were asked for."""

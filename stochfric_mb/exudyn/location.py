@@ -65,15 +65,16 @@ def _first_crossing(t, motion, normal_force, numbers, words):
         hermite(h, numbers[at.U], numbers[at.V], motion[0], motion[2]),
         hermite(h, numbers[at.U_2], numbers[at.V_2], motion[1], motion[3]),
     )
-    hold, hold_before = numbers[at.HOLD], numbers[at.HOLD_BEFORE]
+    hold_x, hold_y = numbers[at.HOLD], numbers[at.HOLD + 1]
     b = bracket(0.0, least_armed(before, before), 1.0, at_end)
     while is_wide(b, RESOLUTION):
         s = trial(b, RESOLUTION)
         x = value(along, s)
         n = numbers[at.NORMAL_FORCE] + s * (normal_force - numbers[at.NORMAL_FORCE])
-        numbers[at.HOLD] = hold_before + s * (hold - hold_before)
+        numbers[at.HOLD] = numbers[at.HOLD_BEFORE] + s * (hold_x - numbers[at.HOLD_BEFORE])
+        numbers[at.HOLD + 1] = numbers[at.HOLD_BEFORE + 1] + s * (hold_y - numbers[at.HOLD_BEFORE + 1])
         there = (x, value(across, s), slope(along, s) / h, slope(across, s) / h)
         ask(words[at.GUARD], t_0 + s * h, there, n, pair_at(t_0 + s * h, x, numbers, words), numbers, at.NEW)
         b = narrowed(b, s, least_armed(before, now))
-    numbers[at.HOLD] = hold
+    numbers[at.HOLD], numbers[at.HOLD + 1] = hold_x, hold_y
     return b.negative

@@ -1,4 +1,4 @@
-"""Reactions at the start of a run, for contacts whose normal force is one: without them the first step has no friction."""
+"""Trial steps at the start of a run, for contacts whose friction needs a reaction or the force that holds them."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ class Pressed(Protocol):
     """What is needed of a contact."""
 
     @property
-    def needs_reactions(self) -> bool:
-        """Whether the normal force is a reaction."""
+    def refines(self) -> bool:
+        """Whether trial steps tell what friction needs."""
         ...
 
-    def guess_normal(self, force: float | None) -> None:
-        """Let the step to come have a constant normal force [N]; None: the reaction as it is now, other sources stay."""
+    def take_trial(self) -> None:
+        """Take what a trial step at the start tells."""
         ...
 
 
@@ -33,7 +33,7 @@ def find_reactions(
     solve: Callable[..., bool],
     unnoticed: Callable[[], AbstractContextManager[None]],
 ) -> None:
-    """Let contacts whose normal force is a reaction know it at the start.
+    """Let contacts whose normal force is a reaction, or which a force holds, know it at the start.
 
     Two steps of a small part of the step, which the user's functions do not notice: the first without friction, the second
     with that of the first.
@@ -46,7 +46,7 @@ def find_reactions(
         solve: Exudyn's own method that solves.
         unnoticed: what empties the system's slots while it lasts.
     """
-    pressed = [contact for contact in contacts if contact.needs_reactions]
+    pressed = [contact for contact in contacts if contact.refines]
     if not pressed:
         return
     trial = exudyn.SimulationSettings()
@@ -62,4 +62,4 @@ def find_reactions(
         for _ in range(2):
             solve(mbs, trial, solverType=solver_type, showHints=False)
             for contact in pressed:
-                contact.guess_normal(None)
+                contact.take_trial()

@@ -159,7 +159,7 @@ def _keep(t, motion, n, numbers):
         numbers[SPUN + i] = spun(t, i, numbers)
         numbers[SPIN_BEFORE + i] = numbers[SPIN + i]
     numbers[T], numbers[NORMAL_FORCE] = t, n
-    numbers[HOLD_BEFORE] = numbers[HOLD]
+    numbers[HOLD_BEFORE], numbers[HOLD_BEFORE + 1] = numbers[HOLD], numbers[HOLD + 1]
     numbers[LARGEST_NORMAL] = max(numbers[LARGEST_NORMAL], n)
     numbers[U], numbers[U_2], numbers[V], numbers[V_2] = motion
 

@@ -8,6 +8,7 @@ accelerations are set as they are just after it, since the trapezoidal rule woul
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -64,6 +65,7 @@ class TrueStick(FrictionContact):
         inverse = float(rows[0] @ accelerations[:, 0])
         self._mass_felt = 1.0 / inverse
         self._unit = accelerations[:, 0] / inverse
+        require_apart(self, self._hooks.contacts)
         with self._initial_motion():
             self._keep_still(self.stick)
 
@@ -160,6 +162,30 @@ def _turned(place: Any, rotation: Any) -> Any:
     turned = np.array(place, dtype=np.float64)
     turned[:3, :3] = turned[:3, :3] @ rotation
     return turned
+
+
+COUPLED = 1.0e-9
+"""Part of a contact's acceleration that another one may feel as rounding."""
+
+
+def require_apart(contact: Any, contacts: Sequence[Any]) -> None:
+    """Do nothing if what holds a contact with true stick can be told from what holds the others.
+
+    Raises:
+        InputError: two of them hold the same motion, or two act on each other of which one is in a plane.
+    """
+    rows, unit = np.atleast_2d(contact._rows), contact._unit.reshape(len(contact._unit), -1)
+    for other in contacts:
+        if other is contact or not other.true_stick or other._rows is None:
+            continue
+        there = np.atleast_2d(other._rows) @ unit
+        here = rows @ other._unit.reshape(len(unit), -1)
+        least = 1.0 - COUPLED if max(here.shape) == 1 else COUPLED
+        if np.max(np.abs(here @ there)) > least:
+            raise InputError(
+                f"law {contact.friction.law.kind}: {contact._name!r} and {other._name!r} hold the same bodies, so that what "
+                "each of them holds cannot be told; keep one of them, or use stochfric_mb.laws.substitute.elastic_substitute"
+            )
 
 
 def require_holdable(kind: str, normal: Normal) -> None:

@@ -18,7 +18,6 @@ from exudyn.itemInterface import (
     Force,
     GenericJoint,
     LoadCoordinate,
-    MarkerBodyPosition,
     MarkerBodyRigid,
     MarkerNodeCoordinate,
     Mass1D,
@@ -147,15 +146,15 @@ def test_what_cannot_be_held_is_named() -> None:
     system = four_bar(make_law("elastic_stick", mu_s=0.4, mu_k=0.3), speed=1.0, radius=0.02)
     with pytest.raises(InputError, match="cannot be the reaction of another"):
         add_joint_friction(system.mbs, system.contacts[0]._normal._object, COULOMB)
-    mbs, ground, point = point_on_a_plane()
-    with pytest.raises(InputError, match=r"along a line alone.*elastic_substitute"):
-        add_friction(mbs, ground, point, COULOMB, normal=(0.0, 0.0, 1.0), normal_force=1.0)
 
 
-def point_on_a_plane() -> tuple[Any, Any, Any]:
-    mbs = exudyn.SystemContainer().AddSystem()
-    body = mbs.CreateMassPoint(mass=1.0)
-    return mbs, *(mbs.AddMarker(MarkerBodyPosition(bodyNumber=b)) for b in (mbs.AddObject(ObjectGround()), body))
+def test_two_contacts_that_hold_one_coordinate_are_refused() -> None:
+    mbs, _, ground, slide = block(1.0)
+    for _ in range(2):
+        add_friction(mbs, ground, slide, COULOMB, normal_force=5.0)
+    mbs.Assemble()
+    with pytest.raises(InputError, match="hold the same bodies"):
+        solve(mbs, 1e-3, 0.1)
 
 
 # --- joints -----------------------------------------------------------------------------------------------------------
