@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from stochfric_mb.exudyn.attach import add_friction
     from stochfric_mb.exudyn.bristle import add_bristle
-    from stochfric_mb.exudyn.contact import FrictionContact
+    from stochfric_mb.exudyn.contact import FrictionContact, JumpWarning
     from stochfric_mb.exudyn.joint import add_joint_friction
     from stochfric_mb.exudyn.load import add_friction_load
     from stochfric_mb.exudyn.solve import silent_settings, solve_dynamic
 
 _HOMES = {
     "FrictionContact": "contact",
+    "JumpWarning": "contact",
     "add_bristle": "bristle",
     "add_friction": "attach",
     "add_friction_load": "load",
@@ -27,6 +28,7 @@ _HOMES = {
 
 __all__ = [
     "FrictionContact",
+    "JumpWarning",
     "add_bristle",
     "add_friction",
     "add_friction_load",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
+import warnings
 from collections.abc import Iterator
 from typing import Any
 
@@ -35,6 +36,10 @@ REACTION_TOLERANCE, SMALL_REACTION, REPEATS = 1.0e-6, 1.0e-3, 4
 so far where it is smaller; and how often a step is repeated for it."""
 SENSOR_NAMES = ("friction_force", "normal_force", "stick", "mu_s", "mu_k")
 """Entries of a contact's sensor: force [N] (its size where it slides in a plane), normal force [N], 1 or 0, [-], [-]."""
+
+
+class JumpWarning(UserWarning):
+    """A normal force jumps within a step, and steps do not end there."""
 
 
 class FrictionContact:
@@ -71,7 +76,7 @@ class FrictionContact:
         self._numbers[at.NORMAL_FORCE] = self._numbers[at.GIVEN_NORMAL] = 0.0 if normal.changes else normal.at(0.0)
         self._records = np.empty((0, at.RECORD_COLUMNS))
         self._words[at.HELD] = int(self.true_stick)
-        self._unsure = self._after_jump = False
+        self._unsure = self._after_jump = self._warned = False
         self._refined = (math.nan, 0)
         self.where = int(self._words.ctypes.data)
         """Address of the contact for compiled code."""
@@ -372,12 +377,25 @@ class FrictionContact:
             self._after_jump = at_jump and not self._hooks.explicit
             if self._after_jump:  # implicit solvers begin the step with the acceleration before it: a short one
                 after = t + SHORTEST * numbers[at.STEP]
-            elif self._words[at.LOCATING] and isinstance(self._normal, TimedNormal):
+            elif isinstance(self._normal, TimedNormal):
                 before, after = self._normal.jump(t, ahead)
+                if after < math.inf and not self._words[at.LOCATING]:
+                    self._warn_of_jump(after)
+                    before, after = math.inf, math.inf
             ahead = min(ahead, before - t)
             rate = (self._normal.at(t + ahead) - now) / ahead if ahead > 0.0 else 0.0
             numbers[at.JUMP] = after
         numbers[[at.GIVEN_NORMAL, at.GIVEN_RATE]] = now, rate
+
+    def _warn_of_jump(self, t: float) -> None:
+        if not self._warned:
+            self._warned = True
+            warnings.warn(
+                f"{self._name}: normal_force jumps at t = {t:g} s, within a step, which then has an error of first order; let "
+                "steps end there: solve_dynamic(..., locate=True)",
+                JumpWarning,
+                stacklevel=2,
+            )
 
     @contextlib.contextmanager
     def _initial_motion(self) -> Iterator[None]:

@@ -34,13 +34,17 @@ def solve(mbs: Any, dt: float, duration: float) -> None:
 
 def point(velocity: Any = (0.0, 0.0, 0.0), load: Any = None, law: Any = COULOMB, **options: Any) -> tuple[Any, Any]:
     """A mass point of 1 kg on the plane z = 0, pressed with 10 N if nothing else is said."""
-    mbs = exudyn.SystemContainer().AddSystem()
+    mbs: Any = exudyn.SystemContainer().AddSystem()
     ground = mbs.AddMarker(MarkerBodyPosition(bodyNumber=mbs.AddObject(ObjectGround())))
     gravity = options.pop("gravity", [0.0, 0.0, 0.0])
     body = mbs.CreateMassPoint(mass=1.0, initialVelocity=list(velocity), gravity=gravity)
     marker = mbs.AddMarker(MarkerBodyPosition(bodyNumber=body))
     if load is not None:
-        mbs.AddLoad(Force(markerNumber=marker, loadVector=[0.0] * 3, loadVectorUserFunction=lambda mbs, t, _: list(load(t))))
+
+        def function(mbs: Any, t: float, loadVector: Any) -> Any:
+            return list(load(t))
+
+        mbs.AddLoad(Force(markerNumber=marker, loadVector=[0.0] * 3, loadVectorUserFunction=function))
     contact = add_friction(mbs, ground, marker, law, **{"normal": UP, "normal_force": 10.0, **options})
     mbs.Assemble()
     return mbs, contact
@@ -117,12 +121,12 @@ def test_a_point_on_an_incline_lets_go_at_atan_mu_s(angle: float, holds: bool) -
 def test_the_belt_box_across_the_axes_follows_the_reference(kind: str, name: str, process: Any) -> None:
     s = dataclasses.replace(load_scenario(name, law=kind), duration=3.0, process=process)
     m = s.mechanism
-    mbs = exudyn.SystemContainer().AddSystem()
+    mbs: Any = exudyn.SystemContainer().AddSystem()
     ground = mbs.AddMarker(MarkerBodyPosition(bodyNumber=mbs.AddObject(ObjectGround())))
     box = mbs.AddMarker(MarkerBodyPosition(bodyNumber=mbs.CreateMassPoint(mass=m.mass)))
     mbs.AddObject(CartesianSpringDamper(markerNumbers=[ground, box], stiffness=[m.stiffness] * 3, damping=[m.damping] * 3))
 
-    def push(mbs: Any, t: float, _: Any) -> Any:
+    def push(mbs: Any, t: float, loadVector: Any) -> Any:
         size = m.stiffness * m.excitation_amplitude * math.cos(m.excitation_angular_frequency * t)
         return list(size * OBLIQUE)
 
@@ -142,12 +146,12 @@ def test_the_belt_box_across_the_axes_follows_the_reference(kind: str, name: str
 
 
 def test_two_contacts_that_hold_one_body_are_refused() -> None:
-    mbs = exudyn.SystemContainer().AddSystem()
+    mbs: Any = exudyn.SystemContainer().AddSystem()
     ground = mbs.AddObject(ObjectGround())
-    body = mbs.CreateRigidBody(inertia=RigidBodyInertia(2.0, np.diag([0.02, 0.02, 0.03])))
+    body = mbs.CreateRigidBody(inertia=RigidBodyInertia(2, np.diag([0.02, 0.02, 0.03])))
     for x in (-0.1, 0.1):
         places = [mbs.AddMarker(MarkerBodyRigid(bodyNumber=b, localPosition=[x, 0.0, 0.0])) for b in (ground, body)]
-        add_friction(mbs, *places, COULOMB, normal=UP, normal_force=10.0)
+        add_friction(mbs, places[0], places[1], COULOMB, normal=UP, normal_force=10.0)
     mbs.Assemble()
     with pytest.raises(InputError, match=r"hold the same bodies.*elastic_substitute"):
         solve(mbs, 1e-3, 0.1)
