@@ -157,6 +157,12 @@ FEWEST_ALIKE, KICKS_ALIKE, KICKS_LEVEL = 4, 0.3, 0.01
 """Slips that stand out by the same, their share of those that do, from which on friction has a second level, and how far apart
 the same may be [-]: a level that is reached in a ramp is known to no better, and amounts that are spread evenly over a tenth of
 the force would put one in ten so close together."""
+ONCE_A_TURN = 0.7
+"""Slips that stand out, over turns of the belt, from which on a bump comes back each turn, and turns over such slips [-]: noise
+hides some, and a wide bump marks two slips."""
+FOLDED_BY_CHANCE = 0.02
+"""Chance of places that come back as well if they are random, below which they are a bump of the belt [-]: so many sets of true
+kicks are called unknown."""
 SCATTER_MORE_MEMORY = 2.0**0.5 * SCATTER_MEMORY
 """The same beyond that of a declared process, which one simulation tells with as large an error [-]."""
 SCATTER_TOGETHER = 0.5

@@ -18,6 +18,7 @@ from stochfric_mb.discovery.stick_slip.decision.kinematics import delay_deviatio
 from stochfric_mb.discovery.stick_slip.decision.random_effects import kicked, kicks, random_effects, stray
 from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_step, steady
 from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.screening.folding import comes_back
 from stochfric_mb.discovery.stick_slip.screening.naming import as_harmonic, with_candidate
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms, believed
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate, screen
@@ -413,6 +414,10 @@ class _Search:
             self.model, self.stalled = fitted, stalled
             self._take_out()
 
+    def _bump(self, sudden: bool) -> Where | None:
+        """Return where slips that stand out come back with the belt, if nothing else is named; ``sudden``: whether some do."""
+        return comes_back(self.study, kicked(self.study)) if sudden and not self.named else None
+
     def by_chance(self) -> Decision:
         """Look for what is random, last of all."""
         self.details[SHAPE_LEFT] = self._shape_left()
@@ -429,6 +434,8 @@ class _Search:
                 return self._unknown(where, scatter)
             self.details["left_over"] = dataclasses.asdict(where)
         levels = switching(self.regression, self.regression.residuals(self.terms, self.solution))
+        if (bump := self._bump(kick is not None or levels.where is not None)) is not None:
+            return self._unknown(bump, scatter)
         found = kick or random_effects(self.study, scatter, levels, self.solution, kinds)
         if isinstance(found, Where):
             left = min(_scatter(self.solution) / _scatter(self.study.solution), self._shape_left())

@@ -1,0 +1,69 @@
+"""Slips that stand out, folded by the travel of the belt: a joint or a bump of the belt comes back each turn, kicks do not."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+from scipy.stats import gamma
+
+from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.study import Study
+
+Array = npt.NDArray[np.float64]
+
+FINENESS = 4.0
+"""Waves over the record that are looked at are 1/this apart [-]."""
+LEAST_SLIPS = 2.0
+"""Slips in a turn below which all of them meet the bump [-]."""
+
+
+def turn(places: Sequence[Array], travels: Sequence[float], spacing: float) -> tuple[float, float] | None:
+    """Return the travel after which places come back [m], and the chance of that where they are random.
+
+    The power of n places at a wavelength is |sum exp(2 pi i s/L)|^2/n, with a mean of 1 for random ones; each run has its own
+    phase, so that powers add up. Only turns in which about one place stands out are looked at.
+
+    Args:
+        places: belt travel at what stands out, run by run [m].
+        travels: travel of the belt in each run [m].
+        spacing: belt travel from slip to slip [m].
+
+    Reference: K. V. Mardia, P. E. Jupp, Directional Statistics, Wiley 2000, section 6.3.1 (Rayleigh's test).
+    """
+    runs = [(s, length) for s, length in zip(places, travels, strict=True) if len(s) >= 2]
+    if not runs:
+        return None
+    gap = sum(length for _, length in runs) / sum(len(s) for s, _ in runs)
+    shortest, longest = max(criteria.ONCE_A_TURN * gap, LEAST_SLIPS * spacing), gap / criteria.ONCE_A_TURN
+    if shortest >= longest:
+        return None
+    waves = np.arange(1.0 / longest, 1.0 / shortest, 1.0 / (FINENESS * max(length for _, length in runs)))
+    power = np.sum([np.abs(np.exp(2.0j * np.pi * waves[:, None] * s).sum(axis=1)) ** 2 / len(s) for s, _ in runs], axis=0)
+    best = int(np.argmax(power))
+    chance = float(gamma.sf(power[best], len(runs))) * len(waves)
+    return 1.0 / float(waves[best]), min(chance, 1.0)
+
+
+def comes_back(study: Study, far: npt.NDArray[np.bool_]) -> Where | None:
+    """Return where slips that stand out come back with the belt; None where they come at random.
+
+    Args:
+        study: what the fit runs told.
+        far: which slips stand out, shape (n,).
+    """
+    pool = study.pool
+    onset = np.concatenate([s.onset_position for s in pool.slips])
+    travel = pool.belt_velocity * pool.onset_time - onset
+    rows = [pool.run == r for r in range(pool.n_runs)]
+    spacing = float(np.median(np.concatenate([np.diff(travel[mine]) for mine in rows])))
+    found = turn([travel[mine & far] for mine in rows], [float(np.ptp(travel[mine])) for mine in rows], spacing)
+    if found is None or found[1] > criteria.FOLDED_BY_CHANCE:
+        return None
+    length = study.size.length * found[0]
+    return Where(
+        "belt position",
+        f"slips stand out once in {length:.3g} m of belt travel, turn after turn: a joint or a bump of the belt, not kicks",
+    )
