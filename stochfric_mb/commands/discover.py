@@ -10,6 +10,7 @@ import click
 from stochfric_mb.commands import completion
 from stochfric_mb.commands.options import command_line
 from stochfric_mb.commands.speech import answer, say, spoken
+from stochfric_mb.errors import InputError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -39,27 +40,46 @@ MARKER = "result.json"
 @click.option("--force", is_flag=True, help="Replace what is at --out.")
 def discover(dataset: str, scenario: str | None, out: str, dry_run: bool, force: bool) -> None:
     """Find where the runs of DATASET and their model disagree, name the missing effect, and show that the gap shrinks."""
+    from stochfric_mb.commands import dry_run as rehearsal
     from stochfric_mb.commands.progress import display
     from stochfric_mb.outputs import check_target, claimed, whole_folder
 
     if dry_run:
-        from stochfric_mb.commands import dry_run as rehearsal
-
         rehearsal.dry_run(dataset, scenario, out, force=force)
         return
-    target = check_target(out, force=force, marker=MARKER)
+    refused_before = rehearsal.only_records(out)
+    target = check_target(out, force=force or refused_before, marker=rehearsal.MARKER if refused_before else MARKER)
     with display() as shown, claimed(target):
         shown.note("loading")
         from stochfric_mb import discovery as library
 
-        outcome = library.discover(dataset, scenario=scenario, progress=shown.note)
+        try:
+            outcome = library.discover(dataset, scenario=scenario, progress=shown.note)
+        except InputError as error:
+            raise _with_records(dataset, scenario, target, error) from None
         shown.note("drawing the report")
-        with whole_folder(target, replace=force) as folder:
+        with whole_folder(target, replace=force or refused_before) as folder:
             # the same data give the same bytes, wherever they are written to
             content = write(outcome, folder, command_line(without=("out", "force")))
     answer(content)
     _show(content)
     say(f"{target / 'report.html'}")
+
+
+def _with_records(dataset: str, scenario: str | None, target: Path, error: InputError) -> InputError:
+    """Draw the raw records of data that are refused, if they can be read at all; return the error that says so."""
+    from stochfric_mb.commands.dry_run import MARKER as PAGE
+    from stochfric_mb.commands.dry_run import draw
+    from stochfric_mb.measurement import load_dataset
+    from stochfric_mb.outputs import whole_folder
+
+    try:
+        data = load_dataset(dataset, scenario)
+    except InputError:
+        return error
+    with whole_folder(target, replace=True) as folder:
+        draw(data, folder, (), str(error))
+    return InputError(f"{error} (the raw records are drawn in {target / PAGE})")
 
 
 def write(outcome: Outcome, folder: Path, command: str) -> dict[str, Any]:

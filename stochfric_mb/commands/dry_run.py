@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from stochfric_mb.commands.speech import answer, say
 from stochfric_mb.errors import InputError
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from stochfric_mb.measurement.dataset import Dataset
 
 MARKER = "records.html"
@@ -22,23 +25,36 @@ def dry_run(dataset: str, scenario: str | None, out: str, *, force: bool) -> Non
     """Read a dataset, draw its raw records and say what a discovery would do with them, and how long that takes."""
     from stochfric_mb.measurement import load_dataset
     from stochfric_mb.outputs import check_target, claimed, whole_folder
-    from stochfric_mb.report.page import render
-    from stochfric_mb.report.record_picture import record_pictures
 
     target = check_target(out, force=force, marker=MARKER)
     with claimed(target):
         data = load_dataset(dataset, scenario)
         runs, refused = _facts(data), _refusal(data)
         lines = [*(_line(run) for run in runs), *_plan(data, runs)]
-        page = render("records.html", title=data.title, records=record_pictures(data), lines=lines, refused=refused)
         with whole_folder(target, replace=force) as folder:
-            (folder / MARKER).write_text(page, encoding="utf-8")
+            draw(data, folder, lines, refused)
     answer({"out": str(target), "runs": runs, "refused": refused})
     for line in lines:
         say(line)
     if refused:
         raise InputError(f"{refused} (the raw records are drawn in {target / MARKER})")
     say(str(target / MARKER))
+
+
+def only_records(out: str) -> bool:
+    """Return whether a folder holds drawn records and nothing else: any discovery may replace those."""
+    from pathlib import Path
+
+    return Path(out).is_dir() and [p.name for p in Path(out).iterdir()] == [MARKER]
+
+
+def draw(data: Dataset, folder: Path, lines: Sequence[str], refused: str) -> None:
+    """Draw the raw records of a dataset into a folder, with what is said of them and why they are refused, if they are."""
+    from stochfric_mb.report.page import render
+    from stochfric_mb.report.record_picture import record_pictures
+
+    page = render("records.html", title=data.title, records=record_pictures(data), lines=lines, refused=refused)
+    (folder / MARKER).write_text(page, encoding="utf-8")
 
 
 def _facts(data: Dataset) -> list[dict[str, Any]]:

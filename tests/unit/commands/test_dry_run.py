@@ -56,6 +56,18 @@ def test_records_that_are_refused_are_drawn_all_the_same(tmp_path, motion):
     assert "samples a second" in (tmp_path / "raw" / "records.html").read_text()
 
 
+def test_a_discovery_that_refuses_records_draws_them(tmp_path, motion):
+    file = _write(tmp_path / "run.csv", motion, step=40)
+    for _ in range(2):  # drawn records are no result: the next try replaces them
+        done = invoke("discover", file, "--scenario", "kang2015_table1", "--out", tmp_path / "out")
+        assert done.exit_code == 2
+        assert f"(the raw records are drawn in {tmp_path / 'out' / 'records.html'})" in " ".join(done.stderr.split())
+        assert [p.name for p in (tmp_path / "out").iterdir()] == ["records.html"]
+    page = (tmp_path / "out" / "records.html").read_text()
+    assert "samples a second" in page
+    assert page.count("<svg ") == 2
+
+
 @pytest.mark.parametrize("noise", [0.0, 2e-6])
 def test_slips_are_where_the_box_turns_back(motion, noise):
     """A slip is a stretch of backward motion of the simulated box, not of ringing after it."""
