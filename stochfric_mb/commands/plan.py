@@ -76,16 +76,17 @@ def _wanted(scenario: str, texts: tuple[str, ...], noise: float | None) -> tuple
 
 def _show(content: Mapping[str, Any]) -> None:
     from stochfric_mb.commands.tables import print_table
+    from stochfric_mb.effects import words_of
     from stochfric_mb.report.planning import beside, pair_text
 
     rows = [
-        [_words(x["kind"]), x["parameter"], ("<= " if x["at_most"] else "") + f"{x['value']:.3g}", x["unit"], beside(x)]
+        [words_of(x["kind"]), x["parameter"], ("<= " if x["at_most"] else "") + f"{x['value']:.3g}", x["unit"], beside(x)]
         for x in content["limits"]
     ]
     if rows:
         print_table(("effect", "parameter", "named from", "unit", "at"), rows, title="Detection limits of the planned runs")
     for kind, what in content["unseen"].items():
-        say(f"Not seen at any size: {_words(kind)}; {what} would show it")
+        say(f"Not seen at any size: {words_of(kind)}; {what} would show it")
     for pair in content["pairs"]:
         say(f"Not told apart: {pair_text(pair)}")
     for run in content["extra"][:SHOWN]:
@@ -96,10 +97,8 @@ def _show(content: Mapping[str, Any]) -> None:
 
 def _added(run: Mapping[str, Any]) -> str:
     """Return what a further run adds, in words."""
-    parts = [f"shows {', '.join(map(_words, run['shows']))}"] if run["shows"] else []
+    from stochfric_mb.effects import words_of
+
+    parts = [f"shows {', '.join(map(words_of, run['shows']))}"] if run["shows"] else []
     parts += [f"tells {len(run['separates'])} more pairs apart"] if run["separates"] else []
     return ", ".join([*parts, f"limits times {run['limits']:.2g}"])
-
-
-def _words(kind: str) -> str:
-    return kind.replace("_", " ")

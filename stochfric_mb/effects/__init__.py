@@ -61,12 +61,18 @@ __all__ = [
     "kinds_with",
     "make_effect",
     "register_effect",
+    "words_of",
 ]
 
 
 def effect_kinds() -> list[str]:
     """Return the kinds of all effects, those of installed packages included."""
     return list(dict.fromkeys([*EFFECTS, *_entry_points()]))
+
+
+def words_of(kind: str) -> str:
+    """Return the kind of an effect as words: ``dwell_ageing`` is dwell ageing."""
+    return kind.replace("_", " ")
 
 
 def effect_class(kind: str) -> type[Effect]:

@@ -15,6 +15,7 @@ from stochfric_mb.measurement.run import Run, apply_settings
 from stochfric_mb.measurement.sampling import MIN_SAMPLES, GapError
 from stochfric_mb.measurement.signs import run_sign_error
 from stochfric_mb.measurement.wrong_units import require_plausible
+from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.scenario import Scenario, bundled_scenarios, load_any_scenario
 
 FILE = "dataset.toml"
@@ -84,7 +85,7 @@ def _described(path: Path, scenario: str | Path | Scenario[Any] | None) -> Datas
     for entry in entries:
         apply_settings(model, entry.settings, f"{path}: run {entry.name!r}")
     stated_in = "the scenario" if source is None else str(source)
-    runs = tuple(_checked(run, model, stated_in) for entry in entries for run in _pieces(entry, rotational=rotates(model)))
+    runs = tuple(_checked(run, model, stated_in) for entry in entries for run in _pieces(entry, model))
     dataset = Dataset(title=str(tables.get("title", "")), scenario_path=source, scenario=model, runs=runs)
     _require_roles(path, dataset)
     return dataset
@@ -117,11 +118,15 @@ def rotates(scenario: Scenario[Any]) -> bool | None:
     return getattr(scenario.mechanism, "rotational", False)
 
 
-def _pieces(entry: RunEntry, *, rotational: bool | None) -> list[Run]:
+def _pieces(entry: RunEntry, model: Scenario[Any]) -> list[Run]:
     """Return the run of an entry, or, where samples are missing, a run for each piece between the gaps.
 
-    What happened in a gap is unknown: it is left out, and never taken for motion.
+    What happened in a gap is unknown: it is left out, and never taken for motion. On a belt something always moves.
     """
+    if entry.max_gap is not None and isinstance(model.mechanism, BeltBox):
+        note = "max_gap is not used: the belt runs on in a gap, so that a straight line across it would be no motion of the box"
+        return [_with_note(run, note) for run in _pieces(dataclasses.replace(entry, max_gap=None), model)]
+    rotational = rotates(model)
     try:
         return [assemble(entry, rotational=rotational)]
     except GapError as error:

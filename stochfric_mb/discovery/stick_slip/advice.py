@@ -8,7 +8,7 @@ from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.effects import effect_class, effect_kinds
+from stochfric_mb.effects import effect_class, effect_kinds, words_of
 
 SEEN_BY = {"dwell": "a second belt speed", "direction": "a reversed belt", "load": "a second normal load"}
 """Condition that effects answer to -> what an experiment must hold to change it."""
@@ -44,11 +44,12 @@ def next_experiment(decision: Decision, study: Study) -> str:
     for named in decision.named:
         for other in named.class_:
             if (advice := _told_apart(named.kind, other)) is not None:
-                return f"{advice}, to tell {named.kind} from {other}"
+                return f"{advice}, to tell {words_of(named.kind)} from {words_of(other)}"
         if named.class_:
-            return f"runs at a second belt speed and a second normal load, to tell {named.kind} from {named.class_[0]}"
+            told = f"{words_of(named.kind)} from {words_of(named.class_[0])}"
+            return f"runs at a second belt speed and a second normal load, to tell {told}"
     if decision.verdict == "unknown" and decision.where is not None:
         return f"a repeat with a force sensor and a second belt speed, to see what varies along: {decision.where.axis}"
     blind = [kind for kind in not_identifiable(study) if effect_class(kind).answers_to in SEEN_BY]
     wanted = dict.fromkeys(SEEN_BY[effect_class(kind).answers_to] for kind in blind)
-    return f"runs with {', '.join(wanted)}: they would show {', '.join(blind)}" if blind else "none needed"
+    return f"runs with {', '.join(wanted)}: they would show {', '.join(map(words_of, blind))}" if blind else "none needed"

@@ -307,9 +307,16 @@ def test_a_gap_is_bridged_where_that_is_allowed(rig):
     entry = RunEntry(file=rig / "run.csv", name="run")
     with pytest.raises(InputError, match=r"max_gap = 0\.011"):
         assemble(entry, rotational=False)
-    keys = "max_gap = 0.011"
-    run = load_dataset(dataset(rig, f"{FIT}\n{keys}", f"{TEST}\n{keys}")).fit[0]
+    run = assemble(dataclasses.replace(entry, max_gap=0.011), rotational=False)
     assert run.time.size == TIME.size + 10
+
+
+def test_no_gap_is_bridged_on_a_belt(rig):
+    """A belt runs on in a gap: a straight line across three seconds of stick and slip was called a mass in tonnes."""
+    csv(rig / "run.csv", time__s=TIME + 0.3 * (TIME > 0.3), position__m=POSITION)
+    data = load_dataset(dataset(rig, f"{FIT}\nmax_gap = 0.4", f"{TEST}\nmax_gap = 0.4"))
+    assert len(data.fit) == 2
+    assert all("max_gap is not used" in run.notes[0] for run in data.fit)
 
 
 def test_a_gap_is_left_out_and_each_piece_is_a_run(rig):

@@ -18,7 +18,7 @@ from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
-from stochfric_mb.effects import effect_kinds, kind_found_as, kinds_with
+from stochfric_mb.effects import effect_kinds, kind_found_as, kinds_with, words_of
 from stochfric_mb.effects.traits import ANONYMOUS, BELT, DRAWN_ANEW, LATE, MORE_DAMPING
 from stochfric_mb.measurement.dataset import Dataset
 
@@ -254,9 +254,10 @@ def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
     same = [(t.candidate.kind, e) for p in places for t, e in zip(p.selected.found, p.selected.equivalents, strict=True) if e]
     if same:
         kind, others = same[0]
+        told = f"{words_of(kind)} from {', '.join(map(words_of, others))}"
         if by_clock(kind):
-            return f"To tell {kind} from {', '.join(others)}: pauses, strokes of other lengths, and a start from warm."
-        return f"To tell {kind} from {', '.join(others)}: more speeds, both directions at each, and a second load."
+            return f"To tell {told}: pauses, strokes of other lengths, and a start from warm."
+        return f"To tell {told}: more speeds, both directions at each, and a second load."
     return "Rest before break-away, for what rest does to friction; slow reversals, for presliding; a second load."
 
 
