@@ -1,4 +1,4 @@
-"""`augmented.toml`, run freely for a minute, moves as the held-out record does: cycle by cycle the same period, top and bottom."""
+"""`augmented.toml`, run freely for a minute, has the periods, tops and bottoms of the held-out record's cycles."""
 
 import dataclasses
 
