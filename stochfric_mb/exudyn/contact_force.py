@@ -54,11 +54,9 @@ from stochfric_mb.exudyn.layout import (
     VELOCITY_1,
     T,
     U,
-    number_at,
-    numbers_from,
-    words_from,
 )
 from stochfric_mb.laws.abi import call_law
+from stochfric_mb.numerics.memory import as_doubles, as_words, load_double
 
 SLOW = 1.0e-7
 """Speed [m/s] below which a contact in a plane with true stick slides in the direction in which it let go: friction along v
@@ -107,8 +105,8 @@ def kinematics(t, numbers, words):
             vx, vy = _let_go(w - vx, w_2 - vy, numbers)
             return w * t - dx, w_2 * t - dy, vx, vy
         return w * t - dx, w_2 * t - dy, w - vx, w_2 - vy
-    d = number_at(words[POSITION_1]) - number_at(words[POSITION_0])  # pyright: ignore[reportCallIssue]
-    v = number_at(words[VELOCITY_1]) - number_at(words[VELOCITY_0])  # pyright: ignore[reportCallIssue]
+    d = load_double(words[POSITION_1]) - load_double(words[POSITION_0])  # pyright: ignore[reportCallIssue]
+    v = load_double(words[VELOCITY_1]) - load_double(words[VELOCITY_0])  # pyright: ignore[reportCallIssue]
     return unwrapped(w * t - numbers[RADIUS] * d, numbers, words), 0.0, w - numbers[RADIUS] * v, 0.0
 
 
@@ -156,8 +154,8 @@ def ask(address, t, motion, n, pair, numbers, into):
 @compiled
 def pull(t, displacement, velocity, address):
     """Return what a connector along a line or about an axis pulls marker 1 back with: minus the friction [N or N m]."""
-    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
-    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    words = carray(as_words(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(as_doubles(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
     w, r, n = numbers[SURFACE_VELOCITY], numbers[RADIUS], normal_force_at(t, numbers, words)
     if n <= 0.0:
         return 0.0
@@ -175,8 +173,8 @@ def plane_pull(t, displacement, velocity, address, out):
 
     ``displacement`` [m] and ``velocity`` [m/s] of marker 1 relative to marker 0, and ``out``, are shape (3,).
     """
-    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
-    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    words = carray(as_words(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(as_doubles(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
     for i in range(3):
         numbers[DISTANCE + i], numbers[RATE + i], out[i] = displacement[i], velocity[i], 0.0
     n = normal_force_at(t, numbers, words)
@@ -192,8 +190,8 @@ def plane_pull(t, displacement, velocity, address, out):
 @compiled
 def end_of_step(t, address):
     """Return the relative velocity [m/s] in both directions and the largest friction mu_s N [N] at time t, motion in place."""
-    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
-    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    words = carray(as_words(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(as_doubles(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
     ux, _, vx, vy = kinematics(t, numbers, words)
     return vx, vy, pair_at(t, ux, numbers, words)[0] * normal_force_at(t, numbers, words)
 
@@ -201,8 +199,8 @@ def end_of_step(t, address):
 @compiled
 def load_force(t, address):
     """Return the friction force [N] of a contact whose coordinates are in place, as a load on marker 1."""
-    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
-    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    words = carray(as_words(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(as_doubles(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
     n = normal_force_at(t, numbers, words)
     if n <= 0.0:
         return 0.0
@@ -217,9 +215,9 @@ def force_now(t, address, into):
 
     Coordinates must be in place; nothing is committed.
     """
-    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
-    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
-    out = carray(numbers_from(into), (3,))  # pyright: ignore[reportCallIssue]
+    words = carray(as_words(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(as_doubles(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    out = carray(as_doubles(into), (3,))  # pyright: ignore[reportCallIssue]
     out[0], out[1] = 0.0, 0.0
     motion, out[2] = kinematics(t, numbers, words), normal_force_at(t, numbers, words)
     if out[2] > 0.0:

@@ -86,47 +86,6 @@ RECORD_COLUMNS = 11
 
 
 @intrinsic
-def number_at(typingctx, address):
-    """Return the double at an address."""
-
-    def generate(context, builder, signature, args):
-        return builder.load(builder.inttoptr(args[0], ir.DoubleType().as_pointer()))
-
-    return types.float64(types.int64), generate
-
-
-@intrinsic
-def numbers_from(typingctx, address):
-    """Return the pointer to the doubles at an address."""
-
-    def generate(context, builder, signature, args):
-        return builder.inttoptr(args[0], ir.DoubleType().as_pointer())
-
-    return types.CPointer(types.float64)(types.int64), generate
-
-
-@intrinsic
-def words_from(typingctx, address):
-    """Return the pointer to the integers at an address."""
-
-    def generate(context, builder, signature, args):
-        return builder.inttoptr(args[0], ir.IntType(64).as_pointer())
-
-    return types.CPointer(types.int64)(types.int64), generate
-
-
-@intrinsic
-def put_word(typingctx, address, value):
-    """Write an integer at an address."""
-
-    def generate(context, builder, signature, args):
-        builder.store(args[1], builder.inttoptr(args[0], ir.IntType(64).as_pointer()))
-        return context.get_dummy_value()
-
-    return types.void(types.int64, types.int64), generate
-
-
-@intrinsic
 def call_at(typingctx, function, t):
     """Return what the function at an address, int(double), says of the time t."""
 

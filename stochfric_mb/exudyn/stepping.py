@@ -65,10 +65,9 @@ from stochfric_mb.exudyn.layout import (
     T,
     U,
     V,
-    numbers_from,
-    words_from,
 )
 from stochfric_mb.laws.contract import GUARDS
+from stochfric_mb.numerics.memory import as_doubles, as_words
 
 NOTHING, RECORDED, LOST, RESTARTED, FETCH, WATCH = 0, 1, 2, 4, 8, 16
 """Bits of what `advance` returns."""
@@ -88,8 +87,8 @@ def advance(t, address):
 
     Returns bits that say what the caller has to do; FETCH: see where the coordinates are, then call `proceed`.
     """
-    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
-    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    words = carray(as_words(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(as_doubles(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
     ahead = t - numbers[T]
     if words[ASK_FIRST] == 1 or words[STARTED] == 0 or ahead <= 0.0 or ahead > numbers[REACH]:
         return FETCH
@@ -103,8 +102,8 @@ def proceed(t, address):
     The same time with the same motion changes nothing (a solver that goes on from where it stopped); an earlier time, or
     a jump, is a new simulation.
     """
-    words = carray(words_from(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
-    numbers = carray(numbers_from(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    words = carray(as_words(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
+    numbers = carray(as_doubles(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
     return _proceed(t, numbers, words)
 
 
@@ -123,7 +122,7 @@ def _proceed(t, numbers, words):
         bits = _commit(t, motion, n, numbers, words)
     due = words[NEXT_RECORD]
     if due < words[N_RECORDS]:
-        records = carray(numbers_from(words[RECORDS]), (words[N_RECORDS], RECORD_COLUMNS))  # pyright: ignore[reportCallIssue]
+        records = carray(as_doubles(words[RECORDS]), (words[N_RECORDS], RECORD_COLUMNS))  # pyright: ignore[reportCallIssue]
         if t >= records[due, 0] - max(GRID * numbers[STEP], ROUNDING):
             records[due, 0] = canonical_time(t, 0.5 * numbers[STEP])
             records[due, 1], records[due, 8], records[due, 2], records[due, 9] = motion

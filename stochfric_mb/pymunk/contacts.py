@@ -29,19 +29,11 @@ import numba
 from numba import types
 
 from stochfric_mb.compile import compiled, compiled_inline, native
+from stochfric_mb.numerics.memory import as_doubles, as_words, load_byte, load_double, load_int, load_word, store_double
 from stochfric_mb.pymunk import records as r
 from stochfric_mb.pymunk.kinematics import advance_clock, free_acceleration, impulses, motion, push
 from stochfric_mb.pymunk.matching import find_slot, slot_for
-from stochfric_mb.pymunk.memory import (
-    as_doubles,
-    as_words,
-    call_handler,
-    load_byte,
-    load_double,
-    load_int,
-    load_word,
-    store_double,
-)
+from stochfric_mb.pymunk.memory import call_handler
 from stochfric_mb.pymunk.response import law_force, set_cap, settle
 
 FAST = 4.0

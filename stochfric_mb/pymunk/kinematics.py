@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from stochfric_mb.coefficients.path import canonical_time
 from stochfric_mb.compile import compiled_inline
+from stochfric_mb.numerics.memory import load_double, load_int, load_word, store_double
 from stochfric_mb.pymunk import records as r
-from stochfric_mb.pymunk.memory import get_double, get_int, load_double, load_int, load_word, store_double
+from stochfric_mb.pymunk.memory import get_double, get_int
 
 
 @compiled_inline

@@ -14,8 +14,9 @@ from __future__ import annotations
 import numba
 
 from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.numerics.memory import as_words, load_int, load_word, store_word
 from stochfric_mb.pymunk import records as r
-from stochfric_mb.pymunk.memory import as_words, get_byte, get_word, load_int, load_word, store_word
+from stochfric_mb.pymunk.memory import get_byte, get_word
 
 
 @compiled_inline

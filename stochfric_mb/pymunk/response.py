@@ -21,9 +21,9 @@ from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.laws.abi import MAX_STATE, call_law
 from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.numerics.cubic import hermite, value
+from stochfric_mb.numerics.memory import as_doubles
 from stochfric_mb.numerics.root import bracket, is_wide, least_armed, narrowed, trial
 from stochfric_mb.pymunk import records as r
-from stochfric_mb.pymunk.memory import as_doubles
 
 ENDLESS = 1.0e12
 """A load no friction can hold, in normal forces: it asks a law for its cap."""
