@@ -183,8 +183,9 @@ def compare(
     dt = scenario.default_dt() if dt is None else checked_step(scenario, dt)
     stage = stage or _silent
     reference = _run("reference", scenario, seed, None, stage("reference", scenario.duration))
-    runs = [_run(name, scenario, seed, dt, stage(name, scenario.duration)) for name in names]
-    compared = [_compared(name, run, reference, scenario, seed) for name, run in zip(names, runs, strict=True)]
+    # the first comes last: on a first use it may be compiled meanwhile
+    runs = {name: _run(name, scenario, seed, dt, stage(name, scenario.duration)) for name in reversed(names)}
+    compared = [_compared(name, runs[name], reference, scenario, seed) for name in names]
     if convergence:
         compared = _with_convergence(compared, reference, scenario, seed, stage)
     return Comparison(

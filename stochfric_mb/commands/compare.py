@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -64,8 +65,13 @@ def compare(
             adapter(name)
         problem = load_scenario(scenario, law=law, overrides=overrides)
         chosen = names or [name for name in library.installed_engines() if name != "reference"]
-        with compiling_beside(chosen, problem):
-            result = library.compare(problem, engines=names, seed=seed, dt=dt, convergence=convergence, stage=shown.stage)
+        with compiling_beside(chosen, problem) as wait_for:
+
+            def stage(name: str, duration: float) -> Callable[[float], None]:
+                wait_for(name)
+                return shown.stage(name, duration)
+
+            result = library.compare(problem, engines=names, seed=seed, dt=dt, convergence=convergence, stage=stage)
         shown.note("drawing the report")
         with whole_folder(target, replace=force) as folder:
             content = write(result, folder, command_line())

@@ -292,7 +292,7 @@ def test_compare_writes_numbers_page_and_plots(fake, tmp_path):
 def test_compare_defaults_to_what_is_installed_and_can_skip_convergence(fake, tmp_path):
     result = invoke("compare", SCENARIO, *SHORT, "--no-convergence", "--out", tmp_path / "out")
     assert result.exit_code == 0, result.output
-    assert [name for name, *_ in fake] == ["reference", "mujoco", "exudyn"]
+    assert [name for name, *_ in fake] == ["reference", "exudyn", "mujoco"]
     numbers = json.loads((tmp_path / "out" / "compare.json").read_text(encoding="utf-8"))
     assert numbers["convergence_duration"] is None
     assert not (tmp_path / "out" / "plots" / "convergence.svg").exists()

@@ -11,18 +11,39 @@ from stochfric_mb.commands import compiling
 
 def test_what_is_compiled_is_left_alone(monkeypatch):
     monkeypatch.setattr(compiling, "is_compiled", lambda _name: True)
-    with compiling.compiling_beside(["mujoco", "exudyn"], load_scenario("kang2015_table1")) as cold:
-        assert cold == []
+    monkeypatch.setattr(compiling.subprocess, "Popen", _never)
+    with compiling.compiling_beside(["mujoco", "exudyn"], load_scenario("kang2015_table1")) as wait_for:
+        wait_for("mujoco")
 
 
-def test_the_others_are_compiled_the_last_first(monkeypatch):
+def test_one_core_compiles_nothing_beside(monkeypatch):
+    monkeypatch.setattr(compiling, "is_compiled", lambda _name: False)
+    monkeypatch.setattr(compiling.os, "cpu_count", lambda: 1)
+    monkeypatch.setattr(compiling.subprocess, "Popen", _never)
+    with compiling.compiling_beside(["mujoco", "pymunk"], load_scenario("kang2015_table1")) as wait_for:
+        wait_for("mujoco")
+
+
+def _never(*_arguments, **_options):
+    raise AssertionError("a process was started")
+
+
+def test_the_first_is_compiled_beside_and_waited_for(monkeypatch):
+    """The process is a short Python program here: what counts is which engine it is told, and who waits for it."""
     monkeypatch.setattr(compiling, "is_compiled", lambda name: name == "exudyn")
     monkeypatch.setattr(compiling.os, "cpu_count", lambda: 2)
-    with compiling.compiling_beside(["mujoco", "exudyn", "pymunk"], load_scenario("kang2015_table1")) as cold:
-        assert cold == ["pymunk"]
-    monkeypatch.setattr(compiling.os, "cpu_count", lambda: 1)
-    with compiling.compiling_beside(["mujoco", "pymunk"], load_scenario("kang2015_table1")) as cold:
-        assert cold == []
+    started, real = [], subprocess.Popen
+
+    def start(command, **options):
+        started.append((command, real([sys.executable, "-c", "import sys; sys.stdin.read()"], **options)))
+        return started[-1][1]
+
+    monkeypatch.setattr(compiling.subprocess, "Popen", start)
+    with compiling.compiling_beside(["mujoco", "exudyn", "pymunk"], load_scenario("kang2015_table1")) as wait_for:
+        (command, process) = started[0]
+        assert command[-1:] == ["mujoco"]
+        wait_for("mujoco")
+        assert process.returncode == 0  # it has ended, so it was waited for
 
 
 def test_the_other_process_simulates(tmp_path):
