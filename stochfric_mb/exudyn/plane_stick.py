@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from stochfric_mb.errors import InputError
 from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.contact import REPEATS
 from stochfric_mb.exudyn.contact_force import end_of_step
@@ -45,6 +46,17 @@ class TrueStickPlane(PlaneContact):
     def refines(self) -> bool:
         """Whether trial steps tell what friction needs: always."""
         return True
+
+    def require_friction_at_rest(self) -> None:
+        """Refuse a static solution.
+
+        Raises:
+            InputError: always; the friction that holds is found from step to step.
+        """
+        raise InputError(
+            f"law {self.friction.law.kind}: the friction that holds in a plane is found from the velocity that a step ends with, "
+            "and a static solution has none; use elastic_stick, or let the motion come to rest with solve_dynamic"
+        )
 
     def take_trial(self) -> None:
         """Take the friction that holds the contact at the start."""

@@ -161,6 +161,8 @@ def test_what_is_not_held_in_a_plane_is_named() -> None:
     mbs, _ = point()
     with pytest.raises(InputError, match="solver='generalized_alpha'"):
         solve_dynamic(mbs, silent_settings(1e-3, 0.1), solver="rk44")
+    with pytest.raises(InputError, match="a static solution has none"):
+        mbs.SolveStatic(exudyn.SimulationSettings(), showHints=False)
     ground, body = (mbs.AddMarker(MarkerBodyPosition(bodyNumber=i)) for i in (0, 1))
     with pytest.raises(InputError, match="or the body turns"):
         add_friction_load(mbs, body, COULOMB, normal=UP, normal_force=1.0)
