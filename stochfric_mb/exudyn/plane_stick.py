@@ -54,8 +54,8 @@ class TrueStickPlane(PlaneContact):
             InputError: always; the friction that holds is found from step to step.
         """
         raise InputError(
-            f"law {self.friction.law.kind}: the friction that holds in a plane is found from the velocity that a step ends with, "
-            "and a static solution has none; use elastic_stick, or let the motion come to rest with solve_dynamic"
+            f"law {self.friction.law.kind}: the friction that holds in a plane is found from the velocity that a step ends "
+            "with, and a static solution has none; use elastic_stick, or let the motion come to rest with solve_dynamic"
         )
 
     def take_trial(self) -> None:
