@@ -1,11 +1,16 @@
 """Noise level, colour and lines of synthetic noise; outliers; mirrored runs."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.discovery.stick_slip.records.record import LINE_WINDOW, line_in, make_record, noise_of
+from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.reference.augmented import Start, augmented_system
 
 RATE = 1000.0
 DEVIATION = 5e-6
@@ -126,3 +131,14 @@ def test_backward_belt_is_mirrored():
     record = make_record("run", time, position, backward)
     np.testing.assert_array_equal(record.raw, -position)
     assert (record.direction, record.mechanism.belt_velocity, record.stated) == (-1, 2.5e-3, backward)
+
+
+@pytest.mark.parametrize(("rate", "mass"), [(1000.0, 6.08), (250.0, 6.08), (125.0, 12.0), (125.0, 60.8)])
+def test_corners_of_slips_are_no_outliers_at_any_rate_that_is_taken(rate, mass):
+    """At 125 Hz a slip is some ten samples: a running median of seven cuts its corners."""
+    box = dataclasses.replace(BOX, mass=mass)
+    system = augmented_system(box, make_law("coulomb", mu_s=0.8, mu_k=0.46))
+    motion = system.march(Start(0.0, 0.0, box.belt_velocity, stick=True), 1.0 / rate, round(60.0 * rate))
+    noise = 5.0e-6 * np.random.default_rng(3).standard_normal(len(motion.position))
+    record = make_record("run", np.arange(len(noise)) / rate, motion.position + noise, box)
+    assert record.outlier.mean() < criteria.LEAST_OUTLIERS
