@@ -16,7 +16,7 @@ from stochfric_mb.effects.contract import Array, parameter
 PIECES = 16
 """Pieces of the course between its beginning and its end."""
 COURSE = tuple(f"course_{i}" for i in range(1, PIECES + 3))
-"""Parameters that are its shape; the spline before the first of them is left out, since a constant is no change."""
+"""Parameters that are its shape; a course begins at 0, so that the spline before them is left out."""
 COARSER = (4, 8, PIECES)
 """Pieces of the courses that are looked for; each course is a finer one, too."""
 
@@ -29,7 +29,17 @@ def shape(number: int) -> Any:
 
 
 def splines(place: Array, pieces: int) -> Array:
-    """Return the splines of a course with so many pieces, shape (..., pieces + 2); ``place``: 0 at its begin, 1 at its end."""
+    """Return the splines of a course with so many pieces, each less its value at the begin, shape (..., pieces + 2).
+
+    Args:
+        place: 0 at the begin of the course, 1 at its end.
+        pieces: number of pieces.
+    """
+    value = _raw(place, pieces)
+    return value - _raw(np.zeros(1), pieces)[0]
+
+
+def _raw(place: Array, pieces: int) -> Array:
     node = np.arange(pieces + 2, dtype=np.float64)
     apart = np.abs(pieces * np.clip(place, 0.0, 1.0)[..., None] - node)
     near = 2.0 / 3.0 - apart**2 + apart**3 / 2.0
@@ -44,7 +54,8 @@ def refined(pieces: int) -> Array:
 
 
 def sized(weights: Array, pieces: int, span: float) -> dict[str, float]:
-    """Return the parameters of a course: its size, its shape with a largest weight of 1, and its span [s]."""
+    """Return the parameters of a course: its size, its shape with a largest change of 1, and its span [s]."""
     fine = refined(pieces) @ weights
-    size = float(fine[np.argmax(np.abs(fine))]) or 1.0
+    course = splines(np.linspace(0.0, 1.0, 20 * PIECES + 1), PIECES) @ fine
+    size = float(course[np.argmax(np.abs(course))]) or 1.0
     return {"change": size, "span": span} | {name: float(w / size) for name, w in zip(COURSE, fine, strict=True)}

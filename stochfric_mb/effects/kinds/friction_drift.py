@@ -142,5 +142,6 @@ def friction(world, memory, rates, p):
                 grown += p[3] * p[5 + k] * (2.0 / 3.0 - away * away * (1.0 - away / 2.0))
             elif away < 2.0:
                 grown += p[3] * p[5 + k] * (2.0 - away) * (2.0 - away) * (2.0 - away) / 6.0
+        grown -= p[3] * (2.0 / 3.0 * p[5] + p[6] / 6.0)  # what the splines are at the begin
     world[MU_S] *= 1.0 + p[2] * grown
     world[MU_K] *= 1.0 + grown

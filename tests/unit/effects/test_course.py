@@ -11,10 +11,14 @@ from stochfric_mb.effects.course import COARSER, COURSE, PIECES, refined, sized,
 from stochfric_mb.effects.kinds.friction_drift import friction
 
 
-def test_splines_of_a_course_are_one_apart_from_its_beginning():
-    place = np.linspace(0.0, 1.0, 401)
-    inside = place >= 1.0 / PIECES  # where the spline that is left out has ended
-    np.testing.assert_allclose(splines(place, PIECES).sum(axis=-1)[inside], 1.0, atol=1e-14)
+def test_a_course_begins_at_zero():
+    """A zero that began elsewhere would be another zero, which the coefficients would take for friction."""
+    assert not splines(np.zeros(1), PIECES).any()
+    rng = np.random.default_rng(3)
+    effect = make_effect("sensor_drift", **sized(rng.standard_normal(PIECES + 2), PIECES, 20.0))
+    assert effect.measure(np.zeros(1), np.zeros(1), rng)[0] == 0.0
+    reached = effect.measure(np.linspace(0.0, 20.0, 321), np.zeros(321), rng)
+    assert np.abs(reached).max() == pytest.approx(abs(effect.change))
 
 
 @pytest.mark.parametrize("pieces", COARSER)
@@ -22,8 +26,7 @@ def test_a_coarser_course_is_a_finer_one_too(pieces):
     place, weights = np.linspace(0.0, 1.0, 333), np.random.default_rng(0).standard_normal(pieces + 2)
     fine = splines(place, PIECES) @ refined(pieces) @ weights
     coarse = splines(place, pieces) @ weights
-    # but for the constant that is left out of either
-    np.testing.assert_allclose(np.ptp(fine - coarse), 0.0, atol=2e-2)
+    np.testing.assert_allclose(fine, coarse, atol=1e-10)
 
 
 def test_a_smooth_course_is_followed():
