@@ -12,10 +12,9 @@ it holds. The law says how stiff the row is: rigid, elastic, or in series with a
 Jacobian instead. A contact at its cap keeps its reference while others hold the bodies; once none of them holds less than its
 cap, all of them slide.
 
-*Slip*: the cap is the law's coefficient at the present speed. The reference asks for the acceleration of the step before, less
-twice what the cap is worth in the row, or for rest at the end of the step, whichever is less. So the row stays at its cap and
-not far beyond, which float32 needs. What the cone makes of it in the normal direction, the lift of a sliding contact, is taken
-out of the normal row. Where it asked for rest and the cap was not needed, the contact sticks.
+*Slip*: the cap is the law's coefficient at the present speed. The reference asks for rest at the end of the step, so that
+friction never pushes along the motion. What the cone makes of it in the normal direction, the lift of a sliding contact, is
+taken out of the normal row. Where the cap was not needed, the contact sticks.
 """
 
 import functools
@@ -32,10 +31,6 @@ SATURATED = wp.constant(solver.SATURATED)
 """Share of the cap from which on a force counts as at its cap."""
 SLIDING_SHARE = wp.constant(solver.SLIDING_SHARE)
 """Least share of the cap that sliding friction has where a contact slides and torsion or rolling does not do it alone."""
-PUSHED = wp.constant(2.0)
-"""Friction that a sliding contact is asked for, over the cap: the normal force may double in a step."""
-MOST_URGENT = wp.constant(1024.0)
-"""Bound of that ratio, which doubles with each step in which a sliding contact stays below its cap."""
 
 
 @wp.func
@@ -99,7 +94,6 @@ def born(now: Now, still: float, origin: wp.float64):
     """Return a new contact: sliding if it is faster than the law's stick speed (or peak speed), otherwise stuck."""
     touch = Touch()
     touch.mode = wp.where(now.speed > still, SLIP, STICK)
-    touch.urgency = PUSHED
     touch.path = origin
     return touch
 
@@ -120,9 +114,6 @@ def recalled(slots: Slots, old: int, w: int, i: int, now: Now):
     touch.events = slots.events[old, w, i]
     moved = now.h * wp.dot(now.direction, now.v[0] * now.axis_1 + now.v[1] * now.axis_2)
     touch.path = slots.path[old, w, i] + wp.float64(float(now.side) * moved)
-    touch.urgency = PUSHED
-    if touch.mode == SLIP and slots.saturated[old, w, i] == 0:
-        touch.urgency = wp.min(2.0 * slots.urgency[old, w, i], MOST_URGENT)
     return touch
 
 
@@ -151,7 +142,6 @@ def keep(slots: Slots, new: int, w: int, k: int, now: Now, touch: Touch):
     slots.loose[new, w, k] = 0
     slots.drift[new, w, k] = touch.drift[0] * now.axis_1 + touch.drift[1] * now.axis_2
     slots.velocity[new, w, k] = now.v[0] * now.axis_1 + now.v[1] * now.axis_2
-    slots.urgency[new, w, k] = touch.urgency
     slots.creep[new, w, k] = touch.creep
     slots.path[new, w, k] = touch.path
     slots.events[new, w, k] = touch.events

@@ -14,7 +14,7 @@ import warp as wp
 from stochfric_mb.coefficients.processes import TIME
 from stochfric_mb.warp.contacts import SATURATED
 from stochfric_mb.warp.law import Touch, coefficient_functions, felt_mass, rest_rules, slide_function
-from stochfric_mb.warp.state import STICK, STOPPING, Rows, Worlds
+from stochfric_mb.warp.state import SLIP, STICK, Rows, Worlds
 
 
 @wp.func
@@ -126,7 +126,7 @@ def hold_kernel(kind: str, clock: float) -> Any:
         still = wp.max(worlds.stick_speed[w], peak)
         felt = felt_mass(mobility)
         touch = Touch()
-        touch.mode = wp.where(wp.length(v) > still, STOPPING, STICK)
+        touch.mode = wp.where(wp.length(v) > still, SLIP, STICK)
         touch.load = load
         touch.path = worlds.origin
         if worlds.count[w] > 0 and rows.row[old, w] >= 0:
@@ -148,7 +148,7 @@ def hold_kernel(kind: str, clock: float) -> Any:
             mass[w, row] = 1.0 / total
             reference[w, row] = -v[0] / h - stiffness * touch.drift[0]
         else:
-            touch.mode = STOPPING
+            touch.mode = SLIP
             touch.drift = wp.vec2(0.0)
             cap = slide(wp.length(v), touch.mu_s, touch.mu_k, worlds.parameters[w])
         frictionloss[w, row] = cap * load

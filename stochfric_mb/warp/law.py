@@ -18,7 +18,7 @@ from stochfric_mb.errors import InputError
 from stochfric_mb.laws import Law, law_class
 from stochfric_mb.mujoco.contact import rows
 from stochfric_mb.numerics import root
-from stochfric_mb.warp.state import SLIP, STICK, STOPPING
+from stochfric_mb.warp.state import SLIP, STICK
 from stochfric_mb.warp.translate import ARRAY, INT, REAL, Numbers, Translator
 
 RIGID = wp.constant(rows.RIGID)
@@ -55,8 +55,6 @@ class Touch:
     """Displacement along the contact's direction since it began [m]."""
     acceleration: wp.vec2
     """In the step before [m/s^2]."""
-    urgency: float
-    """Friction to ask for, over the cap [-]."""
     cap: float
     """Coefficient of friction that the solver is allowed [-]."""
     scale: float
@@ -148,7 +146,7 @@ def _rigid(kind: str) -> tuple[Any, Any]:
                 touch.drift = touch.drift + h * v
             if loose == 1:
                 touch.mode = SLIP
-        elif touch.mode == STOPPING and saturated == 0:
+        elif saturated == 0:
             touch.mode = STICK
         if wp.length(v) > stoppable:
             touch.mode = SLIP
@@ -180,7 +178,7 @@ def _elastic(kind: str) -> tuple[Any, Any]:
                 touch.mode = SLIP
             elif saturated == 1 and out > limit:
                 touch.drift = touch.drift * (limit / out)
-        elif touch.mode == STOPPING and saturated == 0:
+        elif saturated == 0:
             touch.mode = STICK
             if stiffness > 0.0:  # the deflection that keeps the force
                 touch.drift = -touch.pull / stiffness

@@ -9,7 +9,7 @@ import warp as wp
 
 from stochfric_mb.coefficients.processes import TIME
 from stochfric_mb.warp.law import Touch, coefficient_functions, felt_mass, rest_rules, slide_function
-from stochfric_mb.warp.state import SLIP, STOPPING, Slots, Worlds, vec5
+from stochfric_mb.warp.state import Slots, Worlds, vec5
 
 LEAST_FRICTION = wp.constant(1.0e-5)
 """MuJoCo's mjMINMU."""
@@ -160,20 +160,13 @@ def slide_rule(kind: str) -> Any:
         for j in range(3):
             mass[w, row + j] = kept * mass[w, row + j]
         along = now.v / wp.max(now.speed, LEAST_SPEED)
-        pressing = wp.max(touch.load / mass[w, row], reference[w, row])
         slowing = -wp.dot(touch.acceleration, along)
         if touch.load <= 0.0:
-            slowing = touch.cap * (pressing + weight)
-        beyond = touch.urgency * touch.cap * pressing * mass[w, row] / mass[w, row + 1]
-        touch.mode = SLIP
-        asked = -(beyond + slowing) * along
-        if (beyond + slowing) * now.h >= now.speed:
-            touch.mode = STOPPING
-            beyond = wp.max(now.speed / now.h - slowing, 0.0)
-            asked = -now.v / now.h
-        reference[w, row] = reference[w, row] - touch.cap * beyond  # what the cone adds to it lifts the body
-        reference[w, row + 1] = asked[0]
-        reference[w, row + 2] = asked[1]
+            slowing = touch.cap * (wp.max(reference[w, row], 0.0) + weight)
+        # what the cone adds to the normal row lifts the body
+        reference[w, row] = reference[w, row] - touch.cap * wp.max(now.speed / now.h - slowing, 0.0)
+        reference[w, row + 1] = -now.v[0] / now.h
+        reference[w, row + 2] = -now.v[1] / now.h
         return touch
 
     return let_slide

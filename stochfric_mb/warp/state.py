@@ -10,8 +10,6 @@ import warp as wp
 
 STICK = wp.constant(0)
 SLIP = wp.constant(1)
-STOPPING = wp.constant(2)
-"""Sliding, and asked to be at rest at the end of the step."""
 
 vec5 = wp.types.vector(length=5, dtype=wp.float32)
 
@@ -91,8 +89,6 @@ class Slots:
     """Displacement since the contact stuck [m], in world coordinates."""
     velocity: wp.array3d[wp.vec3]
     """Relative velocity at the step's start [m/s], likewise."""
-    urgency: wp.array3d[float]
-    """Friction that a sliding contact was asked for, over its cap [-]."""
     creep: wp.array3d[float]
     """Speed at which a law that creeps at rest has the force at hand [m/s]."""
     path: wp.array3d[wp.float64]
@@ -102,7 +98,7 @@ class Slots:
     cursor: wp.array4d[wp.float64]
     """Cursors of the contacts' own coefficient paths; empty where coefficients run along time."""
     mode: wp.array3d[int]
-    """STICK, SLIP or STOPPING."""
+    """STICK or SLIP."""
 
 
 @wp.struct
@@ -126,4 +122,4 @@ class Rows:
     events: wp.array2d[int]
     """Number of stick phases that have begun."""
     mode: wp.array2d[int]
-    """STICK or STOPPING."""
+    """STICK or SLIP."""

@@ -52,7 +52,7 @@ def slot_arrays(nworld: int, n: int, *, own_paths: bool) -> Any:
         setattr(slots, name, wp.zeros(shape, dtype=wp.vec3))
     for name in ("side", "saturated", "loose", "events", "mode"):
         setattr(slots, name, wp.zeros(shape, dtype=int))
-    for name in ("scale", "mu_s", "mu_k", "normal", "urgency", "creep"):
+    for name in ("scale", "mu_s", "mu_k", "normal", "creep"):
         setattr(slots, name, wp.zeros(shape, dtype=float))
     slots.friction = wp.zeros(shape, dtype=vec5)
     slots.path = wp.zeros(shape, dtype=wp.float64)
