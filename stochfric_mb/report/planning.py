@@ -8,9 +8,6 @@ from typing import Any
 from stochfric_mb.report.discovery import words
 from stochfric_mb.report.page import render
 
-UNITS = {"wavelength": "m", "frequency": "Hz", "decay_velocity": "m/s", "time_constant": "s", "position": "m"}
-"""Numbers that a limit belongs to, and their units at rigs that slide."""
-
 
 def plan_page(content: Mapping[str, Any], title: str, command: str) -> str:
     """Return the page of a plan.
@@ -26,9 +23,8 @@ def plan_page(content: Mapping[str, Any], title: str, command: str) -> str:
 def beside(limit: Mapping[str, Any]) -> str:
     """Return the numbers that a detection limit belongs to, in words."""
     shown = {k: v for k, v in limit["beside"].items() if not k.startswith("phase")}
-    parts = [
-        f"{words(k)} {v}" if isinstance(v, str) else f"{words(k)} {v:.3g} {UNITS.get(k, '')}".rstrip() for k, v in shown.items()
-    ]
+    units = {k: "" if unit == "-" else unit for k, unit in limit["units_beside"].items()}
+    parts = [f"{words(k)} {v}" if isinstance(v, str) else f"{words(k)} {v:.3g} {units[k]}".rstrip() for k, v in shown.items()]
     return ", ".join(parts)
 
 

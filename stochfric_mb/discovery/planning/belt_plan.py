@@ -114,6 +114,10 @@ class BeltPlan:
             believed_kinds |= {kind_found_as(DRAWN_ANEW)}
         return [f for f in forms if f.kind not in {*blind, *believed_kinds}], blind
 
+    def unit(self, straight: str) -> str:
+        """Return the unit of a parameter at this rig: it slides along a line."""
+        return straight
+
     @property
     def no_limit(self) -> tuple[str, ...]:
         """Return the effects for which discovery has detectors and no regressors."""

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate, candidates, span_of
+from stochfric_mb.discovery.driven_joint.decision.estimates import unit_at
 from stochfric_mb.discovery.driven_joint.decision.selection import MATERIAL, NAMED, SIZES, Selector
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.gains import effect_columns
@@ -103,6 +104,10 @@ class JointPlan:
         richer = dataclasses.replace(span, both_ways=True, load=load, temperature=(20.0, 10.0))
         missing = {c.kind for c in candidates(richer, fitted.model.effects)} - {c.kind for c in tried}
         return forms, {k: RICHER.get(effect_class(k).answers_to, "another motion") for k in effect_kinds() if k in missing}
+
+    def unit(self, straight: str) -> str:
+        """Return the unit of a parameter at this joint, its unit along a line given."""
+        return unit_at(straight, "N m" if self.scenario.mechanism.rotational else "N")
 
     @property
     def no_limit(self) -> tuple[str, ...]:

@@ -24,6 +24,8 @@ class Limit:
     """The detection limit."""
     beside: Mapping[str, float | str]
     """Other numbers that it belongs to [SI]."""
+    units_beside: Mapping[str, str]
+    """Units of those that are not words."""
     at_most: bool = False
     """Whether the limit is an upper bound."""
 

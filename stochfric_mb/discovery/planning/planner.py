@@ -14,6 +14,7 @@ from stochfric_mb.discovery.planning.joint_plan import JointPlan
 from stochfric_mb.discovery.planning.plan_result import ExtraRun, Limit, Pair, Plan
 from stochfric_mb.discovery.planning.planned_run import PlannedRun
 from stochfric_mb.discovery.planning.signature import Signature, best_of_each, confused_pairs
+from stochfric_mb.effects import effect_class
 from stochfric_mb.errors import InputError
 from stochfric_mb.mechanisms import BeltBox, HingePendulum, PrismaticJoint, SpringSlider
 from stochfric_mb.scenario import Scenario
@@ -75,13 +76,19 @@ def planned(
     best = now.best
     return Plan(
         runs=tuple(p.facts() for p in parts),
-        limits=tuple(Limit(k, s.parameter, s.unit, s.limit, dict(s.beside), s.at_most) for k, s in best.items()),
+        limits=tuple(_limit(rig, s) for s in best.values()),
         unseen=now.unseen,
         no_limit=tuple(k for k in rig.no_limit if k not in best and k not in now.unseen),
         pairs=tuple(Pair(*pair, multiple if math.isfinite(multiple) else None) for pair, multiple in pairs.items()),
         extra=tuple(sorted(further, key=lambda e: (-len(e.shows) - len(e.separates), e.limits))),
         notes=tuple(_notes(runs, parts)),
     )
+
+
+def _limit(rig: Any, best: Signature) -> Limit:
+    fields = effect_class(best.kind).__dataclass_fields__
+    units = {k: rig.unit(str(fields[k].metadata.get("unit", "-"))) for k, v in best.beside.items() if not isinstance(v, str)}
+    return Limit(best.kind, best.parameter, rig.unit(best.unit), best.limit, dict(best.beside), units, best.at_most)
 
 
 def _rig(scenario: Scenario[Any]) -> Any:

@@ -78,6 +78,22 @@ def test_limits_of_a_joint_shrink_with_quieter_sensors_and_longer_records(tmp_pa
     assert longer < 0.7 * plain  # four times the strokes: half, were the score that is needed the same
 
 
+def test_numbers_of_a_hinge_are_about_its_axis(tmp_path):
+    scenario = tmp_path / "hinge.toml"
+    scenario.write_text(
+        JOINT.replace("prismatic_joint", "hinge_pendulum")
+        .replace("mass = 95.0", "mass = 0.6\nlength = 0.3", 1)
+        .replace("932.0", "0.4")
+    )
+    out = tmp_path / "plan"
+    done = invoke("plan", scenario, "--run", "stroke=0.5,period=2,noise=1e-4,force_noise=1e-3", "--no-extra", "--out", out)
+    assert done.exit_code == 0, done.output
+    limits = {limit["kind"]: limit for limit in json.loads((out / "plan.json").read_text())["limits"]}
+    assert limits["viscous_friction"]["unit"] == "N m s/rad"
+    assert limits["frictional_lag"]["unit"] == "rad"
+    assert limits["velocity_weakening"]["units_beside"] == {"decay_velocity": "rad/s"}
+
+
 def test_a_file_of_planned_runs_says_the_same_as_the_options(tmp_path, joint):
     file = tmp_path / "runs.toml"
     file.write_text(

@@ -27,14 +27,18 @@ FACTORS = {
 """Correction of a named joint -> its name in the result, where the scenario's own numbers are tables of joints."""
 
 
+def unit_at(straight: str, unit_of_friction: str) -> str:
+    """Return the unit of a parameter at a place, its unit along a line and the unit of friction there [N or N m] given."""
+    return ROTATIONAL.get(straight, straight) if unit_of_friction == "N m" else straight
+
+
 def parameters(place: PlaceOutcome, owner: int) -> dict[str, Interval]:
     """Return the numbers of an effect of the final model at a place, its ``owner``-th, with their intervals."""
-    fit, rotates = place.selected.final, place.fit[0].unit == "N m"
+    fit = place.selected.final
     effect = fit.model.effects[owner]
     found: dict[str, Interval] = {}
     for field in dataclasses.fields(effect):
-        straight = str(field.metadata.get("unit", "-"))
-        unit = ROTATIONAL.get(straight, straight) if rotates else straight
+        unit = unit_at(str(field.metadata.get("unit", "-")), place.fit[0].unit)
         value = getattr(effect, field.name)
         if not isinstance(value, int | float) or not np.isfinite(value):
             continue
