@@ -158,8 +158,9 @@ def _measured(run: PlannedRun, joint: PrismaticJoint | HingePendulum, friction: 
 
 
 def _form(candidate: Candidate, effect: Effect, balances: Any, fitted: JointFit, kinds: int) -> Signature | None:
-    """Return one start of a candidate at its limit; None: the numbers of the believed model imitate it.
+    """Return one start of a candidate at its limit (infinite: no number is its size).
 
+    None: the numbers of the believed model imitate it.
     Its score is n ln(1 + x) less its cost, x the share of the mean square that it takes away over what stays; it must also
     lower the error by `MATERIAL`.
     """
@@ -181,7 +182,9 @@ def _form(candidate: Candidate, effect: Effect, balances: Any, fitted: JointFit,
     share = max(math.expm1(needed / n), 1.0 / (1.0 - MATERIAL) ** 2 - 1.0)
     strength = math.sqrt(share * len(columns) * fitted.rms**2 / size)
     numbers = {f.name: getattr(effect, f.name) for f in dataclasses.fields(effect)}
-    limit = abs(strength * numbers.pop(name))
+    of_size = numbers.pop(name)
+    # a form that is told by its shape alone, such as friction in proportion to what a joint transmits, has no size
+    limit = math.inf if name in effect.kept_at_joints(fitted.model.contact) else abs(strength * of_size)
     beside = {k: v for k, v in numbers.items() if v != effect.__dataclass_fields__[k].default and k not in effect.own_to_run}
     signal = change * math.sqrt(needed / size)
     return Signature(candidate.kind, name, effect.unit_of(name), limit, beside, (signal,), left)
