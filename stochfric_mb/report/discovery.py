@@ -8,7 +8,7 @@ from typing import Any
 from markupsafe import Markup
 
 from stochfric_mb.discovery.outcome import Outcome
-from stochfric_mb.effects import effect_class, effect_kinds
+from stochfric_mb.effects import effect_class, effect_kinds, words_of
 from stochfric_mb.report.comparison import UNITS
 from stochfric_mb.report.discovery_pictures import COLOURS, given
 from stochfric_mb.report.page import digits, render
@@ -88,7 +88,7 @@ def page(
         interval=interval,
         percent=percent,
         said=said,
-        words=words,
+        words=words_of,
         in_words=in_words,
         units=UNITS,
     )
@@ -130,14 +130,9 @@ def said(text: str) -> Markup:
     return Markup('<span class="said">{}</span>').format(text)
 
 
-def words(kind: str) -> str:
-    """Return the name of an effect as words."""
-    return kind.replace("_", " ")
-
-
 def in_words(kind: str) -> str:
     """Return what an effect does in the field's words, such as "friction differs between the two directions of sliding"."""
-    return (effect_class(kind).shows if kind in effect_kinds() else "") or words(kind)
+    return (effect_class(kind).shows if kind in effect_kinds() else "") or words_of(kind)
 
 
 def _scale(value: float | None, unit: str) -> tuple[float, str]:
