@@ -135,7 +135,7 @@ def test_break_away_angle_with_other_options(law, options):
     assert break_away_angle(law, FREE, options=options) == pytest.approx(LIMIT, abs=0.05)
 
 
-@pytest.mark.parametrize("law", [Coulomb(0.8, 0.46), ElasticStick(0.8, 0.46, e_lim=1e-5)])  # 1e-7: 38.5, see docs/mujoco.md
+@pytest.mark.parametrize("law", [Coulomb(0.8, 0.46), *(ElasticStick(0.8, 0.46, e_lim=e) for e in (1e-5, 1e-7))])
 @pytest.mark.parametrize("dt", [5e-4, 1e-3])
 def test_break_away_angle_at_smaller_steps(law, dt):
     assert break_away_angle(law, FREE, dt=dt) == pytest.approx(LIMIT, abs=0.05)
