@@ -158,6 +158,18 @@ def test_the_discrete_integrator_holds_and_breaks_away(law, dt):
     assert creep(law, 5.0, dt=dt, options=options) < 1e-12  # [m]; natively 0.4 mm at 2 ms
 
 
+@pytest.mark.parametrize("integrator", ["Euler", "discrete"])
+def test_havsin_creeps_at_its_own_speed(integrator):
+    """At the speed where HAVSIN has tan 20 degrees: mu_s/2 (1 - cos(pi v/v_s)). Slip ended at v_s only with discrete once."""
+    model, data = box(Havsin(0.8, 0.6), options=f'integrator="{integrator}" cone="elliptic"')
+    tilt(model, 20.0)
+    steps(model, data, 3.0)
+    start = data.qpos[0]
+    steps(model, data, 2.0)
+    speed = Havsin(0.8, 0.6).v_s / math.pi * math.acos(1.0 - 2.0 * math.tan(math.radians(20.0)) / 0.8)
+    assert (data.qpos[0] - start) / 2.0 == pytest.approx(speed, rel=1e-3)
+
+
 @pytest.mark.parametrize("dt", [1e-3, 5e-3])
 def test_the_discrete_integrator_does_not_lift_what_slides(dt):
     """MuJoCo's cones ask a sliding contact's normal row for more, which lifts it off: natively for 0.3 s of this slide."""

@@ -215,7 +215,8 @@ def switch(state, row, slot, old, speed, step_mobility):
     if old.slides == 0.0:
         breaks = old.loose != 0.0
         if old.saturated != 0.0 and not breaks and old.springs == 0.0:  # others hold the bodies: its force stays at the cap
-            put(z, 0.0, 0.0, 0.0)
+            part = old.since - slot.since
+            put(z, part / RIGID * v[0], part / RIGID * v[1], part / RIGID * v[2])
             move_along(header, slot, old.pull, old.compliance)
         if header.rest == s.CREEP:
             creep(state, row, slot, old)
@@ -227,7 +228,7 @@ def switch(state, row, slot, old, speed, step_mobility):
                 put(z, z[0] * limit / out, z[1] * limit / out, z[2] * limit / out)
         slot.slides = 1.0 if breaks or speed > stoppable else 0.0
     else:
-        fast = speed > header.peak_speed if header.rest == s.CREEP else old.saturated != 0.0
+        fast = old.saturated != 0.0 and (header.rest != s.CREEP or speed > header.peak_speed)
         slot.slides = 1.0 if fast or speed > stoppable else 0.0
         if slot.slides == 0.0:
             slot.events += 1.0
