@@ -18,7 +18,7 @@ import numpy as np
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco.contact import solver
 from stochfric_mb.mujoco.contact.kinematics import ordinal_of, side
-from stochfric_mb.mujoco.contact.rows import RIGID, is_sparse, rate_of
+from stochfric_mb.mujoco.contact.rows import is_sparse, rate_of
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import RUNGE_KUTTA, contact_at, data_at, model_at, record_view
@@ -114,7 +114,6 @@ def settle(model, data, state, kept):
             for j in range(3, dim):
                 others += (scale / size_of * row.jar[j] * row.friction[j - 1]) ** 2
         if header.solved != 0.0:
-            slot.compliance = m.timestep * m.timestep / (RIGID * row.mass[1])
             solver.settle(header, slot, row.frame, row.sign, normal, a, b, others, p, q, True, m.integrator != RUNGE_KUTTA)
         else:
             slot.normal = max(normal, 0.0)

@@ -214,10 +214,12 @@ def switch(state, row, slot, old, speed, step_mobility):
     z, v = slot.z, slot.w
     if old.slides == 0.0:
         breaks = old.loose != 0.0
-        if old.saturated != 0.0 and not breaks and old.springs == 0.0:  # others hold the bodies: its force stays at the cap
-            part = old.since - slot.since
-            put(z, part / RIGID * v[0], part / RIGID * v[1], part / RIGID * v[2])
-            move_along(header, slot, old.pull, old.compliance)
+        if old.saturated != 0.0 and not breaks:  # the other contacts hold the bodies: its force stays at the cap
+            if old.compliance > 0.0:
+                put(z, 0.0, 0.0, 0.0)
+                move_along(header, slot, old.pull, old.compliance)
+            else:
+                put(z, old.z[0], old.z[1], old.z[2])
         if header.rest == s.CREEP:
             creep(state, row, slot, old)
         elif old.springs != 0.0:
@@ -410,7 +412,8 @@ def learn(m, d, header, contact, sign, slot, accepted):
     for j in range(2, contact.dim - 1):
         others += (w.at(d.efc_force, first + 1 + j) / contact.friction[j]) ** 2
     p, q = 0.0, 0.0
-    slot.compliance = w.at(d.efc_R, first + 1) * m.timestep * m.timestep / RIGID
+    if m.integrator == DISCRETE:
+        slot.compliance = w.at(d.efc_R, first + 1) * m.timestep * m.timestep / RIGID
     if accepted:
         p, q = rate_of(m, d, first + 1, d.qacc), rate_of(m, d, first + 2, d.qacc)
     settle(header, slot, contact.frame, sign, normal, a, b, others, p, q, accepted, m.integrator != RUNGE_KUTTA)

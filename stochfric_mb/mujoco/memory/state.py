@@ -82,7 +82,7 @@ SLOT = _record(
     "foreseen", ("lead", 3),  # 1 if it was for a step; the acceleration over that step less the foreseen one [m/s^2]
     "creep",  # speed at which a law that creeps at rest has the force [m/s]
     "weight",  # its normal force over the mean of those between the two bodies
-    "compliance",  # deflection of a stuck contact over its force, where the law is rigid [m/N]
+    "compliance",  # with the discrete integrator, deflection of a stuck contact over its force [m/N]; otherwise 0
     "springs",  # 1 if it was held by the law's own spring in the step before
     ("pull", 3),  # friction force on the body in the step before [N], world axes
     ("on_body", 3), ("on_surface", 3),  # the contact point in the frames of the two bodies
