@@ -33,13 +33,16 @@ def discover(
     Raises:
         InputError: data or scenario that cannot be used; names file, key or row, rule and remedy.
     """
+    from threadpoolctl import threadpool_limits
+
     from stochfric_mb.discovery.stick_slip.workflow import discover_belt_box
     from stochfric_mb.measurement.dataset import Dataset, load_dataset
     from stochfric_mb.mechanisms import BeltBox
 
     data = dataset if isinstance(dataset, Dataset) else load_dataset(dataset, scenario)
-    if not isinstance(data.scenario.mechanism, BeltBox):
-        from stochfric_mb.discovery.driven_joint import joint_outcome
+    with threadpool_limits(1, user_api="blas"):  # thousands of small systems: a pool of threads waits longer than it works
+        if not isinstance(data.scenario.mechanism, BeltBox):
+            from stochfric_mb.discovery.driven_joint import joint_outcome
 
-        return joint_outcome(data, progress=progress)
-    return discover_belt_box(data, progress=progress)
+            return joint_outcome(data, progress=progress)
+        return discover_belt_box(data, progress=progress)
