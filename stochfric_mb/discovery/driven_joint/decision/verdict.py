@@ -96,8 +96,7 @@ def _delay(place: PlaceOutcome) -> list[Found]:
         f"The {first}{_at(place)} comes {1e3 * size.value:.1f} ms late in the record; this is compensated before friction is "
         "judged, and explains more than effects do without it."
     )
-    chance = float(np.exp(-0.5 * max(timing.score, 0.0)))
-    return [Found(kind_found_as(LATE), (), Where("time", text), {"delay": size}, timing.score, chance)]
+    return [Found(kind_found_as(LATE), (), Where("time", text), {"delay": size}, timing.score, None)]
 
 
 def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
@@ -140,7 +139,6 @@ def _released(place: PlaceOutcome) -> list[Found]:
             f"stated standard deviations. With it the error falls from {number.before:.4g} to {number.after:.4g} "
             f"{place.fit[0].unit} on the runs that were learned from."
         )
-        chance = float(np.exp(-0.5 * max(number.score, 0.0)))
         found.append(
             Found(
                 BEYOND.get(number.name) or kind_found_as(MORE_DAMPING),
@@ -148,7 +146,7 @@ def _released(place: PlaceOutcome) -> list[Found]:
                 Where("motion", text),
                 {number.name: size},
                 number.score,
-                chance,
+                None,
             )
         )
     return found

@@ -1,6 +1,6 @@
 """Hidden effects of driven joints. Importing the modules fills the table of forms."""
 
-from . import coupling, law, null, place, sensor, slider, time, unknown
+from . import coupling, law, null, place, sensor, slider, time, unknown, variants
 from .form import FORMS, Effect, Form, Record
 
 __all__ = [
@@ -16,4 +16,5 @@ __all__ = [
     "slider",
     "time",
     "unknown",
+    "variants",
 ]

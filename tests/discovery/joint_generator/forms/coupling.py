@@ -28,9 +28,9 @@ def gear_power(rng: Generator, strength: float, bench: Bench) -> Effect:
     )
 
 
-@form("load_dependence", on=HINGES)
+@form("load_dependence", also=("position_dependent_friction",), on=HINGES)
 def held_weight(rng: Generator, strength: float, bench: Bench) -> Effect:
-    """A worm that rubs by the weight that it holds, not by what accelerates it."""
+    """A worm that rubs by the weight that it holds, not by what accelerates it: a friction that the place alone decides."""
     share = 0.3 * strength * rng.uniform(0.8, 1.2)
     return Effect({"share": share}, alter=lambda plant, _: plant.with_extra(hold_share=share))
 

@@ -13,7 +13,8 @@ def positions(record: Record) -> list[str]:
     return [name for name in record if name.startswith("position") or "angle" in name]
 
 
-def _late(x: Array, time: Array, delay: float) -> Array:
+def late(x: Array, time: Array, delay: float) -> Array:
+    """A signal that comes `delay` late."""
     return np.interp(time - delay, time, x)
 
 
@@ -25,7 +26,7 @@ def pure_delay(rng: Generator, strength: float, bench: Bench) -> Effect:
     def measure(record: Record, rng: Generator) -> Record:
         del rng
         t = record["time [s]"]
-        return record | {name: _late(record[name], t, delay) for name in positions(record)}
+        return record | {name: late(record[name], t, delay) for name in positions(record)}
 
     return Effect({"delay": delay}, measure=measure)
 
@@ -56,7 +57,7 @@ def one_late_encoder(rng: Generator, strength: float, bench: Bench) -> Effect:
     def measure(record: Record, rng: Generator) -> Record:
         del rng
         name = positions(record)[which]
-        return record | {name: _late(record[name], record["time [s]"], delay)}
+        return record | {name: late(record[name], record["time [s]"], delay)}
 
     return Effect({"delay": delay, "which": float(which)}, measure=measure)
 
