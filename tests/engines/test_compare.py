@@ -118,7 +118,8 @@ def test_every_run_is_announced():
         return lambda t: reached.__setitem__(name, t)
 
     compare.compare(table1("elastic_stick", 0.3), engines=ENGINES, stage=stage, convergence=False)
-    assert announced == [("reference", 0.3), *((name, 0.3) for name in ENGINES)]
+    assert announced[0] == ("reference", 0.3)
+    assert sorted(announced[1:]) == sorted((name, 0.3) for name in ENGINES)  # MuJoCo compiles meanwhile and runs last
     assert all(0.0 < t <= 0.3 + 1e-9 for t in reached.values())
 
 

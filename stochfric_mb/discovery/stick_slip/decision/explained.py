@@ -54,7 +54,8 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
         "before": before * unit, "after": after * unit, "floor": floor * unit, "share": share
     }  # fmt: skip
     why = f"comes closest, but explains only {max(share, 0.0):.0%} of what the runs show"
-    return None if _in_shape(decision) or share >= _least_share(augmented, kinds) else taken_back(decision, why)
+    enough = criteria.CLOSES_NOTHING if _in_shape(decision) else _least_share(augmented, kinds)
+    return None if share >= enough else taken_back(decision, why)
 
 
 def _in_shape(decision: Decision) -> bool:
