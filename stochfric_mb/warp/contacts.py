@@ -111,6 +111,7 @@ def recalled(slots: Slots, old: int, w: int, i: int, now: Now):
     touch.mu_s = slots.mu_s[old, w, i]
     touch.mu_k = slots.mu_k[old, w, i]
     touch.creep = slots.creep[old, w, i]
+    touch.springs = slots.springs[old, w, i]
     touch.events = slots.events[old, w, i]
     moved = now.h * wp.dot(now.direction, now.v[0] * now.axis_1 + now.v[1] * now.axis_2)
     touch.path = slots.path[old, w, i] + wp.float64(float(now.side) * moved)
@@ -143,6 +144,7 @@ def keep(slots: Slots, new: int, w: int, k: int, now: Now, touch: Touch):
     slots.drift[new, w, k] = touch.drift[0] * now.axis_1 + touch.drift[1] * now.axis_2
     slots.velocity[new, w, k] = now.v[0] * now.axis_1 + now.v[1] * now.axis_2
     slots.creep[new, w, k] = touch.creep
+    slots.springs[new, w, k] = touch.springs
     slots.path[new, w, k] = touch.path
     slots.events[new, w, k] = touch.events
     slots.mode[new, w, k] = touch.mode

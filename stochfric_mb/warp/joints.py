@@ -40,6 +40,7 @@ def recalled(rows: Rows, old: int, w: int, moved: float, load: float):
         touch.drift = wp.vec2(rows.drift[old, w], 0.0)
     touch.pull = wp.vec2(rows.force[old, w], 0.0)
     touch.creep = rows.creep[old, w]
+    touch.springs = rows.springs[old, w]
     touch.events = rows.events[old, w]
     touch.path = rows.path[old, w] - wp.float64(moved)
     touch.mu_s = rows.mu_s[old, w]
@@ -54,6 +55,7 @@ def keep(rows: Rows, new: int, w: int, cap: float, touch: Touch):
     rows.force[new, w] = 0.0
     rows.drift[new, w] = touch.drift[0]
     rows.creep[new, w] = touch.creep
+    rows.springs[new, w] = touch.springs
     rows.events[new, w] = touch.events
     rows.path[new, w] = touch.path
     rows.mu_s[new, w] = touch.mu_s
@@ -143,7 +145,10 @@ def hold_kernel(kind: str, clock: float) -> Any:
         cap = wp.float32(0.0)
         reference[w, row] = -v[0] / h
         if touch.mode == STICK:
-            total, stiffness, cap_at_rest = stuck_row(touch, 1.0 / mass[w, row], h, peak, felt, worlds.parameters[w])
+            total, stiffness, cap_at_rest, springs = stuck_row(
+                touch, 1.0 / mass[w, row], h, peak, felt, worlds.parameters[w]
+            )  # fmt: skip
+            touch.springs = springs
             cap = cap_at_rest
             mass[w, row] = 1.0 / total
             reference[w, row] = -v[0] / h - stiffness * touch.drift[0]

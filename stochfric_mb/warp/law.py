@@ -55,6 +55,8 @@ class Touch:
     """Displacement along the contact's direction since it began [m]."""
     acceleration: wp.vec2
     """In the step before [m/s^2]."""
+    springs: int
+    """Whether, stuck, it is the spring of an elastic law; 0 where the law is rigid or a step cannot follow its spring."""
     cap: float
     """Coefficient of friction that the solver is allowed [-]."""
     scale: float
@@ -154,7 +156,7 @@ def _rigid(kind: str) -> tuple[Any, Any]:
 
     @wp.func
     def stuck_row(touch: Touch, resistance: float, h: float, peak: float, felt: float, p: wp.array[float]):
-        return resistance, RIGID / (h * h), touch.mu_s
+        return resistance, RIGID / (h * h), touch.mu_s, 0
 
     return decide, stuck_row
 
@@ -174,7 +176,9 @@ def _elastic(kind: str) -> tuple[Any, Any]:
             if saturated == 0 or loose == 1:
                 touch.drift = touch.drift + h * v
             out = wp.length(touch.drift)
-            if loose == 1 and out >= limit and wp.dot(touch.drift, v) > 0.0:
+            if touch.springs == 0:  # a step cannot follow the spring: as a rigid law
+                touch.mode = wp.where(loose == 1, SLIP, STICK)
+            elif loose == 1 and out >= limit and wp.dot(touch.drift, v) > 0.0:
                 touch.mode = SLIP
             elif saturated == 1 and out > limit:
                 touch.drift = touch.drift * (limit / out)
@@ -191,10 +195,9 @@ def _elastic(kind: str) -> tuple[Any, Any]:
         stiffness, damping, _limit = spring(touch.load, felt, touch.mu_s, p)
         if stiffness > 0.0:
             total, own = spring_of(resistance, stiffness, damping, h)
-            if own * h * h > 1.0:  # a spring that a step cannot follow: rigid
-                own = RIGID / (h * h)
-            return total, own, touch.mu_s
-        return resistance, RIGID / (h * h), touch.mu_s
+            if own * h * h <= 1.0:  # a step would not take back more than all of the deflection
+                return total, own, touch.mu_s, 1
+        return resistance, RIGID / (h * h), touch.mu_s, 0
 
     return decide, stuck_row
 
@@ -229,7 +232,7 @@ def _creeping(kind: str) -> tuple[Any, Any]:
         total = resistance
         if force > 0.0:
             total += touch.creep / (h * force)
-        return total, RIGID / (h * h), slide(peak, touch.mu_s, touch.mu_k, p)
+        return total, RIGID / (h * h), slide(peak, touch.mu_s, touch.mu_k, p), 0
 
     return decide, stuck_row
 

@@ -128,7 +128,8 @@ def hold_rule(kind: str) -> Any:
         mass: wp.array2d[float], reference: wp.array2d[float], jacobian: wp.array3d[float],
     ):  # fmt: skip
         resistance = 1.0 / mass[now.w, now.row + 1]
-        total, stiffness, cap = stuck_row(touch, resistance, now.h, now.peak, felt_mass(now.mobility), p)
+        total, stiffness, cap, springs = stuck_row(touch, resistance, now.h, now.peak, felt_mass(now.mobility), p)
+        touch.springs = springs
         touch.cap = wp.max(cap, LEAST_FRICTION)
         touch.scale = wp.max(wp.sqrt(resistance / total), SOFTEST)
         asked = touch.scale * (-now.v / now.h - stiffness * touch.drift)

@@ -91,6 +91,8 @@ class Slots:
     """Relative velocity at the step's start [m/s], likewise."""
     creep: wp.array3d[float]
     """Speed at which a law that creeps at rest has the force at hand [m/s]."""
+    springs: wp.array3d[int]
+    """Whether, stuck, it is the spring of an elastic law."""
     path: wp.array3d[wp.float64]
     """Displacement along the contact's direction since it began [m]."""
     events: wp.array3d[int]
@@ -115,6 +117,8 @@ class Rows:
     """Displacement since it stuck [m or rad]."""
     creep: wp.array2d[float]
     """Speed at which a law that creeps at rest has the force at hand [m/s or rad/s]."""
+    springs: wp.array2d[int]
+    """Whether, stuck, it is the spring of an elastic law."""
     path: wp.array2d[wp.float64]
     """Displacement since the world began [m or rad]."""
     mu_s: wp.array2d[float]

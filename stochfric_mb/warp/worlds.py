@@ -50,7 +50,7 @@ def slot_arrays(nworld: int, n: int, *, own_paths: bool) -> Any:
         setattr(slots, name, wp.zeros(shape, dtype=wp.vec2i))
     for name in ("axis_1", "axis_2", "place", "pull", "drift", "velocity"):
         setattr(slots, name, wp.zeros(shape, dtype=wp.vec3))
-    for name in ("side", "saturated", "loose", "events", "mode"):
+    for name in ("side", "saturated", "loose", "events", "mode", "springs"):
         setattr(slots, name, wp.zeros(shape, dtype=int))
     for name in ("scale", "mu_s", "mu_k", "normal", "creep"):
         setattr(slots, name, wp.zeros(shape, dtype=float))
@@ -64,8 +64,8 @@ def row_arrays(nworld: int) -> Any:
     """Return the empty `Rows` of a joint or tendon."""
     rows: Any = Rows()
     rows.row = wp.full((2, nworld), -1, dtype=int)
-    rows.mode = wp.zeros((2, nworld), dtype=int)
-    rows.events = wp.zeros((2, nworld), dtype=int)
+    for name in ("mode", "events", "springs"):
+        setattr(rows, name, wp.zeros((2, nworld), dtype=int))
     rows.path = wp.zeros((2, nworld), dtype=wp.float64)
     for name in ("cap", "force", "drift", "creep", "mu_s", "mu_k"):
         setattr(rows, name, wp.zeros((2, nworld), dtype=float))
