@@ -201,7 +201,8 @@ def _verdict(effects: Sequence[Found], where: Where | None) -> Literal["effect",
 def unexplained(tracks: Sequence[Track], closest: Fitted) -> Where | None:
     """Return where friction disagrees with the law that comes closest, if it leaves more than another form would; else None.
 
-    Noise is what third differences show; what is left beyond it must not be the larger part of friction's own changes.
+    Noise is what third differences show; what is left beyond it must not be the larger part of friction's own changes. Of what
+    a law of sliding leaves only that counts which goes along an axis: rock has slow scatter of its own.
 
     Args:
         tracks: the runs that were learned from.
@@ -211,13 +212,16 @@ def unexplained(tracks: Sequence[Track], closest: Fitted) -> Where | None:
     left = sum(float(r @ r) for r in closest.rest) - noise
     middle = float(np.mean(np.concatenate([t.friction for t in tracks])))
     changes = sum(float(np.sum((t.friction - middle) ** 2)) for t in tracks) - noise
-    if left <= (1.0 - criteria.EXPLAINED) * changes or changes <= criteria.NONE_MISSES * noise:
+    if changes <= criteria.NONE_MISSES * noise:
         return None
     speed, slid, run = ([getattr(t, name) for t in tracks] for name in ("speed", "slid", "run"))
     places = {"speed": speed, "displacement": slid, "time": [r.time for r in run]}
     rest = np.concatenate(closest.rest)
     shares = {axis: _share_along(np.concatenate(place), rest) for axis, place in places.items()}
     axis = max(shares, key=lambda a: shares[a])
+    told = left * (shares[axis] if closest.law.kind else 1.0)
+    if told <= (1.0 - criteria.EXPLAINED) * changes:
+        return None
     law = closest.law.kind or "constant friction"
     return Where(
         axis,
