@@ -6,6 +6,7 @@ constraint model). Its force in slip is bounded by a friction cone (contacts, el
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
 # pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# pyright: reportAttributeAccessIssue=false
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
