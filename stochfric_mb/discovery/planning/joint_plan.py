@@ -182,6 +182,8 @@ def _form(candidate: Candidate, effect: Effect, balances: Any, fitted: JointFit,
     share = max(math.expm1(needed / n), 1.0 / (1.0 - MATERIAL) ** 2 - 1.0)
     strength = math.sqrt(share * len(columns) * fitted.rms**2 / size)
     numbers = {f.name: getattr(effect, f.name) for f in dataclasses.fields(effect)}
+    # overtones are in proportion to it
+    numbers = {k: strength * v if k.startswith(name) and k != name else v for k, v in numbers.items()}
     of_size = numbers.pop(name)
     # a form that is told by its shape alone, such as friction in proportion to what a joint transmits, has no size
     limit = math.inf if name in effect.kept_at_joints(fitted.model.contact) else abs(strength * of_size)

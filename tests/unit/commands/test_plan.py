@@ -94,6 +94,10 @@ def test_numbers_of_a_hinge_are_about_its_axis(tmp_path):
     assert limits["viscous_friction"]["unit"] == "N m s/rad"
     assert limits["frictional_lag"]["unit"] == "rad"
     assert limits["velocity_weakening"]["units_beside"] == {"decay_velocity": "rad/s"}
+    assert limits["distance_drift"]["unit"] == "1/rad"
+    wave = limits["position_dependent_force"]
+    # an overtone that a form has is a half of the wave, at the limit, too
+    assert wave["beside"].get("amplitude_2", 0.5 * wave["value"]) == pytest.approx(0.5 * wave["value"])
 
 
 def test_a_file_of_planned_runs_says_the_same_as_the_options(tmp_path, joint):
