@@ -6,12 +6,14 @@ and it comes back in the next run. Reference: C. de Boor, A Practical Guide to S
 
 from __future__ import annotations
 
+import dataclasses
 import functools
+import math
 from typing import Any
 
 import numpy as np
 
-from stochfric_mb.effects.contract import Array, parameter
+from stochfric_mb.effects.contract import Array, Effect, parameter
 
 PIECES = 16
 """Pieces of the course between its beginning and its end."""
@@ -21,11 +23,58 @@ COARSER = (4, 8, PIECES)
 """Pieces of the courses that are looked for; each course is a finer one, too."""
 
 
-def shape(number: int) -> Any:
+def _weight(number: int) -> Any:
     """Return the field of one number of a course's shape: no fit moves it, a fit moves the size."""
     return parameter(
         "-", f"weight of spline {number} of {PIECES + 2} in the course", scale=1.0, default=0.0, fit_prior=0.0, optional=True
     )
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Course(Effect):
+    """An effect that may follow a course of any smooth shape; ``change``, its size, is the effect's own."""
+
+    span: float = parameter(
+        "s", "time over which the course runs", scale=30.0, low=0.0, strict=True, infinite=True, default=math.inf,
+        fit_prior=0.0, optional=True,
+    )  # fmt: skip
+    """Time over which the course runs [s]; nothing changes after it."""
+    course_1: float = _weight(1)
+    """Weight of the first spline in the course [-]."""
+    course_2: float = _weight(2)
+    """Weight of the second spline in the course [-]."""
+    course_3: float = _weight(3)
+    """Weight of the third spline in the course [-]."""
+    course_4: float = _weight(4)
+    """Weight of the 4th spline in the course [-]."""
+    course_5: float = _weight(5)
+    """Weight of the 5th spline in the course [-]."""
+    course_6: float = _weight(6)
+    """Weight of the 6th spline in the course [-]."""
+    course_7: float = _weight(7)
+    """Weight of the 7th spline in the course [-]."""
+    course_8: float = _weight(8)
+    """Weight of the 8th spline in the course [-]."""
+    course_9: float = _weight(9)
+    """Weight of the 9th spline in the course [-]."""
+    course_10: float = _weight(10)
+    """Weight of the 10th spline in the course [-]."""
+    course_11: float = _weight(11)
+    """Weight of the 11th spline in the course [-]."""
+    course_12: float = _weight(12)
+    """Weight of the 12th spline in the course [-]."""
+    course_13: float = _weight(13)
+    """Weight of the 13th spline in the course [-]."""
+    course_14: float = _weight(14)
+    """Weight of the 14th spline in the course [-]."""
+    course_15: float = _weight(15)
+    """Weight of the 15th spline in the course [-]."""
+    course_16: float = _weight(16)
+    """Weight of the 16th spline in the course [-]."""
+    course_17: float = _weight(17)
+    """Weight of the 17th spline in the course [-]."""
+    course_18: float = _weight(18)
+    """Weight of the 18th spline in the course [-]."""
 
 
 def splines(place: Array, pieces: int) -> Array:

@@ -12,8 +12,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import MU_K, MU_S, TIME, Array, Effect, parameter
-from stochfric_mb.effects.course import COARSER, shape, sized, splines
+from stochfric_mb.effects.contract import MU_K, MU_S, TIME, Array, parameter
+from stochfric_mb.effects.course import COARSER, Course, sized, splines
 from stochfric_mb.effects.joints import JointSignature, JointSpan
 from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, Hypothesis, Slips, apart
 from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, SLOPE_IN_DISTANCE, WANDERS_ALIKE
@@ -23,7 +23,7 @@ SHARES = (1.0, 0.0, 0.5, 2.0)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class FrictionDrift(Effect):
+class FrictionDrift(Course):
     """mu_k (and mu_s, by its share) times 1 + rate tau (1 - exp(-t/tau)) + change s(t/span), tau = time_constant.
 
     1 + rate t for an infinite time constant; s is a sum of cubic B-splines, so that the course may have any smooth shape.
@@ -41,47 +41,6 @@ class FrictionDrift(Effect):
     """Share of the change that mu_s takes [-]: 1, both coefficients alike; 0, mu_k alone."""
     change: float = parameter("-", "relative size of a course of any shape", scale=0.03, default=0.0, optional=True)
     """Relative size of a course of any shape [-]."""
-    span: float = parameter(
-        "s", "time over which the course runs", scale=30.0, low=0.0, strict=True, infinite=True, default=math.inf,
-        fit_prior=0.0, optional=True,
-    )  # fmt: skip
-    """Time over which the course runs [s]; friction stays as it is after it."""
-    course_1: float = shape(1)
-    """Weight of the first spline in the course [-]."""
-    course_2: float = shape(2)
-    """Weight of the second spline in the course [-]."""
-    course_3: float = shape(3)
-    """Weight of the third spline in the course [-]."""
-    course_4: float = shape(4)
-    """Weight of the 4th spline in the course [-]."""
-    course_5: float = shape(5)
-    """Weight of the 5th spline in the course [-]."""
-    course_6: float = shape(6)
-    """Weight of the 6th spline in the course [-]."""
-    course_7: float = shape(7)
-    """Weight of the 7th spline in the course [-]."""
-    course_8: float = shape(8)
-    """Weight of the 8th spline in the course [-]."""
-    course_9: float = shape(9)
-    """Weight of the 9th spline in the course [-]."""
-    course_10: float = shape(10)
-    """Weight of the 10th spline in the course [-]."""
-    course_11: float = shape(11)
-    """Weight of the 11th spline in the course [-]."""
-    course_12: float = shape(12)
-    """Weight of the 12th spline in the course [-]."""
-    course_13: float = shape(13)
-    """Weight of the 13th spline in the course [-]."""
-    course_14: float = shape(14)
-    """Weight of the 14th spline in the course [-]."""
-    course_15: float = shape(15)
-    """Weight of the 15th spline in the course [-]."""
-    course_16: float = shape(16)
-    """Weight of the 16th spline in the course [-]."""
-    course_17: float = shape(17)
-    """Weight of the 17th spline in the course [-]."""
-    course_18: float = shape(18)
-    """Weight of the 18th spline in the course [-]."""
 
     kind: ClassVar[str] = "friction_drift"
     equation: ClassVar[str] = (
@@ -133,15 +92,16 @@ def _course(slips: Slips, pieces: int, share: float) -> Hypothesis:
 
 def friction(world, memory, rates, p):
     """Multiply both coefficients by the drift."""
-    grown = p[0] * (world[TIME] if p[1] > 1.0e300 else -p[1] * math.expm1(-world[TIME] / p[1]))
-    if p[3] != 0.0:
-        place = 16.0 * min(max(world[TIME] / p[4], 0.0), 1.0)
+    span, rate, settled, share, change = p[0], p[19], p[20], p[21], p[22]
+    grown = rate * (world[TIME] if settled > 1.0e300 else -settled * math.expm1(-world[TIME] / settled))
+    if change != 0.0:
+        place = 16.0 * min(max(world[TIME] / span, 0.0), 1.0)
         for k in range(18):
             away = abs(place - k)
             if away < 1.0:
-                grown += p[3] * p[5 + k] * (2.0 / 3.0 - away * away * (1.0 - away / 2.0))
+                grown += change * p[1 + k] * (2.0 / 3.0 - away * away * (1.0 - away / 2.0))
             elif away < 2.0:
-                grown += p[3] * p[5 + k] * (2.0 - away) * (2.0 - away) * (2.0 - away) / 6.0
-        grown -= p[3] * (2.0 / 3.0 * p[5] + p[6] / 6.0)  # what the splines are at the begin
-    world[MU_S] *= 1.0 + p[2] * grown
+                grown += change * p[1 + k] * (2.0 - away) * (2.0 - away) * (2.0 - away) / 6.0
+        grown -= change * (2.0 / 3.0 * p[1] + p[2] / 6.0)  # what the splines are at the begin
+    world[MU_S] *= 1.0 + share * grown
     world[MU_K] *= 1.0 + grown

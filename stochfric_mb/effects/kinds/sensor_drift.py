@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import Array, Effect, parameter
-from stochfric_mb.effects.course import COARSER, COURSE, PIECES, shape, sized, splines
+from stochfric_mb.effects.contract import Array, parameter
+from stochfric_mb.effects.course import COARSER, COURSE, PIECES, Course, sized, splines
 from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, Hypothesis, Slips
 from stochfric_mb.effects.traits import COURSE_OF_RUN, CREEPING_ZERO, DRIFTS, MOVES_ZERO
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class SensorDrift(Effect):
+class SensorDrift(Course):
     """Reading x + rate t + change s(t/span), s a sum of cubic B-splines, so that the zero may move along any smooth course.
 
     Reference: J. Fraden, Handbook of Modern Sensors, 5th ed., Springer 2016, chapter 3.
@@ -26,47 +25,6 @@ class SensorDrift(Effect):
     """Rate of the drift [m/s]."""
     change: float = parameter("m", "size of a course of any shape", scale=1.0e-5, default=0.0, optional=True)
     """Size of a course of any shape [m]."""
-    span: float = parameter(
-        "s", "time over which the course runs", scale=30.0, low=0.0, strict=True, infinite=True, default=math.inf,
-        fit_prior=0.0, optional=True,
-    )  # fmt: skip
-    """Time over which the course runs [s]; the zero stays where it is after it."""
-    course_1: float = shape(1)
-    """Weight of the first spline in the course [-]."""
-    course_2: float = shape(2)
-    """Weight of the second spline in the course [-]."""
-    course_3: float = shape(3)
-    """Weight of the third spline in the course [-]."""
-    course_4: float = shape(4)
-    """Weight of the 4th spline in the course [-]."""
-    course_5: float = shape(5)
-    """Weight of the 5th spline in the course [-]."""
-    course_6: float = shape(6)
-    """Weight of the 6th spline in the course [-]."""
-    course_7: float = shape(7)
-    """Weight of the 7th spline in the course [-]."""
-    course_8: float = shape(8)
-    """Weight of the 8th spline in the course [-]."""
-    course_9: float = shape(9)
-    """Weight of the 9th spline in the course [-]."""
-    course_10: float = shape(10)
-    """Weight of the 10th spline in the course [-]."""
-    course_11: float = shape(11)
-    """Weight of the 11th spline in the course [-]."""
-    course_12: float = shape(12)
-    """Weight of the 12th spline in the course [-]."""
-    course_13: float = shape(13)
-    """Weight of the 13th spline in the course [-]."""
-    course_14: float = shape(14)
-    """Weight of the 14th spline in the course [-]."""
-    course_15: float = shape(15)
-    """Weight of the 15th spline in the course [-]."""
-    course_16: float = shape(16)
-    """Weight of the 16th spline in the course [-]."""
-    course_17: float = shape(17)
-    """Weight of the 17th spline in the course [-]."""
-    course_18: float = shape(18)
-    """Weight of the 18th spline in the course [-]."""
 
     kind: ClassVar[str] = "sensor_drift"
     equation: ClassVar[str] = "reading x + rate t + change s(t/span), s of splines"
