@@ -36,12 +36,12 @@ SLIDING_SHARE = wp.constant(solver.SLIDING_SHARE)
 @wp.func
 def found_force(force: wp.array2d[float], w: int, slots: Slots, old: int, i: int):
     """Write what the solver found for a slot: its forces, and whether friction reached its cap."""
-    rows = slots.rows[old, w, i]
-    friction = slots.friction[old, w, i]
+    rows = slots.rows[old, i, w]
+    friction = slots.friction[old, i, w]
     normal = wp.max(force[w, rows[0]], 0.0)
-    pull = slots.scale[old, w, i] * wp.vec2(force[w, rows[0] + 1], force[w, rows[0] + 2])
-    slots.normal[old, w, i] = normal
-    slots.pull[old, w, i] = pull[0] * slots.axis_1[old, w, i] + pull[1] * slots.axis_2[old, w, i]
+    pull = slots.scale[old, i, w] * wp.vec2(force[w, rows[0] + 1], force[w, rows[0] + 2])
+    slots.normal[old, i, w] = normal
+    slots.pull[old, i, w] = pull[0] * slots.axis_1[old, i, w] + pull[1] * slots.axis_2[old, i, w]
     total = wp.float32(0.0)
     sliding = wp.float32(0.0)
     for j in range(1, rows[1]):
@@ -50,7 +50,7 @@ def found_force(force: wp.array2d[float], w: int, slots: Slots, old: int, i: int
         if j == 2:
             sliding = total
     full = normal > 0.0 and wp.sqrt(total) >= SATURATED * normal and wp.sqrt(sliding) >= SLIDING_SHARE * normal
-    slots.saturated[old, w, i] = wp.where(full, 1, 0)
+    slots.saturated[old, i, w] = wp.where(full, 1, 0)
 
 
 @wp.kernel(module="unique", enable_backward=False)
@@ -63,15 +63,15 @@ def learn(force: wp.array2d[float], body: wp.array[int], worlds: Worlds, slots: 
     for i in range(slots.used[old, w]):
         found_force(force, w, slots, old, i)
     for i in range(slots.used[old, w]):
-        loose = slots.saturated[old, w, i]
+        loose = slots.saturated[old, i, w]
         if loose == 1:
-            its = slots.geoms[old, w, i]
+            its = slots.geoms[old, i, w]
             for j in range(slots.used[old, w]):
-                other = slots.geoms[old, w, j]
+                other = slots.geoms[old, j, w]
                 same = body[other[0]] == body[its[0]] and body[other[1]] == body[its[1]]
-                if same and slots.saturated[old, w, j] == 0 and slots.normal[old, w, j] > 0.0:
+                if same and slots.saturated[old, j, w] == 0 and slots.normal[old, j, w] > 0.0:
                     loose = 0
-        slots.loose[old, w, i] = loose
+        slots.loose[old, i, w] = loose
 
 
 @wp.func
@@ -80,9 +80,9 @@ def nearest_slot(slots: Slots, old: int, w: int, geoms: wp.vec2i, place: wp.vec3
     best = wp.int32(-1)
     least = wp.float32(1.0e30)
     for i in range(slots.used[old, w]):
-        its = slots.geoms[old, w, i]
+        its = slots.geoms[old, i, w]
         if its[0] == geoms[0] and its[1] == geoms[1]:
-            distance = wp.length_sq(slots.place[old, w, i] - place)
+            distance = wp.length_sq(slots.place[old, i, w] - place)
             if distance < least:
                 least = distance
                 best = i
@@ -102,19 +102,19 @@ def born(now: Now, still: float, origin: wp.float64):
 def recalled(slots: Slots, old: int, w: int, i: int, now: Now):
     """Return a contact that had slot ``i``, before its law decides whether it sticks."""
     touch = Touch()
-    touch.mode = slots.mode[old, w, i]
-    touch.load = slots.normal[old, w, i]
-    touch.pull = on_axes(now, slots.pull[old, w, i])
+    touch.mode = slots.mode[old, i, w]
+    touch.load = slots.normal[old, i, w]
+    touch.pull = on_axes(now, slots.pull[old, i, w])
     if touch.mode == STICK:
-        touch.drift = on_axes(now, slots.drift[old, w, i])
-    touch.acceleration = (now.v - on_axes(now, slots.velocity[old, w, i])) / now.h
-    touch.mu_s = slots.mu_s[old, w, i]
-    touch.mu_k = slots.mu_k[old, w, i]
-    touch.creep = slots.creep[old, w, i]
-    touch.springs = slots.springs[old, w, i]
-    touch.events = slots.events[old, w, i]
+        touch.drift = on_axes(now, slots.drift[old, i, w])
+    touch.acceleration = (now.v - on_axes(now, slots.velocity[old, i, w])) / now.h
+    touch.mu_s = slots.mu_s[old, i, w]
+    touch.mu_k = slots.mu_k[old, i, w]
+    touch.creep = slots.creep[old, i, w]
+    touch.springs = slots.springs[old, i, w]
+    touch.events = slots.events[old, i, w]
     moved = now.h * wp.dot(now.direction, now.v[0] * now.axis_1 + now.v[1] * now.axis_2)
-    touch.path = slots.path[old, w, i] + wp.float64(float(now.side) * moved)
+    touch.path = slots.path[old, i, w] + wp.float64(float(now.side) * moved)
     return touch
 
 
@@ -122,7 +122,7 @@ def recalled(slots: Slots, old: int, w: int, i: int, now: Now):
 def reserve(worlds: Worlds, slots: Slots, new: int, w: int):
     """Return the next free slot of a world, -1 if there is none."""
     k = wp.atomic_add(slots.used, new, w, 1)
-    if k < slots.geoms.shape[2]:
+    if k < slots.geoms.shape[1]:
         return k
     wp.atomic_sub(slots.used, new, w, 1)
     wp.atomic_add(worlds.overflow, w, 1)
@@ -132,22 +132,22 @@ def reserve(worlds: Worlds, slots: Slots, new: int, w: int):
 @wp.func
 def keep(slots: Slots, new: int, w: int, k: int, now: Now, touch: Touch):
     """Write a contact into its slot."""
-    slots.axis_1[new, w, k] = now.axis_1
-    slots.axis_2[new, w, k] = now.axis_2
-    slots.side[new, w, k] = now.side
-    slots.scale[new, w, k] = touch.scale
-    slots.mu_s[new, w, k] = touch.mu_s
-    slots.mu_k[new, w, k] = touch.mu_k
-    slots.normal[new, w, k] = 0.0
-    slots.saturated[new, w, k] = 0
-    slots.loose[new, w, k] = 0
-    slots.drift[new, w, k] = touch.drift[0] * now.axis_1 + touch.drift[1] * now.axis_2
-    slots.velocity[new, w, k] = now.v[0] * now.axis_1 + now.v[1] * now.axis_2
-    slots.creep[new, w, k] = touch.creep
-    slots.springs[new, w, k] = touch.springs
-    slots.path[new, w, k] = touch.path
-    slots.events[new, w, k] = touch.events
-    slots.mode[new, w, k] = touch.mode
+    slots.axis_1[new, k, w] = now.axis_1
+    slots.axis_2[new, k, w] = now.axis_2
+    slots.side[new, k, w] = now.side
+    slots.scale[new, k, w] = touch.scale
+    slots.mu_s[new, k, w] = touch.mu_s
+    slots.mu_k[new, k, w] = touch.mu_k
+    slots.normal[new, k, w] = 0.0
+    slots.saturated[new, k, w] = 0
+    slots.loose[new, k, w] = 0
+    slots.drift[new, k, w] = touch.drift[0] * now.axis_1 + touch.drift[1] * now.axis_2
+    slots.velocity[new, k, w] = now.v[0] * now.axis_1 + now.v[1] * now.axis_2
+    slots.creep[new, k, w] = touch.creep
+    slots.springs[new, k, w] = touch.springs
+    slots.path[new, k, w] = touch.path
+    slots.events[new, k, w] = touch.events
+    slots.mode[new, k, w] = touch.mode
 
 
 @wp.func
@@ -220,7 +220,7 @@ def steer_kernel(kind: str, clock: float) -> Any:
                     wp.max(worlds.stick_speed[w], now.peak) + now.h * now.mobility * touch.mu_s * touch.load
                 )  # no contact sticks that friction could not stop within a step
                 touch = decide(
-                    touch, now.v, now.h, stoppable, now.peak, slots.saturated[old, w, i], slots.loose[old, w, i],
+                    touch, now.v, now.h, stoppable, now.peak, slots.saturated[old, i, w], slots.loose[old, i, w],
                     felt_mass(now.mobility), worlds.parameters[w],
                 )  # fmt: skip
                 if was != STICK and touch.mode == STICK:
@@ -234,10 +234,10 @@ def steer_kernel(kind: str, clock: float) -> Any:
                     touch, now, worlds.parameters[w], impratio[w % impratio.shape[0]], weight, mass, reference
                 )  # fmt: skip
             allow(friction, c, dim[c], now, touch, mass)
-            slots.geoms[new, w, k] = geoms
-            slots.rows[new, w, k] = wp.vec2i(now.row, dim[c])
-            slots.place[new, w, k] = place
-            slots.friction[new, w, k] = friction[c]
+            slots.geoms[new, k, w] = geoms
+            slots.rows[new, k, w] = wp.vec2i(now.row, dim[c])
+            slots.place[new, k, w] = place
+            slots.friction[new, k, w] = friction[c]
             keep(slots, new, w, k, now, touch)
 
     return steer
@@ -264,16 +264,16 @@ def observe(
     mu_k = wp.float32(0.0)
     if worlds.count[w] >= 0:
         for i in range(slots.used[now, w]):
-            row = slots.rows[now, w, i][0]
+            row = slots.rows[now, i, w][0]
             if force[w, row] > 0.0:
                 loaded += 1
                 pressing += force[w, row]
-                mu_s += force[w, row] * slots.mu_s[now, w, i]
-                mu_k += force[w, row] * slots.mu_k[now, w, i]
-                vector = force[w, row + 1] * slots.axis_1[now, w, i] + force[w, row + 2] * slots.axis_2[now, w, i]
+                mu_s += force[w, row] * slots.mu_s[now, i, w]
+                mu_k += force[w, row] * slots.mu_k[now, i, w]
+                vector = force[w, row + 1] * slots.axis_1[now, i, w] + force[w, row + 2] * slots.axis_2[now, i, w]
                 # rows push the contact's second geom
-                rubbing -= float(slots.side[now, w, i]) * slots.scale[now, w, i] * vector
-                if slots.mode[now, w, i] != STICK:
+                rubbing -= float(slots.side[now, i, w]) * slots.scale[now, i, w] * vector
+                if slots.mode[now, i, w] != STICK:
                     stuck = 0
     normal_force[w] = pressing
     friction_force[w] = rubbing

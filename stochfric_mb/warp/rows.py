@@ -105,9 +105,9 @@ def path_rule(clock: float) -> Any:
 
     @wp.func
     def own(touch: Touch, worlds: Worlds, slots: Slots, new: int, w: int, k: int, seed: wp.int64, contact: wp.int64):
-        slots.cursor[new, w, k, 0] = wp.float64(0.0)
+        slots.cursor[new, k, w, 0] = wp.float64(0.0)
         mu_s, mu_k = path(
-            worlds.descriptor[w], slots.cursor[new, w, k], seed, worlds.sample[w], contact, wp.float64(0.0), touch.path,
+            worlds.descriptor[w], slots.cursor[new, k, w], seed, worlds.sample[w], contact, wp.float64(0.0), touch.path,
             wp.float64(touch.events),
         )  # fmt: skip
         touch.mu_s = float(mu_s)

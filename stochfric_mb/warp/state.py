@@ -57,7 +57,10 @@ class Worlds:
 
 @wp.struct
 class Slots:
-    """Contacts, shape (2, nworld, n_slots); the set ``count % 2`` is the present one."""
+    """Contacts, shape (2, n_slots, nworld); the set ``count % 2`` is the present one.
+
+    Worlds lie side by side, so that slots which no world uses cost nothing.
+    """
 
     used: wp.array2d[int]
     """Number of slots in use, shape (2, nworld)."""

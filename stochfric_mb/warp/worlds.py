@@ -44,7 +44,7 @@ def world_arrays(friction: Friction, nworld: int, first_sample: int, *, new_path
 def slot_arrays(nworld: int, n: int, *, own_paths: bool) -> Any:
     """Return empty `Slots` for ``n`` contacts in each world; with ``own_paths``, each has its own place on the path."""
     slots: Any = Slots()
-    shape = (2, nworld, n)
+    shape = (2, n, nworld)
     slots.used = wp.zeros((2, nworld), dtype=int)
     for name in ("geoms", "rows"):
         setattr(slots, name, wp.zeros(shape, dtype=wp.vec2i))
