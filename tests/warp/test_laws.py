@@ -40,21 +40,6 @@ def test_a_box_creeps_at_the_speed_at_which_its_law_holds_it(kind):
     assert friction.stick.numpy().all()
 
 
-@pytest.mark.parametrize("dt", [0.001, 0.005])
-def test_a_havsin_box_breaks_away_at_atan_mu_s(dt):
-    model, m, d = box_on_plane(35.0, dt)
-    add_friction(model, m, d, ("box", "floor"), make_law("havsin", mu_s=0.8, mu_k=0.46))
-    run(m, d, 0.3, dt)
-    rate, angle = 5.0, 35.0
-    broke = np.full(d.nworld, np.nan)
-    while np.isnan(broke).any() and angle < 45.0:
-        angle += rate * dt
-        tilt(m, angle)
-        mjw.step(m, d)
-        broke[np.isnan(broke) & (d.qvel.numpy()[:, 0] > 1e-2)] = angle
-    assert np.abs(broke - math.degrees(math.atan(0.8))).max() < 0.2  # the limit
-
-
 def test_a_joint_creeps_at_the_speed_of_its_law():
     law, dt = make_law("havsin", mu_s=1.0, mu_k=0.6), 0.002
     model, m, d = slider(dt)
