@@ -11,8 +11,7 @@
 out acts on the body, along ``+v``.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

@@ -12,6 +12,10 @@ import numba
 import numpy as np
 
 from stochfric_mb.c.types import BOOL, DOUBLE, DUAL, INT, UNSIGNED, VOID, Array, Known, Scalar, Value, as_c, plain
+from stochfric_mb.coefficients import philox
+from stochfric_mb.effects.abi import call_effect
+from stochfric_mb.laws.abi import call_law
+from stochfric_mb.numerics.memory import as_doubles
 
 PRELUDE = """\
 #include <math.h>
@@ -112,14 +116,14 @@ _CONVERSIONS: dict[Any, Scalar] = {
 }  # fmt: skip
 
 _D, _I = DOUBLE, INT
-BY_NAME: dict[tuple[str, str], tuple[str, tuple[Scalar, ...], Any]] = {
-    ("stochfric_mb.coefficients.philox", "bits_of"): ("bits_of", (_D,), UNSIGNED),
-    ("stochfric_mb.coefficients.philox", "double_of"): ("double_of", (UNSIGNED,), DOUBLE),
-    ("stochfric_mb.effects.augmented_law", "_doubles"): ("doubles_at", (_I,), Array(DOUBLE, (None,))),
-    ("stochfric_mb.laws.abi", "call_law"): ("call_law", (_I, *[_D] * 11, *[_I] * 3), VOID),
-    ("stochfric_mb.effects.abi", "call_effect"): ("call_effect", (_I,) * 5, VOID),
+_INTRINSICS: dict[Any, tuple[str, tuple[Scalar, ...], Any]] = {
+    philox.bits_of: ("bits_of", (_D,), UNSIGNED),
+    philox.double_of: ("double_of", (UNSIGNED,), DOUBLE),
+    as_doubles: ("doubles_at", (_I,), Array(DOUBLE, (None,))),
+    call_law: ("call_law", (_I, *[_D] * 11, *[_I] * 3), VOID),
+    call_effect: ("call_effect", (_I,) * 5, VOID),
 }
-"""Intrinsics written for LLVM (module, name) -> their C name, arguments and result; the last two are dispatchers that
+"""Functions of LLVM instructions -> their C name, arguments and result; the last two are dispatchers that
 `stochfric_mb.c.dispatch` writes."""
 
 
@@ -174,11 +178,9 @@ def _hashable(function: Any) -> bool:
 
 def _named(function: Any, args: list[Value]) -> Value | None:
     """Return the call of an intrinsic."""
-    plain: Callable[..., Any] | None = getattr(function, "_defn", None)
-    key = (plain.__module__, plain.__name__) if plain is not None else ("", "")
-    if key not in BY_NAME:
+    if function not in _INTRINSICS:
         return None
-    name, types, result = BY_NAME[key]
+    name, types, result = _INTRINSICS[function]
     return Value(f"{name}({', '.join(as_c(a, t) for a, t in zip(args, types, strict=True))})", result)
 
 

@@ -5,8 +5,7 @@ around the last evaluation. The cursor is a cache: results depend on the address
 evaluation, the step size or the thread.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

@@ -10,9 +10,7 @@ Reference: J. Salmon, M. Moraes, R. Dror, D. Shaw, Parallel random numbers: as e
 doi 10.1145/2063384.2063405.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# pyright: reportMissingTypeStubs=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -22,9 +20,9 @@ import math
 import numpy as np
 from llvmlite import ir
 from numba import float64, int64, types, uint64
-from numba.extending import intrinsic
 
 from stochfric_mb.compile import compiled_inline
+from stochfric_mb.numerics.memory import instructions
 
 _LOW = np.uint64(0xFFFFFFFF)
 _32 = np.uint64(32)
@@ -72,32 +70,18 @@ def normals(seed, sample, contact, knot, attempt):
     return -radius * _sin(1.5707963267948966 - abs(angle)), -radius * _sin(inner)
 
 
-@intrinsic
-def bits_of(typingctx, x):
-    """Return the 64 bits of a double as an unsigned integer."""
-
-    def generate(context, builder, signature, args):
-        return builder.bitcast(args[0], ir.IntType(64))
-
-    return types.uint64(types.float64), generate
-
-
-@intrinsic
-def double_of(typingctx, x):
-    """Return the double with the given 64 bits."""
-
-    def generate(context, builder, signature, args):
-        return builder.bitcast(args[0], ir.DoubleType())
-
-    return types.float64(types.uint64), generate
+bits_of = instructions(types.uint64(types.float64), lambda _c, builder, _s, args: builder.bitcast(args[0], ir.IntType(64)))
+"""Return the 64 bits of a double as an unsigned integer."""
+double_of = instructions(types.float64(types.uint64), lambda _c, builder, _s, args: builder.bitcast(args[0], ir.DoubleType()))
+"""Return the double with the given 64 bits."""
 
 
 @compiled_inline
 def _log(x):
     """Return the natural logarithm of a normal positive double."""
-    bits = bits_of(x)  # pyright: ignore[reportCallIssue]
+    bits = bits_of(x)
     exponent = float64(int64(bits >> _52) - 1023)
-    mantissa = double_of((bits & _MANTISSA) | _ONE)  # pyright: ignore[reportCallIssue]
+    mantissa = double_of((bits & _MANTISSA) | _ONE)
     if mantissa > 1.4142135623730951:
         mantissa *= 0.5
         exponent += 1.0

@@ -3,9 +3,7 @@
 Signature: void(world, memory, rates, p), four pointers to doubles; see `stochfric_mb.effects.contract`.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# pyright: reportMissingTypeStubs=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -15,12 +13,11 @@ import functools
 from types import FunctionType
 from typing import Any
 
-from llvmlite import ir
 from numba import types
-from numba.extending import intrinsic
 
 from stochfric_mb.compile import native
 from stochfric_mb.effects.contract import Effect
+from stochfric_mb.numerics.memory import function_at
 
 _POINTER = types.CPointer(types.float64)
 SIGNATURE = types.void(_POINTER, _POINTER, _POINTER, _POINTER)
@@ -54,15 +51,5 @@ def _address(cls: type[Effect], name: str) -> int:
     return compiled.address
 
 
-@intrinsic
-def call_effect(typingctx, address, world, memory, rates, p):
-    """Call an effect's function at ``address``; pointers are integers (``array.ctypes.data``)."""
-    double = ir.DoubleType()
-    function_type = ir.FunctionType(ir.VoidType(), [double.as_pointer()] * 4)
-
-    def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-        function = builder.inttoptr(args[0], function_type.as_pointer())
-        builder.call(function, [builder.inttoptr(a, double.as_pointer()) for a in args[1:]])
-        return context.get_dummy_value()
-
-    return types.void(*[types.intp] * 5), generate
+call_effect = function_at(types.void, *[types.int64] * 4)
+"""Call an effect's function at an address: world, memory, rates, p; pointers are integers (``array.ctypes.data``)."""

@@ -7,9 +7,7 @@ along the first tangent direction, x. Everything but mu_s and mu_k is in one arr
 address is the law's third parameter.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# pyright: reportMissingTypeStubs=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -20,9 +18,6 @@ from collections.abc import Sequence
 from typing import Any, ClassVar
 
 import numpy as np
-from llvmlite import ir
-from numba import types
-from numba.extending import intrinsic
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.effects import contract as e
@@ -34,6 +29,7 @@ from stochfric_mb.laws import Law
 from stochfric_mb.laws.abi import MAX_STATE, call_law, native_law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.numerics.cubic import hermite, slope, value
+from stochfric_mb.numerics.memory import as_doubles
 from stochfric_mb.numerics.runge_kutta import RK4, advance
 
 # Entries of the model.
@@ -180,16 +176,6 @@ def _model(law: Law, mechanism: BeltBox, effects: Sequence[Effect], address: tup
 # --- compiled -----------------------------------------------------------------------------------------------------------
 
 
-@intrinsic
-def _doubles(typingctx, address):
-    """Return the pointer to the doubles at an address."""
-
-    def generate(context, builder, signature, args):
-        return builder.inttoptr(args[0], ir.DoubleType().as_pointer())
-
-    return types.CPointer(types.float64)(types.int64), generate
-
-
 @compiled
 def _surround(q, where, t, x, v, w, memory, rates):
     """Find what is around the contact."""
@@ -231,7 +217,7 @@ def _recall(q, where, t, x, v, state, w, memory):
 def _see(t, ux, vx, state, mu_s, mu_k, p, begins, w, memory):
     """Find out how the effects change what the law inside sees; return its u, v, mu_s, mu_k."""
     where = int(p[2])
-    q = _doubles(where)
+    q = as_doubles(where)
     rates = np.zeros(MAX_MEMORY)
     x, v = q[VB] * t - ux, q[VB] - vx
     if begins:
@@ -262,7 +248,7 @@ def _see(t, ux, vx, state, mu_s, mu_k, p, begins, w, memory):
 @compiled
 def _ask(which, t, u, v, normal_force, mu_s, mu_k, effective_mass, state, p, out):
     """Call a function of the law inside; its answer is in ``out``."""
-    q = _doubles(int(p[2]))
+    q = as_doubles(int(p[2]))
     inside = np.empty(INNER)
     for i in range(INNER):
         inside[i] = state[i]
@@ -275,12 +261,12 @@ def _ask(which, t, u, v, normal_force, mu_s, mu_k, effective_mass, state, p, out
 @compiled
 def _share(p, normal_force):
     """Return the part of the normal force that this contact carries [-]: an engine may have several under one box."""
-    return normal_force / _doubles(int(p[2]))[N]
+    return normal_force / as_doubles(int(p[2]))[N]
 
 
 @compiled
 def _sticks(p, state, v):
-    q = _doubles(int(p[2]))
+    q = as_doubles(int(p[2]))
     return state[0] == 0.0 if q[MODED] == 1.0 else abs(v) <= q[STICK_SPEED]
 
 

@@ -36,7 +36,7 @@ from stochfric_mb.errors import InputError, require_name, require_number
 
 if TYPE_CHECKING:
     from stochfric_mb.coefficients import Process
-    from stochfric_mb.effects.joints import JointSignature, JointSpan
+    from stochfric_mb.effects.joints import JointSpan
     from stochfric_mb.effects.marks import Hypothesis, Slips, Wave
 
 Array = npt.NDArray[np.float64]
@@ -240,6 +240,18 @@ class Effect:
     def functions(cls) -> ModuleType:
         """Return the module that holds ``surroundings`` and ``friction``."""
         return importlib.import_module(cls.__module__)
+
+
+@dataclasses.dataclass(frozen=True)
+class JointSignature:
+    """What an effect does at a driven joint."""
+
+    starts: tuple[Effect, ...]
+    """Where fits begin: the grid over numbers that enter nonlinearly."""
+    axis: str
+    """Axis along which it shows."""
+    parameters: int
+    """Numbers that it adds to a fit."""
 
 
 def parameter(

@@ -1,12 +1,8 @@
-"""What an effect does at a driven joint: the axis along which it shows, and from where fits of it begin."""
+"""What the motion of a driven joint covers, which says whether an effect can show there."""
 
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from stochfric_mb.effects.contract import Effect
 
 
 @dataclasses.dataclass(frozen=True)
@@ -33,15 +29,3 @@ class JointSpan:
     """Whether the place is a contact, whose normal force is known."""
     believed_load: float
     """Load by which coefficients are multiplied [N or N m]."""
-
-
-@dataclasses.dataclass(frozen=True)
-class JointSignature:
-    """What an effect does at a joint."""
-
-    starts: tuple[Effect, ...]
-    """Where fits begin: the grid over numbers that enter nonlinearly."""
-    axis: str
-    """Axis along which it shows."""
-    parameters: int
-    """Numbers that it adds to a fit."""

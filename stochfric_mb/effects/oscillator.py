@@ -4,8 +4,7 @@ r'' + 2 z w r' + w^2 r = -x'' is integrated through every slip of a run in turn;
 rings on freely.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

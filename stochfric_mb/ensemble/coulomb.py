@@ -7,10 +7,6 @@ rad of the fastest part of the motion long, so that twelve terms of the Taylor s
 (0.35^13/13! = 2e-16), and events are roots of a polynomial.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math

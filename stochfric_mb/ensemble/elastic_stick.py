@@ -5,10 +5,6 @@ a step (break-away, the peak at v_s, re-stick) makes that step again alone, with
 switch, commit, and on. The deflection needs no equation: z = z_0 + v_b (t - t_0) - (x - x_0) exactly.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math

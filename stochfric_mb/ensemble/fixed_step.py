@@ -6,10 +6,6 @@ For x'' = a(x, x') the formula of Runge and Kutta needs two sums of its four acc
     x' + h/6 ((a_0 + a_1 + a_2) + (a_1 + a_2) + a_3)
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math

@@ -5,10 +5,6 @@ step is the steep rise below v_s. `coefficient` says the same as the law's own f
 loops over lanes vectorise; a test compares the two.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math

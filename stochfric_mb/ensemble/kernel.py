@@ -8,10 +8,6 @@ The module of a law's kernel names its ``ROWS`` of the flat array, those of `lan
     sticks(q, m, j)         whether lane j sticks
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 from types import ModuleType

@@ -8,22 +8,18 @@ The loops over lanes vectorise when they have no branches and call nothing from 
 exponential below, and the laws' formulas without branches in the kernels; tests hold them against the laws' own.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math
 
 import numpy as np
 from numba import types
-from numba.extending import intrinsic
 
 from stochfric_mb.coefficients.path import independent_pair, matern_step, seek
 from stochfric_mb.coefficients.philox import bits_of, double_of, normals
 from stochfric_mb.coefficients.processes import ORNSTEIN_UHLENBECK
 from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.numerics.memory import instructions
 
 LANES = 64
 """Samples in a group."""
@@ -52,14 +48,8 @@ def aligned(n):
     return room[skip : skip + n]
 
 
-@intrinsic
-def fma(typingctx, a, b, c):
-    """Return a b + c with one rounding."""
-
-    def generate(context, builder, signature, args):
-        return builder.fma(*args)
-
-    return types.float64(types.float64, types.float64, types.float64), generate
+fma = instructions(types.float64(*[types.float64] * 3), lambda _context, builder, _signature, args: builder.fma(*args))
+"""Return a b + c with one rounding."""
 
 
 @compiled_inline

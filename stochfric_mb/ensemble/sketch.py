@@ -6,10 +6,6 @@ edges are whole multiples of their width. What is in it therefore depends on the
 parts merge to exactly the histogram of the whole.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import dataclasses

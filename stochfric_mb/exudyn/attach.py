@@ -6,14 +6,17 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from exudyn.itemInterface import CoordinateSpringDamper
+from exudyn.itemInterface import CoordinateConstraint, CoordinateSpringDamper
 
 from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn import pointers
 from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
+from stochfric_mb.exudyn.hooks import Hooks
 from stochfric_mb.exudyn.normal import Normal, as_normal
 from stochfric_mb.exudyn.plane import PlaneContact
+from stochfric_mb.exudyn.plane_stick import TrueStickPlane
+from stochfric_mb.exudyn.true_stick import TrueStick, require_holdable
 from stochfric_mb.exudyn.turning import TurningContact, must_turn
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
@@ -80,6 +83,7 @@ def add_friction(
             no normal force or two, or a number out of range.
     """
     options: dict[str, Any] = {"effective_mass": effective_mass, "seed": seed, "sample": sample, "contact": contact}
+    options["hooks"] = Hooks.of(mbs)
     kinds = {marker_kind(mbs, m) for m in (marker0, marker1)}
     markers = (marker0, marker1)
     if kinds == {"coordinate"}:
@@ -87,8 +91,6 @@ def add_friction(
             raise InputError("normal, contact_stiffness and radius are for position markers; give coordinates a normal_force")
         kind, source, law = CoordinateContact, as_normal(mbs, normal_force), as_friction(friction).law
         if law.needs_holding_force:
-            from stochfric_mb.exudyn.true_stick import TrueStickCoordinate, require_holdable
-
             require_holdable(law.kind, source)
             kind = TrueStickCoordinate
         return kind(mbs, markers, friction, source, surface_velocity, **options)
@@ -101,9 +103,6 @@ def add_friction(
         if not must_turn(mbs, markers, normal_turns_with, radius):
             plane, law = PlaneContact, as_friction(friction).law
             if law.needs_holding_force:
-                from stochfric_mb.exudyn.plane_stick import TrueStickPlane
-                from stochfric_mb.exudyn.true_stick import require_holdable
-
                 if given is not None:
                     require_holdable(law.kind, given)
                 plane = TrueStickPlane
@@ -166,6 +165,19 @@ class CoordinateContact(FrictionContact):
 
     def _bind_own(self) -> None:
         bind_own(self._words, self._own)
+
+
+class TrueStickCoordinate(TrueStick, CoordinateContact):
+    """Friction with true stick between two coordinates; made by `add_friction`."""
+
+    def _make_hold(self) -> Any:
+        offset = float(self._numbers[at.SURFACE_VELOCITY])
+        return self._mbs.AddObject(
+            CoordinateConstraint(markerNumbers=list(self._markers), velocityLevel=True, offset=offset, activeConnector=False)
+        )
+
+    def _held(self) -> float:
+        return -float(self._mbs.GetObjectOutput(self._hold, OUTPUT.Force))
 
 
 def bind_own(words: Any, own: Any) -> None:

@@ -13,13 +13,13 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from numba import carray, types  # pyright: ignore[reportPrivateImportUsage]
+from numba import types
 
 from stochfric_mb.compile import compiled, native
 from stochfric_mb.exudyn import pointers
 from stochfric_mb.exudyn.layout import call_at
 from stochfric_mb.exudyn.stepping import advance
-from stochfric_mb.numerics.memory import as_words
+from stochfric_mb.numerics.memory import as_words, carray
 
 _PYTHON, _ALWAYS, _CONTACTS, _FIRST = 0, 1, 2, 3
 """Words of a system: the function that Python answers with, whether it wants every step, the number of its contacts, and where
@@ -81,8 +81,8 @@ _register = functools.cache(_Register)
 
 
 def _post_step(head, system, t):
-    register = carray(as_words(head), (2,))  # pyright: ignore[reportCallIssue]
-    rows = carray(as_words(register[1]), (register[0], 2))  # pyright: ignore[reportCallIssue]
+    register = carray(as_words(head), (2,))
+    rows = carray(as_words(register[1]), (register[0], 2))
     for i in range(register[0]):
         if rows[i, 0] == system:
             return _commit(t, rows[i, 1])
@@ -92,13 +92,13 @@ def _post_step(head, system, t):
 @compiled
 def _commit(t, where):
     """Commit all contacts of the system whose words are at an address; return 0 to end the run."""
-    front = carray(as_words(where), (_FIRST,))  # pyright: ignore[reportCallIssue]
+    front = carray(as_words(where), (_FIRST,))
     n, ask = front[_CONTACTS], front[_ALWAYS]
-    contacts = carray(as_words(where), (_FIRST + 2 * n,))[_FIRST:]  # pyright: ignore[reportCallIssue]
+    contacts = carray(as_words(where), (_FIRST + 2 * n,))[_FIRST:]
     for i in range(n):
         contacts[2 * i + 1] = advance(t, contacts[2 * i])
         ask |= contacts[2 * i + 1]
-    return call_at(front[_PYTHON], t) if ask else 1  # pyright: ignore[reportCallIssue]
+    return call_at(front[_PYTHON], t) if ask else 1
 
 
 @functools.cache

@@ -17,7 +17,6 @@ from stochfric_mb.coefficients.path import CoefficientPath
 from stochfric_mb.errors import InputError, SimulationError, require_number
 from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.contact_force import kinematics
-from stochfric_mb.exudyn.hooks import Hooks
 from stochfric_mb.exudyn.location import FINE, SHORTEST, locate
 from stochfric_mb.exudyn.mass import effective_masses
 from stochfric_mb.exudyn.normal import NO_REACTION, Normal, TimedNormal
@@ -51,12 +50,16 @@ class FrictionContact:
         friction: Law | Friction,
         normal: Normal,
         *,
+        hooks: Any,
         seed: int,
         sample: int,
         contact: int | None,
         effective_mass: float | None,
     ) -> None:
-        """Prepare the memory; the kinds of contact say what the force acts on, then call `_begin`."""
+        """Prepare the memory; the kinds of contact say what the force acts on, then call `_begin`.
+
+        ``hooks`` are those of the system; `add_friction` and its like say what the rest is.
+        """
         self.friction = as_friction(friction)
         """The law and the process of its coefficients."""
         law = self.friction.law
@@ -67,8 +70,8 @@ class FrictionContact:
         )
         """The mass that the contact feels as the user gave it [kg]; None: it is taken from the system."""
         self._mbs, self._normal = mbs, normal
-        self._hooks = Hooks.of(mbs)
-        number = self._hooks.join()
+        self._hooks = hooks
+        number: int = hooks.join()
         self._name = f"stochfric_mb friction {number}"
         contact = number if contact is None else contact
         self._numbers, self._words = _arrays(law, self.friction.path(seed, sample, contact))

@@ -12,12 +12,10 @@ The spin is no derivative of a position; its integral follows the trapezoidal ru
 from __future__ import annotations
 
 import numpy as np
-from numba import carray  # pyright: ignore[reportPrivateImportUsage]
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.contact_force import force_now
-from stochfric_mb.numerics.memory import as_doubles, as_words
 
 MARKER_0, MARKER_1, SPACE = 0, 1, 2
 """What the plane turns with."""
@@ -62,8 +60,7 @@ def _frame(markers, frame):
 @compiled
 def take_motion(markers, address, frame, radius):
     """Put the motion of the two markers, shape (2 MARKER,), where `contact_force.kinematics` reads it."""
-    words = carray(as_words(address), (at.N_WORDS,))  # pyright: ignore[reportCallIssue]
-    numbers = carray(as_doubles(words[at.NUMBERS]), (words[at.N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    numbers, _ = at.arrays(address)
     rotation, omega = _frame(markers, frame)
     omega_0, omega_1 = markers[OMEGA : OMEGA + 3], markers[MARKER + OMEGA : MARKER + OMEGA + 3]
     d = markers[MARKER + POSITION : MARKER + POSITION + 3] - markers[POSITION : POSITION + 3]
@@ -85,8 +82,7 @@ def push(t, markers, address, frame, radius, out):
     force at the same point, of which a connector applies -f and radius n x f at marker 0, and -d x f is left.
     """
     take_motion(markers, address, frame, radius)
-    words = carray(as_words(address), (at.N_WORDS,))  # pyright: ignore[reportCallIssue]
-    numbers = carray(as_doubles(words[at.NUMBERS]), (words[at.N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    numbers, words = at.arrays(address)
     force_now(t, address, out.ctypes.data)
     rotation, _ = _frame(markers, frame)
     axes = [numbers[at.AXIS_1 : at.AXIS_1 + 3], numbers[at.AXIS_2 : at.AXIS_2 + 3], numbers[at.NORMAL : at.NORMAL + 3]]

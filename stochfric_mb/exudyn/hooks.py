@@ -4,90 +4,19 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import exudyn
 
 from stochfric_mb.exudyn import methods
 from stochfric_mb.exudyn.commits import Commits
+from stochfric_mb.exudyn.contact import FrictionContact
 from stochfric_mb.exudyn.stepping import advance
 
 symbolic: Any = exudyn.symbolic  # pyright: ignore[reportAttributeAccessIssue]  # a compiled submodule
 """Exudyn's symbols."""
 SWITCH_ERROR = 10.0
 """Error that makes Exudyn repeat a step with the recommended size (its tolerance is set below it)."""
-
-
-class Contact(Protocol):
-    """What hooks need of a contact."""
-
-    where: int
-    """Address of the contact for compiled code."""
-
-    @property
-    def watched(self) -> bool:
-        """Whether the next step may contain a switch."""
-        ...
-
-    def settle(self, t: float, bits: int) -> bool:
-        """Do what `advance` asks for; return whether `watched` may have changed."""
-        ...
-
-    def prepare(self, dt: float, start: float) -> None:
-        """Start afresh with the solver's step [s] at the time ``start`` [s]."""
-        ...
-
-    def begin(self, dt: float, start: float) -> bool:
-        """Start afresh, unless a simulation goes on where it has stopped at the time ``start`` [s]; return which."""
-        ...
-
-    @property
-    def time(self) -> float:
-        """Time of the last accepted step [s]; not a number before the first."""
-        ...
-
-    def find(self) -> bool:
-        """Find the contact's item in the system again, which others that are deleted renumber; False: it is gone."""
-        ...
-
-    def require_friction_at_rest(self) -> None:
-        """Do nothing if the law gives friction without motion."""
-        ...
-
-    def locate(self, on: bool) -> None:
-        """Say whether steps are to end where the law switches."""
-        ...
-
-    is_load: bool
-    """Whether the force is a load."""
-    true_stick: bool
-    """Whether a constraint holds the contact while it sticks."""
-
-    def step_limit(self) -> tuple[float, str]:
-        """Return the largest step [s] of an explicit solver so far, and the formula behind it."""
-        ...
-
-    @property
-    def needs_reactions(self) -> bool:
-        """Whether the normal force is a reaction, which explicit solvers do not compute."""
-        ...
-
-    @property
-    def refines(self) -> bool:
-        """Whether trial steps tell what friction needs: one before the first step, and steps that are repeated."""
-        ...
-
-    def refine(self, t: float) -> bool:
-        """Take what the trial step to t [s] tells; return whether the step must be repeated."""
-        ...
-
-    def take_trial(self) -> None:
-        """Take what a trial step at the start tells."""
-        ...
-
-    def recommended_step(self, t: float) -> float:
-        """Return the step [s] to repeat the one that ends at t with, or -1 to accept it."""
-        ...
 
 
 class Hooks:
@@ -97,7 +26,7 @@ class Hooks:
     """
 
     def __init__(self, mbs: Any) -> None:
-        self.contacts: list[Contact] = []
+        self.contacts: list[FrictionContact] = []
         """All contacts of the system."""
         self.followers: list[Callable[[float], None]] = []
         """Functions of time [s] called after each accepted step, after the contacts have committed."""

@@ -7,14 +7,16 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from exudyn.itemInterface import LinearSpringDamper, MarkerBodyRigid, TorsionalSpringDamper
+from exudyn.itemInterface import GenericJoint, LinearSpringDamper, MarkerBodyRigid, TorsionalSpringDamper
 
 from stochfric_mb.errors import InputError, require_number
 from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn import pointers
 from stochfric_mb.exudyn.attach import bind_own
 from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
+from stochfric_mb.exudyn.hooks import Hooks
 from stochfric_mb.exudyn.normal import Normal, ReactionNormal, as_normal
+from stochfric_mb.exudyn.true_stick import TrueStick, require_holdable
 from stochfric_mb.exudyn.turning import with_orientation
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
@@ -63,10 +65,9 @@ def add_joint_friction(
     across = [i for i in range(3) if i != axis % 3]
     normal = ReactionNormal(mbs, joint, across) if normal_force is None else as_normal(mbs, normal_force)
     options: dict[str, Any] = {"effective_mass": effective_mass, "seed": seed, "sample": sample, "contact": contact}
+    options["hooks"] = Hooks.of(mbs)
     kind, law = JointContact, as_friction(friction).law
     if law.needs_holding_force:
-        from stochfric_mb.exudyn.true_stick import TrueStickJoint, require_holdable
-
         require_holdable(law.kind, normal)
         kind = TrueStickJoint
     return kind(mbs, joint, axis, friction, normal, require_number("radius", radius, above=0.0, unit="m"), **options)
@@ -154,6 +155,53 @@ class JointContact(FrictionContact):
         self._own[3] = self._mbs.GetObjectOutput(self.object, self._velocity)
 
 
+class TrueStickJoint(TrueStick, JointContact):
+    """Friction with true stick in a joint; made by `add_joint_friction`."""
+
+    def _make_hold(self) -> Any:
+        axes = [0] * 6
+        axes[5 if self._turns else 0] = 1
+        self._pair = [self._own_marker(marker) for marker in self._markers]
+        return self._mbs.AddObject(GenericJoint(markerNumbers=self._pair, constrainedAxes=axes, activeConnector=False))
+
+    def _own_marker(self, marker: Any) -> Any:
+        """Return a new marker at the place of another, with the axes of the joint.
+
+        Raises:
+            InputError: the joint's marker is on a node, whose axes cannot be chosen.
+        """
+        entry = self._mbs.GetMarker(marker)
+        if entry["markerType"] != "BodyRigid":
+            raise InputError(
+                f"law {self.friction.law.kind}: marker {int(marker)} of the joint is a {entry['markerType']}; a constraint "
+                "holds it while it sticks, which needs markers of rigid bodies (MarkerBodyRigid)"
+            )
+        return self._mbs.AddMarker(
+            MarkerBodyRigid(bodyNumber=entry["bodyNumber"], localHT=_placed(entry["localHT"], self._axes))
+        )
+
+    def _held(self) -> float:
+        if self._turns:
+            return float(self._mbs.GetObjectOutput(self._hold, OUTPUT.TorqueLocal)[2]) / self._radius
+        return -float(self._mbs.GetObjectOutput(self._hold, OUTPUT.ForceLocal)[0])
+
+    def _keep_still(self, stuck: bool) -> None:
+        """Hold or let go; its axes on both bodies are those of the moment, since its force goes with 1/cos of their angle."""
+        if stuck and self._turns:
+            self._pair = [int(m) for m in self._mbs.GetObject(self._hold)["markerNumbers"]]  # deleted items renumber them
+            first, second = (self._mbs.GetMarkerOutput(m, OUTPUT.RotationMatrix).reshape(3, 3) for m in self._pair)
+            place = self._mbs.GetMarker(self._pair[1])["localHT"]
+            self._mbs.SetMarkerParameter(self._pair[1], "localHT", _placed(place, second.T @ first))
+        super()._keep_still(stuck)
+
+
+def _placed(place: Any, rotation: Any) -> Any:
+    """Return a marker's place on its body with its axes turned."""
+    turned = np.array(place, dtype=np.float64)
+    turned[:3, :3] = turned[:3, :3] @ rotation
+    return turned
+
+
 def _axes_along(axis: Any) -> Any:
     """Return axes (columns) of which the first is along ``axis``."""
     first = axis / np.linalg.norm(axis)
@@ -169,6 +217,4 @@ def _turned(mbs: Any, marker: Any, rotation: Any, i: int) -> tuple[Any, dict[str
     entry = mbs.GetMarker(marker)
     if entry["markerType"] != "BodyRigid":
         return marker, {f"rotationMarker{i}": rotation}
-    place = np.array(entry["localHT"])
-    place[:3, :3] = place[:3, :3] @ rotation
-    return mbs.AddMarker(MarkerBodyRigid(bodyNumber=entry["bodyNumber"], localHT=place)), {}
+    return mbs.AddMarker(MarkerBodyRigid(bodyNumber=entry["bodyNumber"], localHT=_placed(entry["localHT"], rotation))), {}

@@ -6,12 +6,12 @@ The words are addresses, of the law's functions, the engine's coordinates and th
 from __future__ import annotations
 
 import numpy as np
-from llvmlite import ir
 from numba import types
-from numba.extending import intrinsic
 
 from stochfric_mb.coefficients.path import CURSOR
+from stochfric_mb.compile import compiled_inline
 from stochfric_mb.laws.abi import MAX_STATE
+from stochfric_mb.numerics.memory import as_doubles, as_words, carray, function_at
 
 # entries of ``numbers``
 T, U, V, U_2, V_2 = 0, 1, 2, 3, 4
@@ -85,15 +85,15 @@ RECORD_COLUMNS = 11
 """time, displacement, velocity, friction force, mu_s, mu_k, stick, normal force; second displacement, velocity, force."""
 
 
-@intrinsic
-def call_at(typingctx, function, t):
-    """Return what the function at an address, int(double), says of the time t."""
+call_at = function_at(types.int32, types.float64)
+"""Return what the function at an address, int(double), says of a time."""
 
-    def generate(context, builder, signature, args):
-        kind = ir.FunctionType(ir.IntType(32), [ir.DoubleType()])
-        return builder.zext(builder.call(builder.inttoptr(args[0], kind.as_pointer()), [args[1]]), ir.IntType(64))
 
-    return types.int64(types.int64, types.float64), generate
+@compiled_inline
+def arrays(address):
+    """Return the numbers and the words of the contact whose words are at an address."""
+    words = carray(as_words(address), (N_WORDS,))
+    return carray(as_doubles(words[NUMBERS]), (words[N_NUMBERS],)), words
 
 
 def blank(n_law: int, n_path: int) -> tuple[np.ndarray, np.ndarray]:

@@ -14,6 +14,7 @@ from stochfric_mb.exudyn import pointers
 from stochfric_mb.exudyn.attach import bind_coordinates, bind_own, coordinate_index, marker_kind
 from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
 from stochfric_mb.exudyn.contact_force import force_now
+from stochfric_mb.exudyn.hooks import Hooks
 from stochfric_mb.exudyn.normal import Normal, as_normal
 from stochfric_mb.exudyn.plane import set_plane
 from stochfric_mb.friction import Friction
@@ -55,6 +56,7 @@ def add_friction_load(
         InputError: a marker of another kind, or as `add_friction`.
     """
     options: dict[str, Any] = {"effective_mass": effective_mass, "seed": seed, "sample": sample, "contact": contact}
+    options["hooks"] = Hooks.of(mbs)
     source = as_normal(mbs, normal_force)
     if marker_kind(mbs, marker) == "position":
         return PositionLoad(mbs, marker, friction, source, normal, surface_velocity, **options)

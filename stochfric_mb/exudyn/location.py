@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import math
 
-from numba import carray  # pyright: ignore[reportPrivateImportUsage]
-
 from stochfric_mb.compile import compiled
 from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.contact_force import ask, kinematics, normal_force_at, pair_at
 from stochfric_mb.exudyn.stepping import GRID, settling
 from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.numerics.cubic import hermite, slope, value
-from stochfric_mb.numerics.memory import as_doubles, as_words
 from stochfric_mb.numerics.root import bracket, is_wide, least_armed, narrowed, trial
 
 # in parts of the step
@@ -30,8 +27,7 @@ def locate(t, address):
     A switch is where a guard of the law turns from positive to not positive; it is sought on the cubic through both
     ends of the step.
     """
-    words = carray(as_words(address), (at.N_WORDS,))  # pyright: ignore[reportCallIssue]
-    numbers = carray(as_doubles(words[at.NUMBERS]), (words[at.N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    numbers, words = at.arrays(address)
     t_0, step = numbers[at.T], numbers[at.STEP]
     if words[at.STARTED] == 0 or t <= t_0:
         return -1.0

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import exudyn
 import numpy as np
 
 from stochfric_mb.errors import SimulationError, StabilityError
+from stochfric_mb.exudyn.contact import FrictionContact
 
 _TYPE = exudyn.DynamicSolverType
 SOLVERS = {
@@ -24,18 +25,10 @@ _IMPLICIT = ("generalized_alpha", str(_TYPE.TrapezoidalIndex2))
 _ADAPTING = ("dopri5", str(_TYPE.ODE23))
 
 
-class Limited(Protocol):
-    """What the checks need of a contact."""
-
-    def step_limit(self) -> tuple[float, str]:
-        """Return the largest step [s] of an explicit solver so far, and the formula behind it."""
-        ...
-
-
 class Outcome:
     """The checks before and after one run of a solver."""
 
-    def __init__(self, contacts: Sequence[Limited], solver: str, integration: Any) -> None:
+    def __init__(self, contacts: Sequence[FrictionContact], solver: str, integration: Any) -> None:
         """Look at a run to come.
 
         Args:

@@ -34,11 +34,11 @@ from exudyn.itemInterface import (
     NodePointGround,
     ObjectGround,
 )
-from numba import carray, types  # pyright: ignore[reportPrivateImportUsage]
+from numba import types
 
 from stochfric_mb.compile import native
 from stochfric_mb.exudyn.contact_force import load_force, plane_pull, pull
-from stochfric_mb.numerics.memory import store_word
+from stochfric_mb.numerics.memory import carray, store_word
 
 LINE, LOAD, STEP = b"PFdRK10MainSystemdidddddE", b"PFdRK10MainSystemddE", b"PFbRK10MainSystemdE"
 PLANE = b"PFSt5arrayIdLm3EERK10MainSystemdiS0_S0_S0_S0_S0_E"
@@ -240,7 +240,7 @@ def _takes_vectors(python: Callable[..., Any]) -> bool:
 
 
 def _probe_line(mbs, t, item, displacement, velocity, stiffness, damping, offset):
-    store_word(int(damping), mbs)  # pyright: ignore[reportCallIssue]
+    store_word(int(damping), mbs)
     return stiffness * displacement
 
 

@@ -4,32 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
-from typing import Any, Protocol
+from typing import Any
 
 import exudyn
 
+from stochfric_mb.exudyn.contact import FrictionContact
+
 TRIAL = 1.0e-2
 """Part of a step after which reactions at the start are taken."""
-
-
-class Pressed(Protocol):
-    """What is needed of a contact."""
-
-    @property
-    def refines(self) -> bool:
-        """Whether trial steps tell what friction needs."""
-        ...
-
-    def take_trial(self) -> None:
-        """Take what a trial step at the start tells."""
-        ...
 
 
 def find_reactions(
     mbs: Any,
     settings: Any,
     solver_type: Any,
-    contacts: Sequence[Pressed],
+    contacts: Sequence[FrictionContact],
     solve: Callable[..., bool],
     unnoticed: Callable[[], AbstractContextManager[None]],
 ) -> None:

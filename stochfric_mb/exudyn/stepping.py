@@ -7,67 +7,13 @@ from __future__ import annotations
 
 import math
 
-from numba import carray  # pyright: ignore[reportPrivateImportUsage]
-
 from stochfric_mb.coefficients.path import CURSOR, canonical_time
 from stochfric_mb.coefficients.processes import EVENT, POSITION, TIME
 from stochfric_mb.compile import compiled, compiled_inline
+from stochfric_mb.exudyn import layout as at
 from stochfric_mb.exudyn.contact_force import ask, kinematics, pair_at, penalty, spun
-from stochfric_mb.exudyn.layout import (
-    ASK_FIRST,
-    COMMIT,
-    CURSOR_AT,
-    EVENTS,
-    FORCE,
-    GIVEN_NORMAL,
-    GIVEN_RATE,
-    GUARD,
-    GUARDS_BEFORE,
-    HAS_MODE,
-    HELD,
-    HOLD,
-    HOLD_BEFORE,
-    INIT,
-    JUMP,
-    LARGEST_NORMAL,
-    LAW,
-    LINE,
-    LOCATING,
-    MU_K,
-    MU_S,
-    N_LAW,
-    N_NUMBERS,
-    N_RECORDS,
-    N_STATE,
-    N_WORDS,
-    NEW,
-    NEXT_RECORD,
-    NORMAL_FORCE,
-    NUMBERS,
-    PAIR,
-    PENALTY,
-    REACH,
-    RECORD_COLUMNS,
-    RECORDS,
-    SPIN,
-    SPIN_BEFORE,
-    SPUN,
-    START,
-    STARTED,
-    STATE,
-    STEP,
-    STICK_SPEED,
-    STUCK,
-    SWITCHED,
-    U_2,
-    V_2,
-    WATCHING,
-    T,
-    U,
-    V,
-)
 from stochfric_mb.laws.contract import GUARDS
-from stochfric_mb.numerics.memory import as_doubles, as_words
+from stochfric_mb.numerics.memory import as_doubles, carray
 
 NOTHING, RECORDED, LOST, RESTARTED, FETCH, WATCH = 0, 1, 2, 4, 8, 16
 """Bits of what `advance` returns."""
@@ -87,10 +33,9 @@ def advance(t, address):
 
     Returns bits that say what the caller has to do; FETCH: see where the coordinates are, then call `proceed`.
     """
-    words = carray(as_words(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
-    numbers = carray(as_doubles(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
-    ahead = t - numbers[T]
-    if words[ASK_FIRST] == 1 or words[STARTED] == 0 or ahead <= 0.0 or ahead > numbers[REACH]:
+    numbers, words = at.arrays(address)
+    ahead = t - numbers[at.T]
+    if words[at.ASK_FIRST] == 1 or words[at.STARTED] == 0 or ahead <= 0.0 or ahead > numbers[at.REACH]:
         return FETCH
     return _proceed(t, numbers, words)
 
@@ -102,103 +47,102 @@ def proceed(t, address):
     The same time with the same motion changes nothing (a solver that goes on from where it stopped); an earlier time, or
     a jump, is a new simulation.
     """
-    words = carray(as_words(address), (N_WORDS,))  # pyright: ignore[reportCallIssue]
-    numbers = carray(as_doubles(words[NUMBERS]), (words[N_NUMBERS],))  # pyright: ignore[reportCallIssue]
+    numbers, words = at.arrays(address)
     return _proceed(t, numbers, words)
 
 
 @compiled_inline
 def _proceed(t, numbers, words):
     motion = kinematics(t, numbers, words)
-    n = penalty(numbers) if words[PENALTY] == 1 else max(numbers[GIVEN_NORMAL], 0.0)
+    n = penalty(numbers) if words[at.PENALTY] == 1 else max(numbers[at.GIVEN_NORMAL], 0.0)
     bits = NOTHING
-    if words[STARTED] == 0 or t < numbers[T] or (t == numbers[T] and _moved(motion, numbers)):
+    if words[at.STARTED] == 0 or t < numbers[at.T] or (t == numbers[at.T] and _moved(motion, numbers)):
         _forget_spin(t, numbers)
         motion = kinematics(t, numbers, words)
         restart(t, motion, n, numbers, words)
-        numbers[START] = t
+        numbers[at.START] = t
         bits = RESTARTED
-    elif t > numbers[T]:
+    elif t > numbers[at.T]:
         bits = _commit(t, motion, n, numbers, words)
-    due = words[NEXT_RECORD]
-    if due < words[N_RECORDS]:
-        records = carray(as_doubles(words[RECORDS]), (words[N_RECORDS], RECORD_COLUMNS))  # pyright: ignore[reportCallIssue]
-        if t >= records[due, 0] - max(GRID * numbers[STEP], ROUNDING):
-            records[due, 0] = canonical_time(t, 0.5 * numbers[STEP])
+    due = words[at.NEXT_RECORD]
+    if due < words[at.N_RECORDS]:
+        records = carray(as_doubles(words[at.RECORDS]), (words[at.N_RECORDS], at.RECORD_COLUMNS))
+        if t >= records[due, 0] - max(GRID * numbers[at.STEP], ROUNDING):
+            records[due, 0] = canonical_time(t, 0.5 * numbers[at.STEP])
             records[due, 1], records[due, 8], records[due, 2], records[due, 9] = motion
-            records[due, 4], records[due, 5], records[due, 6] = numbers[MU_S], numbers[MU_K], numbers[STUCK]
+            records[due, 4], records[due, 5], records[due, 6] = numbers[at.MU_S], numbers[at.MU_K], numbers[at.STUCK]
             records[due, 7] = n
-            words[NEXT_RECORD] = due + 1
-            if words[HELD] == 1:
+            words[at.NEXT_RECORD] = due + 1
+            if words[at.HELD] == 1:
                 bits |= RECORDED
             else:
-                ask(words[FORCE], t, motion, n, pair_at(t, motion[0], numbers, words), numbers, NEW)
-                records[due, 3], records[due, 10] = (numbers[NEW], numbers[NEW + 1]) if n > 0.0 else (0.0, 0.0)
+                ask(words[at.FORCE], t, motion, n, pair_at(t, motion[0], numbers, words), numbers, at.NEW)
+                records[due, 3], records[due, 10] = (numbers[at.NEW], numbers[at.NEW + 1]) if n > 0.0 else (0.0, 0.0)
     return bits
 
 
 @compiled_inline
 def _moved(motion, numbers):
     ux, uy, vx, vy = motion
-    return ux != numbers[U] or uy != numbers[U_2] or vx != numbers[V] or vy != numbers[V_2]
+    return ux != numbers[at.U] or uy != numbers[at.U_2] or vx != numbers[at.V] or vy != numbers[at.V_2]
 
 
 @compiled
 def _forget_spin(t, numbers):
     """Let the displacement that turning adds begin at time t [s]."""
     for i in range(2):
-        numbers[SPUN + i], numbers[SPIN_BEFORE + i] = 0.0, numbers[SPIN + i]
-    numbers[T] = t
+        numbers[at.SPUN + i], numbers[at.SPIN_BEFORE + i] = 0.0, numbers[at.SPIN + i]
+    numbers[at.T] = t
 
 
 @compiled_inline
 def _keep(t, motion, n, numbers):
     """Remember the accepted step."""
     for i in range(2):
-        numbers[SPUN + i] = spun(t, i, numbers)
-        numbers[SPIN_BEFORE + i] = numbers[SPIN + i]
-    numbers[T], numbers[NORMAL_FORCE] = t, n
-    numbers[HOLD_BEFORE], numbers[HOLD_BEFORE + 1] = numbers[HOLD], numbers[HOLD + 1]
-    numbers[LARGEST_NORMAL] = max(numbers[LARGEST_NORMAL], n)
-    numbers[U], numbers[U_2], numbers[V], numbers[V_2] = motion
+        numbers[at.SPUN + i] = spun(t, i, numbers)
+        numbers[at.SPIN_BEFORE + i] = numbers[at.SPIN + i]
+    numbers[at.T], numbers[at.NORMAL_FORCE] = t, n
+    numbers[at.HOLD_BEFORE], numbers[at.HOLD_BEFORE + 1] = numbers[at.HOLD], numbers[at.HOLD + 1]
+    numbers[at.LARGEST_NORMAL] = max(numbers[at.LARGEST_NORMAL], n)
+    numbers[at.U], numbers[at.U_2], numbers[at.V], numbers[at.V_2] = motion
 
 
 @compiled
 def restart(t, motion, n, numbers, words):
     """Start the contact afresh at time t."""
-    numbers[EVENTS], numbers[LARGEST_NORMAL] = 0.0, 0.0
+    numbers[at.EVENTS], numbers[at.LARGEST_NORMAL] = 0.0, 0.0
     _keep(t, motion, n, numbers)
-    numbers[REACH] = 1.5 * numbers[STEP]
-    numbers[SWITCHED], numbers[PAIR] = -math.inf, math.nan
-    words[STARTED] = 1
+    numbers[at.REACH] = 1.5 * numbers[at.STEP]
+    numbers[at.SWITCHED], numbers[at.PAIR] = -math.inf, math.nan
+    words[at.STARTED] = 1
     pair = pair_at(t, motion[0], numbers, words)
-    _law_gives(words[INIT], t, motion, n, pair, numbers, words)
-    numbers[STUCK] = _sticks(motion, n, numbers)
-    numbers[MU_S], numbers[MU_K] = pair
+    _law_gives(words[at.INIT], t, motion, n, pair, numbers, words)
+    numbers[at.STUCK] = _sticks(motion, n, numbers)
+    numbers[at.MU_S], numbers[at.MU_K] = pair
     _set_line(t, numbers)
-    ask(words[GUARD], t, motion, n, pair, numbers, GUARDS_BEFORE)
-    words[WATCHING] = 1
+    ask(words[at.GUARD], t, motion, n, pair, numbers, at.GUARDS_BEFORE)
+    words[at.WATCHING] = 1
 
 
 @compiled_inline
 def _commit(t, motion, n, numbers, words):
     pair = pair_at(t, motion[0], numbers, words)
-    mode, h, before = numbers[STATE], t - numbers[T], (numbers[MU_S], numbers[MU_K])
-    function = words[COMMIT] if n > 0.0 else words[INIT]  # without normal force the contact begins again
+    mode, h, before = numbers[at.STATE], t - numbers[at.T], (numbers[at.MU_S], numbers[at.MU_K])
+    function = words[at.COMMIT] if n > 0.0 else words[at.INIT]  # without normal force the contact begins again
     _law_gives(function, t, motion, n, pair, numbers, words)
     bits = _skipped(t, motion[0], numbers, words)
-    numbers[REACH] = 1.5 * max(numbers[STEP], t - numbers[T])
+    numbers[at.REACH] = 1.5 * max(numbers[at.STEP], t - numbers[at.T])
     _keep(t, motion, n, numbers)
     stuck = _sticks(motion, n, numbers)
-    if stuck > numbers[STUCK]:
-        numbers[EVENTS] += 1.0
+    if stuck > numbers[at.STUCK]:
+        numbers[at.EVENTS] += 1.0
         pair = pair_at(t, motion[0], numbers, words)
-    numbers[STUCK] = stuck
-    numbers[MU_S], numbers[MU_K] = pair
+    numbers[at.STUCK] = stuck
+    numbers[at.MU_S], numbers[at.MU_K] = pair
     _set_line(t, numbers)
-    if words[LOCATING] == 1:
-        switched = numbers[HAS_MODE] == 1.0 and numbers[STATE] != mode
-        bent = _bent_pair(pair, before, numbers[STEP] / h, numbers, words)
+    if words[at.LOCATING] == 1:
+        switched = numbers[at.HAS_MODE] == 1.0 and numbers[at.STATE] != mode
+        bent = _bent_pair(pair, before, numbers[at.STEP] / h, numbers, words)
         bits |= _watch(t, motion, n, pair, bent, switched, numbers, words)
     return bits
 
@@ -206,30 +150,29 @@ def _commit(t, motion, n, numbers, words):
 @compiled_inline
 def _law_gives(address, t, motion, n, pair, numbers, words):
     """Take the state that ``init`` or ``commit`` gives."""
-    ask(address, t, motion, n, pair, numbers, NEW)
-    for i in range(words[N_STATE]):
-        numbers[STATE + i] = numbers[NEW + i]
+    ask(address, t, motion, n, pair, numbers, at.NEW)
+    for i in range(words[at.N_STATE]):
+        numbers[at.STATE + i] = numbers[at.NEW + i]
 
 
 @compiled
 def _watch(t, motion, n, pair, bent, switched, numbers, words):
     """Find out whether the next step may contain a switch or must return to the grid; return WATCH if that is news."""
-    ask(words[GUARD], t, motion, n, bent, numbers, NEW)
-    bend = (numbers[NEW], numbers[NEW + 1], numbers[NEW + 2], numbers[NEW + 3], numbers[NEW + 4], numbers[NEW + 5])
-    ask(words[GUARD], t, motion, n, pair, numbers, NEW)
-    steps = (t - numbers[START]) / numbers[STEP]
+    ask(words[at.GUARD], t, motion, n, bent, numbers, at.NEW + GUARDS)
+    ask(words[at.GUARD], t, motion, n, pair, numbers, at.NEW)
+    steps = (t - numbers[at.START]) / numbers[at.STEP]
     if switched:
-        numbers[SWITCHED] = t
-    watch = settling(t, numbers) or numbers[JUMP] < math.inf or abs(steps - math.floor(steps + 0.5)) > GRID
+        numbers[at.SWITCHED] = t
+    watch = settling(t, numbers) or numbers[at.JUMP] < math.inf or abs(steps - math.floor(steps + 0.5)) > GRID
     for i in range(GUARDS):
-        new = numbers[NEW + i]
-        change = new - numbers[GUARDS_BEFORE + i]
-        if new > 0.0 and new < STEPS_AHEAD * max(abs(change), abs(change + bend[i] - new)):
+        new = numbers[at.NEW + i]
+        change = new - numbers[at.GUARDS_BEFORE + i]
+        if new > 0.0 and new < STEPS_AHEAD * max(abs(change), abs(change + numbers[at.NEW + GUARDS + i] - new)):
             watch = True
-        numbers[GUARDS_BEFORE + i] = new
-    if watch == (words[WATCHING] == 1):
+        numbers[at.GUARDS_BEFORE + i] = new
+    if watch == (words[at.WATCHING] == 1):
         return NOTHING
-    words[WATCHING] = 1 if watch else 0
+    words[at.WATCHING] = 1 if watch else 0
     return WATCH
 
 
@@ -239,10 +182,10 @@ def _bent_pair(pair, before, steps, numbers, words):
 
     ``before`` is the pair at the start of the step just taken, ``steps`` a step over that one.
     """
-    descriptor = numbers[LAW + words[N_LAW] :]
+    descriptor = numbers[at.LAW + words[at.N_LAW] :]
     if descriptor[0] == 0.0 or descriptor[1] != TIME or descriptor[2] == 0.0:
         return pair
-    cursor, part = numbers[CURSOR_AT : CURSOR_AT + CURSOR], numbers[STEP] / descriptor[3]
+    cursor, part = numbers[at.CURSOR_AT : at.CURSOR_AT + CURSOR], numbers[at.STEP] / descriptor[3]
     bend_s = (cursor[4] - cursor[2]) * part - (pair[0] - before[0]) * steps
     bend_k = (cursor[5] - cursor[3]) * part - (pair[1] - before[1]) * steps
     return pair[0] + bend_s, pair[1] + bend_k
@@ -251,31 +194,31 @@ def _bent_pair(pair, before, steps, numbers, words):
 @compiled_inline
 def settling(t, numbers):
     """Return whether a step that begins at t follows a change of mode closely."""
-    return t - numbers[SWITCHED] < (FINE_STEPS - GRID) * numbers[STEP]
+    return t - numbers[at.SWITCHED] < (FINE_STEPS - GRID) * numbers[at.STEP]
 
 
 @compiled_inline
 def _sticks(motion, n, numbers):
     if n <= 0.0:
         return 0.0
-    if numbers[HAS_MODE] == 1.0:
-        return 1.0 if numbers[STATE] == 0.0 else 0.0
-    return 1.0 if math.hypot(motion[2], motion[3]) <= numbers[STICK_SPEED] else 0.0
+    if numbers[at.HAS_MODE] == 1.0:
+        return 1.0 if numbers[at.STATE] == 0.0 else 0.0
+    return 1.0 if math.hypot(motion[2], motion[3]) <= numbers[at.STICK_SPEED] else 0.0
 
 
 @compiled_inline
 def _set_line(t, numbers):
     """Put the normal force of the next step on the line from now on."""
-    numbers[LINE], numbers[LINE + 1] = numbers[GIVEN_NORMAL] - numbers[GIVEN_RATE] * t, numbers[GIVEN_RATE]
+    numbers[at.LINE], numbers[at.LINE + 1] = numbers[at.GIVEN_NORMAL] - numbers[at.GIVEN_RATE] * t, numbers[at.GIVEN_RATE]
 
 
 @compiled_inline
 def _skipped(t, u, numbers, words):
     """Return LOST where the step that ends at t and u has passed more than one knot of the path."""
-    descriptor = numbers[LAW + words[N_LAW] :]
+    descriptor = numbers[at.LAW + words[at.N_LAW] :]
     if descriptor[0] == 0.0 or descriptor[1] == EVENT:
         return NOTHING
-    now, before = (u, numbers[U]) if descriptor[1] == POSITION else (t, numbers[T])
+    now, before = (u, numbers[at.U]) if descriptor[1] == POSITION else (t, numbers[at.T])
     if abs(now - before) <= descriptor[3]:
         return NOTHING
     passed = math.floor(now / descriptor[3] + GRID) - math.floor(before / descriptor[3] + GRID)

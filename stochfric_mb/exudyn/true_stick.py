@@ -12,13 +12,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from exudyn.itemInterface import CoordinateConstraint, GenericJoint, MarkerBodyRigid
 
 from stochfric_mb.errors import InputError
 from stochfric_mb.exudyn import layout as at
-from stochfric_mb.exudyn.attach import CoordinateContact
-from stochfric_mb.exudyn.contact import OUTPUT, FrictionContact
-from stochfric_mb.exudyn.joint import JointContact
+from stochfric_mb.exudyn.contact import FrictionContact
 from stochfric_mb.exudyn.mass import response
 from stochfric_mb.exudyn.normal import Normal
 
@@ -102,66 +99,6 @@ class TrueStick(FrictionContact):
         if self._rows is not None and self._words[at.STARTED]:
             relative = float(self._rows @ self._mbs.systemData.GetODE2Coordinates_tt())
             self._numbers[at.HOLD] = self._forces()[0] + self._mass_felt * relative
-
-
-class TrueStickCoordinate(TrueStick, CoordinateContact):
-    """Friction with true stick between two coordinates; made by `add_friction`."""
-
-    def _make_hold(self) -> Any:
-        offset = float(self._numbers[at.SURFACE_VELOCITY])
-        return self._mbs.AddObject(
-            CoordinateConstraint(markerNumbers=list(self._markers), velocityLevel=True, offset=offset, activeConnector=False)
-        )
-
-    def _held(self) -> float:
-        return -float(self._mbs.GetObjectOutput(self._hold, OUTPUT.Force))
-
-
-class TrueStickJoint(TrueStick, JointContact):
-    """Friction with true stick in a joint; made by `add_joint_friction`."""
-
-    def _make_hold(self) -> Any:
-        axes = [0] * 6
-        axes[5 if self._turns else 0] = 1
-        self._pair = [self._own_marker(marker) for marker in self._markers]
-        return self._mbs.AddObject(GenericJoint(markerNumbers=self._pair, constrainedAxes=axes, activeConnector=False))
-
-    def _own_marker(self, marker: Any) -> Any:
-        """Return a new marker at the place of another, with the axes of the joint.
-
-        Raises:
-            InputError: the joint's marker is on a node, whose axes cannot be chosen.
-        """
-        entry = self._mbs.GetMarker(marker)
-        if entry["markerType"] != "BodyRigid":
-            raise InputError(
-                f"law {self.friction.law.kind}: marker {int(marker)} of the joint is a {entry['markerType']}; a constraint "
-                "holds it while it sticks, which needs markers of rigid bodies (MarkerBodyRigid)"
-            )
-        return self._mbs.AddMarker(
-            MarkerBodyRigid(bodyNumber=entry["bodyNumber"], localHT=_turned(entry["localHT"], self._axes))
-        )
-
-    def _held(self) -> float:
-        if self._turns:
-            return float(self._mbs.GetObjectOutput(self._hold, OUTPUT.TorqueLocal)[2]) / self._radius
-        return -float(self._mbs.GetObjectOutput(self._hold, OUTPUT.ForceLocal)[0])
-
-    def _keep_still(self, stuck: bool) -> None:
-        """Hold or let go; its axes on both bodies are those of the moment, since its force goes with 1/cos of their angle."""
-        if stuck and self._turns:
-            self._pair = [int(m) for m in self._mbs.GetObject(self._hold)["markerNumbers"]]  # deleted items renumber them
-            first, second = (self._mbs.GetMarkerOutput(m, OUTPUT.RotationMatrix).reshape(3, 3) for m in self._pair)
-            place = self._mbs.GetMarker(self._pair[1])["localHT"]
-            self._mbs.SetMarkerParameter(self._pair[1], "localHT", _turned(place, second.T @ first))
-        super()._keep_still(stuck)
-
-
-def _turned(place: Any, rotation: Any) -> Any:
-    """Return a marker's place on its body with its axes turned."""
-    turned = np.array(place, dtype=np.float64)
-    turned[:3, :3] = turned[:3, :3] @ rotation
-    return turned
 
 
 COUPLED = 1.0e-9

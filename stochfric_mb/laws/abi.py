@@ -14,9 +14,7 @@ The wrappers below are templates: each is bound to the law's own module (its glo
 caches them beside the law. The law's function is merged into its wrapper.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# pyright: reportMissingTypeStubs=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -29,10 +27,10 @@ from typing import Any
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.extending import intrinsic
 
 from stochfric_mb.compile import compiled_inline, native
 from stochfric_mb.laws import law_class
+from stochfric_mb.numerics.memory import function_at, instructions
 
 _DOUBLE = types.float64
 _POINTER = types.CPointer(types.float64)
@@ -138,61 +136,22 @@ def _stick_spring(normal_force, effective_mass, mu_s, p, out):
     out[0], out[1], out[2] = stick_spring(normal_force, effective_mass, mu_s, p)  # pyright: ignore
 
 
-def _function_type(n_doubles: int, n_pointers: int) -> Any:
-    double = ir.DoubleType()
-    return ir.FunctionType(ir.VoidType(), [double] * n_doubles + [double.as_pointer()] * n_pointers)
+def _with_held(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+    function = ir.FunctionType(ir.VoidType(), [ir.DoubleType()] * 8 + [ir.IntType(64)] * 4)
+    held = cgutils.alloca_once(builder, ir.DoubleType(), size=3)
+    for k, number in enumerate(args[9:12]):
+        builder.store(number, cgutils.gep_inbounds(builder, held, k))
+    place = builder.ptrtoint(held, ir.IntType(64))
+    builder.call(builder.inttoptr(args[0], function.as_pointer()), [*args[1:9], place, *args[12:]])
+    return context.get_dummy_value()
 
 
-def _pointers(builder: Any, words: Any) -> list[Any]:
-    return [builder.inttoptr(word, ir.DoubleType().as_pointer()) for word in words]
-
-
-@intrinsic
-def call_law(typingctx, address, t, ux, uy, vx, vy, normal_force, mu_s, mu_k, effective_mass, hx, hy, state, p, out):
-    """Call force, commit, init or guards of a law at ``address``; pointers are integers (``array.ctypes.data``)."""
-
-    def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-        function = builder.inttoptr(args[0], _function_type(8, 4).as_pointer())
-        held = cgutils.alloca_once(builder, ir.DoubleType(), size=3)
-        for k, number in enumerate(args[9:12]):
-            builder.store(number, cgutils.gep_inbounds(builder, held, k))
-        builder.call(function, [*args[1:9], held, *_pointers(builder, args[12:])])
-        return context.get_dummy_value()
-
-    return types.void(types.intp, *[types.float64] * 11, *[types.intp] * 3), generate
-
-
-@intrinsic
-def call_slide(typingctx, address, speed, mu_s, mu_k, p):
-    """Return sliding_coefficient of a law at ``address``; ``p`` is an integer."""
-
-    def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-        double = ir.DoubleType()
-        kind = ir.FunctionType(double, [double] * 3 + [double.as_pointer()])
-        return builder.call(builder.inttoptr(args[0], kind.as_pointer()), [*args[1:4], *_pointers(builder, args[4:])])
-
-    return types.float64(types.intp, *[types.float64] * 3, types.intp), generate
-
-
-@intrinsic
-def call_spring(typingctx, address, normal_force, effective_mass, mu_s, p, out):
-    """Call stick_spring of a law at ``address``; pointers are integers."""
-
-    def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-        function = builder.inttoptr(args[0], _function_type(3, 2).as_pointer())
-        builder.call(function, [*args[1:4], *_pointers(builder, args[4:])])
-        return context.get_dummy_value()
-
-    return types.void(types.intp, *[types.float64] * 3, *[types.intp] * 2), generate
-
-
-@intrinsic
-def call_flow(typingctx, address, vx, vy, normal_force, zx, zy, mu_s, mu_k, p, out):
-    """Call flow of a law at ``address``; pointers are integers."""
-
-    def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-        function = builder.inttoptr(args[0], _function_type(7, 2).as_pointer())
-        builder.call(function, [*args[1:8], *_pointers(builder, args[8:])])
-        return context.get_dummy_value()
-
-    return types.void(types.intp, *[types.float64] * 7, *[types.intp] * 2), generate
+call_law = instructions(types.void(types.intp, *[_DOUBLE] * 11, *[types.intp] * 3), _with_held)
+"""Call force, commit, init or guards of a law at an address; the arguments are t, ux, uy, vx, vy, normal_force, mu_s, mu_k,
+effective_mass, hx, hy, state, p, out; pointers are integers (``array.ctypes.data``)."""
+call_slide = function_at(_DOUBLE, *[_DOUBLE] * 3, types.int64)
+"""Return sliding_coefficient of a law at an address, of speed, mu_s, mu_k, p."""
+call_spring = function_at(types.void, *[_DOUBLE] * 3, *[types.int64] * 2)
+"""Call stick_spring of a law at an address: normal_force, effective_mass, mu_s, p, out."""
+call_flow = function_at(types.void, *[_DOUBLE] * 7, *[types.int64] * 2)
+"""Call flow of a law at an address: vx, vy, normal_force, zx, zy, mu_s, mu_k, p, out."""

@@ -1,7 +1,6 @@
 """Coulomb friction with true stick: the force that holds the contact, up to mu_s N; mu_k N once it slides."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

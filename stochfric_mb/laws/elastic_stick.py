@@ -1,7 +1,6 @@
 """Elastic stick: a spring and a damper while stuck, an exponentially falling coefficient while sliding."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """HAVSIN, the modified Coulomb law: a haversine step up to mu_s at v_s, and another down to mu_k at v_d."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

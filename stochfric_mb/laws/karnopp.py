@@ -1,7 +1,6 @@
 """Karnopp's law: a small velocity zone in which the contact counts as at rest and the holding force acts."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Piecewise-linear friction: up to mu_s at v_s, down to mu_k at v_d, constant beyond."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Small vector steps in the tangent plane that several laws share."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

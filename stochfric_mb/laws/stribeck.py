@@ -1,7 +1,6 @@
 """Stribeck friction: true stick, and a sliding coefficient that falls from mu_s to mu_k with velocity."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

@@ -1,9 +1,5 @@
 """Cubics through the values and slopes at two points, and what is asked of them; parabolas through three points."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math

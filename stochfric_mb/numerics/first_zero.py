@@ -1,9 +1,5 @@
 """The first zero of a curve whose value and slope are known functions: where a contact in closed form switches."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math

@@ -1,92 +1,104 @@
-"""Loads and stores through addresses, for compiled code that works inside an engine's own structures."""
-
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# (compiled functions are typed by numba)
+"""What compiled code does beyond Python: loads and stores through addresses, and calls of functions at addresses."""
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Callable
 from typing import Any
 
+import numba
 from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
 
-_DOUBLE = ir.DoubleType()
-_WORD = ir.IntType(64)
+carray: Any = numba.carray  # pyright: ignore[reportPrivateImportUsage]
+_LLVM: dict[Any, Any] = {
+    types.void: ir.VoidType(),
+    types.float64: ir.DoubleType(),
+    types.int64: ir.IntType(64),
+    types.int32: ir.IntType(32),
+    types.uint32: ir.IntType(32),
+    types.uint8: ir.IntType(8),
+}
+_WIDE = (types.void, types.float64, types.int64)
 
 
-def _loader(kind: Any, result: Any) -> Any:
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        value = builder.load(builder.inttoptr(args[0], kind.as_pointer()))
-        if kind is _DOUBLE or kind.width == 64:
-            return value
-        return builder.zext(value, _WORD)
+def instructions(signature: Any, generate: Callable[[Any, Any, Any, Any], Any]) -> Any:
+    """Return a function for compiled code that is a few LLVM instructions.
 
-    return result(types.intp), generate
+    Args:
+        signature: its numba signature.
+        generate: what writes them, of (context, builder, signature, arguments), as `numba.extending.intrinsic` has it.
+    """
 
+    def typing(_context: Any, *_arguments: Any) -> Any:
+        return signature, generate
 
-@intrinsic
-def load_double(typingctx, address):
-    """Return the double at ``address``."""
-    return _loader(_DOUBLE, types.float64)
-
-
-@intrinsic
-def load_word(typingctx, address):
-    """Return the 64-bit integer or pointer at ``address``."""
-    return _loader(_WORD, types.int64)
+    kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
+    names = ["context", *(f"argument_{i}" for i in range(len(signature.args)))]
+    typing.__signature__ = inspect.Signature([inspect.Parameter(name, kind) for name in names])  # type: ignore[attr-defined]
+    return intrinsic(typing)
 
 
-@intrinsic
-def load_int(typingctx, address):
-    """Return the 32-bit unsigned integer at ``address``."""
-    return _loader(ir.IntType(32), types.int64)
+def function_at(returns: Any, *arguments: Any) -> Any:
+    """Return a function for compiled code that calls one at an address: (address, arguments); pointers are whole numbers.
+
+    Args:
+        returns: numba type of what it returns: void, a double, or a whole number, which is widened to 64 bits.
+        arguments: numba types of what it takes, doubles and whole numbers of 64 bits.
+    """
+    kind = ir.FunctionType(_LLVM[returns], [_LLVM[a] for a in arguments])
+
+    def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        answer = builder.call(builder.inttoptr(args[0], kind.as_pointer()), args[1:])
+        return context.get_dummy_value() if returns == types.void else _widened(builder, answer, returns)
+
+    return instructions(_wide(returns)(types.intp, *arguments), generate)
 
 
-@intrinsic
-def load_byte(typingctx, address):
-    """Return the byte at ``address``."""
-    return _loader(ir.IntType(8), types.int64)
+def _wide(kind: Any) -> Any:
+    return kind if kind in _WIDE else types.int64
 
 
-@intrinsic
-def store_double(typingctx, address, value):
-    """Write a double at ``address``."""
+def _widened(builder: Any, value: Any, kind: Any) -> Any:
+    return value if kind in _WIDE else builder.zext(value, ir.IntType(64))
 
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        builder.store(args[1], builder.inttoptr(args[0], _DOUBLE.as_pointer()))
+
+def _load(kind: Any) -> Any:
+    def generate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        return _widened(builder, builder.load(builder.inttoptr(args[0], _LLVM[kind].as_pointer())), kind)
+
+    return instructions(_wide(kind)(types.intp), generate)
+
+
+def _store(kind: Any) -> Any:
+    def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        builder.store(args[1], builder.inttoptr(args[0], _LLVM[kind].as_pointer()))
         return context.get_dummy_value()
 
-    return types.void(types.intp, types.float64), generate
+    return instructions(types.void(types.intp, kind), generate)
 
 
-@intrinsic
-def store_word(typingctx, address, value):
-    """Write a 64-bit integer at ``address``."""
+def _pointer(kind: Any) -> Any:
+    def generate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        return builder.inttoptr(args[0], _LLVM[kind].as_pointer())
 
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        builder.store(args[1], builder.inttoptr(args[0], _WORD.as_pointer()))
-        return context.get_dummy_value()
-
-    return types.void(types.intp, types.int64), generate
+    return instructions(types.CPointer(kind)(types.intp), generate)
 
 
-@intrinsic
-def as_doubles(typingctx, address):
-    """Return ``address`` as a pointer to doubles, for ``numba.carray``."""
-
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return builder.inttoptr(args[0], context.get_value_type(signature.return_type))
-
-    return types.CPointer(types.float64)(types.intp), generate
-
-
-@intrinsic
-def as_words(typingctx, address):
-    """Return ``address`` as a pointer to 64-bit integers, for ``numba.carray``."""
-
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return builder.inttoptr(args[0], context.get_value_type(signature.return_type))
-
-    return types.CPointer(types.int64)(types.intp), generate
+load_double = _load(types.float64)
+"""Return the double at an address."""
+load_word = _load(types.int64)
+"""Return the 64-bit integer or pointer at an address."""
+load_int = _load(types.uint32)
+"""Return the 32-bit unsigned integer at an address."""
+load_byte = _load(types.uint8)
+"""Return the byte at an address."""
+store_double = _store(types.float64)
+"""Write at an address a double."""
+store_word = _store(types.int64)
+"""Write at an address a 64-bit integer."""
+as_doubles = _pointer(types.float64)
+"""Return an address as a pointer to doubles, for `carray`."""
+as_words = _pointer(types.int64)
+"""Return an address as a pointer to 64-bit integers, for `carray`."""

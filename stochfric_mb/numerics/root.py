@@ -15,10 +15,6 @@ Reference: N. Anderson, A. Bjorck, A new high order method of regula falsi type 
 1973, 253-264, doi 10.1007/BF01951936.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math

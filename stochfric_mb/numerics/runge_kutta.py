@@ -12,10 +12,6 @@ dense output: L. F. Shampine, Math. Comp. 46, 1986, 135-150. `DOP853`: E. Hairer
 Differential Equations I, 2nd ed., Springer 1993, section II.10, order 8 with error estimates of orders 5 and 3.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -13,11 +13,6 @@ would give against a boundless load (the static cap while stuck, the sliding coe
 The callbacks are those of the space's one handler for all collisions, which pymunk calls after all others.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# pyright: reportCallIssue=false, reportPrivateImportUsage=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import dataclasses
@@ -25,11 +20,10 @@ import functools
 import math
 from typing import Any
 
-import numba
 from numba import types
 
 from stochfric_mb.compile import compiled, compiled_inline, native
-from stochfric_mb.numerics.memory import as_doubles, as_words, load_byte, load_double, load_int, load_word, store_double
+from stochfric_mb.numerics.memory import as_doubles, as_words, carray, load_byte, load_double, load_int, load_word, store_double
 from stochfric_mb.pymunk import records as r
 from stochfric_mb.pymunk.kinematics import advance_clock, free_acceleration, impulses, motion, push
 from stochfric_mb.pymunk.matching import find_slot, slot_for
@@ -85,14 +79,14 @@ def _separate(arbiter, space, data):
 def _before(arbiter, space, data):
     call_handler(load_word(data + 8 * r.OLD_BEFORE), arbiter, space, load_word(data + 8 * r.OLD_DATA))
     for i in range(load_word(data + 8 * r.N_TABLES)):
-        table = numba.carray(as_words(load_word(data + 8 * (r.TABLES + i))), r.TABLE)
+        table = carray(as_words(load_word(data + 8 * (r.TABLES + i))), r.TABLE)
         if before_solve(table, arbiter, space, data):
             return
 
 
 def _after(arbiter, space, data):
     for i in range(load_word(data + 8 * r.N_TABLES)):
-        table = numba.carray(as_words(load_word(data + 8 * (r.TABLES + i))), r.TABLE)
+        table = carray(as_words(load_word(data + 8 * (r.TABLES + i))), r.TABLE)
         if after_solve(table, arbiter):
             break
     call_handler(load_word(data + 8 * r.OLD_AFTER), arbiter, space, load_word(data + 8 * r.OLD_DATA))
@@ -103,13 +97,13 @@ def before_solve(table, arbiter, space, data):
     """Answer for a contact if it is ours, and return whether it is; commits the state of the law once."""
     if load_byte(arbiter + table[r.PROCESS]) == 0:
         return False
-    clock = numba.carray(as_doubles(table[r.CLOCK]), r.CLOCK_SIZE)
+    clock = carray(as_doubles(table[r.CLOCK]), r.CLOCK_SIZE)
     dt, stamp = advance_clock(table, clock, space)
     problem = table[r.PROBLEM]
     slot, made = slot_for(table, arbiter, stamp)
     if slot >= 0:
-        pair = numba.carray(as_words(table[r.PAIRS]), (table[r.CAPACITY], r.PAIR))[slot]
-        s = numba.carray(as_doubles(table[r.SLOTS]), (table[r.CAPACITY], r.SLOT))[slot]
+        pair = carray(as_words(table[r.PAIRS]), (table[r.CAPACITY], r.PAIR))[slot]
+        s = carray(as_doubles(table[r.SLOTS]), (table[r.CAPACITY], r.SLOT))[slot]
         if made:
             s[:] = 0.0
         pair[r.STAMP] = stamp
@@ -250,8 +244,8 @@ def after_solve(table, arbiter):
     slot = find_slot(table, arbiter)
     if slot < 0:
         return False
-    pair = numba.carray(as_words(table[r.PAIRS]), (table[r.CAPACITY], r.PAIR))[slot]
-    s = numba.carray(as_doubles(table[r.SLOTS]), (table[r.CAPACITY], r.SLOT))[slot]
+    pair = carray(as_words(table[r.PAIRS]), (table[r.CAPACITY], r.PAIR))[slot]
+    s = carray(as_doubles(table[r.SLOTS]), (table[r.CAPACITY], r.SLOT))[slot]
     if pair[r.STAMP] != table[r.LAST_STAMP] or s[r.KNOWN] == 0.0:
         return False
     normal, tangent = impulses(table, arbiter)

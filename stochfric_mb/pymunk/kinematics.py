@@ -1,10 +1,5 @@
 """Motion of a contact, and forces on its bodies, read from and written to pymunk's own structures."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# pyright: reportCallIssue=false, reportPrivateImportUsage=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 from stochfric_mb.coefficients.path import canonical_time

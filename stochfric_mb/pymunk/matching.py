@@ -4,17 +4,10 @@ Chipmunk frees and reuses the memory of shapes and arbiters, so addresses tell n
 pair of shapes, touching or not, until it is needed for another; then the one that was not seen for longest goes.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# pyright: reportCallIssue=false, reportPrivateImportUsage=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
-import numba
-
 from stochfric_mb.compile import compiled, compiled_inline
-from stochfric_mb.numerics.memory import as_words, load_int, load_word, store_word
+from stochfric_mb.numerics.memory import as_words, carray, load_int, load_word, store_word
 from stochfric_mb.pymunk import records as r
 from stochfric_mb.pymunk.memory import get_byte, get_word
 
@@ -24,7 +17,7 @@ def find_slot(table, arbiter):
     """Return the number of the slot of the arbiter's pair of shapes, -1 where it has none."""
     a = load_word(load_word(arbiter + table[r.ARBITER_A]) + table[r.SHAPE_NUMBER])
     b = load_word(load_word(arbiter + table[r.ARBITER_B]) + table[r.SHAPE_NUMBER])
-    pairs = numba.carray(as_words(table[r.PAIRS]), (table[r.CAPACITY], r.PAIR))
+    pairs = carray(as_words(table[r.PAIRS]), (table[r.CAPACITY], r.PAIR))
     cached = load_word(arbiter + table[r.CACHE]) - 1
     if 0 <= cached < table[r.USED] and _is_pair(pairs[cached], a, b):
         return cached
@@ -61,7 +54,7 @@ def slot_for(table, arbiter, stamp):
     if slot < 0:
         table[r.PROBLEM] |= r.OVERFLOW
         return -1, False
-    pair = numba.carray(as_words(table[r.PAIRS]), (table[r.CAPACITY], r.PAIR))[slot]
+    pair = carray(as_words(table[r.PAIRS]), (table[r.CAPACITY], r.PAIR))[slot]
     pair[r.NUMBER_A] = load_word(a + table[r.SHAPE_NUMBER])
     pair[r.NUMBER_B] = load_word(b + table[r.SHAPE_NUMBER])
     if table[r.SIDE_A + r.SIDE_KIND] == r.LISTED and table[r.SIDE_B + r.SIDE_KIND] == r.LISTED:
@@ -82,7 +75,7 @@ def place(table, side, shape):
     if kind == r.TYPE:
         return 0 if get_word(table[r.GET_TYPE], shape) == table[side + r.SIDE_TYPE] else -1
     size = table[side + r.SIDE_SIZE]
-    addresses = numba.carray(as_words(table[side + r.SIDE_ADDRESSES]), size)
+    addresses = carray(as_words(table[side + r.SIDE_ADDRESSES]), size)
     low, high = 0, size
     while low < high:
         middle = (low + high) // 2
@@ -91,7 +84,7 @@ def place(table, side, shape):
         else:
             high = middle
     if low < size and addresses[low] == shape:
-        return numba.carray(as_words(table[side + r.SIDE_NUMBERS]), size)[low]
+        return carray(as_words(table[side + r.SIDE_NUMBERS]), size)[low]
     return -1
 
 
@@ -101,7 +94,7 @@ def free_slot(table, stamp):
     if table[r.USED] < table[r.CAPACITY]:
         table[r.USED] += 1
         return table[r.USED] - 1
-    pairs = numba.carray(as_words(table[r.PAIRS]), (table[r.CAPACITY], r.PAIR))
+    pairs = carray(as_words(table[r.PAIRS]), (table[r.CAPACITY], r.PAIR))
     oldest = 0
     for i in range(table[r.CAPACITY]):
         if pairs[i, r.STAMP] < pairs[oldest, r.STAMP]:

@@ -5,23 +5,16 @@ a step of acceleration, in which the friction force is solved for together with 
 order wherever the force is smooth.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# pyright: reportCallIssue=false, reportPrivateImportUsage=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math
-
-import numba
 
 from stochfric_mb.coefficients.path import CURSOR, evaluate
 from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.laws.abi import MAX_STATE, call_law
 from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.numerics.cubic import hermite, value
-from stochfric_mb.numerics.memory import as_doubles
+from stochfric_mb.numerics.memory import as_doubles, carray
 from stochfric_mb.numerics.root import bracket, is_wide, least_armed, narrowed, trial
 from stochfric_mb.pymunk import records as r
 
@@ -223,7 +216,7 @@ def remember(table, clock, s, contact, first, time, u, v, mu_s, mu_k, load):
 def coefficients(table, s, contact):
     """Evaluate mu_s and mu_k of the contact at its time, displacement and number of stick phases."""
     s[r.MU_S], s[r.MU_K] = evaluate(
-        numba.carray(as_doubles(table[r.DESCRIPTOR]), table[r.DESCRIPTOR_SIZE]), s[r.CURSOR_AT : r.CURSOR_AT + CURSOR],
+        carray(as_doubles(table[r.DESCRIPTOR]), table[r.DESCRIPTOR_SIZE]), s[r.CURSOR_AT : r.CURSOR_AT + CURSOR],
         table[r.SEED], table[r.SAMPLE], contact, s[r.TIME], s[r.DISPLACEMENT], s[r.EVENTS],
     )  # fmt: skip
 

@@ -9,8 +9,7 @@ Times are kept as the start of a *leg* (from one output time or knot to the next
 that an event is located far below the rounding of the absolute time.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

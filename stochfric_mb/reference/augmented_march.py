@@ -1,7 +1,6 @@
 """Marching the augmented belt-box: Dormand-Prince steps with dense output, and switches located within the step."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

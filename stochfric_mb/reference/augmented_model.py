@@ -4,8 +4,7 @@ One record holds the model and the run, so that compiled functions pass one poin
 addresses, so that one compilation serves them all.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

@@ -8,8 +8,7 @@ the position while sliding (mu_k linear in time), its derivatives, and the slack
 routine finds the first zero of such a curve.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

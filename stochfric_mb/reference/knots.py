@@ -1,7 +1,6 @@
 """The coefficients around the present state: linear between the knots of their path, in time or along the belt."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """The law at the contact of box and belt: its force, its guards, and whether it sticks."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ def call(address, q, run, t, since, y):
     """Call one of the law's functions for (x, x') = y; the answer is in ``run.out``."""
     u = q.belt_velocity * t - y[0]
     mu_s, mu_k = coefficients(q, run, since, u)
-    call_law(  # pyright: ignore[reportCallIssue]
+    call_law(
         address, t, u, 0.0, q.belt_velocity - y[1], 0.0, q.normal_force, mu_s, mu_k, q.mass, holding_force(q, t, y), 0.0,
         run.state.ctypes.data, q.parameters.ctypes.data, run.out.ctypes.data,
     )  # fmt: skip
@@ -40,7 +39,7 @@ def friction(q, run, t, since, y):
         call(q.force, q, run, t, since, y)
         return run.out[0], 0.0
     mu_s, mu_k = coefficients(q, run, since, q.belt_velocity * t - y[0])
-    call_flow(  # pyright: ignore[reportCallIssue]
+    call_flow(
         q.flow, q.belt_velocity - y[1], 0.0, q.normal_force, y[2], 0.0, mu_s, mu_k,
         q.parameters.ctypes.data, run.out.ctypes.data,
     )  # fmt: skip

@@ -1,9 +1,5 @@
 """A law for the suite alone: its coefficient falls with every commit, so that the force tells how many there were."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import dataclasses

@@ -1,7 +1,6 @@
 """Direction asymmetry: other coefficients in the negative direction."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -11,8 +10,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import DIRECTION, MU_K, MU_S, VISCOUS_FORCE, Effect, parameter
-from stochfric_mb.effects.joints import JointSignature, JointSpan
+from stochfric_mb.effects.contract import DIRECTION, MU_K, MU_S, VISCOUS_FORCE, Effect, JointSignature, parameter
+from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Hypothesis, Slips, apart
 from stochfric_mb.effects.traits import BETWEEN_POINTS
 

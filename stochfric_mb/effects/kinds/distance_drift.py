@@ -1,7 +1,6 @@
 """Distance drift: coefficients that change with the distance slid (wear, run-in)."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -10,8 +9,8 @@ import dataclasses
 import math
 from typing import ClassVar
 
-from stochfric_mb.effects.contract import BELT_VELOCITY, MU_K, MU_S, TRAVELLED, VELOCITY, Effect, parameter
-from stochfric_mb.effects.joints import JointSignature, JointSpan
+from stochfric_mb.effects.contract import BELT_VELOCITY, MU_K, MU_S, TRAVELLED, VELOCITY, Effect, JointSignature, parameter
+from stochfric_mb.effects.joints import JointSpan
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

@@ -1,7 +1,6 @@
 """Friction drift: coefficients that change in the course of a record (temperature, wear, run-in)."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -12,9 +11,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import MU_K, MU_S, TIME, Array, parameter
+from stochfric_mb.effects.contract import MU_K, MU_S, TIME, Array, JointSignature, parameter
 from stochfric_mb.effects.course import COARSER, Course, sized, splines
-from stochfric_mb.effects.joints import JointSignature, JointSpan
+from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, Hypothesis, Slips, apart
 from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, SLOPE_IN_DISTANCE, WANDERS_ALIKE
 

@@ -1,7 +1,6 @@
 """Frictional lag: friction falls from static to kinetic over a sliding distance, or over a time."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -12,8 +11,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import MU_K, MU_S, SLIP, SLIP_TIME, Effect, parameter
-from stochfric_mb.effects.joints import JointSignature, JointSpan
+from stochfric_mb.effects.contract import MU_K, MU_S, SLIP, SLIP_TIME, Effect, JointSignature, parameter
+from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips
 from stochfric_mb.effects.traits import MEMORY, POSITIVE, SHAPES_SLIPS
 

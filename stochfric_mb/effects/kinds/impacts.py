@@ -1,7 +1,6 @@
 """Impacts: knocks on the body at random times."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Load dependence: coefficients that change with the normal force."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -11,8 +10,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import MU_K, MU_S, NORMAL_FORCE, Effect, parameter
-from stochfric_mb.effects.joints import JointSignature, JointSpan
+from stochfric_mb.effects.contract import MU_K, MU_S, NORMAL_FORCE, Effect, JointSignature, parameter
+from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips, apart
 from stochfric_mb.effects.traits import BETWEEN_POINTS, READS_LOAD
 

@@ -1,7 +1,6 @@
 """Position-dependent force: a force that the place alone decides, whichever way the joint moves."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -11,8 +10,8 @@ import math
 from collections.abc import Mapping
 from typing import ClassVar
 
-from stochfric_mb.effects.contract import LOAD, POSITION, Effect, parameter
-from stochfric_mb.effects.joints import JointSignature, JointSpan
+from stochfric_mb.effects.contract import LOAD, POSITION, Effect, JointSignature, parameter
+from stochfric_mb.effects.joints import JointSpan
 
 WAVES_OF_STROKE = (4.0, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08)
 """Wavelengths from which fits begin, over the stroke [-]; the longest is an unbalance seen over a part of its turn."""

@@ -1,7 +1,6 @@
 """Position-dependent friction: coefficients that repeat along the belt or along the stroke."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -14,8 +13,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import BELT_POSITION, MU_K, MU_S, POSITION, Effect, choice, parameter
-from stochfric_mb.effects.joints import JointSignature, JointSpan
+from stochfric_mb.effects.contract import BELT_POSITION, MU_K, MU_S, POSITION, Effect, JointSignature, choice, parameter
+from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips, Wave, friction_at, times
 from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, COURSE_OF_RUN, WANDERS_ALIKE, WAVES
 

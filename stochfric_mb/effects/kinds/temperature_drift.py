@@ -1,7 +1,6 @@
 """Temperature drift: coefficients that change with a measured temperature."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -9,8 +8,8 @@ from __future__ import annotations
 import dataclasses
 from typing import ClassVar
 
-from stochfric_mb.effects.contract import MU_K, MU_S, TEMPERATURE, Effect, parameter
-from stochfric_mb.effects.joints import JointSignature, JointSpan
+from stochfric_mb.effects.contract import MU_K, MU_S, TEMPERATURE, Effect, JointSignature, parameter
+from stochfric_mb.effects.joints import JointSpan
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

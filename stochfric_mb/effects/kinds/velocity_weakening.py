@@ -1,7 +1,6 @@
 """Velocity weakening: sliding friction that falls with speed."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -13,8 +12,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import MU_K, SPEED, Effect, parameter
-from stochfric_mb.effects.joints import JointSignature, JointSpan
+from stochfric_mb.effects.contract import MU_K, SPEED, Effect, JointSignature, parameter
+from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips
 from stochfric_mb.effects.traits import POSITIVE, RATE, SHAPES_SLIPS
 

@@ -1,7 +1,6 @@
 """Viscous friction: a part of the friction force in proportion to the relative speed."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
+# pyright: standard
 # (compiled functions are typed by numba)
 
 from __future__ import annotations
@@ -14,8 +13,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import NORMAL_FORCE, SPEED, VISCOUS_FORCE, Effect, parameter
-from stochfric_mb.effects.joints import JointSignature, JointSpan
+from stochfric_mb.effects.contract import NORMAL_FORCE, SPEED, VISCOUS_FORCE, Effect, JointSignature, parameter
+from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips
 from stochfric_mb.effects.traits import MORE_DAMPING, POSITIVE, SHAPES_SLIPS
 

@@ -9,8 +9,8 @@ import pytest
 
 from stochfric_mb import effects
 from stochfric_mb.discovery import discover
-from stochfric_mb.effects.contract import MU_K, POSITION, Effect, parameter
-from stochfric_mb.effects.joints import JointSignature, JointSpan
+from stochfric_mb.effects.contract import MU_K, POSITION, Effect, JointSignature, parameter
+from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.measurement import Dataset
 from tests.discovery.joints.test_parts import coulomb, scenario, sine_run
 
