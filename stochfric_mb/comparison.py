@@ -126,6 +126,7 @@ class Comparison:
             "scenario": self.scenario.to_dict(),
             "seed": self.seed,
             "dt": self.dt,
+            "stick_speed": self.scenario.law.stick_speed,
             "reference": {
                 "version": about.get("version"),
                 "hook": about.get("hook"),

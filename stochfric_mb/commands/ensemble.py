@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from stochfric_mb.ensemble.produce import Produced
     from stochfric_mb.ensemble.result import EnsembleResult
     from stochfric_mb.scenario import Scenario
-    from stochfric_mb.statistics import Estimate
 
 EXAMPLE = """\b
 Example:
@@ -28,8 +28,6 @@ Example:
 MARKER = "report.html"
 """File that shows that a folder holds the page of an ensemble."""
 INTERRUPTED = 130
-LEVELS = (0.05, 0.5, 0.95)
-"""Quantiles on the screen."""
 
 
 @click.command(epilog=EXAMPLE)
@@ -49,7 +47,7 @@ LEVELS = (0.05, 0.5, 0.95)
 @click.option("--workers", type=int, metavar="W", help="Threads or processes on this machine; default: all cores.")
 @click.option("--scheduler", metavar="ADDRESS", help="Compute on a Dask cluster instead, such as tcp://host:8786.")
 @click.option("-o", "--out", required=True, metavar="FILE", help="What to write: .nc, or .zarr for what is beyond the memory.")
-@click.option("--plot", is_flag=True, help="Write a page with figures into the folder OUT_plots as well.")
+@click.option("--plot", is_flag=True, help="Write a page with figures, and its numbers, into the folder OUT_plots as well.")
 def ensemble(
     scenario: str,
     seed: int,
@@ -95,10 +93,11 @@ def ensemble(
         _say_how_to_resume(target)
         click.get_current_context().exit(INTERRUPTED)
     result, _ = read_ensemble(target)
+    facts = _facts(result, done)
     if plots is not None:
-        _plot(result, problem, plots, _facts(result, done), force=force)
-    answer(lambda: _facts(result, done))
-    _show(result, done)
+        _plot(result, problem, plots, facts, force=force)
+    answer(facts)
+    _show(result, facts, done)
 
 
 def times_of(text: str | None) -> list[float] | None:
@@ -158,14 +157,16 @@ def _plot(result: EnsembleResult, scenario: Scenario, folder: Path, facts: dict[
     with whole_folder(folder, replace=force) as temporary:
         for name, svg in drawn.items():
             (temporary / f"{name}.svg").write_text(svg, encoding="utf-8")
-        (temporary / MARKER).write_text(page(result, scenario.title, facts, drawn, command_line()), encoding="utf-8")
+        (temporary / MARKER).write_text(page(scenario.title, facts, drawn, command_line()), encoding="utf-8")
+        (temporary / "ensemble.json").write_text(json.dumps(facts, indent=1, allow_nan=False) + "\n", encoding="utf-8")
     say(str(folder / MARKER))
 
 
 def _facts(result: EnsembleResult, done: Produced) -> dict[str, Any]:
-    """Return what there is to say of an ensemble: its file, what ran, and the events with their intervals."""
+    """Return what there is to say of an ensemble: its file, what ran, the events with their intervals, the response."""
     import dataclasses
 
+    from stochfric_mb.report.ensemble import response
     from stochfric_mb.statistics import event_statistics
 
     def finite(number: float) -> float | None:
@@ -173,32 +174,25 @@ def _facts(result: EnsembleResult, done: Produced) -> dict[str, Any]:
 
     events = dataclasses.asdict(event_statistics(result))
     kept = ("law", "engine", "engine_version", "dt", "seed", "notes")
-    return {"out": str(done.path), "n_runs": result.n_runs, **{k: result.attributes[k] for k in kept}} | {
-        name: None if e is None else {k: finite(float(v)) for k, v in e.items()} for name, e in events.items()
-    }
+    return (
+        {"out": str(done.path), "n_runs": result.n_runs, **{k: result.attributes[k] for k in kept}}
+        | {name: None if e is None else {k: finite(float(v)) for k, v in e.items()} for name, e in events.items()}
+        | {"response": response(result)}
+    )
 
 
-def _show(result: EnsembleResult, done: Produced) -> None:
+def _show(result: EnsembleResult, facts: dict[str, Any], done: Produced) -> None:
     from stochfric_mb.commands.tables import print_table
-    from stochfric_mb.report.ensemble import at_times, chosen
-    from stochfric_mb.statistics import event_statistics
+    from stochfric_mb.report.ensemble import EVENTS
 
     rows: list[list[str]] = []
-    few = at_times(result, chosen(result))
-    of = result.attributes.get("position_unit", "m")
-    for name, unit in (("position", f"m{of}"), ("velocity", f"m{of}/s")):
-        numbers = [few.mean(name), few.std(name), *few.quantiles(name, LEVELS)]
-        for i, t in enumerate(few.time):
-            rows.append([f"{name} [{unit}]", f"{t:g}", *(f"{1e3 * values[i]:.4g}" for values in numbers)])
+    for q in facts["response"]:
+        numbers = [q["mean"], q["std"], *q["quantiles"]]
+        for i, t in enumerate(q["time"]):
+            shown = ["-" if values[i] is None else f"{1e3 * values[i]:.4g}" for values in numbers]
+            rows.append([f"{q['name']} [m{q['unit']}]", f"{t:g}", *shown])
     print_table(("", "time [s]", "mean", "std", "5 %", "median", "95 %"), rows, title="Over the runs")
-    events = event_statistics(result)
-    rows = [
-        _interval("period [s]", events.period),
-        _interval("first break-away [s]", events.first_break_away),
-        _interval("mu_s at break-away", events.break_away_mu_s),
-        _interval("stick fraction", events.stick_fraction),
-        _interval("break-aways in a run", events.n_break_aways),
-    ]
+    rows = [_interval(name if unit == "-" else f"{name} [{unit}]", facts[key]) for key, name, unit in EVENTS]
     print_table(("", "mean", "95 % interval"), rows, title="Events")
     about = result.attributes
     for note in about["notes"]:
@@ -211,7 +205,7 @@ def _show(result: EnsembleResult, done: Produced) -> None:
     )
 
 
-def _interval(name: str, found: Estimate | None) -> list[str]:
-    if found is None or not math.isfinite(found.low):
-        return [name, "-" if found is None else f"{found.value:.6g}", "-"]
-    return [name, f"{found.value:.6g}", f"{found.low:.6g} .. {found.high:.6g}"]
+def _interval(name: str, estimate: dict[str, float | None] | None) -> list[str]:
+    if estimate is None or estimate["low"] is None:
+        return [name, "-" if estimate is None else f"{estimate['value']:.6g}", "-"]
+    return [name, f"{estimate['value']:.6g}", f"{estimate['low']:.6g} .. {estimate['high']:.6g}"]

@@ -101,7 +101,7 @@ def dataset_text(runs: str) -> str:
 
     return (
         f'schema = "{SCHEMA}"\ntitle = "My rig"\nscenario = "scenario.toml"\n\n'
-        "# A run is learned from (fit) or held out and only scored (test). Known conditions that differ from the scenario's\n"
+        "# A run is used to fit (fit), or held out and only scored (test). Known conditions that differ from the scenario's\n"
         '# [mechanism] go into set, such as set = { normal_force = 20.0 }. Units: units = { position = "mm" }.\n\n' + runs
     )
 

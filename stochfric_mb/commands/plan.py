@@ -88,7 +88,7 @@ def _show(content: Mapping[str, Any]) -> None:
     for kind, what in content["unseen"].items():
         say(f"Not seen at any size: {words_of(kind)}; {what} would show it")
     for pair in content["pairs"]:
-        say(f"Not told apart: {pair_text(pair)}")
+        say(f"Not distinguished: {pair_text(pair)}")
     for run in content["extra"][:SHOWN]:
         say(f"Extra run: {run['text']}: {_added(run)}")
     for note in content["notes"]:
@@ -100,5 +100,5 @@ def _added(run: Mapping[str, Any]) -> str:
     from stochfric_mb.effects import words_of
 
     parts = [f"shows {', '.join(map(words_of, run['shows']))}"] if run["shows"] else []
-    parts += [f"tells {len(run['separates'])} more pairs apart"] if run["separates"] else []
+    parts += [f"distinguishes {len(run['separates'])} more pairs"] if run["separates"] else []
     return ", ".join([*parts, f"limits times {run['limits']:.2g}"])

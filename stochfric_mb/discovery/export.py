@@ -43,16 +43,29 @@ def files(outcome: Outcome) -> dict[str, str]:
 
 
 def parameter_table(result: Result) -> str:
-    """Return the numbers of a result with their 95 % intervals as CSV: effect, parameter, value, low, high, unit."""
-    rows = ["effect,parameter,value,low,high,unit"]
+    """Return the numbers of a result with their 95 % intervals as CSV.
+
+    Columns: effect (empty for mechanism and law), parameter, value, low, high, unit; source: "fit", "prior" where what is
+    stated decides more than the data do, "none" for what no fit has moved; moved: by how many stated standard deviations a
+    measured number is off, where those are many.
+    """
+    about = result.details.get("parameters", {})
+    priors, moved = about.get("not_measured", ()), about.get("moved_beyond_uncertainty", {})
+    rows = ["effect,parameter,value,low,high,unit,source,moved"]
     for effect in result.effects:
-        rows += [_row(effect.kind, name, number) for name, number in effect.parameters.items()]
-    rows += [_row("", name, number) for name, number in result.believed.items()]
+        rows += [_row(effect.kind, name, number, _source(number)) for name, number in effect.parameters.items()]
+    for name, number in result.believed.items():
+        off = f"{moved[name]:.3g}" if name in moved else ""
+        rows.append(_row("", name, number, "prior" if name in priors else _source(number), off))
     return "\n".join(rows) + "\n"
 
 
-def _row(effect: str, name: str, number: Interval) -> str:
-    return f"{effect},{name},{number.value:.6g},{number.low:.6g},{number.high:.6g},{number.unit}"
+def _source(number: Interval) -> str:
+    return "none" if number.low == number.high else "fit"
+
+
+def _row(effect: str, name: str, number: Interval, source: str, off: str = "") -> str:
+    return f"{effect},{name},{number.value:.6g},{number.low:.6g},{number.high:.6g},{number.unit},{source},{off}"
 
 
 def scenario_toml(scenario: Scenario[Any]) -> str:

@@ -29,7 +29,7 @@ class RunEntry:
     name: str
     """Name of the run."""
     role: Role = "fit"
-    """`fit`: learned from; `test`: held out, only scored."""
+    """`fit`: models are fitted to it; `test`: held out, only scored."""
     settings: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Keys of `[mechanism]` whose values in this run differ from the scenario's, in SI units."""
     columns: Mapping[str, str | int] = dataclasses.field(default_factory=dict[str, str | int])

@@ -41,7 +41,7 @@ class Dataset:
 
     @property
     def fit(self) -> tuple[Run, ...]:
-        """Runs that are learned from."""
+        """Runs that models are fitted to."""
         return tuple(run for run in self.runs if run.role == "fit")
 
     @property
@@ -170,7 +170,7 @@ def _named(tables: Mapping[str, Any], folder: Path) -> Path | str:
 def _require_roles(path: Path, dataset: Dataset) -> None:
     roles = ", ".join(f"{run.name}: {run.role}" for run in dataset.runs)
     if not dataset.fit:
-        raise InputError(f'{path}: no run to learn from ({roles}); give at least one run role = "fit"')
+        raise InputError(f'{path}: no run to fit ({roles}); give at least one run role = "fit"')
     if not dataset.test:
         raise InputError(
             f'{path}: no run is held out ({roles}), so that nothing could be scored; give a run role = "test", or cut one file '

@@ -79,7 +79,7 @@ def _entry(run: Mapping[str, Any], number: int, folder: Path) -> RunEntry:
         if not isinstance(run.get(key), str):
             raise InputError(f'{where}: {key} = {run.get(key)!r}; write {key} = "{"run.csv" if key == "file" else "fit"}"')
     if run["role"] not in ("fit", "test"):
-        raise InputError(f'{where}: role = {run["role"]!r}; it is "fit" (learned from) or "test" (held out)')
+        raise InputError(f'{where}: role = {run["role"]!r}; it is "fit" (used to fit) or "test" (held out)')
     file = Path(expanded(run["file"]))
     return RunEntry(
         file=file if file.is_absolute() else folder / file,

@@ -25,7 +25,7 @@ class Run:
     name: str
     """Name of the run, unique in its dataset."""
     role: Role
-    """``fit``: what is learned from; ``test``: held out, only scored."""
+    """``fit``: models are fitted to it; ``test``: held out, only scored."""
     time: Array
     """Time [s], float64[n], uniform; it starts as in the file."""
     channels: Mapping[str, Array]

@@ -11,6 +11,7 @@ from typing import Any, cast
 
 import numpy as np
 import numpy.typing as npt
+from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
@@ -18,7 +19,7 @@ from matplotlib.ticker import NullLocator
 from stochfric_mb.comparison import Comparison
 from stochfric_mb.metrics import relative_velocity
 from stochfric_mb.report.figures import colour, dots, legend, new_figure, svg
-from stochfric_mb.report.page import render
+from stochfric_mb.report.page import plain, render, said
 from stochfric_mb.storage import versions
 from stochfric_mb.trajectory import Trajectory
 
@@ -62,6 +63,7 @@ def page(comparison: Comparison, drawn: Mapping[str, str], command: str) -> str:
         drawn=drawn,
         captions=CAPTIONS,
         colour=colour,
+        shown_value=_shown,
         steps=sorted({p.dt for e in comparison.engines for p in e.convergence}, reverse=True),
         command=command,
         versions=versions(*packages),
@@ -78,17 +80,17 @@ CAPTIONS: dict[str, str] = {
 """What each figure shows."""
 
 
-def _scenario_tables(comparison: Comparison) -> list[tuple[str, list[tuple[str, str, str]]]]:
+def _scenario_tables(comparison: Comparison) -> list[tuple[str, list[tuple[str, Any, str]]]]:
     """Return the scenario's tables: title, and rows of key, value and unit."""
     spacing = {"spatial": "m"}.get(
         comparison.scenario.coefficient_process.kind if comparison.scenario.coefficient_process else "", "s"
     )
-    tables: list[tuple[str, list[tuple[str, str, str]]]] = []
+    tables: list[tuple[str, list[tuple[str, Any, str]]]] = []
     for name, table in comparison.scenario.to_dict().items():
         if isinstance(table, dict):
             table = cast(dict[str, Any], table)
             relative = name == "uncertainty"
-            rows = [(k, _shown(v), "relative" if relative else _unit(k, v, spacing)) for k, v in table.items()]
+            rows = [(k, v, "relative" if relative else _unit(k, v, spacing)) for k, v in table.items()]
             tables.append((name, rows))
     return tables
 
@@ -99,10 +101,14 @@ def _unit(key: str, value: Any, spacing: str) -> str:
     return spacing if key == "spacing" else UNITS.get(key, "")
 
 
-def _shown(value: Any) -> str:
+def _shown(value: Any) -> Markup:
+    """Return a value of the scenario with its numbers marked."""
     if isinstance(value, dict):
-        return ", ".join(f"{k} = {v}" for k, v in cast(dict[str, Any], value).items())
-    return f"{value:g}" if isinstance(value, float) else str(value)
+        parts = [Markup("{} = {}").format(k, _shown(v)) for k, v in cast(dict[str, Any], value).items()]
+        return Markup(", ").join(parts)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return said(value)
+    return plain(value)
 
 
 def _runs(comparison: Comparison) -> list[tuple[str, Trajectory]]:

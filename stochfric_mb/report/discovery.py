@@ -11,32 +11,33 @@ from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.effects import effect_class, effect_kinds, words_of
 from stochfric_mb.report.comparison import UNITS
 from stochfric_mb.report.discovery_pictures import COLOURS, given
-from stochfric_mb.report.page import digits, render
+from stochfric_mb.report.page import marked, render, said
 
 CAPTIONS = {
-    "cycles": "Left: held-out cycles from the middle of a stick phase on, measured and forecast. Right: what the forecasts "
-    "miss; line: median, area: the middle of all cycles. Dotted: how far a random model expects to miss.",
-    "map": "Friction force measured less what the model says, one column a slip. Level stripes: wrong in every slip alike. "
-    "Upright stripes: slips differ. Pale: explained.",
-    "left_over": "The same slip by slip, against time and against the place on the belt: what has a pattern is missing from "
+    "cycles": "Left: held-out cycles from the middle of a stick phase on, measured and forecast. Right: error of the "
+    "forecasts; line: median, area: the middle nine tenths of all cycles. Dotted: the error that a random model expects.",
+    "map": "Measured friction force minus the model's, one column a slip. Horizontal stripes: every slip is off alike. "
+    "Vertical stripes: the slips differ. Pale: explained.",
+    "left_over": "The same residual slip by slip, against time and against the position on the belt. A pattern is missing from "
     "the model.",
-    "folded": "The same, folded at the wavelength or period that was estimated: one round of what repeats, first run.",
+    "folded": "The same residual of the first run, folded at the estimated wavelength or period.",
     "friction": "Friction force against sliding velocity in the slips of the first run, as smooth as the slips allow, without "
-    "their ends; area: the middle of all slips. At rest: the force at break-away. Lines: the fitted laws.",
-    "events": "Events in the held-out runs, measured and simulated; bar: the middle of all values, tick: median.",
-    "ranking": "How well each candidate explains what the recalibrated model leaves. Blue: named. Grey: other effects. Sand: "
-    "patterns that name no physics.",
+    "their ends; area: the middle nine tenths of all slips. At rest: the force at break-away. Lines: the fitted laws.",
+    "events": "Events in the held-out runs, measured and simulated; bar: the middle nine tenths of all values, tick: median.",
+    "ranking": "How well each candidate explains the residual of the recalibrated model. Blue: named. Grey: other effects. "
+    "Sand: patterns that name no physics.",
     "gap": "Forecast error on held-out runs.",
 }
 """What each picture shows."""
 
 METRICS = {
     "crps_one_cycle": "error of forecasts one cycle ahead (CRPS; without scatter, the mean absolute error)",
-    "crps_slip_forces": "error of the forces of single slips over their noise (CRPS)",
-    "closed_loop_voltage": "error of the simulated closed loop: root mean square of the voltage's, over that of the voltage",
-    "closed_loop_drive": "error of the simulated closed loop: root mean square of what the controller gives, over its size",
-    "crps_friction": "error of forecasts of friction while the joint slides that know how far runs scatter (CRPS)",
-    "inverse_dynamics_sliding": "error of the driving force that the model needs while the joint slides (root mean square)",
+    "crps_slip_forces": "error of the predicted forces of single slips, over their noise (CRPS)",
+    "closed_loop_voltage": "voltage error of the simulated closed loop (root mean square, over that of the voltage)",
+    "closed_loop_drive": "error of the controller's output in the simulated closed loop (root mean square, over its size)",
+    "crps_friction": "error of predicted friction while the joint slides (CRPS, with the scatter between runs)",
+    "inverse_dynamics_sliding": "error of the predicted driving force while the joint slides (root mean square)",
+    "friction_coefficient": "error of the predicted coefficient of friction (root mean square)",
 }
 """Metric -> what it is, in words; other metrics are told by their names."""
 
@@ -120,14 +121,7 @@ def error(value: float | None, unit: str) -> Markup:
 
 def percent(value: float | None, n: int = 2) -> Markup:
     """Return a share as a percentage, with its exact value in the markup."""
-    if value is None:
-        return Markup("–")
-    return Markup('<data value="{}">{}</data>&nbsp;%').format(repr(value), digits(100.0 * value, n))
-
-
-def said(text: str) -> Markup:
-    """Return a text of ``result.json``, marked as such: its numbers stand in it already."""
-    return Markup('<span class="said">{}</span>').format(text)
+    return marked(value, n, 100.0) + (Markup("") if value is None else Markup("&nbsp;%"))
 
 
 def in_words(kind: str) -> str:
@@ -150,11 +144,7 @@ def _unit(value: float | None, unit: str) -> Markup:
 def _numbers(values: Sequence[float | None], unit: str, n: int) -> list[Markup]:
     """Return numbers shown in the unit that suits the first."""
     factor = _scale(values[0], unit)[0]
-    shown = [str(v) if isinstance(v, int) else digits(None if v is None else factor * v, n) for v in values]
-    return [
-        Markup("–") if v is None else Markup('<data value="{}">{}</data>').format(repr(v), text)
-        for v, text in zip(values, shown, strict=True)
-    ]
+    return [marked(v, n, factor) for v in values]
 
 
 def _beliefs(content: Mapping[str, Any]) -> list[dict[str, Any]]:

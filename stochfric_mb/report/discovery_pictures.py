@@ -121,7 +121,7 @@ def _cycles(evidence: Evidence) -> Figure:
             for edge in (low, high):
                 error.plot(share, edge, color=COLOURS[name], linewidth=1.0, linestyle=":")
     error.axhline(0.0, color=COLOURS["data"], linewidth=0.7)
-    error.set(title="measured less forecast", xlabel="time since the forecast began [cycles]", ylabel="error [µm]")
+    error.set(title="measured minus forecast", xlabel="time since the forecast began [cycles]", ylabel="error [µm]")
     legend(figure, cycle)
     return figure
 
@@ -143,7 +143,7 @@ def _map(evidence: Evidence) -> Figure:
         axes.grid(visible=False)
         axes.set(title=LABELS[name], xlabel="slip number, runs side by side", ylabel="course of the slip [%]")
         if axes is axes_list[-1]:
-            figure.colorbar(mesh, ax=axes_list, label="measured less model [mN]", shrink=0.9)
+            figure.colorbar(mesh, ax=axes_list, label="measured minus model [mN]", shrink=0.9)
     return figure
 
 

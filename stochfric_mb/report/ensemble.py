@@ -77,28 +77,36 @@ EVENTS = (
 """Statistic, its name in words, its unit."""
 
 
-def page(result: EnsembleResult, title: str, facts: Mapping[str, Any], drawn: Mapping[str, str], command: str) -> str:
+LEVELS = (0.05, 0.5, 0.95)
+"""Quantiles of the response that are told."""
+
+
+def page(title: str, facts: Mapping[str, Any], drawn: Mapping[str, str], command: str) -> str:
     """Return the page of an ensemble as one HTML text that needs no other file.
 
     Args:
-        result: the runs, or statistics of them.
         title: of the scenario.
-        facts: what ``stochfric ensemble --json`` says of it.
+        facts: what ``stochfric ensemble --json`` says of it, and ``ensemble.json`` holds.
         drawn: its figures, from `figures`.
         command: the command that made it.
     """
+    return render(
+        "ensemble.html", title=title, facts=facts, drawn=drawn, captions=CAPTIONS, events=EVENTS, command=command,
+        versions=versions(),
+    )  # fmt: skip
+
+
+def response(result: EnsembleResult) -> list[dict[str, Any]]:
+    """Return mean, standard deviation and quantiles of position and velocity at a few output times [m or rad, s]."""
     few = at_times(result, chosen(result))
-    quantities = [
+    spread = {name: few.std(name).tolist() if result.n_runs > 1 else [None] * len(few.time) for name in _units(result)}
+    return [
         {
-            "name": name, "unit": unit, "time": few.time.tolist(), "mean": (1.0e3 * few.mean(name)).tolist(),
-            "std": (1.0e3 * few.std(name)).tolist(), "quantiles": (1.0e3 * few.quantiles(name, (0.05, 0.5, 0.95))).tolist(),
+            "name": name, "unit": unit, "time": few.time.tolist(), "mean": few.mean(name).tolist(),
+            "std": spread[name], "levels": LEVELS, "quantiles": few.quantiles(name, LEVELS).tolist(),
         }
         for name, unit in _units(result).items()
     ]  # fmt: skip
-    return render(
-        "ensemble.html", title=title, facts=facts, drawn=drawn, captions=CAPTIONS, events=EVENTS, quantities=quantities,
-        command=command, versions=versions(),
-    )  # fmt: skip
 
 
 def chosen(result: EnsembleResult, times: Sequence[float] | None = None) -> list[int]:
@@ -127,8 +135,8 @@ def at_times(result: EnsembleResult, numbers: Sequence[int]) -> EnsembleResult:
 
 
 def _units(result: EnsembleResult) -> dict[str, str]:
-    """Return the quantities that are drawn and their units."""
-    unit = f"m{result.attributes.get('position_unit', 'm')}"
+    """Return the quantities that are drawn and their units; they are shown in thousandths of them."""
+    unit = str(result.attributes.get("position_unit", "m"))
     return {"position": unit, "velocity": f"{unit}/s"}
 
 
@@ -148,7 +156,7 @@ def _fan_chart(result: EnsembleResult) -> Figure:
                 axes.vlines(result.time, found[low], found[high], color="#0072b2", alpha=opacity, linewidth=9.0, label=text)
         dots: dict[str, Any] = {} if len(result.time) > FEW_TIMES else {"marker": "o", "linestyle": ""}
         axes.plot(result.time, found[0.5], color=ink, linewidth=1.0, label="median", **dots)
-        axes.set(xlabel="time [s]", ylabel=f"{name} [{unit}]")
+        axes.set(xlabel="time [s]", ylabel=f"{name} [m{unit}]")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper left", ncols=4)
     return figure
@@ -165,7 +173,7 @@ def _distributions(result: EnsembleResult, shown: Sequence[int]) -> Figure:
             else:
                 _histogram_of(axes, *_coarse(*result.histogram(name, i, bins=60)))
             axes.set_title(f"t = {result.time[i]:g} s")
-            axes.set(ylabel="share of the runs", xlabel=f"{name} [{unit}]" if i == shown[-1] else "")
+            axes.set(ylabel="share of the runs", xlabel=f"{name} [m{unit}]" if i == shown[-1] else "")
     return figure
 
 
@@ -177,7 +185,7 @@ def _histogram_of(axes: Axes, counts: npt.NDArray[np.int64], edges: Array) -> No
 
 
 def _one_value(axes: Axes, value: float, unit: str) -> None:
-    axes.text(0.5, 0.5, f"all runs: {1.0e3 * value:.6g} {unit}", transform=axes.transAxes, ha="center", color="#52606d")
+    axes.text(0.5, 0.5, f"all runs: {1.0e3 * value:.6g} m{unit}", transform=axes.transAxes, ha="center", color="#52606d")
     axes.set(xticks=[], yticks=[])
 
 
@@ -207,7 +215,7 @@ def _phase_portrait(result: EnsembleResult, scenario: Scenario) -> Figure:
         axes.axhline(1.0e3 * scenario.mechanism.belt_velocity, **belt)
         axes.legend(loc="lower left")
     across, along = _units(result).values()
-    axes.set(xlabel=f"position [{across}]", ylabel=f"velocity [{along}]")
+    axes.set(xlabel=f"position [m{across}]", ylabel=f"velocity [m{along}]")
     axes.grid(visible=False)
     figure.colorbar(mesh, ax=axes, label="samples")
     return figure

@@ -19,8 +19,8 @@ def render(template: str, **context: Any) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["digits"] = digits
-    environment.globals["picture"] = picture
+    environment.filters |= {"digits": marked, "plain": plain, "said": said, "unit": unit}
+    environment.globals |= {"picture": picture, "ink": ink}
     return environment.get_template(template).render(**context)
 
 
@@ -35,6 +35,38 @@ def digits(value: float | None, n: int = 3) -> str:
     if -4 < exponent < 6:
         return f"{value:.{max(n - 1 - exponent, 0)}f}".replace("-", "−")
     return f"{mantissa.replace('-', '−')}·10{str(exponent).translate(_SUPERSCRIPT)}"
+
+
+def marked(value: float | None, n: int = 3, times: float = 1.0) -> Markup:
+    """Return a number as a page shows it, with its exact value in the markup.
+
+    Args:
+        value: as it stands in the file of the page's numbers; a dash for None and what is not finite.
+        n: significant digits of one that is no integer.
+        times: what it is shown multiplied by, such as 1e6 for metres in µm.
+    """
+    if value is None or not math.isfinite(value):
+        return Markup("–")
+    whole = isinstance(value, int)
+    text = str(value) if whole and times == 1.0 else digits(times * value, n)
+    return Markup('<data value="{}">{}</data>').format(value if whole else repr(float(value)), text)
+
+
+def plain(value: float) -> Markup:
+    """Return a setting, such as a step or a length, with the digits that were set, marked as `marked` does."""
+    mantissa, _, power = f"{value:g}".partition("e")
+    text = mantissa.replace("-", "−") + (f"·10{str(int(power)).translate(_SUPERSCRIPT)}" if power else "")
+    return Markup('<data value="{}">{}</data>').format(value, text)
+
+
+def unit(text: str) -> str:
+    """Return a unit as a page shows it: powers raised, nothing for a number without one."""
+    return "" if text == "-" else re.sub(r"\^(-?\d+)", lambda power: power[1].translate(_SUPERSCRIPT), text)
+
+
+def said(text: object) -> Markup:
+    """Return a text that stands in the file of the page's numbers, marked as such: its numbers stand there already."""
+    return Markup('<span class="said">{}</span>').format(text)
 
 
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -65,6 +97,11 @@ def picture(svg: str, text: str) -> Markup:
     )
     svg = svg.replace("xlink:href", "href").replace("<svg ", Markup('<svg role="img" aria-label="{}" ').format(text), 1)
     return Markup('<div class="plot">{}</div>').format(Markup(svg))
+
+
+def ink(colour: str) -> str:
+    """Return the colour of a page, which differs in light and dark, that one of a figure stands for; itself for others."""
+    return INKS.get(colour, colour)
 
 
 def _size(width: float) -> str:

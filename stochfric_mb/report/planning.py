@@ -6,7 +6,16 @@ from collections.abc import Mapping
 from typing import Any
 
 from stochfric_mb.effects import words_of
+from stochfric_mb.report.comparison import UNITS
+from stochfric_mb.report.discovery import in_words
 from stochfric_mb.report.page import render
+
+NUMBERS = {
+    "seconds": ("duration", "s"), "sample_rate": ("sampling", "Hz"), "noise": ("noise of position", "m or rad"),
+    "stroke": ("stroke", "m or rad"), "period": ("period", "s"), "force_noise": ("noise of force", "N or N m"),
+    "slips": ("slips", "simulated"),
+}  # fmt: skip
+"""Number of a planned run -> its name and its unit."""
 
 
 def plan_page(content: Mapping[str, Any], title: str, command: str) -> str:
@@ -17,23 +26,29 @@ def plan_page(content: Mapping[str, Any], title: str, command: str) -> str:
         title: title of the scenario.
         command: the command that made it.
     """
+    numbers = {key: name for key, name in NUMBERS.items() if any(run.get(key) is not None for run in content["runs"])}
     return render(
-        "planning.html", plan=content, title=title, command=command, words=words_of, beside=beside, pair_text=pair_text
-    )
+        "planning.html", plan=content, title=title, command=command, words=words_of, in_words=in_words, beside=_beside,
+        numbers=numbers, units=UNITS,
+    )  # fmt: skip
 
 
 def beside(limit: Mapping[str, Any]) -> str:
     """Return the numbers that a detection limit belongs to, in words."""
-    shown = {k: v for k, v in limit["beside"].items() if not k.startswith("phase")}
-    units = {k: "" if unit == "-" else unit for k, unit in limit["units_beside"].items()}
-    parts = [
-        f"{words_of(k)} {v}" if isinstance(v, str) else f"{words_of(k)} {v:.3g} {units[k]}".rstrip() for k, v in shown.items()
-    ]
-    return ", ".join(parts)
+    return ", ".join(
+        f"{words_of(key)} {value if isinstance(value, str) else f'{value:.3g}'} {unit}".rstrip()
+        for key, value, unit in _beside(limit)
+    )
+
+
+def _beside(limit: Mapping[str, Any]) -> list[tuple[str, float | str, str]]:
+    """Return name, value and unit of each number that a detection limit belongs to."""
+    shown = [(k, v) for k, v in limit["beside"].items() if not k.startswith("phase")]
+    return [(k, v, "" if limit["units_beside"].get(k, "-") == "-" else limit["units_beside"][k]) for k, v in shown]
 
 
 def pair_text(pair: Mapping[str, Any]) -> str:
-    """Return two effects that are not told apart, and from which size on they are, in words."""
+    """Return two effects that are not distinguished, and from which size on they are, in words."""
     multiple = pair["told_apart_from"]
     until = "at any size" if multiple is None else f"below {multiple:.2g} times their limits"
     return f"{words_of(pair['first'])} and {words_of(pair['second'])}, {until}"

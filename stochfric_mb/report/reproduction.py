@@ -64,6 +64,7 @@ def page(result: Reproduction, drawn: Mapping[str, str], command: str) -> str:
     return render(
         "reproduction.html",
         result=result,
+        content=result.to_dict(),
         title=TITLE,
         source=SOURCE,
         drawn=drawn,

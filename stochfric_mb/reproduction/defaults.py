@@ -74,8 +74,10 @@ class Sensitivity:
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as JSON."""
+        base = self.responses[1][1]
         rows = [
-            {"value": v, "period": r.period, "x_break_away": r.x_break_away, "least_v_rel": r.least_v_rel,
+            {"value": v, "period": r.period, "period_change": r.period / base.period - 1.0, "x_break_away": r.x_break_away,
+             "x_break_away_change": r.x_break_away / base.x_break_away - 1.0, "least_v_rel": r.least_v_rel,
              "break_away_mu_s": dataclasses.asdict(r.mu_s) if r.mu_s else None}
             for v, r in self.responses
         ]  # fmt: skip

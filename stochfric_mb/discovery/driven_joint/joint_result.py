@@ -28,7 +28,7 @@ class PlaceOutcome:
     believed: JointModel
     """The model as believed."""
     fit: tuple[ForceBalance, ...]
-    """Runs that were learned from."""
+    """Fit runs."""
     test: tuple[ForceBalance, ...]
     """Runs that were held out."""
     scores: dict[str, Score]

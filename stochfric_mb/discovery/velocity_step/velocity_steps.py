@@ -1,6 +1,6 @@
 """Discovery on velocity-step tests: whether friction only knows its speed, or remembers its past.
 
-The load point's history is an input, known also where friction is held out; fits see friction of the runs to learn from only.
+The load point's history is an input, known also where friction is held out; fits see friction of the fit runs only.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Fitted:
     deviations: Array
     """Their standard deviations."""
     rest: list[Array]
-    """What it leaves of the runs that were learned from [-]."""
+    """Residual in the fit runs [-]."""
 
     @property
     def rms(self) -> float:
@@ -205,7 +205,7 @@ def unexplained(tracks: Sequence[Track], closest: Fitted) -> Where | None:
     a law of sliding leaves only that counts which goes along an axis: rock has slow scatter of its own.
 
     Args:
-        tracks: the runs that were learned from.
+        tracks: the fit runs.
         closest: the best law, constant friction among them.
     """
     noise = sum(white_noise(t.friction) ** 2 * len(t.friction) for t in tracks)
@@ -243,7 +243,7 @@ def _found(plain: Fitted, best: Fitted, scores: dict[str, float]) -> Found:
     same = tuple(k for k, s in scores.items() if k != kind and s > scores[kind] - TIE)
     text = (
         f"A constant friction coefficient is off by {plain.rms:.3g} (rms), {kind} by {best.rms:.3g}, on the runs that were "
-        "learned from."
+        "fitted."
     )
     axes = {MEMORY: "distance since a change of speed", SLOPE_IN_DISTANCE: "displacement", RATE: "speed"}
     axis = next(axes[finding] for finding in effect_class(kind).found_as if finding in axes)

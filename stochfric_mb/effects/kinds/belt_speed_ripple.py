@@ -42,7 +42,7 @@ class BeltSpeedRipple(Effect):
     traits: ClassVar[frozenset[str]] = frozenset({BELT})
     found_as: ClassVar[tuple[str, ...]] = (BELT_RIPPLE,)
     shows_on: ClassVar[str] = "time, in stick"
-    shows: ClassVar[str] = "in stick the box shows that the belt's speed varies periodically"
+    shows: ClassVar[str] = "the belt's speed varies periodically"
 
     def shortest_time(self, speed: float) -> float:
         """Return the period [s]."""

@@ -40,7 +40,7 @@ class HarmonicForce(Effect):
         "nonlinear_stiffness": "a run at a second belt speed",
     }
     shows_on: ClassVar[str] = "time"
-    shows: ClassVar[str] = "a periodic force is added, the same in stick and slip"
+    shows: ClassVar[str] = "a periodic force acts, in stick and slip alike"
 
     def shortest_time(self, speed: float) -> float:
         """Return the period [s]."""

@@ -38,7 +38,7 @@ class NormalLoadRipple(Effect):
         "harmonic_force": "a run at a second normal load, or a normal-force sensor",
     }
     shows_on: ClassVar[str] = "time"
-    shows: ClassVar[str] = "friction in stick and slip is modulated periodically in time by the same share"
+    shows: ClassVar[str] = "friction in stick and slip varies periodically in time by the same share"
 
     def shortest_time(self, speed: float) -> float:
         """Return the period [s]."""

@@ -55,7 +55,7 @@ class PositionDependentForce(Effect):
         "position_dependent_friction": "strokes both ways over the same place: friction turns with the direction",
     }
     shows_on: ClassVar[str] = "position"
-    shows: ClassVar[str] = "a force depends on the place, whichever way the joint moves"
+    shows: ClassVar[str] = "a force depends on position, in both directions of motion alike"
 
     @property
     def own_to_run(self) -> tuple[str, ...]:

@@ -62,12 +62,14 @@ class PositionDependentFriction(Effect):
         "harmonic_force": "a run at a second normal load",
     }
     shows_on: ClassVar[str] = "belt position"
-    shows: ClassVar[str] = "friction varies along the belt"
+    shows: ClassVar[str] = "friction varies with position"
     order: ClassVar[int] = 3
 
     def appears(self) -> tuple[str, str]:
         """Return belt or stroke, whichever the friction varies along."""
-        return ("position of the box", "friction varies along the stroke") if self.axis == "position" else super().appears()
+        if self.axis == "position":
+            return "position of the box", "friction varies along the stroke"
+        return self.shows_on, "friction varies along the belt"
 
     @property
     def own_to_run(self) -> tuple[str, ...]:

@@ -33,7 +33,7 @@ class QuadraticDamping(Effect):
     traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS, POSITIVE})
     answers_to: ClassVar[str] = "speed"
     shows_on: ClassVar[str] = "velocity"
-    shows: ClassVar[str] = "the damping grows with the square of the box's velocity"
+    shows: ClassVar[str] = "the damping force grows with the square of the velocity"
 
     @classmethod
     def at_joint(cls, span: JointSpan) -> JointSignature:

@@ -32,7 +32,7 @@ class SensorClipping(Effect):
     traits: ClassVar[frozenset[str]] = frozenset({OUTSIDE_FORECASTS})
     found_as: ClassVar[tuple[str, ...]] = (CLIPPED,)
     shows_on: ClassVar[str] = "position, sensor"
-    shows: ClassVar[str] = "the record stays at one ceiling where the box goes on"
+    shows: ClassVar[str] = "the position reading is clipped at one value"
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -36,7 +36,7 @@ class SensorDrift(Course):
         "friction_drift": "a force sensor, or a second position sensor",
     }
     shows_on: ClassVar[str] = "time, sensor"
-    shows: ClassVar[str] = "the position drifts, in stick and slip alike"
+    shows: ClassVar[str] = "the zero of the position sensor drifts"
 
     def measure(self, time: Array, position: Array, rng: np.random.Generator) -> Array:
         """Return what the sensor shows [m]; arguments as in `Effect.measure`."""

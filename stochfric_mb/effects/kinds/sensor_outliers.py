@@ -31,7 +31,7 @@ class SensorOutliers(Effect):
     traits: ClassVar[frozenset[str]] = frozenset({OUTSIDE_FORECASTS, RANDOM})
     found_as: ClassVar[tuple[str, ...]] = (STRAY,)
     shows_on: ClassVar[str] = "sensor"
-    shows: ClassVar[str] = "single samples are far off"
+    shows: ClassVar[str] = "single samples are outliers"
 
     def measure(self, time: Array, position: Array, rng: np.random.Generator) -> Array:
         """Return what the sensor shows [m]; arguments as in `Effect.measure`."""

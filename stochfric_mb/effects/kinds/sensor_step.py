@@ -30,7 +30,7 @@ class SensorStep(Effect):
     traits: ClassVar[frozenset[str]] = frozenset({WANDERS_ALIKE, MOVES_ZERO})
     found_as: ClassVar[tuple[str, ...]] = (JUMP,)
     shows_on: ClassVar[str] = "time, sensor"
-    shows: ClassVar[str] = "the position jumps once and stays off"
+    shows: ClassVar[str] = "the position reading jumps once and stays off"
 
     def measure(self, time: Array, position: Array, rng: np.random.Generator) -> Array:
         """Return what the sensor shows [m]; arguments as in `Effect.measure`."""

@@ -33,7 +33,7 @@ class TemperatureDrift(Effect):
     group: ClassVar[str] = "friction varies"
     answers_to: ClassVar[str] = "temperature"
     shows_on: ClassVar[str] = "temperature"
-    shows: ClassVar[str] = "friction drifts with temperature"
+    shows: ClassVar[str] = "friction changes with temperature"
     order: ClassVar[int] = 3
     reads: ClassVar[tuple[str, ...]] = ("temperature",)
 

@@ -45,7 +45,7 @@ class VelocityWeakening(Effect):
         "quadratic_damping": "runs at other belt speeds and normal loads",
     }
     shows_on: ClassVar[str] = "relative velocity"
-    shows: ClassVar[str] = "friction in slip depends on the sliding velocity and falls as it rises"
+    shows: ClassVar[str] = "friction falls as the sliding velocity rises"
     order: ClassVar[int] = 1
 
     @classmethod

@@ -52,7 +52,7 @@ class ViscousFriction(Effect):
         "velocity_weakening": "runs at other belt speeds and normal loads",
     }
     shows_on: ClassVar[str] = "relative velocity"
-    shows: ClassVar[str] = "friction in slip rises with the sliding velocity"
+    shows: ClassVar[str] = "friction rises with the sliding velocity"
 
     @property
     def linear_damping(self) -> float:

@@ -25,7 +25,7 @@ def outcome(name: str) -> JointOutcome:
 
 
 def repeated(data: Dataset, found: JointOutcome) -> Dataset:
-    """The held-out repeats to learn from, and what was found before as the model believed."""
+    """The held-out repeats as fit runs, and what was found before as the model believed."""
     swapped = tuple(dataclasses.replace(r, role="test" if r.role == "fit" else "fit") for r in data.runs)
     return dataclasses.replace(data, scenario=found.scenario, runs=swapped)
 

@@ -138,7 +138,7 @@ def test_a_missing_channel_is_named():
 
 
 def settings(friction, zero):
-    """Four runs to learn from and one held out; ``friction(run, q, v)`` and ``zero[run]`` are those of each run."""
+    """Four fit runs and one held out; ``friction(run, q, v)`` and ``zero[run]`` are those of each run."""
     roles = ("fit", "fit", "fit", "fit", "test")
     runs = [
         sine_run(lambda q, v, i=i: friction(i, q, v) + zero[i], seed=i, role=role, start=20.0 * i, gain=0.4 + 0.3 * i)

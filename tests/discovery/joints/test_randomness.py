@@ -29,7 +29,7 @@ def drawn(seed, share=SHARE, memory=0.0):
 
 
 def longer(data, others):
-    """The runs of several datasets together, those to learn from first."""
+    """The runs of several datasets together, the fit runs first."""
     runs = [dataclasses.replace(r, name=f"{r.name} {i}") for i, d in enumerate((data, *others)) for r in d.runs]
     return dataclasses.replace(data, runs=tuple(runs))
 

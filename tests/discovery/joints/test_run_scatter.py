@@ -14,7 +14,7 @@ from stochfric_mb.scenario import any_scenario_from_dict, load_scenario
 from tests.discovery.joints.test_parts import coulomb, scenario, sine_run
 
 LEARNT, HELD_OUT = 6, 16
-"""Runs to learn from, and as many held out that chance does not decide the score."""
+"""Fit runs, and as many held out that chance does not decide the score."""
 
 
 def drawn(rng):

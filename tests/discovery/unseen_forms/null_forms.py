@@ -100,7 +100,7 @@ def record_short(w: World, a: float) -> None:
 
 @form(NONE, UNKNOWN, source="a morning's first try", rig="paper", designs=("one",), length=0.2)
 def record_too_short(w: World, a: float) -> None:
-    """Twelve cycles to learn from and seven to check: to say that this is too little is right, to name an effect is not."""
+    """Twelve cycles for the fit and seven held out: to say that this is too little is right, to name an effect is not."""
 
 
 @form(NONE, source="a night's run", rig="paper", designs=("one",), length=6.0)

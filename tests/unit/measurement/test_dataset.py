@@ -183,10 +183,10 @@ def test_keys_of_a_run(rig, keys, message):
         ([], r"no runs; add a \[\[runs\]\] table"),
         (['file = "run.csv"'], r'role = None; write role = "fit"'),
         (['role = "fit"'], r'file = None; write file = "run.csv"'),
-        (['file = "run.csv"\nrole = "train"'], r"role = 'train'; it is \"fit\" \(learned from\) or \"test\""),
+        (['file = "run.csv"\nrole = "train"'], r"role = 'train'; it is \"fit\" \(used to fit\) or \"test\""),
         (['file = "other.csv"\nrole = "fit"'], r"other\.csv: no such file"),
         ([FIT], r"no run is held out \(run: fit\).*time_range"),
-        ([TEST], r"no run to learn from \(run: test\); give at least one run role = \"fit\""),
+        ([TEST], r"no run to fit \(run: test\); give at least one run role = \"fit\""),
     ],
 )
 def test_runs(rig, runs, message):

@@ -14,7 +14,8 @@ from stochfric_mb.report.discovery import page
 from stochfric_mb.report.page import render
 from stochfric_mb.report.record_picture import record
 
-from .test_discovery_page import RESULTS, outcome_of, written
+from .command_pages import COMMANDS, made
+from .test_discovery_page import RESULTS, leaves, outcome_of, shows, written
 
 playwright = pytest.importorskip("playwright.sync_api", reason="pages in a browser need playwright: pip install -e '.[pages]'")
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -39,15 +40,29 @@ def _pages():
 
 
 PAGES = {name: (text, content) for name, text, content in _pages()}
+NAMES = [*PAGES, *COMMANDS]
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory):
+    """Return a function that gives the text of a page and the content of its result file, each made once."""
+    known = dict(PAGES)
+
+    def of(name):
+        if name not in known:
+            known[name] = made(name, tmp_path_factory.mktemp("page"))
+        return known[name]
+
+    return of
 
 
 @pytest.fixture
-def opened(browser, tmp_path):
+def opened(browser, tmp_path, pages):
     contexts = []
 
     def show(name, width, scheme):
         file = tmp_path / "report.html"
-        file.write_text(PAGES[name][0], encoding="utf-8")
+        file.write_text(pages(name)[0], encoding="utf-8")
         context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
         contexts.append(context)
         shown = context.new_page()
@@ -65,7 +80,7 @@ def opened(browser, tmp_path):
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("width", [390, 1200])
-@pytest.mark.parametrize("name", list(PAGES))
+@pytest.mark.parametrize("name", NAMES)
 def test_a_page_is_quiet_complete_and_fits(opened, name, width, scheme):
     shown, said, asked = opened(name, width, scheme)
     assert said == []
@@ -101,27 +116,43 @@ def test_a_curve_tells_its_values_zooms_and_goes_back(opened):
     assert said == []
 
 
-@pytest.mark.parametrize("name", list(RESULTS))
-def test_every_number_is_one_of_the_result(opened, name):
+@pytest.mark.parametrize("name", [*RESULTS, *(n for n, command in COMMANDS.items() if command.numbers)])
+def test_every_number_is_one_of_the_result(opened, pages, name):
     shown, _, _ = opened(name, 1200, "light")
-    known = set(_numbers(PAGES[name][1]))
-    values = shown.eval_on_selector_all("data", "all => all.map(one => one.value)")
-    for value in map(float, values):
-        assert value in known or abs(value) in known, value
+    numbers, strings = leaves(pages(name)[1])
+    read = shown.eval_on_selector_all("data", "all => all.map(one => [one.value, one.textContent])")
+    assert read
+    for value, text in read:
+        assert float(value) in numbers, value
+        assert text.startswith("<") or shows(text, float(value)), (value, text)
+    for text in shown.eval_on_selector_all(".said", "all => all.map(one => one.textContent)"):
+        assert text in strings or text + "." in strings, text
+    # what is left of a table, its head aside, are words
+    rest = """all => all.map(one => {
+        const copy = one.cloneNode(true);
+        copy.querySelectorAll("data, .said, .unit, code").forEach(inner => inner.remove());
+        return copy.textContent;
+    })"""
+    for text in shown.eval_on_selector_all("tbody", rest):
+        assert not re.findall(r"[^\n]*\d[^\n]*", text), text
 
 
-def _numbers(content):
-    if isinstance(content, bool) or content is None:
-        return
-    if isinstance(content, int | float):
-        yield float(content)
-        yield abs(float(content))
-    elif isinstance(content, dict):
-        for inner in content.values():
-            yield from _numbers(inner)
-    elif isinstance(content, list):
-        for inner in content:
-            yield from _numbers(inner)
+@pytest.mark.parametrize("name", ["comparison", "reproduction", "ensemble", "plan"])
+def test_the_first_sentence_is_the_answer(opened, name):
+    shown, _, _ = opened(name, 390, "light")
+    answer = shown.locator("h1 + p strong")
+    assert answer.count() == 1
+    assert re.search(r"\d.*\.$", answer.inner_text(), re.DOTALL)
+    assert answer.bounding_box()["y"] < 900  # on the first screen of a telephone
+
+
+@pytest.mark.parametrize("name", ["refused", "dry run", "joint"])
+def test_records_are_drawn_before_anything_is_inferred(opened, name):
+    shown, _, _ = opened(name, 1200, "light")
+    assert shown.locator("figure").first.locator("svg[data-axes]").count() == 1
+    assert "as measured" in shown.locator("figcaption").first.inner_text()
+    slips = "slip" in shown.locator("main").inner_text()
+    assert slips == (name != "joint")  # a driven joint has none
 
 
 def _brightness(colour):

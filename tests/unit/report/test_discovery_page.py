@@ -62,8 +62,8 @@ RESULTS = {
     ),
 }  # fmt: skip
 HEADLINES = {
-    "one effect": "Missing from the model: friction in slip depends on the sliding velocity and falls as it rises",
-    "two effects": "as it rises; friction scatters from slip to slip with no memory",
+    "one effect": "Missing from the model: friction falls as the sliding velocity rises",
+    "two effects": "velocity rises; friction scatters from slip to slip with no memory",
     "none": "Nothing is missing that these data show",
     "unknown": "Something is missing, and no known effect explains it",
     "too few slips": "These data cannot tell",
@@ -204,7 +204,7 @@ def test_what_is_named_equivalent_blind_and_next_is_told():
     _, text, _ = written(outcome_of(BASE))
     plain = re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", text))
     for part in (
-        "these data cannot tell it from viscous friction",
+        "these data cannot distinguish it from viscous friction",
         "0.0512 (0.0490 to 0.0534)",
         "mu_k(v) = mu_k + amplitude exp(-(abs(v)/decay_velocity)^shape_exponent)",
         "however strong they are: dwell ageing",
@@ -254,8 +254,10 @@ def test_parameters_are_those_of_the_model_with_the_effects(found):
     about = content["details"]["parameters"]
     for name, number in content["believed"].items():
         assert float(table["", name]["value"]) == pytest.approx(number["value"], rel=1e-5)  # six digits in the table
+        assert table["", name]["source"] == ("prior" if name in about["not_measured"] else "fit")
+        assert bool(table["", name]["moved"]) == (name in about["moved_beyond_uncertainty"])
         assert f'<data value="{number["value"]!r}">' in rows[name]
-        assert ("not measured" in rows[name]) == (name in about["not_measured"])
+        assert ("prior" in rows[name]) == (name in about["not_measured"])
         assert ("stated standard deviations off" in rows[name]) == (
             name in about["moved_beyond_uncertainty"] and name not in about["not_measured"]
         )

@@ -70,7 +70,7 @@ def timing(
     """Return the delay between drive and motion that the record may hold; None: none, or the runs are too short to tell.
 
     Args:
-        make: delay [s] and half width of the window [samples] -> the balances to learn from, that delay compensated.
+        make: delay [s] and half width of the window [samples] -> the balances of the fit runs, that delay compensated.
         nuisances: numbers of the mechanism with their priors; they are free here.
         interval: distance between samples [s].
         half_width: half width of the windows through which friction is seen [s].

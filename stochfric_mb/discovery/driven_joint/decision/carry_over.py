@@ -54,7 +54,7 @@ def _reason(place: PlaceOutcome) -> str:
     if not lost and explained >= HALF:
         return ""
     how = lost[0] if lost else f"it explains {max(100.0 * explained, 0.0):.0f} % of the squared error there"
-    return f"{kinds} explains the runs that were learned from, but not the held-out ones ({how}), and is not named"
+    return f"{kinds} explains the fit runs, but not the held-out ones ({how}), and is not named"
 
 
 def _explained(before: float, after: float, floor: float) -> float:
@@ -72,7 +72,7 @@ def lacks(dataset: Dataset, place: PlaceOutcome) -> bool:
 
 
 def above_floor(place: PlaceOutcome) -> bool:
-    """Return whether the final model leaves more than noise explains, on the runs that were learned from."""
+    """Return whether the final model leaves more than noise explains, on the fit runs."""
     strokes, runs = place.random, place.runs
     if strokes is not None and strokes.accounted:
         return not strokes.all_of_it

@@ -6,9 +6,11 @@ import dataclasses
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.fit.fitting import prior_weight
 from stochfric_mb.discovery.driven_joint.fit.profiles import profile
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.discovery.inference.free_parameter import FreeParameter
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Interval
 from stochfric_mb.effects.traits import WAVES
@@ -70,9 +72,28 @@ def _profiled(place: PlaceOutcome, owner: int, numbers: dict[str, Interval]) -> 
 def believed(place: PlaceOutcome) -> dict[str, Interval]:
     """Return the corrected numbers of law and mechanism at a place, with their intervals."""
     fit = place.selected.final
-    found: dict[str, Interval] = {}
+    return {
+        _name(place, one): confidence_interval(float(value), fit.deviation(one.owner, one.name), one.unit, one.low, one.high)
+        for one, value in zip(fit.free, fit.values, strict=True)
+        if one.owner < 0
+    }
+
+
+def against_priors(place: PlaceOutcome) -> tuple[list[str], dict[str, float]]:
+    """Return the numbers of a place that their prior has made, and by how many stated deviations measured ones are off."""
+    fit = place.selected.final
+    prior_made: list[str] = []
+    off: dict[str, float] = {}
     for one, value in zip(fit.free, fit.values, strict=True):
-        if one.owner < 0:
-            name = FACTORS.get(one.name, one.name) if place.place else one.name
-            found[name] = confidence_interval(float(value), fit.deviation(one.owner, one.name), one.unit, one.low, one.high)
-    return found
+        if one.owner >= 0 or not np.isfinite(one.prior):
+            continue
+        if 1.0 - (fit.deviation(one.owner, one.name) / one.prior) ** 2 < criteria.TOLD_BY_DATA:
+            prior_made.append(_name(place, one))
+        elif abs(by := (float(value) - one.nominal) / one.prior) > criteria.SURPRISING:
+            off[_name(place, one)] = by
+    return prior_made, off
+
+
+def _name(place: PlaceOutcome, one: FreeParameter) -> str:
+    """Return the name that a number of law or mechanism has in the result."""
+    return FACTORS.get(one.name, one.name) if place.place else one.name

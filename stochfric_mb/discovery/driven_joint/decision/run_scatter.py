@@ -76,7 +76,7 @@ def run_scatter(
 
     Args:
         model: what is known of the friction.
-        balances: runs to learn from.
+        balances: fit runs.
         nuisances: numbers of the mechanism.
         believed: standard deviation of mu_k from run to run that is believed already [-].
     """

@@ -30,7 +30,7 @@ def sign_notes(dataset: Dataset, place: str, load: float, balances: Sequence[For
         dataset: the dataset.
         place: name of the joint, tendon or pair; empty where there is one only.
         load: its believed load [N or N m].
-        balances: its runs to learn from.
+        balances: its fit runs.
 
     Raises:
         InputError: friction brings in energy in a run.

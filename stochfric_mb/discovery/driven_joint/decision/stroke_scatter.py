@@ -102,7 +102,7 @@ def stroke_scatter(
 
     Args:
         model: what is known of the friction.
-        balances: runs to learn from.
+        balances: fit runs.
         nuisances: numbers of the mechanism.
         believed: standard deviation of mu_k that is believed already [-].
     """

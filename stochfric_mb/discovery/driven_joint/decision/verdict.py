@@ -10,7 +10,7 @@ import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_clock, confounded, spoken_of, stand_ins
 from stochfric_mb.discovery.driven_joint.decision.carry_over import lacks
-from stochfric_mb.discovery.driven_joint.decision.estimates import believed, parameters
+from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, believed, parameters
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
@@ -58,7 +58,7 @@ def verdict(dataset: Dataset, places: Sequence[PlaceOutcome], notes: Sequence[st
         gap=gap,
         not_identifiable=_unseen(places),
         next_experiment=_advice(pairs, places),
-        believed={f"{p.place}.{k}" if len(places) > 1 else k: v for p in places for k, v in believed(p).items()},
+        believed={_at_place(p, places, k): v for p in places for k, v in believed(p).items()},
         notes=(
             *gap.notes,
             *([places[0].idle] if places[0].idle else []),
@@ -110,7 +110,7 @@ def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
         stage = next(s for s in place.selected.stages if s.trials[0] is trial)
         text = (
             f"Friction depends on {axis}{_at(place)}: the error falls from {stage.before.rms:.4g} to {trial.fit.rms:.4g} "
-            f"{place.fit[0].unit} on the runs that were learned from."
+            f"{place.fit[0].unit} on the fit runs."
         )
         chance = trial.p_value
         if stage.strokes is not None:
@@ -137,7 +137,7 @@ def _released(place: PlaceOutcome) -> list[Found]:
         text = (
             f"{number.name}{_at(place)} is {size.value:.4g} {one.unit} and not {number.believed:.4g}: off by {off:.0f} of its "
             f"stated standard deviations. With it the error falls from {number.before:.4g} to {number.after:.4g} "
-            f"{place.fit[0].unit} on the runs that were learned from."
+            f"{place.fit[0].unit} on the fit runs."
         )
         found.append(
             Found(
@@ -302,8 +302,18 @@ def _between_settings(place: PlaceOutcome) -> list[str]:
     ]
 
 
+def _at_place(place: PlaceOutcome, places: Sequence[PlaceOutcome], name: str) -> str:
+    """Return the name of a number, with its place where there are several."""
+    return f"{place.place}.{name}" if len(places) > 1 else name
+
+
 def _details(places: Sequence[PlaceOutcome], pairs: Sequence[Confounded]) -> dict[str, Any]:
+    known = [(p, *against_priors(p)) for p in places]
     return {
+        "parameters": {
+            "not_measured": [_at_place(p, places, name) for p, made, _ in known for name in made],
+            "moved_beyond_uncertainty": {_at_place(p, places, name): by for p, _, off in known for name, by in off.items()},
+        },
         "confounded": [dataclasses.asdict(p) for p in pairs],
         "places": [
             {

@@ -87,7 +87,7 @@ def fit(
 
     Args:
         model: where the fit starts.
-        balances: runs to learn from.
+        balances: fit runs.
         nuisances: numbers of the mechanism with their priors.
         noise: standard deviation of the remainder per window for which priors count as one independent window [N or N m].
         masks: windows to use in each balance; None: those in which the joint slides.

@@ -40,7 +40,7 @@ def friction_picture(
     right = [_points(n, time[some], rest[n][some]) for n in models]
     panels = [
         {"x": f"velocity [{rate}]", "y": f"friction [{unit}]", "series": left},
-        {"x": "time [s]", "y": f"left over [{unit}]", "series": right},
+        {"x": "time [s]", "y": f"residual [{unit}]", "series": right},
     ]
     title = f"Friction in {place}" if place else "Friction"
     caption = (
