@@ -68,7 +68,7 @@ def answered(truth: dict[str, object], dataset: Path, answer: Path, discover: Di
     result, error = None, None
     begin = time.perf_counter()
     try:
-        with _time_limit(limit):
+        with time_limit(limit):
             discover(dataset, answer)
         result = json.loads((answer / "result.json").read_text())
     except Exception as failure:  # whatever goes wrong in one case must not end the suite
@@ -111,7 +111,7 @@ def run(
 
 
 @contextmanager
-def _time_limit(seconds: float) -> Iterator[None]:
+def time_limit(seconds: float) -> Iterator[None]:
     """Raise TimeoutError in this process after the time."""
 
     def give_up(*_: object) -> None:

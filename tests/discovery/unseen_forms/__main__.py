@@ -2,7 +2,7 @@
 
 ::
 
-    python -m tests.discovery.unseen_forms --out DIR [--series 1] [--seed S] [--workers 1] [--limit-s 1200]
+    python -m tests.discovery.unseen_forms --out DIR [--series 1] [--seed S] [--workers 1 | --here] [--limit-s 1200]
 
 An interrupted run goes on where it stopped. ``DIR/cases.jsonl`` has a line a case, ``DIR/records`` the datasets.
 """
@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import random
 import signal
 import subprocess
 import sys
@@ -19,6 +20,8 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from threading import Lock
+
+from tests.discovery.suite import time_limit
 
 from .forms import NONE
 from .records import Case, cases, write_record
@@ -37,8 +40,10 @@ def main() -> None:
     parser.add_argument(
         "--plan", choices=("core", "all"), default="core", help="core: each form once; all: designs and strengths"
     )
-    parser.add_argument("--series", type=int, choices=(1, 2), default=1, help="the set: the first, or the one written later")
+    parser.add_argument("--series", type=int, choices=(1, 2, 3), default=1, help="the set: the first, or one written later")
+    parser.add_argument("--strength", type=float, nargs="*", default=[], help="only these strengths")
     parser.add_argument("--only", nargs="*", default=[], help="forms, families (named, unknown, none) or names of cases")
+    parser.add_argument("--here", action="store_true", help="one after the other in this process, whose code is loaded once")
     parser.add_argument("--records-only", action="store_true", help="make the records, ask nothing")
     parser.add_argument("--table", action="store_true", help="print the table of what is there")
     parser.add_argument("--make", help=argparse.SUPPRESS)
@@ -75,6 +80,8 @@ def _chosen(given: argparse.Namespace) -> list[Case]:
             if case.strength == 1.0 and case.design == case.form.designs[names.index(case.form.name) % len(case.form.designs)]
         ]
     wanted = set(given.only)
+    every = [case for case in every if not given.strength or case.strength in given.strength]
+    random.Random(given.series).shuffle(every)  # so that a run that was cut short holds a fair share of everything
     return [case for case in every if not wanted or wanted & {case.form.name, case.family, case.name}]
 
 
@@ -87,12 +94,15 @@ def _run(chosen: list[Case], out: Path, given: argparse.Namespace, lines: list[d
             return
         folder = out / "records" / f"seed_{given.seed}" / case.name
         if not (folder / "truth.json").exists():
-            _child("--out", str(folder), "--make", case.name, "--seed", str(given.seed), limit=None)
+            if given.here:
+                write_record(case, folder, given.seed)
+            else:
+                _child("--out", str(folder), "--make", case.name, "--seed", str(given.seed), limit=None)
         truth = json.loads((folder / "truth.json").read_text())
         if given.records_only:
             print(f"{case.name}: {truth['feature']} {truth['size']:g} floors", flush=True)
             return
-        line = judged(truth, _asked(folder / "data", given.limit_s))
+        line = judged(truth, (_asked_here if given.here else _asked)(folder / "data", given.limit_s))
         with lock:
             with _file(out).open("a") as file:
                 file.write(json.dumps(line) + "\n")
@@ -100,6 +110,10 @@ def _run(chosen: list[Case], out: Path, given: argparse.Namespace, lines: list[d
             mark = "right" if line["right"] else "class" if line["class_right"] and case.family != NONE else "wrong"
             print(f"{case.name}: {line['first'] or line['answer']} ({mark}), {line['seconds']:.0f} s", flush=True)
 
+    if given.here:
+        for case in chosen:
+            one(case)
+        return
     with ThreadPoolExecutor(given.workers) as pool:
         list(pool.map(one, chosen))
 
@@ -127,6 +141,16 @@ def _asked(data: Path, limit: float) -> dict:
         return {"verdict": "no answer", "error": "limit", "seconds": time.perf_counter() - start}
     except RuntimeError as error:
         return {"verdict": "no answer", "error": str(error), "seconds": time.perf_counter() - start}
+
+
+def _asked_here(data: Path, limit: float) -> dict:
+    """Return the same, asked in this process."""
+    start = time.perf_counter()
+    try:
+        with time_limit(limit):
+            return _answer(data)
+    except Exception as error:  # a failure is an answer, too
+        return {"verdict": "no answer", "error": f"{type(error).__name__}: {error}", "seconds": time.perf_counter() - start}
 
 
 def _answer(data: Path) -> dict:

@@ -63,7 +63,7 @@ class Form:
     options: dict[str, object]
     """What is special about its records (`records.py`)."""
     series: int = 1
-    """The set that it was written for: 1, or 2 (`second_forms.py`)."""
+    """The set that it was written for: 1, 2 (`second_forms.py`) or 3 (`third`)."""
 
     def right(self, design: str) -> frozenset[str]:
         """Return the first names that count as right in `design`."""

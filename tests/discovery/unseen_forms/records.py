@@ -10,12 +10,13 @@ from zlib import crc32
 import numpy as np
 from scipy.signal import lfilter
 
-from . import (  # each enters its forms; the second set last: the rigs that forms take in turn hang on their order
+from . import (  # each enters its forms; later sets last: the rigs that forms take in turn hang on their order
     friction_forms,  # noqa: F401
     mechanism_forms,  # noqa: F401
     nameless_forms,  # noqa: F401
     null_forms,  # noqa: F401
     second_forms,  # noqa: F401
+    third,  # noqa: F401
 )
 from .forms import FORMS, NONE, UNKNOWN, Form
 from .motion import Motion, World, simulate
@@ -57,12 +58,12 @@ class Case:
 
 
 def cases() -> list[Case]:
-    """Return all cases: full strength in each design, half strength in the first; nulls once in each."""
+    """Return all cases: full strength in each design, half strength in the first (third set: in each); nulls once in each."""
     found = []
     for form in FORMS.values():
         found += [Case(form, design, 1.0) for design in form.designs]
         if NONE not in form.truth:
-            found.append(Case(form, form.designs[0], 0.5))
+            found += [Case(form, design, 0.5) for design in (form.designs if form.series == 3 else form.designs[:1])]
     return found
 
 
@@ -179,13 +180,17 @@ def write_record(case: Case, folder: Path, seed: int, *, share: float = 1.0) -> 
 
 def _write_run(path: Path, run: Run, form: Form, nominal: Rig, rng: np.random.Generator) -> None:
     rate = float(form.options.get("rate", nominal.rate))
-    time = np.arange(run.motion.time.size) / rate
+    time = run.motion.time if form.options.get("stamped") else np.arange(run.motion.time.size) / rate
     shown = run.reading + noise(str(form.options.get("noise", "white")), nominal.noise, time.size, rng)
     quantum = float(form.options.get("quantum", 0.0)) * nominal.noise
     if quantum:
         shown = quantum * np.round(shown / quantum)
     factor = {"m": 1.0, "mm": 1.0e3, "um": 1.0e6}[nominal.unit]
-    table = [time, factor * shown, *(column(time, run.motion) for column in run.world.columns.values())]
+    table = [
+        time + float(form.options.get("begins", 0.0)),
+        factor * shown,
+        *(column(time, run.motion) for column in run.world.columns.values()),
+    ]
     header = ["time [s]", f"position [{nominal.unit}]", *run.world.columns]
     rows = np.column_stack(table)
     missing = float(form.options.get("missing", 0.0))
@@ -214,6 +219,7 @@ def _scenario(nominal: Rig, form: Form, duration: float) -> str:
     if declared:
         lines += ["", "[coefficients]", f'process = "{declared}"', "sigma_s = 0.015", "sigma_k = 0.015"]
         lines += ["spacing = 0.01"] if declared == "knots" else []
+        lines += [f"correlation_time = {nominal.period!r}"] if declared == "ornstein_uhlenbeck" else []
     lines += ["", "[uncertainty]", *(f"{name} = {value!r}" for name, value in UNCERTAINTY.items())]
     step = 1.0 / float(form.options.get("rate", nominal.rate))
     lines += ["", "[simulation]", f"duration = {step * round(duration / step)!r}", f"output_step = {step!r}"]

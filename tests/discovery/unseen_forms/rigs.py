@@ -137,4 +137,49 @@ FAST = Rig(
 )
 """A stiff machine slide."""
 
-RIGS = {rig.name: rig for rig in (PAPER, SMALL, FAST, EXCITED)}
+PRESS = Rig(
+    name="press",
+    mass=85.0,
+    stiffness=2.4e6,
+    damping=285.0,
+    normal_force=3000.0,
+    belt_velocity=1.5e-3,
+    mu_s=0.28,
+    mu_k=0.17,
+    rate=1000.0,
+    noise=0.4e-6,
+    unit="mm",
+)
+"""A heavy slide, well damped."""
+
+SOFT = Rig(
+    name="soft",
+    mass=0.3,
+    stiffness=45.0,
+    damping=0.05,
+    normal_force=6.0,
+    belt_velocity=20.0e-3,
+    mu_s=0.65,
+    mu_k=0.50,
+    rate=200.0,
+    noise=20.0e-6,
+    unit="m",
+)
+"""A rubber wiper on a soft spring: strokes of centimetres."""
+
+MICRO = Rig(
+    name="micro",
+    mass=2.0e-7,
+    stiffness=1.5,
+    damping=5.0e-6,
+    normal_force=3.0e-5,
+    belt_velocity=1.0e-3,
+    mu_s=0.60,
+    mu_k=0.35,
+    rate=5.0e4,
+    noise=5.0e-9,
+    unit="um",
+)
+"""A micromachine: micrograms, ten micrometres, a hundredth of a second."""
+
+RIGS = {rig.name: rig for rig in (PAPER, SMALL, FAST, EXCITED, PRESS, SOFT, MICRO)}
