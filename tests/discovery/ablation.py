@@ -108,7 +108,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--sample", type=int, default=24, help="about this many cases, spread evenly")
     parser.add_argument(
-        "--seeds", type=suite.seed_range, default=range(1), help="A..B of 0..99 (tuning) or 1000..1099 (reporting)"
+        "--seeds", type=suite.seed_range, default=range(1), help="A..B of 0..99 (tuning) or 1000..9999 (reporting)"
     )
     chosen = parser.parse_args()
     run(plan.sampled(list(plan.cases(chosen.seeds)), chosen.sample), chosen.out)

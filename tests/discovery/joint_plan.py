@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator
 
 from .joint_generator.case import Case
 from .joint_generator.forms import FORMS
+from .joint_generator.unseen import UNSEEN
 
 STRENGTHS = (1.0, 0.5)
 
@@ -29,3 +30,26 @@ def cases(seeds: Iterable[int]) -> Iterator[Case]:
             for turn in range(turns):
                 design = designs[(seed + i + 2 * turn) % len(designs)]
                 yield Case(forms, design, STRENGTHS[(seed + i + seed // len(designs)) % 2], seed)
+
+
+UNSEEN_PAIRS = (
+    "viscous_friction.logarithmic_grease+position_dependent_force.hose",
+    "direction_asymmetry.one_way_clutch+position_dependent_friction.wipers",
+    "friction_drift.grease_flows+viscous_friction.third_order",
+    "velocity_weakening.hyperbola+position_dependent_force.slots_and_poles",
+    "load_dependence.bearing_preload+viscous_friction.hyperbolic_film",
+    "quadratic_damping.windage+position_dependent_friction.two_lengths",
+)
+
+
+def unseen_cases(seeds: Iterable[int]) -> Iterator[Case]:
+    """For each seed every form of the report twice, at full and at half strength, in two mechanisms where there are; nulls
+    in three.
+    """
+    for seed in seeds:
+        for i, forms in enumerate([*UNSEEN, *UNSEEN_PAIRS]):
+            parts = [UNSEEN[name] for name in forms.split("+")]
+            designs = [d for d in parts[0].designs if all(d in part.designs for part in parts)]
+            turns = min(3, len(designs)) if parts[0].kind == "none" else 2
+            for turn in range(turns):
+                yield Case(forms, designs[(seed + i + turn) % len(designs)], STRENGTHS[turn % 2], seed)

@@ -116,7 +116,9 @@ def main() -> None:
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path)
-    parser.add_argument("--seeds", type=suite.seed_range, default=range(1), help="0..99 for tuning, 1000..1099 for reporting")
+    parser.add_argument(
+        "--seeds", type=suite.seed_range, default=range(1), help="0..99 for tuning, 1000 and above for reporting"
+    )
     parser.add_argument("--sample", type=int, help="about this many cases, spread evenly")
     parser.add_argument("--kind", action="append", default=[], help="only forms whose name contains this (repeatable)")
     parser.add_argument("--design", action="append", default=[], help="only this mechanism (repeatable)")
@@ -124,10 +126,12 @@ def main() -> None:
     parser.add_argument("--limit", type=float, default=300.0, help="seconds for one case")
     parser.add_argument("--keep", action="store_true", help="keep datasets and answers")
     parser.add_argument("--list", action="store_true", help="print the cases and end")
+    parser.add_argument("--unseen", action="store_true", help="the forms for a report, in place of those for tuning")
     chosen = parser.parse_args()
+    plan_of = joint_plan.unseen_cases if chosen.unseen else joint_plan.cases
     cases = [
         case
-        for case in joint_plan.cases(chosen.seeds)
+        for case in plan_of(chosen.seeds)
         if (not chosen.kind or any(kind in case.forms for kind in chosen.kind))
         and (not chosen.design or case.design in chosen.design)
     ]

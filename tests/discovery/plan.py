@@ -9,7 +9,7 @@ from .generator.forms import FORMS, Form
 
 TUNING = range(100)
 """Seeds for developing discovery."""
-REPORTING = range(1000, 1100)
+REPORTING = range(1000, 10000)
 """Seeds for the numbers that are reported: nobody looks at their cases while developing, or the numbers mean nothing."""
 
 STRENGTHS = (0.5, 1.0, 0.5, 1.0, 0.3)

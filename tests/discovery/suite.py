@@ -151,7 +151,7 @@ def seed_range(text: str) -> range:
     first, _, last = text.partition("..")
     seeds = range(int(first), int(last or first) + 1)
     if not any(all(seed in known for seed in seeds) for known in (plan.TUNING, plan.REPORTING)):
-        raise argparse.ArgumentTypeError("seeds must be all for tuning (0..99) or all for reporting (1000..1099)")
+        raise argparse.ArgumentTypeError("seeds must be all for tuning (0..99) or all for reporting (1000..9999)")
     return seeds
 
 
@@ -161,7 +161,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path)
     parser.add_argument("--full", action="store_true", help="all cases of the seeds; default: a sample of 24")
     parser.add_argument("--sample", type=int, help="about this many cases, spread evenly")
-    parser.add_argument("--seeds", type=seed_range, default=range(1), help="A..B of 0..99 (tuning) or 1000..1099 (reporting)")
+    parser.add_argument("--seeds", type=seed_range, default=range(1), help="A..B of 0..99 (tuning) or 1000..9999 (reporting)")
     parser.add_argument("--kind", action="append", default=[], help="only this kind or form (repeatable)")
     parser.add_argument("--design", action="append", default=[], help="only this design (repeatable)")
     parser.add_argument("--strength", action="append", type=float, default=[], help="only this strength (repeatable)")

@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from tests.discovery import joint_plan, joint_suite, judge
-from tests.discovery.joint_generator import slider
+from tests.discovery.joint_generator import slider, thrown
 from tests.discovery.joint_generator.case import Case, make, write
 from tests.discovery.joint_generator.forms import FORMS
 from tests.discovery.joint_generator.forms.form import JOINTS
 from tests.discovery.joint_generator.integrator import simulate
-from tests.discovery.joint_generator.plant import ARM, plain_plant
+from tests.discovery.joint_generator.plant import ARM, CHAIN, plain_plant
+from tests.discovery.joint_generator.unseen import UNSEEN
 
 FREE = np.zeros((2, 5)) + np.array([0.0, 0.0, 0.0, 1e9, 1.0])
 
@@ -58,6 +59,25 @@ def test_the_arm_moves_as_mujoco_says(tmp_path):
         assert data.qfrc_inverse == pytest.approx(np.zeros(2), abs=1e-5 * n["gravity"])  # central differences of 1e-4 s
 
 
+def test_the_load_of_a_chain_is_moved_by_its_spring_alone():
+    """Pushed at the motor with 10 N for 1 s: 10 N s in all, whatever the second row of gains."""
+    chain = {"kind": CHAIN, "rotor": 1.0, "inertia": 3.0, "link_stiffness": 500.0, "link_damping": 2.0}
+    gains, pushed = FREE.copy(), np.zeros((1001, 6))
+    gains[1, 0], pushed[:, 4] = 1e3, 10.0
+    v, v_2 = simulate(plant(chain), gains, pushed, np.zeros(2), 0, 1e-3)[-1, 2:4]
+    assert 1.0 * v + 3.0 * v_2 == pytest.approx(10.0, rel=1e-9)
+
+
+def test_a_throw_ends_where_constant_friction_ends_it():
+    rng = np.random.default_rng(0)
+    x = thrown.record(thrown.Throw(lambda v, x: 0.25), rng)["position [m]"]
+    speed = np.random.default_rng(0).uniform(1.1, 1.5)
+    rest = 0.5 * (speed**2 - 0.05**2) / (9.81 * 0.25)
+    assert x[-1] == pytest.approx(
+        rest, abs=0.07 / thrown.RATE + 5.0 * thrown.NOISE
+    )  # the last frame comes before the last step
+
+
 def test_ageing_and_slip_laws_settle_at_the_same_friction():
     """Steady state is mu_0 + (a - b) ln(v/v_0) with every state law."""
     for law in (slider.ageing, slider.slipping):
@@ -66,11 +86,11 @@ def test_ageing_and_slip_laws_settle_at_the_same_friction():
         assert record["friction_coefficient"][-1] == pytest.approx(0.6 - 0.005 * math.log(100.0), abs=1e-5)
 
 
-@pytest.mark.parametrize("name", FORMS)
+@pytest.mark.parametrize("name", [*FORMS, *UNSEEN])
 def test_every_form_changes_what_is_recorded(name):
     """With the same seed: another record than the one without the effect, apart from nulls."""
-    form = FORMS[name]
-    if form.designs[0] == "slider":
+    form = (FORMS | UNSEEN)[name]
+    if form.designs[0] in ("slider", "thrown"):
         return
     made = make(Case(name, form.designs[0], 1.0, 1))
     made = replace(made, believed=replace(made.believed, duration=9.0), true=replace(made.true, duration=9.0))
@@ -79,15 +99,26 @@ def test_every_form_changes_what_is_recorded(name):
     states, _ = made.states(0)
     plain, _ = made.states(0, with_effects=False)
     changed = float(np.max(np.abs(states[:, 4] - plain[:, 4]))) * made.believed.gain / made.believed.level
-    measured = np.max(np.abs(record[next(c for c in record if "position" in c or "angle" in c)] - states[:, 0]))
-    drive = next(c for c in record if any(word in c for word in ("force", "torque", "voltage")))
-    logged = np.max(np.abs(record[drive] - states[:, 4])) * made.believed.gain
     if form.kind == "none":
         assert changed == 0.0
     else:
+        measured = np.max(np.abs(record[next(c for c in record if "position" in c or "angle" in c)] - states[:, 0]))
+        drive = next(c for c in record if any(word in c for word in ("force", "torque", "voltage")))
+        logged = np.max(np.abs(record[drive] - states[:, 4])) * made.believed.gain
         sensor = made.believed.sensor
         seen = measured > 20.0 * sensor.position or logged > 20.0 * sensor.drive
         assert changed > 0.05 or seen or "temperature" in str(record.keys())
+
+
+@pytest.mark.parametrize("name", [name for name, form in UNSEEN.items() if form.designs[0] in ("slider", "thrown")])
+def test_every_slide_and_slider_of_the_report_is_written(name, tmp_path):
+    from stochfric_mb.measurement import load_dataset
+
+    case = Case(name, UNSEEN[name].designs[0], 1.0, 1)
+    write(case, tmp_path / "set", tmp_path / "truth.json")
+    dataset = load_dataset(tmp_path / "set")
+    assert {run.role for run in dataset.runs} == {"fit", "test"}
+    assert all(np.isfinite(run.channels["position"]).all() for run in dataset.runs)
 
 
 @pytest.mark.parametrize("design", [*JOINTS, "slider"])
@@ -108,6 +139,17 @@ def test_plan_has_every_form_in_all_its_mechanisms():
     for name, form in FORMS.items():
         assert {case.design for case in cases if case.forms == name} == set(form.designs)
     assert len(FORMS) >= 60
+
+
+def test_forms_of_the_report_are_in_no_plan_for_tuning():
+    assert not {part.name for case in joint_plan.cases(range(2)) for part in case.parts} & set(UNSEEN)
+    cases = list(joint_plan.unseen_cases([2407]))
+    assert len({case.name for case in cases}) == len(cases)
+    assert {part.name for case in cases for part in case.parts} == set(UNSEEN)
+    kinds = [form.kind for form in UNSEEN.values()]
+    assert len(UNSEEN) >= 60
+    assert min(kinds.count("unknown"), kinds.count("none")) >= 18
+    assert {case.design for case in cases} == {*JOINTS, "slider", "thrown"}
 
 
 def test_summary_counts_what_was_answered():

@@ -9,7 +9,9 @@ integrator  the compiled time stepping
 motion      what the controller is asked to follow
 bench       the rigs: sizes, sample rates, noise, controllers, what is believed and what is true
 slider      the spring slider, which has no inertia
+thrown      short slides, which nothing drives
 forms       the hidden effects
+unseen      further ones, for a report alone
 case        (form, design, strength, seed) -> dataset folder and truth record
 files       how a case is written down
 """

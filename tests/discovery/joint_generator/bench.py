@@ -9,8 +9,8 @@ from .plant import ARM, SINGLE
 Generator = np.random.Generator
 GRAVITY = 9.81
 
-DESIGNS = ("slide", "hinge", "mjcf_slide", "mjcf_hinge", "arm", "slider")
-"""Mechanisms: prismatic_joint, hinge_pendulum, three MJCF models and spring_slider."""
+DESIGNS = ("slide", "hinge", "mjcf_slide", "mjcf_hinge", "arm", "slider", "thrown")
+"""Mechanisms: prismatic_joint, hinge_pendulum, three MJCF models, spring_slider, and a prismatic_joint that is thrown."""
 
 UNCERTAINTY = {"mass": 0.02, "mu": 0.2, "damping": 0.2, "inertia": 0.05}
 """Relative standard deviations of what is believed; that of an offset is in its own unit."""

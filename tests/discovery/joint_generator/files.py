@@ -26,6 +26,11 @@ def slider_scenario(stiffness: float, mu: float) -> str:
     return _scenario(f'kind = "spring_slider"\nstiffness = {stiffness!r}\n', mu, "stiffness = 0.5\nmu_s = 0.1\nmu_k = 0.1\n")
 
 
+def thrown_scenario(mass: float, mu: float) -> str:
+    text = f'kind = "prismatic_joint"\nmass = {mass!r}\nnormal_force = {9.81 * mass!r}\n'
+    return _scenario(text, mu, "mass = 0.001\nmu_s = 0.5\nmu_k = 0.5\n")
+
+
 def scenario_text(bench: Bench, gains: tuple[float, float, float]) -> str:
     """The scenario of a believed rig; gains: position and velocity gain of its controller, and its limit."""
     make = {"slide": _slide, "hinge": _hinge}.get(bench.design, _mjcf)

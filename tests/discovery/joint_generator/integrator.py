@@ -163,7 +163,7 @@ def _run(body, extra, coulomb, reach, by_speed, by_place, by_time, by_stroke, ga
                     if d == place or (body[KIND] == CHAIN and d == 0):
                         given[d] = _applied(drive, q_mid[d], t_share, extra, reach, by_place, by_time)
                     else:
-                        given[d] = drive
+                        given[d] = drive if body[KIND] == ARM else 0.0  # the load of a chain has no motor
                     if d == 1 and not two:
                         continue
                     hold = body[GRAVITY] * sin(q_mid[0]) if body[KIND] != ARM else body[GRAVITY_2] * sin(q_mid[0] + q_mid[1])

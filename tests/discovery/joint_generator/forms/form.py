@@ -67,14 +67,16 @@ class Form:
 FORMS: dict[str, Form] = {}
 
 
-def form(kind: str, *, also: tuple[str, ...] = (), on: tuple[str, ...] = JOINTS) -> Callable[[Draw], Draw]:
-    """Register a function (rng, strength, bench) -> Effect as `kind.function_name`."""
+def form(
+    kind: str, *, also: tuple[str, ...] = (), on: tuple[str, ...] = JOINTS, table: dict[str, Form] = FORMS
+) -> Callable[[Draw], Draw]:
+    """Register a function (rng, strength, bench) -> Effect as `kind.function_name` in a table of forms."""
 
     def register(draw: Draw) -> Draw:
         name = f"{kind}.{draw.__name__}"
-        if name in FORMS:
+        if name in FORMS or name in table:
             raise ValueError(f"form {name!r} is defined twice")
-        FORMS[name] = Form(name, kind, draw, on, frozenset(also))
+        table[name] = Form(name, kind, draw, on, frozenset(also))
         return draw
 
     return register
