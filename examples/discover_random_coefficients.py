@@ -102,7 +102,7 @@ def discover(folder: Path, plot_to: str | None) -> None:
     short = {"duration": min(20.0, float(run.time[-1]) // 1.0)}
     panels = {
         "measured": [measured_portrait(run.time, run.channels["position"])],
-        "model as believed": portrait(dataclasses.replace(outcome.dataset.scenario, **short)),
+        "model as stated": portrait(dataclasses.replace(outcome.dataset.scenario, **short)),
         "with what was found": portrait(dataclasses.replace(outcome.scenario, **short), samples=3),
     }
     for title, loops in panels.items():

@@ -33,7 +33,7 @@ MARKER = "result.json"
     "--scenario",
     metavar="SCENARIO",
     shell_complete=completion.scenarios,
-    help="Model believed so far; needed for a measured file alone.",
+    help="Present model; needed for a measured file alone.",
 )
 @click.option("-o", "--out", required=True, metavar="DIR", help="Folder for report, result and exports.")
 @click.option("--dry-run", is_flag=True, help="Read and check everything, draw the raw records, say what would be done.")
@@ -126,7 +126,7 @@ def _show(content: Mapping[str, Any]) -> None:
         print_table(("effect", "parameter", "value", "95 % interval", "unit"), rows)
     for effect in content["effects"]:
         if effect["equivalent_to"]:
-            say(f"These data cannot tell {effect['kind']} from {', '.join(effect['equivalent_to'])}")
+            say(f"These data cannot distinguish {effect['kind']} from {', '.join(effect['equivalent_to'])}")
     if (gap := content[content["leading"]]) is not None:
         stages = ("baseline", "recalibrated", "augmented", "floor")
         rows = [[f"{gap[stage]:.3g}" if gap[stage] is not None else "-" for stage in stages]]

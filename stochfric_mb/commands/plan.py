@@ -37,7 +37,7 @@ SHOWN = 3
 @click.option("-o", "--out", required=True, metavar="DIR", help="Folder for report and numbers.")
 @click.option("--force", is_flag=True, help="Replace what is at --out.")
 def plan(scenario: str, runs: tuple[str, ...], noise: float | None, no_extra: bool, out: str, force: bool) -> None:
-    """Say which effects planned runs of SCENARIO could show and at what size, and which extra run would tell most."""
+    """Say which effects planned runs of SCENARIO could show and at what size, and which extra run would add most."""
     from stochfric_mb.commands.progress import display
     from stochfric_mb.commands.report_folder import write_report
     from stochfric_mb.outputs import check_target, claimed, whole_folder

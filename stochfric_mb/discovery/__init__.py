@@ -27,7 +27,7 @@ def discover(
     Args:
         dataset: a folder with ``dataset.toml``, that file, one measured file (then ``scenario`` is needed), or a
             `Dataset`.
-        scenario: the model believed so far; replaces the data set's own.
+        scenario: the present model; replaces the data set's own.
         progress: called with the name of each stage as it begins.
 
     Raises:

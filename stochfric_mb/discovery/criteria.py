@@ -18,7 +18,7 @@ ALIKE_SIMULATED = 10.0
 """Effects whose simulated criterion, in units of the best one's own misfit, is within this of the best are of one class with
 it [-]."""
 LACK_OF_FIT, LACK_OF_FIT_SHARE = 25.0, 0.35
-"""A simulated candidate is refused if chi^2 stays this far above its freedom and above this share of the believed model's."""
+"""A simulated candidate is refused if chi^2 stays this far above its freedom and above this share of the stated model's."""
 SOFTER = 15.0
 """Score by which a stiffness that drifts must beat other drifts, or `ALIKE_SHARE` [-]."""
 ALTERNATES = 0.9
@@ -26,7 +26,7 @@ ALTERNATES = 0.9
 WORTH_SIMULATING = 0.1
 """Share of the best effect's score from which on a candidate is simulated [-]."""
 FORM_MISSES = 0.03
-"""Share of the believed model's misfit that an effect of another form than the simulated one may leave [-]: a sixth of its
+"""Share of the stated model's misfit that an effect of another form than the simulated one may leave [-]: a sixth of its
 strength. The tests' forms leave 0.016 at most, those of other kinds 0.08 where friction varies along the stroke."""
 SECOND_SHARE = 0.1
 """A further effect needs at least this share of the first one's score [-]."""
@@ -70,7 +70,7 @@ CLOSES_NOTHING = 0.02
 """Share of the error of forecasts, or of predicted slip forces, below which a change of it is nothing over nothing: an effect
 that takes away no more of either is not named, and a gap no larger has no closed share [-]."""
 STRENGTH_TOLD = 3.84
-"""Likelihood ratio to a fit without the effect at which its strength is told from none: chi^2 of one degree, 5 % [-]."""
+"""Likelihood ratio to a fit without the effect at which its strength differs from zero: chi^2 of one degree, 5 % [-]."""
 UNNAMED_LEAST = 0.0
 """Score that an axis must reach: more evidence than its numbers and the choice between the axes cost."""
 FORCES_FEWEST = 6
@@ -114,7 +114,7 @@ PHASE_JUMPED = 30.0
 """Fall of chi^2 by a step within one stick phase from which on it is a jump [-]; of 200 phases of noise, none of 100 runs has
 one."""
 FEWEST_PHASES = 8
-"""Stick phases below which a wave cannot be told from noise."""
+"""Stick phases below which a wave cannot be distinguished from noise."""
 WAVE_EXPLAINED = 0.1
 """Share of the variance that a wave must explain [-]: noise of 50 phases, ten independent numbers each, gives the best of a
 thousand waves 3 %."""
@@ -139,7 +139,7 @@ SCATTER_CERTAIN = 30.0
 SCATTER_MEMORY = 3.0
 """Correlation from slip to slip over its standard error at which the scatter has a memory [-]."""
 SCATTER_REMAINING = 0.1
-"""Share of the believed model's scatter that must remain with the effects in for it to be called random [-]."""
+"""Share of the stated model's scatter that must remain with the effects in for it to be called random [-]."""
 SCATTER_LEAST_SHARE = 0.004
 """Scatter over the friction itself below which, beside a named effect, it is what the effect's form leaves [-]."""
 FEWEST_KICKED, MOST_KICKED = 0.05, 0.45
@@ -203,7 +203,7 @@ FEW_STRAY, STRAY_SHARE = 2, 0.03
 OUTLIER_DEVIATIONS = 5.5
 """A sample further from the running median than this many standard deviations is an outlier [-]."""
 TOO_LOUD = 0.1
-"""Noise over the expected travel of a slip from which on slips drown in it [-]: their edges are told by the bend that a
+"""Noise over the expected travel of a slip from which on slips drown in it [-]: their edges are located by the bend that a
 break-away puts into the record, which is a tenth of the travel after a fifth of the slip."""
 RIDES = 0.9
 """Share of the belt's travel that a box follows if it sticks throughout [-]."""

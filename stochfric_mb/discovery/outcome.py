@@ -27,7 +27,7 @@ class Outcome:
     dataset: Dataset
     """What was studied."""
     study: Study | None = None
-    """What the fit runs told; None where they had too few slips."""
+    """What the fit runs showed; None where they had too few slips."""
     decision: Decision | None = None
     """The decision on them."""
     models: tuple[Model, Model, Model] | None = None

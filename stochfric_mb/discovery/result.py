@@ -41,7 +41,7 @@ class Found:
     kind: str
     """Its name in the vocabulary."""
     equivalent_to: tuple[str, ...]
-    """Effects that these data cannot tell from it."""
+    """Effects that these data cannot distinguish from it."""
     where: Where
     """Where it shows."""
     parameters: dict[str, Interval]
@@ -73,7 +73,7 @@ class Gap:
     held_out: bool
     """Whether it was measured on runs that no fit has seen."""
     baseline: float
-    """The model as believed."""
+    """The model as stated."""
     recalibrated: float
     """The same with its parameters fitted within their uncertainty."""
     augmented: float

@@ -1,6 +1,6 @@
 """A course in time of any smooth shape: a sum of cubic B-splines over a stretch of time.
 
-A slow course is told from a random wander by its length scale: it bends over a part of the record that many slips fall into,
+A slow course differs from a random drift by its length scale: it bends over a part of the record that many slips fall into,
 and it comes back in the next run. Reference: C. de Boor, A Practical Guide to Splines, Springer 1978, chapter IX.
 """
 

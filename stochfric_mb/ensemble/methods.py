@@ -39,7 +39,7 @@ class Method:
     dt: float
     """Step [s]; 0 where there is none."""
     block: int
-    """Runs in a block, unless told otherwise."""
+    """Runs in a block, unless stated otherwise."""
     prepare: Callable[[Array], Compute]
     """Output times -> the function that computes runs."""
 

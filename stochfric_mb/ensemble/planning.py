@@ -17,7 +17,7 @@ from stochfric_mb.errors import InputError, require_name, require_number
 from stochfric_mb.scenario import Scenario
 
 MAX_BYTES = 2**31
-"""Memory that an ensemble may take unless told otherwise [bytes]."""
+"""Memory that an ensemble may take unless stated otherwise [bytes]."""
 MAX_SAMPLES = 2**32
 """Samples that one seed has."""
 

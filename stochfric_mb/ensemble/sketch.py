@@ -22,7 +22,7 @@ Array = npt.NDArray[np.float64]
 FINEST = -44
 """Exponent of the first bin width, 2^-44 = 5.7e-14 (m or m/s)."""
 BINS = 2048
-"""Bins of a histogram, unless told otherwise."""
+"""Bins of a histogram, unless stated otherwise."""
 
 
 @dataclasses.dataclass

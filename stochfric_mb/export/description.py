@@ -27,9 +27,9 @@ class Named:
     token: str
     """What binds description and binary together."""
     step: float
-    """Step that a master may take unless it is told another [s]."""
+    """Default step of a master [s]."""
     stop: float
-    """Where a simulation stops unless it is told another time [s]."""
+    """Default end of a simulation [s]."""
 
 
 def description(about: Named, variables: Sequence[Variable], *, fmi: int, derivatives: bool) -> str:

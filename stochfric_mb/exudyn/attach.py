@@ -45,7 +45,7 @@ def add_friction(
 
     Coordinate markers: sliding along a line. The friction force on ``marker1``'s coordinate acts along
     ``surface_velocity - (velocity1 - velocity0)``; marker 0 gets the opposite one. Position markers: sliding in the plane
-    across ``normal``, which turns with marker 0 if not told otherwise. The point of contact lies ``radius`` below marker 1;
+    across ``normal``, which turns with marker 0 unless stated otherwise. The point of contact lies ``radius`` below marker 1;
     its velocity is that of the body's material there relative to the counter-surface's, so that turntables, drums, balls and
     wheels are right. Forces and torques act at that point on both bodies.
 

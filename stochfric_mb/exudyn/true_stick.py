@@ -106,7 +106,7 @@ COUPLED = 1.0e-9
 
 
 def require_apart(contact: Any, contacts: Sequence[Any]) -> None:
-    """Do nothing if what holds a contact with true stick can be told from what holds the others.
+    """Do nothing if what holds a contact with true stick can be distinguished from what holds the others.
 
     Raises:
         InputError: two of them hold the same motion, or two act on each other of which one is in a plane.

@@ -1,4 +1,4 @@
-"""Datasets: what was measured, and the model believed so far; read from TOML (`stochfric.dataset/1`)."""
+"""Datasets: what was measured, and the present model; read from TOML (`stochfric.dataset/1`)."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Dataset:
     scenario_path: Path | None
     """File of the scenario; None if it was given as an object."""
     scenario: Scenario[Any]
-    """The model believed so far."""
+    """The present model."""
     runs: tuple[Run, ...]
     """All runs, in the order of the file."""
 
@@ -55,7 +55,7 @@ def load_dataset(path: str | Path, scenario: str | Path | Scenario[Any] | None =
 
     Args:
         path: a folder with ``dataset.toml``, that file, or one measured file alone: its last third is then held out.
-        scenario: the model believed so far, as a file, the name of a bundled scenario, or an object; it replaces the
+        scenario: the present model, as a file, the name of a bundled scenario, or an object; it replaces the
             dataset's own, and is needed with a measured file.
 
     Raises:
@@ -162,7 +162,7 @@ def _named(tables: Mapping[str, Any], folder: Path) -> Path | str:
     name = tables.get("scenario")
     if not isinstance(name, str):
         raise InputError(
-            f'scenario = {name!r}: a dataset names the file of the model believed so far; write scenario = "scenario.toml"'
+            f'scenario = {name!r}: a dataset names the file of the present model; write scenario = "scenario.toml"'
         )
     return folder / name if (folder / name).exists() or Path(name).suffix else name
 

@@ -133,7 +133,7 @@ def _rounding(time: Array, interval: float) -> float:
     """Return how far rounding to the digits in the file can move a time stamp [s]; 0 if they are not rounded.
 
     Time stamps on a uniform grid that were rounded to d decimals differ from the grid through two of them by at most
-    10^-d. With decimals coarser than half an interval the clock cannot be told from jitter, and 0 is returned.
+    10^-d. With decimals coarser than half an interval the clock looks like jitter, and 0 is returned.
     """
     for decimals in range(10):
         unit = 10.0**-decimals

@@ -221,8 +221,8 @@ def _first_crossing(r, d, t, h):
     if middle < 0.0:
         return _crossing(r, d, t, h, 0.0, first, 0.5, middle), middle
     end = _margin_within(r, d, t, 1.0, h)
-    bottom, foretold = turning_point(0.0, first, 0.5, middle, 1.0, end)
-    if 0.0 < bottom < 1.0 and foretold < 0.1 * first:
+    bottom, predicted = turning_point(0.0, first, 0.5, middle, 1.0, end)
+    if 0.0 < bottom < 1.0 and predicted < 0.1 * first:
         at_bottom = _margin_within(r, d, t, bottom, h)
         if at_bottom < 0.0:
             return _crossing(r, d, t, h, 0.0, first, bottom, at_bottom), middle

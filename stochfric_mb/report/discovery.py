@@ -39,7 +39,7 @@ METRICS = {
     "inverse_dynamics_sliding": "error of the predicted driving force while the joint slides (root mean square)",
     "friction_coefficient": "error of the predicted coefficient of friction (root mean square)",
 }
-"""Metric -> what it is, in words; other metrics are told by their names."""
+"""Metric -> what it is, in words; other metrics stand with their names."""
 
 DISPLAYED = {"m": ((1.0e-3, 1.0e6, "µm"), (1.0, 1.0e3, "mm")), "m/s": ((1.0, 1.0e3, "mm/s"),), "-": ()}
 """Unit -> (below this, multiplied by that, shown as)."""
@@ -66,7 +66,7 @@ def page(
     """Return the report as one HTML text that needs no other file.
 
     Args:
-        content: what ``result.json`` holds; all that the page tells comes from it.
+        content: what ``result.json`` holds; all that the page shows comes from it.
         drawn: pictures of a belt-box, from `discovery_pictures.figures`.
         pictures: further pictures.
         records: captions and pictures of the raw records, from `record_picture.record_pictures`.

@@ -128,7 +128,7 @@ def _cycles(model: Model, windows: Sequence[Windows]) -> Cycles:
 
 
 def _left_over(pool: Pool, found: Study) -> LeftOver:
-    """Return what remains of the features in ``pool`` once the believed model's parameters are fitted to them."""
+    """Return what remains of the features in ``pool`` once the stated model's parameters are fitted to them."""
     regression = Regression(pool)
     terms = believed(pool, dict(found.uncertainty))
     rest = regression.residuals(terms, regression.fit(terms, found.solution.scatter))[pool.kept]

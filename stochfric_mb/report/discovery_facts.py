@@ -1,4 +1,4 @@
-"""The numbers that a report of a discovery tells beside the result's own: data, model as stated, statistics of events."""
+"""The numbers that the page of a discovery shows beside the result's own: data, model as stated, statistics of events."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ CONFIDENCE = 0.95
 
 
 def complete(outcome: Outcome, evidence: Evidence | None, command: str) -> Result:
-    """Return the result with every number that its report tells, under ``details``.
+    """Return the result with every number that its page shows, under ``details``.
 
     Args:
         outcome: what was found.

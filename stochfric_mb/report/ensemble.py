@@ -34,7 +34,7 @@ FEW_TIMES = 8
 CHUNK = 100
 """Runs counted at a time in the phase portrait."""
 SHOWN = 4
-"""Output times at which distributions are shown, unless told otherwise."""
+"""Output times at which distributions are shown, unless stated otherwise."""
 
 Array = npt.NDArray[np.float64]
 
@@ -78,7 +78,7 @@ EVENTS = (
 
 
 LEVELS = (0.05, 0.5, 0.95)
-"""Quantiles of the response that are told."""
+"""Quantiles of the response that the page shows."""
 
 
 def page(title: str, facts: Mapping[str, Any], drawn: Mapping[str, str], command: str) -> str:

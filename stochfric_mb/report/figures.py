@@ -19,7 +19,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 COLOURS = {"reference": "#1f2933", "mujoco": "#0072b2", "exudyn": "#d55e00", "pymunk": "#009e73"}
-"""Colour of an engine (Okabe and Ito's, told apart by the colour-blind as well)."""
+"""Colour of an engine (Okabe and Ito's, which the colour-blind distinguish as well)."""
 OTHER = "#cc79a7"
 """Colour of an engine that is not in `COLOURS`."""
 
@@ -47,7 +47,7 @@ STYLE: dict[str, Any] = {
 POINTS = 72.0
 """Points in an inch: the unit of SVG."""
 CELLS = (600, 400)
-"""Dots of a cloud are kept one a cell of so many columns and rows: more could not be told apart."""
+"""Dots of a cloud are kept one a cell of so many columns and rows: more could not be distinguished."""
 
 
 def new_figure(width: float, height: float, columns: int = 1) -> tuple[Figure, list[Axes]]:

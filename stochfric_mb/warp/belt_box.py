@@ -26,7 +26,7 @@ from stochfric_mb.warp.kinds import ContactFriction
 
 HOOK = "steers MuJoCo Warp's constraint solver, Euler"
 STEP = 1.0e-3
-"""Step that is taken unless told otherwise [s]: the solver has no stability limit."""
+"""Step that is taken unless stated otherwise [s]: the solver has no stability limit."""
 DEEPEST = -0.04
 """Lowest vertical coordinate at which rest is looked for [m]; the box is 0.1 m high."""
 Array = npt.NDArray[np.float64]

@@ -143,7 +143,7 @@ def shares(members: list[Verdict]) -> dict[str, tuple[float | None, int]]:
         "the same, 10 % quantile": _quantile(reproduced, 0.1),
         "seconds a case, median": _quantile([v.seconds for v in members], 0.5),
         "seconds a case, 90 % quantile": _quantile([v.seconds for v in members], 0.9),
-        "the very name, not only one that cannot be told apart": _share([v.exact for v in effects]),
+        "the very name, not only one that cannot be distinguished": _share([v.exact for v in effects]),
         "effects answered none": _share([v.answer == NONE for v in effects]),
         "effects answered unknown": _share([v.answer == UNKNOWN for v in effects]),
         "runs that failed": _share([v.answer == "failed" for v in members]),

@@ -55,7 +55,7 @@ class Rescored:
     """Errors of forecasts over one cycle on the held-out runs [m]."""
 
     recalibrated: float
-    """The model as believed, with the numbers that `result.json` holds."""
+    """The model as stated, with the numbers that `result.json` holds."""
     augmented: float
     """`augmented.toml`."""
     floor: float

@@ -1,4 +1,4 @@
-"""A slow course is told from a random wander by its length scale, and comes back in the next run."""
+"""A slow course differs from a random drift by its length scale, and comes back in the next run."""
 
 import numpy as np
 import pytest

@@ -48,7 +48,7 @@ def test_equivalent_name_counts_as_top_1_but_not_as_the_very_name(tmp_path):
     verdicts = suite.run([RIPPLE], tmp_path, says("effect", "position_dependent_friction", ("normal_load_ripple",)))
     one = rows(verdicts, "one")
     assert (one["top-1 name right"], one["truth in the reported class"]) == (1.0, 1.0)
-    assert one["the very name, not only one that cannot be told apart"] == 0.0
+    assert one["the very name, not only one that cannot be distinguished"] == 0.0
     assert one["gap closed, median"] == 0.9
 
 

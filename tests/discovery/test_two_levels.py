@@ -1,4 +1,4 @@
-"""Friction that switches between two levels is told from effects by likelihoods: what explains the slips better stands."""
+"""Friction that switches between two levels, or effects: the likelihood of the slips decides."""
 
 import pytest
 

@@ -26,7 +26,7 @@ class PlaceOutcome:
     nuisances: tuple[Nuisance, ...]
     """Numbers of the mechanism that were corrected."""
     believed: JointModel
-    """The model as believed."""
+    """The model as stated."""
     fit: tuple[ForceBalance, ...]
     """Fit runs."""
     test: tuple[ForceBalance, ...]

@@ -57,7 +57,7 @@ class PlainSource:
 
 
 def prior_model(scenario: Scenario[Any], place: str, nuisances: Sequence[Nuisance], load: float) -> JointModel:
-    """Return the model as believed at a place whose load is ``load`` [N or N m]."""
+    """Return the model as stated at a place whose load is ``load`` [N or N m]."""
     acts_in = getattr(scenario.mechanism, "effects_in", ())
     own = () if acts_in and place not in acts_in else tuple(e for e in scenario.effects if e.group not in BESIDE)
     contact = place in getattr(scenario.mechanism, "pairs", ())

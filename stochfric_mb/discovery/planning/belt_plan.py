@@ -1,7 +1,7 @@
 """Planned runs of a belt-box: simulated as believed, taken through discovery's own extraction, and asked what they show.
 
 The regressors by which discovery screens for effects are the change of the slips' features with each effect, to first order;
-the covariance of these features comes from simulating the believed model with the sensor's noise.
+the covariance of these features comes from simulating the stated model with the sensor's noise.
 """
 
 from __future__ import annotations
@@ -179,7 +179,7 @@ def assumed_uncertainty(scenario: Scenario[Any]) -> Mapping[str, float]:
 
 @dataclasses.dataclass(frozen=True)
 class _Form:
-    """A hypothesis or a wave before the terms of the believed model are taken out."""
+    """A hypothesis or a wave before the terms of the stated model are taken out."""
 
     kind: str
     variant: str

@@ -1,6 +1,6 @@
 """Planned runs of a prismatic joint or a hinge pendulum: driven to and fro, in weak form, and asked what they show.
 
-The motion is harmonic and the drive what the believed model needs for it, each with its sensor's noise. What an effect does
+The motion is harmonic and the drive what the stated model needs for it, each with its sensor's noise. What an effect does
 to the force balance is linearised about the fitted model, as the search for effects does it.
 """
 
@@ -134,7 +134,7 @@ class JointPlan:
 
 
 def _measured(run: PlannedRun, joint: PrismaticJoint | HingePendulum, friction: float, seed: int) -> Run:
-    """Return what would be measured: a harmonic motion and the drive that the believed model needs for it."""
+    """Return what would be measured: a harmonic motion and the drive that the stated model needs for it."""
     given = run.stroke, run.period, run.noise, run.force_noise
     stroke, period, noise, force_noise = (float(x or 0.0) for x in given)
     step, generator = 1.0 / run.sample_rate, np.random.default_rng(seed)
@@ -160,7 +160,7 @@ def _measured(run: PlannedRun, joint: PrismaticJoint | HingePendulum, friction: 
 def _form(candidate: Candidate, effect: Effect, balances: Any, fitted: JointFit, kinds: int) -> Signature | None:
     """Return one start of a candidate at its limit (infinite: no number is its size).
 
-    None: the numbers of the believed model imitate it.
+    None: the numbers of the stated model imitate it.
     Its score is n ln(1 + x) less its cost, x the share of the mean square that it takes away over what stays; it must also
     lower the error by `MATERIAL`.
     """

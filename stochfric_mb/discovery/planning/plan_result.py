@@ -39,7 +39,7 @@ class Pair:
     second: str
     """The other."""
     told_apart_from: float | None
-    """Size over the detection limit from which on they are told apart [-]; None: at no size."""
+    """Size over the detection limit from which on they are distinguished [-]; None: at no size."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -53,7 +53,7 @@ class ExtraRun:
     shows: tuple[str, ...]
     """Effects that could be seen with it and not without."""
     separates: tuple[tuple[str, str], ...]
-    """Pairs that are told apart with it and not without."""
+    """Pairs that are distinguished with it and not without."""
     limits: float
     """Detection limits with it over those without, geometric mean [-]."""
 

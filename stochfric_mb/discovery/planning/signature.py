@@ -1,4 +1,4 @@
-"""What an effect would leave in data that are not there yet, beyond what the believed model can imitate."""
+"""What an effect would leave in data that are not there yet, beyond what the stated model can imitate."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from stochfric_mb.effects.traits import POSITIVE
 Array = npt.NDArray[np.float64]
 
 STRONG = 3.0
-"""Size over the detection limit up to which effects must differ to count as told apart [-]."""
+"""Size over the detection limit up to which effects must differ to count as distinguished [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Signature:
 
 
 def told_apart_from(true: Signature, other: Sequence[Signature]) -> float:
-    """Return the size over its limit from which on an effect is told from another one; inf: at no size.
+    """Return the size over its limit from which on an effect is distinguished from another one; inf: at no size.
 
     The other one explains the share r^2 of the evidence E = size^2 needed, r the correlation. Effects are of one class where
     their scores differ by less than `criteria.ALIKE_SCREENED`, or by less than the share `criteria.ALIKE_SHARE`.
@@ -90,7 +90,7 @@ def best_of_each(signatures: Sequence[Signature]) -> dict[str, Signature]:
 
 
 def confused_pairs(signatures: Sequence[Signature]) -> dict[tuple[str, str], float]:
-    """Return the pairs of effects that are not told apart up to `STRONG` limits, and the multiple from which on they are."""
+    """Return the pairs of effects that are not distinguished up to `STRONG` limits, and the multiple from which on they are."""
     best = best_of_each([s for s in signatures if s.signals])
     forms = {kind: [s for s in signatures if s.kind == kind] for kind in best}
     found: dict[tuple[str, str], float] = {}

@@ -46,8 +46,8 @@ def next_experiment(decision: Decision, study: Study) -> str:
             if (advice := _told_apart(named.kind, other)) is not None:
                 return f"{advice}, to tell {words_of(named.kind)} from {words_of(other)}"
         if named.class_:
-            told = f"{words_of(named.kind)} from {words_of(named.class_[0])}"
-            return f"runs at a second belt speed and a second normal load, to tell {told}"
+            which = f"{words_of(named.kind)} from {words_of(named.class_[0])}"
+            return f"runs at a second belt speed and a second normal load, to distinguish {which}"
     if decision.verdict == "unknown" and decision.where is not None:
         return f"a repeat with a force sensor and a second belt speed, to see what varies along: {decision.where.axis}"
     blind = [kind for kind in not_identifiable(study) if effect_class(kind).answers_to in SEEN_BY]

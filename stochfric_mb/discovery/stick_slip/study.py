@@ -55,7 +55,7 @@ class Study:
     size: Scaling
     """These units."""
     model: Model
-    """The model as believed, with mu_s and mu_k as stated."""
+    """The model as stated, with mu_s and mu_k as stated."""
     uncertainty: Mapping[str, float]
     """Relative standard deviations of what is believed."""
     records: tuple[Record, ...]
@@ -65,7 +65,7 @@ class Study:
     regression: Regression
     """Fits to them."""
     terms: Terms
-    """The believed model in the regression."""
+    """The stated model in the regression."""
     solution: Solution
     """Its fit."""
     sticking: Sticking | None

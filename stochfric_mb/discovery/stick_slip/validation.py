@@ -92,7 +92,7 @@ def checked_on_held_out(answer: Answer, found: Study, recalibrated: Fit, runs: H
     """Return the answer less the effects that held-out runs do not bear out, last found first.
 
     An effect must not make their forecasts worse, and must make them or the forces of their slips better; a further one must
-    make the forecasts better. What is named then has a strength that is told from none.
+    make the forecasts better. What is named then has a strength that differs from zero.
     """
     dropped: dict[str, object] = {}
     last: Named | None = None

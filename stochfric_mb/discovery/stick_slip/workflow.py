@@ -45,7 +45,7 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
         progress: called with the name of each stage as it begins.
 
     Raises:
-        InputError: a run without a position or that friction cannot be told from, or a law that cannot be believed here.
+        InputError: a run without a position or that shows no friction, or a law that cannot be stated here.
     """
     require_usable(dataset)
     size = Scaling.of_rig(dataset.scenario.mechanism)
@@ -102,9 +102,9 @@ def _result(
     """Return what is said of the data.
 
     Args:
-        answer: the decision that held-out runs have borne out, and its fit.
+        answer: the decision that held-out runs have validated, and its fit.
         kept: the term without a name, where one carries over.
-        recalibrated: the believed model, fitted.
+        recalibrated: the stated model, fitted.
         models: believed, recalibrated and augmented model.
         found: what the fit runs told.
         runs: the held-out runs.
@@ -156,7 +156,7 @@ def augmented_scenario(dataset: Dataset, model: Model) -> Scenario:
 
 
 def recalibrated_model(model: Model, found: Study) -> Fit:
-    """Return the model as believed, fitted within its uncertainty; its scatter, if any is declared, stays as declared."""
+    """Return the model as stated, fitted within its uncertainty; its scatter, if any is declared, stays as declared."""
     start = dataclasses.replace(deterministic(model), corrections=dict.fromkeys(("stiffness", "mass", "damping"), 0.0))
     mu_s, mu_k = (float(max(c, 1.0e-5)) for c in found.solution.coefficients[:2])
     fits = [refit(m, found.windows, found.uncertainty) for m in (start.with_law(mu_s, mu_k), start)]

@@ -23,7 +23,7 @@ def visible(kind: str, design: Design) -> bool:
 
 
 def acceptable(form: Form, design: Design) -> frozenset[str]:
-    """Names that are right for the form in this experiment: the table of what cannot be told apart."""
+    """Names that are right for the form in this experiment: the table of what cannot be distinguished."""
     kind = form.kind
     if kind in (UNKNOWN, NONE):
         return frozenset({kind}) | form.also

@@ -1,6 +1,6 @@
 """How much of the held-out forecast error an effect is worth: by the generator's own simulator, without discovery.
 
-One-cycle-ahead forecasts start mid-stick from the measured position. The believed model is recalibrated on the fit runs within
+One-cycle-ahead forecasts start mid-stick from the measured position. The stated model is recalibrated on the fit runs within
 its uncertainty; the floor is the true model's forecast. Scores are CRPS: the mean absolute error of a certain forecast, the
 ensemble formula for a random one. Gneiting & Raftery, J. Am. Stat. Assoc. 102 (2007) 359, doi 10.1198/016214506000001437.
 """
@@ -83,7 +83,7 @@ def _forecasts(made: Made, run: int) -> _Forecasts:
 
 
 def _baseline_errors(made: Made, deviations: Array, of: _Forecasts) -> Array:
-    """Errors of the believed model with its parameters off by these standard deviations."""
+    """Errors of the stated model with its parameters off by these standard deviations."""
     factors = {name: 1.0 + UNCERTAINTY[name] * float(d) for name, d in zip(_FREE, deviations, strict=True)}
     wrong = {name: getattr(made.believed, name) * factor for name, factor in factors.items()}
     parameters = asdict(replace(made.believed, **wrong)) | made.design.runs[of.run].conditions

@@ -1,6 +1,6 @@
 """Friction in proportion to the measured drive explains any drive: one record with nothing missing, given as each mechanism.
 
-A joint with pure Coulomb friction and no other load; the believed model is exactly right. Whatever the mechanism calls load,
+A joint with pure Coulomb friction and no other load; the stated model is exactly right. Whatever the mechanism calls load,
 nothing may be found, and nothing may be worse for it.
 """
 

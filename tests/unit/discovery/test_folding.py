@@ -1,4 +1,4 @@
-"""Slips that stand out are folded by the belt's travel: what comes back each turn is told from what comes at random."""
+"""Slips that stand out are folded by the belt's travel: what comes back each turn is not taken for what comes at random."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Runs that friction cannot be told from are refused before anything is computed."""
+"""Runs that show no friction are refused before anything is computed."""
 
 from types import SimpleNamespace
 

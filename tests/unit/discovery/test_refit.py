@@ -52,7 +52,7 @@ def test_a_number_that_errors_do_not_tell_is_left_open(monkeypatch, windows):
 def test_where_errors_jump_the_interval_is_as_wide_as_the_step(monkeypatch, windows):
     """Forecasts that stay the same within 0.05: the fit's differences, of 0.00016, see nothing."""
     fit, wide = fitted(monkeypatch, windows, lambda s, k: GAIN * 0.05 * np.round((s - 0.8) / 0.05))
-    assert fit["mu_s"] > 0.25  # told apart from nothing at all
+    assert fit["mu_s"] > 0.25  # against no friction at all
     assert 0.005 < wide["mu_s"] < 0.1
 
 

@@ -22,7 +22,7 @@ SURE = 5.0
 
 @dataclasses.dataclass(frozen=True)
 class Nuisance:
-    """A number of the believed model that enters the balance linearly."""
+    """A number of the stated model that enters the balance linearly."""
 
     name: str
     """Its name in the scenario's ``[mechanism]``."""
@@ -40,7 +40,7 @@ class Nuisance:
 class ForceBalance:
     """driven = sum of nuisance columns times (value - believed) + friction, at the centres of windows.
 
-    ``driven`` is the driving force less inertia, gravity and all else that the believed model says, friction left out.
+    ``driven`` is the driving force less inertia, gravity and all else that the stated model says, friction left out.
     """
 
     run: str

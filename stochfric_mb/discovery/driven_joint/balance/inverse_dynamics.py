@@ -124,7 +124,7 @@ def balance_of(
 
     Args:
         run: the run.
-        scenario: the model believed so far.
+        scenario: the present model.
         delay: by how much the position comes after the driving force in the record [s]; compensated here.
         samples: half width of the window [samples]; None: chosen from the noise.
         runs: all runs of the dataset; pieces of the same record that come before have slid already.

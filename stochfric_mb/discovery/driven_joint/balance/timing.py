@@ -103,7 +103,7 @@ def _through(
     inside = 0 < best < GRID - 1
     rise = max(errors[best - 1], errors[best + 1]) / rest - 1.0 if inside else 0.0
     deviation = float(step / np.sqrt(n * max(rise, 1.0e-12)))
-    # as many delays were tried as can be told apart
+    # as many delays were tried as can be distinguished
     tried = len(HALF_WIDTHS) * max(2.0 * span / (4.0 * deviation), 1.0)
     score = n * np.log(still / rest) - np.log(n) - 2.0 * np.log(tried)
     gain = 1.0 - float(np.sqrt(rest / still))

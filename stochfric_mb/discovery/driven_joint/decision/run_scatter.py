@@ -138,7 +138,7 @@ class Forecasts:
     """CRPS of forecasts of friction in held-out runs [N or N m]."""
 
     baseline: float
-    """Of the model as believed."""
+    """Of the model as stated."""
     recalibrated: float
     """Of the recalibrated one."""
     augmented: float

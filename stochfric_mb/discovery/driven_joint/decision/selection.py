@@ -36,7 +36,7 @@ the axes that were tried counted, and where each half of the record foretells th
 FEWEST_STROKES = 8
 """Fewest strokes that can."""
 TIE = 10.0
-"""Difference of scores within which effects cannot be told apart."""
+"""Difference of scores within which effects cannot be distinguished."""
 ALIKE = 0.5
 """Least part of an effect's evidence that one must have which could stand in for it."""
 MOST = 4
@@ -92,7 +92,7 @@ class Released:
     name: str
     """Its name."""
     believed: float
-    """What was believed."""
+    """What was stated."""
     deviation: float
     """Standard deviation of that belief."""
     score: float
@@ -108,7 +108,7 @@ class Selected:
     """What was found at one joint."""
 
     recalibrated: JointFit
-    """The believed model with its numbers fitted."""
+    """The stated model with its numbers fitted."""
     final: JointFit
     """With the effects found."""
     found: tuple[Trial, ...]
@@ -231,11 +231,11 @@ class Selector:
             repeats = compared(*models, self._balances, self._nuisances, self._noise, parts)
             questions = len({t.candidate.where for t in trials})  # effects along one axis ask nearly the same
             repeats = dataclasses.replace(repeats, p_value=min(1.0, repeats.p_value * questions))
-            enough = repeats.rms_gain > MATERIAL and repeats.p_value < CHANCE and self._foretold(*models)
+            enough = repeats.rms_gain > MATERIAL and repeats.p_value < CHANCE and self._predicted_better(*models)
         return Stage(current, tuple(trials), tuple(rivals), inside, repeats, enough)
 
-    def _foretold(self, plain: JointModel, richer: JointModel) -> bool:
-        """Return whether each half of the record, left out, is foretold better by the richer model by a material part."""
+    def _predicted_better(self, plain: JointModel, richer: JointModel) -> bool:
+        """Return whether each half of the record, left out, is predicted better by the richer model by a material part."""
         halves = blocks(self._balances, 2)
         seen = [compared(plain, richer, self._balances, self._nuisances, self._noise, [half]) for half in halves]
         return min(s.rms_gain for s in seen) > MATERIAL

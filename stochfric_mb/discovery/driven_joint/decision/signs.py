@@ -67,7 +67,7 @@ def _remedy(dataset: Dataset, place: str) -> str:
 
 
 def _fits_turned(dataset: Dataset, place: str, load: float, balances: Sequence[ForceBalance]) -> list[str]:
-    """Return a note if the believed model explains the motion far better with the drive turned round.
+    """Return a note if the stated model explains the motion far better with the drive turned round.
 
     Where inertia outweighs friction a wrong sign shows as twice the inertia, not as energy.
     """

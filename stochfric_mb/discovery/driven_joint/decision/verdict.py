@@ -252,10 +252,10 @@ def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
     same = [(t.candidate.kind, e) for p in places for t, e in zip(p.selected.found, p.selected.equivalents, strict=True) if e]
     if same:
         kind, others = same[0]
-        told = f"{words_of(kind)} from {', '.join(map(words_of, others))}"
+        which = f"{words_of(kind)} from {', '.join(map(words_of, others))}"
         if by_clock(kind):
-            return f"To tell {told}: pauses, strokes of other lengths, and a start from warm."
-        return f"To tell {told}: more speeds, both directions at each, and a second load."
+            return f"To distinguish {which}: pauses, strokes of other lengths, and a start from warm."
+        return f"To distinguish {which}: more speeds, both directions at each, and a second load."
     return "Rest before break-away, for what rest does to friction; slow reversals, for presliding; a second load."
 
 

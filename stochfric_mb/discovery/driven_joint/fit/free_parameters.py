@@ -71,7 +71,7 @@ def _parameter(model: JointModel, owner: int, name: str, value: float, about: Ma
     scale = max(abs(value), 1.0e-3 * about["scale"])
     margin = INSIDE * scale if about["strict"] else 0.0
     low = about["fit_low"]
-    # a smaller preload could not be told from none, and would leave no friction without load
+    # a smaller preload could not be measured, and would leave no friction without load
     low = LEAST_PRELOAD * model.load if name == "reference_load" else low
     return FreeParameter(owner, name, value, scale, low + margin, about["fit_high"] - margin, about["unit"])
 

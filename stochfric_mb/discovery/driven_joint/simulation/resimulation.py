@@ -1,4 +1,4 @@
-"""Held-out runs simulated again, with the model as believed, recalibrated, and with what was found."""
+"""Held-out runs simulated again, with the model as stated, recalibrated, and with what was found."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Which effect is meant: told apart by simulation, checked on fit and held-out runs, or declined."""
+"""Which effect is meant: distinguished by simulation, checked on fit and held-out runs, or declined."""

@@ -1,4 +1,4 @@
-"""One round of the decision: which candidate of the screening is meant, and which cannot be told from it."""
+"""One round of the decision: which candidate of the screening is meant, and which cannot be distinguished from it."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ REFUTED = "shapes_refuted"
 SHAPES = ("slip_shape", "position")
 """Competitors on the axes on which those effects act."""
 IN_TIME = ("time", "friction_step", "parity")
-"""Competitors on the axis of time: a random wander may be what they see."""
+"""Competitors on the axis of time: a random drift may be what they see."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Chosen:
     candidate: Candidate
     """The candidate."""
     class_: tuple[str, ...]
-    """Effects that cannot be told from it."""
+    """Effects that cannot be distinguished from it."""
     model: Model
     """The model with it, at numbers to start from."""
     confirmed: Confirmed | None
@@ -156,12 +156,12 @@ def _nameless(effects: Sequence[Candidate], others: Sequence[Candidate]) -> Wher
 
 @dataclasses.dataclass(frozen=True)
 class _Simulation:
-    """Candidates told apart by simulating them."""
+    """Candidates distinguished by simulating them."""
 
     study: Study
     """What was measured."""
     model: Model
-    """The model so far."""
+    """The present model."""
     terms: Terms
     """Its terms in the regression."""
     cases: Sequence[Case]

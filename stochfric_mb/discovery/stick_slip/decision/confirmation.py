@@ -2,7 +2,7 @@
 
 Each operating point contributes the median features of its slips, or, where the slips differ by a known excitation,
 those of a few typical slips. A candidate is simulated from the middle of a stick through one slip, and the features are
-extracted as from data; the same extraction of the believed model is taken out again, so that its numerical bias
+extracted as from data; the same extraction of the stated model is taken out again, so that its numerical bias
 cancels. mu_s, mu_k, mass, stiffness and damping are refitted with every candidate, within their uncertainty.
 """
 
@@ -61,7 +61,7 @@ class Case:
     ridges: tuple[float, float]
     """Ridges of the edges of the data, break-aways and re-sticks: those of a simulation are located as firmly [-]."""
     offset: Array
-    """What the extraction adds to the truth in the believed model [N], shape (N_FEATURES,)."""
+    """What the extraction adds to the truth in the stated model [N], shape (N_FEATURES,)."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -75,7 +75,7 @@ class Confirmed:
     chi2: float
     """Misfit, priors included [-]."""
     n_parameters: int
-    """Parameters of the effects, and those of the believed model that they leave open."""
+    """Parameters of the effects, and those of the stated model that they leave open."""
     freedom: int
     """Features less parameters."""
 
@@ -120,7 +120,7 @@ def _forced(pool: Pool, model: Model, rows: np.ndarray) -> list[Case]:
     """Return one case for each part of the excitation's cycle in which slips begin.
 
     Slips that begin at nearly the same phase differ little: one of them stands for all, with the median of what the
-    believed model misses in each.
+    stated model misses in each.
     """
     chosen = rows[np.unique(np.linspace(0, len(rows) - 1, LOOKED_AT).round().astype(int))]
     plain = dataclasses.replace(model, corrections={}, effects=(), process=None, own={})
@@ -303,7 +303,7 @@ def _free_in(
 
 
 def _own(candidate: Model, free: Sequence[FreeParameter]) -> int:
-    """Return the number of the effects' parameters, and of those of the believed model that they leave open."""
+    """Return the number of the effects' parameters, and of those of the stated model that they leave open."""
     freed = {name for e in candidate.effects for name in e.frees if name in CORRECTED}
     return sum(k.owner >= 0 or k.name in freed for k in free)
 

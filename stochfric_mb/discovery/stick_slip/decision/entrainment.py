@@ -40,7 +40,7 @@ def entrained(study: Study, model: Model, terms: Terms, cases: Sequence[Case]) -
 
     Args:
         study: what was measured.
-        model: the believed model.
+        model: the stated model.
         terms: its terms in the regression.
         cases: slips to be predicted.
     """

@@ -236,7 +236,7 @@ def _delays(study: Study, details: dict[str, object]) -> Blamed:
 
 
 def delay_deviation(details: Mapping[str, object]) -> float:
-    """Return the standard deviation of the delay that a velocity channel told [s]."""
+    """Return the standard deviation of the delay estimated against a velocity channel [s]."""
     return float(cast("dict[str, float]", details["delay"])["deviation"])
 
 

@@ -1,4 +1,4 @@
-"""The decision: which effects are named, which cannot be told apart, and when the answer is "none" or "unknown"."""
+"""The decision: which effects are named, which cannot be distinguished, and when the answer is "none" or "unknown"."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class Named:
     kind: str
     """Its name."""
     class_: tuple[str, ...]
-    """Effects that the data cannot tell from it, without itself."""
+    """Effects that the data cannot distinguish from it, without itself."""
     evidence: Evidence
     """What speaks for it."""
     where: Where
@@ -131,7 +131,7 @@ def of_wander(study: Study, refuted: Decision) -> Decision | None:
 
     Args:
         study: what was measured.
-        refuted: a decision whose effects were not borne out by forecasts of the fit runs.
+        refuted: a decision whose effects were not validated by forecasts of the fit runs.
     """
     if not refuted.named or any(n.kind not in kinds_with(WANDERS_ALIKE) for n in refuted.named):
         return None
@@ -284,7 +284,7 @@ class _Search:
         return 2.0 * float(others.gains(self.terms, scatter, [winner.hypothesis.columns])[0]) < criteria.NAMED
 
     def _wanders(self, candidates: Sequence[Candidate]) -> bool:
-        """Return whether a winner on the axis of time is better told as a random wander."""
+        """Return whether a winner on the axis of time is better described as a random drift."""
         winner = candidates[0]
         if winner.name not in (*IN_TIME, kind_found_as(JUMP)) and not (winner.is_wave or winner.any_course):
             return False
@@ -372,7 +372,7 @@ class _Search:
         if kind in kinds_with(MOVES_ZERO):
             self.kept += chosen.candidate.hypothesis.columns
         if kind in kinds_with(COURSE_OF_RUN) or chosen.simulated:
-            # a simulated fit knows the features alone, whose bias by noise is that of the believed model
+            # a simulated fit knows the features alone, whose bias by noise is that of the stated model
             screened = self.model
             fit = refit(self.model, self.study.windows, self.study.uncertainty, most=12, evaluations=20)
             self.model = fit.model

@@ -1,4 +1,4 @@
-"""Bias and covariance of the features at an operating point, from simulating the model as believed.
+"""Bias and covariance of the features at an operating point, from simulating the model as stated.
 
 The baseline is simulated with friction that scatters from event to event about as much as the data do, measured with
 noise of the data's level and colour, and taken through the same extraction; inside the simulation the truth is known.

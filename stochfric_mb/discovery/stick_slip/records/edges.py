@@ -32,7 +32,7 @@ FAR_BETTER = 0.75
 """Misfit there over that of the first places that is no chance and no matter of how a slip begins [-]: of 130 samples, noise
 alone does not lower it so; a slip that begins slowly has gentler ones from before fit it nearly as well."""
 LAST = 4
-"""Places that are the end of them: a slip that begins further on is best told as a gentler one from before, not just there."""
+"""Places that are the end of them: a slip that begins further on is better described as a gentler one from before."""
 RESONANCE = 1.0e-3
 """Relative distance of an excitation's frequency from the natural one that its answer is worked out with at least [-]."""
 

@@ -1,4 +1,4 @@
-"""What runs of a belt-box must be for friction to be told from them at all; what is not is refused with its remedy."""
+"""What runs of a belt-box need for friction to be identified from them; others are refused with the remedy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Stick and slip, told apart by the smoothed velocity relative to the belt, with hysteresis."""
+"""Stick and slip, distinguished by the smoothed velocity relative to the belt, with hysteresis."""
 
 from __future__ import annotations
 

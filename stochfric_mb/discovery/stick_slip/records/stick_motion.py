@@ -1,6 +1,6 @@
 """Motion in the stick phases that must not be taken for slow noise: a wave of the belt, or what every phase repeats.
 
-A belt whose speed ripples carries the stuck box along. By its correlations alone a wave of some hertz cannot be told from
+A belt whose speed ripples carries the stuck box along. By its correlations alone a wave of some hertz looks like
 noise with a memory of some tens of milliseconds. But a wave keeps its phase over the whole record, so that one cosine and
 one sine explain much of all stick phases together. A contact that rings after each re-stick, or creeps before each
 break-away, does so alike in all of them.

@@ -20,7 +20,7 @@ from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, N_MOMENT
 LOWEST, HIGHEST = -7.0, 1.0
 """Range of the logarithm of the variance components [ln N]."""
 DAMPING = 4
-"""Place of the relative error of the damping among the terms of the believed model."""
+"""Place of the relative error of the damping among the terms of the stated model."""
 _WHITE = 2.0 * np.arange(N_MOMENTS) + 1.0
 
 
@@ -87,7 +87,7 @@ class Regression:
         scale = np.sqrt((design**2).sum(axis=0) + precision) + 1.0e-12
         scaled = design / scale
         normal = scaled.T @ scaled + np.diag(precision / scale**2)
-        # a touch of ridge keeps regressors that the data cannot tell apart from blowing up
+        # a touch of ridge keeps regressors that the data cannot separate from blowing up
         inverse = np.linalg.inv(normal + 1.0e-10 * np.eye(len(scale)))
         fitted = inverse @ (scaled.T @ target)
         residual = target - scaled @ fitted
@@ -119,7 +119,7 @@ class Regression:
         gains = np.zeros(len(trials))
         for i, columns in enumerate(trials):
             more, _, _ = self._whitened(np.stack(columns, axis=2), scatter)
-            # what of the columns the believed model cannot imitate, by its Gram matrix: small and quick
+            # what of the columns the stated model cannot imitate, by its Gram matrix: small and quick
             shared = top.T @ more
             gram = more.T @ more - shared.T @ shared
             size = np.sqrt(np.maximum(np.diag(gram), 0.0))
@@ -192,7 +192,7 @@ class Regression:
 
 
 def believed(pool: Pool, uncertainty: dict[str, float]) -> Terms:
-    """Return the terms of the model as believed: mu_s, mu_k, and errors of stiffness, mass and damping with their priors.
+    """Return the terms of the model as stated: mu_s, mu_k, and errors of stiffness, mass and damping with their priors.
 
     Args:
         pool: the slips.

@@ -1,4 +1,4 @@
-"""Screening: which effects would explain what the believed model leaves in the slips, and how much better than chance.
+"""Screening: which effects would explain what the stated model leaves in the slips, and how much better than chance.
 
 Score = 2 delta log L - p ln n - 2 ln(grid size); found one after the other, each with its own evidence.
 """
@@ -124,7 +124,7 @@ def screen(
 def _refitted(kind: _Kind, hypothesis: Hypothesis, regression: Regression, terms: Terms, solution: Solution) -> Candidate:
     """Return the best way of a kind with the variance components fitted anew.
 
-    The ways of a kind are told apart at the scatter that one of them leaves, not at that without any.
+    The ways of a kind are distinguished at the scatter that one of them leaves, not at that without any.
     """
     fitted = regression.fit(terms.plus(hypothesis.columns), solution.scatter)
     _, _, best, penalty = _best(kind, regression, terms, solution, fitted.scatter)

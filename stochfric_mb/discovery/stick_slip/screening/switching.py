@@ -1,7 +1,7 @@
 """Friction that switches: it stays at a level, jumps, and stays again. No effect of the vocabulary does that at random.
 
-Independent draws, a random wander, a drift and a ripple all change from every slip to the next, each in its way; a friction
-that is at rest between jumps is told from them by the slips alone, without a model. Two signs of it are looked for, in
+Independent draws, a random drift, a drift and a ripple all change from every slip to the next, each in its way; a friction
+that is at rest between jumps is distinguished from them by the slips alone, without a model. Two signs of it are looked for, in
 the onset force and in the mean force in slip:
 
 - two levels: the slips of each run fall into two groups, which lie further apart than any even distribution puts them;

@@ -175,7 +175,7 @@ def _some(pool: Pool, wave: Wave, parts: list[Part], grid: Array, harmonics: int
         along[:, at] = columns @ part.rest[rows]
         shared[:, :, at] = part.basis[rows].T @ columns.transpose(0, 2, 1)
     scale = np.sqrt(np.maximum(np.einsum("fii->fi", gram), 1.0e-300))
-    # what of the waves the believed model cannot imitate
+    # what of the waves the stated model cannot imitate
     gram = (gram - shared.transpose(0, 2, 1) @ shared) / (scale[:, :, None] * scale[:, None, :]) + 1.0e-6 * np.eye(size)
     along /= scale
     return 0.5 * np.einsum("fi,fi->f", along, np.linalg.solve(gram, along[..., None])[..., 0])

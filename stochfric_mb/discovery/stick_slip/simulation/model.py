@@ -31,7 +31,7 @@ MOST_FREED = 0.4
 """How far what an effect leaves open (`Effect.frees`) may be off [-]: whether an oscillator was weighed with the body, and at
 which deflection a spring was measured, nobody said."""
 SHORTEST_LIMIT = 1.0e-6
-"""Smallest elastic limit that a fit may reach [m]: a stiffer contact cannot be told from a rigid one and costs time."""
+"""Smallest elastic limit that a fit may reach [m]: a stiffer contact looks rigid and costs time."""
 TUNED, TUNING = ("frequency", "wavelength"), 0.02
 """Parameters of effects that small changes of tell upon, and a natural step over their size [-]."""
 MOST_TUNED, FARTHEST = 2.0, 30.0

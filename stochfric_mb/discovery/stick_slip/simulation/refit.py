@@ -30,7 +30,7 @@ ALIKE = 3.0
 MOST_STEPS = 10
 """Steps that are tried for such a slope."""
 LEAST_TOLD = 1.0e-8
-"""Smallest information on a combination of numbers, over that on single ones, that is told from none [-]."""
+"""Smallest information on a combination of numbers, over that on single ones, that counts [-]."""
 
 
 @dataclasses.dataclass(frozen=True)

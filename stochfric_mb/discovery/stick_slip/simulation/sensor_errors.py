@@ -2,7 +2,7 @@
 
 Noise hides an edge, and by how far it is then missed depends on how the box leaves the belt: a friction that falls
 slowly lets it leave slowly, and the edge is found late, early, or in one of two places. The calibration knows this of the
-believed model alone. So a run of the model is simulated; its slips are extracted without noise and with it, and the
+stated model alone. So a run of the model is simulated; its slips are extracted without noise and with it, and the
 difference is the error of each.
 """
 

@@ -1,4 +1,4 @@
-"""Whether an effect's strength is told from none: by the likelihood ratio of a fit without it, where its interval says no.
+"""Whether an effect's strength differs from zero: by the likelihood ratio of a fit without it, where its interval says no.
 
 The interval of a strength that trades off against another number, or has a phase, is not that of a linear fit: it may hold
 zero although a fit at zero is far worse. Its end towards zero is then where the signed root of the likelihood ratio, taken as

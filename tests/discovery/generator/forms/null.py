@@ -1,4 +1,4 @@
-"""Nothing is missing: the believed model explains the data."""
+"""Nothing is missing: the stated model explains the data."""
 
 import numpy as np
 from scipy.signal import lfilter
