@@ -38,7 +38,7 @@ class Mjcf:
     tendons: tuple[str, ...] = ()
     """Tendons that may be named in the place of joints."""
     pairs: Mapping[str, Pair] = dataclasses.field(default_factory=dict[str, Pair])
-    """Name of a pair, as ``friction`` has it -> its geoms. Its load is the normal force at which the coefficients are stated."""
+    """Name of a pair, as ``friction`` has it -> its geoms. Its load: the normal force at which coefficients are stated."""
     damping: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Joint -> damping beyond the model's own, such as back-EMF [N s/m or N m s/rad]."""
     offset: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])

@@ -114,7 +114,8 @@ def test_what_was_found_is_shown_as_a_table(rig, tmp_path):
     assert result.exit_code == 0, result.output
     for part in (
         "Verdict: effect (velocity_weakening, random_coefficients)", "0.049 .. 0.0534", "not fitted", "in m", "91.7 %",
-        "These data cannot distinguish velocity_weakening from viscous_friction", "Note: 8.3e-06", "Next experiment: a run at 2",
+        "These data cannot distinguish velocity_weakening from viscous_friction", "Note: 8.3e-06",
+        "Next experiment: a run at 2",
     ):  # fmt: skip
         assert part in result.stdout, part
     assert {p.name for p in (tmp_path / "out" / "plots").iterdir()} == {"ranking.svg", "gap.svg"}
