@@ -28,6 +28,7 @@ def judged(truth: dict, answer: dict) -> dict:
         "class_right": kind in truth["classes"],
         "closed": answer.get("closed"),
         "seconds": answer.get("seconds"),
+        "processor_seconds": answer.get("processor_seconds"),
         "error": answer.get("error"),
     }
 
@@ -72,9 +73,9 @@ def _quantile(level: float) -> Callable[[list[dict]], str]:
     return cell
 
 
-def _seconds(level: float) -> Callable[[list[dict]], str]:
+def _seconds(level: float, clock: str = "seconds") -> Callable[[list[dict]], str]:
     def cell(lines: list[dict]) -> str:
-        seconds = [line["seconds"] for line in lines if line["seconds"] is not None]
+        seconds = [line[clock] for line in lines if line.get(clock) is not None]
         return f"{np.quantile(seconds, level):.0f} s" if seconds else "-"
 
     return cell
@@ -98,4 +99,6 @@ _ROWS: tuple[tuple[str, Callable[[list[dict]], str]], ...] = (
     ("no answer (limit or error), none", _share(NONE, "error")),
     ("time, median", _seconds(0.5)),
     ("time, 90 % quantile", _seconds(0.9)),
+    ("processor time, median", _seconds(0.5, "processor_seconds")),
+    ("processor time, 90 % quantile", _seconds(0.9, "processor_seconds")),
 )
