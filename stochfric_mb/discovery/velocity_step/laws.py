@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Callable, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.velocity_step.rate_and_state import friction_path
+from stochfric_mb.discovery.velocity_step.rate_and_state import AGEING, QUADRATIC, SLIP, friction_path
 from stochfric_mb.effects import kind_found_as
 from stochfric_mb.effects.traits import MEMORY, RATE, SLOPE_IN_DISTANCE
 from stochfric_mb.measurement.run import Run
@@ -28,7 +29,9 @@ class Track:
     friction: Array
     """Friction coefficient [-], shape (n,)."""
     speed: Array
-    """Speed of the load point [m/s], shape (n,)."""
+    """Speed of the load point, through a window [m/s], shape (n,), > 0."""
+    pull: Array
+    """Its mean speed from each sample to the next [m/s], shape (n,), > 0."""
     slid: Array
     """Displacement of the load point since the first run began [m], shape (n,)."""
 
@@ -51,15 +54,18 @@ class Law:
     """Smallest values."""
     predict: Callable[[Sequence[Track], Array], list[Array]]
     """Tracks and numbers -> friction coefficients."""
+    variant: str = ""
+    """Which of several forms of that effect it is."""
 
 
-def laws(reference: float, stiffness: float, believed: float) -> list[Law]:
+def laws(reference: float, stiffness: float, believed: float, shortest: float) -> list[Law]:
     """Return what is fitted: constant friction, drift with displacement, dependence on speed, and memory.
 
     Args:
         reference: speed v_0 at which mu_0 holds [m/s].
         stiffness: believed stiffness [1/m].
         believed: believed friction coefficient [-].
+        shortest: least distance D that shows, that of the usual motion in two samples [m].
     """
 
     def constant(tracks: Sequence[Track], p: Array) -> list[Array]:
@@ -71,8 +77,17 @@ def laws(reference: float, stiffness: float, believed: float) -> list[Law]:
     def speed(tracks: Sequence[Track], p: Array) -> list[Array]:
         return [p[0] + p[1] * t.slid + p[2] * np.log(t.speed / reference) for t in tracks]
 
-    def memory(tracks: Sequence[Track], p: Array) -> list[Array]:
-        return [p[0] + p[1] * t.slid + m for t, m in zip(tracks, _remembered(tracks, p[2:], reference), strict=True)]
+    def pulled(tracks: Sequence[Track], p: Array) -> list[Array]:
+        return memory(tracks, np.array([*p[:3], 0.0, 0.0, p[3], 0.0]))
+
+    def memory(tracks: Sequence[Track], p: Array, *, state: int = AGEING) -> list[Array]:
+        return [p[0] + p[1] * t.slid + m for t, m in zip(tracks, _remembered(tracks, p[2:], reference, state), strict=True)]
+
+    least = float(np.log(shortest))
+    numbers = ("mu_0", "slope", "direct_effect", "evolution_effect", "log_distance", "log_stiffness", "log_state")
+    memories = {"": memory} | {
+        name: functools.partial(memory, state=state) for name, state in (("slip law", SLIP), ("quadratic law", QUADRATIC))
+    }
 
     return [
         Law("", ("mu_0",), ("-",), ((believed,),), (0.01,), (0.0,), constant),
@@ -85,10 +100,18 @@ def laws(reference: float, stiffness: float, believed: float) -> list[Law]:
             (0.01, 1.0, 0.001), (0.0, -np.inf, -np.inf), speed,
         ),
         Law(
-            kind_found_as(MEMORY), ("mu_0", "slope", "direct_effect", "evolution_effect", "log_distance", "log_stiffness"),
-            ("-", "1/m", "-", "-", "-", "-"),
-            tuple(memory_start(believed, stiffness, *start) for start in MEMORY_STARTS),
-            (0.01, 1.0, 0.002, 0.002, 0.3, 0.3), (0.0, -np.inf, 1.0e-4, -np.inf, -np.inf, -np.inf), memory,
+            kind_found_as(RATE), ("mu_0", "slope", "direct_effect", "log_stiffness"), ("-", "1/m", "-", "-"),
+            tuple((believed, 0.0, 0.005, float(np.log(stiffer * stiffness))) for stiffer in (0.3, 1.0, 3.0)),
+            (0.01, 1.0, 0.002, 0.3), (0.0, -np.inf, 1.0e-4, -np.inf), pulled, "through the spring",
+        ),
+        *(
+            Law(
+                kind_found_as(MEMORY), numbers, ("-", "1/m", "-", "-", "-", "-", "-"),
+                tuple(memory_start(believed, stiffness, *start) for start in MEMORY_STARTS),
+                (0.01, 1.0, 0.002, 0.002, 0.3, 0.3, 0.3), (0.0, -np.inf, 1.0e-4, -np.inf, least, -np.inf, -np.inf),
+                predict, variant,
+            )
+            for variant, predict in memories.items()
         ),
     ]  # fmt: skip
 
@@ -96,17 +119,40 @@ def laws(reference: float, stiffness: float, believed: float) -> list[Law]:
 def memory_start(believed: float, stiffness: float, evolution: float, distance: float, stiffer: float) -> tuple[float, ...]:
     """Return a start of the memory law: its numbers in the order of `laws`."""
     length = 1.0e-3 / stiffness
-    return (believed, 0.0, 0.01, evolution, float(np.log(distance * length)), float(np.log(stiffer * stiffness)))
+    return (believed, 0.0, 0.01, evolution, float(np.log(distance * length)), float(np.log(stiffer * stiffness)), 0.0)
 
 
-def _remembered(tracks: Sequence[Track], p: Array, reference: float) -> list[Array]:
-    """Return what the memory law adds to mu_0, marched through all tracks one after the other on one fine grid."""
+def _remembered(tracks: Sequence[Track], p: Array, reference: float, state: int) -> list[Array]:
+    """Return what the memory law adds to mu_0, marched through each record, all its pieces one after the other."""
+    marched = {id(t): m for r in records(tracks) for t, m in zip(r, _marched(r, p, reference, state), strict=True)}
+    return [marched[id(t)] for t in tracks]
+
+
+def records(tracks: Sequence[Track]) -> list[list[Track]]:
+    """Return tracks, by rising start, by record: one that begins before all others have ended is a test of its own.
+
+    A piece follows what comes before it in its own file, if there is any.
+    """
+    found: list[list[Track]] = []
+    for track in tracks:
+        ended = [r for r in found if track.run.time[0] >= r[-1].run.time[-1]]
+        own = [r for r in ended if r[-1].run.source == track.run.source] or ended
+        if own:
+            own[-1].append(track)
+        else:
+            found.append([track])
+    return found
+
+
+def _marched(tracks: Sequence[Track], p: Array, reference: float, state: int) -> list[Array]:
     step = min(t.run.sample_interval for t in tracks)
     start, end = float(tracks[0].run.time[0]), max(float(t.run.time[-1]) for t in tracks)
     grid = np.arange(start, end + step, step)
-    times = np.concatenate([t.run.time for t in tracks])
-    speed = np.exp(np.interp(grid, times, np.log(np.concatenate([t.speed for t in tracks]))))
+    times, pull = (np.concatenate(x) for x in ([t.run.time for t in tracks], [t.pull for t in tracks]))
+    speed = pull[np.searchsorted(times, grid + 0.5 * step, side="right") - 1]
+    speed[0] = tracks[0].speed[0]  # it starts at this speed, which a single step from sample to sample does not tell
     mu = np.empty(len(grid))
-    distance, stiffness = float(np.exp(np.clip(p[2], -40.0, 10.0))), float(np.exp(np.clip(p[3], -10.0, 40.0)))
-    friction_path(speed, step, float(p[0]), float(p[1]), distance, stiffness, reference, mu)
+    limits = np.array([[1.0e-6, -10.0, -40.0, -10.0, -20.0], [10.0, 10.0, 10.0, 40.0, 20.0]])
+    direct, evolution, *logarithms = np.clip(p, *limits)
+    friction_path(speed, step, direct, evolution, *np.exp(logarithms), reference, state, mu)
     return [np.interp(t.run.time, grid, mu) for t in tracks]

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint.decision.selection import NAMED, TIE
+from stochfric_mb.discovery.driven_joint.decision.selection import MATERIAL, NAMED, TIE
 from stochfric_mb.discovery.driven_joint.fit.fitting import DIFFERENCE, TOLERANCE
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome
 from stochfric_mb.discovery.driven_joint.simulation.pictures import step_picture
@@ -24,18 +24,21 @@ from stochfric_mb.discovery.inference.noise import independent_count, white_nois
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
 from stochfric_mb.discovery.velocity_step.laws import Law, Track, laws
 from stochfric_mb.effects import effect_class, effect_kinds, kind_found_as, kinds_with, make_effect
-from stochfric_mb.effects.traits import ANONYMOUS, LATE, MEMORY, RATE, SLOPE_IN_DISTANCE
+from stochfric_mb.effects.traits import ANONYMOUS, LATE, MEMORY, MORE_DAMPING, RATE, SLOPE_IN_DISTANCE
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.measurement.smoothing import smooth
+from stochfric_mb.measurement.smoothing import smooth, window
 
 Array = npt.NDArray[np.float64]
 
 HALF_WIDTH = 12
 """Half width of the window through which the load point's speed is seen [samples]."""
-
-
+HALF_WIDTHS = (0, 3, 4, 6, 8, HALF_WIDTH)
+"""Half widths of the windows through which its position may be seen [samples]; 0: none. A wide one smears the steps."""
+QUIET = 0.3
+"""Noise of its way from sample to sample, over the lowest of these (10 % quantile), up to which no wider window is taken [-]:
+the spring adds up the way, so that noise counts only where it turns the motion round."""
 PARTS = 12
 """Parts of an axis along which what is left of friction is looked at."""
 
@@ -58,6 +61,12 @@ class Fitted:
         """Root mean square of what is left [-]."""
         return float(np.sqrt(np.mean(np.concatenate(self.rest) ** 2)))
 
+    @property
+    def kind(self) -> str:
+        """The effect that it is; friction that rises with the speed is viscous."""
+        rises = self.law.kind == kind_found_as(RATE) and self.values[2] > 0.0
+        return kind_found_as(MORE_DAMPING) if rises else self.law.kind
+
 
 def spring_slider_outcome(dataset: Dataset, tell: Callable[[str], None]) -> JointOutcome:
     """Return the result of a dataset of velocity steps.
@@ -70,14 +79,19 @@ def spring_slider_outcome(dataset: Dataset, tell: Callable[[str], None]) -> Join
     tracks = [dataclasses.replace(t, slid=t.slid - offset) for t in tracks]
     reference = float(np.median(tracks[0].speed))
     fits: list[Fitted] = []
-    for law in laws(reference, dataset.scenario.mechanism.stiffness, dataset.scenario.law.mu_k):
+    shortest = 2.0 * min(float(np.median(t.speed)) * t.run.sample_interval for t in tracks)
+    for law in laws(reference, dataset.scenario.mechanism.stiffness, dataset.scenario.law.mu_k, shortest):
         tell(law.kind or "constant friction")
-        fits.append(_fit(law, tracks))
+        alike = next((f for f in fits if f.law.variant == "" and f.law.names == law.names), None)
+        fits.append(_fit(law, tracks, law.starts if alike is None else [alike.values]))
     plain = fits[0]
     n = max(sum(independent_count(r) for r in min(fits, key=lambda f: f.rms).rest), 4.0)
-    scores = {f.law.kind: _score(plain, f, n) for f in fits[1:]}
-    best = max(fits[1:], key=lambda f: scores[f.law.kind])
-    accepted = scores[best.law.kind] > NAMED
+    each = [_score(plain, f, n) for f in fits[1:]]
+    scores = {f.kind: max(s for s, g in zip(each, fits[1:], strict=True) if g.kind == f.kind) for f in fits[1:]}
+    best = fits[1 + int(np.argmax(each))]
+    # of laws that leave as much the simplest: what a few more numbers take off is real, perhaps, but no explanation
+    best = min((f for f in fits[1:] if f.rms <= best.rms / (1.0 - MATERIAL)), key=lambda f: (len(f.values), f.rms))
+    accepted = scores[best.kind] > NAMED
     result = _result(dataset, tracks, plain, best if accepted else None, fits, scores)
     models = {"recalibrated": plain} | ({"augmented": best} if accepted else {})
     series = {n: np.concatenate(f.law.predict(tracks, f.values)) for n, f in models.items()}
@@ -103,17 +117,33 @@ def track_of(run: Run, dataset: Dataset) -> Track:
         friction = run.channels["friction_force"] / load
     else:
         raise InputError(f"run {run.name!r} has neither friction_coefficient nor friction_force; name its column with columns")
-    h = run.sample_interval
-    x = run.channels["position"]
-    padded = np.r_[2.0 * x[0] - x[HALF_WIDTH + 2 : 0 : -1], x, 2.0 * x[-1] - x[-2 : -HALF_WIDTH - 4 : -1]]
-    inside = slice(HALF_WIDTH + 2, HALF_WIDTH + 2 + len(x))
-    speed = smooth(padded, HALF_WIDTH * h, h, derivative=1)[inside]
+    x, h = run.channels["position"], run.sample_interval
+    speed = _through(x, HALF_WIDTH, h, 1)
     least = 0.05 * float(np.median(speed))
-    return Track(run, friction, np.maximum(speed, least), x)
+    way = np.diff(_quiet(x, h)) / h
+    return Track(run, friction, np.maximum(speed, least), np.maximum(np.r_[way, way[-1]], least), x)
 
 
-def _fit(law: Law, tracks: Sequence[Track]) -> Fitted:
-    fits = [_from(law, tracks, np.array(s), 6) for s in law.starts]
+def _quiet(x: Array, interval: float) -> Array:
+    """Return a position through the narrowest window that leaves its way from sample to sample in one direction, shape (n,)."""
+    noise, seen = white_noise(x), x
+    for half in HALF_WIDTHS:
+        seen = _through(x, half, interval, 0) if half else x
+        gain = float(np.linalg.norm(window(half * interval, interval, derivative=1))) * interval if half else np.sqrt(2.0)
+        if gain * noise <= QUIET * float(np.quantile(np.diff(seen), 0.1)):
+            break
+    return seen
+
+
+def _through(x: Array, half: int, interval: float, derivative: int) -> Array:
+    """Return a signal, turned about its ends, or its derivative through a window of ``half`` samples to either side, (n,)."""
+    more = half + 3
+    padded = np.r_[2.0 * x[0] - x[more - 1 : 0 : -1], x, 2.0 * x[-1] - x[-2 : -more - 1 : -1]]
+    return smooth(padded, half * interval, interval, derivative=derivative)[more - 1 : more - 1 + len(x)]
+
+
+def _fit(law: Law, tracks: Sequence[Track], starts: Sequence[Sequence[float] | Array]) -> Fitted:
+    fits = [_from(law, tracks, np.array(s), 6) for s in starts]
     best = min(fits, key=lambda f: f.rms)
     return _from(law, tracks, best.values, 30)
 
@@ -164,6 +194,7 @@ def _result(
     after = _held_out(best or plain, tracks)
     where = unexplained([t for t in tracks if t.run.role == "fit"], best or plain)
     effects = () if best is None or where is not None else (_found(plain, best, scores),)
+    searched = {f.law.kind for f in fits} | {kind_found_as(finding) for finding in (MORE_DAMPING, LATE)}
     source = "high-frequency content of the friction coefficient (third differences)"
     gap = Gap("friction_coefficient", "-", True, believed, _held_out(plain, tracks), after, floor, source)
     return Result(
@@ -172,7 +203,7 @@ def _result(
         where=where,
         ranking=tuple(sorted(scores.items(), key=lambda s: -s[1])),
         gap=gap,
-        not_identifiable=tuple(k for k in effect_kinds() if k not in (*scores, kind_found_as(LATE), *kinds_with(ANONYMOUS))),
+        not_identifiable=tuple(k for k in effect_kinds() if k not in (*searched, *kinds_with(ANONYMOUS))),
         next_experiment="Steps down as well as up, and hold tests: they tell ageing with time from slip with distance.",
         believed=_numbers(plain),
         notes=(
@@ -181,7 +212,7 @@ def _result(
         ),
         details={
             "laws": {
-                f.law.kind or "constant": {
+                f"{f.law.kind or 'constant'} {f.law.variant}".strip(): {
                     "fit": f.rms,
                     "held_out": _held_out(f, tracks),
                     "numbers": dict(zip(f.law.names, f.values.tolist(), strict=True)),
@@ -239,13 +270,14 @@ def _share_along(place: Array, rest: Array) -> float:
 
 def _found(plain: Fitted, best: Fitted, scores: dict[str, float]) -> Found:
     """Return the law that is named, as an effect is told."""
-    kind = best.law.kind
+    kind = best.kind
     same = tuple(k for k, s in scores.items() if k != kind and s > scores[kind] - TIE)
+    form = f"{kind} ({best.law.variant})" if best.law.variant else kind
     text = (
-        f"A constant friction coefficient is off by {plain.rms:.3g} (rms), {kind} by {best.rms:.3g}, on the runs that were "
+        f"A constant friction coefficient is off by {plain.rms:.3g} (rms), {form} by {best.rms:.3g}, on the runs that were "
         "fitted."
     )
-    axes = {MEMORY: "distance since a change of speed", SLOPE_IN_DISTANCE: "displacement", RATE: "speed"}
+    axes = {MEMORY: "distance since a change of speed", SLOPE_IN_DISTANCE: "displacement", RATE: "speed", MORE_DAMPING: "speed"}
     axis = next(axes[finding] for finding in effect_class(kind).found_as if finding in axes)
     return Found(kind, same, Where(axis, text), _numbers(best), scores[kind], None)
 
@@ -257,7 +289,9 @@ def _numbers(fitted: Fitted) -> dict[str, Interval]:
         number = confidence_interval(value, deviation, unit, low)
         if name.startswith("log_"):
             middle, least, most = (float(np.exp(min(x, 700.0))) for x in (number.value, number.low, number.high))
-            found[name[4:]] = Interval(middle, least, most, {"log_distance": "m", "log_stiffness": "1/m"}[name])
+            found[name[4:]] = Interval(
+                middle, least, most, {"log_distance": "m", "log_stiffness": "1/m", "log_state": "-"}[name]
+            )
         else:
             found[name] = number
     return found

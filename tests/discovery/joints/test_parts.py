@@ -10,7 +10,7 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import slipped
 from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import balance_of
 from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, chosen_window
 from stochfric_mb.discovery.inference.noise import independent_count, white_noise
-from stochfric_mb.discovery.velocity_step.rate_and_state import friction_path
+from stochfric_mb.discovery.velocity_step.rate_and_state import AGEING, friction_path
 from stochfric_mb.errors import InputError
 from stochfric_mb.laws import make_law
 from stochfric_mb.measurement import Dataset, Run
@@ -230,20 +230,20 @@ def test_slip_starts_again_at_reversals():
 def test_the_memory_law_settles_at_a_minus_b_times_the_log_of_the_speed():
     speed = np.r_[np.full(100, 1.0e-6), np.full(3000, 1.0e-5)]
     mu = np.empty(len(speed))
-    friction_path(speed, 0.01, 0.01, 0.015, 5.0e-6, 1.0e4, 1.0e-6, mu)
+    friction_path(speed, 0.01, 0.01, 0.015, 5.0e-6, 1.0e4, 1.0, 1.0e-6, AGEING, mu)
     assert mu[50] == pytest.approx(0.0, abs=1e-12)
     assert mu[-1] == pytest.approx((0.01 - 0.015) * np.log(10.0), rel=1e-6)
     # a stiff spring shows the direct effect before the memory has faded
     stiff = np.empty(len(speed))
-    friction_path(speed, 0.01, 0.01, 0.015, 5.0e-4, 1.0e7, 1.0e-6, stiff)
+    friction_path(speed, 0.01, 0.01, 0.015, 5.0e-4, 1.0e7, 1.0, 1.0e-6, AGEING, stiff)
     assert stiff.max() == pytest.approx(0.01 * np.log(10.0), rel=0.03)
 
 
 def test_the_memory_law_converges_with_the_step():
     coarse, fine = (np.r_[np.full(n // 4, 1.0e-6), np.full(3 * n // 4, 1.0e-5)] for n in (400, 1600))
     a, b = np.empty(len(coarse)), np.empty(len(fine))
-    friction_path(coarse, 0.04, 0.01, 0.012, 2.0e-5, 2.0e3, 1.0e-6, a)
-    friction_path(fine, 0.01, 0.01, 0.012, 2.0e-5, 2.0e3, 1.0e-6, b)
+    friction_path(coarse, 0.04, 0.01, 0.012, 2.0e-5, 2.0e3, 1.0, 1.0e-6, AGEING, a)
+    friction_path(fine, 0.01, 0.01, 0.012, 2.0e-5, 2.0e3, 1.0, 1.0e-6, AGEING, b)
     # first order in the step of 5 ms against 1.25 ms; the peak is 0.01
     np.testing.assert_allclose(a, b[::4], atol=3e-4)
 
