@@ -11,9 +11,10 @@ from __future__ import annotations
 FOLLOWED_UP, NAMED = 14.0, 20.0
 """Scores at which a candidate is followed up, and at which it is named [-]."""
 OUTDONE = 0.5
-"""A competitor that names no physics wins at once if the best effect has less than this share of its score [-]."""
+"""A competitor that names no physics wins at once if the best effect has less than this share of its score, and so does the
+best effect against another one; of those with more, forecasts decide [-]."""
 ALIKE_SCREENED, ALIKE_SHARE = 12.0, 0.03
-"""Effects whose score is within this, or this share, of the best are of one class with it [-]."""
+"""Likelihood ratio of forecasts within which effects are of one class; score within which a spring's drift is no better [-]."""
 ALIKE_SIMULATED = 10.0
 """Effects whose simulated criterion, in units of the best one's own misfit, is within this of the best are of one class with
 it [-]."""

@@ -8,6 +8,7 @@ import pytest
 from stochfric_mb.discovery.inference.paired import paired
 from stochfric_mb.discovery.result import Gap
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
+from stochfric_mb.discovery.stick_slip.decision import choice
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.choice import Chosen, choose
 from stochfric_mb.discovery.stick_slip.decision.confirmation import cases_of, confirm, predict
@@ -77,6 +78,17 @@ def test_a_candidate_becomes_an_effect_that_confirmation_bears_out(found, candid
     before, after = (confirm(cases, m, found.uncertainty) for m in (found.model, model))
     assert after.criterion < before.criterion - 100.0
     assert predict(after.model, cases[0]) is not None
+
+
+def test_a_candidate_that_never_slips_is_no_explanation(found, candidates, cases, monkeypatch):
+    # a slip that is missed counts a fixed number of deviations: less than one that is there, and wrong by more
+    stuck = dataclasses.replace(confirm(cases, found.model.with_law(9.0, 8.0), found.uncertainty), chi2=0.0)
+    assert not stuck.slips
+    monkeypatch.setattr(choice, "confirm", lambda *_, **__: stuck)
+    before = confirm(cases, found.model, found.uncertainty)
+    assert before.slips
+    chosen = choose(found, found.model, found.terms, candidates, cases, before, {})
+    assert not (isinstance(chosen, Chosen) and chosen.simulated)
 
 
 def test_the_effect_that_was_planted_is_chosen(found, candidates, cases):

@@ -47,7 +47,8 @@ class Box:
         """Everything on the box but friction."""
         f = -self.k * x - self.c * v
         if e := self.get("nonlinear_stiffness"):
-            f -= e.get("quadratic", 0.0) * x * abs(x) + e["cubic"] * x**3
+            square, cube, end = e.get("quadratic", 0.0), e["cubic"], math.copysign(min(abs(x), e.get("reach", math.inf)), x)
+            f -= square * end * abs(end) + cube * end**3 + (2 * square * abs(end) + 3 * cube * end**2) * (x - end)
         if e := self.get("quadratic_damping"):
             f -= e["coefficient"] * v * abs(v)
         if e := self.get("backlash"):

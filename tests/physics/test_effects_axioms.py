@@ -234,3 +234,7 @@ def test_a_box_thrown_out_by_its_spring_is_an_error() -> None:
     system = augmented_system(BOX, COULOMB, [softening])
     with pytest.raises(SimulationError, match="not finite"):
         system.march(Start(position=-3.0e-3, velocity=-0.1), 1.0e-3, 3000)
+    # up to here its stiffness is positive, and beyond it stays so
+    held = make_effect("nonlinear_stiffness", cubic=-6.0e9, reach=4.0e-4)
+    motion = augmented_system(BOX, COULOMB, [held]).march(Start(position=-3.0e-3, velocity=-0.1), 1.0e-3, 3000)
+    assert np.isfinite(motion.position).all()

@@ -32,7 +32,7 @@ CASES = {
     "distance_drift": {"rate": 5.0, "settling_distance": 0.02},
     "normal_load_ripple": {"amplitude": 0.05, "frequency": 3.3, "phase": 0.3},
     "belt_speed_ripple": {"amplitude": 0.1, "frequency": 1.7, "phase": -0.4},
-    "nonlinear_stiffness": {"cubic": 1.0e8, "quadratic": -3.0e5},
+    "nonlinear_stiffness": {"cubic": 1.0e8, "quadratic": -3.0e5, "reach": 2.0e-3},
     "quadratic_damping": {"coefficient": 60.0},
     "backlash": {"gap": 2.0e-4, "position": 1.0e-3, "share_below": 0.3},
     "second_mode": {"mass_ratio": 0.05, "frequency": 12.0, "damping_ratio": 0.02},

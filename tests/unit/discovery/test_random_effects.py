@@ -106,8 +106,10 @@ def scatter(**changes: float | str) -> Randomness:
     return Randomness(**(plain | {"wander_time": 3.0, "wander_of": "both", "together": 0.0} | changes))
 
 
-def called(levels: Switching = CALM, **changes: float) -> RandomEffects | Where | None:
+def called(levels: Switching = CALM, in_slip: float = 0.5, **changes: float) -> RandomEffects | Where | None:
+    """What a scatter is called whose deviation in slip is ``in_slip`` times that at break-away."""
     one = study(np.zeros(N * RUNS))
+    one.solution.scatter = one.solution.scatter[0] + np.log([1.0, in_slip, 1.0])
     return random_effects(one, scatter(**changes), levels, one.solution, [])
 
 
@@ -118,9 +120,15 @@ def test_independent_scatter_is_random_coefficients():
 
 
 def test_scatter_that_stick_and_slip_share_without_memory_has_no_name():
-    found = called(together=0.85)
+    found = called(together=0.85, in_slip=1.0)  # the same force in both
     assert isinstance(found, Where)
     assert "stick and slip alike" in found.axis
+
+
+def test_a_factor_of_both_coefficients_is_drawn_anew_for_each_slip():
+    found = called(together=0.95, in_slip=KINETIC / STATIC)
+    assert isinstance(found, RandomEffects)
+    assert found.kind == "random_coefficients"
 
 
 def test_a_wander_may_share_it():

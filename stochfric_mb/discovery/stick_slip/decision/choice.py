@@ -16,6 +16,7 @@ from stochfric_mb.discovery.stick_slip.screening.naming import with_candidate
 from stochfric_mb.discovery.stick_slip.screening.regression import Terms
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.discovery.stick_slip.simulation.refit import likelihood_ratio, refit
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import effect_class, kinds_with
 from stochfric_mb.effects.traits import BETWEEN_POINTS, DRIFTS, SHAPED_IF_FORCED, SHAPES_SLIPS
@@ -24,6 +25,10 @@ MOST_SIMULATED = 8
 """Candidates that are simulated in the first round."""
 MOST_SIMULATED_LATER = 4
 """The same in what an effect leaves, where the best marks can be trusted: what is left is weak."""
+MOST_CONTENDERS = 3
+"""Candidates that are refitted to forecasts where their marks are about as good."""
+REFIT_WINDOWS = 12
+"""Forecasts of each run that such a fit uses."""
 REFUTED = "shapes_refuted"
 """Name under which the details hold that simulating effects which shape every slip alike has not borne them out."""
 
@@ -94,10 +99,27 @@ def _by_score(
     nameless = _nameless(effects, [c for c in candidates if not c.is_effect])
     if nameless is not None or not effects or effects[0].score < criteria.NAMED:
         return nameless
-    best = effects[0]
-    near = best.score - max(criteria.ALIKE_SCREENED, criteria.ALIKE_SHARE * best.score)
-    class_ = tuple(dict.fromkeys(c.name for c in effects[1:] if c.score > near and c.name != best.name))
+    best, class_ = _told_apart(study, model, terms, effects)
     return Chosen(best, class_, with_candidate(model, best, study.pool, terms.columns.shape[2]), before, False)
+
+
+def _told_apart(study: Study, model: Model, terms: Terms, effects: Sequence[Candidate]) -> tuple[Candidate, tuple[str, ...]]:
+    """Return the effect that is meant, and which others cannot be told from it: refitted to forecasts where marks are close.
+
+    The marks of a strong effect are its first order alone, forecasts are exact.
+    """
+    kinds = list({c.name: c for c in reversed(effects)}.values())[::-1]
+    best = effects[0]
+    near = [c for c in kinds if c.score > criteria.OUTDONE * best.score][:MOST_CONTENDERS]
+    if len(near) == 1:
+        return best, ()
+    starts = [with_candidate(model, c, study.pool, terms.columns.shape[2]) for c in near]
+    fits = [refit(m, study.windows, study.uncertainty, most=REFIT_WINDOWS, evaluations=20) for m in starts]
+    best, fit = min(zip(near, fits, strict=True), key=lambda t: t[1].cost)
+    ratios = [likelihood_ratio(fit, other, study.windows) for other in fits]
+    return best, tuple(
+        c.name for c, ratio in zip(near, ratios, strict=True) if c is not best and ratio < criteria.ALIKE_SCREENED
+    )
 
 
 def _best_score(candidates: Iterable[Candidate]) -> float:
@@ -202,6 +224,7 @@ class _Simulation:
         tried = [(c, confirm(self.cases, m, self.study.uncertainty)) for c, m in zip(chosen, starts, strict=True)]
         if not self.model.effects:
             tried += entrained(self.study, self.model, self.terms, self.cases)
+        tried = [t for t in tried if t[1].slips]
         tried.sort(key=lambda t: t[1].criterion)
         # of several variants of an effect the best one counts
         told = {c.name: [f.chi2, f.criterion] for c, f in reversed(tried)}

@@ -78,6 +78,8 @@ class Confirmed:
     """Parameters of the effects, and those of the stated model that they leave open."""
     freedom: int
     """Features less parameters."""
+    slips: bool
+    """Whether it slips where the data do: otherwise the misfit says nothing."""
 
     @property
     def criterion(self) -> float:
@@ -281,12 +283,14 @@ def confirm(
         tolerance=1.0e-3,
     )
     n_parameters = _own(candidate, free)
+    model = adjusted(candidate, free, steps.values(found.x))
     return Confirmed(
         tuple(e.kind for e in candidate.effects),
-        adjusted(candidate, free, steps.values(found.x)),
+        model,
         float(2.0 * found.cost),
         n_parameters,
         N_FEATURES * len(cases) - 2 - n_parameters,
+        all(predict(model, case) is not None for case in cases),
     )
 
 

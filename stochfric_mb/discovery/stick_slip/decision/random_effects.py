@@ -149,8 +149,9 @@ def random_effects(
             return memory
     else:
         return None
-    if scatter.together > criteria.SCATTER_TOGETHER:
-        return Where("scatter, in stick and slip alike", "a force or a load of irregular course acts in stick and slip alike")
+    # in stick and slip alike, a factor of both coefficients goes with them, a force does not
+    if scatter.together > criteria.SCATTER_TOGETHER and sigma_k * np.sqrt(mu_s) > sigma_s * np.sqrt(mu_k):
+        return Where("scatter, in stick and slip alike", "a force of irregular course acts in stick and slip alike")
     strongest = max(scatter.static, scatter.kinetic)
     within = scatter.within > criteria.SCATTER_CERTAIN and scatter.within > 0.05 * strongest
     values: dict[str, float | str] = {

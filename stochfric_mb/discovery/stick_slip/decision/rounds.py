@@ -11,7 +11,7 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.false_alarms import Evidence, likely
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
-from stochfric_mb.discovery.stick_slip.decision.choice import IN_TIME, SHAPES, Chosen, choose
+from stochfric_mb.discovery.stick_slip.decision.choice import IN_TIME, REFIT_WINDOWS, SHAPES, Chosen, choose
 from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, cases_of, confirm
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.decision.kinematics import delay_deviation, kinematics, with_kinematic
@@ -27,7 +27,7 @@ from stochfric_mb.discovery.stick_slip.screening.variance_components import Rand
 from stochfric_mb.discovery.stick_slip.screening.waves import shared_by_runs
 from stochfric_mb.discovery.stick_slip.simulation.delay_compensation import delay_compensated, driven, with_delay, without_delay
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
-from stochfric_mb.discovery.stick_slip.simulation.refit import refit
+from stochfric_mb.discovery.stick_slip.simulation.refit import cost_of, refit
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study
 from stochfric_mb.effects import effect_class, kind_found_as, kinds_with, make_effect
 from stochfric_mb.effects.course import PIECES
@@ -227,8 +227,7 @@ class _Search:
         if outcome is None or not self._stands_alone(outcome, candidates):
             return False
         self.confirmed = outcome.confirmed
-        self._add(outcome)
-        return not self.stalled
+        return self._add(outcome) and not self.stalled
 
     def _screened(self, round_: int) -> list[Candidate]:
         """Return what may be missing beside the effects that are named, best first."""
@@ -349,45 +348,42 @@ class _Search:
         lost = [float(self.regression.gains(terms, self.solution.scatter, own)[0]) for terms in (self.terms, beside)]
         return chosen.candidate.score - 2.0 * (lost[0] - lost[1]) >= criteria.NAMED
 
-    def _add(self, chosen: Chosen) -> None:
-        """Take an effect into the model, and out of the features."""
-        kind = chosen.candidate.name
+    def _add(self, chosen: Chosen) -> bool:
+        """Take an effect into the model, and out of the features; return whether it is worth a place beside the others."""
+        kind, without, known = chosen.candidate.name, self.model, self._timed()
         harmonic = as_harmonic(self.model, chosen.candidate, self.study.pool, self._n_terms)
-        if harmonic is not None:
-            self.model = harmonic
-        elif any(n.kind == kind for n in self.named):
-            self.model = chosen.model
-        else:
-            self.named.append(
-                Named(kind, chosen.class_, likely("slips", chosen.candidate.score), _shown_by(kind), self._timed())
-            )
-            self.model = chosen.model
+        screened = self.model = chosen.model if harmonic is None else harmonic
+        fitted = (kind in kinds_with(COURSE_OF_RUN) or chosen.simulated) and kind != kind_found_as(LATE)
+        if fitted:
+            # a simulated fit knows the features alone, whose bias by noise is that of the believed model
+            fit = refit(self.model, self.study.windows, self.study.uncertainty, most=REFIT_WINDOWS, evaluations=20)
+            least = (1.0 - criteria.CLOSES_NOTHING) * cost_of(without, self.study.windows, most=REFIT_WINDOWS)
+            if self.named and fit.cost > least:
+                self.model = without
+                return False
+            self.model = fit.model
+        if harmonic is None and all(n.kind != kind for n in self.named):
+            self.named.append(Named(kind, chosen.class_, likely("slips", chosen.candidate.score), _shown_by(kind), known))
         self.any_shape |= chosen.candidate.any_shape
         self.course |= chosen.candidate.any_course
         self.progress("what is left")
         before = _scatter(self.solution)
         if kind == kind_found_as(LATE):
             self._put_on_time()
-            return
+            return True
         if kind in kinds_with(MOVES_ZERO):
             self.kept += chosen.candidate.hypothesis.columns
-        if kind in kinds_with(COURSE_OF_RUN) or chosen.simulated:
-            # a simulated fit knows the features alone, whose bias by noise is that of the stated model
-            screened = self.model
-            fit = refit(self.model, self.study.windows, self.study.uncertainty, most=12, evaluations=20)
-            self.model = fit.model
-            self._take_out()
-            if not chosen.simulated and (self.stalled or _scatter(self.solution) > criteria.LEFT_OVER * before):
-                self._take_out_better(screened)
-        else:
-            self._take_out()
+        self._take_out()
+        if fitted and not chosen.simulated and (self.stalled or _scatter(self.solution) > criteria.LEFT_OVER * before):
+            self._take_out_better(screened)
         self.stalled |= (
             chosen.candidate.is_wave and not chosen.simulated and _scatter(self.solution) > criteria.STALLED * before
         )
+        return True
 
     def _put_on_time(self) -> None:
         """Go on with the records put on time, by the delay that their forecasts show."""
-        fit = refit(self.model, self.study.windows, self.study.uncertainty, most=12, evaluations=20)
+        fit = refit(self.model, self.study.windows, self.study.uncertainty, most=REFIT_WINDOWS, evaluations=20)
         self.model, self.late = without_delay(fit.model), fit.model.late
         self.study = delay_compensated(self.study, self.late)
         self.cases, self.confirmed = [], None
@@ -443,8 +439,8 @@ class _Search:
                 return self._unknown(found, scatter)
             self.details["left_over"] = dataclasses.asdict(found)
         elif found is not None:
+            self.named.append(Named(found.kind, (), found.evidence, _shown_by(found.kind), self._timed()))
             self.model = self.model.plus(make_effect(found.kind, **found.values))
-            self.named.append(Named(found.kind, (), found.evidence, _shown_by(found.kind)))
         verdict = "effect" if self.named else "none"
         return Decision(verdict, tuple(self.named), None, self._timed(), self.ranking, scatter, self.details)
 
