@@ -11,8 +11,10 @@ from __future__ import annotations
 FOLLOWED_UP, NAMED = 14.0, 20.0
 """Scores at which a candidate is followed up, and at which it is named [-]."""
 OUTDONE = 0.5
-"""A competitor that names no physics wins at once if the best effect has less than this share of its score, and so does the
-best effect against another one; of those with more, forecasts decide [-]."""
+"""A competitor that names no physics wins at once if the best effect has less than this share of its score [-]."""
+CONTENDS = 0.75
+"""Share of the best effect's score from which on forecasts decide between it and another one [-]: the first order of an effect
+that changes a force by a tenth errs by as much, and the score of its marks by twice that."""
 ALIKE_SCREENED, ALIKE_SHARE = 12.0, 0.03
 """Likelihood ratio of forecasts within which effects are of one class; score within which a spring's drift is no better [-]."""
 ALIKE_SIMULATED = 10.0
@@ -91,6 +93,8 @@ YIELDS_FOR_CREEP = 0.5
 """Share of the evidence for creep that a yielding or ringing contact must reach to be named in its place [-]."""
 LEAST_OUTLIERS, FEWEST_OUTLIERS = 5.0e-5, 5
 """Share of outliers, and their number, from which on they are named [-]."""
+OUTLIERS_BY_CHANCE = 1.0e-4
+"""Chance of as many outliers within slips, if they fell anywhere, below which they belong to the slips [-]."""
 LINE_OUTSHINES = 10.0
 """Evidence of such a line over that of the best effect in stick from which on the line is no trace of the effect: a contact
 that rings is seen in the first few periods after each re-stick, a line all along [-]."""

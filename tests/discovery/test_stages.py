@@ -85,6 +85,7 @@ def test_a_candidate_that_never_slips_is_no_explanation(found, candidates, cases
     stuck = dataclasses.replace(confirm(cases, found.model.with_law(9.0, 8.0), found.uncertainty), chi2=0.0)
     assert not stuck.slips
     monkeypatch.setattr(choice, "confirm", lambda *_, **__: stuck)
+    monkeypatch.setattr(choice, "entrained", lambda *_: [])
     before = confirm(cases, found.model, found.uncertainty)
     assert before.slips
     chosen = choose(found, found.model, found.terms, candidates, cases, before, {})

@@ -110,7 +110,7 @@ def _told_apart(study: Study, model: Model, terms: Terms, effects: Sequence[Cand
     """
     kinds = list({c.name: c for c in reversed(effects)}.values())[::-1]
     best = effects[0]
-    near = [c for c in kinds if c.score > criteria.OUTDONE * best.score][:MOST_CONTENDERS]
+    near = [c for c in kinds if c.score > criteria.CONTENDS * best.score][:MOST_CONTENDERS]
     if len(near) == 1:
         return best, ()
     starts = [with_candidate(model, c, study.pool, terms.columns.shape[2]) for c in near]

@@ -9,7 +9,7 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip.decision.rounds import SHAPE_LEFT, Decision
+from stochfric_mb.discovery.stick_slip.decision.rounds import SCORE_LEFT, SHAPE_LEFT, Decision
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of, mean_score
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
@@ -61,10 +61,12 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
 def _in_shape(decision: Decision) -> bool:
     """Return whether the one effect named leaves no more of the slips' forces than another form of its kind would.
 
-    What its form leaves of every slip adds up in a forecast of a whole cycle; of its kind the slips say more.
+    What its form leaves of every slip adds up in a forecast of a whole cycle; of its kind the slips say more, unless a pattern
+    without a name in what it leaves says more still.
     """
     left = cast("float", decision.details.get(SHAPE_LEFT, 1.0))
-    return len(decision.named) == 1 and left < criteria.FORM_MISSES
+    pattern = cast("float", decision.details.get(SCORE_LEFT, 0.0))
+    return len(decision.named) == 1 and left < criteria.FORM_MISSES and pattern < (decision.named[0].evidence.score or 0.0)
 
 
 def _least_share(augmented: Model, kinds: set[str]) -> float:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import cast
 
 import numpy as np
+from scipy.stats import binom
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.false_alarms import Evidence, detected, likely
@@ -112,21 +113,40 @@ def kinematics(study: Study, details: dict[str, object]) -> Blamed | Where:
     if study.range.clipped:
         ends = {"high": study.range.high, "low": study.range.low}
         return [Blame(kind_found_as(CLIPPED), detected("clipped", study.range.share), ends)]
-    found = _delays(study, details) + _outliers(study, details)
-    in_stick = _in_stick(study, details)
-    return in_stick if isinstance(in_stick, Where) else found + in_stick
+    stray, in_stick = _outliers(study, details), _in_stick(study, details)
+    if isinstance(stray, Where) or isinstance(in_stick, Where):
+        return stray if isinstance(stray, Where) else in_stick
+    return _delays(study, details) + stray + in_stick
 
 
-def _outliers(study: Study, details: dict[str, object]) -> Blamed:
-    """Return outliers; what only stands out of a smoothed sensor's samples is none."""
+def _outliers(study: Study, details: dict[str, object]) -> Blamed | Where:
+    """Return outliers; what stands out of a smoothed sensor's samples alone is none, what keeps to the slips no accident."""
     share = outlier_share(study)
     details["outlier_share"] = share
     if share < criteria.LEAST_OUTLIERS or share * sum(len(r.time) for r in study.records) < criteria.FEWEST_OUTLIERS:
         return []
+    if _in_slips(study) < criteria.OUTLIERS_BY_CHANCE:
+        return Where("slip, sensor", "the reading jumps in the slips and at their edges, and hardly anywhere else")
     sizes = np.concatenate([np.abs(r.raw - r.position)[r.outlier] for r in study.records])
     return [
         Blame(kind_found_as(STRAY), detected("outliers", share), {"fraction": share, "size": float(np.sqrt(np.mean(sizes**2)))})
     ]
+
+
+def _in_slips(study: Study) -> float:
+    """Return the chance of as many outliers within slips if they fell anywhere [-]."""
+    inside, far, covered, length = 0, 0, 0.0, 0.0
+    for slips in study.pool.slips:
+        record = slips.record
+        stray = record.time[record.outlier]
+        # outliers side by side are one accident
+        stray = stray[np.diff(stray, prepend=-np.inf) > 1.5 / record.rate]
+        slip = np.searchsorted(slips.onset_time, stray, "right") - 1
+        far += len(stray)
+        inside += int(np.count_nonzero((slip >= 0) & (stray <= slips.restick_time[np.maximum(slip, 0)])))
+        covered += float(np.sum(slips.restick_time - slips.onset_time))
+        length += float(record.time[-1] - record.time[0])
+    return float(binom.sf(inside - 1, far, covered / length))
 
 
 def outlier_share(study: Study) -> float:

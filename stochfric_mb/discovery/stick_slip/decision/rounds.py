@@ -49,6 +49,8 @@ from stochfric_mb.effects.traits import (
 
 SHAPE_LEFT = "shape_left"
 """Name under which the details hold the misfit of simulated slips with the effects named over that without."""
+SCORE_LEFT = "left_over_score"
+"""Name under which the details hold the score of a pattern without a name in what the effects named leave."""
 MOST_EFFECTS = 3
 """Effects that are looked for."""
 MOST_ROUNDS = 5
@@ -221,6 +223,7 @@ class _Search:
         if isinstance(outcome, Where) and self.named:
             # what was found stands; the rest is noted, not named
             self.details["left_over"] = dataclasses.asdict(outcome)
+            self.details[SCORE_LEFT] = candidates[0].score
             return False
         if isinstance(outcome, Where):
             return outcome
@@ -354,14 +357,8 @@ class _Search:
         harmonic = as_harmonic(self.model, chosen.candidate, self.study.pool, self._n_terms)
         screened = self.model = chosen.model if harmonic is None else harmonic
         fitted = (kind in kinds_with(COURSE_OF_RUN) or chosen.simulated) and kind != kind_found_as(LATE)
-        if fitted:
-            # a simulated fit knows the features alone, whose bias by noise is that of the believed model
-            fit = refit(self.model, self.study.windows, self.study.uncertainty, most=REFIT_WINDOWS, evaluations=20)
-            least = (1.0 - criteria.CLOSES_NOTHING) * cost_of(without, self.study.windows, most=REFIT_WINDOWS)
-            if self.named and fit.cost > least:
-                self.model = without
-                return False
-            self.model = fit.model
+        if fitted and not self._refitted(without):
+            return False
         if harmonic is None and all(n.kind != kind for n in self.named):
             self.named.append(Named(kind, chosen.class_, likely("slips", chosen.candidate.score), _shown_by(kind), known))
         self.any_shape |= chosen.candidate.any_shape
@@ -380,6 +377,15 @@ class _Search:
             chosen.candidate.is_wave and not chosen.simulated and _scatter(self.solution) > criteria.STALLED * before
         )
         return True
+
+    def _refitted(self, without: Model) -> bool:
+        """Fit the model to forecasts; go back to the one ``without`` its last effect if that forecasts as well."""
+        # a simulated fit knows the features alone, whose bias by noise is that of the believed model
+        fit = refit(self.model, self.study.windows, self.study.uncertainty, most=REFIT_WINDOWS, evaluations=20)
+        least = (1.0 - criteria.CLOSES_NOTHING) * cost_of(without, self.study.windows, most=REFIT_WINDOWS)
+        idle = bool(self.named) and fit.cost > least
+        self.model = without if idle else fit.model
+        return not idle
 
     def _put_on_time(self) -> None:
         """Go on with the records put on time, by the delay that their forecasts show."""

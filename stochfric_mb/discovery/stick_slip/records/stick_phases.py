@@ -23,6 +23,8 @@ FINENESS = 4.0
 """Frequencies of a ripple are 1/(this times the length of the record) apart [-]."""
 STRETCH = 128.0
 """Cycles of the slips in the stretch of a long record in which a ripple is looked for first [-]."""
+WAVES_IN_A_SLIP = 2.0
+"""Waves in the time of a slip up to which a ripple is looked for [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -107,7 +109,10 @@ def _gain(runs: Sequence[_Phases], rests: Sequence[Array], columns: Callable[[_P
 def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tuple[float, dict[str, float]]:
     """Return score and frequency [Hz] of a ripple of the belt's speed."""
     duration = max(float(run.slips.record.time[-1] - run.slips.record.time[0]) for run in runs)
-    every = np.arange(2.0 / duration, 3.0, 1.0 / (FINENESS * duration))
+    # a wave that is faster still is a sensor's, not a drive's
+    lasting = np.concatenate([run.slips.restick_time - run.slips.onset_time for run in runs])
+    fastest = WAVES_IN_A_SLIP / float(np.median(lasting))
+    every = np.arange(2.0 / duration, fastest, 1.0 / (FINENESS * duration))
     cycle = float(np.median([np.median(np.diff(run.slips.onset_time)) for run in runs]))
     grid = worth_a_look(
         lambda some, stretch: _ripple_gains(runs, rests, some, stretch),
@@ -187,8 +192,16 @@ def _ripple_gains(runs: Sequence[_Phases], rests: Sequence[Array], grid: Array, 
     for run, rest in zip(runs, rests, strict=True):
         n = int(np.searchsorted(run.samples.time, run.samples.time[0] + stretch, "right"))
         line = run.line / np.sqrt(run.line @ run.line)
-        gains += wave_gains(grid, run.samples.time[:n], run.samples.segment[:n], line[:n], rest[:n])
+        gain = wave_gains(grid, run.samples.time[:n], run.samples.segment[:n], line[:n], rest[:n])
+        gains += gain * _quieter(run.slips.noise, grid / run.slips.record.rate)
     return gains
+
+
+def _quieter(noise: Noise, frequency: Array) -> Array:
+    """Return the noise's long-run strength over that at frequencies [1/sample]: a ripple that it holds is slow noise to it."""
+    turn = np.cos(2.0 * np.pi * frequency)
+    slow, at = ((1.0 - noise.memory**2) / (1.0 - 2.0 * noise.memory * c + noise.memory**2) for c in (1.0, turn))
+    return np.asarray((noise.white**2 + noise.coloured**2 * slow) / (noise.white**2 + noise.coloured**2 * at))
 
 
 def _ringing(run: _Phases, frequency: float, ratio: float) -> list[Array]:

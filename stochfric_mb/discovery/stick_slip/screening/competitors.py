@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.polynomial.legendre import legvander
 
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
@@ -58,6 +59,7 @@ def competitors(pool: Pool) -> dict[str, tuple[str, Sequence[Array]]]:
     parity += [pool.column(None, pool.kinetic * alternating * r) for r in runs]
     return {
         "slip_shape": ("shape of the friction force within a slip", _of_moments(pool)),
+        "shape_in_time": ("shape of the force within a slip, time within the run", _moments_in_time(pool)),
         "parity": ("alternates from slip to slip", parity),
         "time": ("time within the run", _along_time(pool, runs)),
         "position": ("position of the box", _along_position(pool)),
@@ -72,6 +74,12 @@ def _of_moments(pool: Pool) -> Columns:
         column[:, q] = pool.normal_force
         shape.append(column)
     return shape
+
+
+def _moments_in_time(pool: Pool) -> Columns:
+    """Return columns of a shape that changes smoothly in the course of a run: a mass, a damper or a spring that does."""
+    time = 2.0 * pool.onset_time / pool.duration - 1.0
+    return [legendre[:, None] * shape for legendre in legvander(time, 3).T[1:] for shape in _of_moments(pool)]
 
 
 def _along_time(pool: Pool, parts: Sequence[np.ndarray]) -> Columns:
