@@ -149,8 +149,13 @@ def random_effects(
             return memory
     else:
         return None
+    return _drawn_anew(scatter, sigma_s, sigma_k, mu_k / mu_s)
+
+
+def _drawn_anew(scatter: Randomness, sigma_s: float, sigma_k: float, ratio: float) -> RandomEffects | Where:
+    """Return coefficients that are drawn anew, or where a force is; ``ratio``: mu_k over mu_s [-]."""
     # in stick and slip alike, a factor of both coefficients goes with them, a force does not
-    if scatter.together > criteria.SCATTER_TOGETHER and sigma_k * np.sqrt(mu_s) > sigma_s * np.sqrt(mu_k):
+    if scatter.together > criteria.SCATTER_TOGETHER and sigma_k > sigma_s * np.sqrt(ratio):
         return Where("scatter, in stick and slip alike", "a force of irregular course acts in stick and slip alike")
     strongest = max(scatter.static, scatter.kinetic)
     within = scatter.within > criteria.SCATTER_CERTAIN and scatter.within > 0.05 * strongest

@@ -380,7 +380,7 @@ class _Search:
 
     def _refitted(self, without: Model) -> bool:
         """Fit the model to forecasts; go back to the one ``without`` its last effect if that forecasts as well."""
-        # a simulated fit knows the features alone, whose bias by noise is that of the believed model
+        # a simulated fit knows the features alone, whose bias by noise is that of the stated model
         fit = refit(self.model, self.study.windows, self.study.uncertainty, most=REFIT_WINDOWS, evaluations=20)
         least = (1.0 - criteria.CLOSES_NOTHING) * cost_of(without, self.study.windows, most=REFIT_WINDOWS)
         idle = bool(self.named) and fit.cost > least
