@@ -1,4 +1,4 @@
-"""Engines that compute many samples in one call, such as MuJoCo with its Batch."""
+"""Engines that compute many samples in one call, such as MuJoCo in threads."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from stochfric_mb.ensemble.single import Sampling
 from stochfric_mb.scenario import Scenario
 
 MANY: dict[str, str] = {
-    "mujoco": "stochfric_mb.mujoco.batch:simulate_many",
+    "mujoco": "stochfric_mb.mujoco.belt_box:simulate_many",
     "warp": "stochfric_mb.warp.simulate:simulate_many",
 }
 """Engine -> its function (scenario, *, seed, first_sample, n, dt, threads) -> trajectories."""

@@ -16,8 +16,7 @@ from stochfric_mb.mujoco.callback import friction
 from stochfric_mb.mujoco.joints import Joint, Tendon
 from stochfric_mb.mujoco.pairs import ContactWarning
 from stochfric_mb.mujoco.plugin.options import IntegratorWarning
-from stochfric_mb.mujoco.plugin.pair import register
-from stochfric_mb.mujoco.plugin.sensor import add_sensor, register_sensors
+from stochfric_mb.mujoco.plugin.sensor import add_sensor, register
 from stochfric_mb.mujoco.reading import Reading, readings
 from stochfric_mb.mujoco.states import set_friction, state_index, untouched
 
@@ -40,4 +39,3 @@ __all__ = [
 ]
 
 register()
-register_sensors()

@@ -1,8 +1,5 @@
 """Add friction to a pair of geoms, a joint or a tendon of any MuJoCo model."""
 
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 import warnings
@@ -14,12 +11,11 @@ from stochfric_mb.errors import InputError
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
-from stochfric_mb.mujoco.joints import Joint, Tendon, add_joint_friction
-from stochfric_mb.mujoco.memory.structs import ELLIPTIC
+from stochfric_mb.mujoco.joints import Joint, Tendon, element_of, load_of
 from stochfric_mb.mujoco.pairs import ANY, colliding_pairs, require_free, require_geoms, take_over, warn_of_filters
 from stochfric_mb.mujoco.plugin.configuration import MAX_SLOTS, configuration, require_slots
+from stochfric_mb.mujoco.plugin.frictions import DOFS, KEYS, PAIRS, slot_of
 from stochfric_mb.mujoco.plugin.options import check_options, require_primal
-from stochfric_mb.mujoco.plugin.pair import NAME, register
 
 
 class ConeWarning(UserWarning):
@@ -42,6 +38,9 @@ def add_friction(
 ) -> str:
     """Return the name of the plugin instance that now sets the friction between two geoms, or of a joint or tendon.
 
+    A joint's or tendon's law steers MuJoCo's own friction of the coordinate, ``frictionloss``, which becomes mu_s normal_force;
+    for a hinge the law's lengths and velocities are angles [rad] and rates [rad/s].
+
     The pair becomes an explicit contact pair with the law's sliding friction; torsional and rolling friction stay MuJoCo's,
     all other contacts stay as they are. With ``"*"`` for one side, so does every pair of the named geom with a geom that it
     can collide with (by contype, conaffinity, excludes, welding and the parent filter); geoms without a name get one. All
@@ -50,10 +49,10 @@ def add_friction(
     Args:
         spec: the model, before it is compiled; changed in place. Its cones become elliptic (but not for ``explicit``).
         geoms: names of the body's geom and of the counter-surface's (one may be ``"*"``), or a `Joint` or `Tendon`
-            (see `add_joint_friction`).
+            with ``normal_force``.
         friction: a law, or a `Friction` with a coefficient process.
-        normal_force: the load of a joint or tendon [N, for a hinge N m], or "reaction" for that of the joint's bearing;
-            contacts have MuJoCo's own normal force.
+        normal_force: the load of a joint or tendon [N]; of a hinge, times the radius at which it rubs [N m]. Or "reaction":
+            the force between the joint's two bodies, step by step (of a slide joint, across its axis).
         radius: of a hinge's bearing [m], with ``normal_force="reaction"``.
         seed: first part of the coefficient path's address.
         sample: second part: the run of an ensemble.
@@ -64,8 +63,8 @@ def add_friction(
         anisotropy: how the coefficients of a pair differ by direction; only in ``solver``.
 
     Raises:
-        InputError: unknown geom, a law that cannot run here, an address out of range, or options that switch passive
-            forces off.
+        InputError: unknown geom or joint, no load, a law that cannot run here, an address out of range, or options that switch
+            passive forces off.
 
     Warns:
         IntegratorWarning: the ``discrete`` integrator, for a joint or tendon, or in ``explicit``.
@@ -77,24 +76,18 @@ def add_friction(
             f"spec is a {type(spec).__name__}; give an MjSpec (mujoco.MjSpec.from_file), or use friction(model, data, "
             "...) for a model that is compiled already"
         )
-    register()
     friction = as_friction(friction)
-    steered = mode != "explicit" and friction.law.rest != "bristle"
+    address: Any = {"seed": seed, "sample": sample, "contact": contact}
     if isinstance(geoms, Joint | Tendon):
         if anisotropy != ISOTROPIC:
             raise InputError(f"anisotropy = {anisotropy}: a joint or tendon has one direction; give it to a pair of geoms")
-        check_options(spec.option.disableflags, spec.option.integrator, ELLIPTIC, steered=False)
-        return add_joint_friction(
-            spec,
-            geoms,
-            friction,
-            normal_force=normal_force,
-            radius=radius,
-            seed=seed,
-            sample=sample,
-            contact=contact,
-            mode=mode,
-        )
+        element = element_of(spec, geoms)
+        load = load_of(geoms, element, normal_force, radius)
+        texts = configuration(friction, mode=mode, **address) | {geoms.kind: geoms.name} | load
+        check_options(spec.option, steered=False)
+        name = _enter(spec, DOFS, f"friction_{geoms.name}", geoms.kind, texts)
+        element.frictionloss = friction.law.mu_s * float(load.get("normal_force", 1.0))
+        return name
     if normal_force is not None or radius is not None:
         raise InputError(
             f"normal_force = {normal_force!r}, radius = {radius!r} are for joints and tendons; contacts have MuJoCo's own "
@@ -103,30 +96,35 @@ def add_friction(
     body, surface = require_geoms(spec, geoms)
     pairs = colliding_pairs(spec, body, surface) if ANY in (body, surface) else [(body, surface)]
     require_free(spec, pairs)
-    slots = max(16, min(4 * len(pairs), MAX_SLOTS)) if slots is None else slots
-    texts = configuration(
-        friction,
-        body,
-        surface,
-        seed=seed,
-        sample=sample,
-        contact=contact,
-        slots=require_slots(slots),
-        mode=mode,
-        anisotropy=anisotropy,
-    )
-    name = free_name(spec, f"friction_{body}_{surface}".replace(ANY, "any"), "pair")
-    check_options(spec.option.disableflags, spec.option.integrator, ELLIPTIC, steered=steered)
+    room = require_slots(max(16, min(4 * len(pairs), MAX_SLOTS)) if slots is None else slots)
+    texts = configuration(friction, mode=mode, slots=room, anisotropy=anisotropy, **address)
+    steered = mode != "explicit" and friction.law.rest != "bristle"
+    check_options(spec.option, steered=steered)
     if anisotropy != ISOTROPIC:
-        require_primal(spec.option.solver, spec.option.noslip_iterations)
+        require_primal(spec.option)
+    name = _enter(
+        spec, PAIRS, f"friction_{body}_{surface}".replace(ANY, "any"), "pair", texts | {"geom1": body, "geom2": surface}
+    )
     warn_of_filters(spec, body, surface)
     if steered:
         make_elliptic(spec)
-    plugin: Any = spec.add_plugin(name=name, plugin_name=NAME, active=True)
-    plugin.config = {key: value for key, value in texts.items() if value}
-    spec.activate_plugin(NAME)
     for pair in pairs:
         take_over(spec, *pair, friction.law.mu_s)
+    return name
+
+
+def _enter(spec: mujoco.MjSpec, plugin: str, name: str, what: str, texts: dict[str, str]) -> str:
+    """Enter an instance of one of this package's plugins into a spec, and return its name.
+
+    Raises:
+        InputError: there is one of that name already.
+    """
+    if name in {p.name for p in spec.plugins}:
+        raise InputError(f"the model has a plugin {name!r} already: this {what} has friction; build the spec anew to change it")
+    slot_of(plugin)
+    made: Any = spec.add_plugin(name=name, plugin_name=plugin, active=True)
+    made.config = {key: texts[key] for key in KEYS[plugin] if texts.get(key)}
+    spec.activate_plugin(plugin)
     return name
 
 
@@ -140,11 +138,3 @@ def make_elliptic(spec: mujoco.MjSpec) -> None:
             ConeWarning,
             stacklevel=3,
         )
-
-
-def free_name(spec: mujoco.MjSpec, name: str, what: str) -> str:
-    """Return a name for a plugin instance, or raise an `InputError` if the model has it already."""
-    taken = {p.name for p in spec.plugins}
-    if name in taken:
-        raise InputError(f"the model has a plugin {name!r} already: this {what} has friction; build the spec anew to change it")
-    return name

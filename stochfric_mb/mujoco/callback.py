@@ -6,9 +6,6 @@ the last one puts the earlier function back. The friction's state lies in the co
 state: other data of the model are refused while it lasts.
 """
 
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 import ctypes
@@ -25,24 +22,23 @@ from stochfric_mb.errors import InputError, SimulationError, require_name
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
-from stochfric_mb.mujoco.callback_steps import CAPACITY, ROWS, callback
+from stochfric_mb.mujoco.callback_steps import BEFORE, CAPACITY, ROWS, callback
 from stochfric_mb.mujoco.contact import replay
-from stochfric_mb.mujoco.contact.tracking import report
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.engine import library
 from stochfric_mb.mujoco.memory.structs import DISCRETE
 from stochfric_mb.mujoco.pairs import ContactWarning, condim_of
-from stochfric_mb.mujoco.plugin.configuration import configuration, record_of, require_slots
+from stochfric_mb.mujoco.plugin.configuration import configuration, law_of, require_slots
+from stochfric_mb.mujoco.plugin.frictions import PAIRS, slot_of
 from stochfric_mb.mujoco.plugin.options import (
     NO_PASSIVE_FORCES,
     SWITCHED_OFF,
     check_options,
+    require_elliptic,
     require_primal,
-    stiff_damping,
     warn_of_stiff_damping,
 )
-from stochfric_mb.mujoco.plugin.pair import register
+from stochfric_mb.mujoco.plugin.sensor import report
 from stochfric_mb.mujoco.reading import Reading, reading_of
 from stochfric_mb.mujoco.states import touched
 
@@ -90,41 +86,35 @@ class friction:  # noqa: N801  (a context, used like a function)
             raise InputError(f"pairs is a {type(pairs).__name__}; write {{(body's geom, counter-surface's geom): law, ...}}")
         if data.model is not model and data.model._address != model._address:
             raise InputError("data belongs to another model; pass the model that it was made with")
-        check_options(model.opt.disableflags, model.opt.integrator, model.opt.cone)
+        check_options(model.opt)
+        require_elliptic(model.opt)
         if model.opt.integrator == DISCRETE:
             raise InputError(
                 "integrator discrete leaves nothing of its constraints to a context, which finds a step's forces when the next "
                 "one begins; use add_friction(spec, ...), or Euler, implicitfast, implicit or RK4"
             )
-        warn_of_stiff_damping(stiff_damping(model._address), model.opt.timestep)
+        warn_of_stiff_damping(model._address)
         directed = dict(anisotropy or {})
         for names in directed.keys() - pairs.keys():
             raise InputError(f"anisotropy of {names!r}, which is none of the pairs {list(pairs)}; name one of them")
         if directed:
-            require_primal(model.opt.solver, model.opt.noslip_iterations)
+            require_primal(model.opt)
         self._model, self._data = model, data
         self._states: dict[tuple[str, str], Array] = {}
         self._kept: dict[tuple[str, str], Array] = {}
+        self._laws: dict[tuple[str, str], int] = {}
         for contact, (names, law) in enumerate(pairs.items()):
-            geoms = _geoms_of(model, names)
-            state = _fresh_state(
-                as_friction(law),
-                require_slots(slots),
-                mode,
-                directed.get(names, ISOTROPIC),
-                seed=seed,
-                sample=sample,
-                contact=contact,
-            )
-            header = s.header_of(state)
-            header.geom_body, header.geom_surface = geoms
-            self._states[names] = state
+            address = {"seed": seed, "sample": sample, "contact": contact}
+            options: Any = {"mode": mode, "slots": require_slots(slots), "anisotropy": directed.get(names, ISOTROPIC)}
+            prepared = law_of(configuration(as_friction(law), **address, **options), (s.PAIR, *_geoms_of(model, names)))
+            self._states[names] = s.started(prepared, **address)
             self._kept[names] = np.zeros(replay.room(slots, int(model.nv)))
+            self._laws[names] = prepared.ctypes.data
         self._places: list[int] = []
 
     def __enter__(self) -> friction:
         """Switch this friction on in place of the pairs' own."""
-        register()
+        slot_of(PAIRS)
         callback()
         with _lock:
             _require_free(self._model, self._data, self._states)
@@ -132,7 +122,7 @@ class friction:  # noqa: N801  (a context, used like a function)
                 place = int(np.flatnonzero(ROWS["model"] == 0)[0])
                 row = ROWS[place]
                 row["data"], row["state"], row["phase"] = self._data._address, state.ctypes.data, 0
-                row["kept"] = self._kept[names].ctypes.data
+                row["kept"], row["law"] = self._kept[names].ctypes.data, self._laws[names]
                 row["model"] = self._model._address  # last: a row with a model is complete
                 self._places.append(place)
             _install()
@@ -175,17 +165,6 @@ class friction:  # noqa: N801  (a context, used like a function)
     def touched(self) -> dict[tuple[str, str], bool]:
         """Return for each pair whether it has ever touched."""
         return {names: touched(state) for names, state in self._states.items()}
-
-
-def _fresh_state(friction: Friction, slots: int, mode: str, anisotropy: Anisotropy, **address: int) -> Array:
-    """Return the state that the plugin would start with (no model is compiled: that would run others' callbacks)."""
-    texts = configuration(friction, "", "", mode=mode, slots=slots, anisotropy=anisotropy, **address)
-    record = record_of(texts)
-    state = np.zeros(s.state_size(len(record) - s.N_HEADER, slots))
-    state[: len(record)] = record
-    header = s.header_of(state)
-    header.seed, header.sample, header.contact = address["seed"], address["sample"], address["contact"]
-    return state
 
 
 def _geoms_of(model: mujoco.MjModel, names: tuple[str, str]) -> tuple[int, int]:
@@ -237,7 +216,7 @@ def _pointer() -> ctypes.c_void_p:
 def _install() -> None:
     pointer, ours = _pointer(), callback()
     if pointer.value != ours:
-        w.TABLE[w.CALLBACK_BEFORE] = pointer.value or 0
+        BEFORE[0] = pointer.value or 0
         pointer.value = ours
 
 
@@ -246,5 +225,5 @@ def _uninstall() -> bool:
     pointer = _pointer()
     replaced = pointer.value != callback()
     if not replaced and not ROWS["model"].any():
-        pointer.value = w.TABLE[w.CALLBACK_BEFORE] or None
+        pointer.value = int(BEFORE[0]) or None
     return replaced

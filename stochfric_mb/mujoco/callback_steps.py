@@ -4,39 +4,34 @@ There is no ``advance`` here, so a step counts as accepted when the next one beg
 (`contact.replay`).
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
-import ctypes
 import functools
 from typing import Any
 
 import numpy as np
-from llvmlite import ir
 from numba import types
-from numba.extending import intrinsic
 
 from stochfric_mb.compile import compiled, native
 from stochfric_mb.mujoco.contact import replay, tracking
-from stochfric_mb.mujoco.memory import engine
+from stochfric_mb.mujoco.memory import engine, table
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import RUNGE_KUTTA, data_at, model_at, record_view
+from stochfric_mb.numerics.memory import function_at
 
-ROW = np.dtype([("model", np.int64), ("data", np.int64), ("state", np.int64), ("kept", np.int64), ("phase", np.int64)])
-"""A context's pair: addresses of model, data, state and kept rows, evaluations since the step began."""
+ROW = np.dtype([(f, np.int64) for f in ("model", "data", "state", "kept", "phase", "law")])
+"""A context's pair: addresses of model, data, state, kept rows and law, evaluations since the step began."""
 CAPACITY = 256
 """Most pairs at a time, all contexts together."""
-ROWS = np.zeros(CAPACITY, dtype=ROW)
-"""The active contexts' rows; one with a model is complete."""
+BEFORE, ROWS = np.zeros(1, dtype=np.int64), np.zeros(CAPACITY, dtype=ROW)
+"""Address of the callback that was there before, 0 if there was none; the active contexts' rows, complete with a model."""
+BEFORE_KEY, ROWS_KEY = 1, 2
 _ROW_SIZE = ROW.itemsize
 _row_record: Any = record_view(ROW)
-_MESSAGE = ctypes.create_string_buffer(
-    b"stochfric_mb: friction(model, data, ...) covers that one MjData only; copies, rollout and Batch need the friction in the "
-    b"model: add_friction(spec, ...)"
+FOREIGN = (
+    "stochfric_mb: friction(model, data, ...) covers that one MjData only; copies, rollout and Batch need the friction in the "
+    "model: add_friction(spec, ...)"
 )
 _alive: list[Any] = []
 
@@ -46,18 +41,18 @@ def callback() -> int:
     """Return the address of the compiled callback."""
     made = native(_passive, types.void(types.intp, types.intp))
     _alive.append(made)
-    w.TABLE[w.CALLBACK_ROWS] = ROWS.ctypes.data
-    w.TABLE[w.CALLBACK_MESSAGE] = ctypes.addressof(_MESSAGE)
+    table.enter(BEFORE_KEY, BEFORE.ctypes.data)
+    table.enter(ROWS_KEY, ROWS.ctypes.data)
     return made.address
 
 
 def _passive(model, data):
-    before = w.entry(w.CALLBACK_BEFORE)
+    before, rows = w.word_at(table.address_of(BEFORE_KEY), 0), table.address_of(ROWS_KEY)
     if before != 0:
         call_before(before, model, data)
     known, foreign = False, False
     for i in range(CAPACITY):
-        row = _row_record(w.entry(w.CALLBACK_ROWS) + _ROW_SIZE * i)
+        row = _row_record(rows + _ROW_SIZE * i)
         if row.model == model:
             if row.data == data:
                 evaluate_row(model, data, row)
@@ -65,19 +60,11 @@ def _passive(model, data):
             else:
                 foreign = True
     if foreign and not known:
-        engine.mju_error(w.entry(w.CALLBACK_MESSAGE))
+        engine.mju_error(w.c_string(FOREIGN))
 
 
-@intrinsic
-def call_before(typingctx, address, model, data):
-    """Call a callback ``void (const mjModel*, mjData*)`` at an address."""
-
-    def generate(context, builder, signature, args):
-        kind = ir.FunctionType(ir.VoidType(), [ir.IntType(64), ir.IntType(64)])
-        builder.call(builder.inttoptr(args[0], kind.as_pointer()), list(args[1:]))
-        return context.get_dummy_value()
-
-    return types.void(types.intp, types.intp, types.intp), generate
+call_before = function_at(types.void, types.intp, types.intp)
+"""Call a callback ``void (const mjModel*, mjData*)`` at an address."""
 
 
 @compiled
@@ -95,5 +82,5 @@ def evaluate_row(model, data, row):
             row.phase = 0
     elif d.time != header.evaluated:
         header.n_committed, header.started, header.advanced, row.phase = 0.0, 0.0, s.UNSET, 0
-    tracking.evaluate(model, data, state)
+    tracking.evaluate(model, data, state, s.law_at(row.law))
     replay.keep(model, data, state, row.kept)

@@ -1,19 +1,13 @@
-"""Add friction to a joint or tendon of any MuJoCo model."""
-
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
+"""Joints and tendons as places of friction: their elements in a spec, and their loads."""
 
 from __future__ import annotations
 
 import dataclasses
-from typing import Any
+from typing import Any, ClassVar
 
 import mujoco
 
 from stochfric_mb.errors import InputError, require_name, require_number
-from stochfric_mb.friction import Friction
-from stochfric_mb.mujoco.plugin import configuration
-from stochfric_mb.mujoco.plugin.joint import NAME, register_joints
 
 REACTION = "reaction"
 """The load that a joint's own reaction makes."""
@@ -25,6 +19,7 @@ class Joint:
 
     name: str
     """Name of the joint in the model."""
+    kind: ClassVar = "joint"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -33,63 +28,18 @@ class Tendon:
 
     name: str
     """Name of the tendon in the model."""
+    kind: ClassVar = "tendon"
 
 
-def add_joint_friction(
-    spec: mujoco.MjSpec,
-    place: Joint | Tendon,
-    friction: Friction,
-    *,
-    normal_force: float | str | None,
-    radius: float | None = None,
-    seed: int = 0,
-    sample: int = 0,
-    contact: int = 0,
-    mode: str = "auto",
-) -> str:
-    """Return the name of the plugin instance that now sets the friction of a joint or tendon.
-
-    The law steers MuJoCo's own friction of the coordinate, ``frictionloss``, which becomes mu_s normal_force.
-
-    Args:
-        spec: the model, before it is compiled; changed in place.
-        place: the joint or tendon.
-        friction: a law with its coefficient process. For a hinge the law's lengths and velocities are
-            angles [rad] and rates [rad/s].
-        normal_force: the given load [N]; for a hinge, times the radius at which it rubs [N m]. Or "reaction": the force
-            between the joint's two bodies, step by step (of a slide joint, across its axis).
-        radius: with "reaction", the radius [m] of a hinge's bearing.
-        seed: first part of the coefficient path's address.
-        sample: second part: the run of an ensemble.
-        contact: third part: number of this place in the model.
-        mode: as of `add_friction`.
+def load_of(place: Joint | Tendon, element: Any, normal_force: float | str | None, radius: float | None) -> dict[str, str]:
+    """Return the load as the plugin's key and value.
 
     Raises:
-        InputError: unknown or unsuitable joint, no load, a law that cannot run here, or an address out of range.
+        InputError: no load, or one that the place cannot have.
     """
-    register_joints()
-    what = "joint" if isinstance(place, Joint) else "tendon"
-    element = _element(spec, place, what)
-    load = _load(place, element, what, normal_force, radius)
-    texts = configuration.configuration(friction, "", "", seed=seed, sample=sample, contact=contact, mode=mode)
-    name = f"friction_{place.name}"
-    if name in {p.name for p in spec.plugins}:
-        raise InputError(f"the model has a plugin {name!r} already: this {what} has friction; build the spec anew to change it")
-    plugin: Any = spec.add_plugin(name=name, plugin_name=NAME, active=True)
-    kept = {key: texts[key] for key in ("law", "coefficients", "seed", "sample", "contact", "mode") if texts[key]}
-    plugin.config = kept | {what: place.name} | load
-    spec.activate_plugin(NAME)
-    element.frictionloss = friction.law.mu_s * float(load.get("normal_force", 1.0))
-    return name
-
-
-def _load(
-    place: Joint | Tendon, element: Any, what: str, normal_force: float | str | None, radius: float | None
-) -> dict[str, str]:
-    """Return the load as the plugin's key and value."""
     if normal_force is None:
         raise InputError(
-            f"friction on {what} {place.name!r} needs its load: give normal_force [N, for a hinge N m], or "
+            f"friction on {place.kind} {place.name!r} needs its load: give normal_force [N, for a hinge N m], or "
             'normal_force="reaction" with the radius [m] of a hinge\'s bearing'
         )
     if normal_force != REACTION:
@@ -109,9 +59,14 @@ def _load(
     return {"radius": repr(require_number("radius", radius, above=0.0, unit="m"))}
 
 
-def _element(spec: mujoco.MjSpec, place: Joint | Tendon, what: str) -> Any:
+def element_of(spec: mujoco.MjSpec, place: Joint | Tendon) -> Any:
+    """Return the joint or tendon in a spec.
+
+    Raises:
+        InputError: there is none of that name, or it has more than one coordinate.
+    """
     elements = [e for e in (spec.joints if isinstance(place, Joint) else spec.tendons) if e.name]
-    require_name(what, place.name, [e.name for e in elements])
+    require_name(place.kind, place.name, [e.name for e in elements])
     element = next(e for e in elements if e.name == place.name)
     if isinstance(place, Joint) and element.type not in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE):
         raise InputError(

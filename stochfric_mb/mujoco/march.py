@@ -1,21 +1,17 @@
 """The compiled step loop: MuJoCo's own ``mj_step``, called from C, sampled at the output times."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# pyright: reportCallIssue=false, reportAttributeAccessIssue=false
-# (compiled functions are typed by numba; MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 import math
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco.contact.kinematics import side
-from stochfric_mb.mujoco.contact.tracking import normal_force, report
+from stochfric_mb.mujoco.contact.tracking import normal_force
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import contact_at, data_at
+from stochfric_mb.mujoco.plugin.sensor import report
 
 COLUMNS = 7
 """Position, velocity, friction force along x, normal force, mu_s, mu_k, stick."""

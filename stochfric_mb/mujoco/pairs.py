@@ -1,8 +1,5 @@
 """Pairs of geoms of a model: which ones a name stands for, and how they become explicit contact pairs."""
 
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 import warnings
@@ -12,7 +9,7 @@ import mujoco
 import numpy as np
 
 from stochfric_mb.errors import InputError, require_name
-from stochfric_mb.mujoco.plugin.pair import NAME
+from stochfric_mb.mujoco.plugin.frictions import PAIRS
 
 ANY = "*"
 """Stands for every geom that the other one can collide with."""
@@ -117,7 +114,7 @@ def warn_of_filters(spec: mujoco.MjSpec, body: str, surface: str) -> None:
 def require_free(spec: mujoco.MjSpec, pairs: list[tuple[str, str]]) -> None:
     """Refuse pairs that an instance of this package has already."""
     for plugin in spec.plugins:
-        if plugin.plugin_name != NAME:
+        if plugin.plugin_name != PAIRS:
             continue
         theirs = plugin.config.get("geom1"), plugin.config.get("geom2")
         for pair in pairs:

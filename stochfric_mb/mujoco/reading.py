@@ -1,8 +1,5 @@
 """What can be read of a friction while the model runs."""
 
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 import dataclasses
@@ -13,8 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.plugin.joint import register_joints
-from stochfric_mb.mujoco.plugin.pair import register
+from stochfric_mb.mujoco.plugin.frictions import DOFS, PAIRS, slot_of
 from stochfric_mb.mujoco.plugin.sensor import report
 
 Array = npt.NDArray[np.float64]
@@ -66,20 +62,18 @@ def readings(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, list[Readi
 def instance_readings(model: mujoco.MjModel, data: mujoco.MjData, instance: int) -> list[Reading]:
     """Return what one friction instance did at its contacts."""
     state = state_of(model, data, instance)
-    block = report(model._address, data._address, instance)
-    return [
-        reading_of(model, state, row, instance in joint_instances(model)) for row in s.slots_of(state, committed=block == 0)
-    ]
+    block = report(model._address, data._address, state.ctypes.data)
+    return [reading_of(model, state, row) for row in s.slots_of(state, committed=block == 0)]
 
 
 def friction_instances(model: mujoco.MjModel) -> list[int]:
     """Return the plugin instances of a model that are this package's friction of geom pairs."""
-    return [i for i in range(model.nplugin) if model.plugin[i] == register()]
+    return [i for i in range(model.nplugin) if model.plugin[i] == slot_of(PAIRS)]
 
 
 def joint_instances(model: mujoco.MjModel) -> list[int]:
     """Return the plugin instances of a model that are friction on joints and tendons."""
-    return [i for i in range(model.nplugin) if model.plugin[i] == register_joints()]
+    return [i for i in range(model.nplugin) if model.plugin[i] == slot_of(DOFS)]
 
 
 def state_of(model: mujoco.MjModel, data: mujoco.MjData, instance: int) -> Array:
@@ -88,16 +82,22 @@ def state_of(model: mujoco.MjModel, data: mujoco.MjData, instance: int) -> Array
     return data.plugin_state[first : first + int(model.plugin_statenum[instance])]
 
 
+def diverged(data: mujoco.MjData) -> bool:
+    """Return whether MuJoCo has met a state that is not finite or huge."""
+    warnings = mujoco.mjtWarning
+    return any(data.warning[int(w)].number for w in (warnings.mjWARN_BADQPOS, warnings.mjWARN_BADQVEL, warnings.mjWARN_BADQACC))
+
+
 def name_of(model: mujoco.MjModel, instance: int) -> str:
     """Return the name of a plugin instance, its number with a # if it has none."""
     return mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_PLUGIN, instance) or f"#{instance}"
 
 
-def reading_of(model: mujoco.MjModel, state: Array, row: Any, joint: bool = False) -> Reading:
+def reading_of(model: mujoco.MjModel, state: Array, row: Any) -> Reading:
     """Return the reading of one contact from its instance's state and its slot there."""
     header = s.header_of(state)
-    if joint:
-        kind = mujoco.mjtObj.mjOBJ_TENDON if header.geom_body else mujoco.mjtObj.mjOBJ_JOINT
+    if header.place != s.PAIR:
+        kind = mujoco.mjtObj.mjOBJ_TENDON if header.place == s.TENDON else mujoco.mjtObj.mjOBJ_JOINT
         body, surface = mujoco.mj_id2name(model, kind, int(header.geom_surface)), ""
         force: Any = (row.fx, 0.0, 0.0)
     else:

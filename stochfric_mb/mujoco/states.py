@@ -1,8 +1,5 @@
 """Where seeds and parameters stand in ``plugin_state``, for ensembles that give each simulation its own."""
 
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 import dataclasses

@@ -17,7 +17,6 @@ _LLVM: dict[Any, Any] = {
     types.float64: ir.DoubleType(),
     types.int64: ir.IntType(64),
     types.int32: ir.IntType(32),
-    types.uint32: ir.IntType(32),
     types.uint8: ir.IntType(8),
 }
 _WIDE = (types.void, types.float64, types.int64)
@@ -61,7 +60,9 @@ def _wide(kind: Any) -> Any:
 
 
 def _widened(builder: Any, value: Any, kind: Any) -> Any:
-    return value if kind in _WIDE else builder.zext(value, ir.IntType(64))
+    if kind in _WIDE:
+        return value
+    return (builder.sext if kind.signed else builder.zext)(value, ir.IntType(64))
 
 
 def _load(kind: Any) -> Any:
@@ -90,8 +91,8 @@ load_double = _load(types.float64)
 """Return the double at an address."""
 load_word = _load(types.int64)
 """Return the 64-bit integer or pointer at an address."""
-load_int = _load(types.uint32)
-"""Return the 32-bit unsigned integer at an address."""
+load_int = _load(types.int32)
+"""Return the 32-bit integer at an address."""
 load_byte = _load(types.uint8)
 """Return the byte at an address."""
 store_double = _store(types.float64)

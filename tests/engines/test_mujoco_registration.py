@@ -13,7 +13,7 @@ import mujoco
 import mujoco.rollout
 import stochfric_mb.mujoco
 from stochfric_mb.mujoco.memory import engine, layout
-from stochfric_mb.mujoco.plugin import joint, pair, sensor
+from stochfric_mb.mujoco.plugin import frictions, sensor
 
 def entered(name):
     get = engine.library().mjp_getPlugin
@@ -22,7 +22,7 @@ def entered(name):
 
 def compiled():
     "What is compiled now, in words."
-    names = {"pair": pair.NAME, "dof": joint.NAME, "sensor": sensor.NAME}
+    names = {"pair": frictions.PAIRS, "dof": frictions.DOFS, "sensor": sensor.NAME}
     return [word for word, name in names.items() if entered(name).compute]
 
 LAW = "kind = 'elastic_stick', mu_s = 0.5, mu_k = 0.4"

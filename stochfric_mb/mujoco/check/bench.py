@@ -1,8 +1,5 @@
 """All probes of one site, with the model's own friction and with ours, and what they amount to."""
 
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 import dataclasses
@@ -18,8 +15,8 @@ from stochfric_mb.mujoco.check.advice import SLIDING, advice
 from stochfric_mb.mujoco.check.alternatives import fitted_law, mode_of, with_ours, without_friction
 from stochfric_mb.mujoco.check.findings import SHARES, Findings, Row
 from stochfric_mb.mujoco.check.probes import Drift, Record, Slide, State
-from stochfric_mb.mujoco.check.site_search import AnySite, names_of, unit_of
-from stochfric_mb.mujoco.check.sites import ContactPair, Joint, Tendon, kick, lightest_mass
+from stochfric_mb.mujoco.check.site_search import unit_of
+from stochfric_mb.mujoco.check.sites import ContactPair, Site, kick, lightest_mass
 
 UNSTEADY = 0.5
 """Relative spread of the normal force above which a contact is not at rest."""
@@ -48,7 +45,7 @@ class Bench:
         """Return the simulated time of one site's probes, without slides [s]."""
         return 2.0 * (1.0 + len(SHARES) + probes.BREAK_AWAY_TIME) * self.duration
 
-    def row(self, site: AnySite, problem: str, advance: Callable[[float], None]) -> Row:
+    def row(self, site: Site, problem: str, advance: Callable[[float], None]) -> Row:
         """Return what the probes find at one site."""
         data = probes.started(self.model, self.state)
         dt = float(self.model.opt.timestep)
@@ -82,19 +79,18 @@ class Bench:
         )  # fmt: skip
         return dataclasses.replace(row, advice=advice(row, dt, self.invented))
 
-    def _row(self, site: AnySite, **values: Any) -> Row:
-        kind = {ContactPair: "contact", Joint: "joint", Tendon: "tendon"}[type(site)]
+    def _row(self, site: Site, **values: Any) -> Row:
         blank: dict[str, Any] = {
             "normal_force": math.nan, "limit": math.nan, "problem": "", "native": None, "ours": None, "ours_problem": "",
             "law": None, "mass": math.nan, "mode": "", "step_limit": math.nan, "advice": "",
         }  # fmt: skip
         return Row(
-            kind=kind, name=site.name, names=names_of(site),
+            kind=site.kind, name=site.name, names=site.names,
             unit=unit_of(self.model, site), coefficient=site.mu if isinstance(site, ContactPair) else None, **(blank | values),
         )  # fmt: skip
 
     def _findings(
-        self, model: mujoco.MjModel, site: AnySite, original: AnySite, limit: float, mass: float, ratio: float,
+        self, model: mujoco.MjModel, site: Site, original: Site, limit: float, mass: float, ratio: float,
         advance: Callable[[float], None], done: float,
     ) -> tuple[Findings | None, str]:  # fmt: skip
         """Return what all probes find with one friction, or why they could not run."""
@@ -134,7 +130,7 @@ class Bench:
         return Findings(own, tuple(held), broken, slide, created, dissipated, tuple(notes)), ""
 
     def _slide(
-        self, model: mujoco.MjModel, state: State, site: AnySite, original: AnySite, limit: float, ratio: float,
+        self, model: mujoco.MjModel, state: State, site: Site, original: Site, limit: float, ratio: float,
         records: list[Record],
     ) -> tuple[Slide | None, str]:  # fmt: skip
         bare = without_friction(self.spec, self.model, original)

@@ -1,8 +1,5 @@
 """Which pairs of geoms were meant to have friction, and have never touched."""
 
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 from collections.abc import Set as AbstractSet

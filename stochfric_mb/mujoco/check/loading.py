@@ -1,8 +1,5 @@
 """A model as a user gives it: its file found and loaded, its parts named, its keyframes by name or number."""
 
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 from pathlib import Path

@@ -1,8 +1,5 @@
 """Experiments on one site with friction: hold, break away, slide; each from the same state, on a model as it comes."""
 
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 import dataclasses
@@ -14,6 +11,7 @@ import numpy.typing as npt
 
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.mujoco.check.sites import Sample, Site, kick
+from stochfric_mb.mujoco.reading import diverged
 
 Array = npt.NDArray[np.float64]
 
@@ -182,13 +180,6 @@ def run(
         rows.append(site.sample(model, data))
         followed.append(follow @ data.qvel)
     return Record(np.array(rows, dtype=float), step, snapshot(model, data), np.array(followed))
-
-
-def diverged(data: mujoco.MjData) -> bool:
-    """Return whether MuJoCo has met a state that is not finite or huge."""
-    return any(data.warning[int(w)].number for w in (
-        mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC
-    ))  # fmt: skip
 
 
 def hold(model: mujoco.MjModel, state: State, site: Site, duration: float, force: float) -> tuple[Drift | None, Record]:

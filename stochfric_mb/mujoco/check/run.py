@@ -4,9 +4,6 @@ Each site is probed on copies of the model, from the state to which it settles (
 limit, breaks away under a rising load, and slides; with the model's own friction and with ours.
 """
 
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 import contextlib

@@ -1,8 +1,5 @@
 """A model left to itself before anything is probed, and the contacts it has in the end."""
 
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 import dataclasses
@@ -17,6 +14,7 @@ from stochfric_mb.mujoco.check import probes
 from stochfric_mb.mujoco.check.loading import keyframe_number
 from stochfric_mb.mujoco.check.sites import contact_forces
 from stochfric_mb.mujoco.contact.tracking import stopped_early
+from stochfric_mb.mujoco.reading import diverged
 
 Array = npt.NDArray[np.float64]
 Stage = Callable[[str, float], Callable[[float], None]]
@@ -88,7 +86,7 @@ def settle(model: mujoco.MjModel, keyframe: str | None, duration: float, stage: 
             mujoco.mj_step(model, data)
             unconverged += stopped_early(model._address, data._address)
             advance((i + 1) * model.opt.timestep)
-        if not np.isfinite(data.qvel).all() or probes.diverged(data):
+        if not np.isfinite(data.qvel).all() or diverged(data):
             raise SimulationError(
                 f"the model itself breaks at t = {data.time:.4g} s with timestep {model.opt.timestep:g} s; "
                 "lower its timestep, or shorten the settling time"

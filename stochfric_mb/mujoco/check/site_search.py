@@ -1,8 +1,5 @@
 """The sites of a model with friction: its touching pairs that can be probed, its joints and its tendons."""
 
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 import mujoco
@@ -12,10 +9,9 @@ import numpy.typing as npt
 from stochfric_mb.mujoco.check import probes
 from stochfric_mb.mujoco.check.encounters import covers, forgotten, own_pairs
 from stochfric_mb.mujoco.check.settling import Seen, Settled
-from stochfric_mb.mujoco.check.sites import ContactPair, Joint, Tendon, flat, mobility, pair_contacts
+from stochfric_mb.mujoco.check.sites import ContactPair, Coordinate, Site, flat, mobility, pair_contacts
 
 Array = npt.NDArray[np.float64]
-AnySite = ContactPair | Joint | Tendon
 
 FRICTIONLESS = 1.0e-4
 """Coefficients below this are no friction (MuJoCo's least is 1e-5)."""
@@ -23,7 +19,7 @@ LEAST_LOAD = 0.02
 """Carried friction over the limit below which it gives no direction."""
 
 
-def find_sites(model: mujoco.MjModel, settled: Settled, most: int) -> tuple[list[tuple[AnySite, str]], list[str]]:
+def find_sites(model: mujoco.MjModel, settled: Settled, most: int) -> tuple[list[tuple[Site, str]], list[str]]:
     """Return what has friction, each with the reason not to probe it (empty: probe), and what was left out.
 
     Args:
@@ -44,7 +40,7 @@ def find_sites(model: mujoco.MjModel, settled: Settled, most: int) -> tuple[list
         notes.append(f"{smooth} touching pair{'s have' if smooth > 1 else ' has'} no friction (condim 1 or mu 0)")
     notes += forgotten(model, settled.met, settled.duration)
     loaded = sorted(rough.items(), key=lambda item: -item[1].normal)
-    found: list[tuple[AnySite, str]] = []
+    found: list[tuple[Site, str]] = []
     for number, (geoms, seen) in enumerate(loaded):
         problem = "" if number < most else f"only the {most} most loaded pairs are probed"
         pair = _pair(model, data, geoms, seen)
@@ -90,33 +86,26 @@ def _along(model: mujoco.MjModel, data: mujoco.MjData, geoms: tuple[int, int], l
     return vector[0] * frame[1] + vector[1] * frame[2]
 
 
-def _losses(model: mujoco.MjModel) -> list[AnySite]:
+def _losses(model: mujoco.MjModel) -> list[Site]:
     """Return the joints and tendons with frictionloss."""
-    found: list[AnySite] = []
+    found: list[Site] = []
     for dof in np.flatnonzero(model.dof_frictionloss > 0.0):
         joint = int(model.dof_jntid[dof])
         name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, joint) or f"joint {joint}"
         several = mujoco.mjtJoint(model.jnt_type[joint]) in (mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL)
         shown = f"{name}[{dof - model.jnt_dofadr[joint]}]" if several else name
-        found.append(Joint(shown, name, int(dof), float(model.dof_frictionloss[dof])))
+        found.append(Coordinate(shown, (name,), "joint", int(dof), float(model.dof_frictionloss[dof])))
     for number in np.flatnonzero(model.tendon_frictionloss > 0.0):
         name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_TENDON, int(number)) or f"tendon {number}"
-        found.append(Tendon(name, int(number), float(model.tendon_frictionloss[number])))
+        found.append(Coordinate(name, (name,), "tendon", int(number), float(model.tendon_frictionloss[number])))
     return found
 
 
-def names_of(site: AnySite) -> tuple[str, ...]:
-    """Return the names of the two geoms, of the joint or of the tendon."""
-    if isinstance(site, ContactPair):
-        return site.names
-    return (site.joint if isinstance(site, Joint) else site.name,)
-
-
-def unit_of(model: mujoco.MjModel, site: AnySite) -> str:
+def unit_of(model: mujoco.MjModel, site: Site) -> str:
     """Return the unit of a site's displacement, m or rad."""
-    if not isinstance(site, Joint):
+    if site.kind != "joint":
         return "m"
-    joint = int(model.dof_jntid[site.dof])
-    kind, place = mujoco.mjtJoint(model.jnt_type[joint]), site.dof - model.jnt_dofadr[joint]
+    joint = int(model.dof_jntid[site.number])
+    kind, place = mujoco.mjtJoint(model.jnt_type[joint]), site.number - model.jnt_dofadr[joint]
     slides = kind == mujoco.mjtJoint.mjJNT_SLIDE or (kind == mujoco.mjtJoint.mjJNT_FREE and place < 3)
     return "m" if slides else "rad"

@@ -5,14 +5,11 @@ instant. Signs: ``along`` is the direction in which the probe pushes the first b
 along it, and ``resistance`` is the friction force against it.
 """
 
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
@@ -44,23 +41,6 @@ class Sample(NamedTuple):
     """Whether there is any contact."""
 
 
-class Site(Protocol):
-    """A place with friction."""
-
-    @property
-    def name(self) -> str:
-        """Name for tables."""
-        ...
-
-    def row(self, model: mujoco.MjModel, data: mujoco.MjData) -> Array:
-        """Return the sliding velocity along the probe per generalised velocity, shape (nv,)."""
-        ...
-
-    def sample(self, model: mujoco.MjModel, data: mujoco.MjData) -> Sample:
-        """Return what the site does at the state that ``mj_forward`` was called for."""
-        ...
-
-
 # --- contact pairs ---------------------------------------------------------------------------------------------------
 
 
@@ -78,6 +58,7 @@ class ContactPair:
     """Direction of the probe, in world axes."""
     instance: str = ""
     """Friction instance of this package that acts here; empty: the model's own friction."""
+    kind = "contact"
 
     @property
     def name(self) -> str:
@@ -170,72 +151,52 @@ def _jacobians(model: mujoco.MjModel, data: mujoco.MjData, geoms: tuple[int, int
 
 
 @dataclasses.dataclass(frozen=True)
-class Joint:
-    """One degree of freedom with frictionloss."""
+class Coordinate:
+    """One degree of freedom, or one tendon, with frictionloss."""
 
     name: str
     """Name for tables."""
-    joint: str
-    """Name of the joint."""
-    dof: int
-    """The degree of freedom."""
+    names: tuple[str]
+    """Name of the joint or tendon."""
+    kind: str
+    """joint or tendon."""
+    number: int
+    """The degree of freedom, or the tendon."""
     loss: float
     """Its frictionloss [N or N m]."""
     instance: str = ""
     """Friction instance of this package that acts here; empty: the model's own friction."""
 
     def row(self, model: mujoco.MjModel, data: mujoco.MjData) -> Array:
-        """Return the unit row of the degree of freedom."""
+        """Return the unit row of the degree of freedom, or the tendon's Jacobian."""
         row = np.zeros(model.nv)
-        row[self.dof] = 1.0
-        return row
-
-    def sample(self, model: mujoco.MjModel, data: mujoco.MjData) -> Sample:
-        """Return what friction does at the degree of freedom."""
-        force = _own_force(model, data, self.instance, CONSTRAINT.mjCNSTR_FRICTION_DOF, self.dof)
-        velocity = float(data.qvel[self.dof])
-        return Sample(self.loss, self.loss, -force, velocity, force * velocity, True)
-
-
-@dataclasses.dataclass(frozen=True)
-class Tendon:
-    """One tendon with frictionloss."""
-
-    name: str
-    """Name of the tendon."""
-    number: int
-    """The tendon."""
-    loss: float
-    """Its frictionloss [N]."""
-    instance: str = ""
-    """Friction instance of this package that acts here; empty: the model's own friction."""
-
-    def row(self, model: mujoco.MjModel, data: mujoco.MjData) -> Array:
-        """Return the tendon's Jacobian."""
-        row = np.zeros(model.nv)
+        if self.kind == "joint":
+            row[self.number] = 1.0
+            return row
         first = int(model.ten_J_rowadr[self.number])
         places = slice(first, first + int(model.ten_J_rownnz[self.number]))
         row[model.ten_J_colind[places]] = data.ten_J[places]
         return row
 
     def sample(self, model: mujoco.MjModel, data: mujoco.MjData) -> Sample:
-        """Return what friction does along the tendon."""
-        force = _own_force(model, data, self.instance, CONSTRAINT.mjCNSTR_FRICTION_TENDON, self.number)
-        velocity = float(data.ten_velocity[self.number])
+        """Return what friction does along the coordinate, the package's or the engine's constraint."""
+        if self.instance:
+            force = sum(reading.force[0] for reading in readings(model, data)[self.instance])
+        else:
+            kind = CONSTRAINT.mjCNSTR_FRICTION_DOF if self.kind == "joint" else CONSTRAINT.mjCNSTR_FRICTION_TENDON
+            force = constraint_force(data, kind, self.number)
+        velocity = float(self.row(model, data) @ data.qvel)
         return Sample(self.loss, self.loss, -force, velocity, force * velocity, True)
-
-
-def _own_force(model: mujoco.MjModel, data: mujoco.MjData, instance: str, kind: mujoco.mjtConstraint, number: int) -> float:
-    """Return the friction force along a coordinate, of an instance of this package or of the engine's constraint."""
-    if not instance:
-        return constraint_force(data, kind, number)
-    return sum(reading.force[0] for reading in readings(model, data)[instance])
 
 
 def constraint_force(data: mujoco.MjData, kind: mujoco.mjtConstraint, number: int) -> float:
     """Return the force of the constraint of a kind on an element, 0 if there is none."""
     rows = (data.efc_type == int(kind)) & (data.efc_id == number)
     return float(data.efc_force[rows].sum())
+
+
+Site = ContactPair | Coordinate
+"""A place with friction."""
 
 
 # --- the mass that a probe moves -------------------------------------------------------------------------------------
@@ -290,7 +251,7 @@ def _constraint_row(model: mujoco.MjModel, data: mujoco.MjData, i: int) -> Array
     return row
 
 
-def lightest_mass(model: mujoco.MjModel, data: mujoco.MjData, site: ContactPair | Joint | Tendon) -> float:
+def lightest_mass(model: mujoco.MjModel, data: mujoco.MjData, site: Site) -> float:
     """Return the least mass [kg or kg m^2] that a force at the site feels, which sets the step limit."""
     if isinstance(site, ContactPair):
         found: list[Any] = [

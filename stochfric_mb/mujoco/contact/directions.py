@@ -4,10 +4,6 @@ With e the tangent across the direction, r the coefficients' ratio, and s = r^2 
 the length sqrt(v^2 + s (v e)^2), and of a force F the length sqrt(F^2 + (1/r^2 - 1) (F e)^2), see `Anisotropy`.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math
@@ -21,6 +17,8 @@ from stochfric_mb.mujoco.memory.structs import PGS
 
 ALONG_NORMAL = 1.0e-6
 """Part of the direction in the tangent plane below which it has none, and friction is the same in all directions."""
+
+DUAL = "stochfric_mb: friction that differs by direction needs the Newton or CG solver, without noslip iterations"
 
 
 @compiled_inline
@@ -54,7 +52,7 @@ def turn(m, d, header, slot, contact, body):
     slot.across = 1.0
     # these make the rows' matrix before the passive stage
     if m.solver == PGS or m.noslip_iterations > 0:
-        engine.mju_error(w.entry(w.PRIMAL_MESSAGE))
+        engine.mju_error(w.c_string(DUAL))
     f, e = contact.frame, header.direction
     x, y, z = turned(d, body, e[0], e[1], e[2])
     c, b = x * f[3] + y * f[4] + z * f[5], x * f[6] + y * f[7] + z * f[8]

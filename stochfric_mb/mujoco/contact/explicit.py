@@ -6,10 +6,6 @@ Runge-Kutta stages use the current slots. Only `tracking.finish`, when the engin
 committed ones; so evaluations between steps change nothing. The normal force is that of the step before.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math
@@ -45,6 +41,10 @@ SUDDEN = 0.05
 """Change of the normal force in a step, relative to it, with which explicit friction (one step late) will not do."""
 NO_LIMIT = 1.0e300
 """Stands for infinity in states."""
+PYRAMIDAL = (
+    "stochfric_mb: explicit friction on a contact that has MuJoCo's own friction with pyramidal cones, which cannot be taken "
+    "out; give the pair condim 1, or the model cone='elliptic'"
+)
 OFF = 1.0e-12
 """Coefficient of friction that the engine's solver is given in an explicit step: none, to rounding."""
 
@@ -107,10 +107,10 @@ def told_by(m, d):
 
 
 @compiled
-def begin(model, data, state):
+def begin(model, data, state, law):
     """Make the current slots for a step that starts now, at an accepted state.
 
-    Return whether explicit friction will not do in this step, of `mode` auto.
+    Return whether explicit friction will do in this step: of `mode` auto, not at sudden loads and beyond the law's limit.
     """
     m, d, header = model_at(model), data_at(data), s.header_record(state)
     known = int(header.n_committed) if header.advanced == d.time else 0
@@ -122,8 +122,7 @@ def begin(model, data, state):
         sign = side(contact, body, surface)
         if sign == 0:
             continue
-        if count == int(header.n_slots):
-            engine.mju_error(w.entry(w.SLOTS_MESSAGE))
+        s.require_room(header, count)
         slot = s.slot_at(state, 1, count)
         total += track(model, data, state, i, sign, t, known, count)
         if header.mode == s.AUTO and header.advanced != s.UNSET:
@@ -131,15 +130,16 @@ def begin(model, data, state):
         count += 1
     header.n_current = count
     star = body < 0 or surface < 0
-    row = w.law_row(int(header.law))
     pushed = known > 0 and was_pushed(m, d, header)
     for k in range(count):
         slot = s.slot_at(state, 1, k)
         if pushed and slot.live != 0.0 and length(slot.vx, slot.vy) > header.stick_speed:
             slot.live = -1.0  # it slides from here on, whatever it did before
         pair, among = pair_total(state, k, count) if star else (total, count)
-        commit_slot(state, s.slot_address(state, 1, k), row, t, pair, among)
-    return header.mode == s.AUTO and (sudden or count == 0 or beyond_limit(m, state, count, total, star))
+        commit_slot(state, s.slot_address(state, 1, k), law, t, pair, among)
+    if header.mode != s.AUTO or header.rest == s.BRISTLE:
+        return True
+    return count > 0 and not sudden and not beyond_limit(m, state, count, total, star)
 
 
 @compiled
@@ -166,16 +166,21 @@ def pair_total(state, k, count):
 @compiled
 def beyond_limit(m, state, count, total, star):
     """Return whether the step is beyond half the law's explicit limit at one of the contacts."""
-    header = s.header_record(state)
-    if header.critical_step != m.timestep:
-        header.critical = critical_ratio(header, 2.0 * m.timestep)
-        header.critical_step = m.timestep
+    critical = critical_of(s.header_record(state), m.timestep)
     for k in range(count):
         if star:
             total, _ = pair_total(state, k, count)
-        if total > header.critical * s.slot_at(state, 1, k).felt:
+        if total > critical * s.slot_at(state, 1, k).felt:
             return True
     return False
+
+
+@compiled
+def critical_of(header, step):
+    """Return the normal force over the mass [N/kg] at which ``step`` is half the law's limit, found once for each step."""
+    if header.critical_step != step:
+        header.critical, header.critical_step = critical_ratio(header, 2.0 * step), step
+    return header.critical
 
 
 @compiled
@@ -251,16 +256,12 @@ def fill(model, data, state, contact, sign, t, slot, old, known):
 
 
 @compiled
-def apply(model, data, state):
+def apply(model, data, state, law):
     """Add the friction forces at this instant; at a step's start also record them."""
     m, d, header = model_at(model), data_at(data), s.header_record(state)
     starting = d.time == header.evaluated
     t = header.instant if starting else canonical_time(d.time, 0.5 * m.timestep)
-    row = w.law_row(int(header.law))
     target = d.qfrc_passive
-    if row == 0:
-        w.put(target, 0, math.nan)
-        return
     geom, other = int(header.geom_body), int(header.geom_surface)
     k, last_body, last_surface = 0, -1, -1
     for i in range(d.ncon):
@@ -268,7 +269,7 @@ def apply(model, data, state):
         sign = side(contact, geom, other)
         if sign == 0:
             continue
-        number = k if starting else slot_at_stage(model, data, state, i, sign, t, k)
+        number = k if starting else slot_at_stage(model, data, state, law, i, sign, t, k)
         k += 1
         if number < 0:
             continue
@@ -279,15 +280,15 @@ def apply(model, data, state):
             clear_push(header, contact)
             last_body, last_surface = body, surface
         if contact.dim > 2 and m.cone != ELLIPTIC:
-            engine.mju_error(w.entry(w.CONE_MESSAGE))
+            engine.mju_error(w.c_string(PYRAMIDAL))
         set_cap(m, d, contact, OFF, 1.0)
-        apply_contact(model, data, state, contact, sign, body, surface, number, w.entry(row + w.FORCE), t, starting)
+        apply_contact(model, data, state, contact, sign, body, surface, number, law.force, t, starting)
     if last_body >= 0:
         push(model, data, header, last_body, last_surface, target)
 
 
 @compiled
-def slot_at_stage(model, data, state, i, sign, t, k):
+def slot_at_stage(model, data, state, law, i, sign, t, k):
     """Return the number of the current slot of contact ``i``; one that was born within the step gets a slot of its own.
 
     In auto mode it gets none (-1), and has MuJoCo's own friction up to the step's end: its explicit limit is not known.
@@ -298,11 +299,10 @@ def slot_at_stage(model, data, state, i, sign, t, k):
     number = s.find(state, 1, count, contact.geom[0], contact.geom[1], ordinal_of(d, i), k) if count > 0 else -1
     if number >= 0 or header.mode == s.AUTO:
         return number
-    if count == int(header.n_slots):
-        engine.mju_error(w.entry(w.SLOTS_MESSAGE))
+    s.require_room(header, count)
     header.n_current = count + 1.0
     normal_force = track(model, data, state, i, sign, t, 0, count)
-    commit_slot(state, s.slot_address(state, 1, count), w.law_row(int(header.law)), t, normal_force, 1)
+    commit_slot(state, s.slot_address(state, 1, count), law, t, normal_force, 1)
     s.slot_at(state, 1, count).live = 0.0
     return count
 

@@ -1,9 +1,5 @@
 """How the two bodies of a contact move: points, velocities, the tangent frame that goes along, the displacement in it."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math

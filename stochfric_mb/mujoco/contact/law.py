@@ -1,9 +1,5 @@
 """A contact's law at work: its coefficients, its calls, the commit of its state, and the switches within a step."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math
@@ -15,7 +11,6 @@ from stochfric_mb.laws.abi import call_law
 from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.laws.plane import length
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.numerics.root import bracket, is_wide, narrowed, trial
 
 SWITCHES = 4
@@ -55,27 +50,25 @@ def call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k):
 
 
 @compiled
-def commit_slot(state, address, row, t, total, count):
-    """Run the commit (init for a new contact) of the law in ``row`` on a current slot.
+def commit_slot(state, address, law, t, total, count):
+    """Run the commit (init for a new contact) of the law on a current slot.
 
     Contacts of one pair share the mass that they feel, in proportion to their normal forces.
     """
     header, slot = s.header_record(state), s.slot_record(address)
     slot.mass *= slot.normal / total if total > 0.0 else 1.0 / count
-    if row == 0:
-        return
     modes, live = header.has_mode != 0.0, slot.live
     new = live <= 0.0
     if not new and modes:
-        switch_within(state, address, row, t)
-    function = w.entry(row + (w.INIT if new else w.COMMIT))
-    changed = switch(state, address, row, function, t, slot.ux, slot.uy, slot.vx, slot.vy)
+        switch_within(state, address, law, t)
+    function = law.init if new else law.commit
+    changed = switch(state, address, law, function, t, slot.ux, slot.uy, slot.vx, slot.vy)
     if live == 0.0:
         slot.events = 0.0
     slot.mu_s, slot.mu_k = coefficients(state, t, slot.ux, slot.events)
     slot.live = 1.0
     if modes and changed:
-        guards_at(state, address, row, t, slot.ux, slot.uy, slot.vx, slot.vy)
+        guards_at(state, address, law, t, slot.ux, slot.uy, slot.vx, slot.vy)
         keep_guards(state, address)
 
 
@@ -88,14 +81,14 @@ def keep_guards(state, address):
 
 
 @compiled_inline
-def guards_at(state, address, row, t, ux, uy, vx, vy):
+def guards_at(state, address, law, t, ux, uy, vx, vy):
     """Write the law's guards at this instant to the output."""
     mu_s, mu_k = coefficients(state, t, ux, s.slot_record(address).events)
-    call(state, address, w.entry(row + w.GUARDS), t, ux, uy, vx, vy, mu_s, mu_k)
+    call(state, address, law.guards, t, ux, uy, vx, vy, mu_s, mu_k)
 
 
 @compiled_inline
-def switch(state, address, row, function, t, ux, uy, vx, vy):
+def switch(state, address, law, function, t, ux, uy, vx, vy):
     """Give a slot the law state that ``function`` (init or commit) returns; return whether it is another one.
 
     Stick phases that begin are counted.
@@ -104,7 +97,7 @@ def switch(state, address, row, function, t, ux, uy, vx, vy):
     changed = slot.live == 0.0
     mu_s, mu_k = coefficients(state, t, ux, slot.events)
     call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k)
-    for j in range(w.entry(row + w.N_STATE)):
+    for j in range(law.n_state):
         new = header.output[j]
         changed = changed or slot.state[j] != new
         slot.state[j] = new
@@ -119,46 +112,46 @@ def switch(state, address, row, function, t, ux, uy, vx, vy):
 
 
 @compiled_inline
-def switch_within(state, address, row, t):
+def switch_within(state, address, law, t):
     """Let a law with modes switch where it should have within the step that has just ended.
 
     Where one of the law's guards has changed sign, ``commit`` runs with the state there, by the cubic through both
     ends of the step: what the law remembers of a switch then does not depend on where the step ended.
     """
-    if guard_crossed(state, address, row, t):
-        switch_at_crossings(state, address, row, t)
+    if guard_crossed(state, address, law, t):
+        switch_at_crossings(state, address, law, t)
     else:
         keep_guards(state, address)
 
 
 @compiled
-def switch_at_crossings(state, address, row, t):
+def switch_at_crossings(state, address, law, t):
     """Switch the law where its guards cross zero within the step, one of which does."""
     before = s.slot_record(address).before[0]
     start = 0.0
     for _ in range(SWITCHES):
-        end = first_crossing(state, address, row, t, start)
+        end = first_crossing(state, address, law, t, start)
         ux, uy, vx, vy = between(address, t, end)
         now = before + end * (t - before)
-        switch(state, address, row, w.entry(row + w.COMMIT), now, ux, uy, vx, vy)
-        guards_at(state, address, row, now, ux, uy, vx, vy)
+        switch(state, address, law, law.commit, now, ux, uy, vx, vy)
+        guards_at(state, address, law, now, ux, uy, vx, vy)
         keep_guards(state, address)
         start = end
-        if not guard_crossed(state, address, row, t):
+        if not guard_crossed(state, address, law, t):
             keep_guards(state, address)
             return
 
 
 @compiled
-def first_crossing(state, address, row, t, low):
+def first_crossing(state, address, law, t, low):
     """Return the part of the step, after ``low``, just behind which no guard that was positive is so any more.
 
     False position on the least of them, which ends on both sides of the root.
     """
-    b = bracket(low, least_guard(state, address, row, t, low), 1.0, least_guard(state, address, row, t, 1.0))
+    b = bracket(low, least_guard(state, address, law, t, low), 1.0, least_guard(state, address, law, t, 1.0))
     while is_wide(b, INSTANT):
         part = trial(b, INSTANT)
-        b = narrowed(b, part, least_guard(state, address, row, t, part))
+        b = narrowed(b, part, least_guard(state, address, law, t, part))
     return b.negative
 
 
@@ -183,13 +176,13 @@ def between(address, t, part):
 
 
 @compiled_inline
-def guard_crossed(state, address, row, t):
+def guard_crossed(state, address, law, t):
     """Return whether a guard that was positive at the start of the search is not positive at the end of the step."""
-    return least_guard(state, address, row, t, 1.0) <= 0.0
+    return least_guard(state, address, law, t, 1.0) <= 0.0
 
 
 @compiled_inline
-def least_guard(state, address, row, t, part):
+def least_guard(state, address, law, t, part):
     """Return the least of the guards that were positive at the start of the search, at a part of the step."""
     slot = s.slot_record(address)
     if part == 1.0:
@@ -197,7 +190,7 @@ def least_guard(state, address, row, t, part):
     else:
         ux, uy, vx, vy = between(address, t, part)
         now = slot.before[0] + part * (t - slot.before[0])
-    guards_at(state, address, row, now, ux, uy, vx, vy)
+    guards_at(state, address, law, now, ux, uy, vx, vy)
     output = s.header_record(state).output
     least = math.inf
     for j in range(GUARDS):

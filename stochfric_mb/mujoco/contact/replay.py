@@ -4,10 +4,6 @@ By the next step MuJoCo's constraints are gone, but not their solution's acceler
 keeps the contacts' rows, and the next step finds their forces from them (MuJoCo's computation chapter, elliptic cones).
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math

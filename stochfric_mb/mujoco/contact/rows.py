@@ -4,11 +4,6 @@ A row asks for the acceleration a = aref - R f, with aref = -B v - K I (pos - ma
 constraint model). Its force in slip is bounded by a friction cone (contacts, elliptic) or by ``frictionloss`` (joints).
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# pyright: reportAttributeAccessIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math

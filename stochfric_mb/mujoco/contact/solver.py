@@ -17,10 +17,6 @@ rows' R in a matrix of its own, made before the passive stage, and does not conv
 keep MuJoCo's own reference there, which lifts bodies a little.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math
@@ -48,7 +44,7 @@ from stochfric_mb.mujoco.contact.rows import (
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
-from stochfric_mb.mujoco.memory.structs import DISCRETE, PGS, RUNGE_KUTTA, contact_at, data_at, model_at
+from stochfric_mb.mujoco.memory.structs import DISCRETE, PGS, RUNGE_KUTTA, contact_at
 from stochfric_mb.numerics.root import ROUNDING, bracket, is_wide, narrowed, trial
 
 SATURATED = 0.9999
@@ -61,39 +57,21 @@ CLOSE = 1.0e-6
 """Part of the force to which the speed of creep gives it: creep over ten minutes is then right to less than a micrometre."""
 NOTHING = 1.0e-12
 """Part of the cap below which a force is the solver's rounding."""
+FRICTIONLESS = (
+    "stochfric_mb: a contact of a pair with friction has condim 1, so MuJoCo's solver has no friction for the law to steer; "
+    "give the pair condim 3"
+)
 JUST_STUCK = -1.0
 """Value of a slot's ``springs`` in the first step of a stick phase."""
 
 
 @compiled
-def begin(model, data, state):
-    """Make the current slots for a step that starts now, and steer the solver for it."""
-    m, d, header = model_at(model), data_at(data), s.header_record(state)
-    known = int(header.n_committed) if header.advanced == d.time else 0
-    row = w.law_row(int(header.law))
-    body, surface = int(header.geom_body), int(header.geom_surface)
-    count = 0
-    for i in range(d.ncon):
-        contact = contact_at(d, i)
-        sign = side(contact, body, surface)
-        if sign == 0 or contact.efc_address < 0:
-            continue
-        if contact.dim < 3:
-            engine.mju_error(w.entry(w.CONDIM_MESSAGE))
-        if count == int(header.n_slots):
-            engine.mju_error(w.entry(w.SLOTS_MESSAGE))
-        forget_target(m, contact, s.slot_at(state, 1, count))
-        follow(m, d, state, row, i, sign, known, count)
-        steer(m, d, state, row, contact, sign, s.slot_address(state, 1, count), 0.0)
-        count += 1
-    header.n_current = count
-
-
-@compiled
-def go_on(model, data, state):
-    """Steer the solver at a later stage of a Runge-Kutta step; contacts born within the step get slots of their own."""
-    m, d, header = model_at(model), data_at(data), s.header_record(state)
-    row = w.law_row(int(header.law))
+def evaluate(m, d, state, law, starting):
+    """Steer the solver, at a step's start with new current slots; contacts born at a later stage get slots of their own."""
+    header = s.header_record(state)
+    known = int(header.n_committed) if starting and header.advanced == d.time else 0
+    header.n_current = 0.0 if starting else header.n_current
+    since = d.time - header.evaluated
     body, surface = int(header.geom_body), int(header.geom_surface)
     k = 0
     for i in range(d.ncon):
@@ -101,21 +79,29 @@ def go_on(model, data, state):
         sign = side(contact, body, surface)
         if sign == 0 or contact.efc_address < 0:
             continue
-        if contact.dim < 3:
-            engine.mju_error(w.entry(w.CONDIM_MESSAGE))
-        count = int(header.n_current)
-        number = s.find(state, 1, count, contact.geom[0], contact.geom[1], ordinal_of(d, i), k) if count > 0 else -1
+        require_tangents(contact)
+        count, number = int(header.n_current), -1
+        if not starting and count > 0:
+            number = s.find(state, 1, count, contact.geom[0], contact.geom[1], ordinal_of(d, i), k)
         k += 1
         if number < 0:
-            if count == int(header.n_slots):
-                engine.mju_error(w.entry(w.SLOTS_MESSAGE))
+            s.require_room(header, count)
             number, header.n_current = count, count + 1.0
-            follow(m, d, state, row, i, sign, 0, number)
-        slot = s.slot_at(state, 1, number)
-        if header.across != 1.0:
-            turn(m, d, header, slot, contact, bodies_of(m, contact, sign)[0])
-        slot.mu_s, slot.mu_k = coefficients(state, canonical_time(d.time, 0.5 * m.timestep), slot.ux, slot.events)
-        steer(m, d, state, row, contact, sign, s.slot_address(state, 1, number), d.time - header.evaluated)
+            forget_target(m, contact, s.slot_at(state, 1, number))
+            follow(m, d, state, law, i, sign, known, number)
+        if not starting:
+            slot = s.slot_at(state, 1, number)
+            if header.across != 1.0:
+                turn(m, d, header, slot, contact, bodies_of(m, contact, sign)[0])
+            slot.mu_s, slot.mu_k = coefficients(state, canonical_time(d.time, 0.5 * m.timestep), slot.ux, slot.events)
+        steer(m, d, state, law, contact, sign, s.slot_address(state, 1, number), since)
+
+
+@compiled_inline
+def require_tangents(contact):
+    """Stop with MuJoCo's error at a contact without friction rows."""
+    if contact.dim < 3:
+        engine.mju_error(w.c_string(FRICTIONLESS))
 
 
 @compiled_inline
@@ -128,7 +114,7 @@ def measure_velocity(m, d, contact, sign):
 
 
 @compiled
-def follow(m, d, state, row, i, sign, known, k):
+def follow(m, d, state, law, i, sign, known, k):
     """Fill the current slot ``k`` from contact ``i`` and what it was a step ago; decide whether it sticks or slides."""
     header, contact = s.header_record(state), contact_at(d, i)
     slot = s.slot_at(state, 1, k)
@@ -157,7 +143,7 @@ def follow(m, d, state, row, i, sign, known, k):
         slot.creep = 0.0
         put(slot.pull, old.pull[0], old.pull[1], old.pull[2])
         move(m, d, header, contact, slot, old, body, surface)
-        switch(state, row, slot, old, speed, h * mobility)
+        switch(state, law, slot, old, speed, h * mobility)
     slot.mu_s, slot.mu_k = coefficients(state, header.instant, slot.ux, slot.events)
 
 
@@ -204,7 +190,7 @@ def move(m, d, header, contact, slot, old, body, surface):
 
 
 @compiled
-def switch(state, row, slot, old, speed, step_mobility):
+def switch(state, law, slot, old, speed, step_mobility):
     """Let a contact break away or stick again, by the force that the solver found in the step that has just ended.
 
     No contact is stuck that friction could not stop within one step: ``step_mobility`` is the step over the mass.
@@ -221,9 +207,9 @@ def switch(state, row, slot, old, speed, step_mobility):
             else:
                 put(z, old.z[0], old.z[1], old.z[2])
         if header.rest == s.CREEP:
-            creep(state, row, slot, old)
+            creep(state, law, slot, old)
         elif old.springs != 0.0:
-            limit, stretch = spring_at(state, row, old, old.given)[2], stretch_of(header)
+            limit, stretch = spring_at(state, law, old, old.given)[2], stretch_of(header)
             out = size(stretch, slot.side, z)
             breaks = breaks and out >= limit and product(stretch, slot.side, z, v) > 0.0
             if old.saturated != 0.0 and out > limit:
@@ -237,25 +223,25 @@ def switch(state, row, slot, old, speed, step_mobility):
             put(z, 0.0, 0.0, 0.0)
             slot.springs = JUST_STUCK
             if header.rest == s.CREEP:
-                creep(state, row, slot, old)
+                creep(state, law, slot, old)
 
 
 @compiled
-def spring_at(state, row, slot, load):
+def spring_at(state, law, slot, load):
     """Return stiffness [N/m], damping [N s/m] and largest deflection [m] of an elastic law under a load [N]."""
     header = s.header_record(state)
     call_spring(
-        w.entry(row + w.SPRING), load, slot.felt, slot.mu_s, s.parameters_of(state), s.output_of(state)
+        law.spring, load, slot.felt, slot.mu_s, s.parameters_of(state), s.output_of(state)
     )  # fmt: skip
     return header.output[0], header.output[1], header.output[2]
 
 
 @compiled
-def creep(state, row, slot, old):
+def creep(state, law, slot, old):
     """Find the speed at which the law has the force at hand, at which the anchor of a law that creeps at rest follows."""
     header = s.header_record(state)
     force = size(force_stretch_of(header), slot.side, old.pull)
-    slot.creep = creep_speed(state, row, old, force) if force > 0.0 else 0.0
+    slot.creep = creep_speed(state, law, old, force) if force > 0.0 else 0.0
     if old.slides == 0.0 and force > 0.0:
         move_along(header, slot, old.pull, (old.since - slot.since) * slot.creep / force)
 
@@ -270,13 +256,13 @@ def move_along(header, slot, force, part):
 
 
 @compiled
-def creep_speed(state, row, slot, force):
+def creep_speed(state, law, slot, force):
     """Return the speed [m/s], up to the peak, at which the law's coefficient times the normal force is ``force`` [N].
 
     The search starts at the speed that the slot had a step ago.
     """
     header = s.header_record(state)
-    slide, parameters, fastest = w.entry(row + w.SLIDE), s.parameters_of(state), header.peak_speed
+    slide, parameters, fastest = law.slide, s.parameters_of(state), header.peak_speed
     most = slot.cap if slot.slides == 0.0 else call_slide(slide, fastest, slot.mu_s, slot.mu_k, parameters)
     cap = most * slot.given
     excess, close = force - cap, CLOSE * force + NOTHING * cap
@@ -294,12 +280,9 @@ def creep_speed(state, row, slot, force):
 
 
 @compiled
-def steer(m, d, state, row, contact, sign, address, since):
+def steer(m, d, state, law, contact, sign, address, since):
     """Write a contact's cap and its rows' references, ``since`` [s] after the step's start."""
     slot = s.slot_record(address)
-    if row == 0:
-        w.put(d.qfrc_passive, 0, math.nan)
-        return
     vx, vy, vz = slot.w[0], slot.w[1], slot.w[2]
     x, y, z = 0.0, 0.0, 0.0
     if since > 0.0:
@@ -308,19 +291,19 @@ def steer(m, d, state, row, contact, sign, address, since):
         x, y, z = half * (vx + ux), half * (vy + uy), half * (vz + uz)
         vx, vy, vz = ux, uy, uz
     if slot.slides != 0.0:
-        let_slide(m, d, state, row, contact, slot, vx, vy, vz)
+        let_slide(m, d, state, law, contact, slot, vx, vy, vz)
     else:
-        hold(m, d, state, row, contact, sign, slot, x, y, z)
+        hold(m, d, state, law, contact, sign, slot, x, y, z)
 
 
 @compiled
-def let_slide(m, d, state, row, contact, slot, vx, vy, vz):
+def let_slide(m, d, state, law, contact, slot, vx, vy, vz):
     """Steer a sliding contact: the law's coefficient at its speed, and the cone's lift taken out of the normal row."""
     h, first, header = m.timestep, contact.efc_address, s.header_record(state)
     e, stretch = slot.side, stretch_of(header)
     v = vx, vy, vz
     speed = size(stretch, e, v)
-    cap = max(call_slide(w.entry(row + w.SLIDE), speed, slot.mu_s, slot.mu_k, s.parameters_of(state)), LEAST)
+    cap = max(call_slide(law.slide, speed, slot.mu_s, slot.mu_k, s.parameters_of(state)), LEAST)
     lift = cap * max(0.0, speed / h + product(stretch, e, slot.a, v) / speed) if speed > 0.0 else 0.0
     if m.integrator == DISCRETE:
         set_target(m, contact, slot, 0.0, 0.0)
@@ -352,7 +335,7 @@ def keep_normal(m, d, first, cap):
 
 
 @compiled
-def spring_and_cap(state, row, slot, resistance, h):
+def spring_and_cap(state, law, slot, resistance, h):
     """Return R [1/kg] and K I [1/s^2] of a stuck row that has R = ``resistance``, and its cap [-].
 
     Rigid laws get the stiffest spring that suits the step, elastic ones their own, where a step can follow it: it would not
@@ -363,13 +346,13 @@ def spring_and_cap(state, row, slot, resistance, h):
     stiffness, cap = RIGID / (h * h), slot.mu_s
     just_stuck, slot.springs = slot.springs == JUST_STUCK, 0.0
     if header.rest == s.CREEP:
-        cap = call_slide(w.entry(row + w.SLIDE), header.peak_speed, slot.mu_s, slot.mu_k, s.parameters_of(state))
+        cap = call_slide(law.slide, header.peak_speed, slot.mu_s, slot.mu_k, s.parameters_of(state))
         force = size(force_stretch_of(header), slot.side, slot.pull)
         if force > 0.0:
             resistance += slot.creep / (h * force)
     elif header.rest == s.ELASTIC:
         weight = max(slot.weight, LIGHTEST)  # contacts of one pair share what they hold together, by their normal forces
-        k, c, _ = spring_at(state, row, slot, slot.given / weight)
+        k, c, _ = spring_at(state, law, slot, slot.given / weight)
         if k > 0.0:
             total, own = spring_of(resistance, weight * k, weight * c, h)
             if own <= 1.0 / (h * h):
@@ -380,13 +363,13 @@ def spring_and_cap(state, row, slot, resistance, h):
 
 
 @compiled
-def hold(m, d, state, row, contact, sign, slot, x, y, z):
+def hold(m, d, state, law, contact, sign, slot, x, y, z):
     """Steer a stuck contact that has moved by (x, y, z) [m] since the step's start."""
     f, first = contact.frame, contact.efc_address
     resistance = math.inf  # so contacts share a load by their normal forces
     if m.integrator != DISCRETE:
         resistance = resistances(m, d, first)[1] / max(slot.weight, LIGHTEST)
-    resistance, stiffness, slot.cap = spring_and_cap(state, row, slot, resistance, m.timestep)
+    resistance, stiffness, slot.cap = spring_and_cap(state, law, slot, resistance, m.timestep)
     x, y, z = x + slot.z[0], y + slot.z[1], z + slot.z[2]
     if m.integrator == DISCRETE:
         part = sign * RIGID / m.timestep

@@ -1,40 +1,39 @@
 """A friction instance from step to step: which way a step goes, and what is kept of it once the engine accepts it."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 from stochfric_mb.coefficients.path import canonical_time
 from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.mujoco.contact import explicit, solver
 from stochfric_mb.mujoco.contact.kinematics import ordinal_of, side
-from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import RUNGE_KUTTA, contact_at, data_at, model_at
 
 
 @compiled
-def evaluate(model, data, state):
+def evaluate(model, data, state, law):
     """Let friction act at this instant: the first one of a step, or a later stage of a Runge-Kutta step."""
     m, d, header = model_at(model), data_at(data), s.header_record(state)
+    starting = starts(m, d, header)
+    if starting:
+        explicit_does = tries_explicit(m, d, header) and explicit.begin(model, data, state, law)
+        header.solved = 0.0 if explicit_does else 1.0
+    if header.solved != 0.0:
+        solver.evaluate(m, d, state, law, starting)
+    else:
+        explicit.apply(model, data, state, law)
+
+
+@compiled
+def starts(m, d, header):
+    """Return whether a step starts at this instant, which is noted then; otherwise it is a later stage of one."""
     start = header.evaluated
     if header.started != 0.0 and start < d.time <= start + 1.0001 * m.timestep:
-        if header.solved != 0.0:
-            solver.go_on(model, data, state)
-        else:
-            explicit.apply(model, data, state)
-        return
+        return False
     header.evaluated, header.started = d.time, 1.0
     header.instant = canonical_time(d.time, 0.5 * m.timestep)
-    if not tries_explicit(m, d, header) or (explicit.begin(model, data, state) and header.rest != s.BRISTLE):
-        header.solved = 1.0
-        solver.begin(model, data, state)
-    else:
-        header.solved = 0.0
-        explicit.apply(model, data, state)
+    return True
 
 
 @compiled_inline
@@ -104,28 +103,12 @@ def learn(data, state, current, count, m):
                 solver.learn(m, d, header, contact, sign, s.slot_at(state, current, number), current == 0)
             continue
         if number < 0:
-            if count == int(header.n_slots):
-                engine.mju_error(w.entry(w.SLOTS_MESSAGE))
+            s.require_room(header, count)
             number, count = count, count + 1
             slot = s.slot_at(state, current, number)
             slot.geom_1, slot.geom_2, slot.ordinal, slot.live = a + 1.0, b + 1.0, ordinal, 0.0
         s.slot_at(state, current, number).normal = normal_force(d, contact)
     return count
-
-
-@compiled
-def report(model, data, state):
-    """Bring what can be read of a pair up to date; return the block to read, 0 committed or 1 current.
-
-    After an evaluation these are the forces of the engine's solution for it, after a step those of the step.
-    """
-    header = s.header_record(state)
-    if header.solved == 0.0:
-        return 1
-    if header.started == 0.0:
-        return 0
-    learn(data, state, 1, int(header.n_current), model_at(model))
-    return 1
 
 
 @compiled

@@ -1,15 +1,12 @@
 """A joint or a tendon as one generalised coordinate: its position, its rate, the forces along it, its friction row."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import math
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco.memory import engine
+from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
 
 FRICTION_OF_JOINT, FRICTION_OF_TENDON = 1, 2
@@ -21,7 +18,7 @@ SLIDE = 2
 @compiled
 def is_tendon(header):
     """Return whether an instance is friction of a tendon."""
-    return header.geom_body != 0.0
+    return header.place == s.TENDON
 
 
 @compiled

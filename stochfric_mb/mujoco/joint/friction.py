@@ -5,20 +5,14 @@ first component counts. The counter-surface is at rest: u = -position, v = -rate
 coordinate. A load that is the joint's own reaction is that of the step before.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
-
-import math
 
 import numpy as np
 
 from stochfric_mb.coefficients.path import canonical_time
 from stochfric_mb.compile import compiled
 from stochfric_mb.laws.abi import call_slide
-from stochfric_mb.mujoco.contact import solver, tracking
+from stochfric_mb.mujoco.contact import explicit, solver, tracking
 from stochfric_mb.mujoco.contact.kinematics import JUMP, NEAR
 from stochfric_mb.mujoco.contact.law import call, coefficients, commit_slot
 from stochfric_mb.mujoco.contact.rows import set_reference, set_resistance
@@ -42,26 +36,20 @@ sag by milliradians within a step; a friction row of its own, unlike a cone, has
 
 
 @compiled
-def evaluate(model, data, state):
+def evaluate(model, data, state, law):
     """Let friction act at this instant: the first one of a step, or a later stage of a Runge-Kutta step."""
     m, d, header = model_at(model), data_at(data), s.header_record(state)
-    start = header.evaluated
-    stage = header.started != 0.0 and start < d.time <= start + 1.0001 * m.timestep
-    if not stage:
-        header.evaluated, header.started = d.time, 1.0
-        header.instant = canonical_time(d.time, 0.5 * m.timestep)
-        begin(model, data, state)
-    row = w.law_row(int(header.law))
-    if row == 0:
-        w.put(d.qfrc_passive, 0, math.nan)
-    elif header.solved != 0.0:
-        steer(m, d, state, row, d.time - header.evaluated)
+    starting = tracking.starts(m, d, header)
+    if starting:
+        begin(model, data, state, law)
+    if header.solved != 0.0:
+        steer(m, d, state, law, d.time - header.evaluated)
     else:
-        apply(m, d, state, row, stage)
+        apply(m, d, state, law, not starting)
 
 
 @compiled
-def begin(model, data, state):
+def begin(model, data, state, law):
     """Make the current slot for a step that starts now."""
     m, d, header = model_at(model), data_at(data), s.header_record(state)
     known = header.advanced == d.time and header.n_committed > 0.0
@@ -72,15 +60,12 @@ def begin(model, data, state):
     header.n_current, slot.normal = 1.0, header.load
     header.solved = 0.0
     if tracking.tries_explicit(m, d, header):
-        limit = s.header_record(state).critical if header.critical_step == m.timestep else 0.0
-        if header.critical_step != m.timestep:
-            limit = header.critical = tracking.explicit.critical_ratio(header, 2.0 * m.timestep)
-            header.critical_step = m.timestep
+        limit = explicit.critical_of(header, m.timestep)
         if header.mode == s.EXPLICIT or header.rest == s.BRISTLE or header.load <= limit * slot.felt:
-            commit_slot(state, s.slot_address(state, 1, 0), w.law_row(int(header.law)), header.instant, header.load, 1)
+            commit_slot(state, s.slot_address(state, 1, 0), law, header.instant, header.load, 1)
             return
     header.solved = 1.0
-    follow(m, d, state, slot, old, known)
+    follow(m, d, state, law, slot, old, known)
 
 
 @compiled
@@ -116,7 +101,7 @@ def moved(old, position, v, t):
 
 
 @compiled
-def follow(m, d, state, slot, old, known):
+def follow(m, d, state, law, slot, old, known):
     """Decide whether the coordinate sticks or slides, by what it was a step ago."""
     header, h = s.header_record(state), m.timestep
     slot.solved, slot.w[0] = 1.0, slot.vx
@@ -132,13 +117,13 @@ def follow(m, d, state, slot, old, known):
         slot.energy = old.energy + old.pull[0] * (slot.ux - old.ux)
         slot.lead[0] = (slot.vx - old.w[0]) / h - old.a[0] if old.foreseen != 0.0 else 0.0
         mobility = 1.0 / slot.felt if slot.felt > 0.0 else 0.0
-        solver.switch(state, w.law_row(int(header.law)), slot, old, abs(slot.vx), h * mobility)
+        solver.switch(state, law, slot, old, abs(slot.vx), h * mobility)
     slot.live = 1.0
     slot.mu_s, slot.mu_k = coefficients(state, header.instant, slot.ux, slot.events)
 
 
 @compiled
-def steer(m, d, state, row, since):
+def steer(m, d, state, law, since):
     """Write the largest force of the coordinate's friction row and its reference, ``since`` [s] after the step's start."""
     header, slot, h = s.header_record(state), s.slot_at(state, 1, 0), m.timestep
     place = friction_row(m, d, header)
@@ -149,17 +134,17 @@ def steer(m, d, state, row, since):
         v = -along_row(m, d, header, d.qvel)
         z = 0.5 * since * (slot.vx + v)
     if slot.slides != 0.0:
-        slot.cap = call_slide(w.entry(row + w.SLIDE), abs(v), slot.mu_s, slot.mu_k, s.parameters_of(state))
+        slot.cap = call_slide(law.slide, abs(v), slot.mu_s, slot.mu_k, s.parameters_of(state))
         set_reference(d, place, 1.0 / h, 0.0, 0.0)
     else:
-        resistance, stiffness, slot.cap = solver.spring_and_cap(state, row, slot, STIFFER * w.at(d.efc_R, place), h)
+        resistance, stiffness, slot.cap = solver.spring_and_cap(state, law, slot, STIFFER * w.at(d.efc_R, place), h)
         set_resistance(d, place, resistance)
         set_reference(d, place, 1.0 / h, stiffness, -(slot.z[0] + z + slot.lead[0] / stiffness))
     set_limit(d, place, slot.cap * slot.given)
 
 
 @compiled
-def apply(m, d, state, row, stage):
+def apply(m, d, state, law, stage):
     """Add the law's force at this instant; MuJoCo's own friction of the coordinate is off."""
     header, address = s.header_record(state), s.slot_address(state, 1, 0)
     slot = s.slot_record(address)
@@ -173,7 +158,7 @@ def apply(m, d, state, row, stage):
         v = -along_row(m, d, header, d.qvel)
         u += moved(slot, position_of(m, d, header), v, t)
         mu_s, mu_k = coefficients(state, t, u, slot.events)
-    call(state, address, w.entry(row + w.FORCE), t, u, 0.0, v, 0.0, mu_s, mu_k)
+    call(state, address, law.force, t, u, 0.0, v, 0.0, mu_s, mu_k)
     force = header.output[0]
     if not stage:
         slot.fx, slot.fy = force, 0.0
@@ -215,15 +200,3 @@ def finish(model, data, state):
     header.unconverged += 1.0 if tracking.stopped_early(model, data) else 0.0
     header.latched = header.solved
     header.n_committed, header.advanced, header.started = 1.0, d.time, 0.0
-
-
-@compiled
-def report(model, data, state):
-    """Bring what can be read up to date; return the block to read, 0 committed or 1 current."""
-    header = s.header_record(state)
-    if header.solved == 0.0 or header.n_current == 0.0:
-        return 1
-    if header.started == 0.0:
-        return 0
-    learn(model_at(model), data_at(data), state, 1)
-    return 1

@@ -1,10 +1,5 @@
 """MuJoCo's shared library: the functions that compiled code calls, and what Python asks it."""
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# pyright: reportCallIssue=false, reportAttributeAccessIssue=false
-# (compiled functions are typed by numba; MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 import ctypes
@@ -45,7 +40,6 @@ def _external(name: str, result: Any, *arguments: Any) -> Any:
 mj_applyFT = _external("mj_applyFT", types.void, _I64, _I64, _I64, _I64, _I64, _I32, _I64)  # noqa: N816
 mj_solveM = _external("mj_solveM", types.void, _I64, _I64, _I64, _I64, _I32)  # noqa: N816
 mj_getPluginConfig = _external("mj_getPluginConfig", _I64, _I64, _I32, _I64)  # noqa: N816
-mj_name2id = _external("mj_name2id", _I32, _I64, _I32, _I64)
 mj_forward = _external("mj_forward", types.void, _I64, _I64)
 mj_step = _external("mj_step", types.void, _I64, _I64)
 mj_rnePostConstraint = _external("mj_rnePostConstraint", types.void, _I64, _I64)  # noqa: N816
@@ -59,3 +53,11 @@ def plugin_text(model: mujoco.MjModel | int, instance: int, key: str) -> str:
     function.argtypes = [ctypes.c_void_p, ctypes.c_int, ctypes.c_char_p]
     address = model if isinstance(model, int) else model._address
     return (function(address, instance, key.encode()) or b"").decode()
+
+
+def id_in(model: int, kind: mujoco.mjtObj, name: str, default: int) -> int:
+    """Return the id of an object in the model at an address, ``default`` if there is none of that name."""
+    function = library().mj_name2id
+    function.restype, function.argtypes = ctypes.c_int, [ctypes.c_void_p, ctypes.c_int, ctypes.c_char_p]
+    number = int(function(model, int(kind), name.encode()))
+    return number if number >= 0 else default

@@ -1,8 +1,5 @@
 """Layouts of MuJoCo's C structs, built from what the package says of itself and checked against its own bindings."""
 
-# pyright: reportAttributeAccessIssue=false
-# (MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
 import ctypes
@@ -12,6 +9,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
+import numpy.typing as npt
 from mujoco.introspect import ast_nodes, enums, structs
 
 from stochfric_mb.errors import MissingEngineError
@@ -84,6 +82,21 @@ def _place(name: str, field: str) -> tuple[int, Any]:
 def view(obj: mujoco.MjModel | mujoco.MjData) -> Any:
     """Return the C struct behind a model or data object."""
     return struct("mjModel" if isinstance(obj, mujoco.MjModel) else "mjData").from_address(obj._address)
+
+
+def integers(address: int, n: int) -> npt.NDArray[np.int32]:
+    """Return the ``n`` C ints at an address (a view)."""
+    return np.ctypeslib.as_array((ctypes.c_int32 * n).from_address(address)) if n else np.zeros(0, np.int32)
+
+
+def doubles(address: int, n: int) -> npt.NDArray[np.float64]:
+    """Return the ``n`` doubles at an address (a view)."""
+    return np.ctypeslib.as_array((ctypes.c_double * n).from_address(address)) if n else np.zeros(0)
+
+
+def pointers(address: int, n: int) -> npt.NDArray[np.int64]:
+    """Return the ``n`` pointers at an address (a view)."""
+    return np.ctypeslib.as_array((ctypes.c_int64 * n).from_address(address))
 
 
 def verify() -> int:

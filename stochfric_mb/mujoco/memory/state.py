@@ -1,16 +1,13 @@
 """What friction remembers, as named records in ``mjData.plugin_state``: a header, then slots for the contacts.
 
-Everything stands there as doubles, so that copying, saving, pickling and batching carry it. The *committed* slots are what
-the last accepted step left; the *current* slots are derived from them at each evaluation at a step's start, and become
-the committed ones when the engine advances. The coefficient descriptor stands between the header and the slots.
+Everything that changes stands there as doubles, so that copying, saving, pickling and batching carry it. The *committed*
+slots are what the last accepted step left; the *current* slots are derived from them at each evaluation at a step's start,
+and become the committed ones when the engine advances. The coefficient descriptor stands between the header and the slots.
 """
-
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
 
 from __future__ import annotations
 
+import ctypes
 from typing import Any
 
 import numpy as np
@@ -20,15 +17,22 @@ from stochfric_mb.coefficients.path import CURSOR
 from stochfric_mb.compile import compiled
 from stochfric_mb.laws.abi import MAX_STATE
 from stochfric_mb.laws.contract import GUARDS
+from stochfric_mb.mujoco.memory import engine, table
 from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import data_at, model_at, record_view
 
 MAX_PARAMETERS, N_LIMITS, MAX_ROW = 16, 13, 32
+TOO_MANY = (
+    "stochfric_mb: more contacts than a friction has slots for; give add_friction(..., slots=...) the most that there can be"
+)
+NO_LAW = "stochfric_mb: these data are no simulation's, but a copy without plugins; make others with mujoco.MjData(model)"
 UNSET = -1.0e300
 """A time before all times."""
 MODES = ("auto", "explicit", "solver")
 AUTO, EXPLICIT, SOLVER = range(3)
 """Values of a header's ``mode``."""
+PAIR, JOINT, TENDON = range(3)
+"""Values of a header's ``place``."""
 RIGID, ELASTIC, CREEP, BRISTLE = range(4)
 RESTS = ("rigid", "elastic", "creep", "bristle")
 """Values of a header's ``rest``: the law's `Law.rest`."""
@@ -39,8 +43,8 @@ def _record(*fields: str | tuple[str, int]) -> np.dtype[Any]:
 
 
 HEADER = _record(
-    "law",  # its identifier
-    "geom_body", "geom_surface",  # geoms, -1 for any; for a joint or tendon: 0 or 1, and its number
+    "place",  # PAIR, JOINT or TENDON
+    "geom_body", "geom_surface",  # geoms, -1 for any; of a joint or tendon its number, twice
     "seed", "sample", "contact",  # address of the coefficient path
     "n_slots", "n_descriptor", "n_parameters",  # lengths
     "stick_speed", "peak_speed", "has_mode", "needs_mass", "rest",  # of the law
@@ -89,8 +93,16 @@ SLOT = _record(
     ("work", 4), ("before", 5), ("guards", GUARDS), ("hold", 2),  # explicit steps, see `contact.law`
     ("state", MAX_STATE),  # the law's
 )  # fmt: skip
+LAW = np.dtype([(f, np.int64) for f in (
+    "key",  # by which it is found, see `memory.table`
+    "init", "force", "commit", "guards", "slide", "spring",  # addresses of the law's C functions in this process
+    "n_state",  # number of its state's entries
+    "start", "n_start",  # address and length [doubles] of what a state starts with: header and descriptor
+    "n_all",  # length of the whole state [doubles]
+)])  # fmt: skip
+"""What friction does not remember, but finds by the key in ``mjData.plugin_data``: it is made anew in each process."""
 N_HEADER, N_SLOT = HEADER.itemsize // 8, SLOT.itemsize // 8
-header_record, slot_record = record_view(HEADER), record_view(SLOT)
+header_record, slot_record, law_at = record_view(HEADER), record_view(SLOT), record_view(LAW)
 _HEADER_SIZE, _SLOT_SIZE = HEADER.itemsize, SLOT.itemsize
 _CURSOR, _OUTPUT, _PARAMETERS, _ROWS = (int(HEADER.fields[f][1]) for f in ("cursor", "output", "parameters", "rows"))  # type: ignore
 _STATE, _GUARDS = (int(SLOT.fields[f][1]) for f in ("state", "guards"))  # type: ignore
@@ -107,6 +119,17 @@ def place(field: str) -> int:
 def header_of(state: Array) -> Any:
     """Return the header of an instance's state (a view); fields by name."""
     return state[:N_HEADER].view(HEADER).view(np.recarray)[0]
+
+
+def started(law: npt.NDArray[Any], **address: int) -> Array:
+    """Return the state that an instance with this `LAW` begins with; ``address`` is seed, sample and contact."""
+    state = np.zeros(int(law["n_all"][0]))
+    start = (ctypes.c_double * int(law["n_start"][0])).from_address(int(law["start"][0]))
+    state[: len(start)] = start
+    header = header_of(state)
+    for name, number in address.items():
+        header[name] = number
+    return state
 
 
 def slots_of(state: Array, *, committed: bool) -> Any:
@@ -131,6 +154,15 @@ def state_address(model, data, instance):
 
 
 @compiled
+def law_address(data, instance):
+    """Return the address of an instance's `LAW`; stop with MuJoCo's error if there is none, as in copies for display."""
+    address = table.address_of(w.word_at(data_at(data).plugin_data, instance))
+    if address == 0:
+        engine.mju_error(w.c_string(NO_LAW))
+    return address
+
+
+@compiled
 def slot_address(state, current, k):
     """Return the address of slot ``k`` of the committed (0) or the current (1) block."""
     header = header_record(state)
@@ -142,6 +174,13 @@ def slot_address(state, current, k):
 def slot_at(state, current, k):
     """Return slot ``k`` of the committed (0) or the current (1) block."""
     return slot_record(slot_address(state, current, k))
+
+
+@compiled
+def require_room(header, count):
+    """Stop with MuJoCo's error where a contact comes after ``count`` that fill all slots."""
+    if count == int(header.n_slots):
+        engine.mju_error(w.c_string(TOO_MANY))
 
 
 @compiled

@@ -3,10 +3,6 @@
 ``model_at(address).nv`` is the C expression ``model->nv``; a pointer comes out as an address, for `words.at`.
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false, reportCallIssue=false
-# (compiled functions are typed by numba)
-
 from __future__ import annotations
 
 import ctypes
@@ -14,11 +10,11 @@ from typing import Any
 
 import numpy as np
 from numba.core import types
-from numba.extending import intrinsic
 from numba.np import numpy_support
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco.memory import layout
+from stochfric_mb.numerics.memory import instructions
 
 _MODEL = (
     "nv", "nplugin", "nsensor", "npair", "geom_bodyid", "body_rootid", "body_dofnum", "body_dofadr", "body_parentid",
@@ -30,10 +26,10 @@ _MODEL = (
 )  # fmt: skip
 _DATA = (
     "time", "ncon", "contact", "nefc", "nisland", "solver_niter", "cvel", "subtree_com", "xpos", "xmat", "xaxis", "cdof",
-    "qpos", "qvel", "qacc", "qacc_warmstart", "ctrl", "qfrc_passive", "plugin_state", "sensordata", "ten_J", "ten_length",
-    "efc_type", "efc_id", "efc_J", "efc_J_rownnz", "efc_J_rowadr", "efc_J_colind", "efc_pos", "efc_margin", "efc_frictionloss",
-    "efc_diagA", "efc_KBIP", "efc_D", "efc_R", "efc_aref", "efc_force", "map_efc2iefc", "iefc_frictionloss", "iefc_D",
-    "iefc_R", "cfrc_int",
+    "qpos", "qvel", "qacc", "qacc_warmstart", "ctrl", "qfrc_passive", "plugin_state", "plugin_data", "sensordata", "ten_J",
+    "ten_length", "efc_type", "efc_id", "efc_J", "efc_J_rownnz", "efc_J_rowadr", "efc_J_colind", "efc_pos", "efc_margin",
+    "efc_frictionloss", "efc_diagA", "efc_KBIP", "efc_D", "efc_R", "efc_aref", "efc_force", "map_efc2iefc",
+    "iefc_frictionloss", "iefc_D", "iefc_R", "cfrc_int",
 )  # fmt: skip
 _CONTACT = (
     "dist", "pos", "frame", "includemargin", "friction", "surfacevel", "solref", "solreffriction", "solimp", "mu", "dim",
@@ -72,14 +68,10 @@ def record_view(dtype: np.dtype[Any]) -> Any:
     """Return a function for compiled code that takes an address for a record of this kind."""
     kind: Any = numpy_support.from_dtype(dtype)
 
-    @intrinsic
-    def view(typingctx: Any, address: Any) -> Any:
-        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            return builder.inttoptr(args[0], context.get_value_type(kind))
+    def view(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return builder.inttoptr(args[0], context.get_value_type(kind))
 
-        return kind(types.intp), generate
-
-    return view
+    return instructions(kind(types.intp), view)
 
 
 MODEL, DATA, CONTACT = _record("mjModel", _MODEL), _record("mjData", _DATA), _record("mjContact", _CONTACT)

@@ -1,23 +1,18 @@
 """Configurations of the plugins: written into a model as the scenario file's own words, and read back from there.
 
 A model carries ``law`` and ``coefficients`` as TOML keys, such as ``kind = 'elastic_stick', mu_s = 0.8, mu_k = 0.46``, and
-other keys as numbers or names. `reader` makes the functions with which compiled code has them read (`instance.record_of`).
+other keys as numbers or names.
 """
-
-# pyright: reportMissingParameterType=false
-# pyright: reportCallIssue=false, reportAttributeAccessIssue=false
-# (compiled functions are typed by numba; MuJoCo's bindings are not typed)
 
 from __future__ import annotations
 
-import ctypes
+import hashlib
+import threading
 import tomllib
-import zlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import mujoco
 import numpy as np
 import numpy.typing as npt
 
@@ -26,22 +21,32 @@ from stochfric_mb.friction import Friction
 from stochfric_mb.laws.abi import MAX_STATE, native_law
 from stochfric_mb.laws.contract import Law
 from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
-from stochfric_mb.mujoco.memory import words as w
-from stochfric_mb.mujoco.memory.engine import library, plugin_text
-from stochfric_mb.mujoco.memory.state import MAX_PARAMETERS, MODES, N_HEADER, N_LIMITS, RESTS, UNSET, header_of
+from stochfric_mb.mujoco.memory import table
+from stochfric_mb.mujoco.memory.state import (
+    LAW,
+    MAX_PARAMETERS,
+    MODES,
+    N_HEADER,
+    N_LIMITS,
+    RESTS,
+    UNSET,
+    header_of,
+    state_size,
+)
 from stochfric_mb.scenario import law_from_dict, process_from_dict
 
 DEFAULT_SLOTS, MAX_SLOTS = 16, 1024
 """Contacts of an instance at a time: if nothing is said, and at most."""
 NO_LIMIT = 1.0e300
 """Stands for infinity in states, which engines and rollouts expect to be finite."""
-_records: dict[int, npt.NDArray[np.float64]] = {}
+RECORDED = ("law", "coefficients", "mode", "slots", "across", "direction", "normal_force", "radius")
+"""Keys that make up a state's start; names and the address of the coefficient path do not."""
+_laws: dict[int, tuple[npt.NDArray[Any], npt.NDArray[np.float64]]] = {}
+_lock = threading.Lock()
 
 
 def configuration(
     friction: Friction,
-    body: str,
-    surface: str,
     *,
     seed: int = 0,
     sample: int = 0,
@@ -50,7 +55,7 @@ def configuration(
     mode: str = "auto",
     anisotropy: Anisotropy = ISOTROPIC,
 ) -> dict[str, str]:
-    """Return the plugin's configuration as MJCF keys and values.
+    """Return the plugin's configuration, all but the names of its place, as MJCF keys and values.
 
     Raises:
         InputError: the friction cannot run here, or an address is out of range; says why.
@@ -59,8 +64,6 @@ def configuration(
     texts = {
         "law": _inline(friction.law.to_dict()),
         "coefficients": _inline(friction.process.to_dict()) if friction.process is not None else "",
-        "geom1": body,
-        "geom2": surface,
         "seed": str(int(seed)),
         "sample": str(int(sample)),
         "contact": str(int(contact)),
@@ -147,12 +150,37 @@ def require_slots(slots: Any) -> int:
     return int(slots)
 
 
+def law_of(texts: Mapping[str, str], place: tuple[int, int, int]) -> npt.NDArray[Any]:
+    """Return the `memory.state.LAW` of a configuration, made once for each and kept for good.
+
+    Args:
+        texts: the plugin's keys and values, see `record_of`; seeds and names do not count.
+        place: PAIR, JOINT or TENDON, and the numbers of the geoms, or twice that of the joint or tendon.
+    """
+    told = repr((*place, *(texts.get(name, "") for name in RECORDED)))
+    key = int.from_bytes(hashlib.blake2b(told.encode(), digest_size=7).digest()) or 1
+    with _lock:
+        if key not in _laws:
+            start = record_of(texts)
+            header = header_of(start)
+            header.place, header.geom_body, header.geom_surface = place
+            law = np.zeros(1, LAW)
+            functions = native_law(friction_of(texts["law"], "").law.kind)
+            for name in ("init", "force", "commit", "guards", "slide", "spring", "n_state"):
+                law[name] = getattr(functions, name)
+            law["key"], law["start"], law["n_start"] = key, start.ctypes.data, len(start)
+            law["n_all"] = state_size(int(header.n_descriptor), int(header.n_slots))
+            _laws[key] = law, start
+            table.enter(key, law.ctypes.data)
+        return _laws[key][0]
+
+
 def law_header(law: Law) -> npt.NDArray[np.float64]:
-    """Return the numbers of a header with what a law alone decides; the law's functions are in the table from now on."""
+    """Return the numbers of a header with what a law alone decides."""
     numbers = np.zeros(N_HEADER)
     header = header_of(numbers)
     parameters = law.parameters()
-    header.law, header.n_parameters = load_law(law.kind), len(parameters)
+    header.n_parameters = len(parameters)
     header.stick_speed, header.peak_speed = law.stick_speed, law.peak_speed
     header.has_mode, header.needs_mass = law.state_names[:1] == ("mode",), law.needs_effective_mass
     header.rest = RESTS.index(law.rest)
@@ -162,22 +190,6 @@ def law_header(law: Law) -> npt.NDArray[np.float64]:
     header.advanced = header.evaluated = header.path_time = UNSET
     header.across = 1.0
     return numbers
-
-
-def load_law(kind: str) -> int:
-    """Return the identifier of a law (from its name alone, so that states travel), its functions in the table."""
-    identifier = zlib.crc32(kind.encode()) or 1
-    for probe in range(w.N_LAWS):
-        place = w.LAW_ROWS + w.LAW_WIDTH * ((identifier + probe) % w.N_LAWS)
-        if w.TABLE[place] == identifier:
-            return identifier
-        if w.TABLE[place] == 0:
-            f = native_law(kind)
-            words = [f.init, f.force, f.commit, f.guards, f.slide, f.spring, f.n_state]
-            w.TABLE[place + 1 : place + w.LAW_WIDTH] = words
-            w.TABLE[place] = identifier  # last: a row with an identifier is complete
-            return identifier
-    raise InputError(f"law {kind!r} is one too many: MuJoCo's table holds {w.N_LAWS}; use fewer laws in one process")
 
 
 def _require_runnable(law: Law) -> None:
@@ -235,33 +247,3 @@ def _toml(value: Any) -> str:
     if isinstance(value, list | tuple):
         return "[" + ", ".join(_toml(v) for v in value) + "]"
     return repr(value.item() if isinstance(value, np.generic) else value)
-
-
-def reader(attributes: Sequence[str], require_place: Callable[[int, Mapping[str, str]], None]) -> Any:
-    """Return the C function with which compiled code has an instance of a plugin read; its errors are printed.
-
-    Args:
-        attributes: the plugin's configuration keys.
-        require_place: called with the model's address and the texts, refuses names that the model does not have.
-    """
-
-    def read(model: int, instance: int, key: int) -> int:
-        texts = {name: plugin_text(model, instance, name) for name in attributes}
-        record = record_of(texts)
-        for name in ("seed", "sample", "contact"):
-            if texts[name] and not (texts[name].isdecimal() and int(texts[name]) < 2**32):
-                raise InputError(f"plugin key {name} = {texts[name]!r} is not a whole number in [0, 2^32); write one")
-        require_place(model, texts)
-        kept = np.concatenate([[float(key)], record])
-        _records[key] = kept
-        w.TABLE[w.CONFIGURATIONS + key % w.N_CONFIGURATIONS] = kept.ctypes.data
-        return 1
-
-    return ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64)(read)
-
-
-def id_in(model: int, kind: mujoco.mjtObj, name: str) -> int:
-    """Return the id of an object in the model at an address, -1 if there is none of that name."""
-    function = library().mj_name2id
-    function.restype, function.argtypes = ctypes.c_int, [ctypes.c_void_p, ctypes.c_int, ctypes.c_char_p]
-    return int(function(model, int(kind), name.encode()))

@@ -1,8 +1,8 @@
-"""Registers engine plugins whose callbacks are compiled when the first model asks for them.
+"""Registers engine plugins: Python looks at a model once and compiles what then runs, and no step ever runs Python.
 
-MuJoCo keeps a table of plugins and calls them through it. A plugin is entered with Python functions in the places that
-MuJoCo calls first, while a model or its data are made; the first such call compiles all callbacks and writes their
-addresses into MuJoCo's table. So importing compiles nothing, and no step ever runs Python.
+MuJoCo keeps a table of plugins and calls them through it. A plugin's ``nstate``, ``nsensordata`` and ``init``, which MuJoCo
+calls while it makes a model or its data, are Python functions; the first such call compiles the others and writes their
+addresses into MuJoCo's table. So importing compiles nothing.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ import mujoco
 
 from stochfric_mb.compile import native
 from stochfric_mb.errors import MissingEngineError
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.engine import library as mujoco_library
 from stochfric_mb.mujoco.memory.layout import Plugin
 
@@ -27,7 +26,7 @@ FIRST = {
     "nsensordata": ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_int, ctypes.c_int),
     "init": ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int),
 }
-"""Callbacks that MuJoCo calls before all others, while it makes a model or its data."""
+"""Callbacks that MuJoCo calls before all others."""
 _alive: list[Any] = []
 _lock = threading.RLock()
 
@@ -36,9 +35,9 @@ def register_plugin(
     name: str,
     attributes: Sequence[str],
     *,
-    keys: int,
-    capability: int,
-    callbacks: Mapping[str, tuple[Callable[..., Any], Any]],
+    capability: mujoco.mjtPluginCapabilityBit,
+    first: Mapping[str, Callable[..., int]],
+    compiled: Mapping[str, tuple[Callable[..., Any], Any]],
     stage: int = 0,
 ) -> int:
     """Return MuJoCo's slot number of a plugin.
@@ -46,9 +45,10 @@ def register_plugin(
     Args:
         name: its name in MJCF.
         attributes: its configuration keys.
-        keys: first place in `words.TABLE` for the addresses of the keys.
         capability: what the plugin does.
-        callbacks: function to compile and its numba signature, by the name of the callback.
+        first: Python functions, some of `FIRST`; they return -1 for a model that they refuse, and an error that they raise
+            is printed and refuses it too.
+        compiled: function to compile and its numba signature, by the name of the callback.
         stage: the stage that a sensor needs.
 
     Raises:
@@ -57,48 +57,41 @@ def register_plugin(
     plugin = Plugin()
     library = mujoco_library()
     library.mjp_defaultPlugin(ctypes.byref(plugin))
-    texts = [ctypes.create_string_buffer(key.encode()) for key in attributes]
-    for i, text in enumerate(texts):
-        w.TABLE[keys + i] = ctypes.addressof(text)
     plugin.name = name.encode()
     plugin.nattribute = len(attributes)
     plugin.attributes = (ctypes.c_char_p * len(attributes))(*[key.encode() for key in attributes])
-    plugin.capabilityflags = capability
+    plugin.capabilityflags = int(capability)
     plugin.needstage = stage
     entered: list[Any] = []
-    compile_all = functools.partial(_compile, entered, callbacks, {})
-    for callback in FIRST.keys() & callbacks.keys():
-        function = FIRST[callback](functools.partial(_call_first, compile_all, callback))
-        _alive.append(function)
-        setattr(plugin, callback, ctypes.cast(function, ctypes.c_void_p).value)
-    _alive.extend([plugin, texts])
+    for callback, function in first.items():
+        made = FIRST[callback](functools.partial(_call, entered, compiled, function))
+        _alive.append(made)
+        setattr(plugin, callback, ctypes.cast(made, ctypes.c_void_p).value)
+    _alive.append(plugin)
     library.mjp_registerPlugin.argtypes = [ctypes.c_void_p]
     slot = library.mjp_registerPlugin(ctypes.byref(plugin))
     entered.append(_entered(slot, plugin))
     return slot
 
 
-def _call_first(compile_all: Callable[[], dict[str, int]], callback: str, *arguments: Any) -> int:
-    """Compile the plugin's callbacks and call one; an error is printed and refuses the model."""
+def _call(
+    entered: list[Any],
+    compiled: Mapping[str, tuple[Callable[..., Any], Any]],
+    function: Callable[..., int],
+    *arguments: Any,
+) -> int:
+    """Call one of the Python functions, once MuJoCo's table holds the compiled ones."""
     try:
-        return FIRST[callback](compile_all()[callback])(*arguments)
+        with _lock:
+            for callback, (source, signature) in compiled.items():
+                if not getattr(entered[0], callback):
+                    made = native(source, signature)
+                    _alive.append(made)
+                    setattr(entered[0], callback, made.address)
+        return function(*arguments)
     except BaseException:
         traceback.print_exc()
         return -1
-
-
-def _compile(
-    entered: list[Any], callbacks: Mapping[str, tuple[Callable[..., Any], Any]], addresses: dict[str, int]
-) -> dict[str, int]:
-    """Return the addresses of the compiled callbacks, which MuJoCo's table holds from now on."""
-    with _lock:
-        if not addresses:
-            made = {callback: native(function, signature) for callback, (function, signature) in callbacks.items()}
-            _alive.append(made)
-            for callback, function in made.items():
-                setattr(entered[0], callback, function.address)
-            addresses.update({callback: function.address for callback, function in made.items()})
-        return addresses
 
 
 def _entered(slot: int, mine: Plugin) -> Any:

@@ -9,14 +9,8 @@ A sensor names its friction instance, and how many contacts it lists::
 Its data are `FIELDS`, then `CONTACT_FIELDS` for each contact listed (zeros where there is none).
 """
 
-# pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
-# pyright: reportCallIssue=false, reportAttributeAccessIssue=false
-# (compiled functions are typed by numba; MuJoCo's bindings are not typed)
-
 from __future__ import annotations
 
-import ctypes
 import functools
 from typing import Any
 
@@ -27,15 +21,11 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.errors import InputError, require_name
 from stochfric_mb.mujoco.contact import tracking
 from stochfric_mb.mujoco.joint import friction
-from stochfric_mb.mujoco.memory import engine
+from stochfric_mb.mujoco.memory import engine, layout
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import data_at, model_at
-from stochfric_mb.mujoco.plugin.instance import parse_integer
-from stochfric_mb.mujoco.plugin.joint import NAME as JOINTS
-from stochfric_mb.mujoco.plugin.joint import register_joints
-from stochfric_mb.mujoco.plugin.pair import NAME as PAIRS
-from stochfric_mb.mujoco.plugin.pair import register
+from stochfric_mb.mujoco.plugin.frictions import DOFS, PAIRS, copy, slot_of
 from stochfric_mb.mujoco.plugin.registration import register_plugin
 
 NAME = "stochfric.sensor"
@@ -48,20 +38,27 @@ tendon) [N] and of the normal force [N], means of mu_s, mu_k and of the stick fl
 number of the contacts there are."""
 CONTACT_FIELDS = ("force_x", "force_y", "force_z", "normal_force", "mu_s", "mu_k", "stick", "dissipated")
 """Numbers of each contact listed."""
-MAX_CONTACTS = 64
-_PLUGIN_OBJECT = int(mujoco.mjtObj.mjOBJ_PLUGIN)
+MAX_CONTACTS, SHIFT = 64, 2**32
 _POINTER, _INT = types.intp, types.int32
 
 
 @functools.cache
-def register_sensors() -> int:
-    """Return MuJoCo's slot number of the plugin, registered now unless it was before."""
-    register_joints()
-    w.TABLE[w.SENSED_PLUGIN] = register()
-    w.TABLE[w.SENSOR_KEYS + w.READER] = ctypes.cast(_EXPLAIN, ctypes.c_void_p).value or 0
-    stage = int(mujoco.mjtStage.mjSTAGE_ACC)
-    sensor = int(mujoco.mjtPluginCapabilityBit.mjPLUGIN_SENSOR)
-    return register_plugin(NAME, ATTRIBUTES, keys=w.SENSOR_KEYS, capability=sensor, callbacks=_CALLBACKS, stage=stage)
+def register() -> int:
+    """Return MuJoCo's slot number of the plugin, registered now, with those of the frictions, unless it was before."""
+    slot_of(PAIRS)
+    slot_of(DOFS)
+    return register_plugin(
+        NAME,
+        ATTRIBUTES,
+        capability=mujoco.mjtPluginCapabilityBit.mjPLUGIN_SENSOR,
+        first={"nstate": lambda model, instance: 0, "nsensordata": _nsensordata, "init": _init},
+        compiled={
+            "copy": (copy, types.void(_POINTER, _POINTER, _POINTER, _INT)),
+            "reset": (_reset, types.void(_POINTER, _POINTER, _POINTER, _INT)),
+            "compute": (_compute, types.void(_POINTER, _POINTER, _INT, _INT)),
+        },
+        stage=int(mujoco.mjtStage.mjSTAGE_ACC),
+    )
 
 
 def add_sensor(spec: mujoco.MjSpec, friction: str, *, name: str = "", contacts: int = 0) -> str:
@@ -76,8 +73,8 @@ def add_sensor(spec: mujoco.MjSpec, friction: str, *, name: str = "", contacts: 
     Raises:
         InputError: no such friction instance, a name that is taken, or too many contacts.
     """
-    register_sensors()
-    require_name("friction", friction, [p.name for p in spec.plugins if p.plugin_name in (PAIRS, JOINTS)])
+    register()
+    require_name("friction", friction, [p.name for p in spec.plugins if p.plugin_name in (PAIRS, DOFS)])
     if int(contacts) != contacts or not 0 <= contacts <= MAX_CONTACTS:
         raise InputError(f"contacts = {contacts!r} must be a whole number from 0 to {MAX_CONTACTS}")
     name = name or friction
@@ -94,52 +91,62 @@ def add_sensor(spec: mujoco.MjSpec, friction: str, *, name: str = "", contacts: 
     return name
 
 
-def _explain_refusal(model: int, instance: int, _: int) -> int:
-    friction, contacts = (engine.plugin_text(model, instance, key) for key in ATTRIBUTES)
-    raise InputError(
-        f"plugin keys friction = {friction!r}, contacts = {contacts!r}: friction must name an instance of {PAIRS} or {JOINTS} "
-        f"in the model, and contacts be a whole number from 0 to {MAX_CONTACTS}"
-    )
+def _nsensordata(model: int, instance: int, sensor: int) -> int:
+    return len(FIELDS) + _listed(model, instance) * len(CONTACT_FIELDS)
 
 
-_EXPLAIN = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64)(_explain_refusal)
+def _listed(model: int, instance: int) -> int:
+    """Return how many contacts a sensor instance lists.
+
+    Raises:
+        InputError: its key is malformed.
+    """
+    text = engine.plugin_text(model, instance, "contacts") or "0"
+    if not text.isdecimal() or int(text) > MAX_CONTACTS:
+        raise InputError(f"plugin key contacts = {text!r} must be a whole number from 0 to {MAX_CONTACTS}")
+    return int(text)
+
+
+def _init(model: int, data: int, instance: int) -> int:
+    """Let the data find what the sensor watches: the friction's number, and the contacts listed times `SHIFT`."""
+    friction = engine.plugin_text(model, instance, "friction")
+    number = engine.id_in(model, mujoco.mjtObj.mjOBJ_PLUGIN, friction, -1)
+    slots = layout.integers(layout.struct("mjModel").from_address(model).plugin, number + 1)
+    if number < 0 or slots[number] not in (slot_of(PAIRS), slot_of(DOFS)):
+        raise InputError(f"plugin key friction = {friction!r} must name an instance of {PAIRS} or {DOFS} in the model")
+    watched = layout.pointers(layout.struct("mjData").from_address(data).plugin_data, instance + 1)
+    watched[instance] = number + SHIFT * _listed(model, instance)
+    return 0
 
 
 @compiled
-def watched(model, instance):
-    """Return the friction instance that a sensor instance names, -1 if there is none."""
-    text = engine.mj_getPluginConfig(model, instance, w.entry(w.SENSOR_KEYS))
-    number = engine.mj_name2id(model, _INT(_PLUGIN_OBJECT), text) if text != 0 else -1
-    if number < 0:
-        return -1
-    kind = w.int_at(model_at(model).plugin, number)
-    return number if kind in (w.entry(w.SENSED_PLUGIN), w.entry(w.JOINTS_PLUGIN)) else -1
+def report(model, data, state):
+    """Bring what can be read of a friction up to date; return the block to read, 0 committed or 1 current.
 
-
-@compiled
-def listed(model, instance):
-    """Return how many contacts a sensor instance lists, -1 if its key is malformed."""
-    count = parse_integer(engine.mj_getPluginConfig(model, instance, w.entry(w.SENSOR_KEYS + 1)), 0)
-    return count if 0 <= count <= MAX_CONTACTS else -1
-
-
-@compiled
-def report(model, data, instance):
-    """Bring what can be read of a friction instance up to date; return the block to read, 0 committed or 1 current."""
-    state = s.state_address(model, data, instance)
-    if w.int_at(model_at(model).plugin, instance) == w.entry(w.JOINTS_PLUGIN):
-        return friction.report(model, data, state)
-    return tracking.report(model, data, state)
+    After an evaluation these are the forces of the engine's solution for it, after a step those of the step.
+    """
+    m, d, header = model_at(model), data_at(data), s.header_record(state)
+    if header.solved == 0.0 or header.n_current == 0.0:
+        return 1
+    if header.started == 0.0:
+        return 0
+    if header.place == s.PAIR:
+        tracking.learn(data, state, 1, int(header.n_current), m)
+    else:
+        friction.learn(m, d, state, 1)
+    return 1
 
 
 @compiled
 def measure(model, data, instance, sensor):
     """Write a sensor's data from the slots of its friction."""
     out = data_at(data).sensordata + 8 * w.int_at(model_at(model).sensor_adr, sensor)
-    number = watched(model, instance)
-    block, state = report(model, data, number), s.state_address(model, data, number)
+    watched = w.word_at(data_at(data).plugin_data, instance)
+    number, lines = watched % SHIFT, watched // SHIFT
+    state = s.state_address(model, data, number)
+    block = report(model, data, state)
     header = s.header_record(state)
-    count, lines = int(header.n_current if block == 1 else header.n_committed), listed(model, instance)
+    count = int(header.n_current if block == 1 else header.n_committed)
     width, line = len(FIELDS), len(CONTACT_FIELDS)
     for j in range(width + lines * line):
         w.put(out, j, 0.0)
@@ -174,21 +181,6 @@ def measured(slot, j):
     return slot.energy
 
 
-def _nstate(model, instance):
-    return _INT(0)
-
-
-def _nsensordata(model, instance, sensor):
-    return _INT(len(FIELDS) + max(listed(model, instance), 0) * len(CONTACT_FIELDS))
-
-
-def _init(model, data, instance):
-    if watched(model, instance) < 0 or listed(model, instance) < 0:
-        w.call_python(w.entry(w.SENSOR_KEYS + w.READER), model, instance, 0)
-        return _INT(-1)
-    return _INT(0)
-
-
 def _reset(model, state, plugin_data, instance):
     pass
 
@@ -198,12 +190,3 @@ def _compute(model, data, instance, capability):
     for i in range(m.nsensor):
         if w.int_at(m.sensor_plugin, i) == instance:
             measure(model, data, instance, i)
-
-
-_CALLBACKS: dict[str, tuple[Any, Any]] = {
-    "nstate": (_nstate, _INT(_POINTER, _INT)),
-    "nsensordata": (_nsensordata, _INT(_POINTER, _INT, _INT)),
-    "init": (_init, _INT(_POINTER, _POINTER, _INT)),
-    "reset": (_reset, types.void(_POINTER, _POINTER, _POINTER, _INT)),
-    "compute": (_compute, types.void(_POINTER, _POINTER, _INT, _INT)),
-}
