@@ -17,6 +17,7 @@ _LLVM: dict[Any, Any] = {
     types.float64: ir.DoubleType(),
     types.int64: ir.IntType(64),
     types.int32: ir.IntType(32),
+    types.uint32: ir.IntType(32),
     types.uint8: ir.IntType(8),
 }
 _WIDE = (types.void, types.float64, types.int64)
