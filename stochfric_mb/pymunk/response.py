@@ -84,6 +84,13 @@ def set_cap(table, clock, s, contact, first, rate, acceleration, inverse_mass, d
         s[r.CAP] = 0.0
 
 
+@compiled_inline
+def keep(before, guards):
+    """Keep the guards for the next comparison: a loop, since numba's copy of a slice takes two seconds to compile."""
+    for i in range(GUARDS):
+        before[i] = guards[i]
+
+
 @compiled
 def locate(table, clock, s, contact, v):
     """Commit at each point within the last step where the law switches, found on its guards.
@@ -99,11 +106,11 @@ def locate(table, clock, s, contact, v):
     for _ in range(SWITCHES):
         if s[r.GUARDS_KNOWN] == 0.0:
             guards_at(table, s, v, low)
-            before[:] = out
+            keep(before, out)
         ask_guards(table, s, s[r.TIME], s[r.DISPLACEMENT], v, s[r.MU_S], s[r.MU_K])
         at_end = least_armed(before, out)
         if at_end > 0.0:
-            before[:] = out
+            keep(before, out)
             s[r.GUARDS_KNOWN] = 1.0
             return changed
         b = bracket(low, least_armed(before, before), 1.0, at_end)

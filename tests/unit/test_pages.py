@@ -1,4 +1,7 @@
-"""Every code block of the pages: commands and options that exist, Python that compiles and imports, TOML that parses."""
+"""Every code block of the pages: commands and options that exist, Python that compiles and imports, TOML that parses.
+
+A quick look at each; tests/examples/test_pages_run.py and test_tutorials.py run them all.
+"""
 
 import ast
 import importlib
