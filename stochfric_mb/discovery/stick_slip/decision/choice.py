@@ -195,7 +195,7 @@ class _Simulation:
 
     def outcome(self, mine: Sequence[Candidate]) -> Chosen | Where | None:
         """Return the candidate that explains the slips best, or where their shape disagrees with all, or None."""
-        tried = self._tried(mine)
+        tried = [t for t in self._tried(mine) if t[1].slips]
         if not tried:
             return None
         # of names about equally good the one stands first that could have been refuted: hardly any shape refutes the others
@@ -224,7 +224,6 @@ class _Simulation:
         tried = [(c, confirm(self.cases, m, self.study.uncertainty)) for c, m in zip(chosen, starts, strict=True)]
         if not self.model.effects:
             tried += entrained(self.study, self.model, self.terms, self.cases)
-        tried = [t for t in tried if t[1].slips]
         tried.sort(key=lambda t: t[1].criterion)
         # of several variants of an effect the best one counts
         told = {c.name: [f.chi2, f.criterion] for c, f in reversed(tried)}

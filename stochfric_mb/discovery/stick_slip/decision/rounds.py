@@ -370,13 +370,17 @@ class _Search:
             return True
         if kind in kinds_with(MOVES_ZERO):
             self.kept += chosen.candidate.hypothesis.columns
-        self._take_out()
-        if fitted and not chosen.simulated and (self.stalled or _scatter(self.solution) > criteria.LEFT_OVER * before):
-            self._take_out_better(screened)
-        self.stalled |= (
-            chosen.candidate.is_wave and not chosen.simulated and _scatter(self.solution) > criteria.STALLED * before
-        )
+        self._go_on(chosen, screened if fitted else None, before)
         return True
+
+    def _go_on(self, chosen: Chosen, screened: Model | None, before: float) -> None:
+        """Go on with what the effect leaves; ``screened``: the model before its fit to forecasts, ``before``: the scatter then."""
+        self._take_out()
+        if chosen.simulated:
+            return
+        if screened is not None and (self.stalled or _scatter(self.solution) > criteria.LEFT_OVER * before):
+            self._take_out_better(screened)
+        self.stalled |= chosen.candidate.is_wave and _scatter(self.solution) > criteria.STALLED * before
 
     def _refitted(self, without: Model) -> bool:
         """Fit the model to forecasts; go back to the one ``without`` its last effect if that forecasts as well."""
