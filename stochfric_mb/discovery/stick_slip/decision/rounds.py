@@ -374,7 +374,7 @@ class _Search:
         return True
 
     def _go_on(self, chosen: Chosen, screened: Model | None, before: float) -> None:
-        """Go on with what the effect leaves; ``screened``: the model before a fit to forecasts, ``before``: the scatter then."""
+        """Go on with what is left; ``screened``: the model before a fit to forecasts, ``before``: the scatter then."""
         self._take_out()
         if chosen.simulated:
             return
