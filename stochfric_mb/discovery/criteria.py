@@ -152,6 +152,8 @@ FEWEST_KICKED, MOST_KICKED = 0.05, 0.45
 stand out by accident (see `pool`)."""
 KICK_STRAY = 8.0
 """Robust deviations beyond which a slip is an accident [-]."""
+KICK_LEAST = 0.01
+"""Change of a slip's force, over that at break-away, below which nothing stands out, however little the others scatter [-]."""
 KICKS_ONE_SIDED = 1.0
 """Mean of the impulses over their deviation from which on they come from one side [-]."""
 KICKED_SLIDING = 0.1

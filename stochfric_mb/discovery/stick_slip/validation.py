@@ -10,6 +10,7 @@ from stochfric_mb.discovery.stick_slip.decision.explained import unexplained
 from stochfric_mb.discovery.stick_slip.decision.held_out_check import Comparison, compared, without_last
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, Named, of_wander
 from stochfric_mb.discovery.stick_slip.feature_skill import slip_force_gap
+from stochfric_mb.discovery.stick_slip.simulation.forecast import score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, deterministic, floor_of, mean_score, settled
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, likelihood_ratio, refit, with_deviations
@@ -41,12 +42,20 @@ def fitted(decision: Decision, found: Study, recalibrated: Fit) -> Answer:
 def _fit(decision: Decision, found: Study, recalibrated: Fit) -> Fit:
     model = decision.model
     calm = deterministic(model)
-    if calm.effects:
-        starts = (calm, dataclasses.replace(calm, law=recalibrated.model.law, corrections=recalibrated.model.corrections))
-        fit = min((refit(m, found.windows, found.uncertainty, evaluations=25) for m in starts), key=lambda f: f.cost)
-        fit = with_deviations(fit, found.windows, found.uncertainty)
-    else:
-        fit = recalibrated
+    if not calm.effects:
+        return _joined(model, recalibrated, found)
+    starts = (calm, dataclasses.replace(calm, law=recalibrated.model.law, corrections=recalibrated.model.corrections))
+    fit = min((refit(m, found.windows, found.uncertainty, evaluations=25) for m in starts), key=lambda f: f.cost)
+    if model.process is not None:
+        # a fit to single draws of a scatter follows the draws: what the slips told stands where it forecasts better
+        told = refit(calm, found.windows, found.uncertainty, evaluations=0)
+        fit = min(fit, told, key=lambda f: sum(float(score(_joined(model, f, found).model, w).sum()) for w in found.windows))
+    return _joined(model, with_deviations(fit, found.windows, found.uncertainty), found)
+
+
+def _joined(model: Model, fit: Fit, found: Study) -> Fit:
+    """Return a fit of a model's mean with what is random in the model, its strength matched to the slips."""
+    calm = deterministic(model)
     places = [i for i, e in enumerate(model.effects) if e in calm.effects]
     effects = list(model.effects)
     for place, effect in zip(places, fit.model.effects, strict=False):

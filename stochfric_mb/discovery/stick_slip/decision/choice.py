@@ -198,8 +198,9 @@ class _Simulation:
         tried = [t for t in self._tried(mine) if t[1].slips]
         if not tried:
             return None
-        # of names about equally good the one stands first that could have been refuted: hardly any shape refutes the others
-        fits = [t for t in tried if not t[0].any_shape and _adequate(t[1], self.before)] or tried
+        # of names about equally good the one stands first that could have been refuted: hardly any shape refutes friction along
+        # the stroke, or a wave of any order to which the slips keep
+        fits = [t for t in tried if not (t[0].any_shape or t[0].is_wave) and _adequate(t[1], self.before)] or tried
         spread = _spread([f for _, f in fits])
         best, fitted = min(fits, key=lambda t: t[1].scaled(spread))
         if self.before.criterion - fitted.criterion < criteria.FOLLOWED_UP:

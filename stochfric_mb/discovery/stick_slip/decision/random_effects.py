@@ -60,7 +60,7 @@ def kicked(study: Study) -> np.ndarray:
     for r in range(pool.n_runs):
         forces[pool.run == r] -= np.median(forces[pool.run == r], axis=0)
     spread = np.array([deviation(forces[:, 0]), deviation(forces[:, 1])])
-    limit = np.maximum(criteria.KICK_STRAY * spread, 0.02 * float(np.median(pool.static)))
+    limit = np.maximum(criteria.KICK_STRAY * spread, criteria.KICK_LEAST * float(np.median(pool.static)))
     return np.asarray((np.abs(forces) > limit).any(axis=1)) & ~_sliding(pool)
 
 
@@ -85,7 +85,7 @@ def _repeated(study: Study) -> bool:
         shares[pool.run == r] -= np.median(shares[pool.run == r], axis=0)
     spread = np.array([deviation(column) for column in shares.T])
     static, kinetic = (
-        (np.abs(shares[:, :2]) > np.maximum(criteria.KICK_STRAY * spread[:2], 0.02)) & ~_sliding(pool)[:, None]
+        (np.abs(shares[:, :2]) > np.maximum(criteria.KICK_STRAY * spread[:2], criteria.KICK_LEAST)) & ~_sliding(pool)[:, None]
     ).T
     level = kinetic & ~static & (np.abs(shares[:, 2:]) < criteria.KICK_STRAY * spread[2:]).all(axis=1)
     widths = np.maximum(3.0 * spread, criteria.KICKS_LEVEL)

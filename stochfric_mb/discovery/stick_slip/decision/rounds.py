@@ -357,6 +357,8 @@ class _Search:
         harmonic = as_harmonic(self.model, chosen.candidate, self.study.pool, self._n_terms)
         screened = self.model = chosen.model if harmonic is None else harmonic
         fitted = (kind in kinds_with(COURSE_OF_RUN) or chosen.simulated) and kind != kind_found_as(LATE)
+        # single forecasts of friction that scatters tell less than the slips' medians, to which a simulated model is fitted
+        fitted &= not (chosen.simulated and without.random)
         if fitted and not self._refitted(without):
             return False
         if harmonic is None and all(n.kind != kind for n in self.named):

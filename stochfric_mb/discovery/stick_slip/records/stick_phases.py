@@ -193,11 +193,11 @@ def _ripple_gains(runs: Sequence[_Phases], rests: Sequence[Array], grid: Array, 
         n = int(np.searchsorted(run.samples.time, run.samples.time[0] + stretch, "right"))
         line = run.line / np.sqrt(run.line @ run.line)
         gain = wave_gains(grid, run.samples.time[:n], run.samples.segment[:n], line[:n], rest[:n])
-        gains += gain * _quieter(run.slips.noise, grid / run.slips.record.rate)
+        gains += gain * noise_ratio(run.slips.noise, grid / run.slips.record.rate)
     return gains
 
 
-def _quieter(noise: Noise, frequency: Array) -> Array:
+def noise_ratio(noise: Noise, frequency: Array) -> Array:
     """Return the noise's long-run strength over that at frequencies [1/sample]: a ripple that it holds is slow noise to it."""
     turn = np.cos(2.0 * np.pi * frequency)
     slow, at = ((1.0 - noise.memory**2) / (1.0 - 2.0 * noise.memory * c + noise.memory**2) for c in (1.0, turn))
