@@ -66,12 +66,12 @@ def stick_force(z, v_rel, limit, stiffness, damping, cap):
 def start(q, m):
     """Set every lane to the law's own state at t = 0."""
     at_start(m)
-    v_rel = q.belt_velocity - q.velocity
+    v_rel = q.box.belt_velocity - q.box.velocity
     for j in range(LANES):
         s = law.init(
-            0.0, 0.0, 0.0, v_rel, 0.0, q.normal_force, m[A_S + j], m[A_K + j], q.mass, 0.0, 0.0, q.parameters
+            0.0, 0.0, 0.0, v_rel, 0.0, q.box.normal_force, m[A_S + j], m[A_K + j], q.box.mass, 0.0, 0.0, q.parameters
         )  # fmt: skip
-        m[MODE + j], m[SIGN + j], m[ZX + j] = s[0], s[3], q.position - s[1]
+        m[MODE + j], m[SIGN + j], m[ZX + j] = s[0], s[3], q.box.position - s[1]
 
 
 @compiled_inline
@@ -85,19 +85,20 @@ def numbers(q):
     """Return v_b, v_s, 1/decay_velocity, e_lim/mean mu_s and the rest per unit of mass: k_stick, c_stick, N, c, k."""
     p = q.parameters
     rate = 1.0 / p[5] if p[5] > 0.0 else 1.0e300
-    k_stick = law.stick_stiffness(q.normal_force, p) / q.mass
-    c_stick = law.stick_damping(q.normal_force, q.mass, p) / q.mass
+    k_stick = law.stick_stiffness(q.box.normal_force, p) / q.box.mass
+    c_stick = law.stick_damping(q.box.normal_force, q.box.mass, p) / q.box.mass
     reach = law.deflection_limit(1.0, p)
+    m = q.box.mass
     return (
-        q.belt_velocity,
+        q.box.belt_velocity,
         p[4],
         rate,
         reach,
         k_stick,
         c_stick,
-        q.normal_force / q.mass,
-        q.damping / q.mass,
-        q.stiffness / q.mass,
+        q.box.normal_force / m,
+        q.box.damping / m,
+        q.box.stiffness / m,
     )
 
 
@@ -149,37 +150,38 @@ def finish(w_old, w, h, drive, numbers, m):
 
 
 # --- one lane that switches -------------------------------------------------------------------------------------------
-# body: m, c, k, N, k u_0, W, v_b; line: time and mu_s, mu_k at the start of the step, and their slopes; rows of r: x, x', z,
+# line: time and mu_s, mu_k at the start of the step, and their slopes; rows of r: x, x', z,
 # the same after a trial step and at a stage of it, and the rates of its four stages
 
 
 @compiled
 def switch(q, t, h, w, part, m):
     """Make the last step again for the lanes that have passed a switch."""
-    body = (q.mass, q.damping, q.stiffness, q.normal_force, q.amplitude, q.frequency, q.belt_velocity)
     r = np.empty((3 + len(B), 3))
     for j in range(LANES):
         if m[SWITCHED + j] == 1.0:
-            _switching_step(body, q.parameters, j, t, h, w, part, m, r)
+            _switching_step(q.box, q.parameters, j, t, h, w, part, m, r)
 
 
 @compiled
-def _switching_step(body, p, j, t, h, w, part, m, r):
+def _switching_step(box, p, j, t, h, w, part, m, r):
     """Make the last step of lane j again, with its switches located and committed by the law."""
     d_s, d_k = m[D_S + j], m[D_K + j]
     line = (t, m[A_S + j] + w * d_s, m[A_K + j] + w * d_k, part * d_s / h, part * d_k / h)
-    r[0, 0], r[0, 1], r[0, 2] = m[OLD_X + j], m[OLD_V + j], m[ZX + j] - body[6] * h - m[OLD_X + j]
+    r[0, 0], r[0, 1], r[0, 2] = m[OLD_X + j], m[OLD_V + j], m[ZX + j] - box.belt_velocity * h - m[OLD_X + j]
     state = (m[MODE + j], 0.0, 0.0, m[SIGN + j], 0.0)
     tau = 0.0
     for count in range(MAX_SWITCHES + 1):
         dt = h - tau
         if count < MAX_SWITCHES:
-            dt = _switch_time(body, p, line, state, tau, dt, r)
+            dt = _switch_time(box, p, line, state, tau, dt, r)
         last = dt == h - tau
-        _advance(body, p, line, state, tau, dt, r)
+        _advance(box, p, line, state, tau, dt, r)
         tau = h if last else tau + dt
         mu_s, mu_k = line[1] + tau * line[3], line[2] + tau * line[4]
-        new = law.commit(t + tau, r[1, 2], 0.0, body[6] - r[1, 1], 0.0, body[3], state, mu_s, mu_k, body[0], 0.0, 0.0, p)
+        new = law.commit(
+            t + tau, r[1, 2], 0.0, box.belt_velocity - r[1, 1], 0.0, box.normal_force, state, mu_s, mu_k, box.mass, 0.0, 0.0, p
+        )
         r[0] = r[1]
         r[0, 2] -= new[1]
         state = (new[0], 0.0, 0.0, new[3], 0.0)
@@ -192,52 +194,54 @@ def _switching_step(body, p, j, t, h, w, part, m, r):
 
 
 @compiled
-def _guards(body, p, line, state, tau, y):
+def _guards(box, p, line, state, tau, y):
     """Return the law's distances to its switches at (x, x', z) = y, positive before them."""
     mu_s, mu_k = line[1] + tau * line[3], line[2] + tau * line[4]
-    return law.guards(line[0] + tau, y[2], 0.0, body[6] - y[1], 0.0, body[3], state, mu_s, mu_k, body[0], 0.0, 0.0, p)
+    return law.guards(
+        line[0] + tau, y[2], 0.0, box.belt_velocity - y[1], 0.0, box.normal_force, state, mu_s, mu_k, box.mass, 0.0, 0.0, p
+    )
 
 
 @compiled
-def _switch_time(body, p, line, state, tau, rest, r):
+def _switch_time(box, p, line, state, tau, rest, r):
     """Return the time to the next switch, or kink at the cap [s], just past it; ``rest`` if there is none.
 
     A contact that is at a switch already (a clipped deflection whose limit falls) is committed at the end only.
     """
-    g = _guards(body, p, line, state, tau, r[0])
+    g = _guards(box, p, line, state, tau, r[0])
     second = 1 if state[0] != STICK or g[1] > 0.0 else 2  # the cap is left where it was reached
     at_start = min(g[0], g[second])
-    at_end = _margin_after(body, p, line, state, tau, rest, second, r)
+    at_end = _margin_after(box, p, line, state, tau, rest, second, r)
     if at_start <= 0.0 or at_end > 0.0:
         return rest
     b = bracket(0.0, at_start, rest, at_end)
     while is_wide(b, RESOLUTION * rest):
         dt = trial(b, RESOLUTION * rest)
-        b = narrowed(b, dt, _margin_after(body, p, line, state, tau, dt, second, r))
+        b = narrowed(b, dt, _margin_after(box, p, line, state, tau, dt, second, r))
     return b.negative
 
 
 @compiled
-def _margin_after(body, p, line, state, tau, dt, second, r):
+def _margin_after(box, p, line, state, tau, dt, second, r):
     """Return the least distance to a switch a time dt after ``tau``."""
-    _advance(body, p, line, state, tau, dt, r)
-    g = _guards(body, p, line, state, tau + dt, r[1])
+    _advance(box, p, line, state, tau, dt, r)
+    g = _guards(box, p, line, state, tau + dt, r[1])
     return min(g[0], g[second])
 
 
 @compiled
-def _advance(body, p, line, state, tau, dt, r):
+def _advance(box, p, line, state, tau, dt, r):
     """Make a Runge-Kutta step ``dt`` after ``tau`` into the step, with the law's own force."""
     for i in range(len(B)):
         advance(A[i], i, dt, r[0], r[3:], 0, 3, r[2])
-        _rates(body, p, line, state, tau + C[i] * dt, r[2], r[3 + i])
+        _rates(box, p, line, state, tau + C[i] * dt, r[2], r[3 + i])
     advance(B, len(B), dt, r[0], r[3:], 0, 3, r[1])
 
 
 @compiled
-def _rates(body, p, line, state, tau, y, dy):
+def _rates(box, p, line, state, tau, y, dy):
     """Write the derivatives of (x, x', z) = y, with the law's own force."""
-    mass, damping, stiffness, normal_force, amplitude, frequency, v_b = body
+    mass, damping, stiffness, normal_force, amplitude, frequency, v_b, _, _ = box
     t = line[0] + tau
     mu_s, mu_k = _branch(line[1] + tau * line[3], line[2] + tau * line[4], state, p)
     f, _ = law.force(t, y[2], 0.0, v_b - y[1], 0.0, normal_force, state, mu_s, mu_k, mass, 0.0, 0.0, p)

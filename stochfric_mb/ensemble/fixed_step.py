@@ -18,6 +18,7 @@ from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.ensemble.lanes import A_K, A_S, B_K, B_S, LANES, SHARED_ROWS, V, X, fma, note_crossings
 from stochfric_mb.ensemble.schedule import Array, Schedule, schedule
 from stochfric_mb.errors import StabilityError
+from stochfric_mb.mechanisms.belt_box import BoxNumbers
 from stochfric_mb.scenario import Scenario
 
 # Rows of the flat array beside the shared ones: velocity one step before, position and velocity of a stage, sum of the first
@@ -40,17 +41,10 @@ class Problem(NamedTuple):
     """The law's parameter vector."""
     stick_speed: float
     """Speed below which a contact counts as stuck [m/s]."""
-    mass: float
-    """m [kg]; then c [N s/m], k [N/m], N [N], k u_0 [N], W [rad/s], v_b [m/s], x and x' at t = 0, least slip [m]."""
-    damping: float
-    stiffness: float
-    normal_force: float
-    amplitude: float
-    frequency: float
-    belt_velocity: float
-    position: float
-    velocity: float
+    box: BoxNumbers
+    """The mechanism."""
     least_slip: float
+    """Travel from which a slip counts as one [m]."""
 
 
 def problem(scenario: Scenario, output_times: Array, least_slip: float, dt: float) -> Problem:
@@ -67,22 +61,13 @@ def problem(scenario: Scenario, output_times: Array, least_slip: float, dt: floa
     """
     check_step(scenario, dt)
     legs = schedule(scenario, output_times)
-    b = scenario.mechanism
     return Problem(
         legs=legs,
         n_steps=np.array([math.ceil(h / dt - 1.0e-9) for h in legs.lengths], dtype=np.float64),
         descriptor=scenario.path(0).descriptor,
         parameters=scenario.law.parameters(),
         stick_speed=scenario.law.stick_speed,
-        mass=b.mass,
-        damping=b.damping,
-        stiffness=b.stiffness,
-        normal_force=b.normal_force,
-        amplitude=b.stiffness * b.excitation_amplitude,
-        frequency=b.excitation_angular_frequency,
-        belt_velocity=b.belt_velocity,
-        position=b.initial_position,
-        velocity=b.initial_velocity,
+        box=scenario.mechanism.numbers(),
         least_slip=least_slip,
     )
 
@@ -127,7 +112,7 @@ def stepping(law: ModuleType) -> Any:
         for step in range(n_steps):
             t = q.legs.start[i] + step * h
             w = q.legs.from_knot[i] + step * part
-            f0, f1, f2 = _drives(q.amplitude / q.mass, q.frequency, t, h)
+            f0, f1, f2 = _drives(q.box.drive / q.box.mass, q.box.frequency, t, h)
             go(w, 0.0, 0.5 * h, 0.0, f0, numbers, m)
             go(w + 0.5 * part, 0.5 * h, 0.5 * h, 1.0, f1, numbers, m)
             go(w + 0.5 * part, 0.5 * h, h, 1.0, f1, numbers, m)
@@ -210,4 +195,4 @@ def _note_step(q, t, h, w, m, tally, pending):
     for j in range(LANES):
         m[MU + j] = m[A_S + j] + w * m[D_S + j]
     x, v, before, mu_s = m[X : X + LANES], m[V : V + LANES], m[OLD_V : OLD_V + LANES], m[MU : MU + LANES]
-    note_crossings(t, h, q.belt_velocity, q.stick_speed, x, v, before, mu_s, tally, pending, q.least_slip)
+    note_crossings(t, h, q.box.belt_velocity, q.stick_speed, x, v, before, mu_s, tally, pending, q.least_slip)

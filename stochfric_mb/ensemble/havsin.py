@@ -43,8 +43,9 @@ def coefficient(speed, mu_s, mu_k, v_s, rise, fall):
 @compiled
 def numbers(q):
     """Return v_b, v_s, 1/v_s, 1/(v_d - v_s) and normal force, damping and stiffness per unit of mass."""
-    v_s, v_d = q.parameters[2], q.parameters[3]
-    return q.belt_velocity, v_s, 1.0 / v_s, 1.0 / (v_d - v_s), q.normal_force / q.mass, q.damping / q.mass, q.stiffness / q.mass
+    v_s, v_d, m = q.parameters[2], q.parameters[3], q.box.mass
+    load, damping, stiffness = q.box.normal_force / m, q.box.damping / m, q.box.stiffness / m
+    return q.box.belt_velocity, v_s, 1.0 / v_s, 1.0 / (v_d - v_s), load, damping, stiffness
 
 
 @compiled
@@ -56,7 +57,7 @@ def start(q, m):
 @compiled_inline
 def sticks(q, m, j):
     """Return whether lane j is slower than the law's stick speed."""
-    return abs(q.belt_velocity - m[V + j]) <= q.stick_speed
+    return abs(q.box.belt_velocity - m[V + j]) <= q.stick_speed
 
 
 @compiled_inline

@@ -4,9 +4,24 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 from stochfric_mb.errors import require_number
+
+
+class BoxNumbers(NamedTuple):
+    """A belt-box as compiled code takes it."""
+
+    mass: float
+    """m [kg]; then c [N s/m], k [N/m], N [N], k u_0 [N], W [rad/s], v_b [m/s], x [m] and x' [m/s] at t = 0."""
+    damping: float
+    stiffness: float
+    normal_force: float
+    drive: float
+    frequency: float
+    belt_velocity: float
+    position: float
+    velocity: float
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -49,6 +64,18 @@ class BeltBox:
         require_number("excitation_angular_frequency", self.excitation_angular_frequency, low=0.0, unit="rad/s")
         require_number("initial_position", self.initial_position, unit="m")
         require_number("initial_velocity", self.initial_velocity, unit="m/s")
+
+    @property
+    def fastest(self) -> float:
+        """The fastest part of its motion [rad/s]: its own, the excitation's or its damping's."""
+        return max(math.sqrt(self.stiffness / self.mass), self.excitation_angular_frequency, self.damping / self.mass)
+
+    def numbers(self) -> BoxNumbers:
+        """Return the numbers that compiled code needs."""
+        return BoxNumbers(
+            self.mass, self.damping, self.stiffness, self.normal_force, self.stiffness * self.excitation_amplitude,
+            self.excitation_angular_frequency, self.belt_velocity, self.initial_position, self.initial_velocity,
+        )  # fmt: skip
 
     def excitation_force(self, t: float) -> float:
         """Return k u_0 cos(W t) [N]."""

@@ -51,7 +51,7 @@ def start(q, run, t, given):
     if q.bristle >= 0:
         run.y[2] = run.state[q.bristle]
     if pinned(q, run):
-        run.y[1] = q.belt_velocity
+        run.y[1] = q.box.belt_velocity
     measure_guards(q, run, t, tau, run.y, run.guards)
     for i in range(ALL_GUARDS):
         run.armed[i] = 1.0 if run.guards[i] > 0.0 or i >= GUARDS + 2 else 0.0
@@ -81,7 +81,7 @@ def _record(q, run, row):
     t = run.clock[NOW]
     x, v = run.y[0], run.y[1]
     force, _ = friction(q, run, t, since_knot(q, run, t, 0.0), run.y)
-    u = q.belt_velocity * t - x
+    u = q.box.belt_velocity * t - x
     mu_s, mu_k = evaluate(
         q.descriptor, run.output_cursor, q.seed, q.sample, q.contact, t, u, run.segment[EVENTS]
     )  # fmt: skip
@@ -158,7 +158,7 @@ def _settle(q, run, t_leg, tau, located, log):
             for i in range(MAX_STATE):
                 run.state[i] = run.out[i]
         if pinned(q, run):
-            run.y[1] = q.belt_velocity
+            run.y[1] = q.box.belt_velocity
         switched = switched or (q.moded and run.state[0] != mode)
         log, entered = _note(q, run, t, log)
         moved = next_belt_segment(q, run, t)

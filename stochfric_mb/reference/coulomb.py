@@ -1,11 +1,8 @@
-"""Coulomb stick-slip of the belt-box in closed form between events.
+"""Coulomb stick-slip of the belt-box in closed form between events: polynomials in time, whose roots are the events.
 
-Between two events and two knots everything that matters is one kind of curve in the time tau since the last of them::
-
-    g(tau) = exp(-d tau) (C cos w tau + D sin w tau) + q0 + q1 tau + P cos(W (t + tau)) + Q sin(W (t + tau))
-
-the position while sliding (mu_k linear in time), its derivatives, and the slack mu_s N - abs(hold) while stuck. So one
-routine finds the first zero of such a curve.
+Between two events and two knots mu_s and mu_k are linear in time, and so position, speed and the slack mu_s N - abs(hold) are
+Taylor series. In pieces of at most 0.35 rad of the fastest part of the motion twelve terms are exact to rounding
+(0.35^13/13! = 2e-16).
 """
 
 # pyright: standard
@@ -15,14 +12,13 @@ from __future__ import annotations
 
 import math
 import sys
-from typing import NamedTuple
 
 import numpy as np
 
 from stochfric_mb.coefficients import CoefficientPath
 from stochfric_mb.coefficients.path import canonical_time
 from stochfric_mb.coefficients.processes import TIME
-from stochfric_mb.compile import compiled
+from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.laws import Law
 from stochfric_mb.mechanisms import BeltBox
@@ -30,69 +26,24 @@ from stochfric_mb.numerics.first_zero import first_zero_of
 from stochfric_mb.reference.events import BREAK_AWAY, STICK, note
 from stochfric_mb.trajectory import Array
 
-MAX_SWITCHES_PER_LEG = 10_000
-SHORTEST = 1.0e-14
-"""Rest of a leg [s] in which nothing is looked for: below the rounding of the forces."""
+LONGEST = 0.35
+"""Longest piece [rad of the fastest part of the motion]."""
+TERMS = 13
+"""Coefficients of a piece's Taylor polynomial."""
+DIVISORS: Array = np.array([1.0 / ((e + 1) * (e + 2)) for e in range(TERMS)])
+"""1/((e + 1) (e + 2)): what turns the e-th coefficient of an acceleration into the next one but two of the position."""
+RESOLUTION = 1.0e-14
+"""Part of a piece to which an event is found [-]: at most 0.35e-14 rad of the motion, which is below the rounding of x."""
+MAX_SWITCHES = 10_000
+"""Most switches within one piece."""
 
 
-class Curve(NamedTuple):
-    """A curve g(tau) of the kind above."""
-
-    decay: float
-    """d [1/s]."""
-    natural: float
-    """w [rad/s]."""
-    cosine: float
-    """C."""
-    sine: float
-    """D."""
-    constant: float
-    """q0."""
-    slope: float
-    """q1."""
-    forcing: float
-    """W [rad/s]."""
-    phase: float
-    """W t at tau = 0 [rad]."""
-    in_phase: float
-    """P."""
-    out_of_phase: float
-    """Q."""
-
-
-class Oscillator(NamedTuple):
-    """The belt-box in the numbers that the closed form needs."""
-
-    mass: float
-    """m [kg]; then c [N s/m], k [N/m], N [N], k u_0 [N], W [rad/s], v_b [m/s]."""
-    damping: float
-    stiffness: float
-    normal_force: float
-    drive: float
-    forcing: float
-    belt_velocity: float
-    decay: float
-    """c/(2 m) [1/s]."""
-    natural: float
-    """Damped angular frequency [rad/s]."""
-    in_phase: float
-    """Steady response to the drive along cos W t [m]."""
-    out_of_phase: float
-    """Steady response along sin W t [m]."""
-
-
-def obstacle(mechanism: BeltBox, law: Law, path: CoefficientPath) -> str:
+def obstacle(law: Law, path: CoefficientPath) -> str:
     """Return why the closed form does not apply; empty if it does."""
     if law.kind != "coulomb":
         return f"the law is {law.kind}, not coulomb"
     if path.descriptor[0] != 0.0 and not (path.descriptor[1] == TIME and path.descriptor[2] == 1.0):
         return "the coefficients are not linear in time"
-    if mechanism.damping**2 >= 3.99 * mechanism.mass * mechanism.stiffness:
-        return "damping is critical or above"
-    if mechanism.damping == 0.0 and mechanism.excitation_amplitude != 0.0:
-        ratio = mechanism.mass * mechanism.excitation_angular_frequency**2 / mechanism.stiffness
-        if abs(ratio - 1.0) < 1.0e-3:
-            return "the undamped oscillator is driven at resonance"
     return ""
 
 
@@ -109,40 +60,21 @@ def integrate(
     first = 0 if constant else math.floor(canonical_time(start_time, 0.0) / spacing)
     n = 2 if constant else math.floor((outputs[-1] + 1.0e-9) / spacing) - first + 3
     pairs = path.pairs(n, first)
-    coefficients = path.at_times(outputs)
     rows = np.empty((len(outputs), 6))
-    rows[:, 3:5] = coefficients
-    log, mode, n_legs = march(_oscillator(mechanism), pairs, first, spacing, state, float(start_time), outputs, rows)
+    rows[:, 3:5] = path.at_times(outputs)
+    longest = LONGEST / mechanism.fastest
+    log, mode, n_legs = march(
+        mechanism.numbers(), longest, pairs, first, spacing, state, float(start_time), outputs, rows
+    )  # fmt: skip
     if n_legs < 0:
         raise SimulationError(
-            f"more than {MAX_SWITCHES_PER_LEG} switches between two outputs, before the {-n_legs}th leg; use method='adaptive'"
+            f"more than {MAX_SWITCHES} switches between two outputs, before the {-n_legs}th leg; use method='adaptive'"
         )
     return rows, log, [abs(mode), mode, 0.0], n_legs
 
 
-def _oscillator(mechanism: BeltBox) -> Oscillator:
-    m, c, k, w = mechanism.mass, mechanism.damping, mechanism.stiffness, mechanism.excitation_angular_frequency
-    drive = k * mechanism.excitation_amplitude
-    gap = k - m * w * w
-    response = drive / (gap * gap + (c * w) ** 2) if drive != 0.0 else 0.0
-    decay = c / (2.0 * m)
-    return Oscillator(
-        mass=m,
-        damping=c,
-        stiffness=k,
-        normal_force=mechanism.normal_force,
-        drive=drive,
-        forcing=w,
-        belt_velocity=mechanism.belt_velocity,
-        decay=decay,
-        natural=math.sqrt(k / m - decay * decay),
-        in_phase=response * gap,
-        out_of_phase=response * c * w,
-    )
-
-
 @compiled
-def march(o, pairs, first, spacing, state, t, outputs, rows):
+def march(box, longest, pairs, first, spacing, state, t, outputs, rows):
     """Integrate to each output; fill ``rows``; return (events, mode, number of legs, negative if it failed)."""
     x, v = state
     log = np.empty((64, 2))
@@ -152,14 +84,12 @@ def march(o, pairs, first, spacing, state, t, outputs, rows):
     knot = 0
     if (first + 1) * spacing <= t + 1.0e-12:
         knot = 1
-    mu_s, _, mu_k, _ = _line(pairs, knot, first, spacing, t)
-    mode = _first_mode(o, t, x, v, mu_s)
+    mode = first_mode(box, t, x, v, _line(pairs, knot, first, spacing, t)[0])
     while i < len(outputs):
         if outputs[i] <= t:
-            _, _, mu_k, _ = _line(pairs, knot, first, spacing, t)
-            hold = _hold(o, t, x, v)
             rows[i, 0], rows[i, 1], rows[i, 5] = x, v, 1.0 if mode == 0.0 else 0.0
-            rows[i, 2] = hold if mode == 0.0 else mode * mu_k * o.normal_force
+            mu_k = _line(pairs, knot, first, spacing, t)[2]
+            rows[i, 2] = _hold(box, t, x, v) if mode == 0.0 else mode * mu_k * box.normal_force
             i += 1
             continue
         t_end = outputs[i]
@@ -168,7 +98,7 @@ def march(o, pairs, first, spacing, state, t, outputs, rows):
         if t_knot < t_end - 1.0e-12:
             t_end = t_knot
         line = _line(pairs, knot, first, spacing, t)
-        x, v, mode, log, n_events, fine = _leg(o, line, t, t_end - t, x, v, mode, log, n_events)
+        x, v, mode, log, n_events, fine = _leg(box, longest, line, t, t_end - t, x, v, mode, log, n_events)
         n_legs += 1
         if not fine:
             return log[:n_events].copy(), mode, -n_legs
@@ -190,149 +120,136 @@ def _line(pairs, knot, first, spacing, t):
 
 
 @compiled
-def _hold(o, t, x, v):
+def _leg(box, longest, line, t, length, x, v, mode, log, n_events):
+    """Advance by ``length`` [s] with coefficients on one line; return (x, v, mode, log, events, whether it ended)."""
+    work = np.empty(2 * TERMS)
+    n = max(1, math.ceil(length / longest))
+    for piece in range(n):
+        tau, end = length * (piece / n), length * ((piece + 1) / n)
+        for switch in range(MAX_SWITCHES + 1):
+            rest = end - tau
+            dt, x, v, new = to_next_event(box, line, t, tau, rest, x, v, mode, work)
+            if dt == rest:
+                break
+            if switch == MAX_SWITCHES:
+                return x, v, mode, log, n_events, False
+            tau += dt
+            if (new == 0.0) != (mode == 0.0):
+                log = note(log, n_events, t + tau, STICK if new == 0.0 else BREAK_AWAY)
+                n_events += 1
+            mode = new
+    return x, v, mode, log, n_events, True
+
+
+@compiled
+def first_mode(box, t, x, v, mu_s):
+    """Return 0 (stick) or the direction of sliding at time t."""
+    if v != box.belt_velocity:
+        return 1.0 if v < box.belt_velocity else -1.0
+    return _mode_at_rest(box, t, x, mu_s)
+
+
+@compiled
+def to_next_event(box, line, start, tau, rest, x, v, mode, work):
+    """Return (dt, x, x', mode) at the next switch of a contact, at most ``rest`` [s] on from ``tau`` after ``start``.
+
+    Where dt is ``rest`` there is none: the mode stays. ``line`` is mu_s, its slope, mu_k and its slope at ``start``; ``work``
+    has room for two polynomials.
+    """
+    mu_s, slope_s, mu_k, slope_k = line
+    g, motion, v_b = work[:TERMS], work[TERMS : 2 * TERMS], box.belt_velocity
+    t = start + tau
+    if mode == 0.0:
+        dt, new = _break_away(box, t, x, mu_s + slope_s * tau, slope_s, rest, g)
+        dt = min(dt, rest)
+        return dt, x + v_b * dt, v_b, new
+    _slip_motion(box, t, x, v, mode, mu_k + slope_k * tau, slope_k, motion)
+    for e in range(TERMS - 1):
+        g[e] = -mode * (e + 1) * motion[e + 1]
+    g[0] += mode * v_b
+    dt = min(first_zero((g, TERMS - 1), 0.0, rest), rest)
+    x = value((motion, TERMS), dt)
+    if dt == rest:
+        return dt, x, v_b - mode * value((g, TERMS - 1), dt), mode
+    tau += dt
+    return dt, x, v_b, _mode_at_rest(box, start + tau, x, mu_s + slope_s * tau)
+
+
+@compiled
+def _hold(box, t, x, v):
     """Return the friction force [N] that would make the relative acceleration zero."""
-    return o.damping * v + o.stiffness * x - o.drive * math.cos(o.forcing * t)
+    return box.stiffness * x + box.damping * v - (box.drive * math.cos(box.frequency * t) if box.drive != 0.0 else 0.0)
 
 
 @compiled
-def _first_mode(o, t, x, v, mu_s):
-    """Return 0 (stick) or the direction of sliding, +1 or -1."""
-    if v != o.belt_velocity:
-        return 1.0 if v < o.belt_velocity else -1.0
-    return _mode_at_rest(o, t, x, mu_s)
-
-
-@compiled
-def _mode_at_rest(o, t, x, mu_s):
-    """Return the mode that the holding force allows a contact at rest."""
-    hold = _hold(o, t, x, o.belt_velocity)
-    if abs(hold) <= mu_s * o.normal_force:
+def _mode_at_rest(box, t, x, mu_s):
+    """Return 0 (stick) or the direction in which a contact at rest breaks away."""
+    hold = _hold(box, t, x, box.belt_velocity)
+    if abs(hold) <= mu_s * box.normal_force:
         return 0.0
     return 1.0 if hold > 0.0 else -1.0
 
 
 @compiled
-def _leg(o, line, t, length, x, v, mode, log, n_events):
-    """Advance by ``length`` [s] with coefficients on one line; return (x, v, mode, log, events, whether it ended)."""
-    mu_s, slope_s, mu_k, slope_k = line
-    tau = 0.0
-    for _ in range(MAX_SWITCHES_PER_LEG):
-        rest = length - tau
-        if rest < SHORTEST:
-            return x + v * rest, v, mode, log, n_events, True
-        if mode == 0.0:
-            dt, direction = _break_away(o, t + tau, x, mu_s + slope_s * tau, slope_s, rest)
-            x += o.belt_velocity * min(dt, rest)
-            v = o.belt_velocity
-            new = direction
-        else:
-            curve = _sliding(o, t + tau, x, v, mode, mu_k + slope_k * tau, slope_k)
-            dt = first_zero(_slack_of_speed(o, _derivative(curve), mode), rest)
-            x = value(curve, min(dt, rest))
-            v = o.belt_velocity if dt < rest else value(_derivative(curve), rest)
-            new = mode
-        if dt >= rest:
-            return x, v, mode, log, n_events, True
-        tau += dt
-        if mode != 0.0:
-            new = _mode_at_rest(o, t + tau, x, mu_s + slope_s * tau)
-        if (new == 0.0) != (mode == 0.0):
-            log = note(log, n_events, t + tau, STICK if new == 0.0 else BREAK_AWAY)
-            n_events += 1
-        mode = new
-    return x, v, mode, log, n_events, False
-
-
-# --- curves -----------------------------------------------------------------------------------------------------------
+def _slip_motion(box, t, x, v, s, mu_k, slope, out):
+    """Write the Taylor coefficients of the position while sliding in direction s from (x, v) at time t."""
+    wave = box.drive * math.cos(box.frequency * t) if box.drive != 0.0 else 0.0
+    next_wave = -box.drive * box.frequency * math.sin(box.frequency * t) if box.drive != 0.0 else 0.0
+    inverse_mass = 1.0 / box.mass
+    out[0] = x
+    out[1] = v
+    for e in range(TERMS - 2):
+        force = wave
+        if e == 0:
+            force += s * box.normal_force * mu_k
+        elif e == 1:
+            force += s * box.normal_force * slope
+        force -= box.damping * (e + 1) * out[e + 1] + box.stiffness * out[e]
+        out[e + 2] = force * inverse_mass * DIVISORS[e]
+        wave, next_wave = next_wave, -box.frequency * box.frequency * wave * DIVISORS[e]
 
 
 @compiled
-def _sliding(o, t, x, v, direction, mu_k, slope):
-    """Return the position while sliding from (x, v) at time t, with mu_k + slope tau."""
-    q1 = direction * o.normal_force * slope / o.stiffness
-    q0 = (direction * o.normal_force * mu_k - o.damping * q1) / o.stiffness
-    phase = o.forcing * t
-    c, s = math.cos(phase), math.sin(phase)
-    cosine = x - q0 - o.in_phase * c - o.out_of_phase * s
-    speed = v - q1 - o.forcing * (o.out_of_phase * c - o.in_phase * s)
-    sine = (speed + o.decay * cosine) / o.natural
-    return Curve(o.decay, o.natural, cosine, sine, q0, q1, o.forcing, phase, o.in_phase, o.out_of_phase)
-
-
-@compiled
-def _derivative(g):
-    """Return dg/dtau as a curve."""
-    return Curve(
-        g.decay,
-        g.natural,
-        g.natural * g.sine - g.decay * g.cosine,
-        -g.natural * g.cosine - g.decay * g.sine,
-        g.slope,
-        0.0,
-        g.forcing,
-        g.phase,
-        g.forcing * g.out_of_phase,
-        -g.forcing * g.in_phase,
-    )
-
-
-@compiled
-def _slack_of_speed(o, v, direction):
-    """Return direction (v_b - v(tau)), positive while sliding goes on."""
-    s = -direction
-    constant = s * (v.constant - o.belt_velocity)
-    return Curve(
-        v.decay, v.natural, s * v.cosine, s * v.sine, constant, s * v.slope, v.forcing, v.phase,
-        s * v.in_phase, s * v.out_of_phase,
-    )  # fmt: skip
-
-
-@compiled
-def _break_away(o, t, x, mu_s, slope, rest):
-    """Return (time to break-away [s], direction); the time is ``rest`` or more if it holds."""
-    best = math.inf
-    direction = 0.0
+def _break_away(box, t, x, mu_s, rate_s, length, g):
+    """Return (time to break-away [s], direction); infinity if the contact holds for ``length``."""
+    hold = box.stiffness * x + box.damping * box.belt_velocity
+    rate = box.stiffness * box.belt_velocity
+    best, direction = math.inf, 0.0
     for s in (1.0, -1.0):
-        constant = mu_s * o.normal_force - s * (o.stiffness * x + o.damping * o.belt_velocity)
-        rate = slope * o.normal_force - s * o.stiffness * o.belt_velocity
-        slack = Curve(0.0, 0.0, 0.0, 0.0, constant, rate, o.forcing, o.forcing * t, s * o.drive, 0.0)
-        dt = first_zero(slack, rest)
+        wave, next_wave = 0.0, 0.0
+        n = 2
+        if box.drive != 0.0:
+            wave = s * box.drive * math.cos(box.frequency * t)
+            next_wave = -s * box.drive * box.frequency * math.sin(box.frequency * t)
+            n = TERMS
+        g[0], g[1] = mu_s * box.normal_force - s * hold, rate_s * box.normal_force - s * rate
+        for e in range(n):
+            g[e] = wave if e > 1 else g[e] + wave
+            wave, next_wave = next_wave, -box.frequency * box.frequency * wave * DIVISORS[e]
+        dt = first_zero((g, n), 0.0, length)
         if dt < best:
-            best = dt
-            direction = s
+            best, direction = dt, s
     return best, direction
 
 
-@compiled
-def value(g, tau):
-    """Return g(tau)."""
-    ring = math.exp(-g.decay * tau) * (g.cosine * math.cos(g.natural * tau) + g.sine * math.sin(g.natural * tau))
-    angle = g.phase + g.forcing * tau
-    forced = g.in_phase * math.cos(angle) + g.out_of_phase * math.sin(angle)
-    return ring + g.constant + g.slope * tau + forced
+@compiled_inline
+def value(g, t):
+    """Return the polynomial with the first n coefficients c at time t; g = (c, n)."""
+    c, n = g
+    total = c[n - 1]
+    for e in range(n - 2, -1, -1):
+        total = total * t + c[e]
+    return total
 
 
-@compiled
-def slope(g, tau):
-    """Return dg/dtau(tau)."""
-    return value(_derivative(g), tau)
+@compiled_inline
+def slope(g, t):
+    """Return its derivative."""
+    c, n = g
+    total = (n - 1) * c[n - 1]
+    for e in range(n - 2, 0, -1):
+        total = total * t + e * c[e]
+    return total
 
 
-@compiled
-def first_zero(g, length):
-    """Return the first tau in [0, length) after which g is negative, or infinity.
-
-    A curve that starts at or below zero and rises is taken as positive until it comes back. It is searched in pieces
-    of 0.2 rad of its fastest part, in which it has at most one extremum.
-    """
-    fastest = max(g.natural, g.forcing)
-    n = max(1, math.ceil(length * fastest / 0.2))
-    for i in range(n):
-        tau = zero_within(g, i * (length / n), (i + 1) * (length / n))
-        if tau < math.inf:
-            return tau
-    return math.inf
-
-
-zero_within = first_zero_of(sys.modules[__name__], 0.0)
+first_zero = first_zero_of(sys.modules[__name__], RESOLUTION)

@@ -23,7 +23,7 @@ def load_first_segment(q, run, t):
         if (knot + 1.0) * spacing <= t + 1.0e-12:
             knot += 1.0
     elif q.descriptor[1] == POSITION:
-        u = q.belt_velocity * t - run.y[0]
+        u = q.box.belt_velocity * t - run.y[0]
         knot = float(math.floor(u / spacing))
         if u < knot * spacing:
             knot -= 1.0
@@ -59,7 +59,7 @@ def next_belt_segment(q, run, t):
     """Move to the neighbouring knots along the belt if u has left the present ones; return whether it has."""
     if q.descriptor[1] != POSITION:
         return False
-    u = q.belt_velocity * t - run.y[0]
+    u = q.box.belt_velocity * t - run.y[0]
     if u < run.segment[LOW]:
         load_segment(q, run, run.segment[KNOT] - 1.0)
         return True

@@ -18,17 +18,17 @@ from stochfric_mb.reference.problem import HIGH, LOW
 @compiled
 def holding_force(q, t, y):
     """Return the friction force [N] that would make the relative acceleration zero."""
-    return q.damping * y[1] + q.stiffness * y[0] - q.drive * math.cos(q.frequency * t)
+    return q.box.damping * y[1] + q.box.stiffness * y[0] - q.box.drive * math.cos(q.box.frequency * t)
 
 
 @compiled
 def call(address, q, run, t, since, y):
     """Call one of the law's functions for (x, x') = y; the answer is in ``run.out``."""
-    u = q.belt_velocity * t - y[0]
+    u = q.box.belt_velocity * t - y[0]
     mu_s, mu_k = coefficients(q, run, since, u)
     call_law(
-        address, t, u, 0.0, q.belt_velocity - y[1], 0.0, q.normal_force, mu_s, mu_k, q.mass, holding_force(q, t, y), 0.0,
-        run.state.ctypes.data, q.parameters.ctypes.data, run.out.ctypes.data,
+        address, t, u, 0.0, q.box.belt_velocity - y[1], 0.0, q.box.normal_force, mu_s, mu_k, q.box.mass,
+        holding_force(q, t, y), 0.0, run.state.ctypes.data, q.parameters.ctypes.data, run.out.ctypes.data,
     )  # fmt: skip
 
 
@@ -38,9 +38,9 @@ def friction(q, run, t, since, y):
     if q.bristle < 0:
         call(q.force, q, run, t, since, y)
         return run.out[0], 0.0
-    mu_s, mu_k = coefficients(q, run, since, q.belt_velocity * t - y[0])
+    mu_s, mu_k = coefficients(q, run, since, q.box.belt_velocity * t - y[0])
     call_flow(
-        q.flow, q.belt_velocity - y[1], 0.0, q.normal_force, y[2], 0.0, mu_s, mu_k,
+        q.flow, q.box.belt_velocity - y[1], 0.0, q.box.normal_force, y[2], 0.0, mu_s, mu_k,
         q.parameters.ctypes.data, run.out.ctypes.data,
     )  # fmt: skip
     return run.out[0], run.out[2]
@@ -57,7 +57,7 @@ def sticks(q, run, y):
     """Return 1.0 if the contact sticks, else 0.0."""
     if q.moded:
         return 1.0 if run.state[0] == 0.0 else 0.0
-    return 1.0 if abs(q.belt_velocity - y[1]) <= q.stick_speed else 0.0
+    return 1.0 if abs(q.box.belt_velocity - y[1]) <= q.stick_speed else 0.0
 
 
 @compiled
@@ -67,9 +67,9 @@ def measure_guards(q, run, t, since, y, g):
     for i in range(GUARDS):
         g[i] = run.out[i]
     if not q.moded:
-        g[GUARDS] = abs(q.belt_velocity - y[1]) - q.stick_speed
+        g[GUARDS] = abs(q.box.belt_velocity - y[1]) - q.stick_speed
         g[GUARDS + 1] = -g[GUARDS]
     if q.descriptor[1] == POSITION:
-        u = q.belt_velocity * t - y[0]
+        u = q.box.belt_velocity * t - y[0]
         g[GUARDS + 2] = u - run.segment[LOW]
         g[GUARDS + 3] = run.segment[HIGH] - u

@@ -58,7 +58,7 @@ def _check_points(q, run, h):
     no speed limit, however narrow, is stepped over.
     """
     v = _along(run, h, 1)
-    v_rel = (q.belt_velocity - v[0], -v[1], -v[2], -v[3])
+    v_rel = (q.box.belt_velocity - v[0], -v[1], -v[2], -v[3])
     slope = (v_rel[1], 2.0 * v_rel[2], 3.0 * v_rel[3], 0.0)
     n = 0
     run.checks[0] = 0.0

@@ -12,6 +12,7 @@ import numpy as np
 from stochfric_mb.coefficients.path import CURSOR
 from stochfric_mb.laws.abi import MAX_STATE
 from stochfric_mb.laws.contract import GUARDS
+from stochfric_mb.mechanisms.belt_box import BoxNumbers
 from stochfric_mb.numerics.runge_kutta import DOP853
 
 STAGES = len(DOP853.b)
@@ -45,14 +46,8 @@ class Problem(NamedTuple):
     """Index of the bristle deflection in the law's state; -1 for laws without ``flow``."""
     stick_speed: float
     """Speed [m/s] below which a contact without a mode counts as stuck."""
-    mass: float
-    """m [kg]; then c [N s/m], k [N/m], N [N], k u_0 [N], W [rad/s], v_b [m/s]."""
-    damping: float
-    stiffness: float
-    normal_force: float
-    drive: float
-    frequency: float
-    belt_velocity: float
+    box: BoxNumbers
+    """The mechanism."""
     descriptor: Any
     """Descriptor of the coefficient path; then its address."""
     seed: int

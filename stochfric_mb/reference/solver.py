@@ -62,8 +62,8 @@ def solve(
         law_state: the law's state at ``start_time``, as its ``commit`` returns it and as the attribute
             ``final_law_state`` of a trajectory holds it; from the law's ``init`` if not given.
         start_time: where the integration starts [s].
-        method: "closed_form" (coulomb whose coefficients are constant or run along time, damping below critical),
-            "adaptive" (any law), or "auto": the first where it can be had.
+        method: "closed_form" (coulomb whose coefficients are constant or run along time), "adaptive" (any law), or "auto": the
+            first where it can be had.
         progress: called with the simulated time [s] now and then.
 
     Raises:
@@ -75,7 +75,7 @@ def solve(
     state = _initial_state(mechanism, initial_state)
     require_name("method", method, METHODS)
     require_number("rtol", rtol, low=1.0e-14, high=1.0e-3)
-    obstacle = coulomb.obstacle(mechanism, law, path) or ("law_state is given" if law_state is not None else "")
+    obstacle = coulomb.obstacle(law, path) or ("law_state is given" if law_state is not None else "")
     if method == "closed_form" and obstacle:
         raise InputError(f"method = 'closed_form' cannot be used: {obstacle}; use method='adaptive'")
     if method == "adaptive" or obstacle:
@@ -131,8 +131,7 @@ def _initial_state(mechanism: BeltBox, given: Sequence[float] | None) -> tuple[f
 def _problem(mechanism: BeltBox, law: Law, path: CoefficientPath, rtol: float, state: tuple[float, float]) -> Problem:
     """Return the compiled solver's view of the problem."""
     native = native_law(law.kind)
-    natural = math.sqrt(mechanism.stiffness / mechanism.mass)
-    fastest = max(natural, mechanism.excitation_angular_frequency, mechanism.damping / mechanism.mass)
+    natural, fastest = math.sqrt(mechanism.stiffness / mechanism.mass), mechanism.fastest
     static = law.mu_s * mechanism.normal_force / mechanism.stiffness
     length = static + abs(mechanism.excitation_amplitude) + abs(state[0])
     speed = natural * length + abs(mechanism.belt_velocity) + abs(state[1])
@@ -147,13 +146,7 @@ def _problem(mechanism: BeltBox, law: Law, path: CoefficientPath, rtol: float, s
         holding=law.needs_holding_force,
         bristle=law.state_names.index("zx") if law.has_flow else -1,
         stick_speed=law.stick_speed,
-        mass=mechanism.mass,
-        damping=mechanism.damping,
-        stiffness=mechanism.stiffness,
-        normal_force=mechanism.normal_force,
-        drive=mechanism.stiffness * mechanism.excitation_amplitude,
-        frequency=mechanism.excitation_angular_frequency,
-        belt_velocity=mechanism.belt_velocity,
+        box=mechanism.numbers(),
         descriptor=path.descriptor,
         seed=path.seed,
         sample=path.sample,

@@ -23,8 +23,8 @@ def try_step(q, run, t_leg, tau, h):
     stages = run.stages
     if pinned(q, run):
         for i in range(STAGES + 1):
-            stages[i, 0], stages[i, 1], stages[i, 2] = q.belt_velocity, 0.0, 0.0
-        run.end[0], run.end[1], run.end[2] = run.y[0] + q.belt_velocity * h, q.belt_velocity, run.y[2]
+            stages[i, 0], stages[i, 1], stages[i, 2] = q.box.belt_velocity, 0.0, 0.0
+        run.end[0], run.end[1], run.end[2] = run.y[0] + q.box.belt_velocity * h, q.box.belt_velocity, run.y[2]
         return 0.0
     for i in range(STAGES):
         advance(A[i], i, h, run.y, stages, 0, 3, run.probe)
@@ -39,7 +39,7 @@ def try_step(q, run, t_leg, tau, h):
 def _rates(q, run, t, since, y, dy):
     force, rate = friction(q, run, t, since, y)
     dy[0] = y[1]
-    dy[1] = (force - holding_force(q, t, y)) / q.mass
+    dy[1] = (force - holding_force(q, t, y)) / q.box.mass
     dy[2] = rate
 
 

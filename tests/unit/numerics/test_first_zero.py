@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from stochfric_mb.ensemble.coulomb import first_zero
+from stochfric_mb.reference.coulomb import first_zero
 
 ACCURACY = 1.0e-13
 """Ten times the part of the interval to which zeros are found; over the slope where that is small."""
