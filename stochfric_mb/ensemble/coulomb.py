@@ -43,6 +43,9 @@ class Problem(NamedTuple):
     """Descriptor of the coefficient paths."""
     box: BoxNumbers
     """The mechanism."""
+    position: float
+    """x at t = 0 [m]; then x' [m/s]."""
+    velocity: float
     least_slip: float
     """Travel from which a slip counts as one [m]."""
 
@@ -58,6 +61,8 @@ def problem(scenario: Scenario, output_times: Array, least_slip: float) -> Probl
         drive=drive,
         descriptor=scenario.path(0).descriptor,
         box=b.numbers(),
+        position=b.initial_position,
+        velocity=b.initial_velocity,
         least_slip=least_slip,
     )
 
@@ -96,15 +101,16 @@ def _response(
 
 @compiled
 def numbers(q):
-    """Return the box."""
-    return q.box
+    """Return the box's numbers and the least slip: eight reals, which all travel in registers."""
+    b = q.box
+    return b.mass, b.damping, b.stiffness, b.normal_force, b.drive, b.frequency, b.belt_velocity, q.least_slip
 
 
 @compiled
 def start(q, m):
     """Set every lane to stick or to a direction of sliding."""
     for j in range(LANES):
-        m[MODE + j] = first_mode(q.box, 0.0, q.box.position, q.box.velocity, m[A_S + j])
+        m[MODE + j] = first_mode(q.box, 0.0, q.position, q.velocity, m[A_S + j])
 
 
 @compiled_inline
@@ -114,24 +120,24 @@ def sticks(q, m, j):
 
 
 @compiled_inline
-def leg(q, i, box, m, tally, pending):
+def leg(q, i, body, m, tally, pending):
     """Move all lanes to the end of leg i; return whether that ended."""
     this = (q.legs.start[i], q.legs.length[i], q.legs.from_knot[i], q.legs.to_knot[i])
-    if _calm_leg(box, this, q.transition[q.legs.kind[i]], q.drive[i], m) == 0:
+    if _calm_leg(body, this, q.transition[q.legs.kind[i]], q.drive[i], m) == 0:
         return True
     ended = True
     for j in range(LANES):
-        if m[EVENTFUL + j] == 1.0 and not _eventful_leg(box, this, j, m, q.least_slip, tally, pending):
+        if m[EVENTFUL + j] == 1.0 and not _eventful_leg(body, this, j, m, tally, pending):
             ended = False
     return ended
 
 
 @compiled
-def _calm_leg(box, leg, e, drive, m):
+def _calm_leg(body, leg, e, drive, m):
     """Move the lanes without an event to the end of a leg; mark the others and return how many they are."""
     xx, xv, x0, x1, vx, vv, v0, v1 = e[0, 0], e[0, 1], e[0, 2], e[0, 3], e[1, 0], e[1, 1], e[1, 2], e[1, 3]
     f0, f1, fx, fv = drive[0], drive[1], drive[2], drive[3]
-    _, c, k, nf, amplitude, frequency, vb, _, _ = box
+    _, c, k, nf, amplitude, frequency, vb, _ = body
     _, h, w0, w1 = leg
     bulge = abs(amplitude) * frequency * frequency * h * h / 8.0
     count = 0
@@ -160,17 +166,19 @@ def _calm_leg(box, leg, e, drive, m):
 
 
 @compiled
-def _eventful_leg(box, leg, j, m, least_slip, tally, pending):
+def _eventful_leg(body, leg, j, m, tally, pending):
     """Move lane j to the end of a leg, event by event; return whether that ended."""
     start, length, w0, w1 = leg
+    box, least_slip = BoxNumbers(*body[:7]), body[7]
     a_s, a_k = m[A_S + j], m[A_K + j]
     d_s, d_k = m[B_S + j] - a_s, m[B_K + j] - a_k
     line = (a_s + w0 * d_s, (w1 - w0) * d_s / length, a_k + w0 * d_k, (w1 - w0) * d_k / length)
     x, v, s = m[X + j], m[V + j], m[MODE + j]
+    g, motion = m[WORK : WORK + TERMS], m[WORK + TERMS : WORK + 2 * TERMS]
     tau = 0.0
     for _ in range(MAX_SWITCHES):
         rest = length - tau
-        dt, x, v, new = to_next_event(box, line, start, tau, rest, x, v, s, m[WORK : WORK + 2 * TERMS])
+        dt, x, v, new = to_next_event(box, line, start, tau, rest, x, v, s, g, motion)
         if dt == rest:
             m[X + j], m[V + j], m[MODE + j] = x, v, s
             return True

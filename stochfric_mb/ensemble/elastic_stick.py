@@ -66,12 +66,12 @@ def stick_force(z, v_rel, limit, stiffness, damping, cap):
 def start(q, m):
     """Set every lane to the law's own state at t = 0."""
     at_start(m)
-    v_rel = q.box.belt_velocity - q.box.velocity
+    v_rel = q.box.belt_velocity - q.velocity
     for j in range(LANES):
         s = law.init(
             0.0, 0.0, 0.0, v_rel, 0.0, q.box.normal_force, m[A_S + j], m[A_K + j], q.box.mass, 0.0, 0.0, q.parameters
         )  # fmt: skip
-        m[MODE + j], m[SIGN + j], m[ZX + j] = s[0], s[3], q.box.position - s[1]
+        m[MODE + j], m[SIGN + j], m[ZX + j] = s[0], s[3], q.position - s[1]
 
 
 @compiled_inline
@@ -241,7 +241,7 @@ def _advance(box, p, line, state, tau, dt, r):
 @compiled
 def _rates(box, p, line, state, tau, y, dy):
     """Write the derivatives of (x, x', z) = y, with the law's own force."""
-    mass, damping, stiffness, normal_force, amplitude, frequency, v_b, _, _ = box
+    mass, damping, stiffness, normal_force, amplitude, frequency, v_b = box
     t = line[0] + tau
     mu_s, mu_k = _branch(line[1] + tau * line[3], line[2] + tau * line[4], state, p)
     f, _ = law.force(t, y[2], 0.0, v_b - y[1], 0.0, normal_force, state, mu_s, mu_k, mass, 0.0, 0.0, p)

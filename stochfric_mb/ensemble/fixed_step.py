@@ -43,6 +43,9 @@ class Problem(NamedTuple):
     """Speed below which a contact counts as stuck [m/s]."""
     box: BoxNumbers
     """The mechanism."""
+    position: float
+    """x at t = 0 [m]; then x' [m/s]."""
+    velocity: float
     least_slip: float
     """Travel from which a slip counts as one [m]."""
 
@@ -68,6 +71,8 @@ def problem(scenario: Scenario, output_times: Array, least_slip: float, dt: floa
         parameters=scenario.law.parameters(),
         stick_speed=scenario.law.stick_speed,
         box=scenario.mechanism.numbers(),
+        position=scenario.mechanism.initial_position,
+        velocity=scenario.mechanism.initial_velocity,
         least_slip=least_slip,
     )
 

@@ -52,8 +52,8 @@ def kernel(law: ModuleType) -> Any:
 
     def group(q, seed, first, n, position, velocity, stick, tallies):
         m = aligned(rows)
-        m[X : X + LANES] = q.box.position
-        m[V : V + LANES] = q.box.velocity
+        m[X : X + LANES] = q.position
+        m[V : V + LANES] = q.velocity
         a_s, a_k, b_s, b_k = (m[A_S : A_S + LANES], m[A_K : A_K + LANES], m[B_S : B_S + LANES], m[B_K : B_K + LANES])
         tally, pending = np.empty((TALLIES, LANES)), np.empty((OPEN, LANES))
         cursors = np.zeros((LANES, CURSOR))

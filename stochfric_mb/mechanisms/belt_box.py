@@ -13,15 +13,13 @@ class BoxNumbers(NamedTuple):
     """A belt-box as compiled code takes it."""
 
     mass: float
-    """m [kg]; then c [N s/m], k [N/m], N [N], k u_0 [N], W [rad/s], v_b [m/s], x [m] and x' [m/s] at t = 0."""
+    """m [kg]; then c [N s/m], k [N/m], N [N], k u_0 [N], W [rad/s], v_b [m/s]."""
     damping: float
     stiffness: float
     normal_force: float
     drive: float
     frequency: float
     belt_velocity: float
-    position: float
-    velocity: float
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -74,7 +72,7 @@ class BeltBox:
         """Return the numbers that compiled code needs."""
         return BoxNumbers(
             self.mass, self.damping, self.stiffness, self.normal_force, self.stiffness * self.excitation_amplitude,
-            self.excitation_angular_frequency, self.belt_velocity, self.initial_position, self.initial_velocity,
+            self.excitation_angular_frequency, self.belt_velocity,
         )  # fmt: skip
 
     def excitation_force(self, t: float) -> float:

@@ -122,13 +122,13 @@ def _line(pairs, knot, first, spacing, t):
 @compiled
 def _leg(box, longest, line, t, length, x, v, mode, log, n_events):
     """Advance by ``length`` [s] with coefficients on one line; return (x, v, mode, log, events, whether it ended)."""
-    work = np.empty(2 * TERMS)
+    g, motion = np.empty(TERMS), np.empty(TERMS)
     n = max(1, math.ceil(length / longest))
     for piece in range(n):
         tau, end = length * (piece / n), length * ((piece + 1) / n)
         for switch in range(MAX_SWITCHES + 1):
             rest = end - tau
-            dt, x, v, new = to_next_event(box, line, t, tau, rest, x, v, mode, work)
+            dt, x, v, new = to_next_event(box, line, t, tau, rest, x, v, mode, g, motion)
             if dt == rest:
                 break
             if switch == MAX_SWITCHES:
@@ -149,15 +149,15 @@ def first_mode(box, t, x, v, mu_s):
     return _mode_at_rest(box, t, x, mu_s)
 
 
-@compiled
-def to_next_event(box, line, start, tau, rest, x, v, mode, work):
+@compiled_inline
+def to_next_event(box, line, start, tau, rest, x, v, mode, g, motion):
     """Return (dt, x, x', mode) at the next switch of a contact, at most ``rest`` [s] on from ``tau`` after ``start``.
 
-    Where dt is ``rest`` there is none: the mode stays. ``line`` is mu_s, its slope, mu_k and its slope at ``start``; ``work``
-    has room for two polynomials.
+    Where dt is ``rest`` there is none: the mode stays. ``line`` is mu_s, its slope, mu_k and its slope at ``start``; ``g``
+    and ``motion`` have room for a polynomial each.
     """
     mu_s, slope_s, mu_k, slope_k = line
-    g, motion, v_b = work[:TERMS], work[TERMS : 2 * TERMS], box.belt_velocity
+    v_b = box.belt_velocity
     t = start + tau
     if mode == 0.0:
         dt, new = _break_away(box, t, x, mu_s + slope_s * tau, slope_s, rest, g)
@@ -175,13 +175,13 @@ def to_next_event(box, line, start, tau, rest, x, v, mode, work):
     return dt, x, v_b, _mode_at_rest(box, start + tau, x, mu_s + slope_s * tau)
 
 
-@compiled
+@compiled_inline
 def _hold(box, t, x, v):
     """Return the friction force [N] that would make the relative acceleration zero."""
     return box.stiffness * x + box.damping * v - (box.drive * math.cos(box.frequency * t) if box.drive != 0.0 else 0.0)
 
 
-@compiled
+@compiled_inline
 def _mode_at_rest(box, t, x, mu_s):
     """Return 0 (stick) or the direction in which a contact at rest breaks away."""
     hold = _hold(box, t, x, box.belt_velocity)
