@@ -85,10 +85,9 @@ def _line(run: dict[str, Any]) -> str:
 
 def _plan(data: Dataset, runs: list[dict[str, Any]]) -> list[str]:
     """Return what a discovery would do."""
-    from stochfric_mb.effects import effect_kinds
-
     kind = data.scenario.mechanism.kind
-    said = f"Would search {len(effect_kinds())} kinds of effects in {len(data.fit)} runs and score on {len(data.test)}, {kind}"
+    said = f"Would search {_searched(kind)} in {len(data.fit)} runs and score on {len(data.test)}, {kind}"
+    from stochfric_mb.discovery.criteria import FEWEST_SLIPS
     from stochfric_mb.discovery.stick_slip.records.long_records import SIMULATED
 
     counts = [run["slips"] or 0 for run in runs]
@@ -97,18 +96,37 @@ def _plan(data: Dataset, runs: list[dict[str, Any]]) -> list[str]:
     # slips beyond those that are simulated cost least
     simulated = sum(min(n, SIMULATED) for n in counts)
     beyond = SECONDS_A_SLIP[0] * (sum(counts) - simulated)
+    few = [run["name"] for run in runs if (run["slips"] or 0) < FEWEST_SLIPS]
+    if few:
+        said += f"; too few slips to judge friction by in {', '.join(few)}: each run needs {FEWEST_SLIPS}"
     low, high = (a + b * simulated + beyond for a, b in zip(SECONDS, SECONDS_A_SLIP, strict=True))
     return [said, f"Expected time: {low:.0f} to {high:.0f} s of one processor, beside compiling at the first use"]
 
 
+def _searched(mechanism: str) -> str:
+    """Return what a discovery looks for at a mechanism."""
+    from stochfric_mb.effects import effect_class, effect_kinds
+    from stochfric_mb.effects.contract import Effect
+    from stochfric_mb.effects.traits import ANONYMOUS
+    from stochfric_mb.mechanisms import BeltBox, SpringSlider
+
+    if mechanism == SpringSlider.kind:
+        return "friction with memory, with speed and with distance"
+    named = [kind for kind in effect_kinds() if ANONYMOUS not in effect_class(kind).traits]
+    if mechanism != BeltBox.kind:
+        named = [kind for kind in named if effect_class(kind).at_joint.__func__ is not Effect.at_joint.__func__]
+    return f"{len(named)} kinds of effects"
+
+
 def _refusal(data: Dataset) -> str:
     """Return why a discovery would refuse the records; empty if it would not."""
-    from stochfric_mb.discovery.stick_slip.records.preconditions import require_usable
+    from stochfric_mb.discovery.driven_joint import joint_workflow
+    from stochfric_mb.discovery.stick_slip.records import preconditions
     from stochfric_mb.mechanisms import BeltBox
 
-    if isinstance(data.scenario.mechanism, BeltBox):
-        try:
-            require_usable(data)
-        except InputError as error:
-            return str(error)
+    sticks = isinstance(data.scenario.mechanism, BeltBox)
+    try:
+        (preconditions if sticks else joint_workflow).require_usable(data)
+    except InputError as error:
+        return str(error)
     return ""

@@ -18,6 +18,8 @@ SYNONYMS: dict[str, tuple[str, ...]] = {
     "voltage": ("u", "volt", "voltage", "vir"),
     "normal_force": ("fn", "normal", "normalforce", "preload"),
     "belt_velocity": ("belt", "vb", "beltspeed", "beltvelocity"),
+    "friction_coefficient": ("mu", "cof", "friction", "frict", "reibwert"),
+    "friction_force": ("friction", "frictionforce"),
     "temperature": ("temp", "temperature"),
     "pressure": ("p", "pressure"),
 }
@@ -56,7 +58,7 @@ def guesses(table: Table, wanted: Iterable[str], *, rotational: bool | None) -> 
         said = table.units.get(name, "")
         column = name if table.has_header else int(name)
         unit = said or _unit(name, quantity, rotational)
-        found.append(Guess(quantity, column, unit, sure=bool(said) and known_name(name) == quantity))
+        found.append(Guess(quantity, column, unit, sure=_plain(name) == quantity and bool(said or not unit)))
     return found
 
 
@@ -64,16 +66,23 @@ def _column(free: list[str], quantity: str, number: int, *, has_header: bool) ->
     """Return the free column that means a quantity: by its name, by a word in it, or without a header by its place."""
     if not has_header:
         return str(number) if str(number) in free and number < 2 else None
-    exact = [name for name in free if known_name(name) == quantity]
+    exact = [name for name in free if _plain(name) == quantity]
     alike = [name for name in free if _words(name) & set(SYNONYMS.get(quantity, ()))]
     return next(iter(exact + alike), None)
 
 
 def _unit(name: str, quantity: str, rotational: bool | None) -> str:
     """Return the unit that a name ends in, such as ``t_ms``, or the SI unit."""
+    if quantity not in KNOWN:
+        return ""  # a ratio, such as the coefficient of friction
     si = KNOWN[quantity].units_of(rotational)[0]
     last = re.split(r"[^A-Za-z/]+", name)[-1]
     return last if last in KNOWN[quantity].also else si
+
+
+def _plain(name: str) -> str:
+    """Return the quantity that a header names in this package's words."""
+    return known_name(name) or re.sub(r"\W+", "_", name.strip().lower())
 
 
 def _words(name: str) -> set[str]:

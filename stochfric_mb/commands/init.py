@@ -23,7 +23,7 @@ CHANNELS: dict[str, tuple[str, ...]] = {
     "belt_box": ("time", "position", "velocity", "belt_velocity", "normal_force", "temperature"),
     "prismatic_joint": ("time", "position", "force", "voltage", "velocity", "pressure", "temperature"),
     "hinge_pendulum": ("time", "position", "torque", "voltage", "velocity", "temperature"),
-    "spring_slider": ("time", "position", "normal_force", "temperature"),
+    "spring_slider": ("time", "position", "friction_coefficient", "friction_force", "normal_force", "temperature"),
     "mjcf": ("time", "position", "torque", "force", "velocity", "temperature"),
 }
 """Mechanism -> quantities that are looked for in a measured file."""
@@ -140,7 +140,7 @@ def _runs(mechanism: str, file: Path, target: Path) -> tuple[str, list[str]]:
     keys = []
     if unsure:
         pairs = ", ".join(f"{g.quantity} = {_toml(g.column)}" for g in unsure)
-        units = ", ".join(f"{g.quantity} = {_toml(g.unit)}" for g in unsure)
+        units = ", ".join(f"{g.quantity} = {_toml(g.unit)}" for g in unsure if g.unit)
         keys = [f"columns = {{ {pairs} }}  # GUESS, from the header", f"units = {{ {units} }}  # GUESS"]
     name = _toml(os.path.relpath(file.resolve(), target.resolve()))
     spans = (("fit", f"[{time[0]:.9g}, {cut:.9g}]"), ("test", f"[{cut:.9g}, {time[-1]:.9g}]"))
@@ -149,7 +149,7 @@ def _runs(mechanism: str, file: Path, target: Path) -> tuple[str, list[str]]:
         for role, span in spans
     ]
     said = [
-        f"{g.quantity}: column {g.column!r} [{g.unit}]" + ("" if g.sure else " (a guess, check it in dataset.toml)")
+        f"{g.quantity}: column {g.column!r} [{g.unit or '-'}]" + ("" if g.sure else " (a guess, check it in dataset.toml)")
         for g in found
     ]
     return "\n".join(entries), said

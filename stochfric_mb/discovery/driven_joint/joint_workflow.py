@@ -77,10 +77,30 @@ def _require_controller(scenario: Scenario[Any]) -> None:
         )
 
 
-def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
+def require_usable(dataset: Dataset) -> None:
+    """Return if friction can be estimated from the runs of a dataset.
+
+    Raises:
+        InputError: another mechanism, a missing channel or model file, or a joint that hardly slides.
+    """
+    if isinstance(dataset.scenario.mechanism, SpringSlider):
+        from stochfric_mb.discovery.velocity_step.velocity_steps import track_of
+
+        for run in dataset.runs:
+            track_of(run, dataset)
+        return
+    _require_controller(dataset.scenario)
+    _require_sliding_at_places(dataset, source_of(dataset))
+
+
+def _require_sliding_at_places(dataset: Dataset, source: Any) -> None:
     for name, _ in source.places:
         for role in ("fit", "test"):
             _require_sliding(source.balances(name, role, believed_delay(dataset.scenario)), name, role)
+
+
+def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
+    _require_sliding_at_places(dataset, source)
     notes: list[str] = []
     base = believed_delay(dataset.scenario)
     places = [_place(dataset, tell, source, name, load, base, notes) for name, load in source.places]

@@ -1,5 +1,6 @@
 """A dry run reads, checks and draws, and infers nothing; its picture shows every slip."""
 
+import dataclasses
 import json
 import re
 
@@ -99,3 +100,52 @@ def test_names_from_a_file_are_escaped():
     svg = record(np.arange(10.0), np.arange(10.0), "<script>")
     assert "<script>" not in svg
     assert re.search("&lt;script&gt;", svg)
+
+
+JOINT = """
+schema = "stochfric.scenario/1"
+[mechanism]
+kind = "{kind}"
+{numbers}
+[law]
+kind = "coulomb"
+mu_s = 0.03
+mu_k = 0.02
+[simulation]
+duration = 20.0
+output_step = 1.0e-3
+"""
+
+
+@pytest.mark.parametrize(
+    ("kind", "numbers", "searched", "lacks"),
+    [
+        (
+            "prismatic_joint",
+            "mass = 95.0\nnormal_force = 932.0",
+            "Would search 11 kinds of effects",
+            "has no force (it has position)",
+        ),
+        ("spring_slider", "stiffness = 2000.0", "Would search friction with memory", "neither friction_coefficient"),
+    ],
+)
+def test_what_a_joint_lacks_is_said_before_anything_is_computed(tmp_path, kind, numbers, searched, lacks):
+    (tmp_path / "rig.toml").write_text(JOINT.format(kind=kind, numbers=numbers))
+    time = np.arange(4000) * 1e-3
+    np.savetxt(
+        tmp_path / "run.csv", np.column_stack([time, np.sin(time)]), header="time [s],position [m]", comments="", delimiter=","
+    )
+    done = invoke("discover", tmp_path / "run.csv", "--scenario", tmp_path / "rig.toml", "--dry-run", "--out", tmp_path / "raw")
+    assert done.exit_code == 2
+    assert searched in done.output
+    assert lacks in " ".join(done.stderr.split())
+    assert (tmp_path / "raw" / "records.html").exists()
+
+
+def test_too_few_slips_are_said(tmp_path, motion):
+    short = dataclasses.replace(motion, time=motion.time[:9000], position=motion.position[:9000])
+    file = _write(tmp_path / "run.csv", short)
+    done = invoke("discover", file, "--scenario", "kang2015_table1", "--dry-run", "--out", tmp_path / "raw")
+    assert "too few slips to judge friction by in run (first two thirds), run (last third): each run needs 12" in " ".join(
+        done.output.split()
+    )

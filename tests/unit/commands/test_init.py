@@ -117,3 +117,11 @@ def test_unknown_mechanisms_are_refused(tmp_path):
     tables = {"schema": "stochfric.scenario/1", "simulation": {"duration": 1.0, "output_step": 0.1}}
     with pytest.raises(InputError, match="unknown mechanism"):
         any_scenario_from_dict(tables | {"mechanism": {"kind": "belt"}}, folder=tmp_path)
+
+
+def test_a_log_of_velocity_steps_brings_its_coefficient_of_friction(tmp_path):
+    log = _csv(tmp_path / "log.csv", "TIME_s,Load point disp [um],mu", TIME, 10.0 * TIME, 0.6 + 0.0 * TIME)
+    done = invoke("init", "spring_slider", "--from", log, "--out", tmp_path / "rig")
+    assert "friction_coefficient: column 'mu' [-] (a guess" in done.output
+    data = load_dataset(tmp_path / "rig")
+    assert np.allclose(data.runs[0].covariates["friction_coefficient"], 0.6)
