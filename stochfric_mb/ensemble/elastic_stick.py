@@ -150,14 +150,15 @@ def finish(w_old, w, h, drive, numbers, m):
 
 
 # --- one lane that switches -------------------------------------------------------------------------------------------
-# line: time and mu_s, mu_k at the start of the step, and their slopes; rows of r: x, x', z,
-# the same after a trial step and at a stage of it, and the rates of its four stages
+# line: time and mu_s, mu_k at the start of the step, and their slopes; r: (x, x', z), the same after a trial step and at a stage
+# of it, and the rates of its four stages, taken as rows once: a view costs as much as a stage
 
 
 @compiled
 def switch(q, t, h, w, part, m):
     """Make the last step again for the lanes that have passed a switch."""
-    r = np.empty((3 + len(B), 3))
+    rows = np.empty((3 + len(B), 3))
+    r = (rows[0], rows[1], rows[2], rows[3:])
     for j in range(LANES):
         if m[SWITCHED + j] == 1.0:
             _switching_step(q.box, q.parameters, j, t, h, w, part, m, r)
@@ -168,7 +169,8 @@ def _switching_step(box, p, j, t, h, w, part, m, r):
     """Make the last step of lane j again, with its switches located and committed by the law."""
     d_s, d_k = m[D_S + j], m[D_K + j]
     line = (t, m[A_S + j] + w * d_s, m[A_K + j] + w * d_k, part * d_s / h, part * d_k / h)
-    r[0, 0], r[0, 1], r[0, 2] = m[OLD_X + j], m[OLD_V + j], m[ZX + j] - box.belt_velocity * h - m[OLD_X + j]
+    y, end, _, _ = r
+    y[0], y[1], y[2] = m[OLD_X + j], m[OLD_V + j], m[ZX + j] - box.belt_velocity * h - m[OLD_X + j]
     state = (m[MODE + j], 0.0, 0.0, m[SIGN + j], 0.0)
     tau = 0.0
     for count in range(MAX_SWITCHES + 1):
@@ -180,16 +182,15 @@ def _switching_step(box, p, j, t, h, w, part, m, r):
         tau = h if last else tau + dt
         mu_s, mu_k = line[1] + tau * line[3], line[2] + tau * line[4]
         new = law.commit(
-            t + tau, r[1, 2], 0.0, box.belt_velocity - r[1, 1], 0.0, box.normal_force, state, mu_s, mu_k, box.mass, 0.0, 0.0, p
+            t + tau, end[2], 0.0, box.belt_velocity - end[1], 0.0, box.normal_force, state, mu_s, mu_k, box.mass, 0.0, 0.0, p
         )
-        r[0] = r[1]
-        r[0, 2] -= new[1]
+        y[0], y[1], y[2] = end[0], end[1], end[2] - new[1]
         state = (new[0], 0.0, 0.0, new[3], 0.0)
         if last:
             break
-    m[X + j] = m[STAGE_X + j] = r[0, 0]
-    m[V + j] = m[STAGE_V + j] = r[0, 1]
-    m[ZX + j] = r[0, 2] + r[0, 0]
+    m[X + j] = m[STAGE_X + j] = y[0]
+    m[V + j] = m[STAGE_V + j] = y[1]
+    m[ZX + j] = y[2] + y[0]
     m[MODE + j], m[SIGN + j] = state[0], state[3]
 
 
@@ -232,21 +233,22 @@ def _margin_after(box, p, line, state, tau, dt, second, r):
 @compiled
 def _advance(box, p, line, state, tau, dt, r):
     """Make a Runge-Kutta step ``dt`` after ``tau`` into the step, with the law's own force."""
+    y, end, stage, k = r
     for i in range(len(B)):
-        advance(A[i], i, dt, r[0], r[3:], 0, 3, r[2])
-        _rates(box, p, line, state, tau + C[i] * dt, r[2], r[3 + i])
-    advance(B, len(B), dt, r[0], r[3:], 0, 3, r[1])
+        advance(A[i], i, dt, y, k, 0, 3, stage)
+        _rates(box, p, line, state, tau + C[i] * dt, stage, k, i)
+    advance(B, len(B), dt, y, k, 0, 3, end)
 
 
 @compiled
-def _rates(box, p, line, state, tau, y, dy):
-    """Write the derivatives of (x, x', z) = y, with the law's own force."""
+def _rates(box, p, line, state, tau, y, k, i):
+    """Write the derivatives of (x, x', z) = y into row i of k, with the law's own force."""
     mass, damping, stiffness, normal_force, amplitude, frequency, v_b = box
     t = line[0] + tau
     mu_s, mu_k = _branch(line[1] + tau * line[3], line[2] + tau * line[4], state, p)
     f, _ = law.force(t, y[2], 0.0, v_b - y[1], 0.0, normal_force, state, mu_s, mu_k, mass, 0.0, 0.0, p)
     drive = amplitude * math.cos(frequency * t) if amplitude != 0.0 else 0.0
-    dy[0], dy[1], dy[2] = y[1], (f + drive - damping * y[1] - stiffness * y[0]) / mass, v_b - y[1]
+    k[i, 0], k[i, 1], k[i, 2] = y[1], (f + drive - damping * y[1] - stiffness * y[0]) / mass, v_b - y[1]
 
 
 @compiled
