@@ -150,8 +150,8 @@ def finish(w_old, w, h, drive, numbers, m):
 
 
 # --- one lane that switches -------------------------------------------------------------------------------------------
-# line: time and mu_s, mu_k at the start of the step, and their slopes; r: (x, x', z), the same after a trial step and at a stage
-# of it, and the rates of its four stages, taken as rows once: a view costs as much as a stage
+# line: time and mu_s, mu_k at the start of the step, and their slopes; r: (x, x', z), the same after a trial step and at a
+# stage of it, and the rates of its four stages, taken as rows once: a view costs as much as a stage
 
 
 @compiled
