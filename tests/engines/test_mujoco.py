@@ -425,7 +425,20 @@ def test_hand_written_xml():
 def test_malformed_configurations_say_why(key, value, message):
     texts = config.configuration(Friction(ELASTIC)) | {key: value}
     with pytest.raises(InputError, match=message):
-        config.record_of(texts)
+        config.friction_of(texts["law"], texts["coefficients"])
+
+
+def test_a_law_makes_one_trip_to_the_engine(monkeypatch):
+    """As text into the model, read once when it compiles; data made from it read nothing."""
+    read = []
+    parse = config._parse
+    monkeypatch.setattr(config, "_parse", lambda name, text: read.append(name) or parse(name, text))
+    spec = box_spec()
+    engine.add_friction(spec, ("box", "floor"), Coulomb(mu_s=0.4123, mu_k=0.3))
+    assert read == []
+    model = spec.compile()
+    mujoco.mj_step(model, mujoco.MjData(model))
+    assert read == ["law"]
 
 
 def test_a_law_with_true_stick_cannot_be_explicit():

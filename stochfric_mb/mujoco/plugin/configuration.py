@@ -72,7 +72,7 @@ def configuration(
         "across": repr(anisotropy.across) if anisotropy != ISOTROPIC else "",
         "direction": " ".join(repr(x) for x in anisotropy.direction) if anisotropy != ISOTROPIC else "",
     }
-    record_of(texts)
+    _record(friction, texts)
     return texts
 
 
@@ -88,16 +88,16 @@ def friction_of(law: str, coefficients: str) -> Friction:
     return Friction(made, process)
 
 
-def record_of(texts: Mapping[str, str]) -> npt.NDArray[np.float64]:
+def _record(friction: Friction, texts: Mapping[str, str]) -> npt.NDArray[np.float64]:
     """Return the header and the descriptor that the states of a configuration start with.
 
     Args:
+        friction: what the texts of law and coefficients say.
         texts: the plugin's keys and values; those left out are as if empty.
 
     Raises:
         InputError: a text is malformed, or the law cannot run in this engine, this mode or with this anisotropy.
     """
-    friction = friction_of(texts["law"], texts.get("coefficients", ""))
     mode = texts.get("mode") or "auto"
     _require_runnable(friction.law)
     require_mode(friction.law, mode)
@@ -154,18 +154,19 @@ def law_of(texts: Mapping[str, str], place: tuple[int, int, int]) -> npt.NDArray
     """Return the `memory.state.LAW` of a configuration, made once for each and kept for good.
 
     Args:
-        texts: the plugin's keys and values, see `record_of`; seeds and names do not count.
+        texts: the plugin's keys and values, see `configuration`; seeds and names do not count.
         place: PAIR, JOINT or TENDON, and the numbers of the geoms, or twice that of the joint or tendon.
     """
     told = repr((*place, *(texts.get(name, "") for name in RECORDED)))
     key = int.from_bytes(hashlib.blake2b(told.encode(), digest_size=7).digest()) or 1
     with _lock:
         if key not in _laws:
-            start = record_of(texts)
+            friction = friction_of(texts["law"], texts.get("coefficients", ""))
+            start = _record(friction, texts)
             header = header_of(start)
             header.place, header.geom_body, header.geom_surface = place
             law = np.zeros(1, LAW)
-            functions = native_law(friction_of(texts["law"], "").law.kind)
+            functions = native_law(friction.law.kind)
             for name in ("init", "force", "commit", "guards", "slide", "spring", "n_state"):
                 law[name] = getattr(functions, name)
             law["key"], law["start"], law["n_start"] = key, start.ctypes.data, len(start)
