@@ -85,7 +85,7 @@ def _renew_law(states: npt.NDArray[np.float64], kind: str) -> None:
             mine.limits[:], mine.critical_step = header.limits, 0.0
             mine.stick_speed, mine.peak_speed = header.stick_speed, header.peak_speed
             for name, place in _MEANS.items():
-                state[s.N_HEADER + place] = numbers[name]
+                state[s.descriptor_place(mine) + place] = numbers[name]
 
 
 def untouched(model: mujoco.MjModel, data: mujoco.MjData) -> list[str]:

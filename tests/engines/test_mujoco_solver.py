@@ -257,7 +257,7 @@ def lift_slip(dt, integrator, kind):
 @pytest.mark.parametrize("kind", ["coulomb", "elastic_stick"])
 @pytest.mark.parametrize(
     ("dt", "integrator"),
-    [(1e-3, "Euler"), (1e-3, "implicitfast"), (2e-3, "implicit"), (2e-3, "implicitfast")]
+    [(1e-3, "Euler"), (1e-3, "RK4"), (1e-3, "implicitfast"), (2e-3, "implicit"), (2e-3, "implicitfast")]
     + [(dt, "discrete") for dt in (1e-3, 2e-3, 5e-3, 1e-2)],
 )
 def test_a_gripper_holds_what_it_lifts(dt, integrator, kind):

@@ -23,12 +23,12 @@ INSTANT = 1.0e-12
 def coefficients(state, t, position, events):
     """Return (mu_s, mu_k) of the instance's path; along time, once for all its contacts."""
     header = s.header_record(state)
-    if s.descriptor_of(state)[1] != TIME:
-        return coefficients_anew(state, t, position, events)
-    if header.path_time != t:
-        header.path_mu_s, header.path_mu_k = coefficients_anew(state, t, position, events)
-        header.path_time = t
-    return header.path_mu_s, header.path_mu_k
+    if header.path_time == t:
+        return header.path_mu_s, header.path_mu_k
+    mu_s, mu_k = coefficients_anew(state, t, position, events)
+    if s.descriptor_of(state)[1] == TIME:
+        header.path_mu_s, header.path_mu_k, header.path_time = mu_s, mu_k, t
+    return mu_s, mu_k
 
 
 @compiled

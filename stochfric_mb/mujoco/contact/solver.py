@@ -127,7 +127,9 @@ def follow(m, d, state, law, i, sign, known, k):
     set_axes(d, contact, slot, old, number >= 0, body, surface, h)
     slot.geom_1, slot.geom_2, slot.ordinal = contact.geom[0] + 1.0, contact.geom[1] + 1.0, ordinal
     slot.since, slot.live, slot.solved, slot.cap = header.instant, 1.0, 1.0, 0.0
+    slot.bodies = body * s.BODIES + surface
     put(slot.w, wx, wy, wz)
+    put(slot.mean, wx / 6.0, wy / 6.0, wz / 6.0)
     slot.vx, slot.vy = dot(slot.axis_1, wx, wy, wz), dot(slot.axis_2, wx, wy, wz)
     mobility = w.at(m.body_invweight0, 2 * body) + w.at(m.body_invweight0, 2 * surface)
     slot.felt = 1.0 / mobility if mobility > 0.0 else 0.0
@@ -164,9 +166,10 @@ def born(header, slot, speed):
 def move(m, d, header, contact, slot, old, body, surface):
     """Carry deflection, displacement and dissipated energy of a contact over the step that has just ended."""
     h, f = m.timestep, contact.frame
-    early = 0.5 if m.integrator == RUNGE_KUTTA else 0.0  # other integrators move with the velocity at the step's end
     v, u, a = slot.w, old.w, slot.a
-    dx, dy, dz = h * (v[0] + early * (u[0] - v[0])), h * (v[1] + early * (u[1] - v[1])), h * (v[2] + early * (u[2] - v[2]))
+    stages = m.integrator == RUNGE_KUTTA and old.solved != 0.0  # other integrators move with the velocity at the end
+    mean = old.mean if stages else v
+    dx, dy, dz = h * mean[0], h * mean[1], h * mean[2]
     slot.ux = old.ux + dot(slot.axis_1, dx, dy, dz)
     slot.uy = old.uy + dot(slot.axis_2, dx, dy, dz)
     slot.energy += dot(old.pull, dx, dy, dz)
@@ -287,7 +290,9 @@ def steer(m, d, state, law, contact, sign, address, since):
     x, y, z = 0.0, 0.0, 0.0
     if since > 0.0:
         ux, uy, uz = measure_velocity(m, d, contact, sign)
-        half = 0.5 * since
+        part = 1.0 / 3.0 if since < 0.75 * m.timestep else 1.0 / 6.0
+        mean, half = slot.mean, 0.5 * since
+        put(mean, mean[0] + part * ux, mean[1] + part * uy, mean[2] + part * uz)
         x, y, z = half * (vx + ux), half * (vy + uy), half * (vz + uz)
         vx, vy, vz = ux, uy, uz
     if slot.slides != 0.0:

@@ -61,8 +61,8 @@ def commit(model, data, state):
     """Make the current slots the committed ones, still without forces."""
     header = s.header_record(state)
     count = int(header.n_current)
-    s.copy_slots(s.slot_address(state, 1, 0), s.slot_address(state, 0, 0), count)
     for k in range(count):
+        s.copy_slot(state, 1, k, header.solved == 0.0)
         forget_forces(s.slot_at(state, 0, k))
     header.n_committed = count
 
@@ -72,7 +72,7 @@ def close(model, data, state):
     """End a step whose forces are known."""
     m, d, header = model_at(model), data_at(data), s.header_record(state)
     if header.solved != 0.0:
-        compare(m, state, int(header.n_committed))
+        compare(state, int(header.n_committed))
     else:
         header.velocities, header.finished = explicit.told_by(m, d), 1.0
     header.latched = 1.0 if header.solved != 0.0 and header.n_committed > 0.0 else 0.0
@@ -112,7 +112,7 @@ def learn(data, state, current, count, m):
 
 
 @compiled
-def compare(m, state, count):
+def compare(state, count):
     """Compare the contacts between the same two bodies: how much of the normal force each has, and which are loose.
 
     A contact at its cap is loose, and slides, if none of the others holds less than its cap.
@@ -122,17 +122,11 @@ def compare(m, state, count):
         slot.loose, among, total = slot.saturated, 0.0, 0.0
         for j in range(count):
             other = s.slot_at(state, 0, j)
-            if body_at(m, other.geom_1) == body_at(m, slot.geom_1) and body_at(m, other.geom_2) == body_at(m, slot.geom_2):
+            if other.bodies == slot.bodies:
                 among, total = among + 1.0, total + other.given
                 if other.saturated == 0.0 and other.given > 0.0:
                     slot.loose = 0.0
         slot.weight = slot.given * among / total if total > 0.0 else 1.0
-
-
-@compiled_inline
-def body_at(m, key):
-    """Return the body of a geom, given as a slot's key."""
-    return w.int_at(m.geom_bodyid, int(key) - 1)
 
 
 @compiled_inline

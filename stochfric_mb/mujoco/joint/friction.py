@@ -73,7 +73,7 @@ def fill(model, data, state, slot, old, known):
     """Fill kinematics and mass of the current slot; its law state stays the old one."""
     m, d, header = model_at(model), data_at(data), s.header_record(state)
     if known:
-        s.copy_slots(s.slot_address(state, 0, 0), s.slot_address(state, 1, 0), 1)
+        s.copy_slot(state, 0, 0, True)
     position, v = position_of(m, d, header), -along_row(m, d, header, d.qvel)
     slot.ux, slot.vx, slot.uy, slot.vy = -position, v, 0.0, 0.0
     slot.live = 1.0 if known else 0.0
@@ -192,7 +192,7 @@ def finish(model, data, state):
     m, d, header = model_at(model), data_at(data), s.header_record(state)
     if header.n_current == 0.0:
         return
-    s.copy_slots(s.slot_address(state, 1, 0), s.slot_address(state, 0, 0), 1)
+    s.copy_slot(state, 1, 0, True)
     if header.solved != 0.0:
         learn(m, d, state, 0)
     if header.radius > 0.0:

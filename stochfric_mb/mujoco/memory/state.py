@@ -2,7 +2,7 @@
 
 Everything that changes stands there as doubles, so that copying, saving, pickling and batching carry it. The *committed*
 slots are what the last accepted step left; the *current* slots are derived from them at each evaluation at a step's start,
-and become the committed ones when the engine advances. The coefficient descriptor stands between the header and the slots.
+and become the committed ones when the engine advances. Both stand by turns, and after them the coefficient descriptor.
 """
 
 from __future__ import annotations
@@ -22,6 +22,8 @@ from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import data_at, model_at, record_view
 
 MAX_PARAMETERS, N_LIMITS, MAX_ROW = 16, 13, 32
+BODIES = 2**24
+"""What a body's id counts in a slot's ``bodies``; that of the counter-surface counts 1."""
 TOO_MANY = (
     "stochfric_mb: more contacts than a friction has slots for; give add_friction(..., slots=...) the most that there can be"
 )
@@ -69,6 +71,7 @@ HEADER = _record(
 )  # fmt: skip
 SLOT = _record(
     "geom_1", "geom_2", "ordinal",  # key: geoms plus 1, number among equals
+    "bodies",  # number of the two bodies, see `BODIES`
     "live",  # 1 if it has a law state, 0 not yet, -1 where it was given another velocity
     "normal", "mass", "felt",  # normal force [N], mass felt by the law, by this contact alone [kg]
     "stick", "events", "energy",  # stuck, stick phases begun, energy dissipated [J]
@@ -84,13 +87,15 @@ SLOT = _record(
     ("z", 3), ("w", 3),  # deflection while stuck [m], relative velocity [m/s], world axes
     ("a", 3),  # relative acceleration that the solver foresaw in the step before [m/s^2], world axes
     "foreseen", ("lead", 3),  # 1 if it was for a step; the acceleration over that step less the foreseen one [m/s^2]
+    ("mean", 3),  # relative velocity over a Runge-Kutta step so far, as that weighs its stages [m/s], world axes
     "creep",  # speed at which a law that creeps at rest has the force [m/s]
     "weight",  # its normal force over the mean of those between the two bodies
     "compliance",  # with the discrete integrator, deflection of a stuck contact over its force [m/N]; otherwise 0
     "springs",  # 1 if it was held by the law's own spring in the step before
     ("pull", 3),  # friction force on the body in the step before [N], world axes
+    # of explicit steps, joints and tendons alone:
     ("on_body", 3), ("on_surface", 3),  # the contact point in the frames of the two bodies
-    ("work", 4), ("before", 5), ("guards", GUARDS), ("hold", 2),  # explicit steps, see `contact.law`
+    ("work", 4), ("before", 5), ("guards", GUARDS), ("hold", 2),  # see `contact.law`
     ("state", MAX_STATE),  # the law's
 )  # fmt: skip
 LAW = np.dtype([(f, np.int64) for f in (
@@ -104,6 +109,7 @@ LAW = np.dtype([(f, np.int64) for f in (
 N_HEADER, N_SLOT = HEADER.itemsize // 8, SLOT.itemsize // 8
 header_record, slot_record, law_at = record_view(HEADER), record_view(SLOT), record_view(LAW)
 _HEADER_SIZE, _SLOT_SIZE = HEADER.itemsize, SLOT.itemsize
+_SOLVED_SIZE = int(SLOT.fields["on_body"][1])  # type: ignore
 _CURSOR, _OUTPUT, _PARAMETERS, _ROWS = (int(HEADER.fields[f][1]) for f in ("cursor", "output", "parameters", "rows"))  # type: ignore
 _STATE, _GUARDS = (int(SLOT.fields[f][1]) for f in ("state", "guards"))  # type: ignore
 
@@ -124,9 +130,10 @@ def header_of(state: Array) -> Any:
 def started(law: npt.NDArray[Any], **address: int) -> Array:
     """Return the state that an instance with this `LAW` begins with; ``address`` is seed, sample and contact."""
     state = np.zeros(int(law["n_all"][0]))
-    start = (ctypes.c_double * int(law["n_start"][0])).from_address(int(law["start"][0]))
-    state[: len(start)] = start
+    start = np.ctypeslib.as_array((ctypes.c_double * int(law["n_start"][0])).from_address(int(law["start"][0])))
+    state[:N_HEADER] = start[:N_HEADER]
     header = header_of(state)
+    state[descriptor_place(header) :] = start[N_HEADER:]
     for name, number in address.items():
         header[name] = number
     return state
@@ -135,10 +142,14 @@ def started(law: npt.NDArray[Any], **address: int) -> Array:
 def slots_of(state: Array, *, committed: bool) -> Any:
     """Return the committed or the current contacts of an instance's state (a view), fields by name."""
     header = header_of(state)
-    n_slots = int(header.n_slots)
-    first = N_HEADER + int(header.n_descriptor) + (0 if committed else n_slots * N_SLOT)
     count = int(header.n_committed if committed else header.n_current)
-    return state[first : first + count * N_SLOT].view(SLOT).view(np.recarray)
+    slots = state[N_HEADER : N_HEADER + 2 * count * N_SLOT].view(SLOT)
+    return slots[0 if committed else 1 :: 2].view(np.recarray)
+
+
+def descriptor_place(header: Any) -> int:
+    """Return where the coefficient descriptor stands in the state that has this header [doubles]."""
+    return N_HEADER + 2 * int(header.n_slots) * N_SLOT
 
 
 @compiled
@@ -164,15 +175,13 @@ def law_address(data, instance):
 
 @compiled
 def slot_address(state, current, k):
-    """Return the address of slot ``k`` of the committed (0) or the current (1) block."""
-    header = header_record(state)
-    number = current * int(header.n_slots) + k
-    return state + _HEADER_SIZE + 8 * int(header.n_descriptor) + number * _SLOT_SIZE
+    """Return the address of the committed (0) or the current (1) slot ``k``."""
+    return state + _HEADER_SIZE + (2 * k + current) * _SLOT_SIZE
 
 
 @compiled
 def slot_at(state, current, k):
-    """Return slot ``k`` of the committed (0) or the current (1) block."""
+    """Return the committed (0) or the current (1) slot ``k``."""
     return slot_record(slot_address(state, current, k))
 
 
@@ -184,9 +193,10 @@ def require_room(header, count):
 
 
 @compiled
-def copy_slots(source, target, count):
-    """Copy ``count`` slots from one address to another."""
-    w.copy_bytes(source, target, _SLOT_SIZE * count)
+def copy_slot(state, current, k, whole):
+    """Copy the committed (0) or the current (1) slot ``k`` to the other one, or (not ``whole``) what solved contacts need."""
+    size = _SLOT_SIZE if whole else _SOLVED_SIZE
+    w.copy_bytes(slot_address(state, current, k), slot_address(state, 1 - current, k), size)
 
 
 @compiled
@@ -203,7 +213,8 @@ def find(state, current, count, a, b, ordinal, guess):
 @compiled
 def descriptor_of(state):
     """Return the coefficient descriptor."""
-    return w.vector(state + _HEADER_SIZE, int(header_record(state).n_descriptor))
+    header = header_record(state)
+    return w.vector(slot_address(state, 0, int(header.n_slots)), int(header.n_descriptor))
 
 
 @compiled

@@ -22,7 +22,8 @@ _SYMBOL = "stochfric_mb_mujoco_table"
 _place = np.zeros(1, np.int64)
 _addresses: dict[int, int] = {}
 _tables = [np.array([256, *[0] * 512])]
-"""The table in use, last, and smaller ones that threads may still be reading: size, then keys and addresses by turns."""
+"""The table in use, last, and smaller ones that threads may still be reading: a power of 2, then that many keys and addresses
+by turns."""
 _lock = threading.Lock()
 _place[0] = _tables[0].ctypes.data
 llvmlite.binding.add_symbol(_SYMBOL, _place.ctypes.data)
@@ -46,9 +47,9 @@ def enter(key: int, address: int) -> None:
 
 def _put(table: Any, key: int, address: int) -> None:
     size = int(table[0])
-    place = key % size
+    place = key & (size - 1)
     while table[1 + 2 * place] not in (0, key):
-        place = (place + 1) % size
+        place = (place + 1) & (size - 1)
     table[2 + 2 * place] = address
     table[1 + 2 * place] = key  # last: an entry with a key is complete
 
@@ -66,9 +67,9 @@ def address_of(key):
     """Return the address that was entered with a key, 0 if none was."""
     table = _table()
     size = w.word_at(table, 0)
-    place = key % size
+    place = key & (size - 1)
     while True:
         found = w.word_at(table, 1 + 2 * place)
         if found in (key, 0):
             return w.word_at(table, 2 + 2 * place) if found == key else 0
-        place = (place + 1) % size
+        place = (place + 1) & (size - 1)

@@ -144,9 +144,11 @@ def _reset(model, state, plugin_data, instance):
     if address == 0:
         return
     law = s.law_at(address)
-    w.copy_bytes(law.start, state, 8 * law.n_start)
-    for j in range(law.n_start, law.n_all):
+    n_descriptor = law.n_start - s.N_HEADER
+    w.copy_bytes(law.start, state, 8 * s.N_HEADER)
+    for j in range(s.N_HEADER, law.n_all - n_descriptor):
         w.put(state, j, 0.0)
+    w.copy_bytes(law.start + 8 * s.N_HEADER, state + 8 * (law.n_all - n_descriptor), 8 * n_descriptor)
     header = s.header_record(state)
     header.seed = number_in(engine.mj_getPluginConfig(model, instance, w.c_string("seed")))
     header.sample = number_in(engine.mj_getPluginConfig(model, instance, w.c_string("sample")))

@@ -26,10 +26,10 @@ N_BIAS, DAMPING, N_GEAR = int(mujoco.mjNBIAS), 2, 6
 """Numbers of an actuator's bias, the place of minus kv among them, numbers of its gear."""
 STIFF = 1.0
 """Step times damping over mass [-] above which a step with implicit damping is another one than the solver foresaw."""
-LONG = 4.0e-3
-"""Step [s] above which stuck contacts slip by it: on a servo table that shakes at 1 Hz with 2 m/s^2 by 1 um at 2 ms, 30 um at
-5 ms, .4 mm at 10 ms, with the fourth power of the step, and alike for all dampings above `STIFF`. With RK4, whose stages
-damping changes, at any step: 10 um at h c/m = 1, 2.4 mm at 2.5."""
+LONG, LONG_STAGES = 4.0e-3, 2.0e-3
+"""Steps [s], and those with RK4, above which stuck contacts slip by it: on a servo table that shakes at 1 Hz with 2 m/s^2 by
+1 um at 2 ms, 30 um at 5 ms, .4 mm at 10 ms, with the fourth power of the step, and alike for all dampings above `STIFF`. With
+RK4, whose stages damping changes, by 1 um at 2 ms, 4 um at 4 ms, and .4 mm there at h c/m = 2.5, where it is hardly stable."""
 
 
 class IntegratorWarning(UserWarning):
@@ -112,7 +112,7 @@ def stiff_damping(model: int) -> float:
     """
     m = layout.struct("mjModel").from_address(model)
     h, integrator = m.opt.timestep, m.opt.integrator
-    if integrator == DISCRETE or not (h > LONG or integrator == RUNGE_KUTTA):
+    if integrator == DISCRETE or h <= (LONG_STAGES if integrator == RUNGE_KUTTA else LONG):
         return 0.0
     ratios = h * layout.doubles(m.dof_damping, m.nv) * layout.doubles(m.dof_invweight0, m.nv)
     if integrator != EULER and m.nu:
