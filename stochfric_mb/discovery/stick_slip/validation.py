@@ -17,8 +17,8 @@ from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, likelihood_r
 from stochfric_mb.discovery.stick_slip.simulation.scatter import matched
 from stochfric_mb.discovery.stick_slip.simulation.strength import told_by_ratio, undecided
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.effects import kinds_with
-from stochfric_mb.effects.traits import OUTSIDE_FORECASTS, SCATTER
+from stochfric_mb.effects import kind_found_as, kinds_with
+from stochfric_mb.effects.traits import OUTSIDE_FORECASTS, SCATTER, WANDER
 
 
 @dataclasses.dataclass(frozen=True)
@@ -163,7 +163,7 @@ def _without_last(answer: Answer, found: Study, recalibrated: Fit, runs: HeldOut
 def _refused(seen: Comparison, last: Named, fewer: Answer) -> bool:
     """Return whether held-out runs speak against the effect that was found last."""
     # what is beside a named effect needs evidence of its own; a wander's forecasts hang on where the record happens to be
-    idle = bool(fewer.decision.named) and last.kind not in kinds_with(SCATTER) and not seen.better
+    idle = bool(fewer.decision.named) and last.kind != kind_found_as(WANDER) and not seen.better
     return seen.worse or idle
 
 

@@ -12,6 +12,7 @@ from scipy.stats import binom
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.false_alarms import Evidence, detected, likely
 from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.records.record import Array, Record
 from stochfric_mb.discovery.stick_slip.records.stick_phases import Sticking
 from stochfric_mb.discovery.stick_slip.screening.competitors import step_times, steps
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
@@ -123,7 +124,7 @@ def _outliers(study: Study, details: dict[str, object]) -> Blamed | Where:
     """Return outliers; what stands out of a smoothed sensor's samples alone is none, what keeps to the slips no accident."""
     share = outlier_share(study)
     details["outlier_share"] = share
-    if share < criteria.LEAST_OUTLIERS or share * sum(len(r.time) for r in study.records) < criteria.FEWEST_OUTLIERS:
+    if share < criteria.LEAST_OUTLIERS or sum(len(_accidents(r)) for r in study.records) < criteria.FEWEST_OUTLIERS:
         return []
     if _in_slips(study) < criteria.OUTLIERS_BY_CHANCE:
         return Where("slip, sensor", "the reading jumps in the slips and at their edges, and hardly anywhere else")
@@ -133,14 +134,18 @@ def _outliers(study: Study, details: dict[str, object]) -> Blamed | Where:
     ]
 
 
+def _accidents(record: Record) -> Array:
+    """Return the times of outliers [s]; those side by side are one accident."""
+    stray = record.time[record.outlier]
+    return stray[np.diff(stray, prepend=-np.inf) > 1.5 / record.rate]
+
+
 def _in_slips(study: Study) -> float:
     """Return the chance of as many outliers within slips if they fell anywhere [-]."""
     inside, far, covered, length = 0, 0, 0.0, 0.0
     for slips in study.pool.slips:
         record = slips.record
-        stray = record.time[record.outlier]
-        # outliers side by side are one accident
-        stray = stray[np.diff(stray, prepend=-np.inf) > 1.5 / record.rate]
+        stray = _accidents(record)
         slip = np.searchsorted(slips.onset_time, stray, "right") - 1
         far += len(stray)
         inside += int(np.count_nonzero((slip >= 0) & (stray <= slips.restick_time[np.maximum(slip, 0)])))
@@ -173,9 +178,17 @@ def _in_stick(study: Study, details: dict[str, object]) -> Blamed | Where:
     if best in (CREEPING_ZERO, JUMP) or (best == BELT_RIPPLE and _of_the_zero(study, sticking.settings[best]["frequency"])):
         return []
     share, slack = criteria.STICK_EXPLAINED, criteria.STICK_SLACK
-    if best in CREEP or score < share * sticking.excess - slack:
+    if best in CREEP or score < share * sticking.excess - slack or _in_noise_alone(best, sticking):
         return Where(*CREEP.get(best, ELSE))
     return _in_stick_named(study, best, score, sticking.settings[best])
+
+
+def _in_noise_alone(best: str, sticking: Sticking) -> bool:
+    """Return whether a ripple is part of what counts as noise, and leaves much of that."""
+    if best != BELT_RIPPLE:
+        return False
+    settings = sticking.settings[best]
+    return settings["plain"] <= criteria.NAMED and settings["share"] < criteria.STICK_EXPLAINED
 
 
 def _of_the_zero(study: Study, frequency: float) -> bool:

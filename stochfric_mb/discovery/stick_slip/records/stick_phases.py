@@ -107,7 +107,7 @@ def _gain(runs: Sequence[_Phases], rests: Sequence[Array], columns: Callable[[_P
 
 
 def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tuple[float, dict[str, float]]:
-    """Return score and frequency [Hz] of a ripple of the belt's speed."""
+    """Return the score of a ripple of the belt's speed, its frequency [Hz], and its score and share of chi^2 as plain noise."""
     duration = max(float(run.slips.record.time[-1] - run.slips.record.time[0]) for run in runs)
     # a wave that is faster still is a sensor's, not a drive's
     lasting = np.concatenate([run.slips.restick_time - run.slips.onset_time for run in runs])
@@ -123,7 +123,10 @@ def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tu
     )
     gains = _ripple_gains(runs, rests, grid)
     best = int(np.argmax(gains))
-    return float(gains[best]) - 2 * len(runs) * log_n - 2.0 * np.log(len(every)), {"frequency": float(grid[best])}
+    cost = 2 * len(runs) * log_n + 2.0 * float(np.log(len(every)))
+    plain = float(_ripple_gains(runs, rests, grid[best : best + 1], plain=True)[0])
+    settings = {"frequency": float(grid[best]), "plain": plain - cost, "share": plain / sum(float(r @ r) for r in rests)}
+    return float(gains[best]) - cost, settings
 
 
 def _yields(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tuple[float, dict[str, float]]:
@@ -179,7 +182,9 @@ def _without_accidents(run: _Phases) -> _Phases:
     return dataclasses.replace(run, samples=samples, values=run.values[kept], line=run.line[kept])
 
 
-def _ripple_gains(runs: Sequence[_Phases], rests: Sequence[Array], grid: Array, stretch: float = np.inf) -> Array:
+def _ripple_gains(
+    runs: Sequence[_Phases], rests: Sequence[Array], grid: Array, stretch: float = np.inf, *, plain: bool = False
+) -> Array:
     """Return the fall of chi^2 by a cosine and a sine of each frequency, with each run's own phase.
 
     Args:
@@ -187,13 +192,14 @@ def _ripple_gains(runs: Sequence[_Phases], rests: Sequence[Array], grid: Array, 
         rests: what the belt's line leaves of them.
         grid: frequencies [Hz].
         stretch: time from the first sample of each run after which there is no wave [s].
+        plain: whether the noise counts with its long-run strength at all frequencies.
     """
     gains = np.zeros(len(grid))
     for run, rest in zip(runs, rests, strict=True):
         n = int(np.searchsorted(run.samples.time, run.samples.time[0] + stretch, "right"))
         line = run.line / np.sqrt(run.line @ run.line)
         gain = wave_gains(grid, run.samples.time[:n], run.samples.segment[:n], line[:n], rest[:n])
-        gains += gain * noise_ratio(run.slips.noise, grid / run.slips.record.rate)
+        gains += gain if plain else gain * noise_ratio(run.slips.noise, grid / run.slips.record.rate)
     return gains
 
 
