@@ -3,7 +3,8 @@
 The constraint on velocities is active while the law sticks; its reaction is the friction. At a switch velocities and
 accelerations are set as they are just after it, since the trapezoidal rule would carry a jump of the acceleration on for ever
 (as an alternating reaction). A unit relative acceleration is r = M^-1 J^T m_eff with the system's other constraints
-(`mass.response`), and the force that would hold the contact is F + m_eff a_rel, whether it sticks or slides.
+(`mass.response`), those of contacts that stick at that moment included, and the force that would hold the contact is
+F + m_eff a_rel, whether it sticks or slides.
 """
 
 from __future__ import annotations
@@ -56,12 +57,15 @@ class TrueStick(FrictionContact):
         self._numbers[at.HOLD] = self._numbers[at.HOLD_BEFORE] = 0.0
         self._keep_still(False)
         super().prepare(dt, start)
+        others = self._sticking()
+        for other in others:
+            other._activate(False)
         with self._hooks.in_progress():
             rows, accelerations = response(self._mbs, self._relative_velocities)
-        self._rows = rows[0]
-        inverse = float(rows[0] @ accelerations[:, 0])
-        self._mass_felt = 1.0 / inverse
-        self._unit = accelerations[:, 0] / inverse
+        for other in others:
+            other._activate(True)
+        self._rows, self._free, self._beside = rows[0], accelerations[:, 0], None
+        self._feel(())
         require_apart(self, self._hooks.contacts)
         with self._initial_motion():
             self._keep_still(self.stick)
@@ -76,6 +80,7 @@ class TrueStick(FrictionContact):
         self._keep_still(stuck)
         if before[0] == 0.0 and stuck:
             return watch
+        self._feel(self._sticking())
         acceleration, velocity = data.GetODE2Coordinates_tt(), data.GetODE2Coordinates_t()
         if stuck:
             velocity -= self._unit * self._numbers[at.V]
@@ -87,8 +92,33 @@ class TrueStick(FrictionContact):
         data.SetODE2Coordinates_tt(acceleration)
         return watch
 
+    def _sticking(self) -> tuple[TrueStick, ...]:
+        """Return the other contacts that a constraint holds now."""
+        contacts = self._hooks.contacts
+        return tuple(c for c in contacts if c is not self and isinstance(c, TrueStick) and c._rows is not None and c.stick)
+
+    def _feel(self, others: tuple[TrueStick, ...]) -> None:
+        """Find the mass that the contact feels and a unit relative acceleration, beside other contacts that stick.
+
+        Raises:
+            InputError: those hold this one's motion already.
+        """
+        if others == self._beside:
+            return
+        unit = self._free
+        if others:
+            rows, theirs = np.array([c._rows for c in others]), np.column_stack([c._free for c in others])
+            unit = unit - theirs @ np.linalg.lstsq(rows @ theirs, rows @ unit, rcond=None)[0]
+        inverse = float(self._rows @ unit)
+        if inverse <= COUPLED * float(self._rows @ self._free):
+            raise _same_bodies(self, others[-1])
+        self._mass_felt, self._unit, self._beside = 1.0 / inverse, unit / inverse, others
+
+    def _activate(self, active: bool) -> None:
+        self._mbs.SetObjectParameter(self._hold, "activeConnector", bool(active))
+
     def _keep_still(self, stuck: bool) -> None:
-        self._mbs.SetObjectParameter(self._hold, "activeConnector", bool(stuck))
+        self._activate(stuck)
 
     def _forces(self) -> tuple[float, float]:
         return super()._forces()[0] + (self._held() if self.stick else 0.0), 0.0
@@ -97,6 +127,7 @@ class TrueStick(FrictionContact):
         """Take displacement and velocity, and the force that would hold the contact still."""
         super()._read_motion()
         if self._rows is not None and self._words[at.STARTED]:
+            self._feel(self._sticking())
             relative = float(self._rows @ self._mbs.systemData.GetODE2Coordinates_tt())
             self._numbers[at.HOLD] = self._forces()[0] + self._mass_felt * relative
 
@@ -119,10 +150,14 @@ def require_apart(contact: Any, contacts: Sequence[Any]) -> None:
         here = rows @ other._unit.reshape(len(unit), -1)
         least = 1.0 - COUPLED if max(here.shape) == 1 else COUPLED
         if np.max(np.abs(here @ there)) > least:
-            raise InputError(
-                f"law {contact.friction.law.kind}: {contact._name!r} and {other._name!r} hold the same bodies, so that what "
-                "each of them holds cannot be told; keep one of them, or use stochfric_mb.laws.substitute.elastic_substitute"
-            )
+            raise _same_bodies(contact, other)
+
+
+def _same_bodies(contact: Any, other: Any) -> InputError:
+    return InputError(
+        f"law {contact.friction.law.kind}: {contact._name!r} and {other._name!r} hold the same bodies, so that what "
+        "each of them holds cannot be told; keep one of them, or use stochfric_mb.laws.substitute.elastic_substitute"
+    )
 
 
 def require_holdable(kind: str, normal: Normal) -> None:

@@ -125,6 +125,29 @@ def test_two_bodies_keep_their_momentum(coupled: bool) -> None:
     assert v == pytest.approx([2.0, 2.0], rel=1e-9)
 
 
+def test_a_block_that_stops_on_a_sliding_plank_takes_it_along() -> None:
+    """The plank sticks at the start: a switch acts on the bodies beside the contacts that stick then, not at the start."""
+    g, block_mass, plank_mass = 9.81, 0.7, 2.0
+    mbs, _, ground, plank = block(0.0, plank_mass)
+    node = mbs.AddNode(Node1D(referenceCoordinates=[0.0], initialVelocities=[3.0]))
+    mbs.AddObject(Mass1D(nodeNumber=node, mass=block_mass))
+    rider = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
+    below = add_friction(mbs, ground, plank, COULOMB, normal_force=0.1 * (block_mass + plank_mass) * g)
+    between = add_friction(mbs, plank, rider, COULOMB, normal_force=block_mass * g)
+    mbs.Assemble()
+    dt, end = 5e-4, 1.5
+    rows = [contact.record(dt * np.arange(1, round(end / dt) + 1)) for contact in (below, between)]
+    solve(mbs, dt, end)
+    faster, slower, together = (0.3 * block_mass * g - 0.03 * 2.7 * g) / plank_mass, 0.3 * g, 0.03 * g
+    meets = 3.0 / (slower + faster)
+    # let go at the end of the first step, 0.5e-6 s late (switches are located to 1e-3 of a step), times 5 m/s^2 and less
+    speed = faster * meets - together * (end - meets)
+    assert mbs.systemData.GetODE2Coordinates_t() == pytest.approx([speed, speed], abs=5e-6)
+    after = rows[0][:, 0] > meets + 2 * dt
+    assert np.max(np.abs(np.diff(rows[0][after, 2]) / dt - together)) < 1e-6  # v_rel is minus the plank's speed
+    assert np.all(np.abs(rows[1][:, 3]) <= rows[1][:, 4] * rows[1][:, 7] * (1.0 + 1e-9))
+
+
 def test_the_amplitude_falls_by_2_mu_n_over_k_each_half_swing() -> None:
     mbs, node, ground, slide = block(0.0, position=0.0325)
     mbs.AddObject(CoordinateSpringDamper(markerNumbers=[ground, slide], stiffness=800.0))
