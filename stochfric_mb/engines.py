@@ -76,12 +76,12 @@ GROUP = "stochfric_mb.engines"
 
 def _brought() -> dict[str, Engine]:
     """Return the engines that installed packages bring by an entry point; nothing is loaded."""
-    found: dict[str, Engine] = {}
+    known: dict[str, Engine] = {}
     for entry in importlib.metadata.entry_points(group=GROUP):
         distribution = entry.dist.name if entry.dist is not None else ""
         package = entry.module.partition(".")[0]
-        found[entry.name] = Engine(entry.name, entry.module, package, "see its adapter", distribution, distribution)
-    return found
+        known[entry.name] = Engine(entry.name, entry.module, package, "see its adapter", distribution, distribution)
+    return known
 
 
 _BUILT_IN = {

@@ -113,12 +113,12 @@ def draws_used(trajectory: Trajectory, scenario: Scenario, *, seed: int) -> npt.
     """
     used = _distinct(_pairs(trajectory))
     draws = scenario.path(seed).pairs(_horizon(used))
-    found = np.empty(len(used), dtype=np.intp)
+    values = np.empty(len(used), dtype=np.intp)
     first = 0
     for number, pair in enumerate(used):
-        found[number] = first + np.argmin(np.max(np.abs(draws[first:] - pair), axis=1))
-        first = min(int(found[number]) + 1, len(draws) - 1)
-    return found
+        values[number] = first + np.argmin(np.max(np.abs(draws[first:] - pair), axis=1))
+        first = min(int(values[number]) + 1, len(draws) - 1)
+    return values
 
 
 def _horizon(used: Array) -> int:

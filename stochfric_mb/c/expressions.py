@@ -82,10 +82,10 @@ class Expressions:
         if node.id in self._scope:
             return self._of_object(node, self._scope[node.id])
         builtins: Any = self._scope["__builtins__"]
-        found = builtins.get(node.id) if isinstance(builtins, dict) else getattr(builtins, node.id, None)
-        if found is None:
+        result = builtins.get(node.id) if isinstance(builtins, dict) else getattr(builtins, node.id, None)
+        if result is None:
             raise CannotTranslate(node, f"the name {node.id!r} has no value before it is used")
-        return Known(found)
+        return Known(result)
 
     def _of_object(self, node: ast.expr, value: Any) -> Anything:
         if type(value) is np.uint64:

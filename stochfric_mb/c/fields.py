@@ -42,14 +42,14 @@ class Rule:
 @functools.cache
 def about_fields(cls: type) -> dict[str, About]:
     """Return what is said of each field of a dataclass: in the docstring under it, otherwise in its metadata."""
-    found = {f.name: _of_field(f) for f in dataclasses.fields(cls)}
+    table = {f.name: _of_field(f) for f in dataclasses.fields(cls)}
     for base in reversed(cls.__mro__):
         for statement, after in _pairs(base):
             if isinstance(statement, ast.AnnAssign) and isinstance(statement.target, ast.Name):
                 text = after.value.value if isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant) else ""
                 if isinstance(text, str) and text:
-                    found[statement.target.id] = _about(text)
-    return found
+                    table[statement.target.id] = _about(text)
+    return table
 
 
 def _of_field(field: dataclasses.Field[Any]) -> About:
@@ -86,13 +86,13 @@ def rules(cls: type) -> tuple[Rule, ...]:
 
     Checks of other kinds (names of choices, lists) concern what is settled before C is made.
     """
-    found = [rule for field in dataclasses.fields(cls) for rule in _of_metadata(field)]
+    items = [rule for field in dataclasses.fields(cls) for rule in _of_metadata(field)]
     for base in reversed(cls.__mro__):
         for statement, _ in _pairs(base):
             if isinstance(statement, ast.FunctionDef) and statement.name == "__post_init__":
-                found += [r for r in map(functools.partial(_rule, base), ast.walk(statement)) if r is not None]
+                items += [r for r in map(functools.partial(_rule, base), ast.walk(statement)) if r is not None]
     numeric = {f.name for f in dataclasses.fields(cls) if f.type in (float, "float", "float | None")}
-    return tuple(r for r in found if r.names <= numeric)
+    return tuple(r for r in items if r.names <= numeric)
 
 
 def _of_metadata(field: dataclasses.Field[Any]) -> Iterator[Rule]:

@@ -140,8 +140,8 @@ static void call_effect(int64_t address, int64_t world, int64_t memory, int64_t 
 
 def _scalars(function: Function) -> set[Type]:
     """Return the types that a function takes and returns, those within tuples included."""
-    found = {function.returns, *function.arguments}
-    return found | {item for kind in found if isinstance(kind, Tuple) for item in kind.items}
+    names = {function.returns, *function.arguments}
+    return names | {item for kind in names if isinstance(kind, Tuple) for item in kind.items}
 
 
 def _is_ours(callee: Any) -> bool:

@@ -123,8 +123,8 @@ def _lines(row: Mapping[str, Any]) -> list[list[str]]:
     """Return the lines of a site: its name, then one for each friction."""
     lines = [[row["name"], *7 * [""], _limit(row["step_limit"])]]
     for name in ("native", "ours"):
-        found = row[name]
-        lines.append([f"  {name}", *(["-"] * 7 if found is None else _numbers(found)), ""])
+        result = row[name]
+        lines.append([f"  {name}", *(["-"] * 7 if result is None else _numbers(result)), ""])
     return lines
 
 
@@ -132,15 +132,15 @@ def _limit(limit: float | None) -> str:
     return "" if limit is None else f"{limit:.2g}"
 
 
-def _numbers(found: Mapping[str, Any]) -> list[str]:
-    broken, slide = found["break_away"], found["slide"]
-    own = found["own"]
+def _numbers(entry: Mapping[str, Any]) -> list[str]:
+    broken, slide = entry["break_away"], entry["slide"]
+    own = entry["own"]
     return [
         f"{100.0 * own['load']:.0f} %",
-        *map(_drift, (own, *found["held"])),
+        *map(_drift, (own, *entry["held"])),
         "none" if broken is None else f"{100.0 * broken['share']:.0f} %",
         "-" if slide is None else f"{100.0 * slide['deceleration'] / slide['expected']:.0f} %",
-        f"{found['energy_created']:.1g}",
+        f"{entry['energy_created']:.1g}",
     ]
 
 

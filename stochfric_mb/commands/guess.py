@@ -48,7 +48,7 @@ def guesses(table: Table, wanted: Iterable[str], *, rotational: bool | None) -> 
         wanted: quantities in order of need; without a header the columns are taken in this order.
         rotational: whether positions are angles.
     """
-    found: list[Guess] = []
+    guessed: list[Guess] = []
     free = list(table.columns)
     for number, quantity in enumerate(wanted):
         name = _column(free, quantity, number, has_header=table.has_header)
@@ -58,8 +58,8 @@ def guesses(table: Table, wanted: Iterable[str], *, rotational: bool | None) -> 
         said = table.units.get(name, "")
         column = name if table.has_header else int(name)
         unit = said or _unit(name, quantity, rotational)
-        found.append(Guess(quantity, column, unit, sure=_plain(name) == quantity and bool(said or not unit)))
-    return found
+        guessed.append(Guess(quantity, column, unit, sure=_plain(name) == quantity and bool(said or not unit)))
+    return guessed
 
 
 def _column(free: list[str], quantity: str, number: int, *, has_header: bool) -> str | None:

@@ -125,8 +125,8 @@ def _runs(mechanism: str, file: Path, target: Path) -> tuple[str, list[str]]:
 
     table = read_table(file)
     rotational = getattr(MECHANISMS[mechanism], "rotational", False)
-    found = guesses(table, CHANNELS[mechanism], rotational=rotational)
-    by_name = {guess.quantity: guess for guess in found}
+    guessed = guesses(table, CHANNELS[mechanism], rotational=rotational)
+    by_name = {guess.quantity: guess for guess in guessed}
     if "time" not in by_name:
         raise InputError(
             f"{file}: none of its columns {', '.join(map(repr, table.columns))} looks like a time; name one 'time [s]', or "
@@ -136,7 +136,7 @@ def _runs(mechanism: str, file: Path, target: Path) -> tuple[str, list[str]]:
     column = table.columns[str(clock.column)]
     time, _ = to_si(column, clock.unit, KNOWN["time"], rotational=None)
     cut = float(f"{time[-1] - HELD_OUT * (time[-1] - time[0]):.6g}")
-    unsure = [guess for guess in found if not guess.sure]
+    unsure = [guess for guess in guessed if not guess.sure]
     keys = []
     if unsure:
         pairs = ", ".join(f"{g.quantity} = {_toml(g.column)}" for g in unsure)
@@ -150,7 +150,7 @@ def _runs(mechanism: str, file: Path, target: Path) -> tuple[str, list[str]]:
     ]
     said = [
         f"{g.quantity}: column {g.column!r} [{g.unit or '-'}]" + ("" if g.sure else " (a guess, check it in dataset.toml)")
-        for g in found
+        for g in guessed
     ]
     return "\n".join(entries), said
 

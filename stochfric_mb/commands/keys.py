@@ -48,7 +48,7 @@ def keys_of(cls: type, *, without: tuple[str, ...] = ()) -> list[Key]:
 
 def _texts(cls: type) -> dict[str, str]:
     """Return the docstrings below the fields of a class and of those that it is made from."""
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     for one in reversed(cls.__mro__):
         if not dataclasses.is_dataclass(one):
             continue
@@ -56,8 +56,8 @@ def _texts(cls: type) -> dict[str, str]:
         assert isinstance(body, ast.ClassDef)
         for field, text in zip(body.body, body.body[1:], strict=False):
             if isinstance(field, ast.AnnAssign) and isinstance(field.target, ast.Name) and isinstance(text, ast.Expr):
-                found[field.target.id] = " ".join(str(ast.literal_eval(text.value)).split())
-    return found
+                texts[field.target.id] = " ".join(str(ast.literal_eval(text.value)).split())
+    return texts
 
 
 _TYPES = (

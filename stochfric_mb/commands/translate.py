@@ -47,11 +47,11 @@ def translate(
         check_target(out, force=force)
     tables = _dialect_file(source)
     if tables is None:
-        found, content = _to(source, dialect, law, normal_force, _speeds(speeds))
+        result, content = _to(source, dialect, law, normal_force, _speeds(speeds))
     else:
-        found, content = _from(tables, law, normal_force, _speeds(speeds))
-    answer(lambda: _numbers(found, back=tables is not None) | {"out": out})
-    say(_text(found, back=tables is not None))
+        result, content = _from(tables, law, normal_force, _speeds(speeds))
+    answer(lambda: _numbers(result, back=tables is not None) | {"out": out})
+    say(_text(result, back=tables is not None))
     if out is not None:
         with whole_file(Path(out), replace=force) as temporary:
             temporary.write_text(tomli_w.dumps(content), encoding="utf-8")
@@ -99,8 +99,8 @@ def _to(source: str, dialect: str | None, law: str | None, normal_force: float |
     n = normal_force if normal_force is not None else 1.0 if box is None else box.normal_force
     require_number("--normal-force", n, above=0.0, unit="N")
     mass = 1.0 if box is None else box.mass
-    found = to_dialect(exported.inner, cls, speed, normal_force=n, mass=mass, process=exported.process)
-    return found, {"schema": SCHEMA, "dialect": dialect, "normal_force": n, "parameters": found.dialect.to_dict()}
+    translation = to_dialect(exported.inner, cls, speed, normal_force=n, mass=mass, process=exported.process)
+    return translation, {"schema": SCHEMA, "dialect": dialect, "normal_force": n, "parameters": translation.dialect.to_dict()}
 
 
 def _from(tables: dict[str, Any], law: str | None, normal_force: float | None, speed: Any) -> Any:
@@ -118,40 +118,40 @@ def _from(tables: dict[str, Any], law: str | None, normal_force: float | None, s
         "normal_force", tables.get("normal_force", 1.0) if normal_force is None else normal_force, above=0.0, unit="N"
     )
     kind = cls.nearest if law is None else require_name("law", law, LAWS)
-    found = from_dialect(given, kind, speed, normal_force=n)
-    return found, {"schema": FRICTION, "title": f"from {cls.kind}", "law": found.law.to_dict()}
+    translation = from_dialect(given, kind, speed, normal_force=n)
+    return translation, {"schema": FRICTION, "title": f"from {cls.kind}", "law": translation.law.to_dict()}
 
 
-def _numbers(found: Translated, *, back: bool) -> dict[str, Any]:
+def _numbers(translation: Translated, *, back: bool) -> dict[str, Any]:
     """Return the result in numbers."""
     return {
-        "to": found.law.kind if back else found.dialect.kind,
-        "law": found.law.to_dict(),
-        "dialect": {"kind": found.dialect.kind} | found.dialect.to_dict(),
-        "max_error": found.max_error,
-        "rms_error": found.rms_error,
-        "break_away_error": found.break_away_error,
-        "lost": list(found.lost),
+        "to": translation.law.kind if back else translation.dialect.kind,
+        "law": translation.law.to_dict(),
+        "dialect": {"kind": translation.dialect.kind} | translation.dialect.to_dict(),
+        "max_error": translation.max_error,
+        "rms_error": translation.rms_error,
+        "break_away_error": translation.break_away_error,
+        "lost": list(translation.lost),
     }
 
 
-def _text(found: Translated, *, back: bool) -> str:
+def _text(translation: Translated, *, back: bool) -> str:
     """Return the result in words."""
-    ours = {k: v for k, v in found.law.to_dict().items() if k != "kind"}
-    theirs = found.dialect.to_dict()
-    name = f"law {found.law.kind}"
-    source, result = (found.dialect.title, name) if back else (name, found.dialect.title)
+    ours = {k: v for k, v in translation.law.to_dict().items() if k != "kind"}
+    theirs = translation.dialect.to_dict()
+    name = f"law {translation.law.kind}"
+    source, result = (translation.dialect.title, name) if back else (name, translation.dialect.title)
     shown = ours if back else theirs
-    equation = found.law.equation if back else found.dialect.equation
+    equation = translation.law.equation if back else translation.dialect.equation
     lines = [f"From {source} to {result}", f"  {equation}", *(f"  {k} = {_number(v)}" for k, v in shown.items())]
-    snippet = getattr(found.dialect, "snippet", None)
+    snippet = getattr(translation.dialect, "snippet", None)
     if snippet is not None and not back:
         lines.append(f"  {snippet()}")
     lines.append(
-        f"Error of the coefficient: {found.max_error:.2g} at most, {found.rms_error:.2g} rms; "
-        f"at break-away {found.break_away_error:+.2g}"
+        f"Error of the coefficient: {translation.max_error:.2g} at most, {translation.rms_error:.2g} rms; "
+        f"at break-away {translation.break_away_error:+.2g}"
     )
-    return "\n".join([*lines, *(f"Lost: {what}" for what in found.lost)])
+    return "\n".join([*lines, *(f"Lost: {what}" for what in translation.lost)])
 
 
 def _number(value: Any) -> str:

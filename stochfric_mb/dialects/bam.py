@@ -125,10 +125,10 @@ class Bam(Dialect):
 
     def lost(self, curve: Curve) -> list[str]:
         """Return what bam's models cannot say."""
-        found = super().lost(curve)
+        result = super().lost(curve)
         if not curve.holds:
-            found.append("creep: the budget of friction holds a load below it")
+            result.append("creep: the budget of friction holds a load below it")
         return [
-            *found,
+            *result,
             "the normal force: bam's load terms follow the forces of motor and outside, not a contact's normal force",
         ]

@@ -51,12 +51,12 @@ class Dialect:
 
     def lost(self, curve: Curve) -> list[str]:
         """Return what of a law's friction the dialect cannot say."""
-        found = [f"random coefficients: {curve.random}"] if curve.random else []
+        result = [f"random coefficients: {curve.random}"] if curve.random else []
         if curve.holds and not self.holds:
-            found.append("true stick: the contact creeps under any load")
+            result.append("true stick: the contact creeps under any load")
         if curve.memory and curve.memory != self.memory:
-            found.append(curve.memory)
-        return found
+            result.append(curve.memory)
+        return result
 
     memory: ClassVar[str] = ""
     """What it remembers, in the words of `Curve.memory`."""

@@ -82,7 +82,7 @@ class ExudynBristle(Dialect):
 
     def lost(self, curve: Curve) -> list[str]:
         """Return what the bristle cannot say."""
-        found = super().lost(curve)
+        result = super().lost(curve)
         if not curve.holds:
-            found.append("creep: the bristle holds a load below break-away")
-        return found
+            result.append("creep: the bristle holds a load below break-away")
+        return result

@@ -41,8 +41,8 @@ def fit(
     x = np.log(np.maximum(np.asarray(start, dtype=np.float64), 1.0e-12))
     least = misfit(x)
     for _ in range(3):  # a simplex that has shrunk is spread out again
-        found = minimize(misfit, x, method="Nelder-Mead", options={"xatol": 1e-8, "fatol": 1e-12, "maxiter": 400 * len(x)})
-        x, least = found.x, float(found.fun)
+        minimum = minimize(misfit, x, method="Nelder-Mead", options={"xatol": 1e-8, "fatol": 1e-12, "maxiter": 400 * len(x)})
+        x, least = minimum.x, float(minimum.fun)
     return np.exp(x), least
 
 

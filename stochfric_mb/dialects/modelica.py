@@ -64,10 +64,10 @@ class ModelicaTable(Dialect):
 
     def lost(self, curve: Curve) -> list[str]:
         """Return what the table cannot say: friction that falls to zero with the speed becomes true stick."""
-        found = super().lost(curve)
+        result = super().lost(curve)
         if not curve.holds:
-            found.append("creep: Modelica's contact sticks truly below its first row")
-        return found
+            result.append("creep: Modelica's contact sticks truly below its first row")
+        return result
 
     def snippet(self) -> str:
         """Return the table as Modelica writes it."""

@@ -46,7 +46,7 @@ class MujocoFrictionloss(Dialect):
 
     def lost(self, curve: Curve) -> list[str]:
         """Return what one level cannot say."""
-        found = super().lost(curve)
+        result = super().lost(curve)
         if curve.break_away > self.break_away(curve.normal_force) * 1.01:
-            found.append("the difference between static and kinetic friction: no stick-slip")
-        return [*found, "the normal force: frictionloss is a force, so that it does not follow the load"]
+            result.append("the difference between static and kinetic friction: no stick-slip")
+        return [*result, "the normal force: frictionloss is a force, so that it does not follow the load"]

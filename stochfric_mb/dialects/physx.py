@@ -42,9 +42,9 @@ class Physx(Dialect):
 
     def lost(self, curve: Curve) -> list[str]:
         """Return what two levels cannot say."""
-        found = super().lost(curve)
+        result = super().lost(curve)
         if np.ptp(curve.coefficient) > 0.01 * curve.break_away:
-            found.append("how the coefficient changes with speed")
+            result.append("how the coefficient changes with speed")
         if not curve.holds:
-            found.append("creep: the contact sticks")
-        return found
+            result.append("creep: the contact sticks")
+        return result

@@ -71,8 +71,8 @@ class _Thresholds(Dialect):
         def model(x: Array) -> tuple[Array, float]:
             return made(x).coefficient(curve.speed, curve.normal_force), float(x[0])
 
-        found, _ = fit(model, start, curve.coefficient, curve.break_away)
-        return made(found)
+        result, _ = fit(model, start, curve.coefficient, curve.break_away)
+        return made(result)
 
 
 class Adams(_Thresholds):

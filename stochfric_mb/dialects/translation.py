@@ -86,14 +86,14 @@ def _scored(law: Law, dialect: Dialect, difference: Array, break_away: float, lo
 
 
 def _lost_in_law(dialect: Dialect, ours: Curve) -> list[str]:
-    found: list[str] = []
+    lines: list[str] = []
     if dialect.holds and not ours.holds:
-        found.append("true stick: the law creeps under any load")
+        lines.append("true stick: the law creeps under any load")
     if not dialect.holds and ours.holds:
-        found.append("creep: the law sticks")
+        lines.append("creep: the law sticks")
     if dialect.memory == BRISTLE and ours.memory != BRISTLE:
-        found.append(BRISTLE)
-    return found
+        lines.append(BRISTLE)
+    return lines
 
 
 def _choices(cls: type[Law]) -> list[dict[str, Any]]:
@@ -129,8 +129,8 @@ def _fitted_law(kind: str, choices: dict[str, Any], dialect: Dialect, curve: Cur
         mu = coefficient(law, curve.speed)
         return mu, law.mu_s if law.state_names[:1] == ("mode",) or law.kind == "lugre" else float(np.max(mu))
 
-    found, misfit = fit(model, [guess[n] for n in names], curve.coefficient, curve.break_away)
-    return made(found), misfit
+    result, misfit = fit(model, [guess[n] for n in names], curve.coefficient, curve.break_away)
+    return made(result), misfit
 
 
 def _stiffness(kind: str, dialect: Dialect, curve: Curve) -> dict[str, float]:

@@ -68,8 +68,8 @@ def on_cluster(job: Job, numbers: Iterable[int], client: Any) -> Iterator[tuple[
             if not running:
                 return
             for future in sorted(_finished(running, client), key=running.__getitem__):
-                block, found = _result(future, client)
-                _require_same(found, versions(job.engine))
+                block, result = _result(future, client)
+                _require_same(result, versions(job.engine))
                 yield running.pop(future), block
                 del future  # the cluster forgets the block
     finally:
@@ -135,6 +135,6 @@ def _result(future: Any, client: Any) -> Outcome:
         ) from None
 
 
-def _require_same(found: dict[str, str], wanted: dict[str, str]) -> None:
-    if found != wanted:
-        raise SimulationError(f"a worker runs {found}, but here runs {wanted}; install the same versions everywhere")
+def _require_same(texts: dict[str, str], wanted: dict[str, str]) -> None:
+    if texts != wanted:
+        raise SimulationError(f"a worker runs {texts}, but here runs {wanted}; install the same versions everywhere")

@@ -208,37 +208,37 @@ def to_dataset(result: EnsembleResult, scenario: Scenario, *, first_run: int = 0
 
 
 def _of_runs(result: EnsembleResult) -> Variables:
-    found: Variables = {}
+    variables: Variables = {}
     for name, (place, unit, text) in TALLY_VARIABLES.items():
-        found[name] = ("run", result.tallies[:, place], _about(unit, text))
+        variables[name] = ("run", result.tallies[:, place], _about(unit, text))
     for name, (unit, text) in DERIVED.items():
-        found[name] = ("run", getattr(result, name), _about(unit, text))
-    return found
+        variables[name] = ("run", getattr(result, name), _about(unit, text))
+    return variables
 
 
 def _of_statistics(result: EnsembleResult) -> Variables:
     """Return statistics for people, and the sketches that they come from."""
     assert result.stuck is not None
-    found: Variables = {"stuck_runs": ("time", result.stuck, _about("1", "number of runs that stick"))}
-    found["stick_probability"] = ("time", result.stick_probability, _about("1", "share of the runs that stick"))
+    variables: Variables = {"stuck_runs": ("time", result.stuck, _about("1", "number of runs that stick"))}
+    variables["stick_probability"] = ("time", result.stick_probability, _about("1", "share of the runs that stick"))
     for name, sketch in result.sketches.items():
         unit = _unit(result, name)
         over = {"mean": ("run: mean", sketch.mean), "standard_deviation": ("run: standard_deviation", sketch.std)}
         over |= {"minimum": ("run: minimum", sketch.moments[3]), "maximum": ("run: maximum", sketch.moments[4])}
         for what, (cell, values) in over.items():
             about = _about(unit, f"{what.replace('_', ' ')} of the {name} of the body") | {"cell_methods": cell}
-            found[f"{name}_{what}"] = ("time", values, about)
+            variables[f"{name}_{what}"] = ("time", values, about)
         about = _about(unit, f"quantiles of the {name} of the body over the runs")
-        found[f"{name}_quantile"] = (("level", "time"), sketch.quantiles(LEVELS), about)
+        variables[f"{name}_quantile"] = (("level", "time"), sketch.quantiles(LEVELS), about)
         about = _about(unit, f"no quantile of the {name} is off by more")
-        found[f"{name}_quantile_error"] = ("time", sketch.quantile_error, about)
+        variables[f"{name}_quantile_error"] = ("time", sketch.quantile_error, about)
         bin_text = f"edge i of the histogram of the {name}: (low + i) 2^exponent {unit}"
-        found[f"{name}_histogram"] = (("time", f"{name}_bin"), sketch.counts, _about("1", f"runs in each bin; {bin_text}"))
-        found[f"{name}_histogram_low"] = ("time", sketch.low, _about("1", "first bin edge, in bin widths"))
-        found[f"{name}_histogram_exponent"] = ("time", sketch.exponent, _about("1", "bin width = 2^exponent"))
+        variables[f"{name}_histogram"] = (("time", f"{name}_bin"), sketch.counts, _about("1", f"runs in each bin; {bin_text}"))
+        variables[f"{name}_histogram_low"] = ("time", sketch.low, _about("1", "first bin edge, in bin widths"))
+        variables[f"{name}_histogram_exponent"] = ("time", sketch.exponent, _about("1", "bin width = 2^exponent"))
         text = "shift, sum and sum of squares of (value - shift), smallest and largest value"
-        found[f"{name}_moments"] = (("moment", "time"), sketch.moments, {"long_name": text})
-    return found
+        variables[f"{name}_moments"] = (("moment", "time"), sketch.moments, {"long_name": text})
+    return variables
 
 
 def _sketch(dataset: Any, name: str) -> Sketch:

@@ -189,8 +189,8 @@ def describe(given: Job) -> Description:
 
 def versions(engine: str) -> dict[str, str]:
     """Return the versions that decide the bits of a block: name -> version."""
-    found = {"stochfric_mb": __version__, "numpy": np.__version__}
-    return found if engine == "reference" else found | {engine: str(ENGINES[engine].version)}
+    table = {"stochfric_mb": __version__, "numpy": np.__version__}
+    return table if engine == "reference" else table | {engine: str(ENGINES[engine].version)}
 
 
 def compute(given: Job, number: int, threads: int = 1) -> Block:

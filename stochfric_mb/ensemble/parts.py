@@ -209,17 +209,17 @@ def _job_of(folder: Path) -> dict[str, Any]:
         InputError: it is no parts folder.
     """
     try:
-        found = json.loads((folder / JOB).read_text(encoding="utf-8"))
-        if str(found["schema"]).startswith(SCHEMA.partition("/")[0]):
-            return found
+        content = json.loads((folder / JOB).read_text(encoding="utf-8"))
+        if str(content["schema"]).startswith(SCHEMA.partition("/")[0]):
+            return content
     except (OSError, ValueError, KeyError, TypeError):
         pass
     raise InputError(f"{folder} exists and is not a parts folder of an ensemble; move it away or give another name")
 
 
-def _differences(found: Mapping[str, Any], wanted: Mapping[str, Any]) -> list[str]:
+def _differences(entry: Mapping[str, Any], wanted: Mapping[str, Any]) -> list[str]:
     """Return the names of what differs."""
-    return sorted(name for name in {*found, *wanted} if found.get(name) != wanted.get(name))
+    return sorted(name for name in {*entry, *wanted} if entry.get(name) != wanted.get(name))
 
 
 def _save(path: Path, arrays: Arrays) -> None:

@@ -43,9 +43,9 @@ def description(about: Named, variables: Sequence[Variable], *, fmi: int, deriva
     """
     made = _fmi2(about, variables) if fmi == 2 else _fmi3(about, variables)
     for kind in ("ModelExchange", "CoSimulation"):
-        found = made.find(kind)
-        if derivatives and found is not None:
-            found.set("providesDirectionalDerivative" if fmi == 2 else "providesDirectionalDerivatives", "true")
+        place = made.find(kind)
+        if derivatives and place is not None:
+            place.set("providesDirectionalDerivative" if fmi == 2 else "providesDirectionalDerivatives", "true")
     return _text(made)
 
 
@@ -124,14 +124,14 @@ def _common(i: int, variable: Variable) -> dict[str, str]:
 
 def _value(variable: Variable) -> dict[str, str]:
     """Return unit, start and nominal."""
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     if variable.unit:
-        found["unit"] = variable.unit
+        texts["unit"] = variable.unit
     if variable.kind in (v.PARAMETER, v.INPUT):
-        found["start"] = repr(float(variable.start)) if variable.type == v.REAL else str(int(variable.start))
+        texts["start"] = repr(float(variable.start)) if variable.type == v.REAL else str(int(variable.start))
     if variable.nominal > 0.0:
-        found["nominal"] = repr(variable.nominal)
-    return found
+        texts["nominal"] = repr(variable.nominal)
+    return texts
 
 
 def _variable2(parent: Xml.Element, i: int, variable: Variable) -> None:
@@ -181,10 +181,10 @@ def _categories(root: Xml.Element) -> None:
 
 
 def _units(root: Xml.Element, variables: Sequence[Variable]) -> None:
-    found = sorted({x.unit for x in variables if x.unit})
-    if found:
+    ordered = sorted({x.unit for x in variables if x.unit})
+    if ordered:
         listed = Xml.SubElement(root, "UnitDefinitions")
-        for unit in found:
+        for unit in ordered:
             element = Xml.SubElement(listed, "Unit", {"name": unit})
             base = _base_unit(unit)
             if base is not None:

@@ -70,8 +70,8 @@ def element(
     Raises:
         UntranslatableError: a law or effect that cannot be translated; names it.
     """
-    found = groups(exported, mechanism=mechanism)
-    parameters = tuple(p for group in found for p in group.parameters)
+    result = groups(exported, mechanism=mechanism)
+    parameters = tuple(p for group in result for p in group.parameters)
     translation = Translation()
     for name in ("_start", "_compute", "_commit"):
         translation.add(getattr(contact, name), CONTACT)
@@ -89,7 +89,7 @@ def element(
     defines = _defines(exported, arrays, mechanism=mechanism, mass=effective_mass, numbers=dataclasses.asdict(numbers))
     defines |= {"LAW_FLOW": flow} if flow else {}
     defines |= {"VALUES": _row([p.value for p in parameters])}
-    rules = _rules(found)
+    rules = _rules(result)
     source = "\n".join(
         [
             '#include "stochfric.h"',
@@ -155,9 +155,9 @@ def _defines(
     box = exported.mechanism
     default_mass = mass if mass is not None else 1.0 if box is None else box.mass
     law = exported.law
-    found = {name.upper(): _row(values) for name, values in arrays.items()}
-    found |= {f"LAW_{name.upper()}": str(value) for name, value in numbers.items()}
-    found |= {
+    table = {name.upper(): _row(values) for name, values in arrays.items()}
+    table |= {f"LAW_{name.upper()}": str(value) for name, value in numbers.items()}
+    table |= {
         "N_LAW": str(len(arrays["law"])),
         "MAX_STATE": str(MAX_STATE),
         "GUARDS": str(GUARDS),
@@ -180,9 +180,9 @@ def _defines(
         "MODEL_SAMPLE": str(augmented.SAMPLE),
         "MODEL_NORMAL_FORCE": str(augmented.N),
     }
-    found |= {"WITH_EFFECTS": "1"} if exported.effects else {}
-    found |= {"WITH_MECHANISM": "1"} if mechanism else {}
-    return found
+    table |= {"WITH_EFFECTS": "1"} if exported.effects else {}
+    table |= {"WITH_MECHANISM": "1"} if mechanism else {}
+    return table
 
 
 def _definitions(defines: dict[str, str], n_rules: int) -> str:
@@ -194,9 +194,9 @@ def _definitions(defines: dict[str, str], n_rules: int) -> str:
 # --- rules of the parameters ------------------------------------------------------------------------------------------------
 
 
-def _rules(found: Sequence[Group]) -> list[tuple[str, str, str]]:
+def _rules(result: Sequence[Group]) -> list[tuple[str, str, str]]:
     """Return (prefix, condition, message) of each rule."""
-    return [(group.prefix, rule.broken, rule.message) for group in found for rule in group.rules]
+    return [(group.prefix, rule.broken, rule.message) for group in result for rule in group.rules]
 
 
 def _rule_functions(rules: Sequence[tuple[str, str, str]], parameters: Sequence[Parameter]) -> str:

@@ -109,9 +109,9 @@ def _model(exported: Exported, listed: Sequence[Variable], *, mechanism: bool) -
     """Return the definitions that bind the variables to their places."""
     n = len(listed)
     lines = [f"#define N_VARIABLES {n}", "#define FIRST_PARAMETER 1"]
-    found = {x.place: i for i, x in enumerate(listed) if x.place}
+    table = {x.place: i for i, x in enumerate(listed) if x.place}
     states = [i for i, x in enumerate(listed) if x.kind == STATE]
-    places = dict.fromkeys(_PLACES, n) | {"STATES": states[0] if states else n} | found
+    places = dict.fromkeys(_PLACES, n) | {"STATES": states[0] if states else n} | table
     lines += [f"#define VR_{place} {i}" for place, i in places.items()]
     nominals = [number(listed[i].nominal) for i in states] or ["1.0"]
     starts = ", ".join(number(float(x.start)) for x in listed)

@@ -56,14 +56,14 @@ def groups(exported: Exported, *, mechanism: bool) -> list[Group]:
         exported: what is exported.
         mechanism: whether the belt-box itself is exported.
     """
-    found = [_law(exported)]
+    items = [_law(exported)]
     if exported.process is not None:
-        found.append(_process(exported))
+        items.append(_process(exported))
     if exported.mechanism is not None and (mechanism or exported.effects):
-        found.append(_mechanism(exported, with_start=mechanism))
+        items.append(_mechanism(exported, with_start=mechanism))
     if exported.effects:
-        found += _effects(exported)
-    return found
+        items += _effects(exported)
+    return items
 
 
 def _group(prefix: str, cls: type, values: dict[str, tuple[float, list[Place]]]) -> Group:

@@ -56,34 +56,34 @@ def variables(exported: Exported, parameters: tuple[Parameter, ...], *, mechanis
         parameters: the parameters of its law, coefficients, mechanism and effects.
         mechanism: whether the belt-box is exported, not the friction element alone.
     """
-    found = [Variable("time", TIME, "Time", "s", place="TIME")]
-    found += [Variable(p.name, PARAMETER, p.description, p.unit, p.value) for p in parameters]
+    items = [Variable("time", TIME, "Time", "s", place="TIME")]
+    items += [Variable(p.name, PARAMETER, p.description, p.unit, p.value) for p in parameters]
     for name, text in (
         ("seed", "Seed of the coefficients: first part of their address"),
         ("sample", "Sample of an ensemble: second part of the address of the coefficients"),
         ("contact", "Number of the contact: third part of the address, different for each contact of a model"),
     ):
-        found.append(Variable(name, PARAMETER, text, type=NUMBER, place=name.upper()))
-    found += _belt_box(exported, len(found)) if mechanism else _element(exported)
-    return [*found, *_reported()]
+        items.append(Variable(name, PARAMETER, text, type=NUMBER, place=name.upper()))
+    items += _belt_box(exported, len(items)) if mechanism else _element(exported)
+    return [*items, *_reported()]
 
 
 def _element(exported: Exported) -> list[Variable]:
     step = "Step of the master [s], 0 if it varies: frees summed times of their rounding"
-    found = [Variable("step", PARAMETER, step, "s", place="STEP")]
+    items = [Variable("step", PARAMETER, step, "s", place="STEP")]
     for place, name, text, unit in (
         ("DISPLACEMENT", "relative_displacement", "Relative displacement [m], counter-surface minus body; must not jump", "m"),
         ("VELOCITY", "relative_velocity", "Relative velocity [m/s], counter-surface minus body", "m/s"),
         ("HOLDING_FORCE", "holding_force", "Friction force that would keep the velocity as it is [N]; 0 if not known", "N"),
     ):
-        found += [Variable(f"{name}[{i + 1}]", INPUT, text, unit, place="" if i else place) for i in (0, 1)]
+        items += [Variable(f"{name}[{i + 1}]", INPUT, text, unit, place="" if i else place) for i in (0, 1)]
     mass = "Mass that the contact feels [kg]; elastic_stick uses it"
-    found += [
+    items += [
         Variable("normal_force", INPUT, "Normal force [N], >= 0", "N", place="NORMAL_FORCE"),
         Variable("effective_mass", INPUT, mass, "kg", default_mass(exported), place="EFFECTIVE_MASS"),
     ]
     force = "Friction force on the body [N], along the relative velocity"
-    return found + [
+    return items + [
         Variable(f"friction_force[{i + 1}]", OUTPUT, force, "N", place="" if i else "FRICTION_FORCE") for i in (0, 1)
     ]
 
@@ -102,19 +102,19 @@ def _belt_box(exported: Exported, first: int) -> list[Variable]:
     ]
     if law.has_flow and not exported.effects:
         states.append(("bristle_deflection", "Deflection of the law's bristle [m]", "m", 0.0, 1.0e-2 * size, "BRISTLE"))
-    found = [
+    items = [
         Variable("internal_step", PARAMETER, "Longest step inside a communication step [s]", "s", step, place="STEP"),
         Variable("external_force", INPUT, "Further force on the box [N]", "N", place="EXTERNAL_FORCE"),
     ]
-    first += len(found)
-    found += [Variable(n, STATE, text, u, start, place=place, nominal=z) for n, text, u, start, z, place in states]
-    found += [
+    first += len(items)
+    items += [Variable(n, STATE, text, u, start, place=place, nominal=z) for n, text, u, start, z, place in states]
+    items += [
         Variable(f"der({n})", DERIVATIVE, f"Rate of {n}", f"{u}/s" if u == "m" else "m/s2", place="" if i else "DERIVATIVES",
                  of=first + i)
         for i, (n, _, u, *_) in enumerate(states)
     ]  # fmt: skip
     force = "Friction force on the box [N], along the relative velocity, belt minus box"
-    return [*found, Variable("friction_force", OUTPUT, force, "N", place="FRICTION_FORCE")]
+    return [*items, Variable("friction_force", OUTPUT, force, "N", place="FRICTION_FORCE")]
 
 
 def _reported() -> list[Variable]:

@@ -186,7 +186,7 @@ def _in_si(
     entry: RunEntry, columns: Mapping[str, Array], units: Mapping[str, str], *, rotational: bool | None
 ) -> tuple[dict[str, Array], dict[str, str]]:
     """Return the columns with known quantities in SI units, and the units."""
-    values, found = dict(columns), dict(units)
+    values, result = dict(columns), dict(units)
     for name in (k for k in columns if k in KNOWN):
         quantity = KNOWN[name]
         if name not in units:
@@ -196,10 +196,10 @@ def _in_si(
                 f'units = {{ {name} = "{si}" }}'
             )
         try:
-            values[name], found[name] = to_si(columns[name], units[name], quantity, rotational=rotational)
+            values[name], result[name] = to_si(columns[name], units[name], quantity, rotational=rotational)
         except InputError as error:
             raise InputError(f"{entry.file}: {error}") from None
-    return values, found
+    return values, result
 
 
 def _within(time: Array, entry: RunEntry) -> npt.NDArray[np.bool_]:

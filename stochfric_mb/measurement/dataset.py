@@ -146,8 +146,8 @@ def _with_note(run: Run, note: str) -> Run:
 def _checked(run: Run, scenario: Scenario[Any], stated_in: str) -> Run:
     """Return the run once it is plausible, with a note if its friction force seems to have the wrong sign."""
     require_plausible(run, scenario, stated_in)
-    found = run_sign_error(run, scenario)
-    return run if found is None else dataclasses.replace(run, notes=(*run.notes, str(found)))
+    error = run_sign_error(run, scenario)
+    return run if error is None else dataclasses.replace(run, notes=(*run.notes, str(error)))
 
 
 def _scenario(source: str | Path | Scenario[Any]) -> tuple[Scenario[Any], Path | None]:

@@ -108,13 +108,13 @@ def estimate_delay(
         )
     draws = np.random.default_rng(seed).multinomial(total.size, np.full(total.size, 1.0 / total.size), size=RESAMPLES)
     spread = [_lowest(lags, curve) for curve in _unexplained(draws.astype(np.float64), yy, xy, xx)]
-    found = _lowest(lags, left)
-    low, high = found + _few(total.size) * (np.quantile(spread, (0.025, 0.975)) - found)
+    lowest = _lowest(lags, left)
+    low, high = lowest + _few(total.size) * (np.quantile(spread, (0.025, 0.975)) - lowest)
     zero = int(np.argmin(np.abs(lags)))
     return Delay(
-        seconds=found * sample_interval,
-        low=min(float(low), found) * sample_interval,
-        high=max(float(high), found) * sample_interval,
+        seconds=lowest * sample_interval,
+        low=min(float(low), lowest) * sample_interval,
+        high=max(float(high), lowest) * sample_interval,
         explained=1.0 - float(left[best]),
         explained_without=1.0 - float(left[zero]),
     )

@@ -119,7 +119,7 @@ def _joints(table: Mapping[str, Any]) -> ProportionalDerivative:
     joints = table["joints"]
     if not isinstance(joints, Mapping):
         raise InputError(f"controller.joints = {joints!r} is not a table of joints; write [controller.joints.elbow]")
-    found: dict[str, JointLoop] = {}
+    loops: dict[str, JointLoop] = {}
     for joint, loop in cast(Mapping[str, Any], joints).items():
         where = f"controller.joints.{joint}."
         if not isinstance(loop, Mapping):
@@ -129,8 +129,8 @@ def _joints(table: Mapping[str, Any]) -> ProportionalDerivative:
         _require_keys(entry, where, fields, ["position_gain", "reference"])
         words = {k: require_text(where + k, entry[k]) for k in ("reference", "factor") if k in entry}
         numbers = {k: require_number(where + k, v) for k, v in entry.items() if k not in ("reference", "factor")}
-        found[str(joint)] = JointLoop(**words, **numbers)  # type: ignore[arg-type]
-    return ProportionalDerivative(joints=found, period=require_number("controller.period", table.get("period", 0.0)))
+        loops[str(joint)] = JointLoop(**words, **numbers)  # type: ignore[arg-type]
+    return ProportionalDerivative(joints=loops, period=require_number("controller.period", table.get("period", 0.0)))
 
 
 def _require_keys(table: Mapping[str, Any], where: str, known: Sequence[str], needed: Sequence[str]) -> None:

@@ -125,8 +125,8 @@ class ContactFriction:
         if not len(rows):
             return []
         shapes = {_number(shape): shape for shape in self.space.shapes}
-        found = [_reading(self._pairs[i], self._slots[i], shapes) for i in rows]
-        return sorted((x for x in found if x is not None), key=lambda x: x.contact)
+        items = [_reading(self._pairs[i], self._slots[i], shapes) for i in rows]
+        return sorted((x for x in items if x is not None), key=lambda x: x.contact)
 
     def step_limit(self) -> float:
         """Return the largest stable step [s] of the law for the contacts that touched in the step last taken."""

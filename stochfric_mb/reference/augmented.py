@@ -216,11 +216,11 @@ class AugmentedSystem:
             velocity: its velocity [m/s], shape (n,).
         """
         run = _copied(self._run)
-        found = np.zeros((len(time), int(run.counts[2])))
-        if found.size:
+        values = np.zeros((len(time), int(run.counts[2])))
+        if values.size:
             motion = [np.ascontiguousarray(a, dtype=np.float64) for a in (time, position, velocity)]
-            augmented_march.recall(run, *motion, _at_rest(self.effects, position[:1], velocity[:1])[0], found)
-        return found
+            augmented_march.recall(run, *motion, _at_rest(self.effects, position[:1], velocity[:1])[0], values)
+        return values
 
     def forecasts(
         self, starts: npt.ArrayLike, step: float, count: int, memories: Array | None = None

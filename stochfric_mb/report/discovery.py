@@ -165,7 +165,7 @@ def _beliefs(content: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 def _rounds(details: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Return, for each round of the search, its best candidates with their misfit when simulated, if they were."""
-    found: list[dict[str, Any]] = []
+    items: list[dict[str, Any]] = []
     number_ = 1
     while f"round_{number_}" in details:
         simulated = details.get(f"confirmation_{number_}", {})
@@ -173,6 +173,6 @@ def _rounds(details: Mapping[str, Any]) -> list[dict[str, Any]]:
             {"kind": kind, "score": score, "misfit": simulated[kind][0] if kind in simulated else None}
             for kind, score in details[f"round_{number_}"].items()
         ][: None if number_ == 1 else AFTERWARDS]
-        found.append({"rows": rows, "believed": simulated["believed"][0] if "believed" in simulated else None})
+        items.append({"rows": rows, "believed": simulated["believed"][0] if "believed" in simulated else None})
         number_ += 1
-    return found
+    return items

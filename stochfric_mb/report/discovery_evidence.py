@@ -101,15 +101,15 @@ def gather(outcome: Outcome) -> Evidence | None:
         models["augmented"] = augmented
     windows = tuple(w for w in outcome.runs.second if len(w))
     calm = deterministic(augmented)
-    found = outcome.study
-    added = len(calm.effects) > len(found.model.effects)
+    result = outcome.study
+    added = len(calm.effects) > len(result.model.effects)
     return Evidence(
         windows=windows,
         cycles={name: _cycles(model, windows) for name, model in models.items()} if windows else {},
-        before=_left_over(found.pool, found),
-        after=_left_over(left_over(found.pool, calm), found) if added and outcome.result.verdict == "effect" else None,
+        before=_left_over(result.pool, result),
+        after=_left_over(left_over(result.pool, calm), result) if added and outcome.result.verdict == "effect" else None,
         events=_events(models, outcome.runs),
-        kinetic=float(found.solution.coefficients[1] * found.pool.normal_force[0]),
+        kinetic=float(result.solution.coefficients[1] * result.pool.normal_force[0]),
     )
 
 
@@ -127,11 +127,11 @@ def _cycles(model: Model, windows: Sequence[Windows]) -> Cycles:
     return Cycles(np.concatenate(errors), np.concatenate(spreads), tuple(means))
 
 
-def _left_over(pool: Pool, found: Study) -> LeftOver:
+def _left_over(pool: Pool, study: Study) -> LeftOver:
     """Return what remains of the features in ``pool`` once the stated model's parameters are fitted to them."""
     regression = Regression(pool)
-    terms = believed(pool, dict(found.uncertainty))
-    rest = regression.residuals(terms, regression.fit(terms, found.solution.scatter))[pool.kept]
+    terms = believed(pool, dict(study.uncertainty))
+    rest = regression.residuals(terms, regression.fit(terms, study.solution.scatter))[pool.kept]
     series = rest[:, 1:].T
     return LeftOver(
         time=pool.onset_time[pool.kept],

@@ -75,12 +75,12 @@ def _runs(outcome: Outcome) -> list[dict[str, Any]]:
 
 
 def _events(evidence: Evidence) -> dict[str, dict[str, dict[str, float | str | None]]]:
-    found: dict[str, dict[str, dict[str, float | str | None]]] = {}
+    table: dict[str, dict[str, dict[str, float | str | None]]] = {}
     for name, statistics in evidence.events.items():
-        found[name] = {}
+        table[name] = {}
         for statistic, values in statistics.items():
             middle, low, high = band(values) if len(values) else (np.nan, np.nan, np.nan)
-            found[name][statistic] = {
+            table[name][statistic] = {
                 "median": float(middle), "low": float(low), "high": float(high), "unit": EVENTS[statistic]
             }  # fmt: skip
-    return found
+    return table

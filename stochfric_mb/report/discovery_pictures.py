@@ -266,13 +266,13 @@ def _ranking(content: Mapping[str, Any]) -> Figure:
         if e["kind"] not in screened and e["evidence"]["score"] is not None
     ]
     ranking: list[dict[str, Any]] = (elsewhere + content["ranking"])[:12]
-    found = {e["kind"] for e in content["effects"]} | {k for e in content["effects"] for k in e["equivalent_to"]}
+    result = {e["kind"] for e in content["effects"]} | {k for e in content["effects"] for k in e["equivalent_to"]}
     known = set(effect_kinds())
     named = content["details"]["thresholds"]["named"]
     figure, (axes,) = new_figure(4.8, 3.9)
     for row, entry in enumerate(reversed(ranking)):
         kind = entry["kind"]
-        colour = COLOURS["augmented"] if kind in found else COLOURS["believed"] if kind in known else "#e4c590"
+        colour = COLOURS["augmented"] if kind in result else COLOURS["believed"] if kind in known else "#e4c590"
         axes.barh(row, max(entry["score"], 0.0), color=colour)
     axes.set_yticks(range(len(ranking)), [str(e["kind"]).replace("_", " ") for e in reversed(ranking)], fontsize=8)
     top = max(*(float(e["score"]) for e in ranking), 2.0 * named)

@@ -84,7 +84,7 @@ def grouped(numbers: tuple[Number, ...]) -> list[tuple[str, list[Number]]]:
 
 def _pictures(result: Reproduction) -> dict[str, list[str]]:
     """Return which figures belong to which claim."""
-    found = {
+    table = {
         "step_independence_displacement": ["step_position", "step_position_few"],
         "step_independence_velocity": ["step_velocity", "step_velocity_few"],
         "rejection_keeps_distributions": ["rejection", "infeasible"],
@@ -93,7 +93,7 @@ def _pictures(result: Reproduction) -> dict[str, list[str]]:
         "cost_of_a_run": ["growth"],
     }
     wider = [claim.id for claim in result.claims if claim.id.startswith("portrait_wider")]
-    return found | {name: [f"portrait_{i + 1}"] for i, name in enumerate(wider)}
+    return table | {name: [f"portrait_{i + 1}"] for i, name in enumerate(wider)}
 
 
 def _captions(result: Reproduction) -> dict[str, str]:

@@ -111,11 +111,11 @@ def as_figures(numbers: Iterable[Number]) -> dict[str, Any]:
     return {number.name: number.to_dict() for number in numbers}
 
 
-def of_estimate(name: str, label: str, found: Estimate | None, **more: Any) -> Number:
+def of_estimate(name: str, label: str, estimate: Estimate | None, **more: Any) -> Number:
     """Return the number that an estimate is; NaN where there is none."""
-    if found is None:
+    if estimate is None:
         return Number(name=name, label=label, value=math.nan, **more)
-    return Number(name=name, label=label, value=found.value, low=found.low, high=found.high, **more)
+    return Number(name=name, label=label, value=estimate.value, low=estimate.low, high=estimate.high, **more)
 
 
 def differs(number: Number, n_tests: int) -> bool:

@@ -71,16 +71,16 @@ class Interpolation:
 def draw_rejections(scenarios: Mapping[str, Scenario], settings: Settings, seed: int) -> list[Rejection]:
     """Return pairs before and after rejection, for the tables and for means that come closer."""
     rng = np.random.default_rng([seed, 1])
-    found: list[Rejection] = []
+    items: list[Rejection] = []
     for name, scenario in scenarios.items():
         assert scenario.process is not None
         means, sigma = (scenario.law.mu_s, scenario.law.mu_k), (scenario.process.sigma_s, scenario.process.sigma_k)
-        found.append(_rejection(name, means, sigma, settings.n_pairs, rng))
+        items.append(_rejection(name, means, sigma, settings.n_pairs, rng))
     sigma = (0.05, 0.05)
     for d in DISTANCES:
         means = (0.8, 0.8 - d * math.hypot(*sigma))
-        found.append(_rejection(f"d = {d:g}", means, sigma, settings.n_pairs, rng))
-    return found
+        items.append(_rejection(f"d = {d:g}", means, sigma, settings.n_pairs, rng))
+    return items
 
 
 def _rejection(
@@ -219,7 +219,7 @@ def _smooth_paths(scenario: Scenario, settings: Settings, seed: int) -> tuple[Me
     """Return the standard deviation of processes with a correlation time, measured as that of the paper's knots."""
     assert scenario.process is not None
     sigma_s, sigma_k = scenario.process.sigma_s, scenario.process.sigma_k
-    found: list[Mend] = []
+    remedies: list[Mend] = []
     for cls in (Matern, OrnsteinUhlenbeck):
         process = cls(correlation_time=SMOOTH_TIME, spacing=SMOOTH_TIME / 10.0, sigma_s=sigma_s, sigma_k=sigma_k)
         measured = measure_interpolation(dataclasses.replace(scenario, process=process), settings, seed)
@@ -229,8 +229,8 @@ def _smooth_paths(scenario: Scenario, settings: Settings, seed: int) -> tuple[Me
         )
         name = f"{cls.kind}, correlation time {SMOOTH_TIME:g} s"
         text = "knots at a tenth of the correlation time; the same measurement"
-        found.append(Mend(process=name, text=text, outcome=_keeps_sigma(averaged), numbers=(number,)))
-    return tuple(found)
+        remedies.append(Mend(process=name, text=text, outcome=_keeps_sigma(averaged), numbers=(number,)))
+    return tuple(remedies)
 
 
 def _exact_average() -> float:
@@ -273,14 +273,14 @@ def _feasible_claim(scenarios: Mapping[str, Scenario], settings: Settings, seed:
 
 def sigma_claims(scenarios: Mapping[str, Scenario]) -> list[Claim]:
     """Return the claim that sigma_k is about 5 % of the mean of mu_k, for each table."""
-    found: list[Claim] = []
+    claims: list[Claim] = []
     for name, scenario in scenarios.items():
         assert scenario.process is not None
         sigma, mean = scenario.process.sigma_k, scenario.law.mu_k
         share = sigma / mean
         low, high = (sigma - HALF_DIGIT) / mean, (sigma + HALF_DIGIT) / mean
         far = low > CLAIMED_SHARE + ABOUT or high < CLAIMED_SHARE - ABOUT
-        found.append(
+        claims.append(
             Claim(
                 id=f"sigma_k_{name.lower().replace(' ', '_')}",
                 claim=f"sigma_k is about 5 % of the mean of mu_k ({name})",
@@ -303,4 +303,4 @@ def sigma_claims(scenarios: Mapping[str, Scenario]) -> list[Claim]:
                 remark="The tables are taken as they are.",
             )
         )
-    return found
+    return claims

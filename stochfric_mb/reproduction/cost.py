@@ -29,8 +29,8 @@ def cost_claim(
     ratios: dict[str, statistics.Estimate] = {}
     for done, (law, scenario) in enumerate(scenarios.items(), start=1):
         seconds = _timed(scenario, settings, seed)
-        for kind, found in seconds.items():
-            each = statistics.mean(1.0e3 * found / settings.n_cost)
+        for kind, result in seconds.items():
+            each = statistics.mean(1.0e3 * result / settings.n_cost)
             numbers.append(
                 of_estimate(f"ms_{kind}_{law}", f"processor time of a run of {scenario.duration:g} s, {kind}, {law}", each,
                             unit="ms", n=settings.cost_repeats, group="Times")
@@ -71,11 +71,11 @@ def _timed(scenario: Scenario, settings: Settings, seed: int) -> dict[str, np.nd
         "deterministic": dataclasses.replace(scenario, process=None),
         "stochastic": dataclasses.replace(scenario, process=process),
     }
-    found: dict[str, list[float]] = {kind: [] for kind in problems}
+    table: dict[str, list[float]] = {kind: [] for kind in problems}
     for repeat in range(settings.cost_repeats + 1):
         for kind, problem in problems.items():
             before = time.process_time()
             ensemble.run(problem, settings.n_cost, seed=seed, output_times=[scenario.duration])
             if repeat > 0:  # the first loads compiled code
-                found[kind].append(time.process_time() - before)
-    return {kind: np.array(times) for kind, times in found.items()}
+                table[kind].append(time.process_time() - before)
+    return {kind: np.array(times) for kind, times in table.items()}

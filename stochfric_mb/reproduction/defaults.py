@@ -110,15 +110,15 @@ def vary(scenarios: Mapping[str, Scenario], settings: Settings, seed: int, tick:
         seed: of the coefficients.
         tick: called with the number of responses done.
     """
-    found: list[Sensitivity] = []
+    items: list[Sensitivity] = []
     for law, name, unit in VARIED:
         default = float(getattr(scenarios[law].law, name))
         rows: list[tuple[float, Response]] = []
         for factor in (0.5, 1.0, 2.0):
             changed = dataclasses.replace(scenarios[law].law, **{name: factor * default})
             rows.append((factor * default, response(dataclasses.replace(scenarios[law], law=changed), settings, seed)))
-            tick(3 * len(found) + len(rows))
-        found.append(Sensitivity(law, name, unit, default, tuple(rows)))
+            tick(3 * len(items) + len(rows))
+        items.append(Sensitivity(law, name, unit, default, tuple(rows)))
     for law in SPACING:
         process = scenarios[law].process
         assert isinstance(process, Knots)
@@ -126,9 +126,9 @@ def vary(scenarios: Mapping[str, Scenario], settings: Settings, seed: int, tick:
         for factor in (0.5, 1.0, 2.0):
             changed = dataclasses.replace(process, spacing=factor * process.spacing)
             rows.append((changed.spacing, response(dataclasses.replace(scenarios[law], process=changed), settings, seed)))
-            tick(3 * len(found) + len(rows))
-        found.append(Sensitivity(law, "knot spacing", "s", process.spacing, tuple(rows)))
-    return found
+            tick(3 * len(items) + len(rows))
+        items.append(Sensitivity(law, "knot spacing", "s", process.spacing, tuple(rows)))
+    return items
 
 
 def response(scenario: Scenario, settings: Settings, seed: int) -> Response:

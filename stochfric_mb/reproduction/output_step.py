@@ -76,16 +76,16 @@ def run_steps(scenarios: Mapping[str, Scenario], settings: Settings, seed: int, 
         tick: called with the number of runs done.
     """
     done = 0
-    found: dict[str, dict[float, EnsembleResult]] = {}
+    table: dict[str, dict[float, EnsembleResult]] = {}
     for law, scenario in scenarios.items():
-        found[law] = {}
+        table[law] = {}
         for i, step in enumerate(settings.steps):
             assert scenario.process is not None
             process = paper_process(scenario.process.sigma_s, scenario.process.sigma_k, step)
-            found[law][step] = _run(scenario, process, step, settings, seed, first=i * settings.n_many)
+            table[law][step] = _run(scenario, process, step, settings, seed, first=i * settings.n_many)
             done += settings.n_many
             tick(done)
-    return StepStudy(found, settings.n_paper)
+    return StepStudy(table, settings.n_paper)
 
 
 def claims(study: StepStudy, mends: Mapping[str, tuple[Mend, ...]], settings: Settings) -> list[Claim]:
@@ -102,7 +102,7 @@ def claims(study: StepStudy, mends: Mapping[str, tuple[Mend, ...]], settings: Se
         + " s and three laws; every pair of steps compared, each sample used once",
         "rule": rule,
     }
-    found: list[Claim] = []
+    items: list[Claim] = []
     for quantity, word in (("position", "displacement"), ("velocity", "velocity")):
         distances = _distances(study, quantity, settings)
         verdict = same_distribution(distances)
@@ -110,7 +110,7 @@ def claims(study: StepStudy, mends: Mapping[str, tuple[Mend, ...]], settings: Se
         numbers = [*_shown(distances, settings), *_few(study, quantity, settings), *_power(study, quantity, settings)]
         numbers += _break_aways(study) if quantity == "position" else _slipping(study, settings)
         numbers += _means(study, quantity)
-        found.append(
+        items.append(
             Claim(
                 id=f"step_independence_{word}",
                 claim=f"The distribution of {word} does not depend on the output time step",
@@ -123,13 +123,13 @@ def claims(study: StepStudy, mends: Mapping[str, tuple[Mend, ...]], settings: Se
                 **common,
             )
         )
-    return found
+    return items
 
 
 def _by_law(distances: list[Number], study: StepStudy) -> str:
     """Return the verdict of the same rule for each law alone."""
     alone = {law: [d for d in distances if d.name.startswith(f"ks_{law}_")] for law in study.ensembles}
-    return ", ".join(f"{law} {same_distribution(found)}" for law, found in alone.items())
+    return ", ".join(f"{law} {same_distribution(result)}" for law, result in alone.items())
 
 
 def _remark(quantity: str, distances: list[Number]) -> str:
@@ -169,11 +169,11 @@ def run_mends(scenario: Scenario, settings: Settings, seed: int, tick: Tick) -> 
     ]
     for cls, tau in ((Matern, 0.05), (Matern, 0.2), (OrnsteinUhlenbeck, 0.05), (OrnsteinUhlenbeck, 0.2)):
         tests.append(lambda cls=cls, tau=tau: _refined(scenario, cls, tau, sigmas, settings, seed))
-    found: list[tuple[Mend, ...]] = []
+    items: list[tuple[Mend, ...]] = []
     for number, test in enumerate(tests, start=1):
-        found.append(test())
+        items.append(test())
         tick(number)
-    return {quantity: tuple(mends[i] for mends in found) for i, quantity in enumerate(QUANTITIES)}
+    return {quantity: tuple(mends[i] for mends in items) for i, quantity in enumerate(QUANTITIES)}
 
 
 QUANTITIES = {"position": "m", "velocity": "m/s"}
@@ -196,13 +196,13 @@ def _identical(scenario: Scenario, process: Process, name: str, settings: Settin
         grids["position"].append(result.position[:, places])
         grids["velocity"].append(result.velocity[:, places])
     text = "the same samples on output grids of each step; the path does not know the output step"
-    found: list[Mend] = []
+    remedies: list[Mend] = []
     for (quantity, unit), limit in zip(QUANTITIES.items(), (IDENTICAL, IDENTICAL_VELOCITY), strict=True):
         gap = max(float(np.max(np.abs(a - b))) for a, b in itertools.combinations(grids[quantity], 2))
         label = f"largest difference of {quantity} between output steps, run by run"
         number = Number(name="largest_difference", label=label, value=gap, unit=unit, n=settings.n_grid)
-        found.append(Mend(process=name, text=text, outcome=HOLDS if gap <= limit else FAILS, numbers=(number,)))
-    return tuple(found)
+        remedies.append(Mend(process=name, text=text, outcome=HOLDS if gap <= limit else FAILS, numbers=(number,)))
+    return tuple(remedies)
 
 
 def _refined(
@@ -255,22 +255,22 @@ def _pairs(
     ensembles: Mapping[str, Mapping[float, EnsembleResult]], quantity: str, settings: Settings, *, n: int | None = None
 ) -> list[Number]:
     """Return the distance of each pair of steps, of each law, at each time."""
-    found: list[Number] = []
+    numbers: list[Number] = []
     for law, runs in ensembles.items():
         for i, t in enumerate(settings.times):
             for a, b in itertools.combinations(runs, 2):
                 x, y = (values(runs[step], quantity, i)[:n] for step in (a, b))
                 label = f"{law}, {t:g} s, steps {a:g} and {b:g} s"
                 name = f"ks_{law}_{t:g}s_{a:g}_{b:g}_n{len(x)}"
-                found.append(distance(name, label, x, y, settings))
-    return found
+                numbers.append(distance(name, label, x, y, settings))
+    return numbers
 
 
 def distance(name: str, label: str, x: Array, y: Array, settings: Settings, **more: str) -> Number:
     """Return the Kolmogorov-Smirnov distance of two samples with its interval and the p-value of the test."""
-    found = statistics.ks_distance(x, y, n_resamples=settings.resamples)
+    result = statistics.ks_distance(x, y, n_resamples=settings.resamples)
     n = min(len(x), len(y))
-    return of_estimate(name, f"KS distance, {label}", found, p_value=statistics.ks_test(x, y).p_value, n=n, **more)
+    return of_estimate(name, f"KS distance, {label}", result, p_value=statistics.ks_test(x, y).p_value, n=n, **more)
 
 
 def _shown(distances: list[Number], settings: Settings) -> list[Number]:
@@ -281,13 +281,13 @@ def _shown(distances: list[Number], settings: Settings) -> list[Number]:
 
 def _few(study: StepStudy, quantity: str, settings: Settings) -> list[Number]:
     """Return the distances with the paper's number of samples."""
-    found = _pairs(study.ensembles, quantity, settings, n=study.n_paper)
-    return [dataclasses.replace(d, group=f"With {study.n_paper} samples, as in the paper") for d in found]
+    result = _pairs(study.ensembles, quantity, settings, n=study.n_paper)
+    return [dataclasses.replace(d, group=f"With {study.n_paper} samples, as in the paper") for d in result]
 
 
 def _power(study: StepStudy, quantity: str, settings: Settings) -> list[Number]:
     """Return how often 100 samples are enough to see the difference between the coarsest and the finest step."""
-    found: list[Number] = []
+    numbers: list[Number] = []
     a, b = settings.steps[0], settings.steps[-1]
     for law, runs in study.ensembles.items():
         for i, t in enumerate(settings.times):
@@ -299,8 +299,8 @@ def _power(study: StepStudy, quantity: str, settings: Settings) -> list[Number]:
             share = statistics.proportion(seen, n)
             label = f"share of batches of {BATCH} that show it at {LEVEL:.0%}, {law}, {t:g} s, steps {a:g} and {b:g} s"
             group = f"With {study.n_paper} samples, as in the paper"
-            found.append(of_estimate(f"detected_{law}_{t:g}s_n{BATCH}", label, share, n=n, group=group))
-    return found
+            numbers.append(of_estimate(f"detected_{law}_{t:g}s_n{BATCH}", label, share, n=n, group=group))
+    return numbers
 
 
 def _rejects(x: Array, y: Array) -> bool:
@@ -333,13 +333,13 @@ def _means(study: StepStudy, quantity: str) -> list[Number]:
 
 def _slipping(study: StepStudy, settings: Settings) -> list[Number]:
     """Return the share of runs that stick, and the distance between the velocities of those that slip."""
-    found: list[Number] = []
+    numbers: list[Number] = []
     for law, runs in study.ensembles.items():
         for i, t in enumerate(settings.times):
             stuck = {step: _stuck(result, i) for step, result in runs.items()}
             for step, s in stuck.items():
                 share = statistics.proportion(int(s.sum()), len(s))
-                found.append(
+                numbers.append(
                     of_estimate(
                         f"stick_{law}_{t:g}s_{step:g}", f"share that sticks, {law}, {t:g} s, step {step:g} s", share, n=len(s)
                     )
@@ -347,12 +347,13 @@ def _slipping(study: StepStudy, settings: Settings) -> list[Number]:
             a, b = settings.steps[0], settings.steps[-1]
             x, y = (np.floor(values(runs[step], "velocity", i) / RESOLUTION) for step in (a, b))
             label = f"velocity in bins of {1.0e3 * RESOLUTION:g} mm/s, {law}, {t:g} s, steps {a:g} and {b:g} s"
-            found.append(distance(f"ks_binned_{law}_{t:g}s", label, x, y, settings))
+            numbers.append(distance(f"ks_binned_{law}_{t:g}s", label, x, y, settings))
             x, y = (values(runs[step], "velocity", i)[~stuck[step]] for step in (a, b))
             if min(len(x), len(y)) >= FEWEST_SLIPPING:
                 label = f"of those that slip, {law}, {t:g} s, steps {a:g} and {b:g} s"
-                found.append(distance(f"ks_slipping_{law}_{t:g}s", label, x, y, settings, group="Velocity of those that slip"))
-    return found
+                slipping = distance(f"ks_slipping_{law}_{t:g}s", label, x, y, settings, group="Velocity of those that slip")
+                numbers.append(slipping)
+    return numbers
 
 
 def _stuck(result: EnsembleResult, i: int) -> npt.NDArray[np.bool_]:

@@ -87,12 +87,12 @@ def make_portraits(
         seed: of the coefficients.
         tick: called with the number of portraits done.
     """
-    found: list[Portrait] = []
+    items: list[Portrait] = []
     for name, laws in scenarios.items():
         for law, scenario in laws.items():
-            found.append(_portrait(name, law, scenario, settings, seed))
-            tick(len(found))
-    return found
+            items.append(_portrait(name, law, scenario, settings, seed))
+            tick(len(items))
+    return items
 
 
 def _portrait(name: str, law: str, scenario: Scenario, settings: Settings, seed: int) -> Portrait:
@@ -137,23 +137,23 @@ def turns(p: Portrait, runs: tuple[Array, Array], low: float, high: float) -> Tu
     return Turns(at.sum(axis=1).astype(np.float64), top.sum(axis=1), (top**2).sum(axis=1))
 
 
-def spread(found: Turns, settings: Settings, seed: int) -> statistics.Estimate:
+def spread(result: Turns, settings: Settings, seed: int) -> statistics.Estimate:
     """Return the standard deviation of the turning points [m], with a bootstrap interval over the runs."""
     rng = np.random.default_rng([seed, 3])
-    n = len(found.n)
+    n = len(result.n)
     drawn = [
-        found.spread(np.bincount(rng.integers(0, n, n), minlength=n).astype(np.float64)) for _ in range(settings.resamples)
+        result.spread(np.bincount(rng.integers(0, n, n), minlength=n).astype(np.float64)) for _ in range(settings.resamples)
     ]
     low, high = np.quantile(drawn, [0.025, 0.975])
-    return statistics.Estimate(found.spread(), float(low), float(high), 0.95)
+    return statistics.Estimate(result.spread(), float(low), float(high), 0.95)
 
 
 def claims(portraits: list[Portrait], settings: Settings, seed: int) -> list[Claim]:
     """Return one claim a scenario."""
-    found: list[Claim] = []
+    items: list[Claim] = []
     for name in dict.fromkeys(p.name for p in portraits):
-        found.append(_claim(name, [p for p in portraits if p.name == name], settings, seed))
-    return found
+        items.append(_claim(name, [p for p in portraits if p.name == name], settings, seed))
+    return items
 
 
 def _claim(name: str, portraits: list[Portrait], settings: Settings, seed: int) -> Claim:
@@ -230,6 +230,6 @@ def _with_transient(p: Portrait, wide: statistics.Estimate, alone: float) -> lis
     ]
 
 
-def _micro(name: str, label: str, found: statistics.Estimate, n: int, **more: str) -> Number:
-    scaled = statistics.Estimate(1e6 * found.value, 1e6 * found.low, 1e6 * found.high, found.confidence)
+def _micro(name: str, label: str, result: statistics.Estimate, n: int, **more: str) -> Number:
+    scaled = statistics.Estimate(1e6 * result.value, 1e6 * result.low, 1e6 * result.high, result.confidence)
     return of_estimate(name, label, scaled, unit="um", n=n, **more)

@@ -63,7 +63,7 @@ class Scaling:
 
 def measure(scenarios: Mapping[str, Scenario], settings: Settings, seed: int, tick: Callable[[int], None]) -> list[Scaling]:
     """Return the cost of each law's ensembles of Table 1, along samples and along time."""
-    found: list[Scaling] = []
+    items: list[Scaling] = []
     for law, scenario in scenarios.items():
         n, t = SMALLEST[law]
         _seconds(scenario, n, t, seed)  # loads compiled code
@@ -74,17 +74,17 @@ def measure(scenarios: Mapping[str, Scenario], settings: Settings, seed: int, ti
                 for m, size in zip(settings.cost_multiples, sizes, strict=True)
             ]
             grows, fixed = (0, t) if along == SAMPLES else (1, n)
-            found.append(Scaling(law, along, np.array([float(size[grows]) for size in sizes]), fixed, np.array(taken)))
-            tick(len(found))
-    return found
+            items.append(Scaling(law, along, np.array([float(size[grows]) for size in sizes]), fixed, np.array(taken)))
+            tick(len(items))
+    return items
 
 
-def numbers(found: list[Scaling]) -> tuple[Number, ...]:
+def numbers(result: list[Scaling]) -> tuple[Number, ...]:
     """Return the exponents as numbers of a claim."""
     return tuple(
         of_estimate(f"exponent_{s.along}_{s.law}", f"p of cost ~ {s.along}^p, {s.law}", s.exponent(), n=len(s.size),
                     group="Growth of the cost")
-        for s in found
+        for s in result
     )  # fmt: skip
 
 

@@ -22,9 +22,9 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 def engine(request: pytest.FixtureRequest) -> Candidate:
     """The engine under test; skips, with what to install, where it is not there."""
     try:
-        found = candidate(request.param)
+        result = candidate(request.param)
     except InputError as error:
         raise pytest.UsageError(str(error)) from None
-    if found.module is None:
-        pytest.skip(found.reason)
-    return found
+    if result.module is None:
+        pytest.skip(result.reason)
+    return result

@@ -217,11 +217,11 @@ def _sensor(model: mujoco.MjModel, name: str, joints: list[str]) -> int:
     if not dot and name not in sensors:
         stem = name
     known = [s for s in sensors if s] + [j for j in joints if j]
-    found = sensors.index(require_name("joint or sensor of mechanism.positions", stem, known))
-    size = int(model.sensor_dim[found])
+    result = sensors.index(require_name("joint or sensor of mechanism.positions", stem, known))
+    size = int(model.sensor_dim[result])
     if not number.isdecimal() or int(number) >= size or (not dot and size > 1):
         raise InputError(f"mechanism.positions: sensor {stem!r} has {size} numbers; name one of them, such as '{stem}.0'")
-    return int(model.sensor_adr[found]) + int(number)
+    return int(model.sensor_adr[result]) + int(number)
 
 
 def _read(d: mjw.Data, friction: ContactFriction | JointFriction, row: Array) -> None:

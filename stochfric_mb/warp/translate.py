@@ -190,14 +190,14 @@ class _Function:
         lines, parts = self._several(node.value, indent)
         kinds = tuple(kind for _, kind in parts)
         single = not isinstance(node.value, ast.Tuple) and len(parts) == 1 and not self._is_tuple_call(node.value)
-        found: Kind = kinds[0] if single else Numbers(len(kinds)) if set(kinds) <= {REAL, INT} else kinds
-        if single and self.returns == REAL and found == INT:
-            found = REAL
+        result: Kind = kinds[0] if single else Numbers(len(kinds)) if set(kinds) <= {REAL, INT} else kinds
+        if single and self.returns == REAL and result == INT:
+            result = REAL
         if self.returns is None:
-            self.returns = found
-        elif self.returns != found:
-            raise self._no(node, f"returning {found} here and {self.returns} elsewhere")
-        if isinstance(found, Numbers) or found == REAL:
+            self.returns = result
+        elif self.returns != result:
+            raise self._no(node, f"returning {result} here and {self.returns} elsewhere")
+        if isinstance(result, Numbers) or result == REAL:
             parts = [(self._cast(code, kind, REAL), REAL) for code, kind in parts]
         return [*lines, f"{indent}return {', '.join(code for code, _ in parts)}"]
 

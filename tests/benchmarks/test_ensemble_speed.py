@@ -156,13 +156,13 @@ def test_havsin_against_lsoda_at_equal_accuracy(spacing, limit):
     end, n, dt = 1.2, 2 * lanes.LANES, 7.4e-5
     exact = solve(s.mechanism, s.law, s.path(0), times_of(end)).position
     ours = np.max(np.abs(ensemble.run(s, 1, output_times=times_of(end), dt=dt).position[0] - exact))
-    found = {rtol: np.max(np.abs(lsoda(s, end, rtol)() - exact)) for rtol in (1e-6, 1e-7, 1e-8, 1e-9)}
-    equal = max((rtol for rtol, error in found.items() if error <= ours), default=1e-9)
+    table = {rtol: np.max(np.abs(lsoda(s, end, rtol)() - exact)) for rtol in (1e-6, 1e-7, 1e-8, 1e-9)}
+    equal = max((rtol for rtol, error in table.items() if error <= ours), default=1e-9)
     t = turns(ensemble_of(s, n, end, dt=dt), lsoda(s, end, 1e-6), lsoda(s, end, equal), rounds=3) / end / [n, 1.0, 1.0]
     plain, ratio = np.median(t[:, 1:] / t[:, :1], axis=0)
     print(
         f"havsin, knots of {spacing} s: {1e6 * np.median(t[:, 0]):.0f} us a sample-second, error {ours:.1e} m; LSODA at 1e-6 "
-        f"{plain:.0f} times that, error {found[1e-6]:.1e} m; at {equal:.0e} {ratio:.0f} times, error {found[equal]:.1e} m"
+        f"{plain:.0f} times that, error {table[1e-6]:.1e} m; at {equal:.0e} {ratio:.0f} times, error {table[equal]:.1e} m"
     )
     assert plain > limit
     assert ratio > 500.0

@@ -44,28 +44,28 @@ def statistics(case, size):
     """Return statistic -> value in one record; None where the record is refused."""
     dataset = belt_box(case, size)
     units = Scaling.of_rig(dataset.scenario.mechanism)
-    found = study(units.reduced(assumed(dataset)), units)
-    if found is None:
+    result = study(units.reduced(assumed(dataset)), units)
+    if result is None:
         return None
-    candidates = screen(found.pool, found.regression, found.terms, found.solution)
-    scatter = randomness(found.regression, found.terms, found.solution)
-    levels = switching(found.regression, found.regression.residuals(found.terms, found.solution))
-    jumps = found.sticking.jumps if found.sticking is not None else 0
+    candidates = screen(result.pool, result.regression, result.terms, result.solution)
+    scatter = randomness(result.regression, result.terms, result.solution)
+    levels = switching(result.regression, result.regression.residuals(result.terms, result.solution))
+    jumps = result.sticking.jumps if result.sticking is not None else 0
     # what simulating refutes is not named, whatever its score was
     most = np.inf
-    if candidates[0].score >= criteria.NAMED and decide(found).verdict == "none":
+    if candidates[0].score >= criteria.NAMED and decide(result).verdict == "none":
         most = criteria.NAMED
     return {
         "slips": min(most, max(c.score for c in candidates if c.is_effect)),
         "patterns": min(most, max(c.score for c in candidates if not c.is_effect)),
-        "stick": max(found.sticking.scores.values()) if found.sticking is not None else 0.0,
+        "stick": max(result.sticking.scores.values()) if result.sticking is not None else 0.0,
         "scatter": max(scatter.static, scatter.kinetic),
         "wander": scatter.wander,
         "levels": levels.separation,
-        "clipped": found.range.share,
-        "outliers": outlier_share(found),
-        "kicks": (float(kicked(found).sum()) + jumps) / len(found.pool.run),
-        "line": max(s.line[2] for s in found.pool.slips),
+        "clipped": result.range.share,
+        "outliers": outlier_share(result),
+        "kicks": (float(kicked(result).sum()) + jumps) / len(result.pool.run),
+        "line": max(s.line[2] for s in result.pool.slips),
     }
 
 

@@ -110,9 +110,9 @@ def selected(force: Array, terms: list[Term]) -> list[tuple[str, float]]:
 def by_points(dataset: Path, out: Path) -> None:
     """Leave a result.json with the largest selected term's name; this way has no "unknown" and no forecasts."""
     data = load_dataset(dataset)
-    found = [samples(run, data.scenario) for run in data.fit]
-    force = np.concatenate([f for f, _ in found])
-    joined = [Term(same[0].kind, np.vstack([t.columns for t in same])) for same in zip(*(t for _, t in found), strict=True)]
+    items = [samples(run, data.scenario) for run in data.fit]
+    force = np.concatenate([f for f, _ in items])
+    joined = [Term(same[0].kind, np.vstack([t.columns for t in same])) for same in zip(*(t for _, t in items), strict=True)]
     terms = selected(force, joined)
     effects = [{"kind": max(terms, key=lambda term: term[1])[0], "equivalent_to": []}] if terms else []
     out.mkdir(parents=True, exist_ok=True)

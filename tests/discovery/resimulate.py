@@ -212,10 +212,10 @@ def main() -> None:
     parser.add_argument("--dataset", type=Path, required=True)
     parser.add_argument("--answer", type=Path, required=True)
     chosen = parser.parse_args()
-    found = rescored(chosen.dataset, chosen.answer)
+    result = rescored(chosen.dataset, chosen.answer)
     gap = json.loads((chosen.answer / "result.json").read_text())["gap"]
     print("stated:", gap and {name: gap[name] for name in ("recalibrated", "augmented", "floor", "closed")})
-    print("re-simulated:", found, "closed", found and found.closed)
+    print("re-simulated:", result, "closed", result and result.closed)
 
 
 if __name__ == "__main__":

@@ -34,26 +34,26 @@ def studied(form: str, design: str, folder) -> Study:
     ],
 )
 def test_a_course_of_no_usual_shape_is_seen_as_what_it_is(form, design, kind, tmp_path):
-    found = studied(form, design, tmp_path)
-    best = screen(found.pool, found.regression, found.terms, found.solution)[0]
+    result = studied(form, design, tmp_path)
+    best = screen(result.pool, result.regression, result.terms, result.solution)[0]
     assert best.name == kind
     assert best.any_course
-    wander = randomness(found.regression, found.terms, found.solution).wander
+    wander = randomness(result.regression, result.terms, result.solution).wander
     assert best.score - wander > criteria.NAMED
 
 
 def test_a_random_wander_is_no_course(tmp_path):
-    found = studied("correlated_smooth", "several", tmp_path)
-    courses = [c for c in screen(found.pool, found.regression, found.terms, found.solution) if c.any_course]
-    wander = randomness(found.regression, found.terms, found.solution).wander
+    result = studied("correlated_smooth", "several", tmp_path)
+    courses = [c for c in screen(result.pool, result.regression, result.terms, result.solution) if c.any_course]
+    wander = randomness(result.regression, result.terms, result.solution).wander
     assert max(c.score for c in courses) - wander < criteria.NAMED
 
 
 def test_the_course_found_is_the_one_that_was_there(tmp_path):
-    found = studied("drift_logistic", "one", tmp_path)
-    best = screen(found.pool, found.regression, found.terms, found.solution)[0]
-    effect = make_effect(best.name, **best.start(found.terms.columns.shape[2]))
-    span = found.pool.duration
+    result = studied("drift_logistic", "one", tmp_path)
+    best = screen(result.pool, result.regression, result.terms, result.solution)[0]
+    effect = make_effect(best.name, **best.start(result.terms.columns.shape[2]))
+    span = result.pool.duration
     world = np.zeros(30)
     shown = []
     times = np.linspace(0.1, 0.95, 50) * span

@@ -15,7 +15,7 @@ from tests.discovery.net.rigs import belt_box
     [("unknown.two_states", "one_free", True), ("second_mode.attached", "belt_speeds", False)],
 )
 def test_the_better_explanation_stands(form, design, switches):
-    found = study(belt_box(Case(form, design, 1.0, 17)), USUAL)
-    levels = levels_score(found.regression, found.terms, found.solution)
-    best = max(c.score for c in screen(found.pool, found.regression, found.terms, found.solution) if c.is_effect)
+    result = study(belt_box(Case(form, design, 1.0, 17)), USUAL)
+    levels = levels_score(result.regression, result.terms, result.solution)
+    best = max(c.score for c in screen(result.pool, result.regression, result.terms, result.solution) if c.is_effect)
     assert (levels > best) == switches

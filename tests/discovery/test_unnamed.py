@@ -16,10 +16,10 @@ SEED = 21
 
 def term_of(case):
     dataset = belt_box(case)
-    found = study(dataset, USUAL)
-    plain = recalibrated_model(found.model, found)
+    result = study(dataset, USUAL)
+    plain = recalibrated_model(result.model, result)
     runs = held_out([slips_of_run(r, dataset) for r in dataset.test], phased=False)
-    return anonymous(found, plain, runs), plain.model, runs
+    return anonymous(result, plain, runs), plain.model, runs
 
 
 @pytest.mark.parametrize(

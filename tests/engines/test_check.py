@@ -434,10 +434,10 @@ def test_a_belt_counts_in_the_sliding_velocity():
 
 
 def gymnasium_model(name):
-    found = importlib.util.find_spec("gymnasium")
-    if found is None:
+    result = importlib.util.find_spec("gymnasium")
+    if result is None:
         pytest.skip("gymnasium is not installed: its models are not here")
-    return Path(found.submodule_search_locations[0]) / "envs" / "mujoco" / "assets" / f"{name}.xml"
+    return Path(result.submodule_search_locations[0]) / "envs" / "mujoco" / "assets" / f"{name}.xml"
 
 
 def check_gymnasium(name, **options):

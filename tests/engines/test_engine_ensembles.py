@@ -50,17 +50,17 @@ def test_sample_i_is_the_engines_run_to_the_bit(engine, name):
 
 def test_workers_and_blocks_change_no_bit(engine, tmp_path):
     scenario = short(TABLE_1, 0.05)
-    found = []
+    items = []
     for block, count in ((5, 1), (2, 2)):
         task = job(scenario, 5, seed=2, engine=engine, block=block)
         assert task.how == (BATCH if engine == "mujoco" else PROCESSES)
         made = produce(task, tmp_path / f"{block}.nc", workers=count)
         assert made.n_computed == task.n_blocks
-        found.append(read_ensemble(made.path)[0])
+        items.append(read_ensemble(made.path)[0])
     for name in ("position", "velocity", "stick"):
-        assert np.array_equal(getattr(found[0], name), getattr(found[1], name))
-    assert np.array_equal(found[0].tallies, found[1].tallies, equal_nan=True)
-    assert found[0].attributes["engine_version"] == ENGINES[engine].version
+        assert np.array_equal(getattr(items[0], name), getattr(items[1], name))
+    assert np.array_equal(items[0].tallies, items[1].tallies, equal_nan=True)
+    assert items[0].attributes["engine_version"] == ENGINES[engine].version
 
 
 @pytest.mark.parametrize("law", ["coulomb", "havsin"])
@@ -100,20 +100,20 @@ def agreement(engine, name, *, n, duration, times, dt, block=None):
     blocks = [compute(task, number, threads=2) for number in range(task.n_blocks)]
     x, v, _, tallies = (np.concatenate(a) for a in zip(*blocks, strict=True))
     wanted = ensemble.run(scenario, n, seed=2, output_times=times)
-    found = {}
+    table = {}
     for i, t in enumerate(times):
-        found[f"x({t:g} s)"] = ks_test(x[:, i], wanted.position[:, i]).p_value
+        table[f"x({t:g} s)"] = ks_test(x[:, i], wanted.position[:, i]).p_value
         rounded = (np.round(values / RESOLUTION) for values in (v[:, i], wanted.velocity[:, i]))
-        found[f"v({t:g} s)"] = ks_test(*rounded).p_value
-    found["first break-away"] = ks_test(tallies[:, 1], wanted.first_break_away).p_value
-    return found
+        table[f"v({t:g} s)"] = ks_test(*rounded).p_value
+    table["first break-away"] = ks_test(tallies[:, 1], wanted.first_break_away).p_value
+    return table
 
 
 def test_engines_agree_with_the_reference_in_distribution_small(engine):
     """N = 40 to the first slip of Table 1; the long test below is the real one."""
-    found = agreement(engine, TABLE_1, n=40, duration=1.2, times=[1.1, 1.2], dt=1e-3)
+    result = agreement(engine, TABLE_1, n=40, duration=1.2, times=[1.1, 1.2], dt=1e-3)
     # 5 tests at 0.001 each: one of 200 seeds fails by chance, and this seed does not
-    assert min(found.values()) > 1e-3, found
+    assert min(result.values()) > 1e-3, result
 
 
 def test_the_comparison_sees_a_wrong_ensemble():
@@ -129,6 +129,6 @@ def test_the_comparison_sees_a_wrong_ensemble():
 @pytest.mark.parametrize("name", [TABLE_1, TABLE_2])
 def test_engines_agree_with_the_reference_in_distribution(engine, name):
     """N = 300 over the tables' 10 s, at the default step that the documentation recommends."""
-    found = agreement(engine, name, n=300, duration=10.0, times=[2.0, 4.0, 10.0], dt=None, block=25)
+    result = agreement(engine, name, n=300, duration=10.0, times=[2.0, 4.0, 10.0], dt=None, block=25)
     # 7 tests at 0.001 each: one of 140 seeds fails by chance, and this seed does not
-    assert min(found.values()) > 1e-3, found
+    assert min(result.values()) > 1e-3, result

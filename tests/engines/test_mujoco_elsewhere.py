@@ -94,8 +94,8 @@ def test_our_contact_on_a_body_that_native_friction_holds(law, mode, cone, jacob
     speed = float(data.qvel[6] - data.qvel[0])
     mujoco.mj_step(model, data, nstep=50)
     assert data.qvel[6] - data.qvel[0] - speed == pytest.approx(-0.5 * G * 0.05, rel=3e-3)
-    (found,) = engine.readings(model, data).values()
-    assert sum(c.normal_force for c in found) == pytest.approx(G, rel=1e-3)  # no contact lifts off
+    (result,) = engine.readings(model, data).values()
+    assert sum(c.normal_force for c in result) == pytest.approx(G, rel=1e-3)  # no contact lifts off
     assert abs(data.qpos[0] - start) < 2e-4  # native friction lets the lower box drift
     mujoco.mj_step(model, data, nstep=600)
     assert abs(data.qvel[6]) < 1e-4

@@ -110,8 +110,8 @@ def test_a_spinning_box_slides_straight_and_far(law, mode):
         steps(model, data, 1.5)
         assert np.abs(data.qvel).max() < 1e-3
         mujoco.mj_forward(model, data)
-        (found,) = engine.readings(model, data).values()
-        assert sum(c.dissipated for c in found) == pytest.approx(before, rel=1e-2)
+        (result,) = engine.readings(model, data).values()
+        assert sum(c.dissipated for c in result) == pytest.approx(before, rel=1e-2)
         stops.append(data.qpos[:2] - start)
     assert stops[0][0] == pytest.approx(1.0 / (2.0 * 0.5 * G), rel=2e-3)
     assert abs(stops[1][1]) < 2e-3  # no side force on average

@@ -249,8 +249,8 @@ def test_bad_input_is_refused_and_leaves_nothing(tmp_path, monkeypatch, words, m
 def test_without_the_extra_the_command_says_what_to_install(tmp_path, monkeypatch):
     import importlib.util
 
-    found = importlib.util.find_spec
-    monkeypatch.setattr("importlib.util.find_spec", lambda name, *a: None if name == "ziglang" else found(name, *a))
+    result = importlib.util.find_spec
+    monkeypatch.setattr("importlib.util.find_spec", lambda name, *a: None if name == "ziglang" else result(name, *a))
     done = invoke("export", "fmu", "kang2015_table1", "--platforms", "x86_64-linux", "--out", tmp_path / "x.fmu")
     assert done.exit_code == 2
     assert "pip install 'stochfric_mb[fmi]'" in done.output

@@ -64,18 +64,18 @@ def test_equations_of_the_dialects():
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_law_goes_to_every_dialect(kind, name):
     law = make_law(kind, mu_s=0.8, mu_k=0.46)
-    found = to_dialect(law, DIALECTS[name], V, normal_force=N, mass=6.08)
-    mu = found.dialect.coefficient(V, N)
-    assert found.max_error == pytest.approx(np.max(np.abs(mu - coefficient(law, V))), abs=1e-12)
-    assert found.rms_error <= found.max_error
+    translation = to_dialect(law, DIALECTS[name], V, normal_force=N, mass=6.08)
+    mu = translation.dialect.coefficient(V, N)
+    assert translation.max_error == pytest.approx(np.max(np.abs(mu - coefficient(law, V))), abs=1e-12)
+    assert translation.rms_error <= translation.max_error
     curve = curve_of(law, V, normal_force=N)
     if name in ("mujoco", "physx"):  # one level over the speeds, and for MuJoCo a slope: the mean can be had
-        assert found.rms_error <= np.std(curve.coefficient) * (1.0 + 1e-9) + 1e-12
+        assert translation.rms_error <= np.std(curve.coefficient) * (1.0 + 1e-9) + 1e-12
     else:  # a constant coefficient can be had, break-away included, which counts as four speeds
         values = np.concatenate([curve.coefficient, np.full(4, curve.break_away)])
-        ours = np.concatenate([mu, np.full(4, found.dialect.break_away(N))])
+        ours = np.concatenate([mu, np.full(4, translation.dialect.break_away(N))])
         assert np.sqrt(np.mean((ours - values) ** 2)) <= np.std(values) * (1.0 + 1e-3) + 1e-9
-    assert type(found.dialect).from_dict(found.dialect.to_dict()) == found.dialect
+    assert type(translation.dialect).from_dict(translation.dialect.to_dict()) == translation.dialect
 
 
 @pytest.mark.parametrize("name", DIALECTS)
@@ -92,9 +92,9 @@ def test_what_a_dialect_can_say_comes_back(name):
         "bam": (make_law("stribeck", mu_s=0.8, mu_k=0.46, form="gaussian"), 1e-5),
     }
     law, tolerance = planted[name]
-    found = to_dialect(law, DIALECTS[name], V, normal_force=N, mass=6.08)
-    assert found.max_error <= tolerance
-    assert abs(found.break_away_error) <= tolerance
+    translation = to_dialect(law, DIALECTS[name], V, normal_force=N, mass=6.08)
+    assert translation.max_error <= tolerance
+    assert abs(translation.break_away_error) <= tolerance
 
 
 def test_losses_are_named():

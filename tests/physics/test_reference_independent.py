@@ -338,7 +338,7 @@ def independent(automaton, coefficients, times, *, formula="DOP853", max_step=2.
             assert solution.success
             t, y = solution.t[-1], list(solution.y[:, -1])
             if solution.status == 1:
-                which = next(i for i, found in enumerate(solution.t_events) if len(found))
+                which = next(i for i, result in enumerate(solution.t_events) if len(result))
                 stuck = automaton.stuck(mode)
                 mode, y = exits[which].leave(t, y, mu(t, y))
                 sticks += automaton.stuck(mode) and not stuck

@@ -73,14 +73,14 @@ def test_coulomb_limit_cycle(name):
     np.testing.assert_allclose(x[breaks][-1], x_break, rtol=0.0, atol=PERIODIC)
     np.testing.assert_allclose(x[~breaks][-1], x_stick, rtol=0.0, atol=PERIODIC)
     t_break, t_stick = events[breaks, 0], events[~breaks, 0]
-    found = t_break[-1] - t_break[-2]
+    result = t_break[-1] - t_break[-2]
     duration = t_stick[t_stick > t_break[-2]][0] - t_break[-2]
-    assert found == pytest.approx(period, abs=ROUNDED_TIME)
+    assert result == pytest.approx(period, abs=ROUNDED_TIME)
     assert duration == pytest.approx(slip, abs=ROUNDED_TIME)
-    assert 1.0 - duration / found == pytest.approx(fraction, abs=0.5e-6)  # given to six digits
+    assert 1.0 - duration / result == pytest.approx(fraction, abs=0.5e-6)  # given to six digits
     if name in SLIP_EVERY:
         forcing = 2.0 * np.pi / scenario.mechanism.excitation_angular_frequency
-        assert found == pytest.approx(SLIP_EVERY[name] * forcing, abs=1.0e-9)
+        assert result == pytest.approx(SLIP_EVERY[name] * forcing, abs=1.0e-9)
 
 
 def test_settling_time_is_not_shorter():

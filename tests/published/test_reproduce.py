@@ -87,9 +87,9 @@ def test_displacement_depends_on_the_output_step(claims):
 def test_the_draws_near_break_away_are_why(claims):
     figures = claims["step_independence_displacement"]["figures"]
     for step, mu_s in COULOMB_BREAK_AWAY.items():
-        found = figures[f"break_away_mu_s_coulomb_{step:g}"]
+        result = figures[f"break_away_mu_s_coulomb_{step:g}"]
         # Here only the first slips, up to 2 s, count: five standard errors of 1000 runs, and the last digit given.
-        assert found["value"] == pytest.approx(mu_s, abs=2.5 * (found["high"] - found["low"]) / 2 + 3e-4)
+        assert result["value"] == pytest.approx(mu_s, abs=2.5 * (result["high"] - result["low"]) / 2 + 3e-4)
 
 
 def test_our_processes_mend_it(claims):
@@ -140,8 +140,8 @@ def test_rejection_fails_where_the_means_are_close():
 def test_interpolation_narrows(claims):
     claim = claims["interpolation_keeps_distribution"]
     assert claim["verdict"] == FAILS
-    found = claim["figures"]["sd_time_rms"]
-    assert found["value"] == pytest.approx(math.sqrt(2 / 3), abs=2.5 * (found["high"] - found["low"]) / 2)  # five errors
+    result = claim["figures"]["sd_time_rms"]
+    assert result["value"] == pytest.approx(math.sqrt(2 / 3), abs=2.5 * (result["high"] - result["low"]) / 2)  # five errors
     assert claims["interpolation_keeps_feasible"]["verdict"] == HOLDS
 
 
@@ -213,12 +213,12 @@ def test_turning_points_are_located():
     v = 1e-3 * 2.0 * np.pi / 1.3 * np.cos(phase)
     runs = (np.array([x, x + 1e-5]), np.array([v, v]))
     p = portraits.Portrait("", "", 0.0, time, runs, runs, None, 0.0, 1e-3, 2e-3)
-    found = portraits.turns(p, runs, 5.0, 15.0)
+    result = portraits.turns(p, runs, 5.0, 15.0)
     tops = [t for t in 1.3 * (0.25 + np.arange(20)) if 5.0 <= t <= 15.0]
-    assert found.n.tolist() == [len(tops)] * 2
+    assert result.n.tolist() == [len(tops)] * 2
     # Cubic error of a linear velocity over 2 ms at 4.8 rad/s: far below 1e-9 m.
-    np.testing.assert_allclose(found.total / found.n + p.static, [3e-3, 3e-3 + 1e-5], atol=1e-9)
-    assert found.spread() == pytest.approx(np.std([0.0] * len(tops) + [1e-5] * len(tops), ddof=1), rel=1e-3)
+    np.testing.assert_allclose(result.total / result.n + p.static, [3e-3, 3e-3 + 1e-5], atol=1e-9)
+    assert result.spread() == pytest.approx(np.std([0.0] * len(tops) + [1e-5] * len(tops), ddof=1), rel=1e-3)
 
 
 def test_existing_folder_and_unknown_study(tmp_path):

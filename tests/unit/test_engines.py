@@ -63,11 +63,11 @@ def test_an_fmu_is_an_engine_where_its_extra_is(monkeypatch: pytest.MonkeyPatch)
     import importlib.util
 
     assert "fmu" in engines.installed_engines()
-    found = importlib.util.find_spec
+    result = importlib.util.find_spec
     for absent in ("fmpy", "ziglang"):
         with monkeypatch.context() as patch:
             patch.setattr(
-                "importlib.util.find_spec", lambda name, *a, absent=absent: None if name == absent else found(name, *a)
+                "importlib.util.find_spec", lambda name, *a, absent=absent: None if name == absent else result(name, *a)
             )
             assert "fmu" not in engines.installed_engines()
             with pytest.raises(

@@ -121,16 +121,16 @@ def test_pairs_are_those_of_the_coefficient_path_to_the_bit(process):
     cursors = np.zeros((lanes.LANES, CURSOR))
     descriptor = CoefficientPath(process, law).descriptor
     lanes.first_pairs(descriptor, cursors, 7, first, a_s, a_k, b_s, b_k)
-    found = np.empty((n, lanes.LANES, 2))
+    values = np.empty((n, lanes.LANES, 2))
     for knot in range(n):
         if knot > 0:
             lanes.next_pairs(descriptor, cursors, 7, first, knot, a_s, a_k, b_s, b_k)
-        found[knot] = np.column_stack([a_s, a_k])
+        values[knot] = np.column_stack([a_s, a_k])
     for j in (0, 1, 7, 8, lanes.LANES - 1):
         path = CoefficientPath(process, law, seed=7, sample=first + j)
-        assert np.array_equal(found[:, j], path.pairs(n))
+        assert np.array_equal(values[:, j], path.pairs(n))
     # 7680 draws, of which the narrowest bounds clip a third
-    assert len(np.unique(found[:, :, 0])) > (0 if process is None else 4000)
+    assert len(np.unique(values[:, :, 0])) > (0 if process is None else 4000)
 
 
 # --- schedule ---------------------------------------------------------------------------------------------------------

@@ -51,11 +51,11 @@ def test_period_of_the_coulomb_cycle(step):
     times = np.arange(0.0, 10.0, step)
     x, v, friction, breaks, _ = coulomb_cycle(times)
     run = trajectory(times, x, v, friction)
-    found = metrics.break_aways(run, LAW, M)
+    result = metrics.break_aways(run, LAW, M)
     # v_rel grows at (mu_s - mu_k) N/m = 0.73 m/s^2 from 0, so it passes the stick speed 1e-4 m/s 0.1376 ms later; the
     # tangent is off by a third derivative times step^2, about 1e-6 s
     late = LAW.stick_speed * M.mass / ((LAW.mu_s - LAW.mu_k) * M.normal_force)
-    np.testing.assert_allclose(found, breaks + late, atol=2e-6)
+    np.testing.assert_allclose(result, breaks + late, atol=2e-6)
     assert metrics.period(run, LAW, M) == pytest.approx(1.020006308, abs=5e-7)  # two such errors over nine intervals
 
 

@@ -23,37 +23,37 @@ def table1():
 def test_runs_follow_the_reference(table1):
     worlds = simulate_many(table1, seed=4, first_sample=10, n=8)
     reference = adapter("reference")
-    for w, found in enumerate(worlds):
+    for w, result in enumerate(worlds):
         exact = reference.simulate(table1, seed=4, sample=10 + w)
-        assert np.abs(found.mu_s - exact.mu_s).max() < 1e-7  # float32
-        assert np.abs(found.mu_k - exact.mu_k).max() < 1e-7
-        late = found.time[found.velocity < 0.0][0] - exact.time[exact.velocity < 0.0][0]
+        assert np.abs(result.mu_s - exact.mu_s).max() < 1e-7  # float32
+        assert np.abs(result.mu_k - exact.mu_k).max() < 1e-7
+        late = result.time[result.velocity < 0.0][0] - exact.time[exact.velocity < 0.0][0]
         assert 0.0 <= late <= 6e-3  # seen after a step, and .004 s of 1.6 m/s^3 give 13 um/s
         # while it sticks it rides on the belt: the creep of float32 and the first millisecond, in which it is caught
         stuck = exact.time < exact.time[exact.velocity < 0.0][0] - 5e-3
-        assert np.abs(found.position - exact.position)[stuck].max() < 5e-6
-        assert np.abs(found.friction_force - exact.friction_force)[stuck][5:].max() < 0.05
-        assert np.abs(found.normal_force - 13.0)[stuck][30:].max() < 0.01  # after three of MuJoCo's time constants of .02 s
-        sliding = (found.stick == 0.0) & (found.velocity < 2e-3)
-        ratio = (found.friction_force / (found.mu_k * found.normal_force))[sliding]
+        assert np.abs(result.position - exact.position)[stuck].max() < 5e-6
+        assert np.abs(result.friction_force - exact.friction_force)[stuck][5:].max() < 0.05
+        assert np.abs(result.normal_force - 13.0)[stuck][30:].max() < 0.01  # after three of MuJoCo's time constants of .02 s
+        sliding = (result.stick == 0.0) & (result.velocity < 2e-3)
+        ratio = (result.friction_force / (result.mu_k * result.normal_force))[sliding]
         assert ratio.max() < 1.0 + 1e-3  # the solver's tolerance
         assert np.mean(ratio > 1.0 - 1e-3) > 0.9  # the rest: the step in which it stops, and those just after it broke away
-        slipped = found.position[-1] - exact.position[-1]
+        slipped = result.position[-1] - exact.position[-1]
         assert abs(slipped) < 0.05e-3  # .05 of 2.2 mm of slip: what break-away is late, and first order in the step
 
 
 def test_havsin_creeps_and_breaks_away_as_the_reference(table1):
     scenario = dataclasses.replace(load_scenario("kang2015_table1", law="havsin"), duration=1.25, output_step=2e-3)
-    for w, found in enumerate(simulate_many(scenario, seed=4, first_sample=10, n=2)):
+    for w, result in enumerate(simulate_many(scenario, seed=4, first_sample=10, n=2)):
         exact = adapter("reference").simulate(scenario, seed=4, sample=10 + w)
-        assert np.abs(found.mu_s - exact.mu_s).max() < 1e-7  # float32
+        assert np.abs(result.mu_s - exact.mu_s).max() < 1e-7  # float32
         broke = exact.time[exact.velocity < 0.0][0]
-        assert 0.0 <= found.time[found.velocity < 0.0][0] - broke <= 6e-3  # as above
+        assert 0.0 <= result.time[result.velocity < 0.0][0] - broke <= 6e-3  # as above
         # nearer to its peak the law is so flat that speeds swing in steps of 1e-3 s: m/dt dv/dF comes near 1
         creeps = (exact.time > 0.05) & (exact.time < broke - 0.2)
-        assert np.abs(found.velocity - exact.velocity)[creeps].max() < 1e-6  # 1 % of v_s = 1e-4 m/s
-        assert np.abs(found.position - exact.position)[exact.time < broke - 5e-3].max() < 5e-6
-        assert abs(found.position[-1] - exact.position[-1]) < 0.12e-3  # of 2.2 mm of slip: 4 ms late at .025 m/s
+        assert np.abs(result.velocity - exact.velocity)[creeps].max() < 1e-6  # 1 % of v_s = 1e-4 m/s
+        assert np.abs(result.position - exact.position)[exact.time < broke - 5e-3].max() < 5e-6
+        assert abs(result.position[-1] - exact.position[-1]) < 0.12e-3  # of 2.2 mm of slip: 4 ms late at .025 m/s
 
 
 def test_one_sample_is_the_same_as_among_others(table1):

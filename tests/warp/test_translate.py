@@ -107,10 +107,10 @@ def coefficient_paths(process, law, times, seed, contact, worlds):
 def test_coefficient_paths_are_the_cpus(process):
     law = make_law("coulomb", mu_s=0.8, mu_k=0.46)
     times = np.arange(0.0, 1.0, 1e-3)
-    found = coefficient_paths(process, law, times, 7, 3, 4)
+    result = coefficient_paths(process, law, times, 7, 3, 4)
     for world in range(4):
         expected = CoefficientPath(process, law, seed=7, sample=world, contact=3).at_times(times)
-        assert np.abs(found[world] - expected).max() < 1e-14  # plain IEEE operations; exp, log and erfc are libm's
+        assert np.abs(result[world] - expected).max() < 1e-14  # plain IEEE operations; exp, log and erfc are libm's
 
 
 def test_mixed_types_follow_numbas_rules():

@@ -203,7 +203,7 @@ def _forms(pool: Pool, regression: Regression, terms: Terms, solution: Solution,
         for f in every[len(every) // (2 * LOOKED_AT) :: max(len(every) // LOOKED_AT, 1)]:
             place = _wave_value(kind, wave.setting(float(f)), size)
             forms.append(_Form(kind, WAVE, wave_columns(pool, wave, float(f), 1), 2, 3 * len(every), place))
-    found: list[Signature] = []
+    signatures: list[Signature] = []
     periodic = {f.kind for f in forms if f.signals}
     plainest = {kind: ways[0].variant for kind, ways in families.items()}
     for form in forms:
@@ -211,9 +211,9 @@ def _forms(pool: Pool, regression: Regression, terms: Terms, solution: Solution,
         other = not form.signals and (form.kind in periodic or form.variant != plainest[form.kind])
         signature = _signature(form, columns, regression.n, limited=not other)
         if signature is not None:
-            found.append(signature)
-    found.append(_scatter_signature(pool, regression, solution))
-    return found
+            signatures.append(signature)
+    signatures.append(_scatter_signature(pool, regression, solution))
+    return signatures
 
 
 def _signature(form: _Form, columns: Any, n: int, *, limited: bool) -> Signature | None:

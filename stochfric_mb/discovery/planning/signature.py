@@ -82,21 +82,21 @@ def _of_one_sign(kind: str) -> bool:
 
 def best_of_each(signatures: Sequence[Signature]) -> dict[str, Signature]:
     """Return the form of each kind with the smallest limit."""
-    found: dict[str, Signature] = {}
+    table: dict[str, Signature] = {}
     for one in signatures:
-        if one.kind not in found or one.limit < found[one.kind].limit:
-            found[one.kind] = one
-    return found
+        if one.kind not in table or one.limit < table[one.kind].limit:
+            table[one.kind] = one
+    return table
 
 
 def confused_pairs(signatures: Sequence[Signature]) -> dict[tuple[str, str], float]:
     """Return the pairs of effects that are not distinguished up to `STRONG` limits, and the multiple from which on they are."""
     best = best_of_each([s for s in signatures if s.signals])
     forms = {kind: [s for s in signatures if s.kind == kind] for kind in best}
-    found: dict[tuple[str, str], float] = {}
+    pairs: dict[tuple[str, str], float] = {}
     for i, first in enumerate(best):
         for second in list(best)[i + 1 :]:
             multiple = max(told_apart_from(best[first], forms[second]), told_apart_from(best[second], forms[first]))
             if multiple > STRONG:
-                found[first, second] = multiple
-    return found
+                pairs[first, second] = multiple
+    return pairs

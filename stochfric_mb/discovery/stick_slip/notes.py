@@ -13,11 +13,11 @@ from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.measurement.dataset import Dataset
 
 
-def notes(found: Study, decision: Decision, gap: Gap | None, forces: Gap | None, given: Dataset) -> tuple[str, ...]:
+def notes(study: Study, decision: Decision, gap: Gap | None, forces: Gap | None, given: Dataset) -> tuple[str, ...]:
     """Return the notes of a result.
 
     Args:
-        found: what the fit runs told.
+        study: what the fit runs told.
         decision: what was decided, with the numbers behind it.
         gap: errors of forecasts on the held-out runs.
         forces: errors of the forces of their slips.
@@ -26,7 +26,7 @@ def notes(found: Study, decision: Decision, gap: Gap | None, forces: Gap | None,
     details: dict[str, Any] = decision.details
     beyond = details["parameters"]["moved_beyond_uncertainty"]
     return (
-        *_of_the_record(found),
+        *_of_the_record(study),
         *(
             f"{kind} is not validated on the held-out runs: error {seen['with_']:.3g} m with it, "
             f"{seen['without']:.3g} m without"
@@ -40,20 +40,20 @@ def notes(found: Study, decision: Decision, gap: Gap | None, forces: Gap | None,
     )
 
 
-def _of_the_record(found: Study) -> list[str]:
+def _of_the_record(study: Study) -> list[str]:
     said: list[str] = []
-    if found.outliers > 0.0:
-        said.append(f"{found.outliers:.2e} of the samples were outliers and were replaced by a running median")
-    colour = max((s.noise for s in found.pool.slips), key=lambda n: n.coloured)
+    if study.outliers > 0.0:
+        said.append(f"{study.outliers:.2e} of the samples were outliers and were replaced by a running median")
+    colour = max((s.noise for s in study.pool.slips), key=lambda n: n.coloured)
     if colour.coloured > 0.0:
-        size = colour.coloured * found.size.length
+        size = colour.coloured * study.size.length
         said.append(f"the sensor's noise is coloured: {size:.2g} m with a memory of {colour.memory:.2f} a sample")
-    if (most := max(map(len, found.pool.slips))) > SIMULATED:
+    if (most := max(map(len, study.pool.slips))) > SIMULATED:
         said.append(
-            f"long records: all {len(found.pool.run)} slips count; what is simulated stands for {SIMULATED} slips in the "
+            f"long records: all {len(study.pool.run)} slips count; what is simulated stands for {SIMULATED} slips in the "
             f"middle of a run, and {min(most, FORECAST)} forecasts of a run are scored, spread evenly"
         )
-    if (belt := belt_speed(found)) is not None:
+    if (belt := belt_speed(study)) is not None:
         said.append(belt.note)
     return said
 

@@ -21,14 +21,14 @@ UNITS = {"mu_s": "-", "mu_k": "-", "mass": "kg", "stiffness": "N/m", "damping": 
 """Units of the parameters of mechanism and law."""
 
 
-def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> Found:
+def found_effect(named: Named, fit: Fit | None, model: Model, study: Study) -> Found:
     """Return a named effect of the augmented model as the result tells it.
 
     Args:
         named: the effect.
         fit: the fit of the model's effects that are not random; None where nothing was fitted.
         model: the augmented model.
-        found: what the fit runs told.
+        study: what the fit runs told.
     """
     parameters: dict[str, Interval] = {}
     place = next(i for i, e in enumerate(model.effects) if e.kind == named.kind)
@@ -36,8 +36,8 @@ def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> F
     effect = model.effects_in(run)[place]
     # a fit knows the effects that are not random alone
     fitted = len(deterministic(dataclasses.replace(model, effects=model.effects[:place], own={})).effects)
-    time = sum(float(s.record.time[-1] - s.record.time[0]) for s in found.pool.slips)
-    drawn = effect.deviations(effect.draws(time, max(found.regression.n, 2)))
+    time = sum(float(s.record.time[-1] - s.record.time[0]) for s in study.pool.slips)
+    drawn = effect.deviations(effect.draws(time, max(study.regression.n, 2)))
     for field in dataclasses.fields(effect):
         value = getattr(effect, field.name)
         if isinstance(value, str) or not np.isfinite(value) or effect.lacks(field.name):
@@ -55,13 +55,13 @@ def found_effect(named: Named, fit: Fit | None, model: Model, found: Study) -> F
             deviation = float(deviations[0]) if deviations else model.measured.get(field.name, 0.0)
         deviation = drawn.get(field.name, deviation)
         name = effect.unit_of(field.name)
-        unit = found.size.of(name)
+        unit = study.size.of(name)
         parameters[field.name] = confidence_interval(value * unit, deviation * unit, name, about["low"], about["high"])
     evidence = named.evidence
     return Found(named.kind, named.class_, Where(*effect.appears()), parameters, evidence.score, evidence.p_value)
 
 
-def own_parameters(fit: Fit, model: Model, found: Study) -> dict[str, Interval]:
+def own_parameters(fit: Fit, model: Model, study: Study) -> dict[str, Interval]:
     """Return the parameters of mechanism and law beside the effects, of the model that the result tells.
 
     Where the forecasts tell less of a number than its prior does, the interval is that of both together.
@@ -69,17 +69,17 @@ def own_parameters(fit: Fit, model: Model, found: Study) -> dict[str, Interval]:
     Args:
         fit: the fit of that model.
         model: the model, as it stands in ``augmented.toml``.
-        found: what the fit runs told.
+        study: what the fit runs told.
     """
     rows: dict[str, Interval] = {}
     for one, told, deviation, posterior in zip(fit.free, fit.told, fit.deviations, fit.posterior, strict=True):
         if one.owner >= 0 or one.run:
             continue
-        stated = getattr(found.dataset.scenario.mechanism, one.name, 0.0) if one.name in CORRECTED else 1.0
+        stated = getattr(study.dataset.scenario.mechanism, one.name, 0.0) if one.name in CORRECTED else 1.0
         value = 1.0 + model.corrections[one.name] if one.name in CORRECTED else getattr(model.law, one.name)
         doubt = max(deviation, posterior) if told < criteria.TOLD_BY_DATA else deviation
         unit = UNITS.get(one.name, "-")
-        size = found.size.of(unit) * stated
+        size = study.size.of(unit) * stated
         rows[one.name] = confidence_interval(value * size, doubt * size, unit, low=0.0)
     return rows
 

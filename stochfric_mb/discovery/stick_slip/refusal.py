@@ -35,7 +35,7 @@ def _of(record: Record, scenario: Scenario) -> tuple[str, str]:
     """Return what a run does instead of slipping, and what it would need."""
     box, law = record.mechanism, scenario.law
     seconds = float(record.time[-1] - record.time[0])
-    found = len(extract(record))
+    result = len(extract(record))
     travel = 2.0 * (law.mu_s - law.mu_k) * box.normal_force / box.stiffness
     if record.noise > criteria.TOO_LOUD * travel:
         return (
@@ -44,23 +44,23 @@ def _of(record: Record, scenario: Scenario) -> tuple[str, str]:
             f"{record.noise / criteria.TOO_LOUD:.2g} m (a softer spring, a higher normal load)",
         )
     followed = _followed(record)
-    if found == 0 and followed > criteria.RIDES:
+    if result == 0 and followed > criteria.RIDES:
         return (
             f"rides on the belt for all its {seconds:.3g} s",
             f"runs of {_needed(box, law.mu_s, travel):.2g} s, by the stated mu_s, or a faster belt",
         )
-    if found == 0 and followed < criteria.SLIDES:
+    if result == 0 and followed < criteria.SLIDES:
         level = float(np.mean(record.position)) * box.stiffness / box.normal_force
         return (
             f"slides for all its {seconds:.3g} s (mean spring force over normal force {level:.3g})",
             f"a belt slower than {box.belt_velocity:.3g} m/s, or a softer spring, so that the box sticks between slips",
         )
     needed = (
-        f"runs of {1.1 * criteria.FEWEST_SLIPS * seconds / found:.2g} s at this pace"
-        if found
+        f"runs of {1.1 * criteria.FEWEST_SLIPS * seconds / result:.2g} s at this pace"
+        if result
         else "a longer record or a slower belt"
     )
-    return f"holds {found} whole slips in {seconds:.3g} s", needed
+    return f"holds {result} whole slips in {seconds:.3g} s", needed
 
 
 def _followed(record: Record) -> float:

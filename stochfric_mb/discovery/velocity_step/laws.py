@@ -133,15 +133,15 @@ def records(tracks: Sequence[Track]) -> list[list[Track]]:
 
     A piece follows what comes before it in its own file, if there is any.
     """
-    found: list[list[Track]] = []
+    groups: list[list[Track]] = []
     for track in tracks:
-        ended = [r for r in found if track.run.time[0] >= r[-1].run.time[-1]]
+        ended = [r for r in groups if track.run.time[0] >= r[-1].run.time[-1]]
         own = [r for r in ended if r[-1].run.source == track.run.source] or ended
         if own:
             own[-1].append(track)
         else:
-            found.append([track])
-    return found
+            groups.append([track])
+    return groups
 
 
 def _marched(tracks: Sequence[Track], p: Array, reference: float, state: int) -> list[Array]:

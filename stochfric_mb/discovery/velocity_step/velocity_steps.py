@@ -6,7 +6,7 @@ The load point's history is an input, known also where friction is held out; fit
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -16,7 +16,7 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.decision.selection import MATERIAL, NAMED, TIE
 from stochfric_mb.discovery.driven_joint.fit.fitting import DIFFERENCE, TOLERANCE
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome
-from stochfric_mb.discovery.driven_joint.simulation.pictures import step_picture
+from stochfric_mb.discovery.driven_joint.simulation.pictures import Picture, step_picture
 from stochfric_mb.discovery.inference.fitter import minimised
 from stochfric_mb.discovery.inference.free_parameter import INSIDE
 from stochfric_mb.discovery.inference.intervals import confidence_interval
@@ -77,27 +77,43 @@ def spring_slider_outcome(dataset: Dataset, tell: Callable[[str], None]) -> Join
     tracks = sorted((track_of(r, dataset) for r in dataset.runs), key=lambda t: float(t.run.time[0]))
     offset = float(tracks[0].slid[0])
     tracks = [dataclasses.replace(t, slid=t.slid - offset) for t in tracks]
+    fits = _fits(tracks, dataset, tell)
+    plain = fits[0]
+    best, scores = _best(fits)
+    accepted = scores[best.kind] > NAMED
+    result = _result(dataset, tracks, plain, best if accepted else None, fits, scores)
+    picture = _picture(tracks, {"recalibrated": plain} | ({"augmented": best} if accepted else {}))
+    return JointOutcome(result, _augmented(dataset, best if accepted else plain), dataset, pictures=(picture,))
+
+
+def _fits(tracks: Sequence[Track], dataset: Dataset, tell: Callable[[str], None]) -> list[Fitted]:
+    """Return the fit of each law, constant friction first."""
     reference = float(np.median(tracks[0].speed))
-    fits: list[Fitted] = []
     shortest = 2.0 * min(float(np.median(t.speed)) * t.run.sample_interval for t in tracks)
+    fits: list[Fitted] = []
     for law in laws(reference, dataset.scenario.mechanism.stiffness, dataset.scenario.law.mu_k, shortest):
         tell(law.kind or "constant friction")
         alike = next((f for f in fits if f.law.variant == "" and f.law.names == law.names), None)
         fits.append(_fit(law, tracks, law.starts if alike is None else [alike.values]))
+    return fits
+
+
+def _best(fits: Sequence[Fitted]) -> tuple[Fitted, dict[str, float]]:
+    """Return the law that is meant, and the best score of each kind."""
     plain = fits[0]
     n = max(sum(independent_count(r) for r in min(fits, key=lambda f: f.rms).rest), 4.0)
     each = [_score(plain, f, n) for f in fits[1:]]
     scores = {f.kind: max(s for s, g in zip(each, fits[1:], strict=True) if g.kind == f.kind) for f in fits[1:]}
     best = fits[1 + int(np.argmax(each))]
     # of laws that leave as much the simplest: what a few more numbers take off is real, perhaps, but no explanation
-    best = min((f for f in fits[1:] if f.rms <= best.rms / (1.0 - MATERIAL)), key=lambda f: (len(f.values), f.rms))
-    accepted = scores[best.kind] > NAMED
-    result = _result(dataset, tracks, plain, best if accepted else None, fits, scores)
-    models = {"recalibrated": plain} | ({"augmented": best} if accepted else {})
-    series = {n: np.concatenate(f.law.predict(tracks, f.values)) for n, f in models.items()}
-    series = {"data": np.concatenate([t.friction for t in tracks])} | series
-    picture = step_picture(np.concatenate([t.run.time for t in tracks]), series)
-    return JointOutcome(result, _augmented(dataset, best if accepted else plain), dataset, pictures=(picture,))
+    return min((f for f in fits[1:] if f.rms <= best.rms / (1.0 - MATERIAL)), key=lambda f: (len(f.values), f.rms)), scores
+
+
+def _picture(tracks: Sequence[Track], models: Mapping[str, Fitted]) -> Picture:
+    """Return friction over time, measured and by each model, as `step_picture` gives it."""
+    series = {"data": np.concatenate([t.friction for t in tracks])}
+    series |= {name: np.concatenate(f.law.predict(tracks, f.values)) for name, f in models.items()}
+    return step_picture(np.concatenate([t.run.time for t in tracks]), series)
 
 
 def track_of(run: Run, dataset: Dataset) -> Track:
@@ -157,14 +173,14 @@ def _from(law: Law, tracks: Sequence[Track], start: Array, evaluations: int) -> 
         return np.concatenate([tracks[i].friction - predicted[i] for i in learn])
 
     low, high = (np.array(law.low) - start) / scale - INSIDE, np.full(len(start), np.inf)
-    found = minimised(
+    minimum = minimised(
         errors, np.zeros(len(start)), low, high, difference=DIFFERENCE, evaluations=evaluations, tolerance=TOLERANCE
     )
-    jacobian, values = found.jacobian, start + scale * found.x
+    jacobian, values = minimum.jacobian, start + scale * minimum.x
     predicted = law.predict(tracks, values)
     rest = [tracks[i].friction - predicted[i] for i in learn]
     n, total = sum(map(len, rest)), sum(independent_count(r) for r in rest)
-    variance = float(np.mean(errors(found.x) ** 2)) * n / max(total, 1.0)
+    variance = float(np.mean(errors(minimum.x) ** 2)) * n / max(total, 1.0)
     covariance = np.linalg.pinv(jacobian.T @ jacobian, hermitian=True) * variance
     return Fitted(law, values, np.sqrt(np.maximum(np.diag(covariance), 0.0)) * scale, rest)
 
@@ -188,15 +204,10 @@ def _result(
     fits: Sequence[Fitted],
     scores: dict[str, float],
 ) -> Result:
-    test = [t.friction for t in tracks if t.run.role == "test"]
-    floor = float(np.sqrt(np.sum([white_noise(x) ** 2 * len(x) for x in test]) / sum(map(len, test))))
-    believed = float(np.sqrt(np.mean(np.concatenate([x - dataset.scenario.law.mu_k for x in test]) ** 2)))
-    after = _held_out(best or plain, tracks)
+    gap = _gap(dataset, tracks, plain, best or plain)
     where = unexplained([t for t in tracks if t.run.role == "fit"], best or plain)
     effects = () if best is None or where is not None else (_found(plain, best, scores),)
     searched = {f.law.kind for f in fits} | {kind_found_as(finding) for finding in (MORE_DAMPING, LATE)}
-    source = "high-frequency content of the friction coefficient (third differences)"
-    gap = Gap("friction_coefficient", "-", True, believed, _held_out(plain, tracks), after, floor, source)
     return Result(
         verdict=_verdict(effects, where),
         effects=effects,
@@ -210,17 +221,24 @@ def _result(
             *gap.notes,
             "the load point's speed is taken through a window; the machine's stiffness is fitted",
         ),
-        details={
-            "laws": {
-                f"{f.law.kind or 'constant'} {f.law.variant}".strip(): {
-                    "fit": f.rms,
-                    "held_out": _held_out(f, tracks),
-                    "numbers": dict(zip(f.law.names, f.values.tolist(), strict=True)),
-                }
-                for f in fits
-            }
-        },
+        details={"laws": {f"{f.law.kind or 'constant'} {f.law.variant}".strip(): _facts(f, tracks) for f in fits}},
     )
+
+
+def _gap(dataset: Dataset, tracks: Sequence[Track], plain: Fitted, final: Fitted) -> Gap:
+    """Return the errors on held-out runs."""
+    test = [t.friction for t in tracks if t.run.role == "test"]
+    floor = float(np.sqrt(np.sum([white_noise(x) ** 2 * len(x) for x in test]) / sum(map(len, test))))
+    stated = float(np.sqrt(np.mean(np.concatenate([x - dataset.scenario.law.mu_k for x in test]) ** 2)))
+    source = "high-frequency content of the friction coefficient (third differences)"
+    before, after = _held_out(plain, tracks), _held_out(final, tracks)
+    return Gap("friction_coefficient", "-", True, stated, before, after, floor, source)
+
+
+def _facts(fitted: Fitted, tracks: Sequence[Track]) -> dict[str, Any]:
+    """Return errors and numbers of a law."""
+    numbers = dict(zip(fitted.law.names, fitted.values.tolist(), strict=True))
+    return {"fit": fitted.rms, "held_out": _held_out(fitted, tracks), "numbers": numbers}
 
 
 def _verdict(effects: Sequence[Found], where: Where | None) -> Literal["effect", "none", "unknown"]:
@@ -283,18 +301,18 @@ def _found(plain: Fitted, best: Fitted, scores: dict[str, float]) -> Found:
 
 
 def _numbers(fitted: Fitted) -> dict[str, Interval]:
-    found: dict[str, Interval] = {}
+    intervals: dict[str, Interval] = {}
     law = fitted.law
     for name, value, deviation, unit, low in zip(law.names, fitted.values, fitted.deviations, law.units, law.low, strict=True):
         number = confidence_interval(value, deviation, unit, low)
         if name.startswith("log_"):
             middle, least, most = (float(np.exp(min(x, 700.0))) for x in (number.value, number.low, number.high))
-            found[name[4:]] = Interval(
+            intervals[name[4:]] = Interval(
                 middle, least, most, {"log_distance": "m", "log_stiffness": "1/m", "log_state": "-"}[name]
             )
         else:
-            found[name] = number
-    return found
+            intervals[name] = number
+    return intervals
 
 
 def _augmented(dataset: Dataset, fitted: Fitted) -> Any:

@@ -70,8 +70,8 @@ class Backlash(Effect):
             return np.where(away, np.clip(x + place + width, 0.0, width) - width, np.clip(x - place, 0.0, width))
 
         def start(b: Array, place: float) -> dict[str, float]:
-            found = {"gap": float(abs(b[0]) * width), "position": place}
-            return found | ({"share_below": float(np.clip(b[1] / b[0], 0.05, 0.95))} if len(b) > 1 and b[0] != 0.0 else {})
+            table = {"gap": float(abs(b[0]) * width), "position": place}
+            return table | ({"share_below": float(np.clip(b[1] / b[0], 0.05, 0.95))} if len(b) > 1 and b[0] != 0.0 else {})
 
         found: list[Hypothesis] = []
         for place in map(float, places):

@@ -63,7 +63,7 @@ class FrictionDrift(Course):
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
         """Return friction that drifts in each run: linearly, towards a limit, or along a course of any smooth shape."""
         last, middle = slips.duration, slips.mean_time
-        found = apart(
+        result = apart(
             cls.kind, slips.static * slips.onset_time / last, slips.kinetic * middle / last, slips, "rate", {}, 1.0 / last
         )
         # neighbours differ by a fifth: a coarser grid would leave a clear record to what names no physics
@@ -72,8 +72,8 @@ class FrictionDrift(Course):
             static, kinetic = (
                 level * -np.expm1(-t / tau) for level, t in ((slips.static, slips.onset_time), (slips.kinetic, middle))
             )
-            found += apart(cls.kind, static, kinetic, slips, "rate", {"time_constant": tau}, 1.0 / tau)
-        return found + [_course(slips, pieces, share) for pieces in COARSER for share in SHARES]
+            result += apart(cls.kind, static, kinetic, slips, "rate", {"time_constant": tau}, 1.0 / tau)
+        return result + [_course(slips, pieces, share) for pieces in COARSER for share in SHARES]
 
 
 def _course(slips: Slips, pieces: int, share: float) -> Hypothesis:

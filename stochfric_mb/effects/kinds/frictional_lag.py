@@ -58,7 +58,7 @@ class FrictionalLag(Effect):
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
         """Return friction that falls with the distance slipped since the break-away, or with the time."""
         gap = np.maximum(slips.static - slips.kinetic, 0.02 * slips.static)[:, None]
-        found: list[Hypothesis] = []
+        items: list[Hypothesis] = []
         for name, since, shares in (
             ("distance", slips.slip_distance, (0.007, 0.014, 0.028, 0.056, 0.11, 0.22)),
             ("time_constant", slips.node_time - slips.onset_time[:, None], (0.03, 0.06, 0.12, 0.24)),
@@ -70,8 +70,8 @@ class FrictionalLag(Effect):
                     return {name: float(scale * np.clip(b[0], 0.2, 3.0))}
 
                 columns = [slips.column(None, gap * np.exp(-since / scale))]
-                found.append(Hypothesis(cls.kind, columns, (scale,), start, variant=name))
-        return found
+                items.append(Hypothesis(cls.kind, columns, (scale,), start, variant=name))
+        return items
 
 
 def friction(world, memory, rates, p):

@@ -65,7 +65,7 @@ class SecondMode(Effect):
         natural = slips.slips[0].record.angular_frequency / (2.0 * np.pi)
         mass = slips.per_run(lambda s: s.record.mechanism.mass)
         inertia = slips.column(None, -mass[:, None] * slips.node_acceleration)
-        found: list[Hypothesis] = []
+        items: list[Hypothesis] = []
         for frequency in natural * np.geomspace(1.5, 7.0, 100):
             for ratio in (0.01, 0.03, 0.1):
                 onset, nodes = oscillator_pull(slips, frequency, ratio)
@@ -75,8 +75,8 @@ class SecondMode(Effect):
                     return {"mass_ratio": share, "frequency": frequency, "damping_ratio": ratio, "mass": float(b[1])}
 
                 columns = [slips.column(mass * onset, mass[:, None] * nodes), inertia]
-                found.append(Hypothesis(cls.kind, columns, (frequency, ratio), start))
-        return found
+                items.append(Hypothesis(cls.kind, columns, (frequency, ratio), start))
+        return items
 
 
 def surroundings(world, memory, rates, p):

@@ -49,15 +49,15 @@ class SensorDelay(Effect):
         """Return what the known force, if any, has moved on by, over the delay: a late record is compared with it."""
         if not any(s.record.mechanism.excitation_amplitude for s in slips.slips):
             return []
-        found: list[Hypothesis] = []
+        items: list[Hypothesis] = []
         for phase in PHASES:
             onset, nodes = np.zeros(len(slips.run)), np.zeros_like(slips.node_time)
             for run, one in enumerate(slips.slips):
                 mine = slips.run == run
                 for values, time in ((onset, slips.onset_time), (nodes, slips.node_time)):
                     values[mine] = _moved_on(one.record.mechanism, time[mine], phase)
-            found.append(Hypothesis(cls.kind, [slips.column(onset, nodes)], (phase,), lambda b: {"delay": float(b[0])}))
-        return found
+            items.append(Hypothesis(cls.kind, [slips.column(onset, nodes)], (phase,), lambda b: {"delay": float(b[0])}))
+        return items
 
 
 def _moved_on(box: Any, time: Array, phase: float) -> Array:

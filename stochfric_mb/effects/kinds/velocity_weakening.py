@@ -62,7 +62,7 @@ class VelocityWeakening(Effect):
         speed = slips.relative_velocity
         load = slips.normal_force[:, None]
         fastest = float(np.median(speed.max(axis=1)))
-        found: list[Hypothesis] = []
+        items: list[Hypothesis] = []
         for exponent, variant in ((1.0, "exponential"), (0.5, "shaped"), (2.0, "shaped")):
             for decay in fastest * np.array([0.05, 0.1, 0.2, 0.4, 0.8]):
 
@@ -70,8 +70,8 @@ class VelocityWeakening(Effect):
                     return {"amplitude": float(b[0]), "decay_velocity": decay, "shape_exponent": exponent}
 
                 columns = [slips.column(None, load * np.exp(-((speed / decay) ** exponent)))]
-                found.append(Hypothesis(cls.kind, columns, (float(decay), exponent), start, variant=variant))
-        return found
+                items.append(Hypothesis(cls.kind, columns, (float(decay), exponent), start, variant=variant))
+        return items
 
 
 def friction(world, memory, rates, p):

@@ -70,7 +70,7 @@ class ViscousFriction(Effect):
         speed = slips.relative_velocity
         fastest = float(np.median(speed.max(axis=1)))
         reference = float(slips.normal_force[0])
-        found: list[Hypothesis] = []
+        items: list[Hypothesis] = []
         loads = [(np.ones(len(slips.run)), 0.0)]
         if np.ptp(slips.normal_force) > 0.05 * reference:
             loads.append((slips.normal_force / reference, reference))
@@ -83,12 +83,12 @@ class ViscousFriction(Effect):
             def linear(b: Array, more: dict[str, float] = more) -> dict[str, float]:
                 return more | {"coefficient": float(b[0])}
 
-            found.append(Hypothesis(cls.kind, [slips.column(None, speed * load[:, None])], (), linear, variant="linear"))
+            items.append(Hypothesis(cls.kind, [slips.column(None, speed * load[:, None])], (), linear, variant="linear"))
             for knee in fastest * np.array([0.15, 0.4]):
                 columns = [slips.column(None, -knee * np.expm1(-speed / knee) * load[:, None])]
                 start = functools.partial(curved, knee=knee)
-                found.append(Hypothesis(cls.kind, columns, (knee,), start, variant="levelling off"))
-        return found
+                items.append(Hypothesis(cls.kind, columns, (knee,), start, variant="levelling off"))
+        return items
 
 
 def friction(world, memory, rates, p):

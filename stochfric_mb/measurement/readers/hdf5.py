@@ -23,11 +23,11 @@ def read(path: Path, *, skip_rows: int = 0) -> Table:
     Raises:
         InputError: not an HDF5 file.
     """
-    found = arrays_in(path)
-    groups = {name.rpartition("/")[0] for name, _, _ in found}
+    arrays = arrays_in(path)
+    groups = {name.rpartition("/")[0] for name, _, _ in arrays}
     items: list[tuple[str, Any]] = []
     units: dict[str, str] = {}
-    for full, value, stored in found:
+    for full, value, stored in arrays:
         name, unit = split_header(full.rpartition("/")[2] if len(groups) == 1 else full)
         items.append((name, value))
         if unit is not None or stored is not None:
@@ -42,16 +42,16 @@ def arrays_in(path: Path) -> list[tuple[str, Any, str | None]]:
         InputError: not an HDF5 file.
     """
     library: Any = importlib.import_module("h5py")
-    found: list[tuple[str, Any, str | None]] = []
+    columns: list[tuple[str, Any, str | None]] = []
 
     def visit(name: str, node: Any) -> None:
         if isinstance(node, library.Dataset) and node.dtype.kind in "biuf" and not name.startswith("#"):
             unit = node.attrs.get("units", node.attrs.get("unit"))
-            found.append((name, node[()], unit.decode() if isinstance(unit, bytes) else unit))
+            columns.append((name, node[()], unit.decode() if isinstance(unit, bytes) else unit))
 
     try:
         with library.File(path, "r") as file:
             file.visititems(visit)
     except OSError as error:
         raise InputError(f"{path}: not an HDF5 file: {error}") from None
-    return found
+    return columns

@@ -66,7 +66,7 @@ def _lists(about: Mapping[str, Any]) -> Mapping[str, Any]:
     if own:
         return own
     inner = [cast(Mapping[str, Any], v) for v in about.values() if isinstance(v, Mapping)]
-    return next((found for v in inner if (found := _lists(v))), own)
+    return next((result for v in inner if (result := _lists(v))), own)
 
 
 def _columns(records: list[Any]) -> dict[str, list[Any]]:

@@ -247,9 +247,9 @@ def _slow_values(path: Path, body: list[tuple[int, str]], width: int, dialect: D
         if len(fields) != width:
             raise InputError(f"{path}, line {number}: {len(fields)} columns instead of {width}; remove or mend the line")
         for j, field in enumerate(fields):
-            found = _number(field, dialect)
-            if found is not None:
-                values[i, j] = found
+            result = _number(field, dialect)
+            if result is not None:
+                values[i, j] = result
             elif field.lower() not in MISSING:
                 words.setdefault(j, (number, field))
     for j in _dated(body[0][1], dialect):

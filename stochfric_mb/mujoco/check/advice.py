@@ -67,21 +67,21 @@ def _told(law: Law | None, key: str) -> bool:
     return field is not None and (field.default is dataclasses.MISSING or field.default != getattr(law, key))
 
 
-def _faults(row: Row, found: Findings, stored: float) -> dict[str, str]:
+def _faults(row: Row, findings: Findings, stored: float) -> dict[str, str]:
     """Return what is wrong, in words; ``stored`` [J] may come back from a law's spring and is not created."""
     faults: dict[str, str] = {}
-    worst = _worst_drift(found)
+    worst = _worst_drift(findings)
     if worst is not None and worst.speed > CREEP:
         of = "mu N" if row.kind == "contact" else "the frictionloss"
         faults["drift"] = f"creeps {_micro(worst.speed)} u{row.unit}/s at {100.0 * worst.load:.0f} % of {of}"
-    broken = found.break_away
+    broken = findings.break_away
     if broken is not None and abs(broken.share - 1.0) > WRONG:
         faults["break_away"] = f"breaks away at {100.0 * broken.share:.0f} % of its limit"
-    slide = found.slide
+    slide = findings.slide
     if slide is not None and abs(slide.deceleration - slide.expected) > 2.0 * WRONG * slide.expected:
         faults["slide"] = f"slows down at {slide.deceleration:.3g} instead of {slide.expected:.3g} {row.unit}/s^2"
-    if found.energy_created > max(CREATED * found.energy_dissipated, stored, 1.0e-9):
-        faults["energy"] = f"creates energy ({found.energy_created:.2g} J)"
+    if findings.energy_created > max(CREATED * findings.energy_dissipated, stored, 1.0e-9):
+        faults["energy"] = f"creates energy ({findings.energy_created:.2g} J)"
     return faults
 
 
@@ -90,9 +90,9 @@ def _micro(speed: float) -> str:
     return f"{value:.0f}" if abs(value) >= 100.0 else f"{value:.2g}"
 
 
-def _worst_drift(found: Findings) -> Drift | None:
+def _worst_drift(findings: Findings) -> Drift | None:
     """Return the fastest drift under a load that should hold."""
-    held = [d for d in (found.own, *found.held) if d is not None and d.load < SLIDING]
+    held = [d for d in (findings.own, *findings.held) if d is not None and d.load < SLIDING]
     return max(held, key=lambda d: d.speed, default=None)
 
 

@@ -106,9 +106,9 @@ class Bench:
                 if share * limit <= carried:
                     held.append(None)
                     continue
-                found, record = probes.hold(model, state, site, self.duration, share * limit - carried)
-                held.append(found)
-                if found is None:
+                result, record = probes.hold(model, state, site, self.duration, share * limit - carried)
+                held.append(result)
+                if result is None:
                     notes.append(f"the contact is lost at {100.0 * share:.0f} % of the limit")
                 records.append(record)
             broken, record = probes.break_away(model, state, site, self.duration, carried, limit, mass)

@@ -61,10 +61,10 @@ def check(
         if invented and spec is not None:
             compiled = spec.compile()
         settled = leave_alone(compiled, keyframe, settle, stage)
-        found, notes = find_sites(compiled, settled, most)
+        result, notes = find_sites(compiled, settled, most)
         notes = [*notes, *settled.convergence_note(int(compiled.opt.iterations))]
         bench = Bench(spec, compiled, invented, settled.state, law, mu_k_ratio, duration)
-        rows = tuple(bench.row(site, problem, stage(site.name, bench.probe_time())) for site, problem in found)
+        rows = tuple(bench.row(site, problem, stage(site.name, bench.probe_time())) for site, problem in result)
     option = compiled.opt
     return CheckResult(
         model=str(model) if isinstance(model, str | Path) else (model.modelname or "spec"),

@@ -40,14 +40,14 @@ def find_sites(model: mujoco.MjModel, settled: Settled, most: int) -> tuple[list
         notes.append(f"{smooth} touching pair{'s have' if smooth > 1 else ' has'} no friction (condim 1 or mu 0)")
     notes += forgotten(model, settled.met, settled.duration)
     loaded = sorted(rough.items(), key=lambda item: -item[1].normal)
-    found: list[tuple[Site, str]] = []
+    sites: list[tuple[Site, str]] = []
     for number, (geoms, seen) in enumerate(loaded):
         problem = "" if number < most else f"only the {most} most loaded pairs are probed"
         pair = _pair(model, data, geoms, seen)
-        found.append((pair, problem or _unusable(data, geoms, seen)))
+        sites.append((pair, problem or _unusable(data, geoms, seen)))
         if seen.mu[0] != seen.mu[1]:
             notes.append(f"{pair.name} has two sliding coefficients, {seen.mu[0]:g} and {seen.mu[1]:g}; the first is used")
-    return found + [(site, "") for site in _losses(model)], notes
+    return sites + [(site, "") for site in _losses(model)], notes
 
 
 def _pair(model: mujoco.MjModel, data: mujoco.MjData, geoms: tuple[int, int], seen: Seen) -> ContactPair:
@@ -88,17 +88,17 @@ def _along(model: mujoco.MjModel, data: mujoco.MjData, geoms: tuple[int, int], l
 
 def _losses(model: mujoco.MjModel) -> list[Site]:
     """Return the joints and tendons with frictionloss."""
-    found: list[Site] = []
+    sites: list[Site] = []
     for dof in np.flatnonzero(model.dof_frictionloss > 0.0):
         joint = int(model.dof_jntid[dof])
         name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, joint) or f"joint {joint}"
         several = mujoco.mjtJoint(model.jnt_type[joint]) in (mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL)
         shown = f"{name}[{dof - model.jnt_dofadr[joint]}]" if several else name
-        found.append(Coordinate(shown, (name,), "joint", int(dof), float(model.dof_frictionloss[dof])))
+        sites.append(Coordinate(shown, (name,), "joint", int(dof), float(model.dof_frictionloss[dof])))
     for number in np.flatnonzero(model.tendon_frictionloss > 0.0):
         name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_TENDON, int(number)) or f"tendon {number}"
-        found.append(Coordinate(name, (name,), "tendon", int(number), float(model.tendon_frictionloss[number])))
-    return found
+        sites.append(Coordinate(name, (name,), "tendon", int(number), float(model.tendon_frictionloss[number])))
+    return sites
 
 
 def unit_of(model: mujoco.MjModel, site: Site) -> str:

@@ -97,9 +97,9 @@ class ContactPair:
 
 def pair_contacts(data: mujoco.MjData, geoms: tuple[int, int]) -> npt.NDArray[np.int64]:
     """Return the numbers of the contacts between two geoms."""
-    found = data.contact.geom
+    result = data.contact.geom
     a, b = geoms
-    return np.flatnonzero(((found[:, 0] == a) & (found[:, 1] == b)) | ((found[:, 0] == b) & (found[:, 1] == a)))
+    return np.flatnonzero(((result[:, 0] == a) & (result[:, 1] == b)) | ((result[:, 0] == b) & (result[:, 1] == a)))
 
 
 def contact_forces(model: mujoco.MjModel, data: mujoco.MjData, contact: int, body: int) -> tuple[float, Array]:
@@ -254,10 +254,10 @@ def _constraint_row(model: mujoco.MjModel, data: mujoco.MjData, i: int) -> Array
 def lightest_mass(model: mujoco.MjModel, data: mujoco.MjData, site: Site) -> float:
     """Return the least mass [kg or kg m^2] that a force at the site feels, which sets the step limit."""
     if isinstance(site, ContactPair):
-        found: list[Any] = [
+        items: list[Any] = [
             np.linalg.eigvalsh(mobility(model, data, site.geoms, int(i)))[-1] for i in pair_contacts(data, site.geoms)
         ]
-        largest = max(found, default=0.0)
+        largest = max(items, default=0.0)
     else:
         row = site.row(model, data)[None, :]
         largest = float((row @ solve_mass(model, data, row).T)[0, 0])

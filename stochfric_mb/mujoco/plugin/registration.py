@@ -102,9 +102,9 @@ def _entered(slot: int, mine: Plugin) -> Any:
     other = library.mjp_getPlugin
     other.restype = ctypes.POINTER(Plugin)
     other.argtypes = [ctypes.c_char_p, ctypes.POINTER(ctypes.c_int)]
-    found = library.mjp_getPluginAtSlot(slot)
-    same = bool(found) and all(
-        getattr(found.contents, field[0]) == getattr(mine, field[0]) for field in Plugin._fields_ if field[0] != "attributes"
+    result = library.mjp_getPluginAtSlot(slot)
+    same = bool(result) and all(
+        getattr(result.contents, field[0]) == getattr(mine, field[0]) for field in Plugin._fields_ if field[0] != "attributes"
     )
     bundled = other(b"mujoco.elasticity.cable", None) or other(b"mujoco.pid", None)
     if bundled:
@@ -115,4 +115,4 @@ def _entered(slot: int, mine: Plugin) -> Any:
             f"MuJoCo {mujoco.__version__} does not return its plugins as this package knows them (mjpPlugin changed); "
             "install mujoco 4.0, or a newer release of this package"
         )
-    return found.contents
+    return result.contents

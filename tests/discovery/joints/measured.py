@@ -24,11 +24,11 @@ def outcome(name: str) -> JointOutcome:
     return joint_outcome(dataset(name))
 
 
-def repeated(data: Dataset, found: JointOutcome) -> Dataset:
+def repeated(data: Dataset, result: JointOutcome) -> Dataset:
     """The held-out repeats as fit runs, and what was found before as the model believed."""
     swapped = tuple(dataclasses.replace(r, role="test" if r.role == "fit" else "fit") for r in data.runs)
-    return dataclasses.replace(data, scenario=found.scenario, runs=swapped)
+    return dataclasses.replace(data, scenario=result.scenario, runs=swapped)
 
 
-def kinds(found: JointOutcome) -> list[str]:
-    return [e.kind for e in found.result.effects]
+def kinds(result: JointOutcome) -> list[str]:
+    return [e.kind for e in result.result.effects]

@@ -36,16 +36,16 @@ ARM = example()
     ],
 )
 def test_the_joint_the_effect_and_its_size(hidden, kind, name, truth, tolerance, seed):
-    found = ARM.discovered(hidden, seed)
-    effects = found.result.effects
+    result = ARM.discovered(hidden, seed)
+    effects = result.result.effects
     assert [e.kind for e in effects] == [kind]
     assert "elbow" in effects[0].where.text
-    assert found.places[0].place == "elbow"
-    assert found.places[1].selected.found == ()
+    assert result.places[0].place == "elbow"
+    assert result.places[1].selected.found == ()
     assert effects[0].parameters[name].value == pytest.approx(truth, abs=tolerance)
-    before, after = (found.places[0].scores[k] for k in ("recalibrated", "augmented"))
-    assert (before.sliding - after.sliding) / (before.sliding - found.places[0].floor) > 0.85
-    gap = found.result.gap
+    before, after = (result.places[0].scores[k] for k in ("recalibrated", "augmented"))
+    assert (before.sliding - after.sliding) / (before.sliding - result.places[0].floor) > 0.85
+    gap = result.result.gap
     assert gap is not None
     assert gap.metric == "closed_loop_drive"
     # the arm with nothing hidden comes to 1.7 %: its friction gives before it holds, the one that is simulated hardly does
@@ -77,11 +77,11 @@ def test_a_controller_needs_its_reference_and_a_drive():
 def test_without_a_controller_the_arm_runs_from_measured_states():
     scenario = dataclasses.replace(load_any_scenario(ARM.MODEL / "scenario.toml"), controller=None)
     runs = tuple(ARM.measured(ARM.grease, seed=s, role=r) for s, r in ((11, "fit"), (1011, "test")))
-    found = joint_outcome(Dataset(title="", scenario_path=None, scenario=scenario, runs=runs))
-    before, after = (found.places[0].scores[k] for k in ("recalibrated", "augmented"))
+    outcome = joint_outcome(Dataset(title="", scenario_path=None, scenario=scenario, runs=runs))
+    before, after = (outcome.places[0].scores[k] for k in ("recalibrated", "augmented"))
     assert after.loop is None
     assert before.forward is not None
     assert after.forward is not None
     assert after.forward < 0.3 * before.forward
-    assert found.result.gap is not None
-    assert found.result.gap.metric == "inverse_dynamics_sliding"
+    assert outcome.result.gap is not None
+    assert outcome.result.gap.metric == "inverse_dynamics_sliding"

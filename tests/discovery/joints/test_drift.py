@@ -81,21 +81,21 @@ def by_temperature(t, s, warm):
     ],
 )
 def test_each_is_told_from_the_others(friction, kind, rate, unit):
-    found = joint_outcome(data(friction, apart))
-    effects = found.result.effects
+    outcome = joint_outcome(data(friction, apart))
+    effects = outcome.result.effects
     assert [e.kind for e in effects] == [kind]
     assert effects[0].equivalent_to == ()
     number = effects[0].parameters["rate"]
     assert number.unit == unit
     # the sliding level about which the rate is relative is fitted, too; 0.02 N of noise leave a hundredth of the rate
     assert number.low - 0.02 * abs(rate) <= rate <= number.high + 0.02 * abs(rate)
-    gap = found.result.gap
+    gap = outcome.result.gap
     assert gap is not None
     assert gap.closed is not None
     assert gap.closed > 0.9
-    assert any_scenario_from_dict(found.scenario.to_dict()) == found.scenario
+    assert any_scenario_from_dict(outcome.scenario.to_dict()) == outcome.scenario
     if importlib.util.find_spec("mujoco"):  # the slide runs forward, too
-        scores = found.places[0].scores
+        scores = outcome.places[0].scores
         assert scores["augmented"].forward < 0.5 * scores["recalibrated"].forward
 
 
@@ -118,8 +118,8 @@ def test_distance_goes_on_in_the_pieces_of_one_record():
     whole = data(by_distance, apart).runs[1]
     kept = dataclasses.replace(whole, source="rig.csv")
     runs = (kept.between(0.0, 5.0, name="first", role="fit"), kept.between(5.0, 9.0, name="last", role="test"))
-    found = joint_outcome(Dataset(title="", scenario_path=None, scenario=scenario(), runs=runs))
-    first, last = found.places[0].fit[0], found.places[0].test[0]
+    outcome = joint_outcome(Dataset(title="", scenario_path=None, scenario=scenario(), runs=runs))
+    first, last = outcome.places[0].fit[0], outcome.places[0].test[0]
     # at the ends of a piece the velocity is held over 8 ms of 5 s
     assert last.travelled[0] == pytest.approx(first.travelled[-1], rel=0.002)
 

@@ -11,14 +11,14 @@ from tests.discovery.joints.measured import dataset, kinds, outcome, repeated
 
 
 def test_emps_viscous_friction_then_direction_asymmetry_then_position():
-    found = outcome("emps")
-    assert kinds(found) == ["viscous_friction", "direction_asymmetry", "position_dependent_friction"]
-    scores = found.places[0].scores
+    result = outcome("emps")
+    assert kinds(result) == ["viscous_friction", "direction_asymmetry", "position_dependent_friction"]
+    scores = result.places[0].scores
     # a first look by other means: 2.34 N with Coulomb and viscous friction, 1.85 N with the asymmetry
     assert scores["with viscous_friction"].whole == pytest.approx(2.34, abs=0.05)
     assert scores["with direction_asymmetry"].whole <= 1.85
     assert scores["augmented"].whole <= 1.75
-    viscous = found.result.effects[0].parameters["coefficient"]
+    viscous = result.result.effects[0].parameters["coefficient"]
     assert viscous.low < viscous.value < viscous.high
 
 
@@ -33,9 +33,9 @@ def test_emps_closed_loop_on_held_out_time():
 
 @pytest.mark.parametrize("name", ["emps", "seal_o_ring", "swing_up_ddp"])
 def test_the_augmented_scenario_alone_has_the_augmented_score(name):
-    found = outcome(name)
-    again = joint_outcome(dataclasses.replace(dataset(name), scenario=found.scenario))
-    before, after = found.places[0].scores["augmented"], again.places[0].scores["baseline"]
+    result = outcome(name)
+    again = joint_outcome(dataclasses.replace(dataset(name), scenario=result.scenario))
+    before, after = result.places[0].scores["augmented"], again.places[0].scores["baseline"]
     # the width of the window is chosen against the friction that is believed, which for the seal is less than before
     assert after.sliding == pytest.approx(before.sliding, rel=0.02 if name == "seal_o_ring" else 1e-9)
     if before.loop is not None:
@@ -49,16 +49,16 @@ def test_emps_twice_gives_the_same():
 
 @pytest.mark.parametrize(("name", "believed", "left"), [("seal_o_ring", 1.84, 0.91), ("seal_napn", 3.45, 1.17)])
 def test_seals_load_dependence_and_what_is_confounded(name, believed, left):
-    found = outcome(name)
-    assert kinds(found) == ["load_dependence"]
-    gap = found.result.gap
+    result = outcome(name)
+    assert kinds(result) == ["load_dependence"]
+    gap = result.result.gap
     assert gap is not None
     # a first look in-sample: that much before and after; steady sliding held out is less than it
     assert gap.recalibrated <= believed
     assert gap.augmented <= left
-    assert any("direction and speed are confounded" in note for note in found.result.notes)
-    assert "direction" in found.result.next_experiment
-    assert "speed" in found.result.next_experiment
+    assert any("direction and speed are confounded" in note for note in result.result.notes)
+    assert "direction" in result.result.next_experiment
+    assert "speed" in result.result.next_experiment
 
 
 @pytest.mark.parametrize("name", ["seal_o_ring", "seal_napn"])
@@ -68,47 +68,47 @@ def test_a_repeat_of_a_seal_against_itself_names_nothing(name):
 
 
 def test_basalt_remembers():
-    found = outcome("rock_basalt")
-    assert kinds(found) == ["frictional_lag"]
-    laws = found.result.details["laws"]
+    result = outcome("rock_basalt")
+    assert kinds(result) == ["frictional_lag"]
+    laws = result.result.details["laws"]
     assert laws["frictional_lag"]["held_out"] < 0.75 * laws["constant"]["held_out"]
     assert laws["frictional_lag"]["held_out"] < laws["velocity_weakening"]["held_out"]
-    distance = found.result.effects[0].parameters["distance"]
+    distance = result.result.effects[0].parameters["distance"]
     assert distance.unit == "m"
     assert 1.0e-6 < distance.low < distance.high < 1.0e-4  # microns to tens of microns, as laboratory rock has
 
 
 def test_sepiolite_remembers():
-    found = outcome("rock_sepiolite")
-    assert kinds(found) == ["frictional_lag"]
-    gap = found.result.gap
+    result = outcome("rock_sepiolite")
+    assert kinds(result) == ["frictional_lag"]
+    gap = result.result.gap
     assert gap is not None
     assert gap.augmented < 0.5 * gap.recalibrated
 
 
 @pytest.mark.parametrize("name", ["swing_up_ddp", "swing_up_collocation"])
 def test_swing_ups_are_a_matter_of_timing(name):
-    found = outcome(name)
-    assert kinds(found) == ["sensor_delay"]
-    delay = found.result.effects[0].parameters["delay"]
+    result = outcome(name)
+    assert kinds(result) == ["sensor_delay"]
+    delay = result.result.effects[0].parameters["delay"]
     assert 0.010 <= delay.value <= 0.020  # the torque leads the motion by 10 to 20 ms
     assert delay.low > 0.0
 
 
 def test_servo_load_dependence_and_temperature_with_gain():
     pytest.importorskip("mujoco", reason="the servo is an MJCF model")
-    found = outcome("servo_pendulum")
-    assert kinds(found)[0] == "load_dependence"
-    gap = found.result.gap
+    result = outcome("servo_pendulum")
+    assert kinds(result)[0] == "load_dependence"
+    gap = result.result.gap
     assert gap is not None
     # the firmware's controller in the loop, rest and reversals included
     assert gap.metric == "closed_loop_drive"
     assert gap.recalibrated > 0.2
     assert gap.augmented < 0.105  # half of what is left without; the firmware, which is not known, is part of the rest
-    scores = found.places[0].scores
+    scores = result.places[0].scores
     assert scores["augmented"].sliding < 0.85 * scores["recalibrated"].sliding
     assert scores["augmented"].forward < 0.55 * scores["recalibrated"].forward
-    assert any("temperature and kp are confounded" in note for note in found.result.notes)
+    assert any("temperature and kp are confounded" in note for note in result.result.notes)
 
 
 def test_a_wrong_sign_stops_with_the_remedy():

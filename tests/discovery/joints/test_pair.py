@@ -136,14 +136,14 @@ def elastic(normal, v):
     ],
 )
 def test_the_effect_in_a_pair_and_its_size(folder, coefficient, kind, name, truth):
-    found = discovered(block_scenario(folder), coefficient)
-    effects = found.result.effects
+    result = discovered(block_scenario(folder), coefficient)
+    effects = result.result.effects
     assert [e.kind for e in effects] == [kind]
     assert "in pair foot" in effects[0].where.text
     number = effects[0].parameters[name]
     # windows of 8 ms blunt what changes within them; 3 % of the number is what that comes to at 0.3 m/s in the slowest part
     assert number.low - 0.03 * abs(truth) <= truth <= number.high + 0.03 * abs(truth)
-    place = found.places[0]
+    place = result.places[0]
     before, after = (place.scores[k] for k in ("recalibrated", "augmented"))
     assert (before.sliding - after.sliding) / (before.sliding - place.floor) > 0.85
     # MuJoCo, our plugin in the pair, half a second at a time; where the motion turns the drive jumps by 2 mu N, and is known
@@ -153,22 +153,22 @@ def test_the_effect_in_a_pair_and_its_size(folder, coefficient, kind, name, trut
 
 @pytest.mark.parametrize("seed", [3, 4])
 def test_nothing_hidden_nothing_found(folder, seed):
-    found = discovered(block_scenario(folder), constant, seed=seed)
-    assert found.result.verdict == "none"
-    assert found.places[0].selected.final.model.law.mu_k == pytest.approx(0.3, rel=0.01)
+    result = discovered(block_scenario(folder), constant, seed=seed)
+    assert result.result.verdict == "none"
+    assert result.places[0].selected.final.model.law.mu_k == pytest.approx(0.3, rel=0.01)
 
 
 def test_the_normal_force_is_that_of_the_record(folder):
     """From the joints' balance, and as measured: both are what was written on paper."""
     for pair in ({"geoms": ["block", "rail"]}, {"geoms": ["block", "rail"], "normal_force": "cell"}):
-        found = discovered(block_scenario(folder, pairs={"foot": pair}), constant)
-        balance = found.places[0].fit[0]
+        result = discovered(block_scenario(folder, pairs={"foot": pair}), constant)
+        balance = result.places[0].fit[0]
         rng = np.random.default_rng(1)
         moved(balance.time, rng)
         truth = MASS * G + pressed(balance.time, rng)
         at = balance.window.centres
         np.testing.assert_allclose(balance.normal_force[at], truth[at], atol=0.1)
-        assert found.result.verdict == "none"
+        assert result.result.verdict == "none"
 
 
 def test_columns_in_other_units_are_brought_to_si(folder):
@@ -183,10 +183,10 @@ def test_columns_in_other_units_are_brought_to_si(folder):
 
 
 def test_it_reads_back_and_goes_into_the_model(folder):
-    found = discovered(block_scenario(folder), stribeck)
-    again = any_scenario_from_dict(found.scenario.to_dict(), folder=folder)
-    assert again == found.scenario
-    text = mjcf(found.scenario)
+    result = discovered(block_scenario(folder), stribeck)
+    again = any_scenario_from_dict(result.scenario.to_dict(), folder=folder)
+    assert again == result.scenario
+    text = mjcf(result.scenario)
     assert "velocity_weakening" in text.splitlines()[1]
     model = mujoco.MjModel.from_xml_string(text)
     assert model.npair == 1
@@ -221,8 +221,8 @@ def disc_scenario(folder, geoms):
 
 
 def test_a_pad_on_a_turning_disc(folder):
-    found = discovered(disc_scenario(folder, ["disc", "pad"]), stribeck, record=disc_run)
-    effects = found.result.effects
+    result = discovered(disc_scenario(folder, ["disc", "pad"]), stribeck, record=disc_run)
+    effects = result.result.effects
     assert [e.kind for e in effects] == ["velocity_weakening"]
     # the pad sees 1.6 m/s where the block saw 0.4: it hardly ever creeps
     assert effects[0].parameters["decay_velocity"].value == pytest.approx(0.1, rel=0.2)

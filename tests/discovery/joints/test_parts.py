@@ -126,8 +126,8 @@ def test_a_wrong_sign_is_pointed_out_where_inertia_outweighs_friction(channel):
 
 
 def test_the_augmented_scenario_reads_back():
-    found = joint_outcome(pair(grease))
-    assert any_scenario_from_dict(found.scenario.to_dict()) == found.scenario
+    outcome = joint_outcome(pair(grease))
+    assert any_scenario_from_dict(outcome.scenario.to_dict()) == outcome.scenario
 
 
 def test_a_missing_channel_is_named():
@@ -176,10 +176,10 @@ def test_a_joint_that_rests_is_refused():
 
 
 def test_without_uncertainty_the_mechanism_is_taken_as_exact():
-    found = joint_outcome(dataclasses.replace(pair(grease), scenario=scenario(uncertainty={})))
-    assert [e.kind for e in found.result.effects] == ["viscous_friction"]
-    assert set(found.result.believed) == {"mu_k"}
-    assert found.scenario.mechanism == scenario().mechanism
+    outcome = joint_outcome(dataclasses.replace(pair(grease), scenario=scenario(uncertainty={})))
+    assert [e.kind for e in outcome.result.effects] == ["viscous_friction"]
+    assert set(outcome.result.believed) == {"mu_k"}
+    assert outcome.scenario.mechanism == scenario().mechanism
 
 
 def test_a_controller_of_another_mechanism_is_refused():

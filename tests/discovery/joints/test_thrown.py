@@ -45,10 +45,10 @@ def test_friction_that_is_drawn_for_each_slide_is_named_with_its_size():
     measured = data(0.05)
     assert min(len(r.time) for r in measured.runs) >= 30
     assert max(len(r.time) for r in measured.runs) <= 60  # samples
-    (found,) = joint_outcome(measured).result.effects
-    assert found.kind == "random_coefficients"
-    assert found.where.axis == "run"
-    share = found.parameters["sigma_k"].value / MU
+    (result,) = joint_outcome(measured).result.effects
+    assert result.kind == "random_coefficients"
+    assert result.where.axis == "run"
+    share = result.parameters["sigma_k"].value / MU
     assert share == pytest.approx(0.05, rel=4.0 / np.sqrt(2.0 * 30))  # four standard errors of 30 slides
 
 

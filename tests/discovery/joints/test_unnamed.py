@@ -14,17 +14,17 @@ def hump(q, v):
 
 
 def test_a_hump_over_speed_is_unknown_and_its_table_carries_over():
-    found = joint_outcome(pair(hump))
-    result = found.result
+    outcome = joint_outcome(pair(hump))
+    result = outcome.result
     assert result.verdict == "unknown"
     assert result.where.axis == "speed and direction"
     assert result.unnamed is not None
     assert result.unnamed.where.axis == "relative velocity"
     # the table is linear between knots 0.11 m/s apart, over a hump 0.18 m/s wide: it takes most of it, not all
     assert result.gap.closed > 0.5
-    (term,) = found.scenario.effects
+    (term,) = outcome.scenario.effects
     assert term.kind == "unnamed"
-    assert any_scenario_from_dict(found.scenario.to_dict()) == found.scenario
+    assert any_scenario_from_dict(outcome.scenario.to_dict()) == outcome.scenario
 
 
 def test_friction_that_waves_in_time_is_unknown_and_no_term_carries_over():

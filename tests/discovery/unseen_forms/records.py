@@ -59,12 +59,12 @@ class Case:
 
 def cases() -> list[Case]:
     """Return all cases: full strength in each design, half strength in the first (third set: in each); nulls once in each."""
-    found = []
+    items = []
     for form in FORMS.values():
-        found += [Case(form, design, 1.0) for design in form.designs]
+        items += [Case(form, design, 1.0) for design in form.designs]
         if NONE not in form.truth:
-            found += [Case(form, design, 0.5) for design in (form.designs if form.series == 3 else form.designs[:1])]
-    return found
+            items += [Case(form, design, 0.5) for design in (form.designs if form.series == 3 else form.designs[:1])]
+    return items
 
 
 @dataclasses.dataclass(frozen=True)
@@ -258,14 +258,14 @@ def effect_sizes(runs: list[Run], twins: list[Run], nominal: Rig) -> dict[str, f
         new, old = features(run), features(twin)
         floor = nominal.noise
         floors = {"period": max(floor / abs(run.world.belt_velocity), 0.5 / nominal.rate)}
-        found = {}
+        table = {}
         for name, value in new.items():
             if name.endswith("shape"):
-                found[name] = np.sqrt(np.mean((value - old[name]) ** 2)) / floor
+                table[name] = np.sqrt(np.mean((value - old[name]) ** 2)) / floor
             elif min(value.size, old[name].size) > 2:
-                found[f"{name}_mean"] = abs(value.mean() - old[name].mean()) / floors.get(name, floor)
-                found[f"{name}_spread"] = abs(value.std() - old[name].std()) / floors.get(name, floor)
+                table[f"{name}_mean"] = abs(value.mean() - old[name].mean()) / floors.get(name, floor)
+                table[f"{name}_spread"] = abs(value.std() - old[name].std()) / floors.get(name, floor)
         difference = (run.reading - run.motion.position) - (twin.reading - twin.motion.position)
-        found["reading"] = np.sqrt(np.mean(difference**2)) / floor
-        sizes = {name: float(max(sizes.get(name, 0.0), value)) for name, value in found.items()}
+        table["reading"] = np.sqrt(np.mean(difference**2)) / floor
+        sizes = {name: float(max(sizes.get(name, 0.0), value)) for name, value in table.items()}
     return sizes

@@ -73,12 +73,12 @@ def test_a_discovery_that_refuses_records_draws_them(tmp_path, motion):
 def test_slips_are_where_the_box_turns_back(motion, noise):
     """A slip is a stretch of backward motion of the simulated box, not of ringing after it."""
     measured = motion.position + noise * np.random.default_rng(0).standard_normal(motion.time.size)
-    found = slip_spans(measured, 1e-3)
+    result = slip_spans(measured, 1e-3)
     back = motion.velocity < -1e-3  # of the order of the belt's speed, well above ringing
     edges = np.flatnonzero(np.diff(np.concatenate(([0], back.astype(int), [0]))))
     true = [(i, j) for i, j in zip(edges[::2], edges[1::2], strict=True) if j - i > 20]
-    assert len(found) == len(true)
-    for (first, last), (i, j) in zip(found, true, strict=True):
+    assert len(result) == len(true)
+    for (first, last), (i, j) in zip(result, true, strict=True):
         assert abs(first - i) <= 40  # the lag over which slopes are taken under noise [samples]
         assert abs(last - j) <= 40
 

@@ -20,10 +20,10 @@ def rough(at: np.ndarray) -> np.ndarray:
 
 def test_a_stated_step_finds_its_way_where_the_smallest_one_does_not():
     low, high = np.full(2, -5.0), np.full(2, 5.0)
-    found = minimised(rough, np.zeros(2), low, high, difference=0.01, evaluations=30, tolerance=1e-12)
+    minimum = minimised(rough, np.zeros(2), low, high, difference=0.01, evaluations=30, tolerance=1e-12)
     lost = least_squares(rough, np.zeros(2), bounds=(low, high), diff_step=0.01, xtol=1e-8)
     # the slopes are known to the step times the curvature, so that the end is reached to the errors' own fineness
-    np.testing.assert_allclose(found.x, GOAL, atol=10.0 * FINENESS)
+    np.testing.assert_allclose(minimum.x, GOAL, atol=10.0 * FINENESS)
     assert np.abs(lost.x - GOAL).max() > 0.1  # SciPy's own step at zero is 1e-8, whatever step is asked for
 
 
@@ -36,9 +36,9 @@ def test_bounds_hold_for_the_derivatives_too(first):
         return at - GOAL
 
     low, high = np.array([-0.5, -1.0]), np.array([0.2, -0.995])  # the second range is smaller than the step
-    found = minimised(errors, np.array(first), low, high, difference=0.01, evaluations=30, tolerance=1e-12)
+    minimum = minimised(errors, np.array(first), low, high, difference=0.01, evaluations=30, tolerance=1e-12)
     assert all(np.all(low <= at) and np.all(at <= high) for at in asked)
-    np.testing.assert_allclose(found.x, (0.2, -1.0), atol=1e-12)
+    np.testing.assert_allclose(minimum.x, (0.2, -1.0), atol=1e-12)
 
 
 @pytest.mark.parametrize("outlying", [np.inf, 0.5])
@@ -52,7 +52,7 @@ def test_the_minimum_is_that_of_scipy(outlying):
     low, high = np.full(2, -10.0), np.full(2, 10.0)
     loss = {} if np.isinf(outlying) else {"loss": "soft_l1", "f_scale": outlying}
     exact = least_squares(errors, np.ones(2), bounds=(low, high), xtol=1e-14, ftol=1e-14, gtol=1e-14, **loss)
-    found = minimised(errors, np.ones(2), low, high, difference=1e-6, evaluations=60, tolerance=1e-14, outlying=outlying)
-    assert found.cost == pytest.approx(exact.cost, rel=1e-9)  # of second order in the distance from the minimum
-    np.testing.assert_allclose(found.x, exact.x, rtol=1e-4)  # slopes are differences: off by the step times the curvature
-    np.testing.assert_allclose(np.abs(found.jacobian), np.abs(exact.jac), rtol=1e-2, atol=1e-4)
+    minimum = minimised(errors, np.ones(2), low, high, difference=1e-6, evaluations=60, tolerance=1e-14, outlying=outlying)
+    assert minimum.cost == pytest.approx(exact.cost, rel=1e-9)  # of second order in the distance from the minimum
+    np.testing.assert_allclose(minimum.x, exact.x, rtol=1e-4)  # slopes are differences: off by the step times the curvature
+    np.testing.assert_allclose(np.abs(minimum.jacobian), np.abs(exact.jac), rtol=1e-2, atol=1e-4)

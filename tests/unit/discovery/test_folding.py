@@ -21,8 +21,8 @@ def _met(bumps, first):
 @pytest.mark.parametrize("length", [0.0113, 0.0163, 0.02])
 def test_a_bump_that_comes_back_each_turn_is_found_with_its_travel(length):
     places = [_met(np.arange(start, LENGTH, length), first) for start, first in ((0.004, 0.0), (0.009, 1.0e-3))]
-    found, chance = turn(places, [LENGTH, LENGTH], SPACING)
-    assert found == pytest.approx(length, rel=0.05)  # half a slip's travel over the run's, and the grid
+    result, chance = turn(places, [LENGTH, LENGTH], SPACING)
+    assert result == pytest.approx(length, rel=0.05)  # half a slip's travel over the run's, and the grid
     assert chance < criteria.FOLDED_BY_CHANCE
 
 
@@ -31,8 +31,8 @@ def test_random_kicks_are_hardly_ever_taken_for_a_bump():
     taken = 0
     for _ in range(500):
         kicks = [np.sort(generator.uniform(0.0, LENGTH, 8)) for _ in range(2)]
-        found = turn([_met(k, 0.0) for k in kicks], [LENGTH, LENGTH], SPACING)
-        taken += found is not None and found[1] < criteria.FOLDED_BY_CHANCE
+        result = turn([_met(k, 0.0) for k in kicks], [LENGTH, LENGTH], SPACING)
+        taken += result is not None and result[1] < criteria.FOLDED_BY_CHANCE
     # 10 are expected at most, since the bound counts every frequency as if it were independent; 4 standard errors more
     assert taken <= 10 + 4 * np.sqrt(10)
 

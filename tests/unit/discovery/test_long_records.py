@@ -55,8 +55,8 @@ def test_gains_of_waves_in_stick_are_those_of_least_squares():
     line = line / np.linalg.norm(line)
     rest = values - line * (line @ values)
     grid = np.array([0.31, 0.9, 2.2])
-    found = wave_gains(grid, time, segment, line, rest)
-    for frequency, gain in zip(grid, found, strict=True):
+    result = wave_gains(grid, time, segment, line, rest)
+    for frequency, gain in zip(grid, result, strict=True):
         waves = [centred(f(2.0 * np.pi * frequency * time)) for f in (np.cos, np.sin)]
         design = np.stack([line, *waves], axis=1)
         left = rest - design @ np.linalg.lstsq(design, rest)[0]

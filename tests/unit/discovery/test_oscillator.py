@@ -41,11 +41,11 @@ def rig():
 def test_the_memory_is_recalled_from_the_record(rig):
     system, record, table = rig
     at = np.array([8_000, 12_345, 19_000])
-    found = auxiliary_state(system, record, record.time[at], table[at, 0])
+    result = auxiliary_state(system, record, record.time[at], table[at, 0])
     ringing = np.abs(table[:, 2] - table[:, 0]).max()
     # begun at rest 8 s before, or 8 s of e^(-z w t): 1e-4 is left; the noise of the record, narrow-banded, gives the rest
-    assert np.abs(found[:, 0] - table[at, 2]).max() < 0.03 * ringing
-    assert np.abs(found[:, 1] - table[at, 3]).max() < 0.03 * ringing * W
+    assert np.abs(result[:, 0] - table[at, 2]).max() < 0.03 * ringing
+    assert np.abs(result[:, 1] - table[at, 3]).max() < 0.03 * ringing * W
 
 
 def test_a_recalled_memory_makes_a_forecast_go_on(rig):

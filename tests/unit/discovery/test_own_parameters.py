@@ -41,12 +41,12 @@ def test_only_what_the_prior_made_is_named():
 def test_what_is_off_by_more_than_stated_is_pointed_out():
     scenario = dataclasses.replace(load_scenario("kang2015_table1"), uncertainty={"mass": 0.02, "damping": 0.2, "mu_s": 0.05})
     dataset = Dataset(title="", scenario_path=None, scenario=scenario, runs=())
-    found = {
+    table = {
         "mass": Interval(3.164, 3.1, 3.2, "kg"),
         "damping": Interval(2.0, 1.9, 2.1, "N s/m"),
         "mu_s": Interval(0.82, 0.81, 0.83, "-"),
         "stiffness": Interval(9999.0, 9998.0, 9999.5, "N/m"),  # of which nothing is stated
     }
-    off = moved(found, dataset, unmeasured=["damping"])
+    off = moved(table, dataset, unmeasured=["damping"])
     assert set(off) == {"mass"}
     assert off["mass"] == pytest.approx((3.164 - 6.08) / (0.02 * 6.08), rel=1e-12)

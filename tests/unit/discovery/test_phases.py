@@ -40,14 +40,14 @@ def test_a_pattern_is_found_with_its_harmonics(angle):
     """The fit run knew them at 0.3 and -0.5; this one has them shifted, the third harmonic three times as far."""
     known = dataclasses.replace(RIPPLES, own={"old": ({"phase": 0.3}, {"phase": -0.5})})
     windows = starting_at(RIPPLES, ({"phase": 0.3 + angle}, {"phase": -0.5 + 3.0 * angle}))
-    found = in_phase(known, windows).own["new"]
-    away = [found[0]["phase"] - 0.3 - angle, found[1]["phase"] + 0.5 - 3.0 * angle]
+    result = in_phase(known, windows).own["new"]
+    away = [result[0]["phase"] - 0.3 - angle, result[1]["phase"] + 0.5 - 3.0 * angle]
     # ten forecasts of a cycle know a ripple of 6 % of the load to about 0.01 rad, one of 3 % to twice that
     np.testing.assert_allclose(np.exp(1j * np.array(away)), 1.0, atol=0.06)
 
 
 def test_harmonics_of_one_effect_are_shifted_alike():
     windows = starting_at(BELT, ({"phase": 2.0, "phase_2": 4.4},))
-    found = in_phase(BELT, windows).own["new"][0]
-    away = [found["phase"] - 2.0, found["phase_2"] - 4.4]
+    result = in_phase(BELT, windows).own["new"][0]
+    away = [result["phase"] - 2.0, result["phase_2"] - 4.4]
     np.testing.assert_allclose(np.exp(1j * np.array(away)), 1.0, atol=0.06)

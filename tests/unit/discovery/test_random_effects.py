@@ -49,12 +49,12 @@ def test_slips_that_stand_out_by_their_own_amounts_are_kicked():
     onset = np.zeros(N * RUNS)
     onset[struck(12)] = -np.random.default_rng(3).uniform(0.5, 2.6, 12)
     in_slip = np.where(onset < 0.0, -0.4, 0.0)  # blows of 0.04 N s against the belt, felt over slips of 0.1 s
-    found = kicks(study(onset, in_slip))
-    assert found is not None
-    assert found.kind == "impacts"
-    assert found.values["rate"] == pytest.approx(12 / 80 / 1.1)
-    assert found.values["mean"] == pytest.approx(-0.04, abs=3e-4)  # 0.01 N of noise in 12 forces, over 0.1 s
-    assert found.values["impulse"] == pytest.approx(1e-3, rel=0.65)  # that noise; 11 degrees of freedom, 3 deviations
+    result = kicks(study(onset, in_slip))
+    assert result is not None
+    assert result.kind == "impacts"
+    assert result.values["rate"] == pytest.approx(12 / 80 / 1.1)
+    assert result.values["mean"] == pytest.approx(-0.04, abs=3e-4)  # 0.01 N of noise in 12 forces, over 0.1 s
+    assert result.values["impulse"] == pytest.approx(1e-3, rel=0.65)  # that noise; 11 degrees of freedom, 3 deviations
 
 
 def test_kicks_from_both_sides_have_no_mean_and_some_are_not_seen():
@@ -62,11 +62,11 @@ def test_kicks_from_both_sides_have_no_mean_and_some_are_not_seen():
     at = struck(12)
     onset[at] = -np.random.default_rng(3).uniform(0.5, 2.6, 12)
     in_slip[at] = 0.4 * np.resize([1.0, -1.0], 12)
-    found = kicks(study(onset, in_slip))
-    assert found is not None
-    assert found.values["mean"] == 0.0
-    assert found.values["impulse"] == pytest.approx(0.04, rel=0.05)
-    assert found.values["rate"] == pytest.approx(1.5 * 12 / 80 / 1.1)
+    result = kicks(study(onset, in_slip))
+    assert result is not None
+    assert result.values["mean"] == 0.0
+    assert result.values["impulse"] == pytest.approx(0.04, rel=0.05)
+    assert result.values["rate"] == pytest.approx(1.5 * 12 / 80 / 1.1)
 
 
 def test_a_box_that_slides_on_about_the_kinetic_force_is_not_kicked_anew():
@@ -114,27 +114,27 @@ def called(levels: Switching = CALM, in_slip: float = 0.5, **changes: float) -> 
 
 
 def test_independent_scatter_is_random_coefficients():
-    found = called()
-    assert isinstance(found, RandomEffects)
-    assert found.kind == "random_coefficients"
+    result = called()
+    assert isinstance(result, RandomEffects)
+    assert result.kind == "random_coefficients"
 
 
 def test_scatter_that_stick_and_slip_share_without_memory_has_no_name():
-    found = called(together=0.85, in_slip=1.0)  # the same force in both
-    assert isinstance(found, Where)
-    assert "stick and slip alike" in found.axis
+    result = called(together=0.85, in_slip=1.0)  # the same force in both
+    assert isinstance(result, Where)
+    assert "stick and slip alike" in result.axis
 
 
 def test_a_factor_of_both_coefficients_is_drawn_anew_for_each_slip():
-    found = called(together=0.95, in_slip=KINETIC / STATIC)
-    assert isinstance(found, RandomEffects)
-    assert found.kind == "random_coefficients"
+    result = called(together=0.95, in_slip=KINETIC / STATIC)
+    assert isinstance(result, RandomEffects)
+    assert result.kind == "random_coefficients"
 
 
 def test_a_wander_may_share_it():
-    found = called(together=0.95, correlation=5.0, wander=80.0)
-    assert isinstance(found, RandomEffects)
-    assert found.kind == "correlated_coefficients"
+    result = called(together=0.95, correlation=5.0, wander=80.0)
+    assert isinstance(result, RandomEffects)
+    assert result.kind == "correlated_coefficients"
 
 
 def test_switching_has_no_name_however_it_wanders():
@@ -149,8 +149,8 @@ def test_a_force_that_wanders_alike_in_stick_and_slip_is_no_coefficient_and_may_
     one.pool.slips = [SimpleNamespace(onset_time=s.onset_time, noise=SimpleNamespace(deviation=noise)) for s in one.pool.slips]
     one.records = [SimpleNamespace(mechanism=SimpleNamespace(stiffness=4000.0))]
     wander = scatter(correlation=5.0, wander=80.0, wander_of="offset", wander_share=0.01)  # 0.08 N, 20 um
-    found = random_effects(one, wander, CALM, one.solution, [])
-    assert found is None if verdict is None else isinstance(found, verdict)
+    result = random_effects(one, wander, CALM, one.solution, [])
+    assert result is None if verdict is None else isinstance(result, verdict)
 
 
 def test_noise_is_nothing():

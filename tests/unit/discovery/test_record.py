@@ -41,19 +41,19 @@ def test_level_of_white_noise_on_a_smooth_motion():
 
 
 def test_white_noise_has_no_colour():
-    found = noise_of(pieces(white(16000)), DEVIATION)
-    assert found.coloured == 0.0
-    assert found.deviation == pytest.approx(DEVIATION, rel=4.0 / (2.0 * 16000) ** 0.5)
+    result = noise_of(pieces(white(16000)), DEVIATION)
+    assert result.coloured == 0.0
+    assert result.deviation == pytest.approx(DEVIATION, rel=4.0 / (2.0 * 16000) ** 0.5)
 
 
 def test_colour_is_found_with_its_memory():
     coloured, memory = 4e-6, 0.8
-    found = noise_of(pieces(white(32000) + autoregression(32000, coloured, memory)), DEVIATION)
+    result = noise_of(pieces(white(32000) + autoregression(32000, coloured, memory)), DEVIATION)
     # an autocovariance scatters by c_0 sqrt(sum of squared correlations / n) = 0.9 % of c_0, here 2.9 % of c_1; half of
     # that in the amplitude; two of them decide on the memory
-    assert found.coloured == pytest.approx(coloured, rel=4.0 * 0.029)
-    assert found.memory == pytest.approx(memory, abs=4.0 * 0.029 * memory)
-    assert found.white == pytest.approx(DEVIATION, rel=4.0 * 0.029)
+    assert result.coloured == pytest.approx(coloured, rel=4.0 * 0.029)
+    assert result.memory == pytest.approx(memory, abs=4.0 * 0.029 * memory)
+    assert result.white == pytest.approx(DEVIATION, rel=4.0 * 0.029)
 
 
 def test_noise_as_slow_as_a_tenth_of_a_phase_keeps_its_size():
@@ -61,43 +61,43 @@ def test_noise_as_slow_as_a_tenth_of_a_phase_keeps_its_size():
     levelled = [
         p - np.polyval(np.polyfit(range(500), p, 1), range(500)) for p in pieces(autoregression(40000, 4e-6, memory), 500)
     ]
-    found = noise_of(levelled, 1e-6)
+    result = noise_of(levelled, 1e-6)
     # 40000 samples hold 400 independent ones of a memory of 50: 3.5 % of the deviation; a line takes 6 % of it away
-    assert found.deviation == pytest.approx(4e-6, rel=4.0 * 0.035 + 0.06)
-    assert -1.0 / np.log(found.memory) == pytest.approx(50.0, rel=0.4)
+    assert result.deviation == pytest.approx(4e-6, rel=4.0 * 0.035 + 0.06)
+    assert -1.0 / np.log(result.memory) == pytest.approx(50.0, rel=0.4)
 
 
 def test_phases_with_a_motion_in_them_are_no_noise():
     quiet = pieces(white(16000))
     moved = [*quiet[:-2], *(p + 4e-5 * (np.arange(len(p)) > 400) for p in quiet[-2:])]
-    found = noise_of(moved, DEVIATION)
-    assert found.coloured == 0.0
-    assert found.deviation == pytest.approx(DEVIATION, rel=4.0 / (2.0 * 16000) ** 0.5)
+    result = noise_of(moved, DEVIATION)
+    assert result.coloured == 0.0
+    assert result.deviation == pytest.approx(DEVIATION, rel=4.0 / (2.0 * 16000) ** 0.5)
 
 
 def test_too_little_quiet_gives_the_level_alone():
-    found = noise_of([white(100)], 3e-6)
-    assert (found.deviation, found.coloured) == (3e-6, 0.0)
+    result = noise_of([white(100)], 3e-6)
+    assert (result.deviation, result.coloured) == (3e-6, 0.0)
 
 
 def test_drawn_noise_has_the_stated_moments():
-    found = noise_of(pieces(white(16000) + autoregression(16000, 4e-6, 0.8)), DEVIATION)
-    drawn = found.draw(200000, np.random.default_rng(3))
+    result = noise_of(pieces(white(16000) + autoregression(16000, 4e-6, 0.8)), DEVIATION)
+    drawn = result.draw(200000, np.random.default_rng(3))
     one_on = float(np.mean(drawn[1:] * drawn[:-1]))
     # correlated samples: about 200000 (1 - m)/(1 + m) independent ones, and sqrt(2/n) of a variance
-    scatter = 4.0 * (2.0 * (1.0 + found.memory) / (1.0 - found.memory) / 200000) ** 0.5
-    assert np.var(drawn) == pytest.approx(found.deviation**2, rel=scatter)
-    assert one_on == pytest.approx(found.coloured**2 * found.memory, abs=scatter * found.deviation**2)
+    scatter = 4.0 * (2.0 * (1.0 + result.memory) / (1.0 - result.memory) / 200000) ** 0.5
+    assert np.var(drawn) == pytest.approx(result.deviation**2, rel=scatter)
+    assert one_on == pytest.approx(result.coloured**2 * result.memory, abs=scatter * result.deviation**2)
 
 
 def test_line_in_noise_is_found_with_frequency_and_amplitude():
     n, amplitude = 100 * LINE_WINDOW, 5e-6
     frequency = 12 * RATE / LINE_WINDOW  # in the middle of a line of the spectrum
     hum = amplitude * np.sin(2.0 * np.pi * frequency * np.arange(n) / RATE)
-    found, size, strength = line_in(pieces(white(n) + hum, LINE_WINDOW), RATE)
+    result, size, strength = line_in(pieces(white(n) + hum, LINE_WINDOW), RATE)
     window = np.hanning(LINE_WINDOW)
     noise = 4.0 * DEVIATION**2 * np.sum(window**2) / window.sum() ** 2  # what white noise adds to amplitude squared
-    assert found == frequency
+    assert result == frequency
     # the product of line and noise scatters by sqrt(2 noise/line) in power, half of that in amplitude, 100 pieces
     scatter = 0.5 * (2.0 * noise / amplitude**2 / 100) ** 0.5
     assert size == pytest.approx((amplitude**2 + noise) ** 0.5, rel=4.0 * scatter)

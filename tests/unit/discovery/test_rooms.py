@@ -38,25 +38,25 @@ def imported_by_name(file: Path) -> set[str]:
 
 
 def test_engines_are_imported_by_name_where_that_is_meant_alone():
-    found: list[str] = []
+    lines: list[str] = []
     for file in PACKAGE.rglob("*.py"):
         place = file.relative_to(PACKAGE).as_posix()
         parts = {part for name in imported_by_name(file) for part in name.split(".")}
         if parts & ENGINES and not place.startswith((*BY_NAME, *ADAPTERS)):
-            found.append(place)
-    assert found == []
+            lines.append(place)
+    assert lines == []
     assert imported_by_name(PACKAGE / "discovery/export.py") & ENGINES  # the search finds what is there
 
 
 def test_no_module_of_discovery_names_an_effect():
     """Effects say of themselves what discovery needs to know; else a new effect would be a change of discovery."""
     kinds = set(EFFECTS) - set(kinds_with(ANONYMOUS))  # which is a word of ours, too
-    found: list[str] = []
+    lines: list[str] = []
     for file in (PACKAGE / "discovery").rglob("*.py"):
         words = (n.value for n in ast.walk(ast.parse(file.read_text(encoding="utf-8"))) if isinstance(n, ast.Constant))
         # a docstring may speak of knocks by their name
-        found += [f"{file.name}: {w}" for w in words if isinstance(w, str) and kinds & {w, *w.split(".")}]
-    assert found == []
+        lines += [f"{file.name}: {w}" for w in words if isinstance(w, str) and kinds & {w, *w.split(".")}]
+    assert lines == []
 
 
 def test_findings_have_one_effect_each():

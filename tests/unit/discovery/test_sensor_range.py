@@ -27,22 +27,22 @@ def slips(low: float, high: float, *, box: BeltBox = BOX, effects=(), seed: int 
 
 
 def test_both_ends_are_found():
-    found = sensor_range([slips(0.7e-3, 2.3e-3)])
-    assert found.clipped
-    assert found.low == pytest.approx(0.7e-3, abs=2.0 * NOISE)
-    assert found.high == pytest.approx(2.3e-3, abs=2.0 * NOISE)
+    result = sensor_range([slips(0.7e-3, 2.3e-3)])
+    assert result.clipped
+    assert result.low == pytest.approx(0.7e-3, abs=2.0 * NOISE)
+    assert result.high == pytest.approx(2.3e-3, abs=2.0 * NOISE)
 
 
 def test_a_mirrored_run_tells_the_lower_end():
     back = dataclasses.replace(BOX, belt_velocity=-BOX.belt_velocity)
-    found = sensor_range([slips(-2.3e-3, 2.3e-3), slips(-2.3e-3, 2.3e-3, box=back)])
-    assert (found.low, found.high) == pytest.approx((-2.3e-3, 2.3e-3), abs=2.0 * NOISE)
+    result = sensor_range([slips(-2.3e-3, 2.3e-3), slips(-2.3e-3, 2.3e-3, box=back)])
+    assert (result.low, result.high) == pytest.approx((-2.3e-3, 2.3e-3), abs=2.0 * NOISE)
 
 
 def test_a_whole_motion_has_no_end():
-    found = sensor_range([slips(-math.inf, math.inf)])
-    assert not found.clipped
-    assert (found.low, found.high) == (-math.inf, math.inf)
+    result = sensor_range([slips(-math.inf, math.inf)])
+    assert not result.clipped
+    assert (result.low, result.high) == (-math.inf, math.inf)
 
 
 def test_a_smooth_top_is_no_end():

@@ -136,20 +136,20 @@ def test_an_excitation_does_not_move_the_edges(frequency):
     system = augmented_system(box, make_law("coulomb", mu_s=0.8, mu_k=0.55))
     motion = system.march(Start(0.0, 0.0, box.belt_velocity, stick=True), 1e-3, 60000)
     position = motion.position + NOISE * np.random.default_rng(5).standard_normal(len(motion.time))
-    found = extract(make_record("run", motion.time, position, box))
-    assert len(found) > 20
-    for times, switch in ((found.onset_time, 1.0), (found.restick_time, 0.0)):
+    result = extract(make_record("run", motion.time, position, box))
+    assert len(result) > 20
+    for times, switch in ((result.onset_time, 1.0), (result.restick_time, 0.0)):
         true = motion.events[motion.events[:, 1] == switch, 0]
         error = times - true[np.argmin(np.abs(times[:, None] - true), axis=1)]
         assert abs(error.mean()) < 4.0 * error.std() / len(error) ** 0.5
     # the quadrature, which calibration takes out, shows in the higher orders
-    low = found.moments[:, :4]
+    low = result.moments[:, :4]
     away = np.abs(low.mean(axis=0) - 0.55 * box.normal_force * np.eye(4)[0])
-    assert np.all(away < 4.0 * np.std(low, axis=0) / len(found) ** 0.5), away
+    assert np.all(away < 4.0 * np.std(low, axis=0) / len(result) ** 0.5), away
 
 
 def test_the_features_of_one_slip_are_those_of_the_extraction(slips):
-    found = features_near(slips.record, slips.onset_time[3] + 0.1, ridge=slips.ridge, firm=slips.firm)
-    np.testing.assert_array_equal(found, slips.features[3])
+    result = features_near(slips.record, slips.onset_time[3] + 0.1, ridge=slips.ridge, firm=slips.firm)
+    np.testing.assert_array_equal(result, slips.features[3])
     quiet = make_record("still", slips.record.time[:500], np.zeros(500), BOX)
     assert features_near(quiet, 0.2, ridge=slips.ridge, firm=slips.firm) is None

@@ -23,13 +23,13 @@ BELTS = (2.5e-3, 1.7e-3)
 def pool_of(effect) -> Pool:
     """Two runs of 30 s with an effect, at two belt velocities."""
     law = make_law("coulomb", mu_s=0.8, mu_k=0.46)
-    found = []
+    items = []
     for run, belt in enumerate(BELTS):
         box = BeltBox(mass=6.08, damping=0.768, stiffness=3956.0, normal_force=13.0, belt_velocity=belt)
         motion = augmented_system(box, law, [effect]).march(Start(-20.0, 0.0, belt, stick=True), 1e-3, 50_000)
         position = motion.position[20_000:] + NOISE * np.random.default_rng(run).standard_normal(30_000)
-        found.append(extract(make_record(f"run {run}", np.arange(1, 30_001) * 1e-3, position, box)))
-    return make_pool(found, [calibrate(s) for s in found])
+        items.append(extract(make_record(f"run {run}", np.arange(1, 30_001) * 1e-3, position, box)))
+    return make_pool(items, [calibrate(s) for s in items])
 
 
 @pytest.fixture(scope="module")

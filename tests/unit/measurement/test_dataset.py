@@ -32,9 +32,9 @@ def test_a_dataset(rig):
     csv(rig / "slow.csv", time__ms=1e3 * TIME, position__mm=1e3 * POSITION, humidity=TIME, normal_force__kN=0.001 + 0.0 * TIME)
     slow = 'file = "slow.csv"\nrole = "test"\nset = { belt_velocity = 1e-3 }'
     shutil.copy(bundled_scenarios()["kang2015_table1"], rig / "scenario.toml")
-    found = load_dataset(dataset(rig, FIT, slow, scenario="scenario.toml"))
-    assert (found.title, found.scenario_path, [r.name for r in found.runs]) == ("rig", rig / "scenario.toml", ["run", "slow"])
-    (fit,), (test,) = found.fit, found.test
+    data = load_dataset(dataset(rig, FIT, slow, scenario="scenario.toml"))
+    assert (data.title, data.scenario_path, [r.name for r in data.runs]) == ("rig", rig / "scenario.toml", ["run", "slow"])
+    (fit,), (test,) = data.fit, data.test
     np.testing.assert_array_equal(fit.channels["position"], POSITION)
     np.testing.assert_allclose(test.channels["position"], POSITION, rtol=1e-15)
     np.testing.assert_allclose(test.time, TIME, rtol=1e-12)
@@ -43,8 +43,8 @@ def test_a_dataset(rig):
     assert test.units == {"position": "m", "normal_force": "N", "humidity": ""}
     assert test.sample_interval == pytest.approx(1e-3, rel=1e-12)
     assert test.notes == ("normal_force is constant (1 N)",)
-    assert fit.mechanism(found.scenario) == found.scenario.mechanism
-    assert test.mechanism(found.scenario) == dataclasses.replace(found.scenario.mechanism, belt_velocity=1e-3)
+    assert fit.mechanism(data.scenario) == data.scenario.mechanism
+    assert test.mechanism(data.scenario) == dataclasses.replace(data.scenario.mechanism, belt_velocity=1e-3)
 
 
 def test_a_bundled_scenario_is_named_by_its_file(rig):
@@ -53,10 +53,10 @@ def test_a_bundled_scenario_is_named_by_its_file(rig):
 
 def test_the_file_itself_and_a_scenario_as_an_object(rig):
     scenario = dataclasses.replace(load_scenario("kang2015_table1"), title="mine")
-    found = load_dataset(dataset(rig, FIT, TEST) / "dataset.toml", scenario)
-    assert found.scenario is scenario
-    assert found.scenario_path is None
-    assert [r.name for r in found.runs] == ["run #1", "run #2"]
+    data = load_dataset(dataset(rig, FIT, TEST) / "dataset.toml", scenario)
+    assert data.scenario is scenario
+    assert data.scenario_path is None
+    assert [r.name for r in data.runs] == ["run #1", "run #2"]
 
 
 def test_one_file_alone_holds_out_its_last_third(rig):
@@ -343,13 +343,13 @@ def test_positioning_system(tmp_path):
         f'file = "{file}"\ncolumns = {{ time = "t", position = "qm", voltage = "vir" }}\n'
         'units = { time = "s", position = "m", voltage = "V" }'
     )
-    found = load_dataset(
+    data = load_dataset(
         dataset(tmp_path, f'{keys}\nrole = "fit"\ntime_range = [0, 16]', f'{keys}\nrole = "test"\ntime_range = [16.0005, 99]')
     )
-    assert sum(run.time.size for run in found.runs) == 24841
-    assert found.fit[0].sample_interval == pytest.approx(1e-3, rel=1e-9)
-    assert found.fit[0].constants["kp"] == pytest.approx(160.18, abs=0.01)
-    assert set(found.fit[0].covariates) == {"qg"}
+    assert sum(run.time.size for run in data.runs) == 24841
+    assert data.fit[0].sample_interval == pytest.approx(1e-3, rel=1e-9)
+    assert data.fit[0].constants["kp"] == pytest.approx(160.18, abs=0.01)
+    assert set(data.fit[0].covariates) == {"qg"}
 
 
 def test_cylinder_seal(tmp_path):

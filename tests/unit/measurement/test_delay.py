@@ -24,11 +24,11 @@ def tones(rng, n=25, highest=25.0):
 def test_delay_without_noise(samples):
     wave = tones(np.random.default_rng(4))
     t = np.arange(3000) * H
-    found = estimate_delay(wave(t), 0.7 * wave(t - samples * H), H)
-    assert found.seconds == pytest.approx(samples * H, abs=0.01 * H)  # parabola over a quarter of a sample
-    assert found.low <= found.seconds <= found.high
-    assert found.explained == pytest.approx(1.0, abs=1e-4)
-    assert found.explained_without <= found.explained
+    delay = estimate_delay(wave(t), 0.7 * wave(t - samples * H), H)
+    assert delay.seconds == pytest.approx(samples * H, abs=0.01 * H)  # parabola over a quarter of a sample
+    assert delay.low <= delay.seconds <= delay.high
+    assert delay.explained == pytest.approx(1.0, abs=1e-4)
+    assert delay.explained_without <= delay.explained
 
 
 def test_interval_holds_the_delay_as_often_as_it_says():
@@ -40,9 +40,9 @@ def test_interval_holds_the_delay_as_often_as_it_says():
         driver, response = wave(t), wave(t - delay)
         driver += 0.5 * driver.std() * rng.normal(size=t.size)
         response += 0.2 * response.std() * rng.normal(size=t.size)
-        found = estimate_delay(driver, response, H, max_delay=0.015)
-        held += found.low <= delay <= found.high
-        away.append((found.seconds - delay) / (found.high - found.low))
+        result = estimate_delay(driver, response, H, max_delay=0.015)
+        held += result.low <= delay <= result.high
+        away.append((result.seconds - delay) / (result.high - result.low))
     assert held >= 33  # of 40 at 95 %: fewer has probability 2e-3 at most
     assert np.mean(np.abs(away)) < 0.5
 
@@ -67,10 +67,10 @@ def pendulum(delay, noise, seed=5):
 @pytest.mark.parametrize("delay", [0.0, 0.0137])
 def test_inverse_dynamics_of_a_pendulum(delay):
     q, _, torque = pendulum(delay, noise=1e-4)
-    found = estimate_delay(torque, [Term(q, 2), Term(q, 1), Term(np.sin(q))], 2.0 * H, half_width=0.04)
-    assert found.low <= delay <= found.high
-    assert found.high - found.low < 0.01
-    assert (found.low > 0.0) == (delay > 0.0)
+    result = estimate_delay(torque, [Term(q, 2), Term(q, 1), Term(np.sin(q))], 2.0 * H, half_width=0.04)
+    assert result.low <= delay <= result.high
+    assert result.high - result.low < 0.01
+    assert (result.low > 0.0) == (delay > 0.0)
 
 
 @pytest.mark.parametrize("name", ["ddp", "direct_collocation"])
@@ -80,9 +80,9 @@ def test_real_pendulum(name):
     run = assemble(RunEntry(file=measured(f"dfki_pendulum/{name}_measured.csv"), name=name, units=units), rotational=True)
     q, v = run.channels["position"], run.channels["velocity"]
     terms = [Term(q, 2), Term(q, 1), Term(np.sin(q)), Term(np.tanh(v / 0.1))]
-    found = estimate_delay(run.channels["torque"], terms, run.sample_interval, max_delay=0.05)
-    assert 0.010 < found.low < found.seconds < found.high < 0.025
-    assert found.explained > 0.95
+    delay = estimate_delay(run.channels["torque"], terms, run.sample_interval, max_delay=0.05)
+    assert 0.010 < delay.low < delay.seconds < delay.high < 0.025
+    assert delay.explained > 0.95
     assert estimate_delay(v, [Term(q, 1)], run.sample_interval).seconds == pytest.approx(0.0, abs=run.sample_interval)
 
 
@@ -122,16 +122,16 @@ def test_window_is_one_over_its_length(shift):
 def test_derivative_of_a_polynomial(order):
     t = np.arange(400) * H
     exact = [t**2 + (20 * H) ** 2 / 15.0, 2.0 * t, np.full(t.size, 2.0)][order]  # the window's own second moment is w^2 / 15
-    found = smooth(t**2, 20 * H, H, derivative=order)
-    np.testing.assert_allclose(found[25:-25], exact[25:-25], rtol=1e-4, atol=1e-9)
+    result = smooth(t**2, 20 * H, H, derivative=order)
+    np.testing.assert_allclose(result[25:-25], exact[25:-25], rtol=1e-4, atol=1e-9)
 
 
 @pytest.mark.parametrize("shift", [0.0, 2.0 * H, -7.4 * H])
 def test_shift_between_samples(shift):
     t = np.arange(1000) * H
-    found = smooth(np.sin(30.0 * t), 20 * H, H, shift=shift)
+    result = smooth(np.sin(30.0 * t), 20 * H, H, shift=shift)
     factor = np.std(smooth(np.sin(30.0 * t), 20 * H, H)[50:-50]) / np.std(np.sin(30.0 * t)[50:-50])
-    np.testing.assert_allclose(found[50:-50], factor * np.sin(30.0 * (t[50:-50] - shift)), atol=2e-4)
+    np.testing.assert_allclose(result[50:-50], factor * np.sin(30.0 * (t[50:-50] - shift)), atol=2e-4)
 
 
 def test_window_longer_than_the_record():

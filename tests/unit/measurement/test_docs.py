@@ -27,9 +27,9 @@ def test_dataset_file(tmp_path):
     csv(tmp_path / "run_1.csv", time__s=TIME, position__mm=POSITION, humidity=TIME)
     csv(tmp_path / "run_2.csv", time__s=TIME, position__mm=POSITION, humidity=TIME)
     (tmp_path / "dataset.toml").write_text(blocks("toml")[0], encoding="utf-8")
-    found = load_dataset(tmp_path, "kang2015_table1")
-    assert [(r.name, r.role) for r in found.runs] == [("run_1", "fit"), ("run_2", "test")]
-    assert found.test[0].mechanism(found.scenario).belt_velocity == 1e-3
+    data = load_dataset(tmp_path, "kang2015_table1")
+    assert [(r.name, r.role) for r in data.runs] == [("run_1", "fit"), ("run_2", "test")]
+    assert data.test[0].mechanism(data.scenario).belt_velocity == 1e-3
 
 
 def test_python(tmp_path, monkeypatch, capsys):

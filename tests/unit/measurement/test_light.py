@@ -33,11 +33,11 @@ def test_reader_of_another_package_is_found_by_its_entry_point(tmp_path):
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: lab\nVersion: 1.0\n")
     (info / "entry_points.txt").write_text("[stochfric_mb.readers]\nwave = lab.wave\ncsv = lab.wave\n")
     (tmp_path / "run.wave").write_text("")
-    found = run(f"""
+    result = run(f"""
         import sys; sys.path.insert(0, {str(tmp_path)!r})
         from pathlib import Path
         from stochfric_mb.measurement.readers import READERS, read_table
         assert "lab.wave" not in sys.modules
         print(read_table(Path({str(tmp_path / "run.wave")!r}), skip_rows=1).columns["time"], READERS[".csv"])
     """)
-    assert found == "[1. 2.] stochfric_mb.measurement.readers.text"
+    assert result == "[1. 2.] stochfric_mb.measurement.readers.text"

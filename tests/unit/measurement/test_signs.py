@@ -33,10 +33,10 @@ def test_simulated_stick_slip(tmp_path, scenario, trajectory, columns, sign):
     assert len(said) == (1 if sign < 0.0 else 0)
     if said:
         assert "give sign = { friction_force = -1 }" in said[0]
-        found = run_sign_error(runs[0], scenario)
+        error = run_sign_error(runs[0], scenario)
         power = np.mean(trajectory.friction_force * (scenario.mechanism.belt_velocity - trajectory.velocity))
-        assert found.mean_power == pytest.approx(power, rel=0.05)  # the window rounds the corners of the motion off
-        assert found.created > 0.8
+        assert error.mean_power == pytest.approx(power, rel=0.05)  # the window rounds the corners of the motion off
+        assert error.created > 0.8
 
 
 def test_belt_velocity_as_measured_counts(tmp_path, scenario, trajectory):
@@ -55,18 +55,18 @@ def test_belt_velocity_as_measured_counts(tmp_path, scenario, trajectory):
 
 def test_noise_is_no_sign_error():
     rng = np.random.default_rng(11)
-    found = [probable_sign_error(*rng.normal(size=(2, 500))) for _ in range(500)]
-    assert sum(f is not None for f in found) <= 4  # one in a thousand each: more than 4 in 500 has probability 2e-4
+    items = [probable_sign_error(*rng.normal(size=(2, 500))) for _ in range(500)]
+    assert sum(f is not None for f in items) <= 4  # one in a thousand each: more than 4 in 500 has probability 2e-4
 
 
 def test_friction_of_a_sliding_body():
     v = np.sin(np.arange(2000) * 0.02)
     noise = np.random.default_rng(2).normal(size=v.size)
     assert probable_sign_error(-np.sign(v) + noise, v) is None
-    found = probable_sign_error(np.sign(v) + noise, v)
-    assert found.low > 0.0
-    assert found.mean_power == pytest.approx(2.0 / np.pi, abs=4.0 * np.sqrt(0.5 / v.size))  # mean |sin|, 4 standard errors
-    assert 0.5 < found.created < 1.0
+    result = probable_sign_error(np.sign(v) + noise, v)
+    assert result.low > 0.0
+    assert result.mean_power == pytest.approx(2.0 / np.pi, abs=4.0 * np.sqrt(0.5 / v.size))  # mean |sin|, 4 standard errors
+    assert 0.5 < result.created < 1.0
 
 
 def test_what_cannot_be_judged_is_not(tmp_path, scenario):

@@ -20,9 +20,9 @@ def truth():
 
 @pytest.fixture(scope="module")
 def motion(truth):
-    found = simulate(truth, seed=2)
-    noise = 2e-6 * np.random.default_rng(1).standard_normal(found.time.size)
-    return found.time, found.position + noise
+    result = simulate(truth, seed=2)
+    noise = 2e-6 * np.random.default_rng(1).standard_normal(result.time.size)
+    return result.time, result.position + noise
 
 
 def _load(folder, motion, scenario, *, unit="m", scale=1.0, time_unit="s", time_scale=1.0, **more):

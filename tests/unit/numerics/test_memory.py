@@ -21,9 +21,9 @@ def swap(doubles, n):
 @compiled
 def look(word):
     """Return a word, its lower and upper half and its lowest byte as they are read, and let it be negative."""
-    found = m.load_word(word), m.load_int(word), m.load_int(word + 4), m.load_byte(word)
+    pair = m.load_word(word), m.load_int(word), m.load_int(word + 4), m.load_byte(word)
     m.store_word(word, -carray(m.as_words(word), (1,))[0])
-    return found
+    return pair
 
 
 def test_doubles_are_read_and_written() -> None:

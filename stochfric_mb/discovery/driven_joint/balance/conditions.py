@@ -63,7 +63,7 @@ def known_factors(
         travelled: distance slid [m or rad], shape (count,).
     """
     at = window.centres
-    found = {
+    table = {
         "direction": np.sign(velocity[at]),
         "speed": np.abs(velocity[at]),
         "position": position[at],
@@ -73,5 +73,5 @@ def known_factors(
     }
     temperature = temperature_through(run, window)
     if temperature is not None:
-        found["temperature"] = temperature[at]
-    return found | {key: np.full(len(at), value) for key, value in run.constants.items()}
+        table["temperature"] = temperature[at]
+    return table | {key: np.full(len(at), value) for key, value in run.constants.items()}

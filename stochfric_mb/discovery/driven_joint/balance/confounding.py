@@ -48,13 +48,13 @@ def confounded(balances: Sequence[ForceBalance]) -> list[Confounded]:
     names = list(dict.fromkeys(name for s in balances for name in s.factors))
     whole = [n for n in names if all(n in s.factors for s in balances)]
     runs = [{n: s.factors[n][s.sliding] for n in whole} for s in balances if s.sliding.any()]
-    found: list[Confounded] = []
+    pairs: list[Confounded] = []
     for i, first in enumerate(whole):
         for second in whole[i + 1 :]:
             share = _together([(r[first], r[second]) for r in runs])
             if share >= PARTLY:
-                found.append(Confounded(first, second, share))
-    return sorted(found, key=lambda c: -c.explained)
+                pairs.append(Confounded(first, second, share))
+    return sorted(pairs, key=lambda c: -c.explained)
 
 
 def _together(runs: Sequence[tuple[Array, Array]]) -> float:
@@ -87,14 +87,14 @@ def _explained(cause: Array, result: Array) -> float:
     return float(between / result.var())
 
 
-def spoken_of(pairs: Sequence[Confounded], found: Sequence[str]) -> list[Confounded]:
+def spoken_of(pairs: Sequence[Confounded], result: Sequence[str]) -> list[Confounded]:
     """Return the confounded pairs that matter: that time and distance grew together does where friction drifts.
 
     Args:
         pairs: conditions that went together.
-        found: kinds of the effects found.
+        result: kinds of the effects found.
     """
-    drifts = any(map(by_clock, found))
+    drifts = any(map(by_clock, result))
     return [p for p in pairs if p.explained >= TOGETHER and (drifts or {p.first, p.second} != {"time", "distance"})]
 
 

@@ -102,14 +102,14 @@ def motion_velocity(run: Run) -> Array:
 
 def nuisances_of(scenario: Scenario, joint: Joint) -> list[Nuisance]:
     """Return the numbers of the mechanism that data may correct, with their priors."""
-    found: list[Nuisance] = []
+    nuisances: list[Nuisance] = []
     for name, unit in UNITS[joint.kind].items():
         value = float(getattr(joint, name))
         spread = scenario.uncertainty.get(name, 0.0)
         deviation = spread if name in ABSOLUTE else spread * abs(value)
         if deviation > 0.0:
-            found.append(Nuisance(name, value, deviation, unit, 0.0 if name in POSITIVE else -np.inf))
-    return found
+            nuisances.append(Nuisance(name, value, deviation, unit, 0.0 if name in POSITIVE else -np.inf))
+    return nuisances
 
 
 def believed_friction(scenario: Scenario, load: float) -> float:

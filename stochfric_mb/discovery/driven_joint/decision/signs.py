@@ -73,10 +73,10 @@ def _fits_turned(dataset: Dataset, place: str, load: float, balances: Sequence[F
     """
     if place in getattr(dataset.scenario.mechanism, "pairs", ()):
         return []  # the drives press there, too: with them turned round nothing touches
-    found = source_of(_turned(dataset, place))
-    nuisances = found.nuisances(place)
+    source = source_of(_turned(dataset, place))
+    nuisances = source.nuisances(place)
     believed = prior_model(dataset.scenario, place, nuisances, load)
-    both = balances, found.balances(place, "fit", 0.0)
+    both = balances, source.balances(place, "fit", 0.0)
     as_given, turned = (Selector(s, nuisances, believed).recalibrated.rms for s in both)
     if turned > TURNED * as_given:
         return []

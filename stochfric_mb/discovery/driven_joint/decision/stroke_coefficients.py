@@ -60,7 +60,7 @@ def strokes_of(rest: Array, along: Array, balance: ForceBalance, shortest: int) 
         balance: the run.
         shortest: least number of windows.
     """
-    found: list[Stroke] = []
+    strokes: list[Stroke] = []
     edges = np.flatnonzero(np.diff(np.r_[0, balance.sliding.astype(np.int8), 0]))
     forward = balance.velocity[balance.window.centres] > 0.0
     for start, end in zip(edges[::2], edges[1::2], strict=True):
@@ -72,8 +72,8 @@ def strokes_of(rest: Array, along: Array, balance: ForceBalance, shortest: int) 
         first, second = (float(f[p] @ r[p]) / max(float(f[p] @ f[p]), 1.0e-300) for p in (slice(half), slice(half, None)))
         inside = float(np.mean((r - delta * f) ** 2))
         differ = 0.25 * (first - second) ** 2
-        found.append(Stroke(bool(forward[start]), delta, (start, end), size / (end - start), inside, differ))
-    return found
+        strokes.append(Stroke(bool(forward[start]), delta, (start, end), size / (end - start), inside, differ))
+    return strokes
 
 
 def variances(strokes: list[Stroke]) -> Array:

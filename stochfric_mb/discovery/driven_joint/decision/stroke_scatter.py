@@ -147,11 +147,11 @@ def stroke_scatter(
 
 def _across(rest: Array, edges: npt.NDArray[np.int64]) -> list[tuple[float, float]]:
     """Return what is left at the end of each stroke and at the start of the next one, where a stroke follows soon."""
-    found: list[tuple[float, float]] = []
+    items: list[tuple[float, float]] = []
     for end, start in zip(edges[1:-1:2], edges[2::2], strict=True):
         if start - end <= REVERSAL * APART:
-            found.append((float(rest[max(end - 2 * APART, 0) : end].mean()), float(rest[start : start + 2 * APART].mean())))
-    return found
+            items.append((float(rest[max(end - 2 * APART, 0) : end].mean()), float(rest[start : start + 2 * APART].mean())))
+    return items
 
 
 def _correlation(pairs: Sequence[tuple[float, float]]) -> float:

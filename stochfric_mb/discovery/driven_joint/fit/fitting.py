@@ -104,10 +104,10 @@ def fit(
         parts = [trial.remainder(s, nuisances)[m] for s, m in zip(balances, used, strict=True)]
         return np.concatenate([*parts, noise * steps.surprise(values)])
 
-    found = minimised(
+    minimum = minimised(
         errors, np.zeros(len(free)), steps.low, steps.high, difference=DIFFERENCE, evaluations=evaluations, tolerance=TOLERANCE
     )
-    jacobian, scale, values = found.jacobian, steps.scale, steps.values(found.x)
+    jacobian, scale, values = minimum.jacobian, steps.scale, steps.values(minimum.x)
     fitted = adjusted(model, free, values)
     parts = tuple(fitted.remainder(s, nuisances)[m] for s, m in zip(balances, used, strict=True))
     n = sum(map(len, parts))

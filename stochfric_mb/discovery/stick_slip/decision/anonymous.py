@@ -61,25 +61,25 @@ class _Axis:
     """Places in the slips, shape (n, nodes)."""
 
 
-def anonymous(found: Study, recalibrated: Fit, runs: HeldOut) -> Anonymous | None:
+def anonymous(study: Study, recalibrated: Fit, runs: HeldOut) -> Anonymous | None:
     """Return the unnamed term along the axis with most evidence; None where no axis has any.
 
     Args:
-        found: what the fit runs told.
+        study: what the fit runs told.
         recalibrated: the model without it.
         runs: held-out runs; no phase is to be found in them, since the term has none.
     """
-    pool, regression = found.pool, found.regression
+    pool, regression = study.pool, study.regression
     tried: list[tuple[float, Model]] = []
     axes = _axes(pool)
     for axis in axes:
         low, high = (float(np.quantile(axis.in_slip, q)) for q in ENDS)
         columns = _columns(pool, axis, low, high)
-        spread = SIZE * float(found.solution.coefficients[0]) / np.arange(1, ORDERS + 1) ** 2
-        terms = Terms(np.concatenate([found.terms.columns, columns], axis=2), np.r_[found.terms.priors, spread])
-        solution = regression.solve(terms, found.solution.scatter)
+        spread = SIZE * float(study.solution.coefficients[0]) / np.arange(1, ORDERS + 1) ** 2
+        terms = Terms(np.concatenate([study.terms.columns, columns], axis=2), np.r_[study.terms.priors, spread])
+        solution = regression.solve(terms, study.solution.scatter)
         score = (
-            2.0 * (found.solution.cost - solution.cost) - ORDERS * float(np.log(regression.n)) - 2.0 * float(np.log(len(axes)))
+            2.0 * (study.solution.cost - solution.cost) - ORDERS * float(np.log(regression.n)) - 2.0 * float(np.log(len(axes)))
         )
         if score <= criteria.UNNAMED_LEAST:
             continue
@@ -97,8 +97,8 @@ def anonymous(found: Study, recalibrated: Fit, runs: HeldOut) -> Anonymous | Non
     if not tried:
         return None
     score, start = max(tried, key=lambda t: t[0])
-    fit = refit(start, found.windows, found.uncertainty)
-    fit = with_deviations(fit, found.windows, found.uncertainty)
+    fit = refit(start, study.windows, study.uncertainty)
+    fit = with_deviations(fit, study.windows, study.uncertainty)
     term = fit.model.effects[-1]
     named = Named(term.kind, (), Evidence(score, None), Where(*term.appears()))
     try:

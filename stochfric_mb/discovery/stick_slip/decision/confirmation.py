@@ -273,7 +273,7 @@ def confirm(
 
     starts = [levelled(np.clip(s, steps.low, steps.high)) for s in _starts(candidate, free, steps.scale)]
     first = min(starts, key=lambda s: float(np.sum(errors(s) ** 2)))
-    found = minimised(
+    minimum = minimised(
         errors,
         first,
         steps.low,
@@ -283,11 +283,11 @@ def confirm(
         tolerance=1.0e-3,
     )
     n_parameters = _own(candidate, free)
-    model = adjusted(candidate, free, steps.values(found.x))
+    model = adjusted(candidate, free, steps.values(minimum.x))
     return Confirmed(
         tuple(e.kind for e in candidate.effects),
         model,
-        float(2.0 * found.cost),
+        float(2.0 * minimum.cost),
         n_parameters,
         N_FEATURES * len(cases) - 2 - n_parameters,
         all(predict(model, case) is not None for case in cases),

@@ -89,9 +89,9 @@ def _tried(kind: str, wave: Wave, frequency: float, study: Study, model: Model, 
     score = 2.0 * float(study.regression.gains(terms, study.solution.scatter, [hypothesis.columns])[0]) - cost
     candidate = Candidate(kind, "", score, hypothesis, solution)
     trial = with_candidate(model, candidate, study.pool, terms.columns.shape[2])
-    found = confirm(cases, trial, study.uncertainty, evaluations=EVALUATIONS, entrained=True)
+    confirmed = confirm(cases, trial, study.uncertainty, evaluations=EVALUATIONS, entrained=True)
     # the order is a number, too
-    return candidate, dataclasses.replace(found, n_parameters=found.n_parameters + 1, freedom=found.freedom - 1)
+    return candidate, dataclasses.replace(confirmed, n_parameters=confirmed.n_parameters + 1, freedom=confirmed.freedom - 1)
 
 
 def _columns(wave: Wave, frequency: float, pool: Pool) -> list[Array]:

@@ -24,7 +24,7 @@ JUDGED_WINDOWS = 24
 """Forecasts of each run that are judged."""
 
 
-def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented: Model) -> Decision | None:
+def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented: Model) -> Decision | None:
     """Return another decision if this one explains too little of what the fit runs show; None if enough.
 
     A name is worth little if the model with the effect forecasts the very runs that it was fitted to hardly better, and
@@ -36,16 +36,16 @@ def unexplained(found: Study, decision: Decision, recalibrated: Model, augmented
     kinds = {n.kind for n in decision.named}
     if kinds and kinds <= set(kinds_with(OUTSIDE_FORECASTS)):
         return None
-    windows = [_scattered(w, JUDGED_WINDOWS) for w in found.windows if len(w)]
-    runs = HeldOut(found.pool.slips[:2], tuple(windows), tuple(windows))
+    windows = [_scattered(w, JUDGED_WINDOWS) for w in study.windows if len(w)]
+    runs = HeldOut(study.pool.slips[:2], tuple(windows), tuple(windows))
     before, after = mean_score(recalibrated, runs), mean_score(augmented, runs)
-    if _unfelt(kinds, recalibrated, found, runs, before):
+    if _unfelt(kinds, recalibrated, study, runs, before):
         return dataclasses.replace(decision, verdict="none", named=())
     try:
         floor = min(floor_of(augmented, runs, recalibrated if kind_found_as(KICKS) in kinds else None), after)
     except SimulationError as error:
         return taken_back(decision, f"comes closest, but its model cannot run by itself: {error}")
-    reducible, unit = before - floor, found.size.length
+    reducible, unit = before - floor, study.size.length
     if not kinds:
         decision.details["explained"] = {"before": before * unit, "floor": floor * unit}
         return _missed(decision, before * unit, floor * unit) if reducible > criteria.NONE_MISSES * before else None
@@ -81,13 +81,13 @@ def taken_back(decision: Decision, why: str) -> Decision:
     return dataclasses.replace(decision, verdict="unknown", named=(), where=Where(best.where.axis, f"{best.kind} {why}"))
 
 
-def _unfelt(kinds: set[str], recalibrated: Model, found: Study, runs: HeldOut, before: float) -> bool:
+def _unfelt(kinds: set[str], recalibrated: Model, study: Study, runs: HeldOut, before: float) -> bool:
     """Return whether what is random stands out of the forces alone, and leaves the motion as forecast without it.
 
     Edges that noise has hidden stand out as kicks do, and a scatter of the forces may be smaller than any forecast feels.
     """
     if kinds == {kind_found_as(KICKS)}:
-        return not _thrown_off(recalibrated, found)
+        return not _thrown_off(recalibrated, study)
     return (
         bool(kinds)
         and kinds <= set(kinds_with(SCATTER))
@@ -95,9 +95,9 @@ def _unfelt(kinds: set[str], recalibrated: Model, found: Study, runs: HeldOut, b
     )
 
 
-def _thrown_off(model: Model, found: Study) -> bool:
+def _thrown_off(model: Model, study: Study) -> bool:
     """Return whether some forecasts of the fit runs miss by far more than most."""
-    errors = np.concatenate([score(model, w) for w in found.windows])
+    errors = np.concatenate([score(model, w) for w in study.windows])
     return bool(np.count_nonzero(errors > criteria.THROWN_OFF * np.median(errors)) >= criteria.FEWEST_THROWN_OFF)
 
 

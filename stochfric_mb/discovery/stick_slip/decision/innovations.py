@@ -81,6 +81,6 @@ def predicted_features(slips: Slips, model: Model, dwell: Array, which: Sequence
             float(np.median(slips.restick_time - slips.onset_time)), slips.features[i], ANY, (slips.ridge, slips.firm),
             np.zeros(N_FEATURES),
         )  # fmt: skip
-        found = predict(model, case)
-        rows.append(np.full(N_FEATURES, np.nan) if found is None else found)
+        result = predict(model, case)
+        rows.append(np.full(N_FEATURES, np.nan) if result is None else result)
     return np.array(rows)

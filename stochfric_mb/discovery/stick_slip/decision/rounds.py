@@ -137,8 +137,8 @@ def of_wander(study: Study, refuted: Decision) -> Decision | None:
     """
     if not refuted.named or any(n.kind not in kinds_with(WANDERS_ALIKE) for n in refuted.named):
         return None
-    found = _Search(study, _levels(study.model, study), [], dict(refuted.details), lambda _: None, confirmation=False)
-    decision = dataclasses.replace(found.by_chance(), ranking=refuted.ranking)
+    result = _Search(study, _levels(study.model, study), [], dict(refuted.details), lambda _: None, confirmation=False)
+    decision = dataclasses.replace(result.by_chance(), ranking=refuted.ranking)
     return decision if [n.kind for n in decision.named] == [kind_found_as(WANDER)] else None
 
 
@@ -156,10 +156,10 @@ def _levels(model: Model, study: Study) -> Model:
 
 def _scores(candidates: Sequence[Candidate]) -> dict[str, float]:
     """Return name -> score, best first; of several variants of an effect the best."""
-    found: dict[str, float] = {}
+    numbers: dict[str, float] = {}
     for candidate in candidates:
-        found.setdefault(candidate.name, candidate.score)
-    return found
+        numbers.setdefault(candidate.name, candidate.score)
+    return numbers
 
 
 class _Search:
@@ -196,10 +196,10 @@ class _Search:
         for round_ in range(MOST_ROUNDS):
             if len(self.named) >= MOST_EFFECTS:
                 break
-            found = self._round(round_)
-            if isinstance(found, Where):
-                return self._unknown(found)
-            if not found:
+            result = self._round(round_)
+            if isinstance(result, Where):
+                return self._unknown(result)
+            if not result:
                 break
         return self.by_chance()
 
@@ -300,19 +300,19 @@ class _Search:
 
     def _sudden(self, candidates: Sequence[Candidate]) -> Where | None:
         """Return where friction switches, if it does and the best effect does not explain that as well; None if not."""
-        found = switching(self.regression, self.regression.residuals(self.terms, self.solution))
-        self.details["switching"] = dataclasses.asdict(found)
+        levels = switching(self.regression, self.regression.residuals(self.terms, self.solution))
+        self.details["switching"] = dataclasses.asdict(levels)
         best = next((c for c in candidates if c.is_effect), None)
-        if found.two_levels:
+        if levels.two_levels:
             score = levels_score(self.regression, self.terms, self.solution)
             self.details["two_levels"] = score
             return None if best is not None and best.score > score else SWITCHES
-        if found.where is None:
+        if levels.where is None:
             return None
         if best is not None:
             with_best = self.terms.plus(best.hypothesis.columns)
-            found = switching(self.regression, self.regression.residuals(with_best, best.solution))
-        return JUMPS if found.at_rest_between_jumps else None
+            levels = switching(self.regression, self.regression.residuals(with_best, best.solution))
+        return JUMPS if levels.at_rest_between_jumps else None
 
     def _shape_left(self) -> float:
         """Return the misfit of simulated slips with the effects named over that without [-]; 1 where none were simulated."""
@@ -444,15 +444,15 @@ class _Search:
         levels = switching(self.regression, self.regression.residuals(self.terms, self.solution))
         if (bump := self._bump(kick is not None or levels.where is not None)) is not None:
             return self._unknown(bump, scatter)
-        found = kick or random_effects(self.study, scatter, levels, self.solution, kinds)
-        if isinstance(found, Where):
+        result = kick or random_effects(self.study, scatter, levels, self.solution, kinds)
+        if isinstance(result, Where):
             left = min(_scatter(self.solution) / _scatter(self.study.solution), self._shape_left())
             if not self.named or (self.in_forces and left > criteria.LEFT_OVER):
-                return self._unknown(found, scatter)
-            self.details["left_over"] = dataclasses.asdict(found)
-        elif found is not None:
-            self.named.append(Named(found.kind, (), found.evidence, _shown_by(found.kind), self._timed()))
-            self.model = self.model.plus(make_effect(found.kind, **found.values))
+                return self._unknown(result, scatter)
+            self.details["left_over"] = dataclasses.asdict(result)
+        elif result is not None:
+            self.named.append(Named(result.kind, (), result.evidence, _shown_by(result.kind), self._timed()))
+            self.model = self.model.plus(make_effect(result.kind, **result.values))
         verdict = "effect" if self.named else "none"
         return Decision(verdict, tuple(self.named), None, self._timed(), self.ranking, scatter, self.details)
 

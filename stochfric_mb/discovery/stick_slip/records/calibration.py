@@ -114,23 +114,23 @@ def _simulated(
     position = motion.position[FINER - 1 :: FINER]
     time = np.asarray(start.time + step * np.arange(1, len(position) + 1), dtype=np.float64)
     simulated = make_record(record.name, time, position + slips.noise.draw(len(position), generator), box)
-    found = extract(simulated, ridge=slips.ridge)
+    result = extract(simulated, ridge=slips.ridge)
     fine = start.time + step / FINER * np.arange(1, len(motion.position) + 1)
     onsets = np.flatnonzero((motion.stick[:-1] > 0.5) & (motion.stick[1:] < 0.5))
     resticks = np.flatnonzero((motion.stick[:-1] < 0.5) & (motion.stick[1:] > 0.5))
     features: list[Array] = []
     forces: list[Array] = []
-    for i in range(len(found)):
+    for i in range(len(result)):
         if len(onsets) == 0:
             break
-        onset = onsets[np.argmin(np.abs(fine[onsets] - found.onset_time[i]))]
+        onset = onsets[np.argmin(np.abs(fine[onsets] - result.onset_time[i]))]
         later = resticks[resticks > onset]
-        if len(later) == 0 or abs(fine[onset] - found.onset_time[i]) > 1.0 / record.angular_frequency:
+        if len(later) == 0 or abs(fine[onset] - result.onset_time[i]) > 1.0 / record.angular_frequency:
             continue
         at = slice(int(onset) + 2, max(int(later[0]) - 1, int(onset) + 3))
         # the sample before the break-away is on average half a step early
         late = 0.5 * step / FINER * box.stiffness * box.belt_velocity
-        features.append(found.features[i])
+        features.append(result.features[i])
         forces.append(
             np.array([float(motion.friction_force[onset]) + late, float(np.mean(motion.friction_force[at]))], dtype=np.float64)
         )

@@ -41,7 +41,7 @@ class _End:
 
 def sensor_range(slips: Sequence[Slips]) -> SensorRange:
     """Return the range of the sensor."""
-    share, found = 0.0, {-1: -np.inf, 1: np.inf}
+    share, result = 0.0, {-1: -np.inf, 1: np.inf}
     for side in (1, -1):
         # an upper end of a mirrored record is a lower end of the sensor
         ends = [_end(s, side * s.record.direction, side) for s in slips]
@@ -49,8 +49,8 @@ def sensor_range(slips: Sequence[Slips]) -> SensorRange:
         levels = [side * end.level for end in ends if end.share > criteria.LEVEL_VISITS]
         # a sensor has one range: where runs differ, it reaches as far as any of them
         if levels and not any(_goes_beyond(s, side, side * max(levels)) for s in slips):
-            found[side] = side * max(levels)
-    return SensorRange(share, found[-1], found[1])
+            result[side] = side * max(levels)
+    return SensorRange(share, result[-1], result[1])
 
 
 def _end(slips: Slips, mirrored_side: int, side: int) -> _End:

@@ -76,13 +76,13 @@ def _less_mean(phases: Sequence[Array]) -> list[Array]:
     length = int(np.median([len(p) for p in phases]))
     long = [p[:length] for p in phases if len(p) >= length]
     mean = np.mean(long, axis=0)
-    found: list[Array] = []
+    arrays: list[Array] = []
     for p in phases:
         p = p.copy()  # noqa: PLW2901
         reach = min(len(p), length)
         p[:reach] -= mean[:reach]
-        found.append(p)
-    return found
+        arrays.append(p)
+    return arrays
 
 
 def _averaged(values: Array) -> Array:

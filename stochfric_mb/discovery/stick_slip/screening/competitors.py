@@ -37,14 +37,14 @@ def softening(pool: Pool) -> list[Hypothesis]:
     """Return a stiffness that drifts in each run, along the same courses as the effect of friction that drifts."""
     last = pool.duration
     stiffness = pool.per_run(lambda s: s.record.mechanism.stiffness)
-    found: list[Hypothesis] = []
+    hypotheses: list[Hypothesis] = []
     for tau in (np.inf, *(share * last for share in SETTLING)):
         grown = [t / last if np.isinf(tau) else -np.expm1(-t / tau) for t in (pool.onset_time, pool.mean_time)]
         columns = [
             pool.column(-stiffness * pool.typical_onset * grown[0], -(stiffness * grown[1])[:, None] * pool.typical_position)
         ]
-        found.append(Hypothesis(SOFTENING, columns, (float(tau),)))
-    return found
+        hypotheses.append(Hypothesis(SOFTENING, columns, (float(tau),)))
+    return hypotheses
 
 
 def competitors(pool: Pool) -> dict[str, tuple[str, Sequence[Array]]]:

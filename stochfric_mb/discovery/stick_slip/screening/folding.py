@@ -59,10 +59,10 @@ def comes_back(study: Study, far: npt.NDArray[np.bool_]) -> Where | None:
     travel = pool.belt_velocity * pool.onset_time - onset
     rows = [pool.run == r for r in range(pool.n_runs)]
     spacing = float(np.median(np.concatenate([np.diff(travel[mine]) for mine in rows])))
-    found = turn([travel[mine & far] for mine in rows], [float(np.ptp(travel[mine])) for mine in rows], spacing)
-    if found is None or found[1] > criteria.FOLDED_BY_CHANCE:
+    result = turn([travel[mine & far] for mine in rows], [float(np.ptp(travel[mine])) for mine in rows], spacing)
+    if result is None or result[1] > criteria.FOLDED_BY_CHANCE:
         return None
-    length = study.size.length * found[0]
+    length = study.size.length * result[0]
     return Where(
         "belt position",
         f"slips stand out once in {length:.3g} m of belt travel, turn after turn: a joint or a bump of the belt, not kicks",

@@ -11,11 +11,11 @@ from stochfric_mb.effects.marks import Hypothesis, Wave
 
 def hypotheses_in(pool: Pool, *, without: Sequence[str] = ()) -> dict[str, list[Hypothesis]]:
     """Return kind -> the ways in which an effect may have marked the slips; ``without``: kinds that are not asked."""
-    found = {kind: effect_class(kind).hypotheses(pool) for kind in effect_kinds() if kind not in without}
-    return {kind: some for kind, some in found.items() if some}
+    table = {kind: effect_class(kind).hypotheses(pool) for kind in effect_kinds() if kind not in without}
+    return {kind: some for kind, some in table.items() if some}
 
 
 def waves_in(pool: Pool, *, without: Sequence[str] = ()) -> dict[str, Wave]:
     """Return kind -> where a periodic effect runs and what it modulates; ``without``: kinds that are not asked."""
-    found = {kind: effect_class(kind).wave(pool) for kind in effect_kinds() if kind not in without}
-    return {kind: wave for kind, wave in found.items() if wave is not None}
+    table = {kind: effect_class(kind).wave(pool) for kind in effect_kinds() if kind not in without}
+    return {kind: wave for kind, wave in table.items() if wave is not None}

@@ -34,8 +34,8 @@ def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int)
         sizes = coefficients.reshape(pool.n_runs, -1)
         times = np.array(candidate.hypothesis.setting).reshape(pool.n_runs, -1)
         for step in range(sizes.shape[1]):
-            found = {s.record.name: (float(sizes[r, step]), float(times[r, step])) for r, s in enumerate(pool.slips)}
-            model = with_steps(model, found)
+            table = {s.record.name: (float(sizes[r, step]), float(times[r, step])) for r, s in enumerate(pool.slips)}
+            model = with_steps(model, table)
         return model
     values = candidate.hypothesis.start(coefficients)
     # a fit begins where screening ended: coefficients and corrections belong to the effect's strength

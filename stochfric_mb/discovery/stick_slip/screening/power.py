@@ -22,7 +22,7 @@ def smallest(study: Study) -> dict[str, float]:
     sqrt(score + penalties) of its standard deviations. Of the hypotheses of a kind the most sensitive one counts.
     """
     regression = study.regression
-    found: dict[str, float] = {}
+    numbers: dict[str, float] = {}
     families = hypotheses_in(study.pool)
     periodic = waves_in(study.pool)
     grid = {kind: len(some) for kind, some in families.items()}
@@ -47,8 +47,8 @@ def smallest(study: Study) -> dict[str, float]:
             name, value = next(iter(values.items()), ("", np.inf))
             best = min(best, abs(value) * _unit(study, kind, name))
         if np.isfinite(best):
-            found[kind] = best
-    return found
+            numbers[kind] = best
+    return numbers
 
 
 def _unit(study: Study, kind: str, name: str) -> float:

@@ -135,13 +135,13 @@ class Regression:
     def parts(self, terms: Terms, scatter: Array) -> list[Part]:
         """Return what further regressors of single runs meet, run by run."""
         top, rest = self._rest(terms, scatter)
-        found: list[Part] = []
+        items: list[Part] = []
         first = 0
         for run, rows in enumerate(self._rows):
             at = slice(first, first + N_FEATURES * len(rows))
-            found.append(Part(run, self._whitening(run, scatter), top[at], rest[at]))
+            items.append(Part(run, self._whitening(run, scatter), top[at], rest[at]))
             first = at.stop
-        return found
+        return items
 
     def beyond(self, terms: Terms, scatter: Array, columns: Sequence[Array]) -> Array:
         """Return what the terms cannot imitate of further columns, whitened, shape (rows + p, len(columns)).

@@ -110,7 +110,7 @@ def screen(
         for kind in kinds
     ]
     rough.sort(key=lambda r: -r[0])
-    found = [
+    items = [
         _refitted(kind, hypothesis, regression, terms, solution)
         if i < REFITTED
         else Candidate(
@@ -118,7 +118,7 @@ def screen(
         )
         for i, (score, kind, hypothesis, _) in enumerate(rough)
     ]
-    return sorted((c for c in found if _sign_possible(c.name, c.solution, terms)), key=lambda c: -c.score)
+    return sorted((c for c in items if _sign_possible(c.name, c.solution, terms)), key=lambda c: -c.score)
 
 
 def _refitted(kind: _Kind, hypothesis: Hypothesis, regression: Regression, terms: Terms, solution: Solution) -> Candidate:

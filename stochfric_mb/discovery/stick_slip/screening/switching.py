@@ -88,7 +88,7 @@ def levels_score(regression: Regression, terms: Terms, solution: Solution) -> fl
     pool = regression.pool
     residuals = regression.residuals(terms, solution)
     finest = np.stack([np.sqrt(np.diag(c.covariance)[:2]) for c in pool.calibrations])
-    found: list[float] = []
+    values: list[float] = []
     for column in (0, 1):
         upper = _levels(pool, residuals[:, column], finest[:, column])[1]
         columns, cost = list[Array](), 0.0
@@ -97,8 +97,8 @@ def levels_score(regression: Regression, terms: Terms, solution: Solution) -> fl
             columns += [pool.column(pool.static * upper * mine, None), pool.column(None, pool.kinetic * upper * mine)]
             n, changes = int(mine.sum()), int(np.count_nonzero(np.diff(upper[mine])))
             cost += float(np.log(regression.n)) * 2 + 2.0 * float(gammaln(n) - gammaln(changes + 1) - gammaln(n - changes))
-        found.append(2.0 * (solution.cost - regression.fit(terms.plus(columns), solution.scatter).cost) - cost)
-    return max(found)
+        values.append(2.0 * (solution.cost - regression.fit(terms.plus(columns), solution.scatter).cost) - cost)
+    return max(values)
 
 
 def _levels(pool: Pool, values: Array, finest: Array) -> tuple[float, np.ndarray]:

@@ -69,17 +69,17 @@ def wave_columns(pool: Pool, wave: Wave, frequency: float, harmonics: int) -> li
 def _features(place: Array, weight: Array, grid: Array, harmonics: int) -> npt.NDArray[np.complex128]:
     """Return weight exp(2 pi i h f place) as features, shape (len(grid), harmonics, n, N_FEATURES), complex."""
     first = np.exp(2.0j * np.pi * grid[:, None, None] * place)
-    found = np.empty((len(grid), harmonics, len(place), N_FEATURES), dtype=np.complex128)
+    values = np.empty((len(grid), harmonics, len(place), N_FEATURES), dtype=np.complex128)
     turned = np.ones_like(first)
     for h in range(harmonics):
         turned = turned * first
-        found[:, h, :, 0] = weight[:, 0] * turned[..., 0]
+        values[:, h, :, 0] = weight[:, 0] * turned[..., 0]
         in_slip = weight[:, 1:] * turned[..., 1:]
         # the projection is real: two real products are half the work of a complex one
-        found[:, h, :, 1:].real, found[:, h, :, 1:].imag = map(
+        values[:, h, :, 1:].real, values[:, h, :, 1:].imag = map(
             legendre_coefficients, (in_slip.real.copy(), in_slip.imag.copy())
         )
-    return found
+    return values
 
 
 def shared_by_runs(pool: Pool) -> list[Array]:

@@ -13,20 +13,20 @@ from stochfric_mb.effects import kind_found_as, make_effect
 from stochfric_mb.effects.traits import LATE
 
 
-def driven(found: Study) -> bool:
+def driven(result: Study) -> bool:
     """Return whether a known force acts on the box."""
-    return any(r.mechanism.excitation_amplitude for r in found.records)
+    return any(r.mechanism.excitation_amplitude for r in result.records)
 
 
-def delay_compensated(found: Study, delay: float) -> Study:
+def delay_compensated(result: Study, delay: float) -> Study:
     """Return the study of the same runs, each sample moved to the time at which the box was where it shows it.
 
     Args:
-        found: the study of the runs as recorded.
+        result: the study of the runs as recorded.
         delay: by how much the sensor is late [s].
     """
-    runs = tuple(dataclasses.replace(run, time=run.time - delay) for run in found.dataset.runs)
-    again = study(dataclasses.replace(found.dataset, runs=runs), found.size)
+    runs = tuple(dataclasses.replace(run, time=run.time - delay) for run in result.dataset.runs)
+    again = study(dataclasses.replace(result.dataset, runs=runs), result.size)
     assert again is not None  # the same slips, at other times
     return again
 

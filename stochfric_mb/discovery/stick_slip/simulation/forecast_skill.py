@@ -67,9 +67,9 @@ def settled(model: Model, runs: HeldOut) -> Model:
     for windows in runs.first:
         if len(windows) == 0:
             continue
-        found = in_phase(calm, windows).own[windows.record.name]
+        result = in_phase(calm, windows).own[windows.record.name]
         full: list[dict[str, float]] = [{} for _ in model.effects]
-        for place, values in zip(kept, found, strict=True):
+        for place, values in zip(kept, result, strict=True):
             full[place] = dict(values)
         own[windows.record.name] = tuple(full)
     return dataclasses.replace(model, own=own)

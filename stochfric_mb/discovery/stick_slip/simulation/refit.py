@@ -83,16 +83,16 @@ def refit(
         most: forecasts used in each run.
     """
     misfit = _Misfit(model, windows, uncertainty, only, most)
-    found = minimised(
+    minimum = minimised(
         misfit.errors, np.zeros(len(misfit.free)), misfit.steps.low, misfit.steps.high, difference=DIFFERENCE,
         evaluations=evaluations, tolerance=1.0e-4, outlying=TYPICAL,
     )  # fmt: skip
-    values = misfit.steps.values(found.x)
-    spread = misfit.spread(2.0 * found.cost)
-    size = np.sqrt((found.jacobian**2).sum(axis=0))
+    values = misfit.steps.values(minimum.x)
+    spread = misfit.spread(2.0 * minimum.cost)
+    size = np.sqrt((minimum.jacobian**2).sum(axis=0))
     alone = misfit.steps.scale * np.sqrt(spread) / np.maximum(size, np.sqrt(spread) / WIDEST)
-    deviations = misfit.steps.scale * _deviations(found.jacobian, spread)
-    return Fit(adjusted(model, misfit.free, values), misfit.free, values, deviations, alone, float(found.cost))
+    deviations = misfit.steps.scale * _deviations(minimum.jacobian, spread)
+    return Fit(adjusted(model, misfit.free, values), misfit.free, values, deviations, alone, float(minimum.cost))
 
 
 def cost_of(model: Model, windows: Sequence[Windows], *, most: int = MOST_WINDOWS) -> float:
@@ -235,10 +235,10 @@ def _deviations(slopes: Array, spread: float) -> Array:
     """Return the standard deviations that slopes leave; a direction that they do not tell is left open, not called certain."""
     size = np.sqrt((slopes**2).sum(axis=0))
     told = size > 0.0
-    found = np.full(len(size), WIDEST)
+    result = np.full(len(size), WIDEST)
     if told.any():
         scaled = slopes[:, told] / size[told]
         values, vectors = np.linalg.eigh(scaled.T @ scaled)
         variance = (vectors**2 / np.maximum(values, LEAST_TOLD)).sum(axis=1)
-        found[told] = np.sqrt(spread * variance) / size[told]
-    return found
+        result[told] = np.sqrt(spread * variance) / size[told]
+    return result

@@ -46,15 +46,15 @@ def errors_by_noise(model: Model, like: Slips) -> Errors | None:
     except SimulationError:
         return None
     still = extract(make_record(record.name, record.time, shown, record.stated), ridge=like.ridge, noise=like.noise)
-    found: list[Array] = []
+    arrays: list[Array] = []
     for _ in range(REPEATS):
         noisy = measured_slips(shown, like, generator)
         if len(still) == 0 or len(noisy) == 0:
             continue
         nearest = np.abs(noisy.onset_time[:, None] - still.onset_time).argmin(axis=1)
         same = np.abs(noisy.onset_time - still.onset_time[nearest]) < 1.0 / record.angular_frequency
-        found.append(noisy.features[same] - still.features[nearest[same]])
-    errors = np.concatenate(found) if found else np.zeros((0, N_FEATURES))
+        arrays.append(noisy.features[same] - still.features[nearest[same]])
+    errors = np.concatenate(arrays) if arrays else np.zeros((0, N_FEATURES))
     if len(errors) < FEWEST:
         return None
     return Errors(errors.mean(axis=0), np.cov(errors.T))
