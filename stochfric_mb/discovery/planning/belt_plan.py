@@ -91,7 +91,7 @@ class BeltPlan:
             raise InputError(
                 f"{run.name}: {len(slips)} slips in {run.duration:g} s; at least {criteria.FEWEST_SLIPS} are needed"
                 + (f": plan {math.ceil(1.2 * criteria.FEWEST_SLIPS * cycle)} s or more" if len(slips) else "; the box does "
-                   "not slip as believed: check mu_s against mu_k, and the speed of the belt")
+                   "not slip with the stated numbers: check mu_s against mu_k, and the speed of the belt")
             )  # fmt: skip
         return Part(run, slips, calibrate(slips, seed=11 + seed))
 

@@ -44,7 +44,7 @@ def next_experiment(decision: Decision, study: Study) -> str:
     for named in decision.named:
         for other in named.class_:
             if (advice := _told_apart(named.kind, other)) is not None:
-                return f"{advice}, to tell {words_of(named.kind)} from {words_of(other)}"
+                return f"{advice}, to distinguish {words_of(named.kind)} from {words_of(other)}"
         if named.class_:
             which = f"{words_of(named.kind)} from {words_of(named.class_[0])}"
             return f"runs at a second belt speed and a second normal load, to distinguish {which}"

@@ -215,7 +215,7 @@ def _result(
         ranking=tuple(sorted(scores.items(), key=lambda s: -s[1])),
         gap=gap,
         not_identifiable=tuple(k for k in effect_kinds() if k not in (*searched, *kinds_with(ANONYMOUS))),
-        next_experiment="Steps down as well as up, and hold tests: they tell ageing with time from slip with distance.",
+        next_experiment="Steps down as well as up, and hold tests: they separate ageing with time from slip with distance.",
         believed=_numbers(plain),
         notes=(
             *gap.notes,

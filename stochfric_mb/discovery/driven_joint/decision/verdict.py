@@ -277,10 +277,12 @@ def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
     for place in places:
         for kind in _imitated(place):
             names = ", ".join(n.name for n in place.nuisances)
-            remarks.append(f"{kind} would look like a correction of {names} here{_at(place)}: if there is any, they hold it")
+            remarks.append(
+                f"{words_of(kind)} cannot be distinguished from a correction of {names} here{_at(place)}: any of it is in them"
+            )
         remarks += _between_settings(place)
         if place.random is not None and place.random.low > 0.0 and not place.random.accounted:
-            how = "wanders" if place.random.wanders else "scatters"
+            how = "drifts at random" if place.random.wanders else "scatters"
             share, strokes = 100.0 * place.random.share, place.random.strokes
             why = "; it goes on across reversals, as slow noise of the drive does" if place.random.slow_noise else ""
             remarks.append(f"friction {how} by {share:.1f} % from stroke to stroke ({strokes} strokes){_at(place)}{why}")

@@ -44,8 +44,7 @@ def friction_picture(
     ]
     title = f"Friction in {place}" if place else "Friction"
     caption = (
-        "Held-out runs. Left: friction from inverse dynamics and as the models have it. Right: what they leave while the joint "
-        "slides."
+        "Held-out runs. Left: friction from inverse dynamics and as the models have it. Right: residual while the joint slides."
     )
     return title, caption, {"panels": panels}
 

@@ -24,7 +24,7 @@ from stochfric_mb.effects.traits import BELT_RIPPLE, CLIPPED, CREEPING_ZERO, JUM
 from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
 
 CREEP = {
-    "creep_before": ("stick, before the break-away", "the box leaves the belt's motion before it breaks away"),
+    "creep_before": ("stick, before the break-away", "the box departs from the belt's motion before it breaks away"),
     "creep_after": ("stick, after the re-stick", "the box does not follow the belt at once when it sticks again"),
     "yielding": ("stick", "the box lags behind the belt more and more while it sticks"),
 }

@@ -436,7 +436,8 @@ class _Search:
         kick = kicks(self.study) if not kinds else None
         if kick is None and "single_moments" in self.details:
             where = Where(
-                "stick, single moments", "in stick the box leaves the belt's line at once, and is back after the next slip"
+                "stick, single moments",
+                "in stick the box departs from the belt's motion, and is back after the next slip",
             )
             if not self.named:
                 return self._unknown(where, scatter)

@@ -28,7 +28,7 @@ def prior_model(scenario: Scenario) -> Model:
     """
     if scenario.law.kind not in LAWS:
         raise InputError(
-            f"law {scenario.law.kind!r} cannot be the believed law of a discovery; use one of {', '.join(LAWS)} "
+            f"law {scenario.law.kind!r} cannot be the stated law of a discovery; use one of {', '.join(LAWS)} "
             "(a regularised law is a Coulomb law that creeps: state the Coulomb law it stands for)"
         )
     return Model(scenario.law, {}, tuple(getattr(scenario, "effects", ())), scenario.process)
