@@ -11,7 +11,7 @@ from typing import Any
 from stochfric_mb import metrics
 from stochfric_mb.coefficients.processes import EVENT
 from stochfric_mb.engines import adapter, installed_engines
-from stochfric_mb.errors import InputError, StochfricError, require_number
+from stochfric_mb.errors import InputError, StochfricError
 from stochfric_mb.scenario import Scenario, fitting_step, load_scenario
 from stochfric_mb.trajectory import Trajectory
 
@@ -181,7 +181,7 @@ def compare(
         )
     for name in (*names, "reference"):
         adapter(name, effects=scenario.effects)
-    dt = scenario.default_dt() if dt is None else checked_step(scenario, dt)
+    dt = scenario.default_dt() if dt is None else scenario.dividing_step(dt)
     stage = stage or _silent
     reference = _run("reference", scenario, seed, None, stage("reference", scenario.duration))
     # the first comes last: on a first use it may be compiled meanwhile
@@ -199,19 +199,6 @@ def compare(
         engines=tuple(compared),
         convergence_duration=shortened(scenario).duration if convergence else None,
     )
-
-
-def checked_step(scenario: Scenario, dt: float) -> float:
-    """Return ``dt`` [s] once the scenario's output step is a whole multiple of it.
-
-    Raises:
-        InputError: it is not positive or does not divide the output step; names the nearest that does.
-    """
-    require_number("dt", dt, above=0.0, high=scenario.output_step, unit="s")
-    near = fitting_step(dt, scenario.output_step)
-    if abs(near - dt) > 1.0e-6 * dt:
-        raise InputError(f"dt = {dt:g} s does not divide simulation.output_step = {scenario.output_step:g} s; try {near:.9g} s")
-    return dt
 
 
 def convergence_steps(scenario: Scenario) -> list[float]:

@@ -129,26 +129,38 @@ class Scenario(Generic[M]):
                 f"simulation.duration = {self.duration:g} s is {self.duration / dt:.3g} steps of dt = {dt:g} s, which take "
                 "more than a day in any engine; shorten the duration"
             )
-        n = self.output_step / dt
+        return self.dividing_step(dt)
+
+    def dividing_step(self, dt: float) -> float:
+        """Return the step ``dt`` [s] once the output step is a whole multiple of it.
+
+        Raises:
+            InputError: it is not positive or does not divide the output step; names the nearest that does.
+        """
+        n = self.output_step / require_number("dt", dt, above=0.0, unit="s")
         if n < 0.5 or abs(n - round(n)) > 1.0e-6 * n:
-            near = fitting_step(dt, self.output_step)
-            raise InputError(f"dt = {dt:g} s does not divide simulation.output_step = {self.output_step:g} s; try {near:g} s")
+            near = fitting_step(min(dt, self.output_step), self.output_step)
+            raise InputError(f"dt = {dt:g} s does not divide simulation.output_step = {self.output_step:g} s; try {near:.9g} s")
         return self.output_step / round(n)
 
+    @property
+    def reach(self: Scenario[BeltBox]) -> float:
+        """Position [m] beyond which a state is nonsense: 1000 static deflections, with what the motion adds."""
+        m = self.mechanism
+        static = self.law.mu_s * m.normal_force / m.stiffness
+        swing = (abs(m.initial_velocity) + abs(m.belt_velocity)) * math.sqrt(m.mass / m.stiffness)
+        return 1.0e3 * (static + abs(m.excitation_amplitude) + abs(m.initial_position) + swing)
+
     def require_sane(self: Scenario[BeltBox], engine: str, t: float, position: float, dt: float) -> None:
-        """Return if ``position`` [m] is finite and within 1000 static deflections (with what the motion adds).
+        """Return if ``position`` [m] is finite and within `reach`.
 
         Raises:
             SimulationError: it is not: the run has broken down.
         """
-        m = self.mechanism
-        static = self.law.mu_s * m.normal_force / m.stiffness
-        swing = abs(m.initial_velocity) * math.sqrt(m.mass / m.stiffness)
-        reach = 1.0e3 * (static + abs(m.excitation_amplitude) + abs(m.initial_position) + swing)
-        if not abs(position) <= reach:
+        if not abs(position) <= self.reach:
             raise SimulationError(
-                f"{engine}: the box is at x = {position:g} m at t = {t:g} s, beyond {reach:.3g} m (1000 static deflections): "
-                f"the run has broken down; lower dt = {dt:g} s or check the scenario"
+                f"{engine}: the box is at x = {position:g} m at t = {t:g} s, beyond {self.reach:.3g} m (1000 static "
+                f"deflections): the run has broken down; lower dt = {dt:g} s or check the scenario"
             )
 
     def to_dict(self) -> dict[str, Any]:

@@ -53,9 +53,7 @@ def run(
         problem = _load(scenario, law, overrides)
         module = adapter(engine, effects=problem.effects)
         if dt is not None:
-            from stochfric_mb.comparison import checked_step
-
-            checked_step(problem, dt)
+            problem.dividing_step(dt)
         progress = shown.stage(engine, problem.duration)
         trajectory = module.simulate(problem, seed=seed, dt=dt, progress=progress)
         shown.note(f"writing {out}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -70,16 +69,14 @@ def checked_block(part: Block, scenario: Scenario, first: int) -> Block:
     Raises:
         SimulationError: they are not; an engine can return success with a state that means nothing.
     """
-    b: Any = scenario.mechanism
-    if not isinstance(b, BeltBox):
+    if not isinstance(scenario.mechanism, BeltBox):
         return part  # its engine checks: nothing tells how far a user's own model reaches
-    size = scenario.law.mu_s * b.normal_force / b.stiffness + abs(b.excitation_amplitude) + abs(b.initial_position)
-    size += abs(b.initial_velocity) * math.sqrt(b.mass / b.stiffness) + abs(b.belt_velocity) * math.sqrt(b.mass / b.stiffness)
-    wrong = ~(np.abs(part.position) <= 1.0e3 * size).all(axis=1)
+    reach: float = scenario.reach
+    wrong = ~(np.abs(part.position) <= reach).all(axis=1)
     if wrong.any():
         j = int(np.argmax(wrong))
         raise SimulationError(
-            f"sample {first + j} left every plausible position (abs(x) <= {1e3 * size:g} m) or is not finite; "
+            f"sample {first + j} left every plausible position (abs(x) <= {reach:g} m) or is not finite; "
             "take a smaller dt or check the law's parameters"
         )
     return part

@@ -14,7 +14,7 @@ import pymunk
 from pymunk.constraints import DampedSpring
 
 from stochfric_mb.effects.carry import reported, running_law
-from stochfric_mb.errors import InputError, SimulationError
+from stochfric_mb.errors import InputError
 from stochfric_mb.friction import Friction
 from stochfric_mb.pymunk import records as r
 from stochfric_mb.pymunk import stepping
@@ -34,8 +34,6 @@ SLOP = 1.0e-5
 SUBSTEPS = {"elastic_stick": 2}
 """Law -> steps of pymunk in one step of a run, where it is not one: near an unstable balance (Table 2 at 18.7 rad/s) one
 step of elastic stick misses 10 um by far (45 um with seed 1), two hold it (4.1 um); they cost twice as much."""
-REACH = 1.0e3
-"""States beyond this many static deflections are nonsense."""
 
 
 @dataclasses.dataclass
@@ -108,7 +106,7 @@ def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, dt: float | Non
     space = pymunk.Space()
     space.gravity = (0.0, -mechanism.normal_force / mechanism.mass)
     space.collision_slop = SLOP
-    reach = _reach(scenario) + 2.0 * HALF_SIDE
+    reach = scenario.reach + 2.0 * HALF_SIDE
     belt = pymunk.Segment(space.static_body, (-reach, 0.0), (reach, 0.0), 0.0)
     belt.surface_velocity = (mechanism.belt_velocity, 0.0)
     box = pymunk.Body(mechanism.mass, math.inf)
@@ -129,14 +127,6 @@ def build(scenario: Scenario, *, seed: int = 0, sample: int = 0, dt: float | Non
     return Model(space, box, spring, belt, friction, scenario, notes)
 
 
-def _reach(scenario: Scenario) -> float:
-    """Return the displacement [m] beyond which a state is nonsense."""
-    m = scenario.mechanism
-    static = scenario.law.mu_s * m.normal_force / m.stiffness
-    swing = abs(m.initial_velocity) * math.sqrt(m.mass / m.stiffness)
-    return REACH * (static + abs(m.excitation_amplitude) + abs(m.initial_position) + swing)
-
-
 def integrate(model: Model, *, dt: float, progress: Callable[[float], None] | None = None) -> Trajectory:
     """Return the trajectory of a built model from t = 0.
 
@@ -151,7 +141,7 @@ def integrate(model: Model, *, dt: float, progress: Callable[[float], None] | No
     times = scenario.output_times()
     stride = round(scenario.output_step / dt)
     rows = np.empty((len(times), 8))
-    limit = _reach(scenario)
+    reach = scenario.reach
     begin = time.perf_counter()
     start(model, dt)
     rows[0] = _sample(times[0], mechanism.initial_position, mechanism.initial_velocity, slot)
@@ -160,11 +150,8 @@ def integrate(model: Model, *, dt: float, progress: Callable[[float], None] | No
         before = box.velocity.x
         advance(model, dt, i * stride, 1)
         rows[i] = _sample(times[i], box.position.x, 0.5 * (before + box.velocity.x), slot)
-        if not abs(rows[i, 1]) <= limit:
-            raise SimulationError(
-                f"pymunk's box is at x = {rows[i, 1]:g} m at t = {times[i]:g} s, beyond {limit:.3g} m ({REACH:g} static "
-                f"deflections): the run is broken; lower dt = {dt:g} s or check the scenario"
-            )
+        if not abs(rows[i, 1]) <= reach:
+            scenario.require_sane("pymunk", times[i], rows[i, 1], dt)
         if progress is not None and i % 100 == 0:
             progress(times[i])
     friction.check()

@@ -166,12 +166,6 @@ class AugmentedSystem:
                 (descriptor if field == "descriptor" else run[field])[index] = value
         return AugmentedSystem(self.mechanism, self.law, self.effects, self.process, run, descriptor, self._places)
 
-    def with_address(self, seed: int, sample: int = 0) -> AugmentedSystem:
-        """Return the system with random numbers of another address."""
-        run = _copied(self._run)
-        run.constants[augmented_model.SEED], run.constants[augmented_model.SAMPLE] = seed, sample
-        return AugmentedSystem(self.mechanism, self.law, self.effects, self.process, run, self._descriptor, self._places)
-
     def march(self, start: Start, step: float, count: int) -> Motion:
         """Return the motion at start.time + step (1, ..., count).
 

@@ -135,7 +135,7 @@ def test_checked_step():
 
 def test_require_sane():
     s = load_scenario("kang2015_table1", law="elastic_stick")
-    s.require_sane("engine", 1.0, 2.6, 1e-4)  # 1000 static deflections of 2.63 mm
-    for broken in (2.7, -2.7, float("nan"), float("inf")):
+    s.require_sane("engine", 1.0, 2.7, 1e-4)  # 1000 times a static deflection of 2.63 mm and a swing v_b/omega of 0.10 mm
+    for broken in (2.8, -2.8, float("nan"), float("inf")):
         with pytest.raises(SimulationError, match=r"engine: the box is at x = .*lower dt = 0\.0001 s"):
             s.require_sane("engine", 1.0, broken, 1e-4)
