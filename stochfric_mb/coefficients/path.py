@@ -91,7 +91,12 @@ class CoefficientPath:
         Raises:
             InputError: the process runs along the belt or by event.
         """
-        return np.array([self.at(float(t)) for t in np.asarray(times, dtype=np.float64)]).reshape(-1, 2)
+        given = np.ascontiguousarray(times, dtype=np.float64).reshape(-1)
+        pairs = np.empty((len(given), 2))
+        if len(given):
+            self.at(float(given[0]))  # refuses what does not run along time
+            _at_each(self.descriptor, self._cursor, self.seed, self.sample, self.contact, given, pairs)
+        return pairs
 
     def pairs(self, n: int, first: int = 0) -> npt.NDArray[np.float64]:
         """Return the pairs at the ``n`` knots from ``first`` on, shape (n, 2)."""
@@ -147,6 +152,12 @@ def evaluate(descriptor, cursor, seed, sample, contact, t, position, events):
         return cursor[2], cursor[3]
     w = r - knot
     return cursor[2] + w * (cursor[4] - cursor[2]), cursor[3] + w * (cursor[5] - cursor[3])
+
+
+@compiled
+def _at_each(descriptor, cursor, seed, sample, contact, times, pairs):
+    for i in range(len(times)):
+        pairs[i] = evaluate(descriptor, cursor, seed, sample, contact, times[i], 0.0, 0.0)
 
 
 @compiled
