@@ -108,18 +108,19 @@ def _told_apart(study: Study, model: Model, terms: Terms, effects: Sequence[Cand
 
     The marks of a strong effect are its first order alone, forecasts are exact.
     """
-    kinds = list({c.name: c for c in reversed(effects)}.values())[::-1]
+    kinds: dict[str, Candidate] = {}
+    for candidate in effects:
+        kinds.setdefault(candidate.name, candidate)
     best = effects[0]
-    near = [c for c in kinds if c.score > criteria.CONTENDS * best.score][:MOST_CONTENDERS]
+    near = [c for c in kinds.values() if c.score > criteria.CONTENDS * best.score][:MOST_CONTENDERS]
     if len(near) == 1:
         return best, ()
     starts = [with_candidate(model, c, study.pool, terms.columns.shape[2]) for c in near]
     fits = [refit(m, study.windows, study.uncertainty, most=REFIT_WINDOWS, evaluations=20) for m in starts]
-    best, fit = min(zip(near, fits, strict=True), key=lambda t: t[1].cost)
-    ratios = [likelihood_ratio(fit, other, study.windows) for other in fits]
-    return best, tuple(
-        c.name for c, ratio in zip(near, ratios, strict=True) if c is not best and ratio < criteria.ALIKE_SCREENED
-    )
+    fit = min(fits, key=lambda f: f.cost)
+    # of those that forecast as well the one with the best marks stands first
+    alike = [c for c, f in zip(near, fits, strict=True) if likelihood_ratio(fit, f, study.windows) < criteria.ALIKE_SCREENED]
+    return alike[0], tuple(c.name for c in alike[1:])
 
 
 def _best_score(candidates: Iterable[Candidate]) -> float:
