@@ -45,6 +45,7 @@ EFFECTS: dict[str, str | type[Effect]] = {
     "sensor_clipping": "SensorClipping",
     "sensor_outliers": "SensorOutliers",
     "sensor_delay": "SensorDelay",
+    "stale_samples": "StaleSamples",
     "unnamed": "Unnamed",
 }
 """Kind of an effect -> the name of its class in the module of that name in `kinds`, or a user's own class."""

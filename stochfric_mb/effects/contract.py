@@ -24,7 +24,7 @@ from __future__ import annotations
 import dataclasses
 import importlib
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -243,6 +243,22 @@ class Effect:
 
 
 @dataclasses.dataclass(frozen=True)
+class Scan:
+    """A wave, among whose wave numbers fits begin where a cosine and a sine explain most of the residual."""
+
+    axis: str
+    """``time`` or ``position``: what it is a wave in."""
+    signed: bool
+    """Whether it turns with the direction of the motion, as friction does."""
+    low: float
+    """Fewest waves per second, metre or radian."""
+    high: float
+    """Most of them."""
+    begin: Callable[[float, float, float], Effect]
+    """Wave number k, a and b of the force a cos(2 pi k x) + b sin(2 pi k x) against the motion [N or N m] -> effect."""
+
+
+@dataclasses.dataclass(frozen=True)
 class JointSignature:
     """What an effect does at a driven joint."""
 
@@ -251,7 +267,9 @@ class JointSignature:
     axis: str
     """Axis along which it shows."""
     parameters: int
-    """Numbers that it adds to a fit."""
+    """Numbers that it adds to a fit; those that each run has its own of count once a run."""
+    scan: Scan | None = None
+    """Further starting points, found in the residual."""
 
 
 def parameter(

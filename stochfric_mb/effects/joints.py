@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 
+WAVES_ON_STROKE = (3.0, 25.0)
+"""Waves on a stroke that are looked for one by one [-]; of fewer a grid of wavelengths leaves no peak out."""
+
 
 @dataclasses.dataclass(frozen=True)
 class JointSpan:
@@ -29,3 +32,5 @@ class JointSpan:
     """Whether the place is a contact, whose normal force is known."""
     believed_load: float
     """Load by which coefficients are multiplied [N or N m]."""
+    window: float = 0.0
+    """Half width of the windows through which it is seen [s]."""

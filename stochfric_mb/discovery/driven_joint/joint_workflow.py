@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.balance.timing import Timing, timing
+from stochfric_mb.discovery.driven_joint.balance.late_channel import brought_forward, late_channel
+from stochfric_mb.discovery.driven_joint.balance.readings import Readings, mended
+from stochfric_mb.discovery.driven_joint.balance.timing import NAMED, Timing, timing
 from stochfric_mb.discovery.driven_joint.decision.carry_over import with_idle, with_unnamed
 from stochfric_mb.discovery.driven_joint.decision.run_scatter import Forecasts, crps_of, run_scatter
 from stochfric_mb.discovery.driven_joint.decision.selection import Selected, Selector
@@ -18,6 +22,7 @@ from stochfric_mb.discovery.driven_joint.decision.stroke_scatter import stroke_s
 from stochfric_mb.discovery.driven_joint.decision.verdict import verdict
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome, PlaceOutcome
 from stochfric_mb.discovery.driven_joint.simulation.augmented import augmented, believed_delay, believed_scatter
 from stochfric_mb.discovery.driven_joint.simulation.pictures import friction_picture
@@ -32,6 +37,8 @@ from stochfric_mb.mechanisms import Cascade, Mjcf, PrismaticJoint, ProportionalD
 from stochfric_mb.scenario import Scenario
 
 Progress = Callable[[str], None]
+MATERIAL_READINGS = 0.05
+"""Least part of the error that wrong readings must be to be replaced and named [-]: as for effects."""
 FEWEST = 8
 """Fewest windows of sliding in the runs of a role: fewer say nothing about friction."""
 CONTROLLED = {Cascade.kind: PrismaticJoint.kind, ProportionalDerivative.kind: Mjcf.kind}
@@ -60,7 +67,45 @@ def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> Join
 
         return spring_slider_outcome(dataset, tell)
     _require_controller(dataset.scenario)
-    return _outcome(dataset, tell, source_of(dataset))
+    better, readings = mended(dataset)
+    if readings.effects and _quieter(dataset, better):
+        return _outcome(better, tell, source_of(better), readings)
+    return _outcome(dataset, tell, source_of(dataset), Readings())
+
+
+def _quieter(given: Dataset, better: Dataset) -> bool:
+    """Return whether the balance of a place errs less, by a material part, with wrong readings replaced, seen alike."""
+    base, (as_given, repaired) = believed_delay(given.scenario), (source_of(x) for x in (given, better))
+    for name, load in as_given.places:
+        before = as_given.balances(name, "fit", base)
+        width = round(float(np.median([s.window.half_width / s.window.interval for s in before])))
+        nuisances = as_given.nuisances(name)
+        model = prior_model(given.scenario, name, nuisances, load)
+        seen = [s.balances(name, "fit", base, width) for s in (as_given, repaired)]
+        raw, replaced = (fit(model, s, nuisances, noise=model.law.mu_k * load).rms for s in seen)
+        if replaced < (1.0 - MATERIAL_READINGS) * raw:
+            return True
+    return False
+
+
+def _brought_forward(
+    dataset: Dataset, tell: Progress, channel: tuple[str, Timing], base: float
+) -> tuple[Dataset, Any, list[PlaceOutcome]]:
+    """Return a dataset with a late column brought forward, its balances, and what is found in them."""
+    dataset = brought_forward(dataset, channel[0], channel[1].seconds)
+    source = source_of(dataset)
+    places = [_place(dataset, tell, source, name, load, base, [], timed=False) for name, load in source.places]
+    return dataset, source, _beside(dataset, tell, source, places, base)
+
+
+def _fits_better(before: Sequence[PlaceOutcome], after: Sequence[PlaceOutcome]) -> bool:
+    """Return whether places are explained better with a column brought forward, where most is left."""
+    names = {p.place: p for p in after}
+    worst = max(before, key=lambda p: p.selected.final.rms / p.floor)
+    plain, late = worst.selected, names[worst.place].selected
+    n = max(late.final.independent, 4.0)
+    evidence = 2.0 * n * float(np.log(plain.final.rms / late.final.rms)) - float(np.log(n))
+    return evidence > NAMED and _share(plain, late, names[worst.place].fit, worst.nuisances) >= criteria.EXPLAINED_AT_JOINTS
 
 
 def _require_controller(scenario: Scenario[Any]) -> None:
@@ -99,25 +144,38 @@ def _require_sliding_at_places(dataset: Dataset, source: Any) -> None:
             _require_sliding(source.balances(name, role, believed_delay(dataset.scenario)), name, role)
 
 
-def _outcome(dataset: Dataset, tell: Progress, source: Any) -> JointOutcome:
+def _outcome(dataset: Dataset, tell: Progress, source: Any, readings: Readings) -> JointOutcome:
     _require_sliding_at_places(dataset, source)
     notes: list[str] = []
     base = believed_delay(dataset.scenario)
     places = [_place(dataset, tell, source, name, load, base, notes) for name, load in source.places]
     places = _beside(dataset, tell, source, places, base)
+    channel = late_channel(dataset, source, places, base)
+    if channel is not None:
+        again = _brought_forward(dataset, tell, channel, base)
+        if _fits_better(places, again[2]):
+            dataset, source, after = again
+            before = {p.place: {k: p.scores[k] for k in ("baseline", "recalibrated")} for p in places}
+            places = [dataclasses.replace(p, scores=p.scores | before[p.place]) for p in after]
+        else:
+            channel = None
     places.sort(key=_evidence)
     found = places[0].timing
     places, floor = simulated(dataset, tell, source, places, (base, base + places[0].late))
     places[0] = with_unnamed(dataset, with_idle(places[0]))
     notes += _run_notes(dataset)
-    result = verdict(dataset, places, notes, floor)
+    result = verdict(dataset, places, notes, floor, readings.effects, channel)
     pictures = tuple(
         friction_picture(
-            p.place and f"{p.thing} {p.place}", p.test, p.nuisances, p.selected.recalibrated.model, p.selected.final.model
+            p.place and f"{p.thing} {p.place}",
+            p.test,
+            p.nuisances,
+            p.selected.recalibrated.model,
+            with_phases(p.selected.final.model, p.test),
         )
         for p in places
     )
-    scenario = augmented(dataset.scenario, places, found)
+    scenario = augmented(dataset.scenario, places, found, readings.effects)
     return JointOutcome(result, scenario, dataset, places=tuple(places), pictures=pictures)
 
 
@@ -143,7 +201,15 @@ def _beside(dataset: Dataset, tell: Progress, source: Any, places: list[PlaceOut
 
 
 def _place(
-    dataset: Dataset, tell: Progress, source: Any, name: str, load: float, base: float, notes: list[str]
+    dataset: Dataset,
+    tell: Progress,
+    source: Any,
+    name: str,
+    load: float,
+    base: float,
+    notes: list[str],
+    *,
+    timed: bool = True,
 ) -> PlaceOutcome:
     scenario = dataset.scenario
     nuisances = source.nuisances(name)
@@ -152,7 +218,9 @@ def _place(
     notes += sign_notes(dataset, name, load, fit_balances)
     where = f"{name}: " if name else ""
     selected = Selector(fit_balances, nuisances, believed, lambda text: tell(where + text)).run()
-    undelayed, found = None, _timing(dataset, tell, source, name, base, fit_balances)
+    undelayed, found = None, None
+    if timed:
+        found = _timing(dataset, tell, source, name, base, fit_balances)
     if found is not None:
         balances = source.balances(name, "fit", base + found.seconds)
         late = Selector(balances, nuisances, believed, lambda text: tell(f"{where}{text}, a delay compensated")).run()
@@ -171,7 +239,7 @@ def _place(
         early = source.balances(name, "test", base)
         scores["baseline"] = score(believed, early, nuisances, dataset.test, scenario)
         scores["recalibrated"] = score(undelayed, early, nuisances, dataset.test, scenario)
-    final = selected.final.model
+    final = with_phases(selected.final.model, test_balances)
     # where something without a name is missing from the mean, strokes differ for that
     random = (
         None if selected.unknown else stroke_scatter(final, fit_balances, nuisances, believed_scatter(scenario, "per_event"))
@@ -257,6 +325,13 @@ def _better(
     n = max(sum(map(independent_count, after.remainders)), 4.0)  # timing shows within strokes, too
     more = len(after.free) - len(before.free) + 1
     return float(2.0 * n * np.log(before.rms / after.rms) + before.strain - after.strain - more * np.log(n))
+
+
+def _share(plain: Selected, late: Selected, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]) -> float:
+    """Return the share of what stands above the noise that a delay, with what was selected beside it, closes [-]."""
+    floor = min(noise_floor(late.final.model, balances, nuisances), late.final.rms)
+    before = plain.recalibrated.rms
+    return (before**2 - late.final.rms**2) / max(before**2 - floor**2, 1.0e-300)
 
 
 def _models(believed: JointModel, selected: Selected) -> dict[str, JointModel]:

@@ -12,9 +12,13 @@ from typing import ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import LOAD, TIME, Effect, parameter
+from stochfric_mb.effects.contract import LOAD, TIME, Effect, JointSignature, Scan, parameter
+from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Slips, Wave, times
 from stochfric_mb.effects.traits import COURSE_OF_RUN, FORCE_IN_TIME, WANDERS_ALIKE, WAVES
+
+PERIODS = 3.0
+"""Fewest periods in a record for a force to be called periodic."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -45,6 +49,16 @@ class HarmonicForce(Effect):
     def shortest_time(self, speed: float) -> float:
         """Return the period [s]."""
         return 1.0 / self.frequency
+
+    @classmethod
+    def at_joint(cls, span: JointSpan) -> JointSignature:
+        """Return a force in time whose phase differs from run to run: slower than three periods a record it is a drift."""
+
+        def begin(frequency: float, a: float, b: float) -> HarmonicForce:
+            return cls(amplitude=math.hypot(a, b), frequency=frequency, phase=math.atan2(b, -a))
+
+        highest = 0.5 / span.window if span.window > 0.0 else PERIODS / span.duration
+        return JointSignature((), "time", 3, Scan("time", False, PERIODS / span.duration, highest, begin))
 
     @classmethod
     def wave(cls, slips: Slips) -> Wave:

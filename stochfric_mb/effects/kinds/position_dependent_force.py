@@ -10,8 +10,8 @@ import math
 from collections.abc import Mapping
 from typing import ClassVar
 
-from stochfric_mb.effects.contract import LOAD, POSITION, Effect, JointSignature, parameter
-from stochfric_mb.effects.joints import JointSpan
+from stochfric_mb.effects.contract import LOAD, POSITION, Effect, JointSignature, Scan, parameter
+from stochfric_mb.effects.joints import WAVES_ON_STROKE, JointSpan
 
 WAVES_OF_STROKE = (4.0, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08)
 """Wavelengths from which fits begin, over the stroke [-]; the longest is an unbalance seen over a part of its turn."""
@@ -81,10 +81,16 @@ class PositionDependentForce(Effect):
             for w in waves
             if 0.2 < w.wavelength / span.stroke < 3.0
         )
+
+        def begin(number: float, a: float, b: float) -> PositionDependentForce:
+            return cls(amplitude=math.hypot(a, b), wavelength=1.0 / number, phase=math.atan2(b, -a))
+
+        low, high = (n / span.stroke for n in WAVES_ON_STROKE)
+        scan = Scan("position", False, low, high, begin)
         return (
             JointSignature((spring,), "position", 2),
             JointSignature((stiffening,), "position", 3),
-            JointSignature(waves, "position", 3),
+            JointSignature(waves, "position", 3, scan),
             JointSignature(twice, "position", 5),
         )
 

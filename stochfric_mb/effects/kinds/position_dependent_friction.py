@@ -13,11 +13,13 @@ from typing import ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import BELT_POSITION, MU_K, MU_S, POSITION, Effect, JointSignature, choice, parameter
-from stochfric_mb.effects.joints import JointSpan
+from stochfric_mb.effects.contract import BELT_POSITION, MU_K, MU_S, POSITION, Effect, JointSignature, Scan, choice, parameter
+from stochfric_mb.effects.joints import WAVES_ON_STROKE, JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips, Wave, friction_at, times
 from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, COURSE_OF_RUN, WANDERS_ALIKE, WAVES
 
+MOST_AT_START = 0.9
+"""Largest relative amplitude with which a fit begins [-]."""
 STROKES = (0.5, 0.7, 1.0, 1.4, 2.0)
 """Wavelengths along the stroke that are looked for, over the length of the stroke [-]: a longer wave is a slope, which a
 stiffness that is off leaves as well."""
@@ -86,7 +88,13 @@ class PositionDependentFriction(Effect):
         """Return waves along the stroke."""
         parts = (2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08)
         starts = (cls(amplitude=0.05, wavelength=span.stroke * part, phase=0.7, axis="position") for part in parts)
-        return JointSignature(tuple(starts), "position", 3)
+
+        def begin(number: float, a: float, b: float) -> PositionDependentFriction:
+            size = min(math.hypot(a, b) / span.friction, MOST_AT_START)
+            return cls(amplitude=size, wavelength=1.0 / number, phase=math.atan2(-b, a), axis="position")
+
+        low, high = (n / span.stroke for n in WAVES_ON_STROKE)
+        return JointSignature(tuple(starts), "position", 3, Scan("position", True, low, high, begin))
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:

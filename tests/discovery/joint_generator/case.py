@@ -20,7 +20,8 @@ VOCABULARY = frozenset(
     (
         "random_coefficients", "correlated_coefficients", "velocity_weakening", "viscous_friction", "frictional_lag",
         "direction_asymmetry", "load_dependence", "position_dependent_friction", "position_dependent_force", "friction_drift",
-        "distance_drift",        "temperature_drift", "quadratic_damping", "sensor_delay",
+        "distance_drift", "temperature_drift", "quadratic_damping", "sensor_delay", "harmonic_force", "stale_samples",
+        "sensor_outliers",
     )
 )  # fmt: skip
 """Kinds that docs/joints.md says are searched at joints. Any other kind is rightly answered `unknown`."""

@@ -32,6 +32,7 @@ EXAMPLES: dict[str, dict[str, float | str]] = {
     "sensor_clipping": {"high": 2.0e-3},
     "sensor_outliers": {"fraction": 0.01, "size": 2.0e-4},
     "sensor_delay": {"delay": 5.0e-3},
+    "stale_samples": {"rate": 3.0, "duration": 0.01},
     "unnamed": {"low": 0.0, "high": 0.06, "change_1": 0.02, "change_3": -0.03, "change_6": 0.05},
 }
 NOTHING: dict[str, dict[str, float]] = {
@@ -60,6 +61,7 @@ NOTHING: dict[str, dict[str, float]] = {
     "sensor_clipping": {"high": float("inf")},
     "sensor_outliers": {"size": 0.0},
     "sensor_delay": {"delay": 0.0},
+    "stale_samples": {"duration": 0.0},
     "unnamed": dict.fromkeys([f"change_{i}" for i in range(1, 7)], 0.0),
 }
 """Parameters with which an effect does nothing."""

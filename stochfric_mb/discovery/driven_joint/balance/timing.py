@@ -112,6 +112,21 @@ def _through(
     return Timing(delay, within.low, within.high, float(score) if material else 0.0, gain, width)
 
 
+def of_channel(
+    make: Callable[[float], Sequence[ForceBalance]], nuisances: Sequence[Nuisance], interval: float, width: int
+) -> Timing | None:
+    """Return by how much one channel alone is late; None: it is not.
+
+    Args:
+        make: delay [s] -> the balances to learn from, the channel brought forward by it.
+        nuisances: numbers of the mechanism with their priors.
+        interval: distance between samples [s].
+        width: half width of the windows [samples].
+    """
+    found = _through(make, [n.name for n in nuisances], interval, True, width)
+    return found if found.score > NAMED and found.low * found.high > 0.0 else None
+
+
 def lowest(x: Array, y: Array) -> float:
     """Return where the parabola through the lowest of equidistant points and its neighbours is lowest."""
     i = min(max(int(np.argmin(y)), 1), len(x) - 2)

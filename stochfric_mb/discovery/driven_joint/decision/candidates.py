@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
 from stochfric_mb.effects import Effect, effect_class, effect_kinds
-from stochfric_mb.effects.contract import JointSignature
+from stochfric_mb.effects.contract import JointSignature, Scan
 from stochfric_mb.effects.joints import JointSpan
 
 Array = npt.NDArray[np.float64]
@@ -29,6 +29,8 @@ class Candidate:
     """Axis along which it shows."""
     parameters: int
     """Numbers it adds to a fit."""
+    scan: Scan | None = None
+    """Waves among which further fits begin."""
 
 
 def span_of(balances: Sequence[ForceBalance], friction: float, load: float) -> JointSpan:
@@ -51,6 +53,7 @@ def span_of(balances: Sequence[ForceBalance], friction: float, load: float) -> J
         temperature=_temperatures(balances),
         contact=any(s.normal_force is not None for s in balances),
         believed_load=load,
+        window=max(s.window.half_width for s in balances),
     )
 
 
@@ -75,7 +78,7 @@ def candidates(span: JointSpan, believed: Sequence[Effect]) -> list[Candidate]:
     for kind in effect_kinds():
         forms = effect_class(kind).at_joint(span) if kind not in have else None
         forms = (forms,) if isinstance(forms, JointSignature) else forms or ()
-        found += [Candidate(kind, form.starts, form.axis, form.parameters) for form in forms]
+        found += [Candidate(kind, form.starts, form.axis, form.parameters, form.scan) for form in forms]
     return found
 
 

@@ -11,6 +11,7 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalan
 from stochfric_mb.discovery.driven_joint.decision.evidence import FEWEST
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
 from stochfric_mb.discovery.inference.paired import Paired, paired
 
 Masks = list[npt.NDArray[np.bool_]]
@@ -42,6 +43,11 @@ def strokes(balances: Sequence[ForceBalance]) -> list[Masks]:
     return [_split((number == k) & sliding, balances) for k in np.unique(number[sliding])]
 
 
+def each_run(balances: Sequence[ForceBalance]) -> list[Masks]:
+    """Return the runs, one by one: what each run has a phase of its own for must show in runs that it was not learned from."""
+    return [[s.sliding if s is own else np.zeros_like(s.sliding) for s in balances] for own in balances]
+
+
 def compared(
     plain: JointModel,
     richer: JointModel,
@@ -61,6 +67,7 @@ def _error(
     """Return the sum of squares on a part, of a model fitted without it."""
     kept = [s.sliding & ~out for s, out in zip(balances, part, strict=True)]
     fitted = fit(model, balances, nuisances, noise=noise, masks=kept, evaluations=EVALUATIONS).model
+    fitted = with_phases(fitted, [s for s, mask in zip(balances, kept, strict=True) if not mask.any()])
     rest = [fitted.remainder(s, nuisances)[out] for s, out in zip(balances, part, strict=True)]
     return float(np.sum(np.concatenate(rest) ** 2))
 

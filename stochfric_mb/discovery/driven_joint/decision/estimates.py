@@ -13,7 +13,6 @@ from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.inference.free_parameter import FreeParameter
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Interval
-from stochfric_mb.effects.traits import WAVES
 
 LEAST_WAVE = 1.0e-3
 """Shortest wavelength that is tried, over the fitted one [-]: there is none of length 0."""
@@ -42,7 +41,8 @@ def parameters(place: PlaceOutcome, owner: int) -> dict[str, Interval]:
     for field in dataclasses.fields(effect):
         unit = unit_at(str(field.metadata.get("unit", "-")), place.fit[0].unit)
         value = getattr(effect, field.name)
-        if not isinstance(value, int | float) or not np.isfinite(value):
+        own = any((kind, name) == (effect.kind, field.name) for kind, _, name in fit.model.own)
+        if own or not isinstance(value, int | float) or not np.isfinite(value):
             continue
         deviation = fit.deviation(owner, field.name)
         if deviation < 1.0e-6 * abs(value):  # not known that well: nothing in these data depends on it
@@ -52,7 +52,7 @@ def parameters(place: PlaceOutcome, owner: int) -> dict[str, Interval]:
         elif value != field.default:
             found[field.name] = Interval(value, value, value, unit)
     # the numbers of a wave trade off against each other where it is longer than the stroke
-    if WAVES in effect.traits and found["amplitude"].low <= 0.0 <= found["amplitude"].high:
+    if hasattr(effect, "wavelength") and "amplitude" in found and found["amplitude"].low <= 0.0 <= found["amplitude"].high:
         found |= _profiled(place, owner, found)
     return found
 

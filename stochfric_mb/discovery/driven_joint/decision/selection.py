@@ -11,12 +11,13 @@ from scipy.stats import f as fisher
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.decision.candidates import COMPETITORS, Candidate, Competitor, candidates, span_of
-from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, strokes
+from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of, whitened
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.free_parameters import MOST_OFF
 from stochfric_mb.discovery.driven_joint.fit.gains import predicted_rms
 from stochfric_mb.discovery.driven_joint.fit.joint_model import STEP, JointModel, change_of
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import Start, tried, wave_starts
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM
 from stochfric_mb.discovery.inference.paired import Paired
 
@@ -26,6 +27,9 @@ NAMED = 20.0
 """Score above which an effect is named."""
 MATERIAL = 0.05
 """Least share of the error on left-out blocks that an effect must take away: less is real, perhaps, but no explanation."""
+MATERIAL_PHASED = 0.15
+"""The same, on runs left out, for a wave whose phase is taken from each run: motion that is periodic itself, seen through an
+effect of another form, leaves waves that runs share by accident. Chosen: forces of the tests take away 0.5 and more."""
 PLAIN = 0.1
 """The same for a competitor without a name: that something is missing is said where it is plain to see."""
 BETTER = 0.5
@@ -35,6 +39,8 @@ CHANCE = 0.05
 the axes that were tried counted, and where each half of the record foretells the other better with it."""
 FEWEST_STROKES = 8
 """Fewest strokes that can."""
+SETTLINGS, SETTLED = 3, 0.8
+"""Most refits in which beliefs weigh less, and the part of their weight from which one is worth it [-]."""
 TIE = 10.0
 """Difference of scores within which effects cannot be distinguished."""
 ALIKE = 0.5
@@ -161,7 +167,8 @@ class Selector:
             if not stage.accepted:
                 break
             found.append(stage.trials[0])
-            current = stage.trials[0].fit
+            self._noise = prior_weight(stage.trials[0].fit)
+            current = self._fit(stage.trials[0].fit.model)
             self._noise = prior_weight(current)
             current, found = self._re_examined(current, found)
         final, found = self._without_zero(self._fit(current.model), found)
@@ -220,12 +227,17 @@ class Selector:
         fits: list[tuple[Candidate, JointFit]] = []
         for candidate in candidates(span, current.model.effects):
             self._tell(candidate.kind)
-            fits.append((candidate, self._best(current, candidate)))
+            fitted = self._best(current, candidate)
+            fits += [(candidate, fitted)] if fitted is not None else []
         trials = self._scored(current, fits)
         rivals = self._competitors(current, trials[0].fit)
         models = current.model, trials[0].fit.model
-        inside = compared(*models, self._balances, self._nuisances, self._noise, blocks(self._balances))
-        enough = trials[0].score > NAMED and inside.rms_gain > MATERIAL and inside.share_better >= BETTER
+        phased = len(models[1].own) > len(models[0].own) and len(self._balances) > 1
+        parts = each_run(self._balances) if phased else blocks(self._balances)
+        noise = min(self._noise, prior_weight(trials[0].fit))
+        inside = compared(*models, self._balances, self._nuisances, noise, parts)
+        better = inside.share_better > BETTER if phased else inside.share_better >= BETTER
+        enough = trials[0].score > NAMED and inside.rms_gain > (MATERIAL_PHASED if phased else MATERIAL) and better
         repeats = None
         if not enough and len(parts := strokes(self._balances)) >= FEWEST_STROKES:
             repeats = compared(*models, self._balances, self._nuisances, self._noise, parts)
@@ -240,20 +252,36 @@ class Selector:
         seen = [compared(plain, richer, self._balances, self._nuisances, self._noise, [half]) for half in halves]
         return min(s.rms_gain for s in seen) > MATERIAL
 
-    def _best(self, current: JointFit, candidate: Candidate) -> JointFit:
-        starts = sorted(candidate.starts, key=lambda e: predicted_rms(current.model, e, self._balances, current))
-        fits = [self._fit(current.model.plus(e)) for e in starts[:2]]
-        return min(fits, key=lambda f: f.rms)
+    def _best(self, current: JointFit, candidate: Candidate) -> JointFit | None:
+        """Return the best fit with a candidate; None: nothing is left that a wave of it would explain."""
+        starts = [Start(e) for e in candidate.starts]
+        if len(starts) > 2:
+            starts.sort(key=lambda s: predicted_rms(current.model, s.effect, self._balances, current))
+        waves = wave_starts(candidate.scan, current, self._balances) if candidate.scan is not None else []
+        fits = [self._fit(s.added_to(current.model)) for s in (*starts[:2], *waves)]
+        return self._settled(min(fits, key=lambda f: f.rms)) if fits else None
+
+    def _settled(self, fitted: JointFit) -> JointFit:
+        """Return a fit in which beliefs count as much as one independent window of what it leaves itself."""
+        noise = self._noise
+        for _ in range(SETTLINGS):
+            if prior_weight(fitted) > SETTLED * noise:
+                break
+            noise = prior_weight(fitted)
+            fitted = fit(fitted.model, self._balances, self._nuisances, noise=noise)
+        return fitted
 
     def _scored(self, current: JointFit, fits: Sequence[tuple[Candidate, JointFit]]) -> list[Trial]:
         # all are judged by the same count of independent windows: that of the best fit
         best = min((f for _, f in fits), key=lambda f: f.rms)
         n = max(best.independent, 4.0)
         trials = [self._trial(current, c, f, best, n, len(fits)) for c, f in fits]
-        return sorted(trials, key=lambda t: -t.score)
+        return simplest_first(sorted(trials, key=lambda t: -t.score))
 
     def _trial(self, current: JointFit, candidate: Candidate, fitted: JointFit, best: JointFit, n: float, kinds: int) -> Trial:
-        p, grid = candidate.parameters, len(candidate.starts) * kinds
+        waves = tried(candidate.scan, self._balances) if candidate.scan is not None else 0.0
+        p, grid = candidate.parameters, (len(candidate.starts) + waves) * kinds
+        p += max(len(fitted.model.own) - len(current.model.own) - 1, 0)
         ratio = max((current.rms / fitted.rms) ** 2, 1.0)
         score = self._evidence(current, fitted, best, n) - p * np.log(n) - 2.0 * np.log(grid)
         spare = max(n - len(fitted.free), 1.0)
@@ -337,7 +365,7 @@ class Selector:
         without = self._fit(dataclasses.replace(final.model, effects=others))
         span = span_of(self._balances, without.model.law.mu_k * without.model.load, without.model.load)
         choices = [c for c in candidates(span, others) if c.kind != own.kind]
-        fits = [(c, self._best(without, c)) for c in choices]
+        fits = [(c, f) for c in choices if (f := self._best(without, c)) is not None]
         n = max(final.independent, 4.0)
         mine = self._evidence(without, final, final, n)
         theirs = [(c, self._evidence(without, f, final, n)) for c, f in fits]
@@ -383,6 +411,18 @@ class Selector:
                 error = float(np.sum(left**2))
                 before, after = (before + error, after) if plain else (before, after + error)
         return 1.0 - float(np.sqrt(after / before))
+
+
+def simplest_first(trials: list[Trial]) -> list[Trial]:
+    """Return trials, best first, with the one of fewest numbers in front among those that cannot be told from the best.
+
+    A wave far longer than the stroke is a constant force with three numbers.
+    """
+    tied = [t for t in trials if t.score > max(trials[0].score - TIE, 0.0)]
+    if not tied:
+        return trials
+    first = min(tied, key=lambda t: (t.candidate.parameters, -t.score))
+    return [first, *(t for t in trials if t is not first)]
 
 
 def explained(rest: Array, design: Array, b: Array, slopes: Array) -> Array:

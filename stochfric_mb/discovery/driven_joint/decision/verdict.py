@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_clock, confounded, spoken_of, stand_ins
+from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.carry_over import lacks
 from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, believed, parameters
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
@@ -18,8 +19,8 @@ from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
-from stochfric_mb.effects import effect_kinds, kind_found_as, kinds_with, words_of
-from stochfric_mb.effects.traits import ANONYMOUS, BELT, DRAWN_ANEW, LATE, MORE_DAMPING
+from stochfric_mb.effects import Effect, effect_kinds, kind_found_as, kinds_with, words_of
+from stochfric_mb.effects.traits import ANONYMOUS, BELT, DRAWN_ANEW, LATE, MORE_DAMPING, REPEATED_READING, STRAY
 from stochfric_mb.measurement.dataset import Dataset
 
 IMITATED = 0.99
@@ -33,7 +34,14 @@ PLAIN = 14.0
 """Fall of the deviance from which a scatter between settings is spoken of."""
 
 
-def verdict(dataset: Dataset, places: Sequence[PlaceOutcome], notes: Sequence[str], loop_floor: float | None) -> Result:
+def verdict(
+    dataset: Dataset,
+    places: Sequence[PlaceOutcome],
+    notes: Sequence[str],
+    loop_floor: float | None,
+    readings: Sequence[Effect] = (),
+    channel: tuple[str, Timing] | None = None,
+) -> Result:
     """Return the result of a dataset."""
     pairs = confounded(places[0].fit)
     effects: list[Found] = []
@@ -42,6 +50,7 @@ def verdict(dataset: Dataset, places: Sequence[PlaceOutcome], notes: Sequence[st
     gap = _gap(places, loop_floor)
     if places[0].idle:
         effects = [e for e in effects if e.kind == kind_found_as(LATE)]
+    effects = _late_column(channel) + effects + [_reading(e) for e in readings]
     lacking = (p for p in places if p.selected.unknown or p.unnamed is not None or lacks(dataset, p))
     unknown = None if effects else next(lacking, None)
     kind = "effect" if effects else "unknown" if unknown is not None else "none"
@@ -70,6 +79,28 @@ def verdict(dataset: Dataset, places: Sequence[PlaceOutcome], notes: Sequence[st
         unnamed=_unnamed(nameless) if nameless is not None else None,
         details=_details(places, pairs),
     )
+
+
+def _late_column(channel: tuple[str, Timing] | None) -> list[Found]:
+    """Return the finding that one column comes late, if it is one."""
+    if channel is None:
+        return []
+    name, timing = channel
+    size = Interval(abs(timing.seconds), min(abs(timing.low), abs(timing.high)), max(abs(timing.low), abs(timing.high)), "s")
+    how = "late" if timing.seconds > 0.0 else "early"
+    text = (
+        f"The column {name} alone comes {1e3 * size.value:.1f} ms {how} in the record; it is moved before friction is judged."
+    )
+    return [Found(kind_found_as(LATE), (), Where("time", text), {"delay": size}, timing.score, None)]
+
+
+def _reading(effect: Effect) -> Found:
+    """Return the finding that readings are wrong, which have been replaced before anything else was asked."""
+    axis, how = effect.appears()
+    numbers = {f.name: float(getattr(effect, f.name)) for f in dataclasses.fields(effect)}
+    about = {name: Interval(value, value, value, effect.unit_of(name)) for name, value in numbers.items()}
+    text = f"{how[0].upper()}{how[1:]}; they are replaced by a curve through the readings around them."
+    return Found(effect.kind, (), Where(axis, text), about, None, None)
 
 
 def _unnamed(place: PlaceOutcome) -> Found:
@@ -237,7 +268,8 @@ def _imitated(place: PlaceOutcome) -> list[str]:
 
 def _unseen(places: Sequence[PlaceOutcome]) -> tuple[str, ...]:
     seen = {t.candidate.kind for p in places for s in p.selected.stages for t in s.trials}
-    seen |= {e.kind for p in places for e in p.believed.effects} | {kind_found_as(LATE)}
+    seen |= {e.kind for p in places for e in p.believed.effects}
+    seen |= {kind_found_as(finding) for finding in (LATE, STRAY, REPEATED_READING)}
     seen |= {kind_found_as(DRAWN_ANEW)} if any(p.random is not None or p.runs is not None for p in places) else set()
     seen -= {kind for p in places for kind in _imitated(p)}
     return tuple(k for k in effect_kinds() if k not in seen and k not in (*kinds_with(BELT), *kinds_with(ANONYMOUS)))

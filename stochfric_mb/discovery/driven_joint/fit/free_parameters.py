@@ -47,8 +47,11 @@ def free_parameters(
     for i, effect in enumerate(model.effects):
         for field in dataclasses.fields(effect):
             value = getattr(effect, field.name)
-            if (i, field.name) not in fixed and isinstance(value, int | float) and _fitted(model, effect, field.name, value):
-                free.append(_parameter(model, i, field.name, float(value), field.metadata))
+            if (i, field.name) in fixed or not isinstance(value, int | float) or not _fitted(model, effect, field.name, value):
+                continue
+            one = _parameter(model, i, field.name, float(value), field.metadata)
+            runs = [(run, x) for (kind, run, name), x in model.own.items() if (kind, name) == (effect.kind, field.name)]
+            free += [dataclasses.replace(one, run=run, value=x) for run, x in runs] or [one]
     return free + [_believed(model, n) for n in nuisances]
 
 
@@ -81,15 +84,18 @@ def adjusted(model: JointModel, free: Sequence[FreeParameter], values: Array) ->
     law: dict[str, float] = {}
     nuisances = dict(model.nuisances)
     changes: list[dict[str, float]] = [{} for _ in model.effects]
+    own = dict(model.own)
     for one, raw in zip(free, values, strict=True):
         value = one.inside(raw)
         if one.owner == MECHANISM:
             nuisances[one.name] = value
         elif one.owner == LAW:
             law[one.name] = value
+        elif one.run:
+            own[model.effects[one.owner].kind, one.run, one.name] = value
         else:
             changes[one.owner][one.name] = value
     # while a joint slides mu_s plays no part: it keeps its ratio to mu_k
     law["mu_s"] = max(law.get("mu_s", law["mu_k"] * model.law.mu_s / model.law.mu_k), law["mu_k"])
     effects = tuple(dataclasses.replace(e, **c) if c else e for e, c in zip(model.effects, changes, strict=True))
-    return dataclasses.replace(model, law=dataclasses.replace(model.law, **law), effects=effects, nuisances=nuisances)
+    return dataclasses.replace(model, law=dataclasses.replace(model.law, **law), effects=effects, nuisances=nuisances, own=own)

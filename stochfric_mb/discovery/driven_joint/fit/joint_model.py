@@ -21,6 +21,8 @@ from stochfric_mb.effects import Effect
 from stochfric_mb.laws import Law
 
 Array = npt.NDArray[np.float64]
+Own = tuple[str, str, str]
+"""Kind of an effect, name of a run, name of a parameter."""
 
 STEP = 1.0e-3
 """Step of the load by which the change of friction with it is taken, over the mean load [-]."""
@@ -44,10 +46,20 @@ class JointModel:
     """Whether the place is a contact, whose normal force is known along the motion."""
     level: tuple[float, float] = (0.0, np.inf)
     """mu_k as believed, and the standard deviation of that belief; inf: nothing is believed [-]."""
+    own: Mapping[Own, float] = dataclasses.field(default_factory=dict[Own, float])
+    """Kind of an effect, run, parameter -> its value in that run: phases of what is periodic in time."""
 
-    def plus(self, *effects: Effect) -> JointModel:
-        """Return the model with further effects."""
-        return dataclasses.replace(self, effects=(*self.effects, *effects))
+    def plus(self, *effects: Effect, own: Mapping[Own, float] | None = None) -> JointModel:
+        """Return the model with further effects, and what of them is each run's own."""
+        return dataclasses.replace(self, effects=(*self.effects, *effects), own=dict(self.own) | dict(own or {}))
+
+    def effects_in(self, run: str) -> tuple[Effect, ...]:
+        """Return the effects as they are in a run."""
+        if not self.own:
+            return self.effects
+        mine = {(kind, name): value for (kind, at, name), value in self.own.items() if at == run}
+        changes = [{name: value for (kind, name), value in mine.items() if kind == e.kind} for e in self.effects]
+        return tuple(dataclasses.replace(e, **c) if c else e for e, c in zip(self.effects, changes, strict=True))
 
     def remainder(self, balance: ForceBalance, nuisances: Sequence[Nuisance]) -> Array:
         """Return what the model leaves of the drive, in units of the drive [N or N m], shape (n_centres,)."""
@@ -65,7 +77,7 @@ class JointModel:
 
     def friction(self, balance: ForceBalance) -> Array:
         """Return the friction against the motion at the centres of windows [N or N m], shape (n_centres,)."""
-        return friction_along(balance, self.law, self.effects, self.load)
+        return friction_along(balance, self.law, self.effects_in(balance.run), self.load)
 
     def _friction_by_drive(self, balance: ForceBalance, load_by_drive: Array, friction: Array) -> Array:
         """Return the change of friction with the driving force [-], shape (n_centres,)."""

@@ -29,7 +29,6 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import (
     slipped,
 )
 from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, chosen_window, narrowest
-from stochfric_mb.discovery.driven_joint.fit.friction_along import friction_along
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import by_mass, effective_inertia, inverse
 from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import over_samples
@@ -220,7 +219,7 @@ class MjcfSource(Rig):
                 model = self.known.get(name, JointModel(self.dataset.scenario.law, (), {}, load))
                 least = self._least(run, name, window, path)
                 balance = _motion(run, window, path, least)
-                force = friction_along(balance, model.law, model.effects, model.load)
+                force = model.friction(balance)
                 taken += force[:, None] * path.direction
         return taken
 

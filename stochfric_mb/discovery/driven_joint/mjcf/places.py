@@ -43,7 +43,7 @@ class LossPlace:
     """Friction in one joint or tendon while the model runs: what is available there is MuJoCo's ``frictionloss``."""
 
     def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> None:
-        self._source, self.name, self._links = source, name, chain(model.law, model.effects, load)
+        self._source, self.name, self._links = source, name, chain(model.law, model.effects_in(run.name), load)
         self._joint = name in source.names
         self._number = (source.names if self._joint else source.tendons).index(name)
         self._world, self._memory = np.zeros(WORLD), np.zeros(8)
@@ -93,7 +93,7 @@ class PairPlace:
 
     def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> None:
         self._source, self.name, self._load = source, name, load
-        self._links = chain(model.law, model.effects, load, contact=True)
+        self._links = chain(model.law, model.effects_in(run.name), load, contact=True)
         self._more = model.law.mu_s / model.law.mu_k
         self._world, self._memory = np.zeros(WORLD), np.zeros(8)
         self._travelled = source.travelled(run, name)

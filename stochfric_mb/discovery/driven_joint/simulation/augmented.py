@@ -10,7 +10,7 @@ import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
-from stochfric_mb.effects import kind_found_as, make_effect
+from stochfric_mb.effects import Effect, kind_found_as, make_effect
 from stochfric_mb.effects.traits import DRAWN_ANEW, LATE
 from stochfric_mb.mechanisms import Mjcf
 from stochfric_mb.scenario import Scenario
@@ -30,10 +30,12 @@ def believed_delay(scenario: Scenario[Any]) -> float:
     return sum(e.late for e in scenario.effects)
 
 
-def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], found: Timing | None) -> Scenario[Any]:
+def augmented(
+    scenario: Scenario[Any], places: Sequence[PlaceOutcome], found: Timing | None, readings: Sequence[Effect] = ()
+) -> Scenario[Any]:
     """Return the scenario with what was found; of several joints, the first one's effects, in that joint."""
     model = places[0].selected.final.model
-    effects = list(model.effects)
+    effects = list(model.effects_in(places[0].fit[0].run))
     drawn = _drawn(places[0])
     effects += [
         e for e in scenario.effects if e.group in BESIDE and LATE not in e.found_as and not (drawn and DRAWN_ANEW in e.found_as)
@@ -49,7 +51,7 @@ def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], found: Ti
         scenario,
         mechanism=_corrected(scenario.mechanism, places),
         law=model.law,
-        effects=tuple(effects),
+        effects=(*effects, *readings),
         title=f"{scenario.title}, augmented by discovery",
     )
 

@@ -51,7 +51,7 @@ def closed_loop(
     value = {
         name: model.nuisances.get(name, float(getattr(joint, name))) for name in ("mass", "damping", "offset", "force_gain")
     }
-    links = chain(model.law, model.effects, model.load)
+    links = chain(model.law, model.effects_in(run.name), model.load)
     plant = np.array([value["mass"], value["damping"], value["offset"], value["force_gain"] if joint.force_gain else 1.0])
     loop = np.array([controller.position_gain, controller.velocity_gain, controller.limit])
     start = float(np.polyfit(np.arange(FIRST), q[:FIRST], 2)[2])

@@ -9,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.fit.friction_along import friction_along
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 
 Array = npt.NDArray[np.float64]
@@ -30,9 +29,7 @@ def friction_picture(
     speed = np.concatenate([s.velocity[c] for s, c in zip(balances, at, strict=True)])
     time = np.concatenate([s.time[c] for s, c in zip(balances, at, strict=True)])
     models = {"recalibrated": recalibrated, "augmented": augmented}
-    along = {
-        n: np.concatenate([friction_along(s, m.law, m.effects, m.load)[s.sliding] for s in balances]) for n, m in models.items()
-    }
+    along = {n: np.concatenate([m.friction(s)[s.sliding] for s in balances]) for n, m in models.items()}
     rest = {n: np.concatenate([m.remainder(s, nuisances)[s.sliding] for s in balances]) for n, m in models.items()}
     data = along["augmented"] + rest["augmented"]
     some = np.unique(np.linspace(0, len(speed) - 1, min(MOST, len(speed))).round().astype(int))

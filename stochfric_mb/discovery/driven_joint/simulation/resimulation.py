@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.simulation.scores import loop_floor
 from stochfric_mb.measurement.dataset import Dataset
@@ -48,7 +49,7 @@ def simulated(
     stages: dict[str, tuple[Models, float]] = {
         "baseline": ({n: p.believed for n, p in names.items()}, base),
         "recalibrated": ({n: p.undelayed or p.selected.recalibrated.model for n, p in names.items()}, base if early else delay),
-        "augmented": ({n: p.selected.final.model for n, p in names.items()}, delay),
+        "augmented": ({n: with_phases(p.selected.final.model, p.test) for n, p in names.items()}, delay),
     }
     scores = dict(places[0].scores)
     for label, (models, late) in stages.items():

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
 from stochfric_mb.discovery.driven_joint.simulation.closed_loop import closed_loop, controller_output
 from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.measurement.run import Run
@@ -47,6 +48,7 @@ def score(
     model: JointModel, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance], runs: Sequence[Run], scenario: Scenario
 ) -> Score:
     """Return the errors of ``model`` on ``balances``, which belong to ``runs``."""
+    model = with_phases(model, balances)
     rest = [model.remainder(s, nuisances) for s in balances]
     sliding = np.concatenate([r[s.sliding] for r, s in zip(rest, balances, strict=True)])
     return Score(_rms(sliding), _rms(np.concatenate(rest)), loop_error(model, runs, scenario, [s.before for s in balances]))
@@ -90,6 +92,7 @@ def noise_floor(model: JointModel, balances: Sequence[ForceBalance], nuisances: 
     What friction leaves changes slowly from one window to the next, noise does not (von Neumann 1941).
     """
     parts: list[Array] = []
+    model = with_phases(model, balances)
     for s in balances:
         r = model.remainder(s, nuisances)
         inside = s.sliding[: -2 * APART] & s.sliding[APART:-APART] & s.sliding[2 * APART :]

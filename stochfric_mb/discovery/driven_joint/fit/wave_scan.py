@@ -1,0 +1,145 @@
+"""From where fits of waves begin: the wave numbers at which a cosine and a sine explain most of what a fit leaves.
+
+Beside them the numbers that are fitted already may move: the columns of the fit are projected out. It is the periodogram of
+Lomb and Scargle for windows that are not evenly spaced, with all that is fitted as further columns.
+
+Reference: J. D. Scargle, Astrophys. J. 263, 1982, 835-853, doi 10.1086/160554.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
+from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel, Own
+from stochfric_mb.effects import Effect
+from stochfric_mb.effects.contract import Scan
+
+Array = npt.NDArray[np.float64]
+
+FINE = 4.0
+"""Wave numbers that are tried within 1/length, by which a peak is known [-]: at the middle between two, a wave loses 3 %."""
+BEST = 2
+"""Peaks from which fits begin."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Start:
+    """Where a fit begins: an effect, and what of it each run has for itself."""
+
+    effect: Effect
+    """The effect."""
+    own: Mapping[Own, float] = dataclasses.field(default_factory=dict[Own, float])
+    """Its phases in the runs, where each has one of its own."""
+
+    def added_to(self, model: JointModel) -> JointModel:
+        """Return the model with it."""
+        return model.plus(self.effect, own=self.own)
+
+
+def tried(scan: Scan, balances: Sequence[ForceBalance]) -> float:
+    """Return how many waves can be told apart in the range of a scan [-]."""
+    return max((scan.high - scan.low) * _length(scan, balances), 1.0)
+
+
+def wave_starts(scan: Scan, current: JointFit, balances: Sequence[ForceBalance]) -> list[Start]:
+    """Return the waves that would explain most of what a fit leaves, best first."""
+    step = 1.0 / (FINE * _length(scan, balances))
+    numbers = np.arange(scan.low, scan.high, step)
+    if len(numbers) < 2:
+        return []
+    own = scan.begin(float(numbers[0]), 1.0, 0.0).own_to_run
+    basis = np.linalg.svd(
+        current.jacobian / np.maximum(np.linalg.norm(current.jacobian, axis=0), 1.0e-300), full_matrices=False
+    )[0]
+    ends = np.cumsum([len(r) for r in current.remainders])[:-1]
+    parts = zip(balances, current.remainders, np.split(basis, ends), strict=True)
+    sums = np.array([_sums(scan, s, r, q, numbers) for s, r, q in parts])
+    sums = sums if own else sums.sum(axis=0, keepdims=True)
+    a, b, gain = _solved(sums)
+    starts: list[Start] = []
+    power = gain.sum(axis=0)
+    while len(starts) < BEST and power.max() > 0.0:
+        i = int(np.argmax(power))
+        power[max(i - int(2.0 * FINE), 0) : i + int(2.0 * FINE) + 1] = 0.0
+        each = [scan.begin(float(numbers[i]), float(x), float(y)) for x, y in zip(a[:, i], b[:, i], strict=True)]
+        if not own:
+            starts.append(Start(each[0]))
+            continue
+        size = float(np.sqrt(np.mean(a[:, i] ** 2 + b[:, i] ** 2)))
+        first = scan.begin(float(numbers[i]), size, 0.0)
+        phases = {
+            (first.kind, s.run, n): float(getattr(e, n))
+            for s, e in zip(balances, each, strict=True)
+            for n in own
+            if hasattr(e, n)
+        }
+        starts.append(Start(dataclasses.replace(first, **{n: getattr(each[0], n) for n in own}), phases))
+    return starts
+
+
+def with_phases(model: JointModel, balances: Sequence[ForceBalance]) -> JointModel:
+    """Return the model with the phases that waves in time have in further runs, in which all else of them is known.
+
+    Where in its period a force is when a record begins no model can say; it is taken from the record itself.
+    """
+    own = dict(model.own)
+    for effect in model.effects:
+        for name in {n for kind, _, n in model.own if kind == effect.kind}:
+            others = tuple(e for e in model.effects if e is not effect)
+            for balance in balances:
+                parts = [dataclasses.replace(effect, **{name: x}) for x in (0.0, 0.5 * np.pi)]
+                plain = dataclasses.replace(model, effects=others).remainder(balance, ())
+                columns = [
+                    plain - dataclasses.replace(model, effects=(*others, p), own={}).remainder(balance, ()) for p in parts
+                ]
+                design = np.column_stack([np.ones(len(plain)), *columns])[balance.sliding]
+                b = np.linalg.lstsq(design, plain[balance.sliding], rcond=1.0e-10)[0]
+                own[effect.kind, balance.run, name] = float(np.arctan2(b[2], b[1]))
+    return dataclasses.replace(model, own=own)
+
+
+def _length(scan: Scan, balances: Sequence[ForceBalance]) -> float:
+    values = [_along(scan, s) for s in balances]
+    if scan.axis == "time":
+        return max(float(np.ptp(v)) for v in values)
+    return max(float(max(v.max() for v in values) - min(v.min() for v in values)), 1.0e-300)
+
+
+def _along(scan: Scan, balance: ForceBalance) -> Array:
+    signal = balance.time if scan.axis == "time" else balance.position
+    return signal[balance.window.centres][balance.sliding]
+
+
+def _sums(scan: Scan, balance: ForceBalance, rest: Array, basis: Array, numbers: Array) -> Array:
+    """Return the sums of squares and products of cosine, sine and rest, shape (5, n_numbers)."""
+    side = np.sign(balance.velocity[balance.window.centres][balance.sliding]) if scan.signed else np.ones(len(rest))
+    angle = 2.0 * np.pi * np.outer(_along(scan, balance), numbers)
+    c, s = side[:, None] * np.cos(angle), side[:, None] * np.sin(angle)
+    known_c, known_s = basis.T @ c, basis.T @ s
+    return np.stack([
+        np.sum(c * c, axis=0) - np.sum(known_c * known_c, axis=0),
+        np.sum(s * s, axis=0) - np.sum(known_s * known_s, axis=0),
+        np.sum(c * s, axis=0) - np.sum(known_c * known_s, axis=0),
+        c.T @ rest,
+        s.T @ rest,
+    ])  # fmt: skip
+
+
+def _solved(sums: Array) -> tuple[Array, Array, Array]:
+    """Return a, b and the fall of the sum of squares, shape (n_groups, n_numbers) each."""
+    cc, ss, cs, cr, sr = np.moveaxis(sums, 1, 0)
+    determinant = cc * ss - cs**2
+    good = determinant > LEAST * np.maximum(cc, ss).max() ** 2
+    safe = np.where(good, determinant, 1.0)
+    a, b = np.where(good, (ss * cr - cs * sr) / safe, 0.0), np.where(good, (cc * sr - cs * cr) / safe, 0.0)
+    return a, b, a * cr + b * sr
+
+
+LEAST = 1.0e-4
+"""Determinant of cosine and sine over that of independent ones, below which what is fitted already imitates a wave [-]."""

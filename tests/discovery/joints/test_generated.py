@@ -1,0 +1,32 @@
+"""Cases of the joint generator that stood for a group of misses, named now."""
+
+import pytest
+
+from stochfric_mb.discovery.driven_joint.joint_workflow import joint_outcome
+from stochfric_mb.measurement import load_dataset
+from tests.discovery.joint_generator.case import Case, write
+
+pytestmark = pytest.mark.slow
+
+CASES = [
+    ("harmonic_force.rotating_unbalance", "slide", 0.5, ["harmonic_force"]),
+    ("harmonic_force.floor_vibration", "arm", 1.0, ["harmonic_force"]),
+    ("sensor_delay.one_late_encoder", "arm", 1.0, ["sensor_delay"]),
+    ("stale_samples.repeated", "slide", 0.5, ["stale_samples"]),
+    ("sensor_outliers.spikes", "mjcf_hinge", 1.0, ["sensor_outliers"]),
+    ("frictional_lag.slip_law", "slider", 1.0, ["frictional_lag"]),
+    ("viscous_friction.logarithmic", "slider", 0.5, ["viscous_friction"]),
+]
+"""Form, mechanism, strength, and what is named first."""
+
+
+def answered(form, design, strength, tmp_path):
+    write(Case(form, design, strength, 0), tmp_path / "set", tmp_path / "truth.json")
+    return joint_outcome(load_dataset(tmp_path / "set")).result
+
+
+@pytest.mark.parametrize(("form", "design", "strength", "kinds"), CASES)
+def test_what_was_a_delay_a_scatter_or_nothing_has_its_name(form, design, strength, kinds, tmp_path):
+    result = answered(form, design, strength, tmp_path)
+    assert [e.kind for e in result.effects] == kinds
+    assert all(e.p_value is None or 0.0 <= e.p_value <= 1.0 for e in result.effects)

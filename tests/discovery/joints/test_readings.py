@@ -1,0 +1,49 @@
+"""Repeated and stray positions are found, replaced, and told from encoders that are coarse or rest."""
+
+import numpy as np
+
+from stochfric_mb.discovery.driven_joint.balance.readings import repeated, stray, without
+
+RATE, NOISE = 1000.0, 1.0e-5
+
+
+def motion(seed=0):
+    """Strokes of 0.1 m at 1 Hz with white noise: position [m] at 1 kHz."""
+    t = np.arange(6000) / RATE
+    return 0.1 * np.sin(2.0 * np.pi * t) + NOISE * np.random.default_rng(seed).standard_normal(t.size)
+
+
+def test_telegrams_that_are_dropped_are_found_and_the_motion_between_them_is_known_again():
+    x = motion()
+    stale = x.copy()
+    begins = range(100, 5900, 250)  # at all speeds, turning points among them
+    for begin in begins:
+        stale[begin : begin + 20] = stale[begin]
+    held = repeated(stale)
+    # where the joint turns round it misses less than four steps of 20 ms, which does no harm
+    fast = [b for b in begins if abs(np.cos(2.0 * np.pi * (b + 10) / RATE)) > 0.3]
+    assert {start - 1 for start, _ in held} >= set(fast)
+    assert all(end - start == 19 for start, end in held)
+    better = without(stale, held, np.zeros(len(x), dtype=bool))
+    missed = max(abs(stale[a:b] - x[a:b]).max() for a, b in held)
+    # cubics of 30 readings on each side: off by no more than some of the noise of one of them
+    assert max(abs(better[a:b] - x[a:b]).max() for a, b in held) < 6.0 * NOISE < 0.01 * missed
+
+
+def test_a_coarse_encoder_and_rest_repeat_nothing():
+    coarse = np.round(motion() / 2.0e-4) * 2.0e-4
+    resting = 0.1 + np.cumsum(1.0e-5 * (np.arange(6000) // 1500 % 2))
+    assert repeated(coarse) == []
+    assert repeated(np.round(resting, 6)) == []
+
+
+def test_stray_readings_are_found_and_no_turning_point_is_one():
+    x = motion()
+    assert not stray(x).any()
+    assert not stray(x - NOISE * np.random.default_rng(0).standard_normal(x.size)).any()
+    hit = np.arange(37, 5990, 491)
+    off = x.copy()
+    off[hit] += np.where(hit % 2 == 0, 2.0e-3, -1.0e-3)
+    seen = stray(off)
+    assert np.array_equal(np.flatnonzero(seen), hit)
+    assert abs(without(off, [], seen) - x)[hit].max() < 6.0 * NOISE
