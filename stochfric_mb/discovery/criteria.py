@@ -56,8 +56,8 @@ EXPLAINED, EXPLAINED_RANDOM = 0.65, 0.2
 """Share of the reducible error of the fit runs' forecasts that named effects must explain; the second one where random
 effects or a step between two slips, whose moment is not known well, are among them [-]."""
 EXPLAINED_AT_JOINTS = 0.7
-"""Share of the squared error above the noise, on the runs that were learned from, that names at joints must explain [-]: chosen
-between 0.77, load dependence in the measured O-ring seal, and 0.66, a drift in the place of a bearing that seizes."""
+"""Share of the squared error above the noise, on the fit runs, that one late position column of several must explain [-]:
+chosen between 0.77, load dependence in the measured O-ring seal, and 0.66, a drift in the place of a bearing that seizes."""
 NONE_MISSES = 0.5
 """Reducible error over the error itself above which "none" is no answer [-]: more is wrong with the forecasts than is right.
 Where nothing is missing, noise and declared scatter leave up to a third."""
