@@ -2,10 +2,8 @@
 
 Both are told by the record itself. A bus that drops telegrams repeats a position, to the last digit, while the joint moves on,
 and then jumps by what it has missed; an encoder without noise repeats positions too, but then moves on by one step. A stray
-reading is far from the median of its neighbours. Both are replaced by a smooth curve through the readings around them, so
+reading is far from a curve through its neighbours. Both are replaced by a smooth curve through the readings around them, so
 that they do not enter the noise of the balance, and are findings of their own.
-
-Reference: R. K. Pearson, IEEE Trans. Control Syst. Technol. 10, 2002, 55-63, doi 10.1109/87.974338 (Hampel's filter).
 """
 
 from __future__ import annotations
@@ -15,7 +13,6 @@ from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
-from scipy.ndimage import median_filter
 
 from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.effects import Effect, kind_found_as, make_effect
@@ -29,8 +26,8 @@ from stochfric_mb.numerics.robust import deviation
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-AROUND = 7
-"""Samples over which the median is taken: motion is nearly straight over so few."""
+FEW = 14
+"""Fewest samples of a run that is checked."""
 STRAY = 12.0
 """Standard deviations from which a reading is far off [-]: of normal noise one in 1e32, and noise that is not quite normal has
 some at 8."""
@@ -85,10 +82,11 @@ def mended(dataset: Dataset) -> tuple[Dataset, Readings]:
         run = given
         for name in _positions(dataset):
             values = run.channels.get(name, run.covariates.get(name))
-            if values is None or len(values) < 2 * AROUND or np.ptp(values) == 0.0:
+            if values is None or len(values) < FEW or np.ptp(values) == 0.0:
                 continue
             samples, duration = samples + len(values), duration + len(values) * run.sample_interval
-            held, off = repeated(values), stray(values)
+            held = repeated(values)
+            off = stray(without(values, held, np.zeros(len(values), dtype=bool)))
             stretches += [(end - start) * run.sample_interval for start, end in held]
             strays += int(off.sum())
             better = without(values, held, off)
@@ -129,18 +127,19 @@ def repeated(values: Array) -> list[tuple[int, int]]:
 
 
 def stray(values: Array) -> Mask:
-    """Return which readings are far off from the median of their neighbours."""
-    away = values - median_filter(values, AROUND, mode="nearest")
+    """Return which readings are far off from a cubic through the next two on each side: one pulls its neighbours along.
+
+    One that is off by A leaves A there and -2/3 A at both neighbours; a jump that stays, or an oscillation, does not.
+    """
+    away = values - np.convolve(values, np.array([-1.0, 4.0, 0.0, 4.0, -1.0]) / 6.0, mode="same")
+    away[:2] = away[-2:] = 0.0
     moved = np.abs(np.diff(values))
     step = float(np.min(moved[moved > 0.0], initial=0.0))
     level = max(deviation(away, about=0.0), white_noise(values), step, 1.0e-300)
-    # the median lags where the motion turns; a cubic through the next two readings on each side does not
-    among = np.convolve(values, np.array([-1.0, 4.0, 0.0, 4.0, -1.0]) / 6.0, mode="same")
-    off = (np.abs(away) > STRAY * level) & (np.abs(values - among) > STRAY * level)
-    off[:2] = off[-2:] = False
-    # a jump that stays, or an oscillation, has neighbours that are as far off
-    crowd = np.convolve(off.astype(np.float64), np.ones(AROUND), mode="same")
-    return off & (crowd <= 2.0)
+    alone = np.abs(away) > STRAY * level
+    for neighbour in (np.roll(away, 1), np.roll(away, -1)):
+        alone &= np.abs(neighbour + away / 1.5) < np.abs(away) / 3.0
+    return alone
 
 
 def without(values: Array, held: Sequence[tuple[int, int]], off: Mask) -> Array:
