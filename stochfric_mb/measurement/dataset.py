@@ -96,21 +96,19 @@ def _alone(path: Path, scenario: str | Path | Scenario[Any] | None) -> Dataset:
     if scenario is None:
         raise InputError(f"{path}: a measured file alone says nothing about the rig; give --scenario SCENARIO")
     model, source = _scenario(scenario)
-    whole = _checked(
-        assemble(RunEntry(file=path, name=path.stem), rotational=rotates(model)),
-        model,
-        "the scenario" if source is None else str(source),
-    )
-    start, end = float(whole.time[0]), float(whole.time[-1])
+    stated_in = "the scenario" if source is None else str(source)
+    pieces = [_checked(run, model, stated_in) for run in _pieces(RunEntry(file=path, name=path.stem), model)]
+    start, end = float(pieces[0].time[0]), float(pieces[-1].time[-1])
     cut = end - HELD_OUT * (end - start)
-    first = whole.between(start, cut, name=f"{path.stem} (first two thirds)", role="fit")
-    last = whole.between(cut, float("inf"), name=f"{path.stem} (last third)", role="test")
-    if last.time.size < MIN_SAMPLES:
+    first = [run.between(start, cut, name=f"{run.name} (first two thirds)", role="fit") for run in pieces]
+    last = [run.between(cut, float("inf"), name=f"{run.name} (last third)", role="test") for run in pieces]
+    runs = tuple(run for run in (*first, *last) if run.time.size >= MIN_SAMPLES)
+    if {run.role for run in runs} != {"fit", "test"}:
         raise InputError(
-            f"{path}: {last.time.size} samples in its last third, which is held out; at least {MIN_SAMPLES} are needed, record "
-            "longer"
+            f"{path}: {last[-1].time.size} samples in its last third, which is held out; at least {MIN_SAMPLES} are needed "
+            "there and before, without a gap: record longer"
         )
-    return Dataset(title=path.name, scenario_path=source, scenario=model, runs=(first, last))
+    return Dataset(title=path.name, scenario_path=source, scenario=model, runs=runs)
 
 
 def rotates(scenario: Scenario[Any]) -> bool | None:

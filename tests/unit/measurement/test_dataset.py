@@ -334,6 +334,15 @@ def test_a_gap_is_left_out_and_each_piece_is_a_run(rig):
         assert run.notes == ("samples are missing: 2 pieces between the gaps are runs of their own",)
 
 
+def test_the_pieces_of_a_file_alone_are_shared_out_by_time(rig):
+    time = np.arange(900) * 1e-3
+    kept = (time < 0.2) | (time > 0.25)
+    csv(rig / "run.csv", time__s=time[kept], position__m=np.sin(30.0 * time)[kept])
+    data = load_dataset(rig / "run.csv", "kang2015_table1")
+    spans = [(run.role, round(float(run.time[0]), 3), round(float(run.time[-1]), 3)) for run in data.runs]
+    assert spans == [("fit", 0.0, 0.199), ("fit", 0.251, 0.599), ("test", 0.6, 0.899)]
+
+
 # --- real files ------------------------------------------------------------------------------------------------------
 
 
