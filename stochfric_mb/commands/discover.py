@@ -56,7 +56,7 @@ def discover(dataset: str, scenario: str | None, out: str, dry_run: bool, force:
         try:
             outcome = library.discover(dataset, scenario=scenario, progress=shown.note)
         except InputError as error:
-            raise _with_records(dataset, scenario, target, error) from None
+            raise rehearsal.with_records(dataset, scenario, target, error) from None
         shown.note("drawing the report")
         with whole_folder(target, replace=force or refused_before) as folder:
             # the same data give the same bytes, wherever they are written to
@@ -64,22 +64,6 @@ def discover(dataset: str, scenario: str | None, out: str, dry_run: bool, force:
     answer(content)
     _show(content)
     say(f"{target / 'report.html'}")
-
-
-def _with_records(dataset: str, scenario: str | None, target: Path, error: InputError) -> InputError:
-    """Draw the raw records of data that are refused, if they can be read at all; return the error that says so."""
-    from stochfric_mb.commands.dry_run import MARKER as PAGE
-    from stochfric_mb.commands.dry_run import draw
-    from stochfric_mb.measurement import load_dataset
-    from stochfric_mb.outputs import whole_folder
-
-    try:
-        data = load_dataset(dataset, scenario)
-    except InputError:
-        return error
-    with whole_folder(target, replace=True) as folder:
-        draw(data, folder, (), str(error))
-    return InputError(f"{error} (the raw records are drawn in {target / PAGE})")
 
 
 def write(outcome: Outcome, folder: Path, command: str) -> dict[str, Any]:

@@ -28,7 +28,10 @@ def dry_run(dataset: str, scenario: str | None, out: str, *, force: bool) -> Non
 
     target = check_target(out, force=force, marker=MARKER)
     with claimed(target):
-        data = load_dataset(dataset, scenario)
+        try:
+            data = load_dataset(dataset, scenario)
+        except InputError as error:
+            raise with_records(dataset, scenario, target, error) from None
         runs, refused = _facts(data), _refusal(data)
         lines = [*(_line(run) for run in runs), *_plan(data, runs)]
         with whole_folder(target, replace=force) as folder:
@@ -39,6 +42,20 @@ def dry_run(dataset: str, scenario: str | None, out: str, *, force: bool) -> Non
     if refused:
         raise InputError(f"{refused} (the raw records are drawn in {target / MARKER})")
     say(str(target / MARKER))
+
+
+def with_records(dataset: str, scenario: str | None, target: Path, error: InputError) -> InputError:
+    """Draw the raw records of data that are refused, if they can be read at all; return the error that says so."""
+    from stochfric_mb.measurement import load_dataset
+    from stochfric_mb.outputs import whole_folder
+
+    try:
+        data = load_dataset(dataset, scenario, plausible=False)
+    except InputError:
+        return error
+    with whole_folder(target, replace=True) as folder:
+        draw(data, folder, (), str(error))
+    return InputError(f"{error} (the raw records are drawn in {target / MARKER})")
 
 
 def only_records(out: str) -> bool:

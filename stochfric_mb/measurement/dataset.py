@@ -50,13 +50,14 @@ class Dataset:
         return tuple(run for run in self.runs if run.role == "test")
 
 
-def load_dataset(path: str | Path, scenario: str | Path | Scenario[Any] | None = None) -> Dataset:
+def load_dataset(path: str | Path, scenario: str | Path | Scenario[Any] | None = None, *, plausible: bool = True) -> Dataset:
     """Return a dataset, read and checked.
 
     Args:
         path: a folder with ``dataset.toml``, that file, or one measured file alone: its last third is then held out.
         scenario: the present model, as a file, the name of a bundled scenario, or an object; it replaces the
             dataset's own, and is needed with a measured file.
+        plausible: refuse values that cannot be in the units stated; False reads them for a picture.
 
     Raises:
         InputError: something in it cannot be used; names the file, the key or line, the rule and the remedy.
@@ -69,10 +70,10 @@ def load_dataset(path: str | Path, scenario: str | Path | Scenario[Any] | None =
             raise InputError(f"{path.parent} is a folder without {FILE}; write one, or give a measured file and --scenario")
     if not path.exists():
         raise InputError(f"{path}: no such file; give a folder with {FILE}, or a measured file and --scenario")
-    return _described(path, scenario) if path.suffix.lower() == ".toml" else _alone(path, scenario)
+    return (_described if path.suffix.lower() == ".toml" else _alone)(path, scenario, plausible)
 
 
-def _described(path: Path, scenario: str | Path | Scenario[Any] | None) -> Dataset:
+def _described(path: Path, scenario: str | Path | Scenario[Any] | None, plausible: bool) -> Dataset:
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
@@ -85,19 +86,23 @@ def _described(path: Path, scenario: str | Path | Scenario[Any] | None) -> Datas
     for entry in entries:
         apply_settings(model, entry.settings, f"{path}: run {entry.name!r}")
     stated_in = "the scenario" if source is None else str(source)
-    runs = tuple(_checked(run, model, stated_in) for entry in entries for run in _pieces(entry, model))
+    runs = tuple(run for entry in entries for run in _pieces(entry, model))
+    if plausible:
+        runs = tuple(_checked(run, model, stated_in) for run in runs)
     dataset = Dataset(title=str(tables.get("title", "")), scenario_path=source, scenario=model, runs=runs)
     _require_roles(path, dataset)
     return dataset
 
 
-def _alone(path: Path, scenario: str | Path | Scenario[Any] | None) -> Dataset:
+def _alone(path: Path, scenario: str | Path | Scenario[Any] | None, plausible: bool) -> Dataset:
     """Return the dataset of one measured file: its last third is held out."""
     if scenario is None:
         raise InputError(f"{path}: a measured file alone says nothing about the rig; give --scenario SCENARIO")
     model, source = _scenario(scenario)
     stated_in = "the scenario" if source is None else str(source)
-    pieces = [_checked(run, model, stated_in) for run in _pieces(RunEntry(file=path, name=path.stem), model)]
+    pieces = _pieces(RunEntry(file=path, name=path.stem), model)
+    if plausible:
+        pieces = [_checked(run, model, stated_in) for run in pieces]
     start, end = float(pieces[0].time[0]), float(pieces[-1].time[-1])
     cut = end - HELD_OUT * (end - start)
     first = [run.between(start, cut, name=f"{run.name} (first two thirds)", role="fit") for run in pieces]

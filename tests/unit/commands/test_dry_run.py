@@ -57,6 +57,15 @@ def test_records_that_are_refused_are_drawn_all_the_same(tmp_path, motion):
     assert "samples a second" in (tmp_path / "raw" / "records.html").read_text()
 
 
+@pytest.mark.parametrize("words", [("--dry-run",), ()])
+def test_records_in_a_wrong_unit_are_drawn_all_the_same(tmp_path, motion, words):
+    file = _write(tmp_path / "run.csv", dataclasses.replace(motion, position=1e3 * motion.position))
+    done = invoke("discover", file, "--scenario", "kang2015_table1", *words, "--out", tmp_path / "raw")
+    assert done.exit_code == 2
+    assert "It is probably in mm" in " ".join(done.stderr.split())
+    assert (tmp_path / "raw" / "records.html").read_text().count("<svg ") == 2
+
+
 def test_a_discovery_that_refuses_records_draws_them(tmp_path, motion):
     file = _write(tmp_path / "run.csv", motion, step=40)
     for _ in range(2):  # drawn records are no result: the next try replaces them
@@ -90,7 +99,7 @@ def test_no_slips_are_seen_in_a_sine():
 
 def test_a_thinned_curve_keeps_every_peak():
     values = np.zeros(100_000)
-    values[[777, 50_001, 98_765]] = (3.0, -2.0, 5.0)
+    values[[777, 50_001, 99_999]] = (3.0, -2.0, 5.0)
     _, thin = _thinned(np.arange(100_000.0), values)
     assert thin.size == 2 * COLUMNS
     assert {3.0, -2.0, 5.0} <= set(thin)
@@ -123,7 +132,7 @@ output_step = 1.0e-3
         (
             "prismatic_joint",
             "mass = 95.0\nnormal_force = 932.0",
-            "Would search 11 kinds of effects",
+            "kinds of effects in 1 runs and score on 1, prismatic_joint",
             "has no force (it has position)",
         ),
         ("spring_slider", "stiffness = 2000.0", "Would search friction with memory", "neither friction_coefficient"),
