@@ -244,7 +244,7 @@ def _break_aways(result: EnsembleResult) -> Figure:
     number.set_axisbelow(True)
     number.bar(values, runs / len(counts), width=0.8, color="#0072b2", alpha=0.75)
     number.set(xlabel="break-aways in a run", ylabel="share of the runs")
-    number.xaxis.set_major_locator(MaxNLocator(integer=True))
+    number.xaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
     _values(first, result.first_break_away, "first break-away [s]")
     _values(mu, result.break_away_mu_s, "mean mu_s at break-away")
     _values(period, result.period, "mean period [s]")
