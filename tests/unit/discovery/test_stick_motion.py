@@ -59,3 +59,8 @@ def test_what_every_phase_repeats_is_taken_out_and_slow_noise_is_left_alone():
 def test_a_few_phases_tell_nothing():
     parts, times = phases(slow_noise(4e-6))
     assert without_wave(parts[:5], times[:5]) is None
+
+
+def test_a_record_too_short_for_two_slow_waves_is_left_alone():
+    parts, times = phases(slow_noise(4e-6))
+    assert without_wave(parts, [t / 100.0 for t in times]) is None

@@ -35,6 +35,8 @@ def without_wave(phases: Sequence[Array], times: Sequence[Array]) -> list[Array]
         return None
     duration = float(means[-1][0][-1] - means[0][0][0])
     grid = np.arange(2.0 / duration, FASTEST, 1.0 / (4.0 * duration))
+    if not grid.size:  # no wave as slow as that fits into the record twice
+        return None
     # Gram matrix of cosine and sine, and their products with the phases, at each frequency
     aa, bb, ab, ar, br = np.zeros((5, len(grid)))
     for t, p in means:
