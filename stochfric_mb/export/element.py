@@ -194,9 +194,9 @@ def _definitions(defines: dict[str, str], n_rules: int) -> str:
 # --- rules of the parameters ------------------------------------------------------------------------------------------------
 
 
-def _rules(result: Sequence[Group]) -> list[tuple[str, str, str]]:
+def _rules(groups: Sequence[Group]) -> list[tuple[str, str, str]]:
     """Return (prefix, condition, message) of each rule."""
-    return [(group.prefix, rule.broken, rule.message) for group in result for rule in group.rules]
+    return [(group.prefix, rule.broken, rule.message) for group in groups for rule in group.rules]
 
 
 def _rule_functions(rules: Sequence[tuple[str, str, str]], parameters: Sequence[Parameter]) -> str:

@@ -101,15 +101,15 @@ def gather(outcome: Outcome) -> Evidence | None:
         models["augmented"] = augmented
     windows = tuple(w for w in outcome.runs.second if len(w))
     calm = deterministic(augmented)
-    result = outcome.study
-    added = len(calm.effects) > len(result.model.effects)
+    study = outcome.study
+    added = len(calm.effects) > len(study.model.effects)
     return Evidence(
         windows=windows,
         cycles={name: _cycles(model, windows) for name, model in models.items()} if windows else {},
-        before=_left_over(result.pool, result),
-        after=_left_over(left_over(result.pool, calm), result) if added and outcome.result.verdict == "effect" else None,
+        before=_left_over(study.pool, study),
+        after=_left_over(left_over(study.pool, calm), study) if added and outcome.result.verdict == "effect" else None,
         events=_events(models, outcome.runs),
-        kinetic=float(result.solution.coefficients[1] * result.pool.normal_force[0]),
+        kinetic=float(study.solution.coefficients[1] * study.pool.normal_force[0]),
     )
 
 

@@ -230,6 +230,6 @@ def _with_transient(p: Portrait, wide: statistics.Estimate, alone: float) -> lis
     ]
 
 
-def _micro(name: str, label: str, result: statistics.Estimate, n: int, **more: str) -> Number:
-    scaled = statistics.Estimate(1e6 * result.value, 1e6 * result.low, 1e6 * result.high, result.confidence)
+def _micro(name: str, label: str, estimate: statistics.Estimate, n: int, **more: str) -> Number:
+    scaled = statistics.Estimate(1e6 * estimate.value, 1e6 * estimate.low, 1e6 * estimate.high, estimate.confidence)
     return of_estimate(name, label, scaled, unit="um", n=n, **more)

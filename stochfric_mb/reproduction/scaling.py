@@ -79,12 +79,12 @@ def measure(scenarios: Mapping[str, Scenario], settings: Settings, seed: int, ti
     return items
 
 
-def numbers(result: list[Scaling]) -> tuple[Number, ...]:
+def numbers(scalings: list[Scaling]) -> tuple[Number, ...]:
     """Return the exponents as numbers of a claim."""
     return tuple(
         of_estimate(f"exponent_{s.along}_{s.law}", f"p of cost ~ {s.along}^p, {s.law}", s.exponent(), n=len(s.size),
                     group="Growth of the cost")
-        for s in result
+        for s in scalings
     )  # fmt: skip
 
 

@@ -15,7 +15,7 @@ from stochfric_mb.discovery.driven_joint.balance.readings import Readings, mende
 from stochfric_mb.discovery.driven_joint.balance.timing import NAMED, Timing, timing
 from stochfric_mb.discovery.driven_joint.decision.carry_over import with_idle, with_unnamed
 from stochfric_mb.discovery.driven_joint.decision.run_scatter import Forecasts, crps_of, run_scatter
-from stochfric_mb.discovery.driven_joint.decision.selection import Selected, Selector
+from stochfric_mb.discovery.driven_joint.decision.selection import MATERIAL, Selected, Selector
 from stochfric_mb.discovery.driven_joint.decision.signs import sign_notes
 from stochfric_mb.discovery.driven_joint.decision.stroke_coefficients import dependence
 from stochfric_mb.discovery.driven_joint.decision.stroke_scatter import stroke_scatter
@@ -37,8 +37,6 @@ from stochfric_mb.mechanisms import Cascade, Mjcf, PrismaticJoint, ProportionalD
 from stochfric_mb.scenario import Scenario
 
 Progress = Callable[[str], None]
-MATERIAL_READINGS = 0.05
-"""Least part of the error that wrong readings must be to be replaced and named [-]: as for effects."""
 FEWEST = 8
 """Fewest windows of sliding in the runs of a role: fewer say nothing about friction."""
 CONTROLLED = {Cascade.kind: PrismaticJoint.kind, ProportionalDerivative.kind: Mjcf.kind}
@@ -83,7 +81,7 @@ def _quieter(given: Dataset, better: Dataset) -> bool:
         model = prior_model(given.scenario, name, nuisances, load)
         seen = [s.balances(name, "fit", base, width) for s in (as_given, repaired)]
         raw, replaced = (fit(model, s, nuisances, noise=model.law.mu_k * load).rms for s in seen)
-        if replaced < (1.0 - MATERIAL_READINGS) * raw:
+        if replaced < (1.0 - MATERIAL) * raw:
             return True
     return False
 
@@ -324,7 +322,10 @@ def _better(
     )
     n = max(sum(map(independent_count, after.remainders)), 4.0)  # timing shows within strokes, too
     more = len(after.free) - len(before.free) + 1
-    return float(2.0 * n * np.log(before.rms / after.rms) + before.strain - after.strain - more * np.log(n))
+    gain = float(np.log(before.rms / after.rms))
+    if more < 0 and gain > np.log(1.0 - MATERIAL):
+        gain = max(gain, 0.0)  # effects that leave less by no material part explain no more than the delay, which is simpler
+    return float(2.0 * n * gain + before.strain - after.strain - more * np.log(n))
 
 
 def _share(plain: Selected, late: Selected, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]) -> float:

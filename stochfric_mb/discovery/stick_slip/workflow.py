@@ -79,15 +79,15 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
 
 
 def _answer(
-    decision: Decision, result: Study, recalibrated: Fit, slips: list[Slips], channels: Channels, progress: Progress
+    decision: Decision, study: Study, recalibrated: Fit, slips: list[Slips], channels: Channels, progress: Progress
 ) -> tuple[Answer, HeldOut]:
     """Return the decision as far as fit runs and held-out runs bear it out, with its model, and the held-out runs."""
-    answer = fitted(decision, result, recalibrated)
+    answer = fitted(decision, study, recalibrated)
     if channels.confirmation:
-        answer = explaining(answer, result, recalibrated)
+        answer = explaining(answer, study, recalibrated)
     progress("held-out runs")
     runs = held_out(slips, phased=phased(answer.model))
-    return checked_on_held_out(dataclasses.replace(answer, model=settled(answer.model, runs)), result, recalibrated, runs), runs
+    return checked_on_held_out(dataclasses.replace(answer, model=settled(answer.model, runs)), study, recalibrated, runs), runs
 
 
 def _result(
@@ -95,7 +95,7 @@ def _result(
     kept: Anonymous | None,
     recalibrated: Fit,
     models: tuple[Model, Model, Model],
-    result: Study,
+    study: Study,
     runs: HeldOut,
     given: Dataset,
 ) -> Result:
@@ -106,31 +106,31 @@ def _result(
         kept: the term without a name, where one carries over.
         recalibrated: the stated model, fitted.
         models: believed, recalibrated and augmented model.
-        result: what the fit runs told.
+        study: what the fit runs told.
         runs: the held-out runs.
         given: the data set in SI units.
     """
     decision = answer.decision
-    gap = gap_of(*models, runs).times(result.size.length) if sum(map(len, runs.second)) else None
+    gap = gap_of(*models, runs).times(study.size.length) if sum(map(len, runs.second)) else None
     forces = slip_force_gap(*models, runs.slips) if decision.named or kept is not None else None
     final = kept.fit if kept is not None else answer.fit if answer.fit is not None and decision.named else recalibrated
-    own, unmeasured = own_parameters(final, models[2], result), not_measured(final)
+    own, unmeasured = own_parameters(final, models[2], study), not_measured(final)
     beyond = moved(own, given, unmeasured)
     decision.details["parameters"] = {"not_measured": unmeasured, "moved_beyond_uncertainty": beyond}
     return Result(
         verdict=decision.verdict,  # pyright: ignore[reportArgumentType]  # one of three words
-        effects=tuple(found_effect(n, answer.fit, models[2], result) for n in decision.named),
+        effects=tuple(found_effect(n, answer.fit, models[2], study) for n in decision.named),
         where=decision.where,
         ranking=tuple((k, float(s)) for k, s in decision.ranking),
         gap=gap,
         slip_forces=forces,
         leading=leading(gap, forces),
-        not_identifiable=not_identifiable(result),
-        next_experiment=next_experiment(decision, result),
+        not_identifiable=not_identifiable(study),
+        next_experiment=next_experiment(decision, study),
         believed=own,
-        notes=notes(result, decision, gap, forces, given),
-        unnamed=found_effect(kept.named, kept.fit, models[2], result) if kept is not None else None,
-        power=smallest(result) if decision.verdict == "none" else {},
+        notes=notes(study, decision, gap, forces, given),
+        unnamed=found_effect(kept.named, kept.fit, models[2], study) if kept is not None else None,
+        power=smallest(study) if decision.verdict == "none" else {},
         details=decision.details,
     )
 
@@ -155,12 +155,12 @@ def augmented_scenario(dataset: Dataset, model: Model) -> Scenario:
     )
 
 
-def recalibrated_model(model: Model, result: Study) -> Fit:
+def recalibrated_model(model: Model, study: Study) -> Fit:
     """Return the model as stated, fitted within its uncertainty; its scatter, if any is declared, stays as declared."""
     start = dataclasses.replace(deterministic(model), corrections=dict.fromkeys(("stiffness", "mass", "damping"), 0.0))
-    mu_s, mu_k = (float(max(c, 1.0e-5)) for c in result.solution.coefficients[:2])
-    fits = [refit(m, result.windows, result.uncertainty) for m in (start.with_law(mu_s, mu_k), start)]
-    fit = with_deviations(min(fits, key=lambda f: f.cost), result.windows, result.uncertainty)
+    mu_s, mu_k = (float(max(c, 1.0e-5)) for c in study.solution.coefficients[:2])
+    fits = [refit(m, study.windows, study.uncertainty) for m in (start.with_law(mu_s, mu_k), start)]
+    fit = with_deviations(min(fits, key=lambda f: f.cost), study.windows, study.uncertainty)
     return dataclasses.replace(fit, model=dataclasses.replace(model, law=fit.model.law, corrections=fit.model.corrections))
 
 

@@ -109,11 +109,6 @@ def test_a_slide_is_simulated_again_from_measured_states():
     assert before > 10.0 * after
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="a fault since waves have a phase of each run's own: on this periodic motion one is taken before the delay, the "
-    "held-out run refuses it, and the answer is unknown",
-)
 def test_a_delay_is_named_first_and_is_not_friction():
     result = joint_outcome(pair(coulomb, delay=0.012)).result
     assert [e.kind for e in result.effects] == ["sensor_delay"]

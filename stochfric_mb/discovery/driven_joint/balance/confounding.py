@@ -87,14 +87,14 @@ def _explained(cause: Array, result: Array) -> float:
     return float(between / result.var())
 
 
-def spoken_of(pairs: Sequence[Confounded], result: Sequence[str]) -> list[Confounded]:
+def spoken_of(pairs: Sequence[Confounded], kinds: Sequence[str]) -> list[Confounded]:
     """Return the confounded pairs that matter: that time and distance grew together does where friction drifts.
 
     Args:
         pairs: conditions that went together.
-        result: kinds of the effects found.
+        kinds: kinds of the effects found.
     """
-    drifts = any(map(by_clock, result))
+    drifts = any(map(by_clock, kinds))
     return [p for p in pairs if p.explained >= TOGETHER and (drifts or {p.first, p.second} != {"time", "distance"})]
 
 

@@ -13,9 +13,9 @@ from stochfric_mb.effects import kind_found_as, make_effect
 from stochfric_mb.effects.traits import LATE
 
 
-def driven(result: Study) -> bool:
+def driven(study: Study) -> bool:
     """Return whether a known force acts on the box."""
-    return any(r.mechanism.excitation_amplitude for r in result.records)
+    return any(r.mechanism.excitation_amplitude for r in study.records)
 
 
 def delay_compensated(result: Study, delay: float) -> Study:
