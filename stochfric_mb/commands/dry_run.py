@@ -123,15 +123,12 @@ def _plan(data: Dataset, runs: list[dict[str, Any]]) -> list[str]:
 def _searched(mechanism: str) -> str:
     """Return what a discovery looks for at a mechanism."""
     from stochfric_mb.effects import effect_class, effect_kinds
-    from stochfric_mb.effects.contract import Effect
-    from stochfric_mb.effects.traits import ANONYMOUS
     from stochfric_mb.mechanisms import BeltBox, SpringSlider
 
     if mechanism == SpringSlider.kind:
         return "friction with memory, with speed and with distance"
-    named = [kind for kind in effect_kinds() if ANONYMOUS not in effect_class(kind).traits]
-    if mechanism != BeltBox.kind:
-        named = [kind for kind in named if effect_class(kind).at_joint.__func__ is not Effect.at_joint.__func__]
+    classes = map(effect_class, effect_kinds())
+    named = [c for c in classes if (c.searched_in_slips() if mechanism == BeltBox.kind else c.searched_at_joints())]
     return f"{len(named)} kinds of effects"
 
 

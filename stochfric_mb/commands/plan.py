@@ -52,7 +52,8 @@ def plan(scenario: str, runs: tuple[str, ...], noise: float | None, no_extra: bo
         result = planned(believed, wanted, extra=not no_extra, progress=shown.note)
         content = result.to_dict()
         with whole_folder(target, replace=force) as folder:
-            page = plan_page(content, believed.title, command_line(without=("out", "force")))
+            rotational = getattr(believed.mechanism, "rotational", False)
+            page = plan_page(content, believed.title, command_line(without=("out", "force")), rotational=rotational)
             write_report(folder, numbers=MARKER, content=content, plots={}, page=page)
     answer(content)
     _show(content)

@@ -31,7 +31,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.effects.traits import RANDOM
+from stochfric_mb.effects.traits import AT_JOINTS, RANDOM, REPEATED_READING
 from stochfric_mb.errors import InputError, require_name, require_number
 
 if TYPE_CHECKING:
@@ -235,6 +235,20 @@ class Effect:
     def wave(cls, slips: Slips) -> Wave | None:
         """Return where a periodic effect runs and what it modulates; None: it is not periodic."""
         return None
+
+    @classmethod
+    def searched_in_slips(cls) -> bool:
+        """Return whether discovery looks for it in stick-slip."""
+        return cls._has_own("hypotheses", "wave") or bool(set(cls.found_as) - {REPEATED_READING})
+
+    @classmethod
+    def searched_at_joints(cls) -> bool:
+        """Return whether discovery looks for it at driven joints."""
+        return cls._has_own("at_joint") or bool(AT_JOINTS & set(cls.found_as))
+
+    @classmethod
+    def _has_own(cls, *methods: str) -> bool:
+        return any(getattr(cls, m).__func__ is not getattr(Effect, m).__func__ for m in methods)
 
     @classmethod
     def functions(cls) -> ModuleType:

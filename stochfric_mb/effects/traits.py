@@ -1,4 +1,4 @@
-"""What effects say of themselves: traits, the findings that mean them, ."""
+"""What effects say of themselves: traits, and the findings that mean them."""
 
 from __future__ import annotations
 
@@ -54,3 +54,6 @@ WANDER = "coefficients that drift at random"
 SLOPE_IN_DISTANCE = "friction in proportion to the displacement"
 RATE = "friction by the logarithm of the speed"
 MEMORY = "friction that remembers a distance"
+
+AT_JOINTS = frozenset({LATE, STRAY, REPEATED_READING, DRAWN_ANEW})
+"""Findings that driven joints give."""

@@ -30,7 +30,7 @@ from stochfric_mb.discovery.stick_slip.simulation.scaling import Scaling
 from stochfric_mb.discovery.stick_slip.study import record_of
 from stochfric_mb.effects import effect_class, effect_kinds, kind_found_as
 from stochfric_mb.effects.marks import WAVE, Hypothesis
-from stochfric_mb.effects.traits import ANONYMOUS, DRAWN_ANEW
+from stochfric_mb.effects.traits import DRAWN_ANEW
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
@@ -121,7 +121,7 @@ class BeltPlan:
     @property
     def no_limit(self) -> tuple[str, ...]:
         """Return the effects for which discovery has detectors and no regressors."""
-        return tuple(k for k in effect_kinds() if ANONYMOUS not in effect_class(k).traits)
+        return tuple(k for k in effect_kinds() if effect_class(k).searched_in_slips())
 
     def extra_runs(self, first: PlannedRun) -> list[tuple[str, PlannedRun]]:
         """Return runs that may be added, each with its words."""

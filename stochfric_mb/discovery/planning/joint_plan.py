@@ -22,7 +22,6 @@ from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
 from stochfric_mb.discovery.planning.planned_run import PlannedRun
 from stochfric_mb.discovery.planning.signature import Signature
 from stochfric_mb.effects import Effect, effect_class, effect_kinds
-from stochfric_mb.effects.traits import ANONYMOUS, BELT
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
@@ -112,7 +111,7 @@ class JointPlan:
     @property
     def no_limit(self) -> tuple[str, ...]:
         """Return the effects that a joint may have: those without a signature have no limit."""
-        return tuple(k for k in effect_kinds() if not {ANONYMOUS, BELT} & effect_class(k).traits)
+        return tuple(k for k in effect_kinds() if effect_class(k).searched_at_joints())
 
     def extra_runs(self, first: PlannedRun) -> list[tuple[str, PlannedRun]]:
         """Return runs that may be added, each with its words."""

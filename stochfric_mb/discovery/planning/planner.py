@@ -81,7 +81,7 @@ def planned(
         no_limit=tuple(k for k in rig.no_limit if k not in best and k not in now.unseen),
         pairs=tuple(Pair(*pair, multiple if math.isfinite(multiple) else None) for pair, multiple in pairs.items()),
         extra=tuple(sorted(further, key=lambda e: (-len(e.shows) - len(e.separates), e.limits))),
-        notes=tuple(_notes(runs, parts)),
+        notes=tuple(_notes(rig, runs, parts)),
     )
 
 
@@ -126,9 +126,9 @@ def _extra(
     )
 
 
-def _notes(runs: Sequence[PlannedRun], parts: Sequence[Any]) -> list[str]:
+def _notes(rig: Any, runs: Sequence[PlannedRun], parts: Sequence[Any]) -> list[str]:
     return [
-        f"{part.run.name}: noise of the position was not stated; taken was {part.run.noise:.3g}"
+        f"{part.run.name}: the noise of the position is not stated; {part.run.noise:.3g} {rig.unit('m')} is assumed"
         for run, part in zip(runs, parts, strict=True)
         if run.noise is None
     ]

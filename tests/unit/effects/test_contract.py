@@ -119,3 +119,19 @@ def test_impacts_are_a_poisson_process() -> None:
     assert abs(n - 5.0 * seconds) < 4.0 * math.sqrt(5.0 * seconds)  # 4 standard deviations of the count
     impulse_spread = math.sqrt(np.sum(np.add.reduceat(force, np.flatnonzero(on[1:] & ~on[:-1]) + 1) ** 2) / n) * dt
     assert abs(impulse_spread / 0.02 - 1.0) < 4.0 / math.sqrt(2.0 * n)  # relative error of a standard deviation
+
+
+@pytest.mark.parametrize(
+    ("kind", "in_slips", "at_joints"),
+    [
+        ("random_coefficients", True, True),
+        ("backlash", True, False),
+        ("normal_load_ripple", True, False),
+        ("stale_samples", False, True),
+        ("temperature_drift", False, True),
+        ("unnamed", False, False),
+    ],
+)
+def test_where_discovery_looks_for_an_effect(kind: str, in_slips: bool, at_joints: bool) -> None:
+    cls = effect_class(kind)
+    assert (cls.searched_in_slips(), cls.searched_at_joints()) == (in_slips, at_joints)
