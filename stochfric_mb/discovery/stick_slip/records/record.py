@@ -137,11 +137,28 @@ def make_record(name: str, time: Array, position: Array, mechanism: BeltBox) -> 
     median = median_filter(raw, width, mode="nearest")
     away = np.abs(raw - median)
     # a sensor that smooths or holds its samples has smaller third differences than deviations
-    outlier = away > criteria.OUTLIER_DEVIATIONS * max(noise, float(np.quantile(away, 0.85)) / 1.44)
+    outlier = away > criteria.OUTLIER_DEVIATIONS * max(noise, float(np.quantile(away, 0.85)) / 1.44) + _bend(
+        median, turn, width
+    )
     # single samples alone: what lasts longer is motion
     crowd = np.convolve(outlier.astype(np.float64), np.ones(width), mode="same")
     outlier &= crowd <= width // 2
     return Record(name, time, np.where(outlier, median, raw), raw, outlier, noise, mechanism, stated, direction)
+
+
+def _bend(motion: Array, turn: float, width: int) -> float:
+    """Return how far a sample is from the running median where the motion turns round [m].
+
+    The box turns with the acceleration a of a slip's ends, omega^2 times half the way of a slip. Of the parabola a t^2/2 the
+    median is the value at half the window's half width.
+
+    Args:
+        motion: position, its outliers taken out [m].
+        turn: angle of the natural oscillation in a sample [rad].
+        width: of the median [samples].
+    """
+    reach = (width // 2 + 1) // 2
+    return float(0.25 * np.ptp(motion) * (turn * reach) ** 2)
 
 
 def line_in(residuals: list[Array], rate: float) -> tuple[float, float, float]:
