@@ -86,11 +86,11 @@ def discovered(hidden: Callable[[float, float], float], seed: int = 1) -> JointO
 
 
 def main() -> None:
-    """Print what is found for each hidden friction."""
+    """Print the verdict for each hidden friction."""
     for hidden in (nothing, grease, wave):
         outcome = discovered(hidden)
         result = outcome.result
-        print(f"hidden: {hidden.__name__}; found: {result.verdict}")
+        print(f"hidden: {hidden.__name__}; verdict: {result.verdict}")
         for effect in result.effects:
             numbers = ", ".join(f"{k} = {v.value:.3g} {v.unit}" for k, v in effect.parameters.items())
             print(f"  {effect.kind} ({numbers}): {effect.where.text}")

@@ -21,7 +21,7 @@ def names() -> list[str]:
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Discover, tell, and write the augmented model where it is asked for."""
+    """Run discovery, print the result, and write the augmented model if wanted."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("name", choices=names())
     parser.add_argument("--out", type=Path, help="folder for parameters.csv, augmented.toml and, for joints, augmented.xml")
@@ -34,7 +34,7 @@ def main(arguments: list[str] | None = None) -> None:
     if result.gap is not None:
         gap = result.gap
         print(
-            f"  held out, {gap.metric} [{gap.unit}]: {gap.baseline:.4g} as believed, {gap.recalibrated:.4g} recalibrated, "
+            f"  held out, {gap.metric} [{gap.unit}]: {gap.baseline:.4g} as stated, {gap.recalibrated:.4g} recalibrated, "
             f"{gap.augmented:.4g} with the effects, {gap.floor:.4g} noise"
         )
     for note in result.notes:

@@ -8,7 +8,7 @@
 
 Kang et al. (Shock and Vibration 2015, 423169) modelled the coefficients of friction of a belt-box as random and saw its
 phase portrait spread. Here the box of their Table 1 moves in a multibody engine, with their coefficients; its position is
-recorded with a sensor's noise. The model believed has constant coefficients. Data and analysis share no solver, unless no
+recorded with a sensor's noise. The stated model has constant coefficients. Data and analysis share no solver, unless no
 engine is installed.
 """
 
@@ -95,15 +95,13 @@ def discover(folder: Path, plot_to: str | None) -> None:
     if not outcome.result.effects:
         print(f"verdict: {outcome.result.verdict}")
     if (gap := outcome.result.gap) is not None:
-        print(
-            f"held-out cycles, error [um]: {1e6 * gap.recalibrated:.3g} without, {1e6 * gap.augmented:.3g} with what was found"
-        )
+        print(f"held-out cycles, error [um]: {1e6 * gap.recalibrated:.3g} without, {1e6 * gap.augmented:.3g} with the effects")
     run = outcome.dataset.test[0]
     short = {"duration": min(20.0, float(run.time[-1]) // 1.0)}
     panels = {
         "measured": [measured_portrait(run.time, run.channels["position"])],
         "model as stated": portrait(dataclasses.replace(outcome.dataset.scenario, **short)),
-        "with what was found": portrait(dataclasses.replace(outcome.scenario, **short), samples=3),
+        "with the effects": portrait(dataclasses.replace(outcome.scenario, **short), samples=3),
     }
     for title, loops in panels.items():
         print(f"{title}: places where slips begin scatter by {1e6 * np.mean([loop_spread(*x) for x in loops]):.3g} um")

@@ -39,15 +39,15 @@ class RailSpot(Effect):
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
         """Return what a shallow spot takes from the friction, for places and widths along the slip."""
         low, high = np.quantile(slips.typical_position, (0.02, 0.98))
-        found: list[Hypothesis] = []
+        hypotheses: list[Hypothesis] = []
         for place in np.linspace(low, high, 24):
             for width in (high - low) * np.array([0.06, 0.12, 0.24]):
                 onset = np.exp(-0.5 * ((slips.typical_onset - place) / width) ** 2)
                 in_slip = np.exp(-0.5 * ((slips.typical_position - place) / width) ** 2)
                 column = slips.column(-slips.static * onset, -slips.kinetic[:, None] * in_slip)
                 start = lambda b, at=place, w=width: {"depth": float(b[0]), "place": float(at), "width": float(w)}  # noqa: E731
-                found.append(Hypothesis(cls.kind, [column], (place, width), start))
-        return found
+                hypotheses.append(Hypothesis(cls.kind, [column], (place, width), start))
+        return hypotheses
 
 
 def friction(world, memory, rates, p):

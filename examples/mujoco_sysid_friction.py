@@ -87,12 +87,12 @@ def main() -> dict[str, float]:
     """Fit, print, and return the parameters."""
     if not hasattr(sysid, "optimize"):  # MuJoCo brings the module, but not what it needs
         sys.exit("mujoco.sysid lacks the packages that it needs; run: pip install 'mujoco[sysid]'")
-    believed = spec_with(2.0, 0.2)
+    nominal = spec_with(2.0, 0.2)
     times, pushes, positions = measured(spec_with(**TRUTH).compile())
-    model = believed.compile()
+    model = nominal.compile()
     sequences = sysid.ModelSequences(
         "sledge",
-        believed,
+        nominal,
         "push",
         sysid.create_initial_state(model, np.zeros(1), np.zeros(1)),
         sysid.TimeSeries.from_control_names(times, pushes[:, None], model),
@@ -103,10 +103,10 @@ def main() -> dict[str, float]:
     parameters.add(sysid.Parameter("mu", 0.2, 0.05, 0.6, modifier=write_mu))
     residual = sysid.build_residual_fn(models_sequences=[sequences], custom_rollout=rollout)
     fitted, _ = sysid.optimize(parameters, residual, optimizer="scipy", verbose=False)
-    found = dict(zip(("mass", "mu"), fitted.as_vector().tolist(), strict=True))
-    for name, value in found.items():
+    estimates = dict(zip(("mass", "mu"), fitted.as_vector().tolist(), strict=True))
+    for name, value in estimates.items():
         print(f"{name}: {value:.4f} (truth {TRUTH[name]})")
-    return found
+    return estimates
 
 
 if __name__ == "__main__":

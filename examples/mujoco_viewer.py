@@ -64,7 +64,7 @@ class Scene:
 
     def state(self) -> tuple[float, float, bool]:
         """Return position [m], friction force [N] and whether the box sticks."""
-        contacts = [reading for found in readings(self.model, self.data).values() for reading in found]
+        contacts = [reading for pair in readings(self.model, self.data).values() for reading in pair]
         force = sum(reading.force[0] for reading in contacts)
         return float(self.data.joint("x").qpos[0]), force, all(reading.stick for reading in contacts)
 

@@ -23,10 +23,10 @@ FRAMES = 5
 
 def ant_file():
     """Return gymnasium's ant; gymnasium itself is not imported."""
-    found = importlib.util.find_spec("gymnasium")
-    assert found is not None, "pip install gymnasium"
-    assert found.origin is not None
-    return Path(found.origin).parent / "envs" / "mujoco" / "assets" / "ant.xml"
+    package = importlib.util.find_spec("gymnasium")
+    assert package is not None, "pip install gymnasium"
+    assert package.origin is not None
+    return Path(package.origin).parent / "envs" / "mujoco" / "assets" / "ant.xml"
 
 
 class VectorAnt:

@@ -27,15 +27,15 @@ def angles_of_sliding(n):
     m, d = mjw.put_model(model), mjw.put_data(model, mujoco.MjData(model), nworld=n)
     friction = add_friction(model, m, d, ("box", "plate"), Coulomb(MU_S, 0.3), seed=1)
     friction.randomise(Domain(sigma_s=SIGMA))
-    found = np.full(n, np.nan)
+    slip_angle = np.full(n, np.nan)
     angle = 15.0
-    while np.isnan(found).any() and angle < 50.0:
+    while np.isnan(slip_angle).any() and angle < 50.0:
         angle += RATE * model.opt.timestep
         a = math.radians(angle)
         m.opt.gravity.fill_(wp.vec3(9.81 * math.sin(a), 0.0, -9.81 * math.cos(a)))
         mjw.step(m, d)
-        found[np.isnan(found) & (d.qvel.numpy()[:, 0] > 1e-2)] = angle
-    return found, friction.mu_s.numpy().astype(float)
+        slip_angle[np.isnan(slip_angle) & (d.qvel.numpy()[:, 0] > 1e-2)] = angle
+    return slip_angle, friction.mu_s.numpy().astype(float)
 
 
 def main(n):

@@ -13,12 +13,12 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "compare": ("stochfric_mb.commands.compare:compare", "Compare engines with the reference and write a report."),
     "init": ("stochfric_mb.commands.init:init", "Write a scenario and a dataset for a rig of your own, to fill in."),
     "plan": ("stochfric_mb.commands.plan:plan", "Say what planned runs could show, before anything is measured."),
-    "discover": ("stochfric_mb.commands.discover:discover", "Find the effect that a model lacks, from measured data."),
+    "discover": ("stochfric_mb.commands.discover:discover", "Identify the effect that a model lacks, from measured data."),
     "check": ("stochfric_mb.commands.check:check", "Probe the friction of a MuJoCo model and say what to change."),
     "ensemble": ("stochfric_mb.commands.ensemble:ensemble", "Simulate many runs into one dataset; resumes."),
     "reproduce": ("stochfric_mb.commands.reproduce:reproduce", "Test every claim of a published study, with verdicts."),
     "export": ("stochfric_mb.commands.export:export", "Take friction to other codes, as an FMU or as C."),
-    "translate": ("stochfric_mb.commands.translate:translate", "Say friction in the words of another code, or back."),
+    "translate": ("stochfric_mb.commands.translate:translate", "Convert friction to the parameters of another code, or back."),
     "list": ("stochfric_mb.commands.list:list_", "List scenarios, laws, processes, effects or engines."),
 }
 """Name of a command -> where it lives and what it does; a new command is a new file and one line here."""

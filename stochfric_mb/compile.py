@@ -131,18 +131,41 @@ class _SourceCache(FunctionCache):
         stamp = source_stamp(*(name for name in (file, template, parts) if name)) + _engine_version(file)
         owner = f"{Path(parts).stem}." if parts else ""
         self._base, self._short = owner + self._impl.filename_base, f"{stamp[:14]}{zlib.crc32(stamp.encode()) & 255:02x}"
-        self._cache_file = IndexDataCacheFile(self._cache_path, f"{self._base}.{self._short}{variant}", stamp)
+        self._cache_file = _StoredCode(self._cache_path, f"{self._base}.{self._short}{variant}", stamp)
         self._tidy, self._stamped = False, bool(parts)
 
     def _index_key(self, sig: Any, codegen: Any) -> Any:
         """Return the key of a compiled version; of a nested function with ``parts`` without what it holds, which they stamp."""
         return (sig, codegen.magic_tuple()) if self._stamped else super()._index_key(sig, codegen)
 
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return the stored code, None if there is none that can be read: half written, or removed by another process."""
+        try:
+            return super().load_overload(sig, target_context)
+        except Exception:  # pickles of half a file raise what they like
+            with contextlib.suppress(OSError):
+                self.flush()
+            return None
+
     def _save_overload(self, sig: Any, data: Any) -> None:
-        super()._save_overload(sig, data)
+        with contextlib.suppress(OSError):  # a full disk, say: it is compiled again in the next process
+            super()._save_overload(sig, data)
         if not self._tidy:
             self._tidy = True
             _remove_others(Path(self._cache_path), self._base, self._short)
+
+
+class _StoredCode(IndexDataCacheFile):
+    """An index and its files; each file is named after what it holds.
+
+    numba numbers them, so that two processes that store two versions at once can give both the same name.
+    """
+
+    def save(self, key: Any, data: Any) -> None:
+        """Store the code of the version ``key``."""
+        name = self._data_name(zlib.crc32(repr(key).encode()))
+        self._save_data(name, data)
+        self._save_index({**self._load_index(), key: name})
 
 
 def _engine_version(file: str) -> str:

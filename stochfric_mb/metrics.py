@@ -37,7 +37,7 @@ def stick_fraction(trajectory: Trajectory, law: Law, mechanism: BeltBox) -> floa
 def least_slip(law: Law, mechanism: BeltBox) -> float:
     """Return the travel [m] from which a slip counts: max(0.1 * 2 (mu_s - mu_k), 0.01 mu_s) N/k.
 
-    An undamped slip of the belt-box oscillator travels at least 2 (mu_s - mu_k) N/k, so that a tenth of it tells
+    An undamped slip of the belt-box oscillator travels at least 2 (mu_s - mu_k) N/k, so that a tenth of it distinguishes
     slips from the ringing of a contact that has just stuck again.
     """
     shares = max(SLIP_SHARE * 2.0 * (law.mu_s - law.mu_k), DEFLECTION_SHARE * law.mu_s)

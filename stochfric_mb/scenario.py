@@ -59,7 +59,7 @@ class Scenario(Generic[M]):
     title: str = ""
     """A line for people."""
     uncertainty: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
-    """Relative standard deviations of what is believed [-]."""
+    """Relative standard deviations of the stated numbers [-]."""
 
     def __post_init__(self) -> None:
         require_number("simulation.duration", self.duration, above=0.0, unit="s")
@@ -375,6 +375,7 @@ def _mechanism(table: Mapping[str, Any], folder: Path) -> Mechanism:
     for key, field in fields.items():
         if field.default is dataclasses.MISSING:
             _need(values, "mechanism", key)
+    cls(**values)  # its own checks say the units
     numbers: dict[str, Any] = {k: require_number(k, v) for k, v in values.items()}
     return cls(**numbers)
 

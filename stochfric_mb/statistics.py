@@ -1,11 +1,11 @@
 """Are two samples of one distribution, how far apart are they, and how well is a mean known: with intervals.
 
-Tests and resampling are SciPy's; the CRPS is scoringrules' (optional).
+Tests and resampling are SciPy's; the CRPS is scoringrules'.
 """
 
 # pyright: reportUnknownMemberType=false, reportUnknownArgumentType=false, reportUnknownVariableType=false
-# pyright: reportMissingTypeStubs=false, reportMissingImports=false
-# (SciPy and scoringrules are partly typed, and scoringrules may be absent)
+# pyright: reportMissingTypeStubs=false
+# (SciPy and scoringrules are partly typed)
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ import numpy.typing as npt
 from scipy import stats
 
 from stochfric_mb.ensemble.result import EnsembleResult
-from stochfric_mb.errors import InputError, MissingEngineError, require_number
+from stochfric_mb.errors import InputError, require_number
 
 Array = npt.NDArray[np.float64]
 
@@ -172,17 +172,14 @@ def crps(observation: npt.ArrayLike, ensemble: npt.ArrayLike) -> Array:
         ensemble: members, shape (n_runs, ...): the runs of an `EnsembleResult` as they are; at least two.
 
     Raises:
-        MissingEngineError: the package scoringrules is not installed.
         InputError: shapes that do not match, or one member only.
 
     Reference: T. Gneiting, A. Raftery, J. Am. Stat. Assoc. 102, 2007, 359-378, doi 10.1198/016214506000001437; C. Ferro,
     Q. J. R. Meteorol. Soc. 140, 2014, 1917-1923, doi 10.1002/qj.2270 (fair); M. Zamo, P. Naveau, Math. Geosci. 50, 2018,
     209-234, doi 10.1007/s11004-017-9709-7 (the same from probability weighted moments, in n log n instead of n^2).
     """
-    try:
-        import scoringrules
-    except ImportError:
-        raise MissingEngineError("the CRPS needs the package scoringrules; run: pip install scoringrules") from None
+    import scoringrules
+
     y, members = np.asarray(observation, dtype=np.float64), np.asarray(ensemble, dtype=np.float64)
     if members.ndim != y.ndim + 1 or members.shape[1:] != y.shape or len(members) < 2:
         raise InputError(

@@ -81,7 +81,7 @@ def compile_library(
 
     Raises:
         MissingEngineError: the compiler is not installed; says what to install.
-        SimulationError: it found fault with the sources.
+        SimulationError: the compiler reports an error in the sources.
     """
     if importlib.util.find_spec("ziglang") is None:
         raise MissingEngineError("compiling C needs ziglang, which is not installed; run: pip install 'stochfric_mb[fmi]'")

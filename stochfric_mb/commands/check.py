@@ -67,7 +67,7 @@ def check(
         raise MissingEngineError("mujoco is not installed; run: pip install 'stochfric_mb[mujoco]'")
     with display() as shown, claimed(target):
         shown.note("loading mujoco")
-        probe = importlib.import_module("stochfric_mb.mujoco.check.run").check
+        probe = importlib.import_module("stochfric_mb.mujoco.check").check
 
         result: CheckResult = probe(
             model, keyframe=keyframe, settle=settle, duration=duration, law=law, mu_k_ratio=mu_k_ratio, most=most,

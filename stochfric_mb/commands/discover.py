@@ -33,7 +33,7 @@ MARKER = "result.json"
     "--scenario",
     metavar="SCENARIO",
     shell_complete=completion.scenarios,
-    help="Present model; needed for a measured file alone.",
+    help="Scenario of the model; needed if DATASET is a measured file.",
 )
 @click.option("-o", "--out", required=True, metavar="DIR", help="Folder for report, result and exports.")
 @click.option("--dry-run", is_flag=True, help="Read and check everything, draw the raw records, say what would be done.")

@@ -104,7 +104,7 @@ def _plan(data: Dataset, runs: list[dict[str, Any]]) -> list[str]:
     """Return what a discovery would do."""
     kind = data.scenario.mechanism.kind
     said = f"Would search {_searched(kind)} in {len(data.fit)} runs and score on {len(data.test)}, {kind}"
-    from stochfric_mb.discovery.criteria import FEWEST_SLIPS
+    from stochfric_mb.discovery.criteria import FEWEST_OF_RUN, FEWEST_SLIPS
     from stochfric_mb.discovery.stick_slip.records.long_records import SIMULATED
 
     counts = [run["slips"] or 0 for run in runs]
@@ -113,9 +113,10 @@ def _plan(data: Dataset, runs: list[dict[str, Any]]) -> list[str]:
     # slips beyond those that are simulated cost least
     simulated = sum(min(n, SIMULATED) for n in counts)
     beyond = SECONDS_A_SLIP[0] * (sum(counts) - simulated)
-    few = [run["name"] for run in runs if (run["slips"] or 0) < FEWEST_SLIPS]
+    least = FEWEST_OF_RUN if sum(n for n in counts if n >= FEWEST_OF_RUN) >= FEWEST_SLIPS else FEWEST_SLIPS
+    few = [run["name"] for run in runs if (run["slips"] or 0) < least]
     if few:
-        said += f"; too few slips to judge friction by in {', '.join(few)}: each run needs {FEWEST_SLIPS}"
+        said += f"; too few slips to judge friction by in {', '.join(few)}: each run needs {least}"
     low, high = (a + b * simulated + beyond for a, b in zip(SECONDS, SECONDS_A_SLIP, strict=True))
     return [said, f"Expected time: {low:.0f} to {high:.0f} s of one processor, beside compiling at the first use"]
 

@@ -131,10 +131,10 @@ def _plan(task: Job, target: Path, workers: int, scheduler: str | None) -> str:
     here = "the device of MuJoCo Warp" if task.engine == "warp" else f"{workers} {kind}"
     where = f"the cluster {scheduler}" if scheduler is not None else here
     kept = "statistics" if task.statistics_only else "runs"
+    blocks = f"{plan.n_blocks} blocks of {plan.block} runs" if plan.n_blocks > 1 else f"1 block of {plan.block} runs"
     return (
         f"{plan.n_runs} runs at {plan.n_times} times, {plan.method}\n"
-        f"{plan.n_blocks} blocks of {plan.block} runs on {where}; at most {memory(task, target, workers) / 2**20:.1f} MiB "
-        f"of memory for {kept} and blocks"
+        f"{blocks} on {where}; at most {memory(task, target, workers) / 2**20:.1f} MiB of memory for {kept} and blocks"
     )
 
 

@@ -67,7 +67,9 @@ def _column(free: list[str], quantity: str, number: int, *, has_header: bool) ->
     if not has_header:
         return str(number) if str(number) in free and number < 2 else None
     exact = [name for name in free if _plain(name) == quantity]
-    alike = [name for name in free if _words(name) & set(SYNONYMS.get(quantity, ()))]
+    alike = [
+        name for name in free if known_name(name) in (None, quantity) and _words(name) & set(SYNONYMS.get(quantity, ()))
+    ]  # a column that names another known quantity is that one
     return next(iter(exact + alike), None)
 
 

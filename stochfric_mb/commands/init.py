@@ -40,7 +40,15 @@ EXAMPLES: dict[str, dict[str, Any]] = {
     },
 }
 """Mechanism -> values of its required keys, to be replaced."""
-BELIEVED: dict[str, dict[str, float]] = {
+NEEDED: dict[str, tuple[tuple[str, ...], ...]] = {
+    "belt_box": (("position",),),
+    "prismatic_joint": (("position",), ("force", "voltage")),
+    "hinge_pendulum": (("position",), ("torque", "voltage")),
+    "spring_slider": (("position",), ("friction_coefficient", "friction_force")),
+    "mjcf": (("position",),),
+}
+"""Mechanism -> quantities without which it cannot be discovered, each with those that do as well."""
+UNCERTAINTY: dict[str, dict[str, float]] = {
     "belt_box": {"mass": 0.01, "stiffness": 0.02, "damping": 0.5, "normal_force": 0.05, "mu_s": 0.3, "mu_k": 0.3},
     "prismatic_joint": {"mass": 0.1, "mu_s": 0.5, "mu_k": 0.5},
     "hinge_pendulum": {"mass": 0.1, "mu_s": 0.5, "mu_k": 0.5},
@@ -90,7 +98,7 @@ def scenario_text(mechanism: str) -> str:
     lines += ["", "[law]", 'kind = "coulomb"']
     lines += ["mu_s = 0.5  # EXAMPLE. Static coefficient of friction [-]", "mu_k = 0.4  # EXAMPLE. Kinetic one [-]"]
     lines += ["", "[uncertainty]  # relative standard deviations: how well you know each number"]
-    lines += [f"{name} = {value:g}  # EXAMPLE" for name, value in BELIEVED[mechanism].items()]
+    lines += [f"{name} = {value:g}  # EXAMPLE" for name, value in UNCERTAINTY[mechanism].items()]
     lines += ["", "[simulation]", "duration = 10.0  # s", "output_step = 1.0e-3  # s, divides the duration"]
     return "\n".join(lines) + "\n"
 
@@ -144,6 +152,7 @@ def _runs(mechanism: str, file: Path, target: Path) -> tuple[str, list[str]]:
         keys = [f"columns = {{ {pairs} }}  # GUESS, from the header", f"units = {{ {units} }}  # GUESS"]
     name = _toml(os.path.relpath(file.resolve(), target.resolve()))
     spans = (("fit", f"[{time[0]:.9g}, {cut:.9g}]"), ("test", f"[{cut:.9g}, {time[-1]:.9g}]"))
+    missing = [quantities for quantities in NEEDED[mechanism] if not set(quantities) & set(by_name)]
     entries = [
         "\n".join(["[[runs]]", f"file = {name}", f'role = "{role}"', f"time_range = {span}  # s", *keys]) + "\n"
         for role, span in spans
@@ -151,6 +160,10 @@ def _runs(mechanism: str, file: Path, target: Path) -> tuple[str, list[str]]:
     said = [
         f"{g.quantity}: column {g.column!r} [{g.unit or '-'}]" + ("" if g.sure else " (a guess, check it in dataset.toml)")
         for g in guessed
+    ]
+    said += [
+        f"{' or '.join(q)}: no column looks like it; if there is one, add columns = {{ {q[0]} = ... }} to dataset.toml"
+        for q in missing
     ]
     return "\n".join(entries), said
 

@@ -33,10 +33,13 @@ SHOWN = 3
     "--run", "runs", multiple=True, metavar="KEY=NUMBER,...", help="A planned run; repeatable. Default: as [simulation] says."
 )
 @click.option("--noise", type=float, metavar="X", help="Standard deviation of the position sensor's noise [m or rad].")
+@click.option("--joint", metavar="NAME", help="Joint of an mjcf model. Default: the first in mechanism.friction.")
 @click.option("--no-extra", is_flag=True, help="Try no further runs.")
 @click.option("-o", "--out", required=True, metavar="DIR", help="Folder for report and numbers.")
 @click.option("--force", is_flag=True, help="Replace what is at --out.")
-def plan(scenario: str, runs: tuple[str, ...], noise: float | None, no_extra: bool, out: str, force: bool) -> None:
+def plan(
+    scenario: str, runs: tuple[str, ...], noise: float | None, joint: str | None, no_extra: bool, out: str, force: bool
+) -> None:
     """Say which effects planned runs of SCENARIO could show and at what size, and which extra run would add most."""
     from stochfric_mb.commands.progress import display
     from stochfric_mb.commands.report_folder import write_report
@@ -48,12 +51,11 @@ def plan(scenario: str, runs: tuple[str, ...], noise: float | None, no_extra: bo
         from stochfric_mb.discovery.planning.planner import planned
         from stochfric_mb.report.planning import plan_page
 
-        believed, wanted = _wanted(scenario, runs, noise)
-        result = planned(believed, wanted, extra=not no_extra, progress=shown.note)
+        stated, wanted = _wanted(scenario, runs, noise)
+        result = planned(stated, wanted, joint=joint, extra=not no_extra, progress=shown.note)
         content = result.to_dict()
         with whole_folder(target, replace=force) as folder:
-            rotational = getattr(believed.mechanism, "rotational", False)
-            page = plan_page(content, believed.title, command_line(without=("out", "force")), rotational=rotational)
+            page = plan_page(content, stated.title, command_line(without=("out", "force")))
             write_report(folder, numbers=MARKER, content=content, plots={}, page=page)
     answer(content)
     _show(content)
@@ -70,9 +72,9 @@ def _wanted(scenario: str, texts: tuple[str, ...], noise: float | None) -> tuple
         if texts or noise is not None:
             raise InputError(f"{scenario} holds the planned runs; write --run and --noise into it")
         return load_plan(Path(scenario))
-    believed = load_any_scenario(scenario)
-    usual = usual_run(believed, noise)
-    return believed, [run_from_text(text, usual, i) for i, text in enumerate(texts, start=1)] or [usual]
+    stated = load_any_scenario(scenario)
+    usual = usual_run(stated, noise)
+    return stated, [run_from_text(text, usual, i) for i, text in enumerate(texts, start=1)] or [usual]
 
 
 def _show(content: Mapping[str, Any]) -> None:

@@ -18,7 +18,7 @@ Example:
   stochfric translate kang2015_table1 --to adams
 """
 SCHEMA = "stochfric.dialect/1"
-"""Schema of a file with friction in the words of another code."""
+"""Schema of a file with the friction parameters of another code."""
 
 
 @click.command(epilog=EXAMPLE)

@@ -16,7 +16,7 @@ Array = npt.NDArray[np.float64]
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Dialect:
-    """Friction in the words of another code; parameters are its own."""
+    """Friction of another code, in its own parameters."""
 
     kind: ClassVar[str]
     """Name on the command line."""

@@ -1,4 +1,4 @@
-"""What was found, taken to where it is used: scenario file, table of parameters, augmented MJCF, Exudyn snippet."""
+"""The augmented model, written where it is used: scenario file, table of parameters, augmented MJCF, Exudyn snippet."""
 
 # pyright: reportAttributeAccessIssue=false
 # (MuJoCo's bindings are not typed)
@@ -54,7 +54,7 @@ def parameter_table(result: Result) -> str:
     rows = ["effect,parameter,value,low,high,unit,source,moved"]
     for effect in result.effects:
         rows += [_row(effect.kind, name, number, _source(number)) for name, number in effect.parameters.items()]
-    for name, number in result.believed.items():
+    for name, number in result.parameters.items():
         off = f"{moved[name]:.3g}" if name in moved else ""
         rows.append(_row("", name, number, "prior" if name in priors else _source(number), off))
     return "\n".join(rows) + "\n"
@@ -119,7 +119,7 @@ def _with_friction(attach: Any, spec: Any, scenario: Scenario[Any], loads: dict[
 def _left_out(scenario: Scenario[Any]) -> str:
     """Return a comment on the effects that the file does not hold, between two lines."""
     pairs = getattr(scenario.mechanism, "pairs", {})
-    left = [e.kind for e in scenario.effects if LATE not in e.found_as and (pairs or not e.linear_damping)]
+    left = [e.kind for e in scenario.effects if LATE not in e.signatures and (pairs or not e.linear_damping)]
     if not left:
         return "\n"
     return f"\n<!-- not in this file, since neither damping nor the plugin's laws hold it: {', '.join(left)} -->\n"
@@ -175,7 +175,7 @@ def exudyn_snippet(file: str | Path = "augmented.toml") -> str:
     Args:
         file: where the augmented scenario is.
     """
-    return f'''"""Friction found by discovery, in Exudyn: a user function on a coordinate."""
+    return f'''"""Friction identified by discovery, in Exudyn: a user function on a coordinate."""
 from exudyn.itemInterface import CoordinateSpringDamper
 from stochfric_mb.discovery.driven_joint.simulation.friction_function import joint_friction
 from stochfric_mb.scenario import load_any_scenario

@@ -31,6 +31,6 @@ class Outcome:
     decision: Decision | None = None
     """The decision on them."""
     models: tuple[Model, Model, Model] | None = None
-    """Believed, recalibrated and augmented model."""
+    """Stated, recalibrated and augmented model."""
     runs: HeldOut | None = None
     """The held-out runs."""

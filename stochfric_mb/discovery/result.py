@@ -35,8 +35,8 @@ class Where:
 
 
 @dataclasses.dataclass(frozen=True)
-class Found:
-    """One effect that was found."""
+class EffectEstimate:
+    """One effect that discovery identified, with its fitted parameters."""
 
     kind: str
     """Its name in the vocabulary."""
@@ -77,7 +77,7 @@ class Gap:
     recalibrated: float
     """The same with its parameters fitted within their uncertainty."""
     augmented: float
-    """With the effects found."""
+    """The augmented model: with the identified effects."""
     floor: float
     """What the final model scores on data simulated from itself with the noise of the record, or as ``floor_from`` says."""
     floor_from: str = "simulated from the final model with the record's noise"
@@ -108,8 +108,8 @@ class Gap:
     def closed(self) -> float | None:
         """Share of the reducible gap that the effects close; None where there is none."""
         reducible = self.reducible
-        told = reducible > criteria.CLOSES_NOTHING * self.recalibrated
-        return (self.recalibrated - self.augmented) / reducible if told else None
+        measurable = reducible > criteria.CLOSES_NOTHING * self.recalibrated
+        return (self.recalibrated - self.augmented) / reducible if measurable else None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -118,8 +118,8 @@ class Result:
 
     verdict: Verdict
     """"effect", "none" or "unknown"."""
-    effects: tuple[Found, ...]
-    """What was found, in the order in which it was; empty for "none" and "unknown"."""
+    effects: tuple[EffectEstimate, ...]
+    """The identified effects, in the order of selection; empty for "none" and "unknown"."""
     where: Where | None
     """For "unknown": when and where the disagreement lives."""
     ranking: tuple[tuple[str, float], ...]
@@ -130,15 +130,15 @@ class Result:
     """Effects that this experiment cannot see."""
     next_experiment: str
     """The experiment that would decide what is open."""
-    believed: dict[str, Interval]
+    parameters: dict[str, Interval]
     """Parameters of mechanism and law: with the effects where the verdict is an effect, otherwise recalibrated."""
     notes: tuple[str, ...] = ()
     """What a reader should know: outliers removed, belt speed off, data lost, ..."""
-    unnamed: Found | None = None
+    unnamed: EffectEstimate | None = None
     """For "unknown": a smooth change of friction that held-out runs bear out, though it has no name; it is in the augmented
     scenario."""
     slip_forces: Gap | None = None
-    """The same in the forces of single slips, where evidence is found; None where nothing was named, or they cannot show it."""
+    """The same in the forces of single slips, the source of evidence; None where nothing was named, or they cannot show it."""
     leading: Literal["gap", "slip_forces"] = "gap"
     """The score in which the effects show: that of forecasts, or, where those can hardly be made better, that of the forces."""
     power: dict[str, float] = dataclasses.field(default_factory=dict[str, float])
@@ -163,7 +163,7 @@ class Result:
             "leading": self.leading,
             "not_identifiable": list(self.not_identifiable),
             "next_experiment": self.next_experiment,
-            "believed": {k: dataclasses.asdict(v) for k, v in self.believed.items()},
+            "believed": {k: dataclasses.asdict(v) for k, v in self.parameters.items()},
             "notes": list(self.notes),
             "power": self.power,
             "details": self.details,

@@ -38,6 +38,8 @@ EFFECTS: dict[str, str | type[Effect]] = {
     "quadratic_damping": "QuadraticDamping",
     "backlash": "Backlash",
     "second_mode": "SecondMode",
+    "effective_area": "EffectiveArea",
+    "drive_gain_change": "DriveGainChange",
     "harmonic_force": "HarmonicForce",
     "impacts": "Impacts",
     "sensor_drift": "SensorDrift",
@@ -58,7 +60,7 @@ __all__ = [
     "effect_class",
     "effect_from_dict",
     "effect_kinds",
-    "kind_found_as",
+    "kind_with_signature",
     "kinds_with",
     "make_effect",
     "register_effect",
@@ -106,16 +108,16 @@ def make_effect(kind: str, **values: Any) -> Effect:
     return cls(**values)
 
 
-def kind_found_as(finding: str) -> str:
-    """Return the kind that a finding means, such as `stochfric_mb.effects.traits.JUMP`.
+def kind_with_signature(signature: str) -> str:
+    """Return the kind that a signature means, such as `stochfric_mb.effects.traits.JUMP`.
 
     Raises:
         InputError: no effect says so.
     """
     for kind in effect_kinds():
-        if finding in effect_class(kind).found_as:
+        if signature in effect_class(kind).signatures:
             return kind
-    raise InputError(f"no effect is found as {finding!r}; give one of them that finding, in found_as")
+    raise InputError(f"no effect has the signature {signature!r}; add it to the signatures of one of them")
 
 
 def kinds_with(trait: str) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ from stochfric_mb.trajectory import Trajectory
 SENSOR_STREAM = 0x73656E73
 """Third part of the seed of a sensor's random errors."""
 FINENESS = 100.0
-"""Steps per shortest period in which an effect's own unknowns are found again."""
+"""Steps per shortest period in which an effect's own unknowns are integrated."""
 
 
 def without_loads(

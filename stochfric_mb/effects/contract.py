@@ -31,7 +31,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.effects.traits import AT_JOINTS, RANDOM, REPEATED_READING
+from stochfric_mb.effects.traits import AT_JOINTS, JOINTS_ALONE, RANDOM
 from stochfric_mb.errors import InputError, require_name, require_number
 
 if TYPE_CHECKING:
@@ -95,7 +95,11 @@ TRAVELLED = 22
 """Distance slid since the record began, whichever way [m]: measured, or kept by the effect that asks for it."""
 TEMPERATURE = 23
 """Temperature [degC], where one was measured."""
-WORLD = 24
+DRIVE = 24
+"""Driving force of a joint, with its gain as stated [N or N m], where one was measured. Known to ``surroundings``."""
+PRESSURE = 25
+"""Pressure on the piston of a joint [Pa], where one was measured. Known to ``surroundings``."""
+WORLD = 26
 """Number of entries."""
 
 
@@ -115,6 +119,8 @@ class Effect:
     """Place of ``friction`` among effects: 1 adds to mu_s or mu_k, 2 mixes them, 3 multiplies both."""
     n_memory: ClassVar[int] = 0
     """Number of unknowns of the effect's own differential equation."""
+    forgets: ClassVar[bool] = True
+    """Whether what its unknowns held some slips ago says nothing of them now; otherwise they count from the record's begin."""
     reads: ClassVar[tuple[str, ...]] = ()
     """Measured channels without which the effect means nothing."""
     shows_on: ClassVar[str] = ""
@@ -124,13 +130,15 @@ class Effect:
 
     traits: ClassVar[frozenset[str]] = frozenset()
     """What holds of it, of the first names in `stochfric_mb.effects.traits`."""
-    found_as: ClassVar[tuple[str, ...]] = ()
-    """Findings that mean it, of the names there from ``BELT_RIPPLE`` on."""
+    signatures: ClassVar[tuple[str, ...]] = ()
+    """What in a record means this effect, of the names there from ``BELT_RIPPLE`` on."""
     answers_to: ClassVar[str] = ""
     """Condition of an experiment without whose change it cannot be seen, or that may be confounded with others."""
     frees: ClassVar[tuple[str, ...]] = ()
-    """Numbers of mechanism and law that are believed less firmly beside it."""
-    told_from: ClassVar[Mapping[str, str]] = {}
+    """Numbers of mechanism and law whose priors are widened beside it."""
+    form_axis: ClassVar[str] = ""
+    """Axis of the unnamed term that carries what another form of the effect would add; empty where there is none."""
+    separated_by: ClassVar[Mapping[str, str]] = {}
     """Other kind that looks like it -> the experiment that tells the two apart."""
 
     def __post_init__(self) -> None:
@@ -239,12 +247,12 @@ class Effect:
     @classmethod
     def searched_in_slips(cls) -> bool:
         """Return whether discovery looks for it in stick-slip."""
-        return cls._has_own("hypotheses", "wave") or bool(set(cls.found_as) - {REPEATED_READING})
+        return cls._has_own("hypotheses", "wave") or bool(set(cls.signatures) - JOINTS_ALONE)
 
     @classmethod
     def searched_at_joints(cls) -> bool:
         """Return whether discovery looks for it at driven joints."""
-        return cls._has_own("at_joint") or bool(AT_JOINTS & set(cls.found_as))
+        return cls._has_own("at_joint") or bool(AT_JOINTS & set(cls.signatures))
 
     @classmethod
     def _has_own(cls, *methods: str) -> bool:

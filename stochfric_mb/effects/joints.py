@@ -23,14 +23,18 @@ class JointSpan:
     both_ways: bool
     """Whether it slides in both directions."""
     friction: float
-    """Believed friction [N or N m]."""
+    """Stated friction [N or N m]."""
     distance: float
     """Longest distance slid in a record [m or rad]."""
     temperature: tuple[float, float] | None
     """Middle of the temperatures and what they span; None: not measured, or constant."""
     contact: bool
     """Whether the place is a contact, whose normal force is known."""
-    believed_load: float
+    stated_load: float
     """Load by which coefficients are multiplied [N or N m]."""
+    drive: bool = False
+    """Whether the driving force is known, and not 0 throughout."""
+    pressure: float = 0.0
+    """Median size of the pressure on a piston [Pa]; 0: none was measured."""
     window: float = 0.0
     """Half width of the windows through which it is seen [s]."""

@@ -87,6 +87,11 @@ class Slips(Protocol):
         ...
 
     @property
+    def slid_before(self) -> Array:
+        """Distance slid at the break-away since the record began [m]."""
+        ...
+
+    @property
     def dwell(self) -> Array:
         """Time in stick before the break-away, predicted from where the last slip ended [s]."""
         ...
@@ -194,6 +199,35 @@ def apart(
         Hypothesis(kind, [slips.column(static, kinetic)], (), alike),
         Hypothesis(kind, [slips.column(static, None), slips.column(None, kinetic)], (), each, variant="apart"),
     ]
+
+
+def levels(slips: Slips) -> tuple[Array, Array]:
+    """Return static and kinetic friction where the same coefficients hold in all runs [N], shape (n,).
+
+    Were they each run's own, a course that is there at once and stays would stand for whatever differs between the runs.
+    """
+    load = slips.normal_force
+    return load * float(np.median(slips.static / load)), load * float(np.median(slips.kinetic / load))
+
+
+def drifting(kind: str, at_onset: Array, inside: Array, last: float, slips: Slips, settles: str) -> list[Hypothesis]:
+    """Return friction that drifts along a quantity that grows in each run, linearly or towards a limit.
+
+    Args:
+        kind: the effect, with the parameter ``rate``.
+        at_onset: the quantity at the break-away, shape (n,).
+        inside: the same in the middle of the slip, shape (n,).
+        last: its largest value.
+        slips: the slips.
+        settles: parameter in which the drift settles.
+    """
+    held, rubbing = levels(slips)
+    result = apart(kind, held * at_onset / last, rubbing * inside / last, slips, "rate", {}, 1.0 / last)
+    # neighbours differ by a fifth: a coarser grid would leave a clear record to what names no physics
+    for tau in map(float, np.geomspace(0.03, 1.0, 22) * last):
+        static, kinetic = (level * -np.expm1(-s / tau) for level, s in ((held, at_onset), (rubbing, inside)))
+        result += apart(kind, static, kinetic, slips, "rate", {settles: tau}, 1.0 / tau)
+    return result
 
 
 def times(slips: Slips) -> Array:

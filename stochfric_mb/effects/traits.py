@@ -1,9 +1,9 @@
-"""What effects say of themselves: traits, and the findings that mean them."""
+"""What effects say of themselves: traits, and the signatures in a record that mean them."""
 
 from __future__ import annotations
 
 SHAPES_SLIPS = "shapes every slip alike"
-"""Told from others of its family by simulating it."""
+"""Distinguished from others of its family by simulating it."""
 BETWEEN_POINTS = "differs between operating points"
 """Simulated, too, where there are several of them."""
 SHAPED_IF_FORCED = "shapes slips that keep step with a known force"
@@ -38,6 +38,8 @@ ANONYMOUS = "names no physics"
 """Never an answer by itself."""
 READS_LOAD = "scales friction with what a joint transmits"
 """Its reference load is the joint's."""
+READS_DRIVE = "scales what a joint is driven by"
+"""The drive that it leaves is explained by motion only, too."""
 
 BELT_RIPPLE = "ripple of the belt's speed"
 YIELDING = "contact that yields and rings"
@@ -54,6 +56,9 @@ WANDER = "coefficients that drift at random"
 SLOPE_IN_DISTANCE = "friction in proportion to the displacement"
 RATE = "friction by the logarithm of the speed"
 MEMORY = "friction that remembers a distance"
+OTHER_AREA = "another area than is stated"
 
+JOINTS_ALONE = frozenset({REPEATED_READING, OTHER_AREA})
+"""Findings that stick-slip does not give."""
 AT_JOINTS = frozenset({LATE, STRAY, REPEATED_READING, DRAWN_ANEW})
-"""Findings that driven joints give."""
+"""Signatures that records of driven joints show."""

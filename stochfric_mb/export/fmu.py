@@ -153,7 +153,7 @@ def write_fmu(
     Raises:
         InputError: no platform, or one that FMI 2 has no name for alone.
         MissingEngineError: the compiler is not installed.
-        SimulationError: it found fault with the sources.
+        SimulationError: the compiler reports an error in the sources.
     """
     targets = [TARGETS[name] for name in platforms]
     if not targets:

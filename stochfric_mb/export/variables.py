@@ -44,7 +44,7 @@ class Variable:
 
 
 def default_mass(exported: Exported) -> float:
-    """Return the mass that a contact feels unless it is told [kg]: the box's, or 1."""
+    """Return the mass that a contact feels unless it is stated [kg]: the box's, or 1."""
     return 1.0 if exported.mechanism is None else exported.mechanism.mass
 
 

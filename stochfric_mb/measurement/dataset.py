@@ -28,7 +28,7 @@ HELD_OUT = 1.0 / 3.0
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Dataset:
-    """Runs of one rig, and the scenario that is believed of it."""
+    """Runs of one rig, and the scenario that states its model."""
 
     title: str
     """A line for people."""

@@ -46,7 +46,7 @@ class Delay:
 
 @dataclasses.dataclass(frozen=True)
 class Term:
-    """One signal that, with a factor to be found, makes up the response."""
+    """One signal that, with a factor to be estimated, makes up the response."""
 
     signal: Array
     """float64[n]."""

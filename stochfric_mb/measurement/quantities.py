@@ -30,7 +30,7 @@ _LENGTH = ("mm", "um")
 KNOWN: dict[str, Quantity] = {
     q.name: q
     for q in (
-        Quantity("time", "s", "s", ("ms", "min")),
+        Quantity("time", "s", "s", ("ms", "us", "min")),
         Quantity("position", "m", "rad", _LENGTH + _ANGLE),
         Quantity("velocity", "m/s", "rad/s", ("mm/s", "deg/s", "rpm")),
         Quantity("acceleration", "m/s^2", "rad/s^2", ("g_0 for multiples of gravity", "deg/s^2")),

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.measurement.smoothing import smooth
+from stochfric_mb.mechanisms import BeltBox, PrismaticJoint
 
 if TYPE_CHECKING:
     from stochfric_mb.measurement.run import Run
@@ -30,6 +31,12 @@ TIME_FITS = (math.log10(0.3), math.log10(5.0))
 """Range of log10 of the time in slip over half a natural period: 1 to 2 by theory, more for lag and weak springs."""
 LENGTH_FITS = (-2.0, 1.0)
 """Range of log10 of the range of positions over mu_s N/k: slips are short where mu_k is near mu_s, drifts lengthen it."""
+WINDOWS = (8, 24, 72, 216)
+"""Half widths of the windows through which an acceleration is taken from a position [samples]."""
+SURE = 0.05
+"""Largest relative standard error of a mass that counts as seen [-]."""
+SHARE = 0.1
+"""Least share of the driving force's deviation that inertia must have for a mass to be seen [-]."""
 LAGS = 8
 """Distances over which slopes are taken: powers of 2 [samples]."""
 
@@ -88,6 +95,7 @@ FACTORS: dict[str, tuple[float, ...]] = {
     "stiffness": (1e-3, 1e-6),
     "mass": (1e3, 1e-3),
     "normal_force": (1e3, 1e-3),
+    "force": (1e3, 1e-3),
 }
 """What may have a wrong unit -> factors between the units in use."""
 
@@ -139,9 +147,12 @@ def stuck_speed(position: Array, interval: float) -> tuple[float, int] | None:
 
 
 def slip_time(position: Array, interval: float, speed: float, lag: int) -> float | None:
-    """Return the median time for which a record turns back from the stuck speed [s]; None if it never does."""
-    lengths = np.array([last - first for first, last in _backwards(position, interval, speed, lag)])
-    return max(float(np.median(lengths)) - lag, 1.0) * interval if lengths.size else None  # windows lengthen slips
+    """Return the median time for which a record turns back from the stuck speed [s]; None if it is none, or less than the lag.
+
+    Windows lengthen slips by the lag; a slip shorter than its window is not resolved, and tells no time.
+    """
+    lengths = np.array([last - first - lag for first, last in _backwards(position, interval, speed, lag)])
+    return float(np.median(lengths)) * interval if lengths.size and np.median(lengths) >= lag else None
 
 
 def slip_spans(position: Array, interval: float) -> list[tuple[int, int]]:
@@ -173,9 +184,45 @@ def likeliest(seen: Shown) -> Cause | None:
     """Return the one wrong unit that explains best what a record shows; None if it fits, or no single unit explains it."""
     if seen.fits():
         return None
-    known = [Cause(name, factor, *POWERS[name]) for name, factors in FACTORS.items() for factor in factors]
+    known = [Cause(name, factor, *powers) for name, powers in POWERS.items() for factor in FACTORS[name]]
     return min(
         (cause for cause in known if seen.fits(cause)),
         key=lambda cause: abs(seen.speed - cause.speed * math.log10(cause.factor)),
         default=None,
     )
+
+
+def inertia(run: Run, joint: PrismaticJoint) -> tuple[float, float] | None:
+    """Return force over acceleration [kg], and friction [N], in the units of the file; None where a record does not show them.
+
+    Least squares of the driving force on acceleration, velocity, its sign, position, pressure and a constant, all seen through
+    one window; that of the windows in which the mass is surest.
+    """
+    position, force = run.channels.get("position"), run.channels.get("force")
+    if force is None and joint.force_gain > 0.0 and "voltage" in run.channels:
+        force = joint.force_gain * run.channels["voltage"]
+    if position is None or force is None:
+        return None
+    others = [run.channels[name] for name in ("pressure",) if name in run.channels]
+    fits = [_force_balance(position, force, others, run.sample_interval, m) for m in WINDOWS if 20 * m < position.size]
+    mass, error, friction, share = min(fits, key=lambda fit: fit[1] / abs(fit[0]), default=(0.0, 1.0, 0.0, 0.0))
+    return (mass, friction) if mass > 0.0 and friction > 0.0 and error < SURE * mass and share > SHARE else None
+
+
+def _force_balance(position: Array, force: Array, others: list[Array], h: float, m: int) -> tuple[float, float, float, float]:
+    """Return mass, its standard error, friction, and the deviation of the inertial force over that of the driving force."""
+    rows = slice(2 * m, -2 * m, m)  # about one row a window
+    velocity = smooth(position, m * h, h, derivative=1)
+    terms = [smooth(position, m * h, h, derivative=2), smooth(np.sign(velocity), m * h, h), velocity]
+    terms += [smooth(values, m * h, h) for values in (position, *others)]
+    columns: Array = np.column_stack([*terms, np.ones_like(position)])[rows]
+    sizes: Array = np.sqrt((columns**2).sum(axis=0))
+    sizes[sizes == 0.0] = 1.0
+    driving = smooth(force, m * h, h)[rows]
+    basis = np.asarray(np.linalg.pinv(columns / sizes), dtype=np.float64)
+    values: Array = basis @ driving
+    rest: Array = driving - (columns / sizes) @ values
+    error = math.sqrt(float(rest @ rest) / max(len(rest) - len(values), 1) * float(basis[0] @ basis[0]))
+    spread = float(driving.std())
+    share = abs(values[0]) * float((columns[:, 0] / sizes[0]).std()) / spread if spread > 0.0 else 0.0
+    return float(values[0] / sizes[0]) or math.nan, error / float(sizes[0]), float(values[1] / sizes[1]), share

@@ -1,6 +1,6 @@
 """Conversion of measured channels to SI units.
 
-Values that are in their SI unit already need no library; every other unit goes through pint.
+pint converts every unit but the SI unit itself; it is loaded where it is used.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.errors import InputError, MissingEngineError
+from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.quantities import Quantity
 
 Array = npt.NDArray[np.float64]
@@ -31,23 +31,24 @@ def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | No
 
     Raises:
         InputError: ``unit`` is unknown, or is a unit of something else.
-        MissingEngineError: pint is needed and is not installed.
     """
     targets = quantity.units_of(rotational)
     if unit in targets:
         return values, unit
     if quantity.name == "temperature" and unit == "K":
         return values, "K"
+    wrong = (
+        f"unit {unit!r} is not one of {quantity.name}, which is kept in {' or '.join(targets)}{_motion(quantity, rotational)}"
+    )
+    if unit in quantity.units_of(None):  # of the other kind of motion: no library is needed to say so
+        raise InputError(f"{wrong}; give {' or '.join(targets)}, or a unit of that kind")
     units = _registry()
     given = _parsed(units, unit, quantity, targets)
     for target in targets:
         wanted = units.Unit(_spelled(target))
         if _alike(units, given, wanted):
             return np.asarray(units.Quantity(values, given).to(wanted).magnitude, dtype=np.float64), target
-    raise InputError(
-        f"unit {unit!r} is not one of {quantity.name}, which is kept in {' or '.join(targets)}"
-        f"{_motion(quantity, rotational)}; give {_choices(quantity, targets)}"
-    )
+    raise InputError(f"{wrong}; give {_choices(quantity, targets)}")
 
 
 def _parsed(units: Any, unit: str, quantity: Quantity, targets: Sequence[str]) -> Any:
@@ -94,11 +95,5 @@ def _choices(quantity: Quantity, targets: Sequence[str]) -> str:
 
 @functools.cache
 def _registry() -> Any:
-    try:
-        pint: Any = importlib.import_module("pint")
-    except ImportError:
-        raise MissingEngineError(
-            "units other than SI are converted by pint, which is not installed; run: pip install 'stochfric_mb[measured]', "
-            "or write the file in SI units"
-        ) from None
+    pint: Any = importlib.import_module("pint")
     return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)

@@ -9,14 +9,15 @@ import numpy as np
 
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.measurement.scales import Array, Cause, Shown, likeliest, shown
+from stochfric_mb.measurement.scales import FACTORS, Array, Cause, Shown, inertia, likeliest, shown
 from stochfric_mb.measurement.smoothing import smooth
-from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.mechanisms import BeltBox, PrismaticJoint
 from stochfric_mb.scenario import Scenario
 
 CHANNEL_UNITS: dict[str, dict[str, float]] = {
     "position": {"m": 1.0, "mm": 1e-3, "um": 1e-6, "cm": 1e-2, "in": 0.0254},
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0},
+    "force": {"N": 1.0, "kN": 1e3, "mN": 1e-3},
     "belt_velocity": {"m/s": 1.0, "mm/s": 1e-3, "um/s": 1e-6, "cm/s": 1e-2, "mm/min": 1e-3 / 60.0},
 }
 """Channel -> units in which it may really be, with their size in SI units."""
@@ -31,6 +32,16 @@ ALIKE = 0.9
 """Correlation of a measured velocity with the rate of the position from which the two are of one motion [-]."""
 RATE_FITS = 5.0
 """Largest factor between them: filters and lag cost less, the nearest wrong unit is off by 6 (rpm for rad/s: 9.5)."""
+MASS_FITS = 1.5
+"""|log10| of force over acceleration over the stated mass from which units are looked at: payloads double a mass."""
+SAME_FACTOR = math.log10(2.0)
+"""Largest difference of its log10 from that of a factor between units: what a stated mass may be wrong by besides."""
+FRICTION_FITS = 1.0
+"""Largest |log10| of friction over mu_k N, once a unit is corrected: friction is known to an order of magnitude."""
+JOINT_POWERS: dict[str, tuple[float, float]] = {
+    "position": (-1.0, 0.0), "time": (2.0, 0.0), "mass": (-1.0, 0.0), "force": (1.0, 1.0),
+}  # fmt: skip
+"""What may have a wrong unit at a joint -> powers of its factor in force over acceleration over mass, and in friction."""
 HALF_WIDTH = 8
 """Half the length of the window through which a velocity is taken from a position [samples]."""
 
@@ -50,6 +61,8 @@ def require_plausible(run: Run, scenario: Scenario[Any], stated_in: str) -> None
     _require_alive(run)
     _require_rate(run)
     mechanism = run.mechanism(scenario)
+    if isinstance(mechanism, PrismaticJoint):
+        _require_inertia(run, mechanism, float(scenario.law.mu_k), stated_in)
     if isinstance(mechanism, BeltBox) and (seen := shown(run, mechanism, scenario.law.mu_s)) is not None:
         cause = likeliest(seen)
         if cause is not None:
@@ -96,6 +109,37 @@ def _require_rate(run: Run) -> None:
             f"{run.source}: velocity is {_times(factor)} the rate at which position changes: one of the two columns has a "
             "wrong unit; correct its header, or give units = { velocity = ... } or { position = ... }"
         )
+
+
+def _require_inertia(run: Run, joint: PrismaticJoint, mu_k: float, stated_in: str) -> None:
+    """Require that force over acceleration is of the size of the stated mass, where one wrong unit explains that it is not."""
+    seen = inertia(run, joint)
+    if seen is None or joint.mass == 0.0 or abs(off := math.log10(seen[0] / joint.mass)) < MASS_FITS:
+        return
+    mass, friction = seen
+    off, level = math.log10(mass / joint.mass), math.log10(friction / (mu_k * joint.normal_force))
+    causes = [
+        (name, factor)
+        for name, (of_mass, of_friction) in JOINT_POWERS.items()
+        for factor in FACTORS[name]
+        if abs(off - of_mass * math.log10(factor)) < SAME_FACTOR
+        and abs(level - of_friction * math.log10(factor)) < FRICTION_FITS
+    ]
+    remedies = [text for cause in causes if (text := _in_unit(run, *cause, joint.mass, stated_in))]
+    if remedies:
+        raise InputError(
+            f"{run.source}: the force is {mass:.3g} kg times the acceleration; the stated mass, {joint.mass:g} kg, is "
+            f"{_times(joint.mass / mass)} that. Probably {', or '.join(remedies)}"
+        )
+
+
+def _in_unit(run: Run, name: str, factor: float, mass: float, stated_in: str) -> str:
+    """Return what is in another unit, and what to write; nothing where no unit in use has this size."""
+    if name == "mass":
+        return f"mass in {stated_in} is in {_unit_of(STATED_UNITS[name], 1.0 / factor)}: write mass = {mass / factor:.6g} (kg)"
+    label, sizes = run.file_units.get(name, ""), CHANNEL_UNITS[name]
+    really = _unit_of(sizes, sizes.get(label, 1.0) / factor)
+    return f'column {name} [{label}] is in {really}: write units = {{ {name} = "{really}" }}' if really != label else ""
 
 
 def _wrong_unit(run: Run, box: BeltBox, seen: Shown, cause: Cause, stated_in: str) -> str:

@@ -12,9 +12,9 @@ from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
 from stochfric_mb.mujoco.joints import Joint, Tendon, element_of, load_of
-from stochfric_mb.mujoco.pairs import ANY, colliding_pairs, require_free, require_geoms, take_over, warn_of_filters
+from stochfric_mb.mujoco.pairs import colliding_pairs, require_free, require_geoms, take_over, warn_of_filters
 from stochfric_mb.mujoco.plugin.configuration import MAX_SLOTS, configuration, require_slots
-from stochfric_mb.mujoco.plugin.frictions import DOFS, KEYS, PAIRS, slot_of
+from stochfric_mb.mujoco.plugin.frictions import ANY, DOFS, KEYS, PAIRS, slot_of
 from stochfric_mb.mujoco.plugin.options import check_options, require_primal
 
 
@@ -64,7 +64,7 @@ def add_friction(
 
     Raises:
         InputError: unknown geom or joint, no load, a law that cannot run here, an address out of range, or options that switch
-            passive forces off.
+            passive forces or, for a joint or tendon, frictionloss off.
 
     Warns:
         IntegratorWarning: the ``discrete`` integrator, for a joint or tendon, or in ``explicit``.
@@ -84,7 +84,7 @@ def add_friction(
         element = element_of(spec, geoms)
         load = load_of(geoms, element, normal_force, radius)
         texts = configuration(friction, mode=mode, **address) | {geoms.kind: geoms.name} | load
-        check_options(spec.option, steered=False)
+        check_options(spec.option, steered=False, coordinate=True)
         name = _enter(spec, DOFS, f"friction_{geoms.name}", geoms.kind, texts)
         element.frictionloss = friction.law.mu_s * float(load.get("normal_force", 1.0))
         return name

@@ -22,7 +22,7 @@ from stochfric_mb.mujoco.march import COLUMNS, march
 from stochfric_mb.mujoco.memory.engine import plugin_text
 from stochfric_mb.mujoco.memory.state import header_of
 from stochfric_mb.mujoco.plugin.configuration import friction_of
-from stochfric_mb.mujoco.reading import diverged, friction_instances, state_of
+from stochfric_mb.mujoco.reading import diverged, state_of
 from stochfric_mb.scenario import Scenario, scenario_folders
 from stochfric_mb.trajectory import Trajectory
 
@@ -30,6 +30,8 @@ CARRIES_EFFECTS = True
 HOOK = "engine plugin (passive), RK4"
 DEEPEST = -0.04
 """Lowest vertical coordinate at which rest is looked for [m]; the box is 0.1 m high."""
+FRICTION = 0
+"""Number of the plugin instance: the scene has no other."""
 CHUNK = 200
 """Outputs between two progress reports."""
 
@@ -133,8 +135,7 @@ def integrate(model: mujoco.MjModel, scenario: Scenario, *, progress: Callable[[
     if abs(per_output * model.opt.timestep - scenario.output_step) > 1.0e-9 * scenario.output_step:
         raise InputError(f"model.opt.timestep = {model.opt.timestep:g} s does not divide {scenario.output_step:g} s")
     data = start(model, mechanism)
-    instance = friction_instances(model)[0]
-    state = state_of(model, data, instance)
+    state = state_of(model, data, FRICTION)
     rows = np.empty((scenario.n_outputs, COLUMNS))
     began = time.perf_counter()
     for first in range(0, scenario.n_outputs, CHUNK):
@@ -153,26 +154,22 @@ def integrate(model: mujoco.MjModel, scenario: Scenario, *, progress: Callable[[
 
 def start(model: mujoco.MjModel, mechanism: BeltBox) -> mujoco.MjData:
     """Return data at the initial state, the box resting on the belt where its vertical acceleration is zero."""
-    data = mujoco.MjData(model)
-    x, z = model.joint("x"), model.joint("z")
-    data.qpos[x.qposadr[0]] = mechanism.initial_position
-    data.qvel[x.dofadr[0]] = mechanism.initial_velocity
-    rest = _resting_height(model, data, int(z.qposadr[0]), int(z.dofadr[0]))
-    state = data.qpos.copy(), data.qvel.copy()
-    mujoco.mj_resetData(model, data)
-    data.qpos[:], data.qvel[:] = state
-    data.qpos[z.qposadr[0]] = rest
-    header_of(state_of(model, data, friction_instances(model)[0])).origin = -mechanism.initial_position
+    trial, data = mujoco.MjData(model), mujoco.MjData(model)
+    for made in (trial, data):
+        made.joint("x").qpos[0], made.joint("x").qvel[0] = mechanism.initial_position, mechanism.initial_velocity
+    data.joint("z").qpos[0] = _resting_height(model, trial)
+    header_of(state_of(model, data, FRICTION)).origin = -mechanism.initial_position
     return data
 
 
-def _resting_height(model: mujoco.MjModel, data: mujoco.MjData, coordinate: int, dof: int) -> float:
+def _resting_height(model: mujoco.MjModel, data: mujoco.MjData) -> float:
     """Return the vertical coordinate [m] at which the box rests: the root of its vertical acceleration."""
+    z = data.joint("z")
 
     def acceleration(height: float) -> float:
-        data.qpos[coordinate] = height
+        z.qpos[0] = height
         mujoco.mj_forward(model, data)
-        return float(data.qacc[dof])
+        return float(z.qacc[0])
 
     if not acceleration(1.0e-6) < 0.0:
         raise SimulationError("mujoco: the box does not fall onto the belt; check the model's gravity, mass and stiffness")
@@ -192,8 +189,7 @@ def _require_sane(data: mujoco.MjData, rows: Array, done: int, scenario: Scenari
 
 def trajectory_of(model: mujoco.MjModel, state: Array, rows: Array, scenario: Scenario, seconds: float) -> Trajectory:
     """Return the rows of `march` and the law instance's own state as a trajectory."""
-    instance, header = friction_instances(model)[0], header_of(state)
-    law = friction_of(plugin_text(model, instance, "law"), "").law
+    header, law = header_of(state), friction_of(plugin_text(model, FRICTION, "law"), "").law
     dt = float(model.opt.timestep)
     address: dict[str, int] = {"seed": int(header.seed), "sample": int(header.sample)}
     _, notes = running_law(scenario.law, scenario.mechanism, scenario.effects, dt, substitute=True, **address)

@@ -18,7 +18,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from stochfric_mb.errors import InputError, SimulationError, require_name
+from stochfric_mb.errors import InputError, SimulationError
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
@@ -26,10 +26,10 @@ from stochfric_mb.mujoco.callback_steps import BEFORE, CAPACITY, ROWS, callback
 from stochfric_mb.mujoco.contact import replay
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory.engine import library
-from stochfric_mb.mujoco.memory.structs import DISCRETE
-from stochfric_mb.mujoco.pairs import ContactWarning, condim_of
+from stochfric_mb.mujoco.memory.structs import DISCRETE, record_at
+from stochfric_mb.mujoco.pairs import ContactWarning, condim_of, require_pair
 from stochfric_mb.mujoco.plugin.configuration import configuration, law_of, require_slots
-from stochfric_mb.mujoco.plugin.frictions import PAIRS, slot_of
+from stochfric_mb.mujoco.plugin.frictions import ANY, PAIRS, slot_of
 from stochfric_mb.mujoco.plugin.options import (
     NO_PASSIVE_FORCES,
     SWITCHED_OFF,
@@ -38,8 +38,7 @@ from stochfric_mb.mujoco.plugin.options import (
     require_primal,
     warn_of_stiff_damping,
 )
-from stochfric_mb.mujoco.plugin.sensor import report
-from stochfric_mb.mujoco.reading import Reading, reading_of
+from stochfric_mb.mujoco.reading import Reading, readings_of
 from stochfric_mb.mujoco.states import touched
 
 _lock = threading.Lock()
@@ -139,11 +138,14 @@ class friction:  # noqa: N801  (a context, used like a function)
             ROWS["model"][self._places] = 0
             self._places = []
             replaced = _uninstall()
-        if error is None:
-            self._warn_untouched()
-            if self._model.opt.disableflags & NO_PASSIVE_FORCES == NO_PASSIVE_FORCES:
-                raise SimulationError(f"passive forces were disabled while friction(...) was active: {SWITCHED_OFF}")
-        if replaced and error is None:
+        if error is not None:
+            return
+        for names, met in self.touched().items():
+            if not met and s.header_of(self._states[names]).evaluated != s.UNSET:
+                warnings.warn(f"geoms {names!r} never touched, so they had no friction", ContactWarning, stacklevel=2)
+        if self._model.opt.disableflags & NO_PASSIVE_FORCES == NO_PASSIVE_FORCES:
+            raise SimulationError(f"passive forces were disabled while friction(...) was active: {SWITCHED_OFF}")
+        if replaced:
             raise SimulationError(
                 "mjcb_passive was replaced while friction(...) was active, which switched the friction off; set your callback "
                 "before entering the context: it is called too"
@@ -151,16 +153,7 @@ class friction:  # noqa: N801  (a context, used like a function)
 
     def readings(self) -> dict[tuple[str, str], list[Reading]]:
         """Return what each pair did at its contacts, as `stochfric_mb.mujoco.readings` does."""
-        out: dict[tuple[str, str], list[Reading]] = {}
-        for names, state in self._states.items():
-            block = report(self._model._address, self._data._address, state.ctypes.data)
-            out[names] = [reading_of(self._model, state, row) for row in s.slots_of(state, committed=block == 0)]
-        return out
-
-    def _warn_untouched(self) -> None:
-        for names, met in self.touched().items():
-            if not met and s.header_of(self._states[names]).evaluated != s.UNSET:
-                warnings.warn(f"geoms {names!r} never touched, so they had no friction", ContactWarning, stacklevel=3)
+        return {names: readings_of(self._model, self._data, state) for names, state in self._states.items()}
 
     def touched(self) -> dict[tuple[str, str], bool]:
         """Return for each pair whether it has ever touched."""
@@ -168,25 +161,20 @@ class friction:  # noqa: N801  (a context, used like a function)
 
 
 def _geoms_of(model: mujoco.MjModel, names: tuple[str, str]) -> tuple[int, int]:
-    """Return the ids of two geoms given by name.
-
-    Raises:
-        InputError: not a pair of names, an unknown name, or geoms that never slide on each other, or without friction rows.
-    """
-    if isinstance(names, str) or len(names) != 2:
-        raise InputError(f"{names!r} is not a pair; give (body's geom, counter-surface's geom)")
-    if "*" in names:
+    """Return the ids of two geoms given by name, or refuse those that cannot slide on each other with friction."""
+    pair = require_pair(names, [model.geom(i).name for i in range(model.ngeom)])
+    if ANY in pair:
         raise InputError(f"{names!r}: a compiled model's pairs are named one by one; use add_friction(spec, ...) for '*'")
-    known = [model.geom(i).name for i in range(model.ngeom) if model.geom(i).name]
-    body, surface = (model.geom(require_name("geom", name, known)).id for name in names)
+    body, surface = (model.geom(name).id for name in pair)
     if model.body_weldid[model.geom_bodyid[body]] == model.body_weldid[model.geom_bodyid[surface]]:
         raise InputError(f"geoms {names!r} belong to one rigid body, so they never slide on each other; choose geoms that move")
-    if condim_of(model, body, surface) == 0:
+    condim = condim_of(model, body, surface)
+    if condim == 0:
         raise InputError(
             f"geoms {names!r} never touch: their contype and conaffinity exclude each other and there is no pair of them; "
             "add a contact pair or change the masks"
         )
-    if condim_of(model, body, surface) < 3:
+    if condim < 3:
         raise InputError(
             f"geoms {names!r} touch without friction (condim 1), so there is none for the law to set; give the pair, or one "
             "of the geoms, condim 3"
@@ -195,34 +183,24 @@ def _geoms_of(model: mujoco.MjModel, names: tuple[str, str]) -> tuple[int, int]:
 
 
 def _require_free(model: mujoco.MjModel, data: mujoco.MjData, states: Mapping[tuple[str, str], Array]) -> None:
-    active = ROWS[(ROWS["model"] == model._address) & (ROWS["data"] == data._address)]
-    taken = [_state_geoms(int(row["state"])) for row in active]
+    active = ROWS["state"][(ROWS["model"] == model._address) & (ROWS["data"] == data._address)]
+    taken = [{header.geom_body, header.geom_surface} for header in (record_at(s.HEADER, state) for state in active)]
     for names, state in states.items():
-        if _state_geoms(state.ctypes.data) in taken:
+        if {s.header_of(state).geom_body, s.header_of(state).geom_surface} in taken:
             raise InputError(f"pair {names!r} has friction from another context already; leave that one first")
     if np.count_nonzero(ROWS["model"] == 0) < len(states):
         raise InputError(f"more than {CAPACITY} pairs at a time; leave other friction contexts first")
 
 
-def _state_geoms(address: int) -> set[int]:
-    header = s.header_of(np.ctypeslib.as_array((ctypes.c_double * s.N_HEADER).from_address(address)))
-    return {int(header.geom_body), int(header.geom_surface)}
-
-
-def _pointer() -> ctypes.c_void_p:
-    return ctypes.c_void_p.in_dll(library(), "mjcb_passive")
-
-
 def _install() -> None:
-    pointer, ours = _pointer(), callback()
-    if pointer.value != ours:
-        BEFORE[0] = pointer.value or 0
-        pointer.value = ours
+    pointer = ctypes.c_void_p.in_dll(library(), "mjcb_passive")
+    if pointer.value != callback():
+        BEFORE[0], pointer.value = pointer.value or 0, callback()
 
 
 def _uninstall() -> bool:
     """Put the earlier callback back after the last context; return whether ours was not in its place."""
-    pointer = _pointer()
+    pointer = ctypes.c_void_p.in_dll(library(), "mjcb_passive")
     replaced = pointer.value != callback()
     if not replaced and not ROWS["model"].any():
         pointer.value = int(BEFORE[0]) or None

@@ -19,21 +19,11 @@ COLUMNS = 7
 
 @compiled
 def march(model, data, state, joint, foot, amplitude, frequency, step, first, last, per_output, rows):
-    """Fill ``rows`` with samples, ``per_output`` engine steps apart; return how many are finite.
+    """Fill ``rows``, shape (n, COLUMNS), with samples ``per_output`` engine steps apart; return how many are finite.
 
-    Args:
-        model: address of the model.
-        data: address of the data.
-        state: address of the friction's state.
-        joint: number of the slide joint's coordinate.
-        foot: number of the actuator whose control is the displacement of the spring's foot.
-        amplitude: amplitude of the foot [m].
-        frequency: angular frequency of the foot [rad/s].
-        step: engine step [s].
-        first: number of the first step since t = 0.
-        last: number of the step that is not taken any more.
-        per_output: steps between rows.
-        rows: shape (n, COLUMNS), filled here; the first row is sampled before any step.
+    The first row is sampled before any step. Model, data and the friction's state are given by their addresses, ``joint`` by
+    its coordinate's number. Actuator ``foot`` moves the spring's foot by amplitude [m] times cos(frequency [rad/s] t).
+    ``first`` is the number since t = 0 of the first step [s], ``last`` that of the step that is not taken any more.
     """
     control = data_at(data).ctrl
     number = first

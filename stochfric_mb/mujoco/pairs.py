@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 from typing import Any
 
 import mujoco
 import numpy as np
 
 from stochfric_mb.errors import InputError, require_name
-from stochfric_mb.mujoco.plugin.frictions import PAIRS
-
-ANY = "*"
-"""Stands for every geom that the other one can collide with."""
+from stochfric_mb.mujoco.plugin.frictions import ANY, PAIRS, covers
 
 
 class ContactWarning(UserWarning):
@@ -21,16 +19,22 @@ class ContactWarning(UserWarning):
 
 def require_geoms(spec: mujoco.MjSpec, geoms: tuple[str, str]) -> tuple[str, str]:
     """Return the names of two geoms that can slide on each other (one may be ``"*"``), or raise an `InputError`."""
+    body, surface = require_pair(geoms, [g.name for g in spec.geoms])
+    if ANY not in geoms and _carrier(spec, spec.geom(body)) == _carrier(spec, spec.geom(surface)):
+        raise InputError(f"geoms = {geoms!r} belong to one rigid body and never slide on each other; choose others")
+    return body, surface
+
+
+def require_pair(geoms: tuple[str, str], names: Sequence[str]) -> tuple[str, str]:
+    """Return two of a model's geoms by name (one may be ``"*"``), or raise an `InputError`."""
     if isinstance(geoms, str) or len(geoms) != 2:
         raise InputError(f"geoms = {geoms!r} is not a pair; give the names of the body's and the counter-surface's geom")
-    known = [g.name for g in spec.geoms if g.name]
+    known = [name for name in names if name]
     body, surface = (name if name == ANY else require_name("geom", name, known) for name in geoms)
     if body == surface == ANY:
         raise InputError("geoms = ('*', '*') names no geom; name one of the two, e.g. ('*', 'floor')")
     if body == surface:
         raise InputError(f"geoms = {geoms!r} names one geom twice; friction needs two")
-    if ANY not in geoms and _carrier(spec, spec.geom(body)) == _carrier(spec, spec.geom(surface)):
-        raise InputError(f"geoms = {geoms!r} belong to one rigid body and never slide on each other; choose others")
     return body, surface
 
 
@@ -42,9 +46,7 @@ def colliding_pairs(spec: mujoco.MjSpec, body: str, surface: str) -> list[tuple[
     Raises:
         InputError: there are none.
     """
-    for i, geom in enumerate(spec.geoms):
-        if not geom.name:
-            geom.name = f"geom_{i}"
+    name_all("geom", spec.geoms)
     copy = spec.copy()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the user's own compilation gives them
@@ -54,6 +56,18 @@ def colliding_pairs(spec: mujoco.MjSpec, body: str, surface: str) -> list[tuple[
     if not others:
         raise InputError(f"geom {model.geom(named).name!r} can collide with no other; check contype, conaffinity and excludes")
     return [(other, surface) if body == ANY else (body, other) for other in others]
+
+
+def name_all(kind: str, elements: Sequence[Any]) -> set[str]:
+    """Give those of a spec's elements that have no name one, in place; return these names."""
+    taken, made = {e.name for e in elements}, set[str]()
+    for i, element in enumerate(elements):
+        if not element.name:
+            element.name = f"{kind}_{i}"
+            while element.name in taken:
+                element.name += "_"
+            made.add(element.name)
+    return made
 
 
 def condim_of(model: mujoco.MjModel, a: int, b: int) -> int:
@@ -118,9 +132,7 @@ def require_free(spec: mujoco.MjSpec, pairs: list[tuple[str, str]]) -> None:
             continue
         theirs = plugin.config.get("geom1"), plugin.config.get("geom2")
         for pair in pairs:
-            if any(
-                all(mine in (its, ANY) or its == ANY for mine, its in zip(p, theirs, strict=True)) for p in (pair, pair[::-1])
-            ):
+            if covers(theirs, pair):
                 raise InputError(
                     f"geoms {pair[0]!r} and {pair[1]!r} have friction already, from the plugin instance {plugin.name!r}; "
                     "build the spec anew to change it, or name the geoms one by one instead of '*'"
@@ -147,22 +159,9 @@ def take_over(spec: mujoco.MjSpec, body: str, surface: str, mu_s: float) -> Any:
         chosen = [a, b] if a.priority == b.priority else [max(a, b, key=lambda g: g.priority)]
         made.condim = max(g.condim for g in chosen)
         made.friction = np.max([g.friction for g in chosen], axis=0)[[0, 0, 1, 2, 2]]
-        made.solref, made.solimp = _mixed(a, b)
+        made.solref[:], made.solimp[:] = np.nan, np.nan  # MuJoCo's compiler mixes those of the geoms
         made.margin, made.gap = a.margin + b.margin, a.gap + b.gap
         made.adhesion = sum(g.adhesion for g in chosen)
     made.condim = max(3, made.condim)
     made.friction = [mu_s, mu_s, *made.friction[2:]]
     return made
-
-
-def _mixed(a: Any, b: Any) -> tuple[Any, Any]:
-    """Return solref and solimp of a contact by MuJoCo's mixing rules (modeling chapter, contact parameters)."""
-    if a.priority != b.priority:
-        chosen = a if a.priority > b.priority else b
-        return chosen.solref, chosen.solimp
-    total = a.solmix + b.solmix
-    weight = a.solmix / total if total > 0.0 else 0.5
-    solimp = weight * np.asarray(a.solimp) + (1.0 - weight) * np.asarray(b.solimp)
-    if a.solref[0] <= 0.0 or b.solref[0] <= 0.0:
-        return np.minimum(a.solref, b.solref), solimp
-    return weight * np.asarray(a.solref) + (1.0 - weight) * np.asarray(b.solref), solimp

@@ -56,24 +56,24 @@ def readings(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, list[Readi
     After ``mj_step`` these are the forces in the step that has just ended, with position and velocity at its start;
     after ``mj_forward`` everything belongs to ``data.time``.
     """
-    return {name_of(model, i): instance_readings(model, data, i) for i in friction_instances(model) + joint_instances(model)}
+    return {name: readings_of(model, data, state_of(model, data, i)) for name, i in instances(model).items()}
 
 
-def instance_readings(model: mujoco.MjModel, data: mujoco.MjData, instance: int) -> list[Reading]:
-    """Return what one friction instance did at its contacts."""
-    state = state_of(model, data, instance)
+def readings_of(model: mujoco.MjModel, data: mujoco.MjData, state: Array) -> list[Reading]:
+    """Return what the friction that has this state did at its contacts."""
     block = report(model._address, data._address, state.ctypes.data)
     return [reading_of(model, state, row) for row in s.slots_of(state, committed=block == 0)]
 
 
-def friction_instances(model: mujoco.MjModel) -> list[int]:
-    """Return the plugin instances of a model that are this package's friction of geom pairs."""
-    return [i for i in range(model.nplugin) if model.plugin[i] == slot_of(PAIRS)]
+def instances(model: mujoco.MjModel, *plugins: str) -> dict[str, int]:
+    """Return the numbers of a model's friction instances by name, a number with a # if one has none.
 
-
-def joint_instances(model: mujoco.MjModel) -> list[int]:
-    """Return the plugin instances of a model that are friction on joints and tendons."""
-    return [i for i in range(model.nplugin) if model.plugin[i] == slot_of(DOFS)]
+    Args:
+        model: the model.
+        plugins: `PAIRS` or `DOFS`; both if not given.
+    """
+    slots = [slot_of(plugin) for plugin in plugins or (PAIRS, DOFS)]
+    return {name_in(model, mujoco.mjtObj.mjOBJ_PLUGIN, i): i for i in range(model.nplugin) if model.plugin[i] in slots}
 
 
 def state_of(model: mujoco.MjModel, data: mujoco.MjData, instance: int) -> Array:
@@ -88,9 +88,9 @@ def diverged(data: mujoco.MjData) -> bool:
     return any(data.warning[int(w)].number for w in (warnings.mjWARN_BADQPOS, warnings.mjWARN_BADQVEL, warnings.mjWARN_BADQACC))
 
 
-def name_of(model: mujoco.MjModel, instance: int) -> str:
-    """Return the name of a plugin instance, its number with a # if it has none."""
-    return mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_PLUGIN, instance) or f"#{instance}"
+def name_in(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
+    """Return the name of an object of a model, its number with a # if it has none."""
+    return mujoco.mj_id2name(model, kind, number) or f"#{number}"
 
 
 def reading_of(model: mujoco.MjModel, state: Array, row: Any) -> Reading:
@@ -98,13 +98,13 @@ def reading_of(model: mujoco.MjModel, state: Array, row: Any) -> Reading:
     header = s.header_of(state)
     if header.place != s.PAIR:
         kind = mujoco.mjtObj.mjOBJ_TENDON if header.place == s.TENDON else mujoco.mjtObj.mjOBJ_JOINT
-        body, surface = mujoco.mj_id2name(model, kind, int(header.geom_surface)), ""
+        body, surface = name_in(model, kind, int(header.geom_surface)), ""
         force: Any = (row.fx, 0.0, 0.0)
     else:
         pair = [int(row.geom_1) - 1, int(row.geom_2) - 1]
         if pair[1] == header.geom_body or (header.geom_body < 0 and pair[0] == header.geom_surface):
             pair.reverse()
-        body, surface = (mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_GEOM, g) or f"#{g}" for g in pair)
+        body, surface = (name_in(model, mujoco.mjtObj.mjOBJ_GEOM, g) for g in pair)
         force = row.fx * row.axis_1 + row.fy * row.axis_2
     return Reading(
         time=float(header.evaluated),

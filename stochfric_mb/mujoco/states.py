@@ -13,7 +13,8 @@ from stochfric_mb.laws import law_class, make_law
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory.engine import plugin_text
 from stochfric_mb.mujoco.plugin.configuration import friction_of, law_header
-from stochfric_mb.mujoco.reading import friction_instances, joint_instances, name_of, state_of
+from stochfric_mb.mujoco.plugin.frictions import DOFS, PAIRS
+from stochfric_mb.mujoco.reading import instances, state_of
 
 _ADDRESS = ("seed", "sample", "contact")
 _MEANS = {"mu_s": 4, "mu_k": 5}
@@ -90,7 +91,7 @@ def _renew_law(states: npt.NDArray[np.float64], kind: str) -> None:
 
 def untouched(model: mujoco.MjModel, data: mujoco.MjData) -> list[str]:
     """Return the names of the pairs' friction instances that have had no contact since the data was reset."""
-    return [name_of(model, i) for i in friction_instances(model) if not touched(state_of(model, data, i))]
+    return [name for name, i in instances(model, PAIRS).items() if not touched(state_of(model, data, i))]
 
 
 def touched(state: npt.NDArray[np.float64]) -> bool:
@@ -100,7 +101,7 @@ def touched(state: npt.NDArray[np.float64]) -> bool:
 
 
 def _instance(model: mujoco.MjModel, name: str) -> int:
-    names = {name_of(model, i): i for i in friction_instances(model) + joint_instances(model)}
+    names = instances(model)
     return names[require_name("friction instance", name, names)]
 
 
@@ -108,6 +109,6 @@ def _known(model: mujoco.MjModel, number: int) -> dict[str, int]:
     """Return the places in an instance's state of the numbers that can be set."""
     law = friction_of(plugin_text(model, number, "law"), "").law
     fields = [f.name for f in dataclasses.fields(law)]
-    loads = ("normal_force",) if number in joint_instances(model) else ()
+    loads = ("normal_force",) if number in instances(model, DOFS).values() else ()
     known = {name: s.place(name) for name in _ADDRESS} | {name: s.place("load") for name in loads}
     return known | {field: s.place("parameters") + i for i, field in enumerate(fields)}

@@ -7,11 +7,13 @@ from typing import Any
 
 from markupsafe import Markup
 
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import ABSOLUTE
 from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.effects import effect_class, effect_kinds, words_of
 from stochfric_mb.report.comparison import UNITS
 from stochfric_mb.report.discovery_pictures import COLOURS, given
-from stochfric_mb.report.page import marked, render, said
+from stochfric_mb.report.page import digits, marked, render, said
+from stochfric_mb.report.page import unit as raised
 
 CAPTIONS = {
     "cycles": "Left: held-out cycles from the middle of a stick phase on, measured and forecast. Right: error of the "
@@ -21,8 +23,9 @@ CAPTIONS = {
     "left_over": "The same residual slip by slip, against time and against the position on the belt. A pattern is missing from "
     "the model.",
     "folded": "The same residual of the first run, folded at the estimated wavelength or period.",
-    "friction": "Friction force against sliding velocity in the slips of the first run, as smooth as the slips allow, without "
-    "their ends; area: the middle nine tenths of all slips. At rest: the force at break-away. Lines: the fitted laws.",
+    "friction": "Friction force against sliding velocity. Lines: the fitted laws, in one slip of the first run. Dots: the law "
+    "plus the median of its residual in the measured slips, without their ends; area: the middle nine tenths. At rest: the "
+    "force at break-away.",
     "events": "Events in the held-out runs, measured and simulated; bar: the middle nine tenths of all values, tick: median.",
     "ranking": "How well each candidate explains the residual of the recalibrated model. Blue: named. Grey: other effects. "
     "Sand: patterns that name no physics.",
@@ -45,6 +48,8 @@ DISPLAYED = {"m": ((1.0e-3, 1.0e6, "µm"), (1.0, 1.0e3, "mm")), "m/s": ((1.0, 1.
 """Unit -> (below this, multiplied by that, shown as)."""
 
 
+MOST_DIGITS = 7
+"""Significant digits that an interval is shown with, at most."""
 AFTERWARDS = 3
 """Candidates shown of a search after the first."""
 
@@ -110,7 +115,11 @@ def interval(value: Mapping[str, Any], n: int = 3) -> Markup:
     """Return "value (low to high) unit" of an interval; one that was not fitted is shown without."""
     if value["low"] == value["high"]:
         return number(value["value"], value["unit"], n)
-    middle, low, high = _numbers([value["value"], value["low"], value["high"]], value["unit"], n)
+    three = [value["value"], value["low"], value["high"]]
+    factor = _scale(value["value"], value["unit"])[0]
+    while n < MOST_DIGITS and len({digits(factor * v, n) for v in three}) < len(set(three)):
+        n += 1  # ends that look like the value say nothing
+    middle, low, high = _numbers(three, value["unit"], n)
     return Markup("{} <small>({} to {})</small>{}").format(middle, low, high, _unit(value["value"], value["unit"]))
 
 
@@ -138,7 +147,7 @@ def _scale(value: float | None, unit: str) -> tuple[float, str]:
 
 def _unit(value: float | None, unit: str) -> Markup:
     shown = _scale(value, unit)[1]
-    return Markup('&nbsp;<span class="unit">{}</span>').format(shown) if shown and value is not None else Markup("")
+    return Markup('&nbsp;<span class="unit">{}</span>').format(raised(shown)) if shown and value is not None else Markup("")
 
 
 def _numbers(values: Sequence[float | None], unit: str, n: int) -> list[Markup]:
@@ -157,8 +166,8 @@ def _beliefs(content: Mapping[str, Any]) -> list[dict[str, Any]]:
     for name, fitted in content["believed"].items():
         value = stated["law"].get(name, stated["mechanism"].get(name)) if isinstance(stated.get("law"), Mapping) else None
         rows.append({
-            "name": name, "stated": value, "sure": sure.get(name), "fitted": fitted, "moved": beyond.get(name),
-            "measured": name not in unmeasured,
+            "name": name, "stated": value, "sure": sure.get(name), "absolute": name in ABSOLUTE, "fitted": fitted,
+            "moved": beyond.get(name), "measured": name not in unmeasured,
         })  # fmt: skip
     return rows
 

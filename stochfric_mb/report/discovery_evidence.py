@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -12,13 +13,14 @@ from numpy.polynomial import legendre
 from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
-from stochfric_mb.discovery.stick_slip.records.slips import NODES, Slips
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, believed
+from stochfric_mb.discovery.stick_slip.records.slips import Slips
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, stated_terms
 from stochfric_mb.discovery.stick_slip.simulation.forecast import MEMBERS, N_OUTPUTS, Windows, forecasts
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, deterministic
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.scatter import simulated_slips
 from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.reference.augmented import Start
 
 Array = npt.NDArray[np.float64]
 
@@ -28,6 +30,8 @@ BAND = 0.9
 """Share of the values that a band or a bar holds [-]."""
 PLACES = np.linspace(-0.94, 0.94, 48)
 """Where along a slip, from -1 to 1, the force that a model leaves is drawn: its polynomial is loose at the very ends."""
+ALONG = 200
+"""Parts of a simulated slip of which each shows its friction."""
 EVENTS = {"period": "s", "break_away_force": "N", "slip_travel": "m"}
 """Statistics of events and their units."""
 
@@ -60,10 +64,8 @@ class LeftOver:
     """Mean over the slip, shape (n,)."""
     along: Array
     """Along the slip, shape (n, len(PLACES))."""
-    at_nodes: Array
-    """The same at the nodes at which the relative velocity is known, shape (n, N_NODES)."""
-    relative_velocity: Array
-    """Relative velocity there [m/s], shape (n, N_NODES)."""
+    in_full: Array
+    """The same with all its coefficients, shape (n, len(PLACES))."""
     noise: float
     """Largest standard deviation that the sensor's noise brings into ``along`` [N]."""
 
@@ -71,6 +73,21 @@ class LeftOver:
     def rms(self) -> dict[str, float]:
         """Root mean square of what is left at break-away, and of the mean over the slip [N]."""
         return {"break_away": float(np.sqrt(np.mean(self.onset**2))), "slip": float(np.sqrt(np.mean(self.mean**2)))}
+
+
+@dataclasses.dataclass(frozen=True)
+class SlipFriction:
+    """Friction of a model in one slip that it simulates: its law and effects, without sensor and smoothing."""
+
+    relative_velocity: Array
+    """Relative velocity of belt and box [m/s], shape (n,), at even steps of time."""
+    force: Array
+    """Friction force, along the belt's motion [N], shape (n,)."""
+
+    def at(self, places: Array) -> tuple[Array, Array]:
+        """Return relative velocity and force at places along the slip, from -1 to 1, each of the places' shape."""
+        along = 2.0 * np.arange(1, len(self.force) + 1) / (len(self.force) + 1) - 1.0
+        return np.interp(places, along, self.relative_velocity), np.interp(places, along, self.force)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -87,30 +104,47 @@ class Evidence:
     """What the augmented model leaves; None where it differs by its scatter alone, or not at all."""
     events: Mapping[str, Mapping[str, Array]]
     """"data" or name of a model -> statistic -> values in the held-out runs."""
-    kinetic: float
-    """Mean friction force in slip of the recalibrated model, at the first operating point [N]."""
+    friction: Mapping[str, SlipFriction]
+    """"recalibrated" or "augmented" -> its friction in a slip of the first run; none for a model that does not slip there."""
 
 
 def gather(outcome: Outcome) -> Evidence | None:
     """Return what can be drawn of a discovery on a belt-box; None where its slips were too few, and on other mechanisms."""
     if outcome.study is None or outcome.models is None or outcome.runs is None:
         return None
-    believed_, recalibrated, augmented = outcome.models
-    models = {"believed": believed_, "recalibrated": recalibrated}
+    nominal, recalibrated, augmented = outcome.models
+    models = {"believed": nominal, "recalibrated": recalibrated}
     if outcome.result.verdict == "effect":
         models["augmented"] = augmented
     windows = tuple(w for w in outcome.runs.second if len(w))
     calm = deterministic(augmented)
     study = outcome.study
-    added = len(calm.effects) > len(study.model.effects)
+    added = len(calm.effects) > len(study.model.effects) and outcome.result.verdict == "effect"
+    compared = {"recalibrated": deterministic(recalibrated)} | ({"augmented": calm} if added else {})
+    friction = {name: slip for name, m in compared.items() if (slip := _slip_friction(m, study.pool.slips[0])) is not None}
     return Evidence(
         windows=windows,
         cycles={name: _cycles(model, windows) for name, model in models.items()} if windows else {},
         before=_left_over(study.pool, study),
-        after=_left_over(left_over(study.pool, calm), study) if added and outcome.result.verdict == "effect" else None,
+        after=_left_over(left_over(study.pool, calm), study) if added else None,
         events=_events(models, outcome.runs),
-        kinetic=float(study.solution.coefficients[1] * study.pool.normal_force[0]),
+        friction=friction,
     )
+
+
+def _slip_friction(model: Model, like: Slips) -> SlipFriction | None:
+    """Return the friction in the first slip that a model makes once a run has settled; None where it makes none."""
+    record, belt = like.record, like.record.stated.belt_velocity
+    system = model.system(record)
+    settled = system.march(Start(record.time[0] - like.settling, 0.0, belt, stick=True), like.settling, 1).end
+    time, begins = system.march(settled, 3.0 * float(np.median(np.diff(like.onset_time))), 1).events.T
+    pairs = np.flatnonzero((begins[:-1] == 1.0) & (begins[1:] == 0.0))
+    if not len(pairs):
+        return None
+    begin, end = time[pairs[0] : pairs[0] + 2]
+    away = system.march(settled, float(begin) - settled.time, 1).end
+    slip = system.march(away, float(end - begin) / ALONG, ALONG - 1)
+    return SlipFriction(np.abs(belt - slip.velocity), math.copysign(1.0, belt) * slip.friction_force)
 
 
 def _cycles(model: Model, windows: Sequence[Windows]) -> Cycles:
@@ -130,7 +164,7 @@ def _cycles(model: Model, windows: Sequence[Windows]) -> Cycles:
 def _left_over(pool: Pool, study: Study) -> LeftOver:
     """Return what remains of the features in ``pool`` once the stated model's parameters are fitted to them."""
     regression = Regression(pool)
-    terms = believed(pool, dict(study.uncertainty))
+    terms = stated_terms(pool, dict(study.uncertainty))
     rest = regression.residuals(terms, regression.fit(terms, study.solution.scatter))[pool.kept]
     series = rest[:, 1:].T
     return LeftOver(
@@ -140,8 +174,7 @@ def _left_over(pool: Pool, study: Study) -> LeftOver:
         onset=rest[:, 0],
         mean=rest[:, 1],
         along=np.asarray(legendre.legval(PLACES, series[:SMOOTH]), dtype=np.float64),
-        at_nodes=np.asarray(legendre.legval(NODES, series), dtype=np.float64),
-        relative_velocity=pool.relative_velocity[pool.kept],
+        in_full=np.asarray(legendre.legval(PLACES, series), dtype=np.float64),
         noise=_noise(pool),
     )
 

@@ -23,7 +23,7 @@ def complete(outcome: Outcome, evidence: Evidence | None, command: str) -> Resul
     """Return the result with every number that its page shows, under ``details``.
 
     Args:
-        outcome: what was found.
+        outcome: result, models and data of the discovery.
         evidence: what is drawn of it.
         command: the command that made it.
     """

@@ -14,7 +14,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from stochfric_mb.discovery.stick_slip.records.slips import NODES
 from stochfric_mb.discovery.stick_slip.simulation.forecast import N_OUTPUTS, REACH
 from stochfric_mb.effects import effect_kinds
 from stochfric_mb.report.discovery_evidence import PLACES, Evidence, LeftOver, band
@@ -54,7 +53,8 @@ def figures(content: Mapping[str, Any], evidence: Evidence | None) -> dict[str, 
         wanted["left_over"] = functools.partial(_left_over, evidence)
         if (repeated := _repeated(content)) is not None:
             wanted["folded"] = functools.partial(_folded, evidence, *repeated)
-        wanted["friction"] = functools.partial(_friction, evidence)
+        if evidence.friction:
+            wanted["friction"] = functools.partial(_friction, evidence)
         wanted["events"] = functools.partial(_events, evidence)
     if content["ranking"]:
         wanted["ranking"] = functools.partial(_ranking, content)
@@ -198,28 +198,21 @@ def _states(evidence: Evidence) -> list[tuple[str, LeftOver]]:
 
 
 def _friction(evidence: Evidence) -> Figure:
-    """Draw friction against relative velocity: as measured, and as each model has it."""
+    """Draw friction against relative velocity: as each model has it, and as measured: a model's and what it leaves."""
     figure, (axes,) = new_figure(4.8, 3.9)
-    left = evidence.before
-    mine = left.run == left.run[0]
-    speed = 1.0e3 * np.median(left.relative_velocity[mine], axis=0)
-    middle, low, high = band(evidence.kinetic + left.at_nodes[mine], axis=0)
-    # forces that turn on the box's motion differ on the way up and down in speed: both branches are drawn, without their ends,
-    # where the polynomial is loose
-    half = len(NODES) // 2
-    inner = np.abs(NODES) <= float(PLACES[-1])
+    name, left = [(n, residual) for n, residual in _states(evidence) if n in evidence.friction][-1]
+    speed, law = evidence.friction[name].at(PLACES)
+    middle, low, high = band(law + left.in_full[left.run == left.run[0]], axis=0)
+    # forces that turn on the box's motion differ on the way up and down in speed: both branches are drawn
     label: str | None = LABELS["data"]
-    for branch in (inner & (np.arange(len(NODES)) < half), inner & (np.arange(len(NODES)) >= half)):
-        axes.fill_between(speed[branch], low[branch], high[branch], color=COLOURS["data"], alpha=0.12, linewidth=0.0)
-        axes.plot(speed[branch], middle[branch], "o-", color=COLOURS["data"], markersize=3.0, linewidth=0.8, label=label)
-        label = None
-    axes.axhline(evidence.kinetic, color=COLOURS["recalibrated"], linewidth=1.6, label=LABELS["recalibrated"])
-    if evidence.after is not None and len(evidence.after.run) == len(left.run):
-        model = middle - np.median(evidence.after.at_nodes[mine], axis=0)
-        order = np.argsort(speed[inner])
+    for branch in np.array_split(np.arange(len(PLACES)), [int(np.argmax(speed)) + 1]):
+        axes.fill_between(1.0e3 * speed[branch], low[branch], high[branch], color=COLOURS["data"], alpha=0.12, linewidth=0.0)
         axes.plot(
-            speed[inner][order], model[inner][order], color=COLOURS["augmented"], linewidth=1.6, label=LABELS["augmented"]
+            1.0e3 * speed[branch], middle[branch], "o-", color=COLOURS["data"], markersize=3.0, linewidth=0.8, label=label
         )
+        label = None
+    for model, slip in evidence.friction.items():
+        axes.plot(1.0e3 * slip.relative_velocity, slip.force, color=COLOURS[model], linewidth=1.6, label=LABELS[model])
     _at_rest(axes, evidence)
     axes.set(xlabel="relative velocity [mm/s]", ylabel="friction force in the slip [N]")
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper left", ncols=2)
@@ -259,7 +252,7 @@ def _events(evidence: Evidence) -> Figure:
 
 def _ranking(content: Mapping[str, Any]) -> Figure:
     screened = {entry["kind"] for entry in content["ranking"]}
-    # what is found in the stick phases, in the sensor or in the scatter is not screened in the slips: it stands first
+    # effects of the stick phases, of the sensor and of the scatter are not screened in the slips: they stand first
     elsewhere = [
         {"kind": e["kind"], "score": e["evidence"]["score"]}
         for e in content["effects"]

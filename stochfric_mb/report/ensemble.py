@@ -146,16 +146,18 @@ def _fan_chart(result: EnsembleResult) -> Figure:
     ink = colour(str(result.attributes.get("engine", "")))
     for axes, (name, unit) in zip(panels, _units(result).items(), strict=True):
         levels = sorted({0.5, *(level for low, high, _ in BANDS for level in (low, high))})
-        found = dict(zip(levels, 1.0e3 * result.quantiles(name, levels), strict=True))
+        quantile = dict(zip(levels, 1.0e3 * result.quantiles(name, levels), strict=True))
         for low, high, opacity in BANDS:
             text = f"{100.0 * (high - low):.0f} %"
             if len(result.time) > FEW_TIMES:
                 shade: dict[str, Any] = {"color": "#0072b2", "alpha": opacity, "linewidth": 0.0, "label": text}
-                axes.fill_between(result.time, found[low], found[high], **shade)
+                axes.fill_between(result.time, quantile[low], quantile[high], **shade)
             else:
-                axes.vlines(result.time, found[low], found[high], color="#0072b2", alpha=opacity, linewidth=9.0, label=text)
+                axes.vlines(
+                    result.time, quantile[low], quantile[high], color="#0072b2", alpha=opacity, linewidth=9.0, label=text
+                )
         dots: dict[str, Any] = {} if len(result.time) > FEW_TIMES else {"marker": "o", "linestyle": ""}
-        axes.plot(result.time, found[0.5], color=ink, linewidth=1.0, label="median", **dots)
+        axes.plot(result.time, quantile[0.5], color=ink, linewidth=1.0, label="median", **dots)
         axes.set(xlabel="time [s]", ylabel=f"{name} [m{unit}]")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper left", ncols=4)

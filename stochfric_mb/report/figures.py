@@ -26,6 +26,7 @@ OTHER = "#cc79a7"
 STYLE: dict[str, Any] = {
     "font.family": "sans-serif",
     "font.size": 9.5,
+    "axes.formatter.useoffset": False,  # a number that is added to all others beside the axis is overlooked
     "axes.titlesize": 10.5,
     "axes.titleweight": "bold",
     "axes.titlelocation": "left",

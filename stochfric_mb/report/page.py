@@ -91,7 +91,7 @@ def picture(svg: str, text: str) -> Markup:
     for ink, meant in INKS.items():
         svg = svg.replace(f": {ink}", f": {meant}")
     svg = re.sub(r"font-family: sans-serif", "font-family: inherit", svg)
-    svg = re.sub(r' width="([\d.]+)pt" height="[\d.]+pt"', lambda found: _size(float(found[1])), svg, count=1)
+    svg = re.sub(r' width="([\d.]+)pt" height="[\d.]+pt"', lambda width: _size(float(width[1])), svg, count=1)
     svg = svg.replace(' xmlns="http://www.w3.org/2000/svg"', "", 1).replace(
         ' xmlns:xlink="http://www.w3.org/1999/xlink"', "", 1
     )

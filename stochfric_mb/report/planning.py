@@ -7,36 +7,35 @@ from typing import Any
 
 from stochfric_mb.effects import words_of
 from stochfric_mb.report.comparison import UNITS
-from stochfric_mb.report.discovery import in_words
+from stochfric_mb.report.discovery import in_words, number
 from stochfric_mb.report.page import render
 
 NUMBERS = {
     "seconds": ("duration", "s"), "sample_rate": ("sampling", "Hz"), "noise": ("noise of position", "m"),
     "stroke": ("stroke", "m"), "period": ("period", "s"), "force_noise": ("noise of force", "N"),
-    "slips": ("slips", "simulated"),
+    "slow_speed": ("slow speed", "m/s"), "fast_speed": ("fast speed", "m/s"), "slips": ("slips", "simulated"),
 }  # fmt: skip
 """Number of a planned run -> its name and its unit along a line."""
 ABOUT_AN_AXIS = {"m": "rad", "N": "N m"}
 """Unit along a line -> where friction acts about an axis."""
 
 
-def plan_page(content: Mapping[str, Any], title: str, command: str, *, rotational: bool) -> str:
+def plan_page(content: Mapping[str, Any], title: str, command: str) -> str:
     """Return the page of a plan.
 
     Args:
         content: what ``plan.json`` holds.
         title: title of the scenario.
         command: the command that made it.
-        rotational: whether friction acts about an axis.
     """
     numbers = {
-        key: (name, ABOUT_AN_AXIS.get(unit, unit) if rotational else unit)
+        key: (name, ABOUT_AN_AXIS.get(unit, unit) if content["rotational"] else unit)
         for key, (name, unit) in NUMBERS.items()
         if any(run.get(key) is not None for run in content["runs"])
     }
     return render(
         "planning.html", plan=content, title=title, command=command, words=words_of, in_words=in_words, beside=_beside,
-        numbers=numbers, units=UNITS,
+        number=number, numbers=numbers, units=UNITS,
     )  # fmt: skip
 
 

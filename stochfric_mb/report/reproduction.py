@@ -129,8 +129,8 @@ def _steps(result: Reproduction, quantity: str, n: int | None) -> Figure:
     unit = "mm" if quantity == "position" else "mm/s"
     for column, (law, runs) in zip(panels.T, study.ensembles.items(), strict=True):
         for i, (axes, t) in enumerate(zip(column, result.settings.times, strict=True)):
-            for shade, (step, found) in zip(STEP_COLOURS, runs.items(), strict=False):
-                x = np.sort(1.0e3 * values(found, quantity, i)[:n])
+            for shade, (step, runs_at_step) in zip(STEP_COLOURS, runs.items(), strict=False):
+                x = np.sort(1.0e3 * values(runs_at_step, quantity, i)[:n])
                 axes.step(x, np.arange(1, len(x) + 1) / len(x), color=shade, label=f"output step {step:g} s", linewidth=1.4)
             axes.set_title(f"{law}, {t:g} s")
             axes.ticklabel_format(axis="x", useOffset=False)

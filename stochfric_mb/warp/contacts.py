@@ -4,7 +4,7 @@
 
 They run in ``Model.callback.passive``: contacts and their constraint rows are there, the solver has not run, and it reads
 ``contact.friction``, ``efc.aref``, ``efc.D`` and ``efc.J`` live. A row of the solver gives the force D (reference -
-acceleration) within its cap. `learn` reads what the solver found in the step before, `steer` writes what it is to do now.
+acceleration) within its cap. `learn` reads the solver's forces of the step before, `steer` writes its bounds for this step.
 
 *Stick*: the cap is mu_s, and the two tangential rows get a position reference, which makes MuJoCo's tangential damper a spring:
 it holds. The law says how stiff the row is: rigid, elastic, or in series with a damper where a law creeps at rest
@@ -34,8 +34,8 @@ SLIDING_SHARE = wp.constant(solver.SLIDING_SHARE)
 
 
 @wp.func
-def found_force(force: wp.array2d[float], w: int, slots: Slots, old: int, i: int):
-    """Write what the solver found for a slot: its forces, and whether friction reached its cap."""
+def store_solver_force(force: wp.array2d[float], w: int, slots: Slots, old: int, i: int):
+    """Write the solver's forces of a slot, and whether friction reached its cap."""
     rows = slots.rows[old, i, w]
     friction = slots.friction[old, i, w]
     normal = wp.max(force[w, rows[0]], 0.0)
@@ -61,7 +61,7 @@ def learn(force: wp.array2d[float], body: wp.array[int], worlds: Worlds, slots: 
         return
     old = 1 - worlds.count[w] % 2
     for i in range(slots.used[old, w]):
-        found_force(force, w, slots, old, i)
+        store_solver_force(force, w, slots, old, i)
     for i in range(slots.used[old, w]):
         loose = slots.saturated[old, i, w]
         if loose == 1:

@@ -18,7 +18,7 @@ from stochfric_mb.warp.state import SLIP, STICK, Rows, Worlds
 
 
 @wp.func
-def found_row(
+def friction_row(
     w: int, type_wanted: int, id_wanted: int, n_equality: wp.array[int], n_friction: wp.array[int], row_type: wp.array2d[int],
     row_id: wp.array2d[int],
 ):  # fmt: skip
@@ -118,7 +118,7 @@ def hold_kernel(kind: str, clock: float) -> Any:
         w = wp.tid()
         new = worlds.count[w] % 2
         old = 1 - new
-        row = found_row(w, type_wanted, id_wanted, n_equality, n_friction, row_type, row_id)
+        row = friction_row(w, type_wanted, id_wanted, n_equality, n_friction, row_type, row_id)
         rows.row[new, w] = row
         if row < 0:
             return

@@ -41,7 +41,7 @@ class Touch:
     drift: wp.vec2
     """Displacement since it stuck [m]."""
     pull: wp.vec2
-    """Force that the solver found in the step before [N]; it opposes the motion."""
+    """The solver's friction force in the step before [N]; it opposes the motion."""
     load: float
     """Normal force in the step before, 0 for a new contact [N]."""
     mu_s: float

@@ -81,9 +81,9 @@ class Slots:
     mu_s: wp.array3d[float]
     mu_k: wp.array3d[float]
     normal: wp.array3d[float]
-    """Normal force that the solver found [N]."""
+    """The solver's normal force [N]."""
     pull: wp.array3d[wp.vec3]
-    """Friction force that the solver found, on the contact's second geom [N], in world coordinates."""
+    """The solver's friction force, on the contact's second geom [N], in world coordinates."""
     saturated: wp.array3d[int]
     """1 where the friction force reached its cap."""
     loose: wp.array3d[int]
@@ -115,7 +115,7 @@ class Rows:
     cap: wp.array2d[float]
     """Friction force or torque that the solver was allowed [N or N m]."""
     force: wp.array2d[float]
-    """Friction force or torque that the solver found [N or N m]."""
+    """The solver's friction force or torque [N or N m]."""
     drift: wp.array2d[float]
     """Displacement since it stuck [m or rad]."""
     creep: wp.array2d[float]

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator
 from .joint_generator.case import Case
 from .joint_generator.forms import FORMS
 from .joint_generator.unseen import UNSEEN
+from .joint_generator.unseen_second import UNSEEN_SECOND
 
 STRENGTHS = (1.0, 0.5)
 
@@ -42,13 +43,29 @@ UNSEEN_PAIRS = (
 )
 
 
-def unseen_cases(seeds: Iterable[int]) -> Iterator[Case]:
+UNSEEN_SECOND_PAIRS = (
+    "viscous_friction.limiting_shear+position_dependent_force.two_pitches",
+    "velocity_weakening.flash_heating+direction_asymmetry.rebound_and_bump",
+    "friction_drift.cold_start+position_dependent_friction.three_scratches",
+    "harmonic_force.runners+viscous_friction.cross_fluid",
+    "load_dependence.preloaded_nut+position_dependent_friction.cardan",
+    "direction_asymmetry.pile_of_a_brush+friction_drift.there_and_back",
+    "sensor_delay.resistor_and_capacitor+viscous_friction.limiting_shear",
+    "payload.counterweight+position_dependent_friction.worn_rack",
+)
+
+SERIES = {1: (UNSEEN, UNSEEN_PAIRS), 2: (UNSEEN_SECOND, UNSEEN_SECOND_PAIRS)}
+"""Sets of forms for a report, with their pairs."""
+
+
+def unseen_cases(seeds: Iterable[int], series: int = 1) -> Iterator[Case]:
     """For each seed every form of the report twice, at full and at half strength, in two mechanisms where there are; nulls
     in three.
     """
+    forms_of, pairs = SERIES[series]
     for seed in seeds:
-        for i, forms in enumerate([*UNSEEN, *UNSEEN_PAIRS]):
-            parts = [UNSEEN[name] for name in forms.split("+")]
+        for i, forms in enumerate([*forms_of, *pairs]):
+            parts = [forms_of[name] for name in forms.split("+")]
             designs = [d for d in parts[0].designs if all(d in part.designs for part in parts)]
             turns = min(3, len(designs)) if parts[0].kind == "none" else 2
             for turn in range(turns):

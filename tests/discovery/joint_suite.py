@@ -1,5 +1,7 @@
 """Judge discovery at driven joints: python -m tests.discovery.joint_suite --out DIR [--seeds A..B] [--sample N] [--jobs 2].
 
+`--unseen 1` and `--unseen 2` take the forms for a report in place of those for tuning.
+
 Leaves DIR/cases/CASE.json (truth, result, seconds), DIR/summary.md and DIR/summary.json. Cases that are there are not run
 again.
 """
@@ -126,12 +128,15 @@ def main() -> None:
     parser.add_argument("--limit", type=float, default=300.0, help="seconds for one case")
     parser.add_argument("--keep", action="store_true", help="keep datasets and answers")
     parser.add_argument("--list", action="store_true", help="print the cases and end")
-    parser.add_argument("--unseen", action="store_true", help="the forms for a report, in place of those for tuning")
+    parser.add_argument(
+        "--unseen", type=int, nargs="?", const=1, choices=joint_plan.SERIES, help="forms for a report (1 or 2), not for tuning"
+    )
     chosen = parser.parse_args()
-    plan_of = joint_plan.unseen_cases if chosen.unseen else joint_plan.cases
+    series = chosen.unseen
+    planned = joint_plan.unseen_cases(chosen.seeds, series) if series else joint_plan.cases(chosen.seeds)
     cases = [
         case
-        for case in plan_of(chosen.seeds)
+        for case in planned
         if (not chosen.kind or any(kind in case.forms for kind in chosen.kind))
         and (not chosen.design or case.design in chosen.design)
     ]

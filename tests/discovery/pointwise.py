@@ -29,7 +29,7 @@ VELOCITIES = (5e-3, 15e-3)
 """Decay velocities of a weakening law [m/s]."""
 LENGTHS = (2e-4, 1e-3)
 """Slip distances over which friction forgets [m]."""
-BELIEVED = ("coulomb", "stiffness", "mass", "damping")
+STATED = ("coulomb", "stiffness", "mass", "damping")
 """Terms that are always there and are no effect."""
 
 
@@ -66,7 +66,7 @@ def samples(run: Run, scenario: Any) -> tuple[Array, list[Term]]:
         Term("stiffness", x[kept]),
         Term("mass", acceleration[kept]),
         Term("damping", velocity[kept]),
-        Term("viscous_friction", load * v),  # at one operating point the same as damping, which is believed first
+        Term("viscous_friction", load * v),  # at one operating point the same as damping, which comes first
         Term("quadratic_damping", v * np.abs(v)),
         Term("nonlinear_stiffness", x[kept] ** 3),
         Term("friction_drift", sign * load * t),
@@ -84,13 +84,13 @@ def samples(run: Run, scenario: Any) -> tuple[Array, list[Term]]:
 def selected(force: Array, terms: list[Term]) -> list[tuple[str, float]]:
     """Terms of the set with the least BIC, and the root mean square of their force [N]; thrown out smallest first.
 
-    What believed terms can explain is taken out of the force and of all terms before.
+    What the terms of the stated model can explain is taken out of the force and of all terms before.
     """
-    believed = np.hstack([term.columns for term in terms if term.kind in BELIEVED])
-    basis = np.linalg.qr(believed / np.linalg.norm(believed, axis=0))[0]
+    stated = np.hstack([term.columns for term in terms if term.kind in STATED])
+    basis = np.linalg.qr(stated / np.linalg.norm(stated, axis=0))[0]
     force = force - basis @ (basis.T @ force)
-    left = [Term(t.kind, t.columns - basis @ (basis.T @ t.columns)) for t in terms if t.kind not in BELIEVED]
-    whole = [np.linalg.norm(t.columns) for t in terms if t.kind not in BELIEVED]
+    left = [Term(t.kind, t.columns - basis @ (basis.T @ t.columns)) for t in terms if t.kind not in STATED]
+    whole = [np.linalg.norm(t.columns) for t in terms if t.kind not in STATED]
     left = [t for t, norm in zip(left, whole, strict=True) if np.linalg.norm(t.columns) > 1e-6 * norm]  # else the same
     best: tuple[float, list[tuple[str, float]]] = (force.size * np.log(np.mean(force**2)), [])
     while left:

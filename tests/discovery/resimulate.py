@@ -74,22 +74,22 @@ def rescored(dataset: Path, answer: Path) -> Rescored | None:
     if not result["gap"]:
         return None
     augmented = load_scenario(answer / "augmented.toml")
-    believed = _recalibrated(load_scenario(dataset / "scenario.toml"), result["believed"])
+    recalibrated = _recalibrated(load_scenario(dataset / "scenario.toml"), result["believed"])
     runs = [
         _read(dataset, entry)
         for entry in tomllib.loads((dataset / "dataset.toml").read_text())["runs"]
         if entry["role"] == "test"
     ]
-    errors: dict[str, list[Array]] = {"believed": [], "augmented": []}
+    errors: dict[str, list[Array]] = {"recalibrated": [], "augmented": []}
     for number, run in enumerate(runs):
-        starts = _starts(run, believed)
+        starts = _starts(run, recalibrated)
         half = len(starts) // 2 if _ripples(augmented) else 0
         # a file has room for one phase of a ripple, that of the first held-out run; in others it is found from their first half
         own = augmented if number == 0 or not half else _in_step(augmented, run, starts[:half])
-        errors["believed"].append(_errors(believed, run, starts[half:]))
+        errors["recalibrated"].append(_errors(recalibrated, run, starts[half:]))
         errors["augmented"].append(_errors(own, run, starts[half:]))
     means = {name: float(np.concatenate(parts).mean()) for name, parts in errors.items()}
-    return Rescored(means["believed"], means["augmented"], result["gap"]["floor"])
+    return Rescored(means["recalibrated"], means["augmented"], result["gap"]["floor"])
 
 
 def _read(dataset: Path, entry: dict[str, Any]) -> Run:

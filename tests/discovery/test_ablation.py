@@ -97,12 +97,12 @@ def test_the_plain_way_reads_the_friction_force_of_a_slip(tmp_path, monkeypatch)
     data = load_dataset(tmp_path / "dataset")
     force, terms = samples(data.fit[0], data.scenario)
     box = data.scenario.mechanism
-    believed = {term.kind: term.columns[:, 0] for term in terms}
+    mechanism_columns = {term.kind: term.columns[:, 0] for term in terms}
     expected = (
-        made.true.mu_k * made.load_factor * believed["coulomb"]
-        + (box.mass - made.true.mass) * believed["mass"]
-        + (box.damping - made.true.damping) * believed["damping"]
-        + (box.stiffness - made.true.stiffness) * believed["stiffness"]
+        made.true.mu_k * made.load_factor * mechanism_columns["coulomb"]
+        + (box.mass - made.true.mass) * mechanism_columns["mass"]
+        + (box.damping - made.true.damping) * mechanism_columns["damping"]
+        + (box.stiffness - made.true.stiffness) * mechanism_columns["stiffness"]
     )
     # a cubic over 31 samples leaves of 5 um noise an acceleration of sqrt(720/31^5) 5e-6/1e-6 m/s^2, times the mass
     noise = box.mass * (720.0 / 31**5) ** 0.5 * 5e-6 / 1e-6

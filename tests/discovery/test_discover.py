@@ -103,15 +103,15 @@ def test_the_answer_is_the_same_on_a_rig_of_another_size():
     assert large.gap is not None
     assert usual.gap is not None
     assert large.gap == usual.gap.times(16.0)
-    assert large.believed["damping"].value == 256.0 / 16.0 * 0.25 * usual.believed["damping"].value
+    assert large.parameters["damping"].value == 256.0 / 16.0 * 0.25 * usual.parameters["damping"].value
 
 
 def _require_one_set_of_numbers(outcome):
     """The parameters that a result tells are those of the scenario that it writes."""
     scenario = outcome.scenario
-    for name, told in outcome.result.believed.items():
+    for name, interval in outcome.result.parameters.items():
         written = getattr(scenario.mechanism, name, None) or getattr(scenario.law, name)
-        assert told.value == pytest.approx(written, rel=1e-12), name  # one number, converted once
+        assert interval.value == pytest.approx(written, rel=1e-12), name  # one number, converted once
 
 
 @pytest.mark.parametrize("case", CLEAR, ids=lambda case: case.name)

@@ -27,7 +27,7 @@ def test_an_effect_that_worsens_forecasts_of_held_out_runs_is_not_named(monkeypa
         named = (Named("harmonic_force", (), Evidence(100.0, None), Where("time", "a force")),)
         return dataclasses.replace(decision, verdict="effect", named=named, model=decision.model.plus(BOGUS))
 
-    def unfitted(decision, found, recalibrated):
+    def unfitted(decision, slip_study, recalibrated):
         return dataclasses.replace(recalibrated, model=recalibrated.model.plus(BOGUS))
 
     monkeypatch.setattr(workflow, "decide", misled)

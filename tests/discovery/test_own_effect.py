@@ -38,10 +38,10 @@ def test_an_own_effect_is_discovered():
     truth, dataset = made(Case("position_dependent_friction.worn_stroke", "one_free", 1.0, SEED))
     result = discover(dataset).result
     assert [e.kind for e in result.effects] == ["rail_spot"]
-    hidden, found = truth["effect_parameters"][0], result.effects[0]
-    assert found.where.axis == "position of the box"
+    hidden, estimate = truth["effect_parameters"][0], result.effects[0]
+    assert estimate.where.axis == "position of the box"
     # the generator's spot has the same shape; its intervals are of 95 %
     for ours, theirs in (("depth", "depth"), ("place", "centre"), ("width", "width")):
-        assert found.parameters[ours].low <= hidden[theirs] <= found.parameters[ours].high
+        assert estimate.parameters[ours].low <= hidden[theirs] <= estimate.parameters[ours].high
     gap = result.gap
     assert (gap.recalibrated - gap.augmented) / (gap.recalibrated - gap.floor) > 0.85  # what discovery must reach in 90 %

@@ -30,8 +30,11 @@ def test_an_effect_shows_in_the_forces_of_held_out_slips(form, design, strength)
     assert gap.recalibrated > 3.0 * gap.floor  # what position forecasts miss by a fifth
     assert gap.closed is not None
     assert gap.closed > 0.85  # what a named effect must close in nine of ten cases
-    # a true model scores 1/sqrt(pi) of the noise
-    assert gap.floor == pytest.approx(1.0 / np.sqrt(np.pi), rel=0.02)
+    # a true model scores 1/sqrt(pi) of the noise; a lower score that is reached bounds the floor, and is below by no more than
+    # the noise is known to: 10 % from 48 slips, 1/sqrt(2 n)
+    truth = 1.0 / np.sqrt(np.pi)
+    assert gap.floor == pytest.approx(min(truth, gap.augmented), rel=0.02)
+    assert gap.floor > 0.9 * truth
 
 
 def test_faults_of_the_sensor_are_not_judged_by_forces():

@@ -38,15 +38,15 @@ def test_a_course_of_no_usual_shape_is_seen_as_what_it_is(form, design, kind, tm
     best = screen(result.pool, result.regression, result.terms, result.solution)[0]
     assert best.name == kind
     assert best.any_course
-    wander = randomness(result.regression, result.terms, result.solution).wander
-    assert best.score - wander > criteria.NAMED
+    drift = randomness(result.regression, result.terms, result.solution).wander
+    assert best.score - drift > criteria.NAMED
 
 
 def test_a_random_wander_is_no_course(tmp_path):
     result = studied("correlated_smooth", "several", tmp_path)
     courses = [c for c in screen(result.pool, result.regression, result.terms, result.solution) if c.any_course]
-    wander = randomness(result.regression, result.terms, result.solution).wander
-    assert max(c.score for c in courses) - wander < criteria.NAMED
+    drift = randomness(result.regression, result.terms, result.solution).wander
+    assert max(c.score for c in courses) - drift < criteria.NAMED
 
 
 def test_the_course_found_is_the_one_that_was_there(tmp_path):

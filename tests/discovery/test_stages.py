@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
+from stochfric_mb.discovery import criteria, discover
 from stochfric_mb.discovery.inference.paired import paired
 from stochfric_mb.discovery.result import Gap
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
@@ -17,7 +18,7 @@ from stochfric_mb.discovery.stick_slip.decision.explained import unexplained
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.decision.rounds import decide
 from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_step, steady
-from stochfric_mb.discovery.stick_slip.notes import notes
+from stochfric_mb.discovery.stick_slip.notes import notes, of_the_record
 from stochfric_mb.discovery.stick_slip.records.stick_phases import analyse
 from stochfric_mb.discovery.stick_slip.refusal import refusal
 from stochfric_mb.discovery.stick_slip.screening.competitors import competitors, softening
@@ -32,6 +33,8 @@ from stochfric_mb.discovery.stick_slip.workflow import recalibrated_model
 from stochfric_mb.effects import make_effect
 from tests.discovery.generator.case import Case
 from tests.discovery.net.rigs import belt_box
+from tests.discovery.unseen_forms.records import cases as unseen_cases
+from tests.discovery.unseen_forms.records import write_record
 
 
 @pytest.fixture(scope="module")
@@ -40,101 +43,137 @@ def data():
 
 
 @pytest.fixture(scope="module")
-def found(data):
+def slip_study(data):
     return study(data, USUAL)
 
 
 @pytest.fixture(scope="module")
-def candidates(found):
-    return screen(found.pool, found.regression, found.terms, found.solution)
+def candidates(slip_study):
+    return screen(slip_study.pool, slip_study.regression, slip_study.terms, slip_study.solution)
 
 
 @pytest.fixture(scope="module")
-def cases(found):
-    return cases_of(found.pool, found.model)
+def cases(slip_study):
+    return cases_of(slip_study.pool, slip_study.model)
 
 
 @pytest.fixture(scope="module")
-def decision(found):
-    return decide(found)
+def decision(slip_study):
+    return decide(slip_study)
 
 
 @pytest.fixture(scope="module")
-def recalibrated(found):
-    return recalibrated_model(found.model, found)
+def recalibrated(slip_study):
+    return recalibrated_model(slip_study.model, slip_study)
 
 
-def test_patterns_without_a_name_have_one_row_a_slip(found):
-    for name, (axis, columns) in competitors(found.pool).items():
+def test_a_mechanism_that_is_off_within_its_uncertainty_leaves_no_shape_to_the_slips(monkeypatch):
+    data = belt_box(Case("none.wrong_parameters", "several", 1.0, 17))
+    box = data.scenario.mechanism
+    uncertainty = dict(data.scenario.uncertainty) | {"stiffness": 0.015, "mass": 0.015}
+    stated = dataclasses.replace(box, stiffness=0.97 * box.stiffness, mass=1.03 * box.mass)
+    data = dataclasses.replace(data, scenario=dataclasses.replace(data.scenario, mechanism=stated, uncertainty=uncertainty))
+
+    def score_of_shape() -> float:
+        slip_study = study(data, USUAL)
+        return next(
+            c.score
+            for c in screen(slip_study.pool, slip_study.regression, slip_study.terms, slip_study.solution)
+            if c.name == "slip_shape"
+        )
+
+    assert score_of_shape() < criteria.FOLLOWED_UP
+    monkeypatch.setattr("stochfric_mb.discovery.stick_slip.study.RECALIBRATIONS", 0)
+    assert score_of_shape() > criteria.NAMED  # forces taken with the stated numbers hold a shape of their own
+
+
+def test_what_a_declared_scatter_with_a_memory_shows_by_chance_is_not_named(tmp_path):
+    name = "third_scatter_declared_correlated-one-1"
+    write_record(next(c for c in unseen_cases() if c.name == name), tmp_path, 2311)
+    result = discover(tmp_path / "data").result
+    assert dict(result.ranking)["harmonic_force"] > criteria.NAMED  # what names a wave where slips are independent
+    assert result.details["largest_by_chance"] > criteria.NAMED
+    assert result.verdict == "none"
+
+
+def test_pink_noise_is_no_random_friction(tmp_path):
+    write_record(next(c for c in unseen_cases() if c.name == "noise_pink-one-1"), tmp_path, 77)
+    result = discover(tmp_path / "data").result
+    assert result.details["randomness"]["static"] > criteria.SCATTER_CERTAIN  # beyond doubt, were the noise as calibrated
+    assert result.verdict == "none"
+
+
+def test_patterns_without_a_name_have_one_row_a_slip(slip_study):
+    for name, (axis, columns) in competitors(slip_study.pool).items():
         assert axis, name
-        assert all(c.shape == found.pool.features.shape for c in columns)
-    assert all(len(h.columns) == 1 for h in softening(found.pool))
+        assert all(c.shape == slip_study.pool.features.shape for c in columns)
+    assert all(len(h.columns) == 1 for h in softening(slip_study.pool))
 
 
-def test_a_candidate_becomes_an_effect_that_confirmation_bears_out(found, candidates, cases):
+def test_a_candidate_becomes_an_effect_that_confirmation_bears_out(slip_study, candidates, cases):
     weakening = next(c for c in candidates if c.name == "velocity_weakening")
-    model = with_candidate(found.model, weakening, found.pool, found.terms.columns.shape[2])
+    model = with_candidate(slip_study.model, weakening, slip_study.pool, slip_study.terms.columns.shape[2])
     assert [e.kind for e in model.effects] == ["velocity_weakening"]
-    before, after = (confirm(cases, m, found.uncertainty) for m in (found.model, model))
+    before, after = (confirm(cases, m, slip_study.uncertainty) for m in (slip_study.model, model))
     assert after.criterion < before.criterion - 100.0
     assert predict(after.model, cases[0]) is not None
 
 
-def test_a_candidate_that_never_slips_is_no_explanation(found, candidates, cases, monkeypatch):
+def test_a_candidate_that_never_slips_is_no_explanation(slip_study, candidates, cases, monkeypatch):
     # a slip that is missed counts a fixed number of deviations: less than one that is there, and wrong by more
-    stuck = dataclasses.replace(confirm(cases, found.model.with_law(9.0, 8.0), found.uncertainty), chi2=0.0)
+    stuck = dataclasses.replace(confirm(cases, slip_study.model.with_law(9.0, 8.0), slip_study.uncertainty), chi2=0.0)
     assert not stuck.slips
     monkeypatch.setattr(choice, "confirm", lambda *_, **__: stuck)
     monkeypatch.setattr(choice, "entrained", lambda *_: [])
-    before = confirm(cases, found.model, found.uncertainty)
+    before = confirm(cases, slip_study.model, slip_study.uncertainty)
     assert before.slips
-    chosen = choose(found, found.model, found.terms, candidates, cases, before, {})
+    chosen = choose(slip_study, slip_study.model, slip_study.terms, candidates, cases, before, {})
     assert not (isinstance(chosen, Chosen) and chosen.simulated)
 
 
-def test_the_effect_that_was_planted_is_chosen(found, candidates, cases):
-    before = confirm(cases, found.model, found.uncertainty)
+def test_the_effect_that_was_planted_is_chosen(slip_study, candidates, cases):
+    before = confirm(cases, slip_study.model, slip_study.uncertainty)
     details = {}
-    chosen = choose(found, found.model, found.terms, candidates, cases, before, details)
+    chosen = choose(slip_study, slip_study.model, slip_study.terms, candidates, cases, before, details)
     assert isinstance(chosen, Chosen)
     assert chosen.candidate.name == "velocity_weakening"
     assert details["confirmation_1"]["believed"][0] == before.chi2
 
 
-def test_slips_that_keep_to_a_wave_are_simulated_as_such(found, cases):
+def test_slips_that_keep_to_a_wave_are_simulated_as_such(slip_study, cases):
     # in a free run every slip is like the one before: waves are tried, and none fits better than weakening does
-    for candidate, confirmed in entrained(found, found.model, found.terms, cases):
+    for candidate, confirmed in entrained(slip_study, slip_study.model, slip_study.terms, cases):
         assert candidate.is_wave
         assert confirmed.n_parameters >= 3
 
 
-def test_what_the_effect_leaves_is_less(found, decision):
-    left = left_over(found.pool, decision.model, anew=True)
-    before, after = (np.abs(p.features[:, 2:].mean(axis=0)).sum() for p in (found.pool, left))
+def test_what_the_effect_leaves_is_less(slip_study, decision):
+    left = left_over(slip_study.pool, decision.model, anew=True)
+    before, after = (np.abs(p.features[:, 2:].mean(axis=0)).sum() for p in (slip_study.pool, left))
     assert after < 0.3 * before
 
 
-def test_a_name_that_explains_stands_and_one_that_does_not_falls(found, decision, recalibrated):
-    answer = fitted(decision, found, recalibrated)
-    assert unexplained(found, decision, recalibrated.model, answer.model) is None
-    assert explaining(answer, found, recalibrated) is answer
+def test_a_name_that_explains_stands_and_one_that_does_not_falls(slip_study, decision, recalibrated):
+    answer = fitted(decision, slip_study, recalibrated)
+    assert unexplained(slip_study, decision, recalibrated.model, answer.model) is None
+    assert explaining(answer, slip_study, recalibrated) is answer
     idle = Answer(decision, answer.fit, recalibrated.model)  # the name without its effect
-    poor = unexplained(found, decision, recalibrated.model, idle.model)
+    poor = unexplained(slip_study, decision, recalibrated.model, idle.model)
     assert poor is not None
     assert poor.verdict == "unknown"
 
 
-def test_a_model_that_cannot_run_by_itself_is_no_answer(found, decision, recalibrated):
+def test_a_model_that_cannot_run_by_itself_is_no_answer(slip_study, decision, recalibrated):
     # a spring that softens without end holds nothing once the box is far out
     runaway = recalibrated.model.plus(make_effect("nonlinear_stiffness", cubic=-1.0e9))
-    poor = unexplained(found, decision, recalibrated.model, runaway)
+    poor = unexplained(slip_study, decision, recalibrated.model, runaway)
     assert poor is not None
     assert poor.verdict == "unknown"
     assert "cannot run by itself" in poor.where.text
 
 
-def test_the_belt_runs_as_stated_and_a_wrong_statement_is_seen(data, found):
-    assert belt_speed(found) is None
+def test_the_belt_runs_as_stated_and_a_wrong_statement_is_seen(data, slip_study):
+    assert belt_speed(slip_study) is None
     wrong = dataclasses.replace(
         data.scenario, mechanism=dataclasses.replace(data.scenario.mechanism, belt_velocity=1.05 * 2.5e-3)
     )
@@ -144,38 +183,46 @@ def test_the_belt_runs_as_stated_and_a_wrong_statement_is_seen(data, found):
     assert seen.too_much
 
 
-def test_stick_phases_of_a_rigid_contact_show_nothing(found):
-    sticking = analyse(found.pool.slips)
+def test_stick_phases_of_a_rigid_contact_show_nothing(slip_study):
+    sticking = analyse(slip_study.pool.slips)
     assert sticking is not None
     assert max(sticking.scores.values()) < 0.0
 
 
-def test_no_step_of_the_sensor_is_seen_and_the_slips_stay_as_they_are(found, candidates):
+def test_no_step_of_the_sensor_is_seen_and_the_slips_stay_as_they_are(slip_study, candidates):
     assert seen_step(candidates, {}) is None
     np.testing.assert_array_equal(
-        steady(found.regression, found.terms, candidates, [], found.solution).features, found.pool.features
+        steady(slip_study.regression, slip_study.terms, candidates, [], slip_study.solution).features, slip_study.pool.features
     )
 
 
-def test_no_known_force_tells_a_delay_which_can_be_taken_off_again(found):
-    assert not driven(found)
-    late = with_delay(found.model, 2e-3)
+def test_no_known_force_tells_a_delay_which_can_be_taken_off_again(slip_study):
+    assert not driven(slip_study)
+    late = with_delay(slip_study.model, 2e-3)
     assert late.late == pytest.approx(2e-3)
     assert without_delay(late).effects == ()
 
 
-def test_advice_and_notes_speak_of_this_experiment(data, found, decision):
-    assert {"dwell_ageing", "direction_asymmetry", "load_dependence"} <= set(not_identifiable(found))
-    assert "belt speed" in next_experiment(decision, found)
+def test_advice_and_notes_speak_of_this_experiment(data, slip_study, decision):
+    assert {"dwell_ageing", "direction_asymmetry", "load_dependence"} <= set(not_identifiable(slip_study))
+    assert "belt speed" in next_experiment(decision, slip_study)
     gap = Gap("crps_one_cycle", "m", True, 2e-5, 1e-5, 1.2e-5, 4e-6)
     details = decision.details | {"parameters": {"moved_beyond_uncertainty": {"mass": 3.2}}}
-    told = notes(found, dataclasses.replace(decision, details=details), gap, None, data)
-    assert any("mass is 3.2 stated standard deviations" in note for note in told)
-    assert any("off by more" in note for note in told)
+    sentences = notes(slip_study, dataclasses.replace(decision, details=details), gap, None, data)
+    assert any("mass is 3.2 stated standard deviations" in note for note in sentences)
+    assert any("off by more" in note for note in sentences)
 
 
-def test_what_would_have_been_named_is_small(found):
-    power = smallest(found)
+def test_a_run_without_slips_is_said_to_be_left_out(slip_study):
+    still = dataclasses.replace(slip_study.records[0], name="still")
+    said = of_the_record(dataclasses.replace(slip_study, records=(*slip_study.records, still)))
+    assert [note for note in said if "not used" in note] == [
+        "run still is not used: it holds fewer than 8 slips (a dead sensor, a rig at rest, or steady sliding)"
+    ]
+
+
+def test_what_would_have_been_named_is_small(slip_study):
+    power = smallest(slip_study)
     assert 0.0 < power["velocity_weakening"] < 0.1  # of mu_s - mu_k, which is 0.34
 
 

@@ -48,7 +48,7 @@ def test_each_effect_agrees_with_the_reference(kind: str, engine: str, reference
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize(("axis", "high"), [("position", 2.8e-3), ("slip", 3.0e-3), ("time", 2.2)])
+@pytest.mark.parametrize(("axis", "high"), [("position", 2.8e-3), ("slip", 3.0e-3), ("time", 2.2), ("load", 26.0)])
 def test_an_unnamed_term_runs_along_each_axis(axis: str, high: float, engine: str) -> None:
     pytest.importorskip(engine)
     term = example("unnamed", axis=axis, high=high, static_share=1.0)

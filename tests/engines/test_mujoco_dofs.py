@@ -209,6 +209,24 @@ def test_sensors_read_what_readings_do():
     assert joint["mu_k"] == STIFF.mu_k
 
 
+@pytest.mark.parametrize(
+    ("element", "text"), [("joint", ""), ("tendon", '<tendon><fixed name="x"><joint joint="x" coef="1"/></fixed></tendon>')]
+)
+def test_a_coordinate_without_frictionloss_in_xml_has_the_friction_all_the_same(element, text):
+    keys = {"law": "kind = 'coulomb', mu_s = 0.5, mu_k = 0.4", element: "x", "normal_force": "10"}
+    config = "".join(f'<config key="{key}" value="{value}"/>' for key, value in keys.items())
+    plugin = f'<extension><plugin plugin="stochfric.dof"><instance name="f">{config}</instance></plugin></extension>'
+    xml = SLIDER.format(dt=1e-3, integrator="Euler").replace("<worldbody>", plugin + "<worldbody>", 1)
+    model = mujoco.MjModel.from_xml_string(xml.replace("</mujoco>", text + "</mujoco>"))
+    data = mujoco.MjData(model)
+    data.qvel[0] = 1.0
+    mujoco.mj_step(model, data, nstep=200)
+    assert data.qvel[0] == pytest.approx(1.0 - 0.4 * 10.0 / 2.0 * 0.2, rel=1e-3)  # v - mu_k N/m t, to the solver's tolerance
+    model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_FRICTIONLOSS)
+    with pytest.raises(mujoco.FatalError, match="frictionloss disabled"):
+        mujoco.MjData(model)
+
+
 def test_sensors_and_joints_work_from_xml():
     spec = watched()
     model, again = spec.compile(), mujoco.MjModel.from_xml_string(spec.to_xml())
@@ -275,10 +293,10 @@ def test_unusable_requests_are_refused():
         ({"radius": "0.1"}, "give one of them"),
     ],
 )
-def test_a_bad_configuration_in_xml_is_refused(changes, message, capsys):
+def test_a_bad_configuration_in_xml_is_refused(changes, message):
     spec = mujoco.MjSpec.from_string('<mujoco><worldbody><body><joint name="a"/><geom size=".1"/></body></worldbody></mujoco>')
     engine.add_friction(spec, engine.Joint("a"), STIFF, normal_force=1.0)
     spec.plugins[0].config = dict(spec.plugins[0].config) | changes
-    with pytest.raises(ValueError, match="plugin"):
+    with pytest.raises(ValueError, match=r"plugin stochfric\.dof: InputError") as refusal:
         spec.compile()
-    assert message in capsys.readouterr().err
+    assert message in str(refusal.value)

@@ -12,12 +12,12 @@ import concurrent.futures, ctypes, io, os, sys, tempfile, threading
 import mujoco
 import mujoco.rollout
 import stochfric_mb.mujoco
-from stochfric_mb.mujoco.memory import engine, layout
+from stochfric_mb.mujoco.memory import engine, structs
 from stochfric_mb.mujoco.plugin import frictions, sensor
 
 def entered(name):
     get = engine.library().mjp_getPlugin
-    get.restype, get.argtypes = ctypes.POINTER(layout.Plugin), [ctypes.c_char_p, ctypes.c_void_p]
+    get.restype, get.argtypes = ctypes.POINTER(structs.Plugin), [ctypes.c_char_p, ctypes.c_void_p]
     return get(name.encode(), None).contents
 
 def compiled():
@@ -120,16 +120,25 @@ assert compiled() == ["pair"], compiled()
 """)
 
 
-def test_a_model_is_refused_if_nothing_can_be_compiled():
+def test_what_fails_within_mujocos_call_is_the_error_of_that_call():
+    """At first in nstate, as the model is made, then in init, as its data are; the next try works."""
     _run("""
 from stochfric_mb.mujoco.plugin import registration
 def fail(*args):
-    raise RuntimeError("no compiler here")
-registration.native = fail
-try:
-    load("stochfric.pair", PAIR)
-except ValueError:
-    pass
-else:
-    raise AssertionError("accepted")
+    raise OSError("no 100 % of the disk")
+def refused(make, kind):
+    try:
+        make()
+    except kind as error:
+        assert "stochfric_mb: plugin stochfric.pair: OSError: no 100 % of the disk" in str(error), error
+    else:
+        raise AssertionError("made")
+native, registration.native = registration.native, fail
+refused(lambda: load("stochfric.pair", PAIR), ValueError)
+registration.native = native
+model = load("stochfric.pair", PAIR)
+law_of, frictions.law_of = frictions.law_of, fail
+refused(lambda: mujoco.MjData(model), mujoco.FatalError)
+frictions.law_of = law_of
+assert mujoco.MjData(model).plugin_state.size == model.npluginstate > 0
 """)

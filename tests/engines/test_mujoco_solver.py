@@ -132,7 +132,7 @@ def test_no_loaded_contact_slides_without_friction(name, kind):
     assert loaded > 50
 
 
-@pytest.mark.parametrize("name", ["ant", "humanoid"])
+@pytest.mark.parametrize("name", [*ROBOTS, "quadruped"])
 def test_a_step_is_as_continuous_as_natively(name):
     """A change of 1e-12 m/s in one velocity changes the velocities after a step by a bounded multiple of it."""
 

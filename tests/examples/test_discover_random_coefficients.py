@@ -29,11 +29,11 @@ def test_random_coefficients_are_named_and_the_portrait_spreads_as_measured(engi
     run = outcome.dataset.test[0]
     spread = example["loop_spread"]
     measured = spread(*example["measured_portrait"](run.time, run.channels["position"]))
-    believed, result = (
+    stated, result = (
         spread(*example["portrait"](dataclasses.replace(s, duration=40.0))[0])
         for s in (outcome.dataset.scenario, outcome.scenario)
     )
-    assert believed < 0.2 * measured  # constant coefficients: one loop
+    assert stated < 0.2 * measured  # constant coefficients: one loop
     # about 38 slips each: a ratio of two standard deviations lies within 1 +- 0.5 in 999 cases of 1000
     assert result == pytest.approx(measured, rel=0.5)
 

@@ -26,7 +26,7 @@ def load(name):
 def test_an_arm(capsys):
     load("discover_in_an_arm").main()
     said = capsys.readouterr().out
-    assert "hidden: nothing; found: none" in said
+    assert "hidden: nothing; verdict: none" in said
     assert "viscous_friction" in said
     assert "in joint elbow" in said
 

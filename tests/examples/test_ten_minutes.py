@@ -61,12 +61,12 @@ def test_from_a_log_to_the_page(mechanism, tmp_path):
     _add_the_other_logs(rig / "dataset.toml", tmp_path / "made")
 
     assert "Would search" in invoke("discover", rig, "--dry-run", "--out", tmp_path / "raw")
-    invoke("discover", rig, "--out", tmp_path / "found", "-q")
-    result = json.loads((tmp_path / "found" / "result.json").read_text(encoding="utf-8"))
+    invoke("discover", rig, "--out", tmp_path / "result", "-q")
+    result = json.loads((tmp_path / "result" / "result.json").read_text(encoding="utf-8"))
     named = [effect["kind"] for effect in result["effects"]]
     assert result["verdict"] == "effect"
     assert set(named) & set(json.loads((tmp_path / "truth.json").read_text(encoding="utf-8"))["acceptable"][0])
-    page = (tmp_path / "found" / "report.html").read_text(encoding="utf-8")
+    page = (tmp_path / "result" / "report.html").read_text(encoding="utf-8")
     assert page.count("position as measured") == 2 * 3  # as text for those who cannot see it, and below
     assert named[0].replace("_", " ") in page
-    assert tomllib.loads((tmp_path / "found" / "augmented.toml").read_text(encoding="utf-8"))["effects"]
+    assert tomllib.loads((tmp_path / "result" / "augmented.toml").read_text(encoding="utf-8"))["effects"]

@@ -128,6 +128,8 @@ def example(kind):
         values[field.name] = (
             about["choices"][-1] if "choices" in about else np.clip(about["scale"], about["low"], about["high"])
         )
+    if kind == "impacts":
+        values["duration"] = 1.0 / values["rate"]  # so long that a few hundred moments meet some
     return make_effect(kind, **values)
 
 

@@ -123,6 +123,8 @@ class Box:
             mu_s = self.static(t, x, travel, side, dwell) / self.factor(t, x, travel, side)
             mu_k += (mu_s - mu_k) * math.exp(-slip / e.get("distance", math.inf) - slip_time / e.get("time_constant", math.inf))
         extra = self.get("viscous_friction")["coefficient"] * speed if self.get("viscous_friction") else 0.0
+        if e := self.get("direction_asymmetry"):
+            extra -= side * e.get("viscous_difference", 0.0) / 2 * speed
         return mu_k * self.factor(t, x, travel, side) * self.normal(t) + extra
 
 

@@ -18,7 +18,7 @@ CASES = {
     "viscous_friction": {"coefficient": 8.0},
     "dwell_ageing": {"rate": 0.02, "time_constant": 0.1},
     "frictional_lag": {"distance": 1.0e-4},
-    "direction_asymmetry": {"asymmetry": -0.1},
+    "direction_asymmetry": {"asymmetry": -0.1, "viscous_difference": -3.0},
     "load_dependence": {"exponent": -0.2, "reference_load": 10.0, "adhesion": 4.0},
     "position_dependent_friction": {
         "amplitude": 0.04, "wavelength": 0.01, "phase": 0.7, "axis": "belt", "amplitude_2": 0.01, "phase_2": 1.0,
@@ -92,7 +92,8 @@ def test_position_axis() -> None:
 def test_cases_cover_the_effects_that_move_the_box() -> None:
     from stochfric_mb.effects import EFFECTS, effect_class
 
-    covered_elsewhere = {"impacts", "presliding_compliance", "temperature_drift"}  # the last needs a record of a temperature
+    # what reads a temperature, a pressure or a drive needs a record of it
+    covered_elsewhere = {"impacts", "presliding_compliance"} | {k for k in EFFECTS if effect_class(k).reads}
     moving = {k for k in EFFECTS if effect_class(k).group not in ("sensor", "randomness")}
     assert moving == set(CASES) | covered_elsewhere
     for kind, values in CASES.items():

@@ -148,3 +148,12 @@ def test_nested_functions_that_hold_numbers_are_told_apart(package):
         command = [sys.executable, "-c", code]
         out = subprocess.run(command, capture_output=True, text=True, check=True, env=settings, cwd=package.parent)
         assert out.stdout.split() == ["2.0", "3.0"]
+
+
+@pytest.mark.parametrize("kind", ["nbi", "nbc"])
+def test_stored_code_that_cannot_be_read_is_made_anew(package, kind):
+    _run(package)
+    for path in package.rglob(f"*.{kind}"):
+        path.write_bytes(path.read_bytes()[:-20])
+    assert _run(package) == [2.0, 42.0, 0, 0]
+    assert _run(package) == [2.0, 42.0, 1, 1]

@@ -29,7 +29,7 @@ def test_runs_summary_and_plots(tmp_path):
     done = invoke(*SHORT, "--n-runs", 80, "--output-times", "0.5,1.1,1.5", "--workers", 2, "--out", out, "--plot")
     assert done.exit_code == 0, done.output
     assert "80 runs at 3 times, event-driven, samples side by side" in done.output
-    assert "1 blocks of 80 runs on 2 threads; at most 0.0 MiB of memory for runs and blocks" in done.output
+    assert "1 block of 80 runs on 2 threads; at most 0.0 MiB of memory for runs and blocks" in done.output
     result, scenario = read_ensemble(out)
     wanted = ensemble.run(scenario, 80, seed=3, output_times=[0.5, 1.1, 1.5])
     assert np.array_equal(result.position, wanted.position)

@@ -1,14 +1,13 @@
 """Statistics: against closed forms, and by the share of intervals and p-values that should come out."""
 
 import math
-import sys
 
 import numpy as np
 import pytest
 from scipy.stats import norm
 
 from stochfric_mb import ensemble, statistics
-from stochfric_mb.errors import InputError, MissingEngineError
+from stochfric_mb.errors import InputError
 from stochfric_mb.scenario import load_scenario
 
 RNG = np.random.default_rng
@@ -76,7 +75,6 @@ def test_proportion_interval_is_wilson():
 
 
 def test_crps_by_hand_and_of_a_normal():
-    pytest.importorskip("scoringrules", reason="scoringrules is not installed")
     # E abs(X - y) - E abs(X - X')/2 with X' another member: (1 + 3)/2 - 2/2
     assert statistics.crps(0.0, [1.0, 3.0]) == pytest.approx(1.0, rel=1e-12)
     x = RNG(0).normal(size=50)
@@ -87,12 +85,6 @@ def test_crps_by_hand_and_of_a_normal():
     exact = y * (2.0 * norm.cdf(y) - 1.0) + 2.0 * norm.pdf(y) - 1.0 / math.sqrt(math.pi)
     # 4 standard errors: the members' abs(X - y) has a deviation below 1
     assert statistics.crps([y], members)[0] == pytest.approx(exact, abs=4.0 / math.sqrt(20_000))
-
-
-def test_crps_says_what_to_install(monkeypatch):
-    monkeypatch.setitem(sys.modules, "scoringrules", None)
-    with pytest.raises(MissingEngineError, match="pip install scoringrules"):
-        statistics.crps(0.0, [1.0, 2.0])
 
 
 @pytest.mark.parametrize(
@@ -112,7 +104,6 @@ def test_errors_name_the_value(call, message):
 
 
 def test_crps_checks_shapes():
-    pytest.importorskip("scoringrules", reason="scoringrules is not installed")
     with pytest.raises(InputError, match="shape"):
         statistics.crps([0.0, 1.0], [[1.0, 2.0, 3.0]] * 4)
 

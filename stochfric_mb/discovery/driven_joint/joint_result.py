@@ -17,7 +17,7 @@ from stochfric_mb.discovery.outcome import Outcome
 
 @dataclasses.dataclass(frozen=True)
 class PlaceOutcome:
-    """What was found at one joint."""
+    """The outcome at one joint."""
 
     place: str
     """Name of the joint; empty where there is one only."""
@@ -25,7 +25,7 @@ class PlaceOutcome:
     """The selection, step by step."""
     nuisances: tuple[Nuisance, ...]
     """Numbers of the mechanism that were corrected."""
-    believed: JointModel
+    stated: JointModel
     """The model as stated."""
     fit: tuple[ForceBalance, ...]
     """Fit runs."""
@@ -44,9 +44,9 @@ class PlaceOutcome:
     forecasts: Forecasts | None = None
     """Errors of forecasts that allow for that scatter; None where there is none."""
     undelayed: JointModel | None = None
-    """The recalibrated model without the delay that was found; None: none was."""
+    """The recalibrated model without the identified delay; None: there is none."""
     idle: str = ""
-    """Why what was found is not named; empty: it is."""
+    """Why the selected effects are not named; empty: they are."""
     unnamed: float | None = None
     """Evidence for a term without a name that carries over to held-out runs; it is the last effect of the final model."""
     timing: Timing | None = None
@@ -54,7 +54,7 @@ class PlaceOutcome:
 
     @property
     def late(self) -> float:
-        """By how much positions come after the driving force, beyond what is believed [s]."""
+        """By how much positions come after the driving force, beyond the stated delay [s]."""
         return self.timing.seconds if self.timing is not None and self.timing.named else 0.0
 
 

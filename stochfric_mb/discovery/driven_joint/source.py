@@ -1,4 +1,4 @@
-"""Where balances come from: a slide or hinge, or a user's own model; and the model that is believed at a place."""
+"""Where balances come from: a slide or hinge, or a user's own model; and the stated model at a place."""
 
 from __future__ import annotations
 

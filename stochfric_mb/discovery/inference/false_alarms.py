@@ -40,7 +40,7 @@ def chance(statistic: str, value: float) -> float:
 
     Args:
         statistic: one of those in ``null_scores.json``.
-        value: what was found.
+        value: the statistic of the record.
     """
     nulls = null_scores()[statistic]
     return (1 + sum(v >= value for v in nulls)) / (1 + len(nulls))

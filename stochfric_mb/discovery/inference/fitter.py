@@ -53,7 +53,7 @@ def minimised(
         first: where to begin, shape (p,); moved between the bounds.
         low: lower bounds, shape (p,).
         high: upper bounds, shape (p,).
-        difference: step by which the derivatives are found, in the numbers' own unit.
+        difference: step of the finite differences, in the numbers' own unit.
         evaluations: most iterations.
         tolerance: relative fall of the cost below which it ends [-].
         outlying: residuals beyond this count by their size, not its square: the loss is C^2 (sqrt(1 + (r/C)^2) - 1).

@@ -35,9 +35,9 @@ class FreeParameter:
     unit: str = "-"
     """Unit."""
     nominal: float = 0.0
-    """What is believed of it, where `prior` is finite."""
+    """Prior mean, where `prior` is finite."""
     prior: float = np.inf
-    """Standard deviation of that belief; inf where nothing is believed."""
+    """Standard deviation of the prior; inf where there is none."""
     run: str = ""
     """Run that it belongs to, empty for all."""
 
@@ -59,7 +59,7 @@ class Steps:
     high: Array
     """Largest steps, shape (p,)."""
     nominal: Array
-    """What is believed; the start where nothing is, shape (p,)."""
+    """Prior mean; the start where there is no prior, shape (p,)."""
     prior: Array
     """Standard deviations of that, shape (p,)."""
 
@@ -68,7 +68,7 @@ class Steps:
         return self.start + self.scale * step
 
     def surprise(self, values: Array) -> Array:
-        """Return by how many standard deviations values are off from what is believed, shape (p,); 0 where nothing is."""
+        """Return by how many standard deviations values are off from the prior mean, shape (p,); 0 without a prior."""
         return (values - self.nominal) / self.prior
 
 

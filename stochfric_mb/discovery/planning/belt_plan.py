@@ -1,4 +1,4 @@
-"""Planned runs of a belt-box: simulated as believed, taken through discovery's own extraction, and asked what they show.
+"""Planned runs of a belt-box: simulated as stated, taken through discovery's own extraction, and screened for effects.
 
 The regressors by which discovery screens for effects are the change of the slips' features with each effect, to first order;
 the covariance of these features comes from simulating the stated model with the sensor's noise.
@@ -16,19 +16,19 @@ from scipy.optimize import brentq
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.planning.planned_run import PlannedRun
-from stochfric_mb.discovery.planning.signature import Signature
+from stochfric_mb.discovery.planning.signature import Signature, separation
 from stochfric_mb.discovery.stick_slip.advice import SEEN_BY, constant_conditions
 from stochfric_mb.discovery.stick_slip.records.calibration import Calibration, calibrate
 from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.preconditions import require_usable
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, extract
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms, believed
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms, stated_terms
 from stochfric_mb.discovery.stick_slip.screening.waves import slow_frequencies, wave_columns
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import assumed, prior_model
 from stochfric_mb.discovery.stick_slip.simulation.scaling import Scaling
 from stochfric_mb.discovery.stick_slip.study import record_of
-from stochfric_mb.effects import effect_class, effect_kinds, kind_found_as
+from stochfric_mb.effects import effect_class, effect_kinds, kind_with_signature
 from stochfric_mb.effects.marks import WAVE, Hypothesis
 from stochfric_mb.effects.traits import DRAWN_ANEW
 from stochfric_mb.errors import InputError
@@ -41,7 +41,7 @@ from stochfric_mb.scenario import Scenario
 LOOKED_AT = 6
 """Frequencies that stand for all: periodic effects are all alike."""
 PROBE = 0.5
-"""Coefficient at which a hypothesis is asked for its size: below, the size may have reached a bound of fits."""
+"""Coefficient at which the size of a hypothesis is read off: below, the size may have reached a bound of fits."""
 SETTLING = 4.0
 """Time that is simulated before a record [s], at least; so are `CYCLES`."""
 CYCLES = 3.0
@@ -72,7 +72,11 @@ class BeltPlan:
     """Planned runs of a belt-box."""
 
     scenario: Scenario[BeltBox]
-    """What is believed."""
+    """The stated model."""
+    rotational = False
+    """The box slides along a line."""
+    notes: tuple[str, ...] = ()
+    """Nothing more is to be said of it."""
 
     def part(self, run: PlannedRun, seed: int) -> Part:
         """Return a planned run, simulated and taken through discovery's extraction.
@@ -98,7 +102,7 @@ class BeltPlan:
     def signatures(self, parts: Sequence[Part]) -> tuple[list[Signature], dict[str, str]]:
         """Return what effects would leave in some runs, and effect -> what would show it, for those that leave nothing."""
         pool = make_pool([p.slips for p in parts], [p.calibration for p in parts])
-        terms = believed(pool, dict(assumed_uncertainty(self.scenario)))
+        terms = stated_terms(pool, dict(assumed_uncertainty(self.scenario)))
         regression = Regression(pool)
         solution = regression.fit(terms)
         size = Scaling.of_rig(self.scenario.mechanism)
@@ -109,10 +113,13 @@ class BeltPlan:
             for kind in effect_kinds()
             if effect_class(kind).answers_to in constant
         }
-        believed_kinds = {e.kind for e in self.scenario.effects}
+        stated_kinds = {e.kind for e in self.scenario.effects}
         if self.scenario.process is not None:
-            believed_kinds |= {kind_found_as(DRAWN_ANEW)}
-        return [f for f in forms if f.kind not in {*blind, *believed_kinds}], blind
+            stated_kinds |= {kind_with_signature(DRAWN_ANEW)}
+        return [f for f in forms if f.kind not in {*blind, *stated_kinds}], blind
+
+    apart = staticmethod(separation)
+    """When effects are distinguished."""
 
     def unit(self, straight: str) -> str:
         """Return the unit of a parameter at this rig: it slides along a line."""
@@ -150,7 +157,7 @@ class BeltPlan:
         return bare.mechanism(self.scenario)
 
     def _measured(self, run: PlannedRun, seed: int) -> tuple[PlannedRun, Run]:
-        """Return a planned run with its noise stated, and what would be measured as believed."""
+        """Return a planned run with its noise stated, and what would be measured with the stated model."""
         if run.stroke is not None or run.period is not None:
             raise InputError(f"{run.name}: stroke and period are those of a driven joint; a belt-box has belt_velocity")
         box, step = self._box(run), 1.0 / run.sample_rate
@@ -277,5 +284,5 @@ def _scatter_signature(pool: Pool, regression: Regression, solution: Solution) -
         return float(np.sum(ratio - np.log1p(ratio))) - criteria.SCATTER_CERTAIN
 
     sigma = math.exp(float(brentq(lacking, -30.0, 5.0)))  # pyright: ignore[reportArgumentType]  # a number, without full_output
-    kind = kind_found_as(DRAWN_ANEW)
+    kind = kind_with_signature(DRAWN_ANEW)
     return Signature(kind, "sigma_s", "-", sigma, {"process": "per_event"}, (), np.zeros((0, 0)))

@@ -1,4 +1,4 @@
-"""Planned runs of a prismatic joint or a hinge pendulum: driven to and fro, in weak form, and asked what they show.
+"""Planned runs of a driven joint, also one of a MuJoCo model: driven to and fro, in weak form, and screened for effects.
 
 The motion is harmonic and the drive what the stated model needs for it, each with its sensor's noise. What an effect does
 to the force balance is linearised about the fitted model, as the search for effects does it.
@@ -19,13 +19,14 @@ from stochfric_mb.discovery.driven_joint.decision.selection import MATERIAL, NAM
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.gains import effect_columns
 from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
+from stochfric_mb.discovery.planning.joint_motion import measured_at_joint, measured_in_model
 from stochfric_mb.discovery.planning.planned_run import PlannedRun
-from stochfric_mb.discovery.planning.signature import Signature
+from stochfric_mb.discovery.planning.signature import Signature, separation
 from stochfric_mb.effects import Effect, effect_class, effect_kinds
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.mechanisms import HingePendulum, PrismaticJoint
+from stochfric_mb.mechanisms import Mjcf
 from stochfric_mb.scenario import Scenario
 
 SHARE_OF_STROKE, SHARE_OF_FRICTION = 1.0e-4, 0.01
@@ -43,7 +44,7 @@ class JointPart:
     run: PlannedRun
     """The run, its noise stated."""
     measured: Run
-    """What would be measured as believed."""
+    """What would be measured with the stated model."""
 
     def facts(self) -> dict[str, Any]:
         """Return what there is to say of it."""
@@ -57,7 +58,9 @@ class JointPlan:
     """Planned runs of a driven joint."""
 
     scenario: Scenario[Any]
-    """What is believed."""
+    """The stated model."""
+    place: str = ""
+    """Joint of a MuJoCo model; empty: the mechanism is one joint."""
 
     def part(self, run: PlannedRun, seed: int) -> JointPart:
         """Return a planned run, simulated.
@@ -65,7 +68,7 @@ class JointPlan:
         Raises:
             InputError: no motion is planned, or the mechanism needs a channel that is not planned.
         """
-        joint: PrismaticJoint | HingePendulum = self.scenario.mechanism
+        joint = self.scenario.mechanism
         if run.stroke is None or run.period is None:
             raise InputError(
                 f"{run.name}: a driven joint needs its motion; plan stroke and period, such as --run stroke=0.1,period=2"
@@ -79,19 +82,19 @@ class JointPlan:
             raise InputError(f"{run.name}: set = {dict(run.settings)!r}; at a joint plan stroke, period, duration and noise")
         if getattr(joint, "piston_area", 0.0):
             raise InputError(f"{run.name}: a pressure cannot be planned; leave piston_area out of the scenario for the plan")
-        friction = self.scenario.law.mu_k * joint.normal_force
+        friction = self.scenario.law.mu_k * self._load
         noise = SHARE_OF_STROKE * run.stroke if run.noise is None else run.noise
         force_noise = SHARE_OF_FRICTION * friction if run.force_noise is None else run.force_noise
         stated = dataclasses.replace(run, noise=noise, force_noise=force_noise)
-        return JointPart(stated, _measured(stated, joint, friction, seed))
+        if isinstance(joint, Mjcf):
+            return JointPart(stated, measured_in_model(stated, self._source(()), self.place, self.scenario.law.mu_k, seed))
+        return JointPart(stated, measured_at_joint(stated, joint, friction, seed))
 
     def signatures(self, parts: Sequence[JointPart]) -> tuple[list[Signature], dict[str, str]]:
         """Return what effects would leave in some runs, and effect -> what would show it, for those that leave nothing."""
-        scenario = self.scenario
-        source = source_of(Dataset(title="", scenario_path=None, scenario=scenario, runs=tuple(p.measured for p in parts)))
-        name, load = source.places[0]
+        source, name, load = self._source([p.measured for p in parts]), self.place, self._load
         balances, nuisances = source.balances(name, "fit", 0.0), source.nuisances(name)
-        fitted = Selector(balances, nuisances, prior_model(scenario, name, nuisances, load)).recalibrated
+        fitted = Selector(balances, nuisances, prior_model(self.scenario, name, nuisances, load)).recalibrated
         span = span_of(balances, fitted.model.law.mu_k * load, load)
         tried = candidates(span, fitted.model.effects)
         forms = [
@@ -104,9 +107,38 @@ class JointPlan:
         missing = {c.kind for c in candidates(richer, fitted.model.effects)} - {c.kind for c in tried}
         return forms, {k: RICHER.get(effect_class(k).answers_to, "another motion") for k in effect_kinds() if k in missing}
 
+    apart = staticmethod(separation)
+    """When effects are distinguished."""
+
     def unit(self, straight: str) -> str:
         """Return the unit of a parameter at this joint, its unit along a line given."""
-        return unit_at(straight, "N m" if self.scenario.mechanism.rotational else "N")
+        return unit_at(straight, "N m" if self.rotational else "N")
+
+    @property
+    def rotational(self) -> bool:
+        """Return whether friction acts about an axis."""
+        joint = self.scenario.mechanism
+        if not isinstance(joint, Mjcf):
+            return joint.rotational
+        source = self._source(())
+        return bool(source.model.jnt_type[source.names.index(self.place)] == source.mujoco.mjtJoint.mjJNT_HINGE)
+
+    @property
+    def notes(self) -> list[str]:
+        """Return what a reader should know of this mechanism."""
+        others = [name for name in getattr(self.scenario.mechanism, "friction", ()) if name != self.place]
+        return [f"the limits are those of joint {self.place}; --joint plans {' or '.join(others)}"] if others else []
+
+    @property
+    def _load(self) -> float:
+        """Load of the joint [N or N m]: friction is mu times it."""
+        joint = self.scenario.mechanism
+        return joint.friction[self.place] if isinstance(joint, Mjcf) else joint.normal_force
+
+    def _source(self, runs: Sequence[Run]) -> Any:
+        """Return the force balances of runs; a controller would ask for columns that are not planned."""
+        scenario = dataclasses.replace(self.scenario, controller=None)
+        return source_of(Dataset(title="", scenario_path=None, scenario=scenario, runs=tuple(runs)))
 
     @property
     def no_limit(self) -> tuple[str, ...]:
@@ -130,30 +162,6 @@ class JointPlan:
         if quiet is not None:
             runs.append((f"a run with a force sensor of noise {quiet:.3g}", dataclasses.replace(again, force_noise=quiet)))
         return runs
-
-
-def _measured(run: PlannedRun, joint: PrismaticJoint | HingePendulum, friction: float, seed: int) -> Run:
-    """Return what would be measured: a harmonic motion and the drive that the stated model needs for it."""
-    given = run.stroke, run.period, run.noise, run.force_noise
-    stroke, period, noise, force_noise = (float(x or 0.0) for x in given)
-    step, generator = 1.0 / run.sample_rate, np.random.default_rng(seed)
-    time = np.asarray(step * np.arange(round(run.duration * run.sample_rate)), dtype=np.float64)
-    rate = 2.0 * math.pi / period
-    q = joint.initial_position + 0.5 * stroke * np.sin(rate * time)
-    velocity, acceleration = 0.5 * stroke * rate * np.cos(rate * time), -(rate**2) * (q - joint.initial_position)
-    drive = joint.damping * velocity + joint.offset + friction * np.sign(velocity)
-    if isinstance(joint, PrismaticJoint):
-        drive, name, gain = drive + joint.mass * acceleration, "force", joint.force_gain
-    else:
-        inertia = joint.mass * joint.length**2 + joint.inertia
-        drive = drive + inertia * acceleration + joint.mass * joint.gravity * joint.length * np.sin(q)
-        name, gain = "torque", joint.torque_gain
-    drive = drive + force_noise * generator.standard_normal(len(q))
-    channels = {
-        "position": q + noise * generator.standard_normal(len(q)),
-        "voltage" if gain else name: drive / (gain or 1.0),
-    }
-    return Run(name=run.name, role="fit", time=time, channels=channels, settings=run.settings, sample_interval=step)
 
 
 def _form(candidate: Candidate, effect: Effect, balances: Any, fitted: JointFit, kinds: int) -> Signature | None:
@@ -184,7 +192,7 @@ def _form(candidate: Candidate, effect: Effect, balances: Any, fitted: JointFit,
     # overtones are in proportion to it
     numbers = {k: strength * v if k.startswith(name) and k != name else v for k, v in numbers.items()}
     of_size = numbers.pop(name)
-    # a form that is told by its shape alone, such as friction in proportion to what a joint transmits, has no size
+    # a form that is distinguished by its shape alone, such as friction in proportion to what a joint transmits, has no size
     limit = math.inf if name in effect.kept_at_joints(fitted.model.contact) else abs(strength * of_size)
     beside = {k: v for k, v in numbers.items() if v != effect.__dataclass_fields__[k].default and k not in effect.own_to_run}
     signal = change * math.sqrt(needed / size)

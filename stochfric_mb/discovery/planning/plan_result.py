@@ -32,7 +32,7 @@ class Limit:
 
 @dataclasses.dataclass(frozen=True)
 class Pair:
-    """Two effects that the runs do not tell apart."""
+    """Two effects that the runs do not distinguish."""
 
     first: str
     """One of them."""
@@ -71,9 +71,11 @@ class Plan:
     no_limit: tuple[str, ...]
     """Effects that discovery looks for by a detector, for which no limit is computed."""
     pairs: tuple[Pair, ...]
-    """Effects that the runs do not tell apart."""
+    """Effects that the runs do not distinguish."""
     extra: tuple[ExtraRun, ...]
     """Further runs, the most useful one first."""
+    rotational: bool = False
+    """Whether friction acts about an axis: strokes are in rad and forces in N m."""
     notes: tuple[str, ...] = ()
     """What a reader should know: numbers that were assumed."""
 

@@ -28,11 +28,16 @@ class PlannedRun:
     noise: float | None = None
     """Standard deviation of the position sensor's noise [m or rad], >= 0; none: a thousandth of the motion."""
     force_noise: float | None = None
-    """That of the driving force [N or N m], >= 0, at a driven joint; none: a hundredth of the friction."""
+    """That of a joint's driving force [N or N m], >= 0 (none: a hundredth of the friction), or of a spring slider's friction
+    [N] (none: a thousandth of it)."""
     stroke: float | None = None
     """Distance between the turning points of a driven joint [m or rad], > 0."""
     period: float | None = None
-    """Time of a stroke there and back of a driven joint [s], > 0."""
+    """Time of a stroke there and back of a driven joint, or of a step up and one down of a spring slider [s], > 0."""
+    slow_speed: float | None = None
+    """Speed of a spring slider's load point before a step up [m/s], > 0."""
+    fast_speed: float | None = None
+    """Its speed after it [m/s], > 0."""
     settings: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Numbers of the mechanism that differ from the scenario's in this run (key ``set``)."""
 
@@ -42,12 +47,12 @@ class PlannedRun:
         for key in ("noise", "force_noise"):
             if getattr(self, key) is not None:
                 require_number(f"{self.name}: {key}", getattr(self, key), low=0.0)
-        for key in ("stroke", "period"):
+        for key in ("stroke", "period", "slow_speed", "fast_speed"):
             if getattr(self, key) is not None:
                 require_number(f"{self.name}: {key}", getattr(self, key), above=0.0)
 
 
-KEYS = ("duration", "sample_rate", "noise", "force_noise", "stroke", "period")
+KEYS = ("duration", "sample_rate", "noise", "force_noise", "stroke", "period", "slow_speed", "fast_speed")
 """Numbers of a planned run; others are numbers of the mechanism."""
 
 

@@ -1,4 +1,4 @@
-"""What planned runs could show: detection limits, pairs of effects that stay confused, and the extra run that tells most."""
+"""What planned runs could show: detection limits, pairs of effects that are not distinguished, and what an extra run adds."""
 
 from __future__ import annotations
 
@@ -10,23 +10,17 @@ from typing import Any
 import numpy as np
 
 from stochfric_mb.discovery.planning.belt_plan import BeltPlan
+from stochfric_mb.discovery.planning.joint_motion import require_plannable
 from stochfric_mb.discovery.planning.joint_plan import JointPlan
 from stochfric_mb.discovery.planning.plan_result import ExtraRun, Limit, Pair, Plan
-from stochfric_mb.discovery.planning.planned_run import PlannedRun
-from stochfric_mb.discovery.planning.signature import Signature, best_of_each, confused_pairs
+from stochfric_mb.discovery.planning.planned_run import KEYS, PlannedRun
+from stochfric_mb.discovery.planning.signature import Apart, Signature, best_of_each, confused_pairs
+from stochfric_mb.discovery.planning.step_plan import StepPlan
 from stochfric_mb.effects import effect_class
 from stochfric_mb.errors import InputError
-from stochfric_mb.mechanisms import BeltBox, HingePendulum, PrismaticJoint, SpringSlider
+from stochfric_mb.mechanisms import BeltBox, Mjcf, SpringSlider
 from stochfric_mb.scenario import Scenario
 
-ADVICE = {
-    SpringSlider.kind: "Its laws of memory show in steps of the speed: plan at least two steps up and two down, each over ten "
-    "times the distance that friction remembers, and hold out one of each"
-}
-"""Mechanism that cannot be planned -> what to plan all the same."""
-
-RUN_NUMBERS = ("duration", "sample_rate", "stroke", "period", "noise", "force_noise")
-"""Numbers of a run beside those of its mechanism."""
 Progress = Callable[[str], None]
 
 
@@ -44,27 +38,33 @@ class _Outlook:
 
 
 def planned(
-    scenario: Scenario[Any], runs: Sequence[PlannedRun], *, extra: bool = True, progress: Progress = lambda _: None
+    scenario: Scenario[Any],
+    runs: Sequence[PlannedRun],
+    *,
+    joint: str | None = None,
+    extra: bool = True,
+    progress: Progress = lambda _: None,
 ) -> Plan:
     """Return what runs of a rig could show of what its model may lack, before anything is measured.
 
     Args:
-        scenario: the model believed.
+        scenario: the stated model.
         runs: runs that are planned.
+        joint: joint of a MuJoCo model whose friction is planned; None: the first that has any.
         extra: whether further runs are tried.
         progress: called with the name of each stage as it begins.
 
     Raises:
         InputError: a mechanism that cannot be planned, or runs that discovery would refuse; says what would do.
     """
-    rig = _rig(scenario)
+    rig = _rig(scenario, joint)
     parts: list[Any] = []
     for i, run in enumerate(runs):
         progress(run.name)
         parts.append(rig.part(run, i))
     progress("detection limits")
     now = _Outlook(*rig.signatures(parts))
-    pairs = confused_pairs(now.signatures)
+    pairs = confused_pairs(now.signatures, rig.apart)
     further: list[ExtraRun] = []
     for text, run in rig.extra_runs(runs[0]) if extra else ():
         progress(f"with {text}")
@@ -72,7 +72,7 @@ def planned(
             more = _Outlook(*rig.signatures([*parts, rig.part(run, len(parts))]))
         except InputError:
             continue  # a run that discovery would refuse adds nothing
-        further.append(_extra(text, run, runs[0], now, more, pairs))
+        further.append(_extra(text, run, runs[0], now, more, rig.apart, pairs))
     best = now.best
     return Plan(
         runs=tuple(p.facts() for p in parts),
@@ -81,7 +81,8 @@ def planned(
         no_limit=tuple(k for k in rig.no_limit if k not in best and k not in now.unseen),
         pairs=tuple(Pair(*pair, multiple if math.isfinite(multiple) else None) for pair, multiple in pairs.items()),
         extra=tuple(sorted(further, key=lambda e: (-len(e.shows) - len(e.separates), e.limits))),
-        notes=tuple(_notes(rig, runs, parts)),
+        notes=(*rig.notes, *_notes(rig, runs, parts)),
+        rotational=rig.rotational,
     )
 
 
@@ -91,15 +92,16 @@ def _limit(rig: Any, best: Signature) -> Limit:
     return Limit(best.kind, best.parameter, rig.unit(best.unit), best.limit, dict(best.beside), units, best.at_most)
 
 
-def _rig(scenario: Scenario[Any]) -> Any:
-    if isinstance(scenario.mechanism, BeltBox):
-        return BeltPlan(scenario)
-    if isinstance(scenario.mechanism, PrismaticJoint | HingePendulum):
-        return JointPlan(scenario)
-    raise InputError(
-        f"mechanism {scenario.mechanism.kind!r} cannot be planned; belt_box, prismatic_joint and hinge_pendulum can. "
-        + ADVICE.get(scenario.mechanism.kind, "Plan one of its joints by itself, as a prismatic_joint or hinge_pendulum")
-    )
+def _rig(scenario: Scenario[Any], joint: str | None) -> Any:
+    mechanism: Any = scenario.mechanism
+    if joint is not None and not isinstance(mechanism, Mjcf):
+        raise InputError(f"joint = {joint!r}: mechanism {mechanism.kind!r} has one joint; leave it out")
+    if isinstance(mechanism, Mjcf):
+        place = joint or next(iter(mechanism.friction))
+        require_plannable(mechanism, place)
+        return JointPlan(scenario, place)
+    plans = {BeltBox: BeltPlan, SpringSlider: StepPlan}
+    return plans.get(type(mechanism), JointPlan)(scenario)
 
 
 def _extra(
@@ -108,15 +110,16 @@ def _extra(
     first: PlannedRun,
     now: _Outlook,
     more: _Outlook,
+    apart: Apart,
     pairs: Mapping[tuple[str, str], float],
 ) -> ExtraRun:
     """Return what a further run adds."""
-    still = confused_pairs(more.signatures)
+    still = confused_pairs(more.signatures, apart)
     before, after = now.best, more.best
     ratios = [after[k].limit / before[k].limit for k in before if k in after]
     shown = tuple(k for k in now.unseen if k not in more.unseen)
     changed = {k: v for k, v in run.settings.items() if first.settings.get(k) != v}
-    changed |= {k: getattr(run, k) for k in RUN_NUMBERS if getattr(run, k) != getattr(first, k)}
+    changed |= {k: getattr(run, k) for k in KEYS if getattr(run, k) != getattr(first, k)}
     return ExtraRun(
         text,
         changed,
@@ -128,7 +131,8 @@ def _extra(
 
 def _notes(rig: Any, runs: Sequence[PlannedRun], parts: Sequence[Any]) -> list[str]:
     return [
-        f"{part.run.name}: the noise of the position is not stated; {part.run.noise:.3g} {rig.unit('m')} is assumed"
+        f"{part.run.name}: the noise of the {what} is not stated; {getattr(part.run, key):.3g} {rig.unit(unit)} is assumed"
         for run, part in zip(runs, parts, strict=True)
-        if run.noise is None
+        for key, what, unit in (("noise", "position", "m"), ("force_noise", "force", "N"))
+        if getattr(run, key) is None and getattr(part.run, key) is not None
     ]

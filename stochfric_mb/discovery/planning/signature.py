@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -46,7 +46,7 @@ class Signature:
         return float(np.mean([s @ s for s in self.signals]))
 
 
-def told_apart_from(true: Signature, other: Sequence[Signature]) -> float:
+def separation(true: Signature, other: Sequence[Signature]) -> float:
     """Return the size over its limit from which on an effect is distinguished from another one; inf: at no size.
 
     The other one explains the share r^2 of the evidence E = size^2 needed, r the correlation. Effects are of one class where
@@ -56,13 +56,13 @@ def told_apart_from(true: Signature, other: Sequence[Signature]) -> float:
         true: the effect that is there.
         other: the forms of the one that is fitted in its place.
     """
-    missed = min((_missed(true, form) for form in other), default=1.0)
+    missed = min((missed_share(true, form) for form in other), default=1.0)
     if missed <= criteria.ALIKE_SHARE:
         return float("inf")
     return max(float(np.sqrt(criteria.ALIKE_SCREENED / (missed * true.needed))), 1.0)
 
 
-def _missed(true: Signature, form: Signature) -> float:
+def missed_share(true: Signature, form: Signature) -> float:
     """Return the share of the evidence for an effect that another one leaves unexplained [-]."""
     size = np.linalg.norm(form.columns, axis=0)
     kept = size > 1.0e-9 * max(float(size.max(initial=0.0)), 1.0e-300)
@@ -81,22 +81,31 @@ def _of_one_sign(kind: str) -> bool:
 
 
 def best_of_each(signatures: Sequence[Signature]) -> dict[str, Signature]:
-    """Return the form of each kind with the smallest limit."""
+    """Return the form of each kind with the smallest limit, of those whose size is the number that its first form has."""
     table: dict[str, Signature] = {}
     for one in signatures:
-        if one.kind not in table or one.limit < table[one.kind].limit:
+        best = table.setdefault(one.kind, one)
+        if one.parameter == best.parameter and one.limit < best.limit:
             table[one.kind] = one
     return table
 
 
-def confused_pairs(signatures: Sequence[Signature]) -> dict[tuple[str, str], float]:
-    """Return the pairs of effects that are not distinguished up to `STRONG` limits, and the multiple from which on they are."""
+Apart = Callable[[Signature, Sequence[Signature]], float]
+
+
+def confused_pairs(signatures: Sequence[Signature], apart: Apart = separation) -> dict[tuple[str, str], float]:
+    """Return the pairs of effects that are not distinguished up to `STRONG` limits, and the multiple from which on they are.
+
+    Args:
+        signatures: the forms of all effects.
+        apart: effect and forms of another -> the size over its limit from which on it is distinguished from that one.
+    """
     best = best_of_each([s for s in signatures if s.signals])
     forms = {kind: [s for s in signatures if s.kind == kind] for kind in best}
     pairs: dict[tuple[str, str], float] = {}
     for i, first in enumerate(best):
         for second in list(best)[i + 1 :]:
-            multiple = max(told_apart_from(best[first], forms[second]), told_apart_from(best[second], forms[first]))
+            multiple = max(apart(best[first], forms[second]), apart(best[second], forms[first]))
             if multiple > STRONG:
                 pairs[first, second] = multiple
     return pairs

@@ -22,18 +22,20 @@ def not_identifiable(study: Study) -> tuple[str, ...]:
 
 def constant_conditions(pool: Pool) -> set[str]:
     """Return the conditions that effects may answer to, and that do not change in an experiment."""
+    pace = np.array([s.record.mechanism.belt_velocity for s in pool.slips])  # a box that slips keeps up with the belt
     same = {
         "dwell": bool(np.std(np.log(pool.dwell)) < 0.08),
         "direction": len(set(pool.direction)) < 2,
         "load": bool(np.ptp(pool.normal_force) < 0.05 * pool.normal_force.mean()),
+        "distance": bool(np.ptp(pace) < 0.1 * pace.mean()),
         "known force": not any(s.record.mechanism.excitation_amplitude for s in pool.slips),
     }
     return {condition for condition, constant in same.items() if constant}
 
 
-def _told_apart(first: str, second: str) -> str | None:
+def _separating_experiment(first: str, second: str) -> str | None:
     """Return the experiment that tells two effects apart, if one of them knows it."""
-    return effect_class(first).told_from.get(second) or effect_class(second).told_from.get(first)
+    return effect_class(first).separated_by.get(second) or effect_class(second).separated_by.get(first)
 
 
 def next_experiment(decision: Decision, study: Study) -> str:
@@ -43,7 +45,7 @@ def next_experiment(decision: Decision, study: Study) -> str:
         return belt.advice
     for named in decision.named:
         for other in named.class_:
-            if (advice := _told_apart(named.kind, other)) is not None:
+            if (advice := _separating_experiment(named.kind, other)) is not None:
                 return f"{advice}, to distinguish {words_of(named.kind)} from {words_of(other)}"
         if named.class_:
             which = f"{words_of(named.kind)} from {words_of(named.class_[0])}"

@@ -1,12 +1,11 @@
 """The gap where the disagreement lives: forces of held-out slips against their prediction, in units of their noise.
 
 A one-cycle forecast of the position averages over what an effect does to single slips, and the sensor's noise hides the rest;
-the force at break-away and the coefficients of the friction force within a slip are what the evidence was found in.
+the force at break-away and the coefficients of the friction force within a slip are where the evidence comes from.
 """
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Sequence
 from typing import Literal
 
@@ -27,14 +26,14 @@ LOOKED_AT = 24
 """Most slips of a run that are predicted."""
 
 
-def slip_force_gap(believed: Model, recalibrated: Model, augmented: Model, slips: Sequence[Slips]) -> Gap | None:
+def slip_force_gap(stated: Model, recalibrated: Model, augmented: Model, slips: Sequence[Slips]) -> Gap | None:
     """Return the CRPS of predicted slip forces over their noise [-]; None where the model holds what they cannot show.
 
     Args:
-        believed: the model as stated.
+        stated: the model as stated.
         recalibrated: with its parameters fitted.
-        augmented: with the effects, their phases in the held-out runs found already.
-        slips: slips of the held-out runs; where phases were found in their first halves, the second halves are scored.
+        augmented: with the effects, their phases in the held-out runs estimated already.
+        slips: slips of the held-out runs; where phases were estimated in their first halves, the second halves are scored.
     """
     if any(e.group == "sensor" or (e.random and e.coefficient_process() is None) for e in augmented.effects):
         return None
@@ -44,7 +43,7 @@ def slip_force_gap(believed: Model, recalibrated: Model, augmented: Model, slips
         first = len(run) // 2 if phased else 1
         rows = np.unique(np.linspace(first, len(run) - 1, LOOKED_AT).round().astype(int)) if len(run) > first else np.arange(0)
         if len(rows):
-            scores.append(_scores((believed, recalibrated, augmented), run, calibrate(run), rows))
+            scores.append(_scores((stated, recalibrated, augmented), run, calibrate(run), rows))
     joined = np.concatenate(scores) if scores else np.zeros((0, 4))
     joined = joined[np.isfinite(joined).all(axis=1)]
     if len(joined) < criteria.FORCES_FEWEST:
@@ -80,7 +79,7 @@ def _scores(models: Sequence[Model], slips: Slips, calibration: Calibration, row
 def _expected(model: Model, slips: Slips, dwell: Array, rows: np.ndarray) -> Array:
     """Return the features that a model expects of some slips [N], without what the extraction adds, shape (n, N_FEATURES)."""
     calm = deterministic(model)
-    bare = dataclasses.replace(calm, effects=(), own={}, corrections={})
+    bare = model.bare(slips.record)
     forced = slips.record.mechanism.excitation_amplitude != 0.0
     added = predicted_features(slips, bare, dwell, rows if forced else rows[:1])
     added = added - slips.record.mechanism.normal_force * np.r_[model.law.mu_s, model.law.mu_k, np.zeros(N_FEATURES - 2)]

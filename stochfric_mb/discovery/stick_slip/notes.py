@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Gap
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision
@@ -17,7 +18,7 @@ def notes(study: Study, decision: Decision, gap: Gap | None, forces: Gap | None,
     """Return the notes of a result.
 
     Args:
-        study: what the fit runs told.
+        study: what the fit runs show.
         decision: what was decided, with the numbers behind it.
         gap: errors of forecasts on the held-out runs.
         forces: errors of the forces of their slips.
@@ -26,7 +27,7 @@ def notes(study: Study, decision: Decision, gap: Gap | None, forces: Gap | None,
     details: dict[str, Any] = decision.details
     beyond = details["parameters"]["moved_beyond_uncertainty"]
     return (
-        *_of_the_record(study),
+        *of_the_record(study),
         *(
             f"{kind} is not validated on the held-out runs: error {seen['with_']:.3g} m with it, "
             f"{seen['without']:.3g} m without"
@@ -40,8 +41,15 @@ def notes(study: Study, decision: Decision, gap: Gap | None, forces: Gap | None,
     )
 
 
-def _of_the_record(study: Study) -> list[str]:
-    said: list[str] = []
+def of_the_record(study: Study) -> list[str]:
+    """Return what to know of the fit runs: which are not used, outliers, noise, length, the belt's speed."""
+    used = {slips.record.name for slips in study.pool.slips}
+    said = [
+        f"run {record.name} is not used: it holds fewer than {criteria.FEWEST_OF_RUN} slips (a dead sensor, a rig at rest, or "
+        "steady sliding)"
+        for record in study.records
+        if record.name not in used
+    ]
     if study.outliers > 0.0:
         said.append(f"{study.outliers:.2e} of the samples were outliers and were replaced by a running median")
     colour = max((s.noise for s in study.pool.slips), key=lambda n: n.coloured)

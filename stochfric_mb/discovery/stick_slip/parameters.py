@@ -9,10 +9,11 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.intervals import confidence_interval
-from stochfric_mb.discovery.result import Found, Interval, Where
+from stochfric_mb.discovery.result import EffectEstimate, Interval, Where
 from stochfric_mb.discovery.stick_slip.decision.rounds import Named
+from stochfric_mb.discovery.stick_slip.records.record import CORRECTED
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import deterministic
-from stochfric_mb.discovery.stick_slip.simulation.model import CORRECTED, Model
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.measurement.dataset import Dataset
@@ -21,14 +22,14 @@ UNITS = {"mu_s": "-", "mu_k": "-", "mass": "kg", "stiffness": "N/m", "damping": 
 """Units of the parameters of mechanism and law."""
 
 
-def found_effect(named: Named, fit: Fit | None, model: Model, study: Study) -> Found:
+def effect_estimate(named: Named, fit: Fit | None, model: Model, study: Study) -> EffectEstimate:
     """Return a named effect of the augmented model as the result tells it.
 
     Args:
         named: the effect.
         fit: the fit of the model's effects that are not random; None where nothing was fitted.
         model: the augmented model.
-        study: what the fit runs told.
+        study: what the fit runs show.
     """
     parameters: dict[str, Interval] = {}
     place = next(i for i, e in enumerate(model.effects) if e.kind == named.kind)
@@ -58,7 +59,7 @@ def found_effect(named: Named, fit: Fit | None, model: Model, study: Study) -> F
         unit = study.size.of(name)
         parameters[field.name] = confidence_interval(value * unit, deviation * unit, name, about["low"], about["high"])
     evidence = named.evidence
-    return Found(named.kind, named.class_, Where(*effect.appears()), parameters, evidence.score, evidence.p_value)
+    return EffectEstimate(named.kind, named.class_, Where(*effect.appears()), parameters, evidence.score, evidence.p_value)
 
 
 def own_parameters(fit: Fit, model: Model, study: Study) -> dict[str, Interval]:
@@ -69,15 +70,15 @@ def own_parameters(fit: Fit, model: Model, study: Study) -> dict[str, Interval]:
     Args:
         fit: the fit of that model.
         model: the model, as it stands in ``augmented.toml``.
-        study: what the fit runs told.
+        study: what the fit runs show.
     """
     rows: dict[str, Interval] = {}
-    for one, told, deviation, posterior in zip(fit.free, fit.told, fit.deviations, fit.posterior, strict=True):
+    for one, data_share, deviation, posterior in zip(fit.free, fit.data_share, fit.deviations, fit.posterior, strict=True):
         if one.owner >= 0 or one.run:
             continue
         stated = getattr(study.dataset.scenario.mechanism, one.name, 0.0) if one.name in CORRECTED else 1.0
         value = 1.0 + model.corrections[one.name] if one.name in CORRECTED else getattr(model.law, one.name)
-        doubt = max(deviation, posterior) if told < criteria.TOLD_BY_DATA else deviation
+        doubt = max(deviation, posterior) if data_share < criteria.DECIDED_BY_DATA else deviation
         unit = UNITS.get(one.name, "-")
         size = study.size.of(unit) * stated
         rows[one.name] = confidence_interval(value * size, doubt * size, unit, low=0.0)
@@ -87,7 +88,9 @@ def own_parameters(fit: Fit, model: Model, study: Study) -> dict[str, Interval]:
 def not_measured(fit: Fit) -> list[str]:
     """Return the parameters of mechanism and law whose value is their prior more than a measurement."""
     return [
-        k.name for k, told in zip(fit.free, fit.told, strict=True) if k.owner < 0 and not k.run and told < criteria.TOLD_BY_DATA
+        k.name
+        for k, data_share in zip(fit.free, fit.data_share, strict=True)
+        if k.owner < 0 and not k.run and data_share < criteria.DECIDED_BY_DATA
     ]
 
 

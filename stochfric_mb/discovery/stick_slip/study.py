@@ -12,11 +12,11 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.calibration import calibrate
 from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.preconditions import require_driven
-from stochfric_mb.discovery.stick_slip.records.record import Record, make_record
+from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Record, corrections_of, make_record
 from stochfric_mb.discovery.stick_slip.records.sensor_range import SensorRange, sensor_range
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, extract
 from stochfric_mb.discovery.stick_slip.records.stick_phases import Sticking, analyse
-from stochfric_mb.discovery.stick_slip.screening.regression import DAMPING, Regression, Solution, Terms, believed
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms, stated_terms
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, windows_of
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import prior_model
@@ -57,7 +57,7 @@ class Study:
     model: Model
     """The model as stated, with mu_s and mu_k as stated."""
     uncertainty: Mapping[str, float]
-    """Relative standard deviations of what is believed."""
+    """Relative standard deviations of the stated numbers."""
     records: tuple[Record, ...]
     """Fit runs, cleaned."""
     pool: Pool
@@ -105,11 +105,10 @@ def study(dataset: Dataset, size: Scaling, *, progress: Progress = lambda _: Non
     model = prior_model(dataset.scenario)
     progress("slips")
     records = tuple(record_of(run, dataset) for run in dataset.fit)
-    slips = [extract(r) for r in records]
-    usable = [s for s in slips if len(s) >= criteria.FEWEST_SLIPS]
-    if not usable:
+    usable = [s for s in map(extract, records) if len(s) >= criteria.FEWEST_OF_RUN]
+    if sum(map(len, usable)) < criteria.FEWEST_SLIPS:
         return None
-    require_driven(usable)
+    require_driven(usable, dataset.scenario.law.mu_s)
     progress("calibration")
     pool, solution = _calibrated(usable, dataset.scenario.uncertainty)
     return Study(
@@ -120,35 +119,44 @@ def study(dataset: Dataset, size: Scaling, *, progress: Progress = lambda _: Non
         records=records,
         pool=pool,
         regression=Regression(pool),
-        terms=believed(pool, dict(dataset.scenario.uncertainty)),
+        terms=stated_terms(pool, dict(dataset.scenario.uncertainty)),
         solution=solution,
-        sticking=analyse(usable),
-        range=sensor_range(usable),
+        sticking=analyse(pool.slips),
+        range=sensor_range(pool.slips),
         outliers=float(np.mean(np.concatenate([r.outlier for r in records]))),
     )
 
 
-def _calibrated(usable: Sequence[Slips], uncertainty: Mapping[str, float]) -> tuple[Pool, Solution]:
-    """Return the slips with the bias of their features taken out, at the damping that they show, and their fit."""
+def _calibrated(slips: Sequence[Slips], uncertainty: Mapping[str, float]) -> tuple[Pool, Solution]:
+    """Return the slips with forces taken with the mechanism that they show, the bias of these taken out, and their fit.
 
-    def at(damping: float) -> tuple[Pool, Solution, float]:
-        pool = make_pool(usable, [calibrate(s, seed=11 + i, damping=damping) for i, s in enumerate(usable)])
-        terms, regression = believed(pool, dict(uncertainty)), Regression(pool)
-        solution = regression.fit(terms)
-        free = dataclasses.replace(terms, priors=np.r_[terms.priors[:DAMPING], np.inf, terms.priors[DAMPING + 1 :]])
-        shown = regression.solve(free, solution.scatter).coefficients[DAMPING]
-        return pool, solution, max(1.0 + float(shown), 0.0)
-
-    damping, far = 1.0, criteria.FAR_DAMPED * uncertainty.get("damping", 0.0)
-    pool, solution, shown = at(damping)
+    With the stated mechanism edges and forces err by more than noise where it is off by a few percent: what corrections of
+    first order leave shapes every slip alike, as an effect does. A mechanism far beyond what is stated is none: an effect looks
+    like one, and its forces are those of the stated mechanism.
+    """
+    pool, solution, shown = _taken(slips, uncertainty)
     for _ in range(RECALIBRATIONS):
-        if abs(shown - damping) <= far:
+        at = pool.slips[0].record.corrections
+        off = solution.deviations[2 : 2 + len(CORRECTED)]
+        if all(abs(shown[name] - at[name]) <= doubt for name, doubt in zip(CORRECTED, off, strict=True)):
             break
-        damping = shown
-        pool, solution, shown = at(damping)
+        slips = [extract(s.record.corrected(shown)) for s in slips]
+        pool, solution, shown = _taken(slips, uncertainty)
     return pool, solution
 
 
-def slips_of_run(run: Run, dataset: Dataset) -> Slips:
-    """Return the slips of a run."""
-    return extract(record_of(run, dataset))
+def _taken(slips: Sequence[Slips], uncertainty: Mapping[str, float]) -> tuple[Pool, Solution, dict[str, float]]:
+    """Return the slips as they were extracted, calibrated, their fit, and the corrections of the mechanism that they show."""
+    pool = make_pool(slips, [calibrate(s, seed=11 + i) for i, s in enumerate(slips)])
+    terms, regression = stated_terms(pool, dict(uncertainty)), Regression(pool)
+    solution = regression.fit(terms)
+    shown = corrections_of(solution.coefficients[2:])
+    away = np.array(list(shown.values())) / terms.priors[2 : 2 + len(CORRECTED)]
+    if away @ away > criteria.FAR_FROM_STATED:
+        shown = dict.fromkeys(shown, 0.0)
+    return pool, solution, shown
+
+
+def slips_of_run(run: Run, dataset: Dataset, study: Study) -> Slips:
+    """Return the slips of a run, forces taken with the mechanism that the fit runs of ``study`` show."""
+    return extract(record_of(run, dataset).corrected(study.pool.slips[0].record.corrections))

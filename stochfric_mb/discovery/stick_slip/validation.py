@@ -15,9 +15,9 @@ from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut,
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, likelihood_ratio, refit, with_deviations
 from stochfric_mb.discovery.stick_slip.simulation.scatter import matched
-from stochfric_mb.discovery.stick_slip.simulation.strength import told_by_ratio, undecided
+from stochfric_mb.discovery.stick_slip.simulation.strength import decided_by_ratio, undecided
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.effects import kind_found_as, kinds_with
+from stochfric_mb.effects import kind_with_signature, kinds_with
 from stochfric_mb.effects.traits import OUTSIDE_FORECASTS, SCATTER, WANDER
 
 
@@ -33,27 +33,31 @@ class Answer:
     """That model; the recalibrated one where there are none."""
 
 
-def fitted(decision: Decision, found: Study, recalibrated: Fit) -> Answer:
+def fitted(decision: Decision, slip_study: Study, recalibrated: Fit) -> Answer:
     """Return a decision with the model that has its effects, fitted to the fit runs."""
-    fit = _fit(decision, found, recalibrated) if decision.verdict == "effect" else None
+    fit = _fit(decision, slip_study, recalibrated) if decision.verdict == "effect" else None
     return Answer(decision, fit, fit.model if fit is not None else recalibrated.model)
 
 
-def _fit(decision: Decision, found: Study, recalibrated: Fit) -> Fit:
+def _fit(decision: Decision, slip_study: Study, recalibrated: Fit) -> Fit:
     model = decision.model
     calm = deterministic(model)
     if not calm.effects:
-        return _joined(model, recalibrated, found)
+        return _joined(model, recalibrated, slip_study)
     starts = (calm, dataclasses.replace(calm, law=recalibrated.model.law, corrections=recalibrated.model.corrections))
-    fit = min((refit(m, found.windows, found.uncertainty, evaluations=25) for m in starts), key=lambda f: f.cost)
+    fit = min((refit(m, slip_study.windows, slip_study.uncertainty, evaluations=25) for m in starts), key=lambda f: f.cost)
     if model.process is not None:
-        # a fit to single draws of a scatter follows the draws: what the slips told stands where it forecasts better
-        told = refit(calm, found.windows, found.uncertainty, evaluations=0)
-        fit = min(fit, told, key=lambda f: sum(float(score(_joined(model, f, found).model, w).sum()) for w in found.windows))
-    return _joined(model, with_deviations(fit, found.windows, found.uncertainty), found)
+        # a fit to single draws of a scatter follows the draws: the estimate from the slips stands where it forecasts better
+        unmoved = refit(calm, slip_study.windows, slip_study.uncertainty, evaluations=0)
+        fit = min(
+            fit,
+            unmoved,
+            key=lambda f: sum(float(score(_joined(model, f, slip_study).model, w).sum()) for w in slip_study.windows),
+        )
+    return _joined(model, with_deviations(fit, slip_study.windows, slip_study.uncertainty), slip_study)
 
 
-def _joined(model: Model, fit: Fit, found: Study) -> Fit:
+def _joined(model: Model, fit: Fit, slip_study: Study) -> Fit:
     """Return a fit of a model's mean with what is random in the model, its strength matched to the slips."""
     calm = deterministic(model)
     places = [i for i, e in enumerate(model.effects) if e in calm.effects]
@@ -67,70 +71,81 @@ def _joined(model: Model, fit: Fit, found: Study) -> Fit:
             full[place] = dict(value)
         own[run] = tuple(full)
     joined = Model(fit.model.law, fit.model.corrections, tuple(effects), model.process, own, model.measured)
-    return dataclasses.replace(fit, model=matched(joined, found.pool))
+    return dataclasses.replace(fit, model=matched(joined, slip_study.pool))
 
 
-def explaining(answer: Answer, found: Study, recalibrated: Fit) -> Answer:
+def explaining(answer: Answer, slip_study: Study, recalibrated: Fit) -> Answer:
     """Return the answer as far as it explains the fit runs.
 
     What the first effect's form leaves may look like another effect, which in a fit of both takes the first one along.
     """
     decision = answer.decision
-    poor = unexplained(found, decision, recalibrated.model, answer.model)
+    poor = unexplained(slip_study, decision, recalibrated.model, answer.model)
     if poor is None:
         return answer
-    for other in _instead(decision, found):
-        tried = fitted(other, found, recalibrated)
-        if unexplained(found, other, recalibrated.model, tried.model) is None:
+    for other in _instead(decision, slip_study):
+        tried = fitted(other, slip_study, recalibrated)
+        if unexplained(slip_study, other, recalibrated.model, tried.model) is None:
             return tried
     return Answer(poor, None, recalibrated.model)
 
 
-def _instead(decision: Decision, found: Study) -> list[Decision]:
+def _instead(decision: Decision, slip_study: Study) -> list[Decision]:
     """Return what may be named instead: fewer of the effects, or a wander of friction."""
     others: list[Decision] = []
     fewer = decision
     while len(fewer.named) > 1 and (before := fewer.named[-1].before) is not None:
         fewer = dataclasses.replace(fewer, named=fewer.named[:-1], model=before)
         others.append(fewer)
-    wander = of_wander(found, decision)
+    wander = of_wander(slip_study, decision)
     return others if wander is None else [*others, wander]
 
 
-def checked_on_held_out(answer: Answer, found: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
-    """Return the answer less the effects that held-out runs do not bear out, last found first.
+def checked_on_held_out(answer: Answer, slip_study: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
+    """Return the answer less the effects that held-out runs do not bear out, last selected first.
 
     An effect must not make their forecasts worse, and must make them or the forces of their slips better; a further one must
     make the forecasts better. What is named then has a strength that differs from zero.
     """
+    if answer.decision.named and answer.decision.form is not None:
+        answer = _with_form(answer, answer.decision.form.kind, slip_study, recalibrated, runs)
     dropped: dict[str, object] = {}
     last: Named | None = None
     while answer.decision.named and answer.decision.named[-1].kind not in kinds_with(OUTSIDE_FORECASTS):
         last = answer.decision.named[-1]
-        fewer = _without_last(answer, found, recalibrated, runs)
+        fewer = _without_last(answer, slip_study, recalibrated, runs)
         seen = compared(fewer.model, answer.model, runs)
-        if seen is None or not (_refused(seen, last, fewer) or _closes_nothing(seen, last, fewer, answer, found, runs)):
+        if seen is None or not (_refused(seen, last, fewer) or _closes_nothing(seen, last, fewer, answer, slip_study, runs)):
             break
-        dropped[last.kind] = {name: error * found.size.length for name, error in dataclasses.asdict(seen).items()}
+        dropped[last.kind] = {name: error * slip_study.size.length for name, error in dataclasses.asdict(seen).items()}
         answer = fewer
-    answer = _with_strengths(answer, found, recalibrated)
+    answer = _with_strengths(answer, slip_study, recalibrated)
     if not dropped or last is None:
         return answer
     answer.decision.details["not_borne_out"] = dropped
     return answer if answer.decision.named else dataclasses.replace(answer, decision=_nothing_left(answer, last, runs))
 
 
-def _closes_nothing(seen: Comparison, last: Named, fewer: Answer, answer: Answer, found: Study, runs: HeldOut) -> bool:
-    """Return whether the effect found last leaves the forecasts and the forces of held-out slips as they are without it."""
+def _with_form(answer: Answer, term: str, slip_study: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
+    """Return the answer without the term for what its effect's form leaves, unless held-out forecasts are better with it."""
+    decision = dataclasses.replace(answer.decision, model=without_last(answer.decision.model, term), form=None)
+    plain = explaining(fitted(decision, slip_study, recalibrated), slip_study, recalibrated)
+    plain = dataclasses.replace(plain, model=settled(plain.model, runs))
+    seen = compared(plain.model, answer.model, runs)
+    return answer if seen is not None and seen.better else plain
+
+
+def _closes_nothing(seen: Comparison, last: Named, fewer: Answer, answer: Answer, slip_study: Study, runs: HeldOut) -> bool:
+    """Return whether the effect selected last leaves the forecasts and the forces of held-out slips as they are without it."""
     if last.kind in kinds_with(SCATTER) or seen.without - seen.with_ > criteria.CLOSES_NOTHING * seen.without:
         return False
     if any(e.group == "sensor" for e in answer.model.effects):
         return bool(fewer.decision.named)  # predicted forces do not hold what a sensor adds
-    forces = slip_force_gap(found.model, fewer.model, answer.model, runs.slips)
+    forces = slip_force_gap(slip_study.model, fewer.model, answer.model, runs.slips)
     return forces is not None and forces.recalibrated - forces.augmented < criteria.CLOSES_NOTHING * forces.recalibrated
 
 
-def _with_strengths(answer: Answer, found: Study, recalibrated: Fit) -> Answer:
+def _with_strengths(answer: Answer, slip_study: Study, recalibrated: Fit) -> Answer:
     """Return the answer with intervals that do not hold zero where a fit without the effect tells that its strength is none."""
     fit, named = answer.fit, {n.kind: n for n in answer.decision.named}
     for kind in [] if fit is None else undecided(fit, answer.model):
@@ -142,28 +157,28 @@ def _with_strengths(answer: Answer, found: Study, recalibrated: Fit) -> Answer:
         rest = tuple(n for n in answer.decision.named if n.kind != kind)
         fewer = dataclasses.replace(answer.decision, named=rest, model=model)
         assert fit is not None
-        other = _fit(fewer, found, recalibrated) if rest else recalibrated
-        ratio = likelihood_ratio(fit, other, found.windows)
-        told = max(ratio, named[kind].evidence.score or 0.0)
+        other = _fit(fewer, slip_study, recalibrated) if rest else recalibrated
+        ratio = likelihood_ratio(fit, other, slip_study.windows)
+        evidence = max(ratio, named[kind].evidence.score or 0.0)
         answer.decision.details.setdefault("strengths", {})[kind] = ratio  # pyright: ignore[reportIndexIssue, reportAttributeAccessIssue]
-        if told >= criteria.STRENGTH_TOLD:
-            fit = told_by_ratio(fit, answer.model, kind, told)
+        if evidence >= criteria.STRENGTH_DECIDED:
+            fit = decided_by_ratio(fit, answer.model, kind, evidence)
     return dataclasses.replace(answer, fit=fit)
 
 
-def _without_last(answer: Answer, found: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
+def _without_last(answer: Answer, slip_study: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
     decision, kind = answer.decision, answer.decision.named[-1].kind
     fewer = dataclasses.replace(decision, named=decision.named[:-1], model=without_last(decision.model, kind))
     if not fewer.named:
         return Answer(fewer, None, recalibrated.model)
-    again = fitted(fewer, found, recalibrated)
+    again = fitted(fewer, slip_study, recalibrated)
     return dataclasses.replace(again, model=settled(again.model, runs))
 
 
 def _refused(seen: Comparison, last: Named, fewer: Answer) -> bool:
-    """Return whether held-out runs speak against the effect that was found last."""
+    """Return whether held-out runs speak against the effect that was selected last."""
     # what is beside a named effect needs evidence of its own; a wander's forecasts hang on where the record happens to be
-    idle = bool(fewer.decision.named) and last.kind != kind_found_as(WANDER) and not seen.better
+    idle = bool(fewer.decision.named) and last.kind != kind_with_signature(WANDER) and not seen.better
     return seen.worse or idle
 
 

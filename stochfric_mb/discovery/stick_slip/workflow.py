@@ -7,13 +7,14 @@ import dataclasses
 from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.result import Result
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
-from stochfric_mb.discovery.stick_slip.decision.anonymous import Anonymous, anonymous, told
+from stochfric_mb.discovery.stick_slip.decision.anonymous import Anonymous, anonymous, sentence_of
 from stochfric_mb.discovery.stick_slip.decision.explained import taken_back
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, decide
 from stochfric_mb.discovery.stick_slip.feature_skill import leading, slip_force_gap
 from stochfric_mb.discovery.stick_slip.notes import notes
-from stochfric_mb.discovery.stick_slip.parameters import found_effect, moved, not_measured, own_parameters
+from stochfric_mb.discovery.stick_slip.parameters import effect_estimate, moved, not_measured, own_parameters
 from stochfric_mb.discovery.stick_slip.records.preconditions import require_usable
+from stochfric_mb.discovery.stick_slip.records.record import CORRECTED
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.discovery.stick_slip.refusal import refusal
 from stochfric_mb.discovery.stick_slip.screening.power import smallest
@@ -50,32 +51,34 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     require_usable(dataset)
     size = Scaling.of_rig(dataset.scenario.mechanism)
     given, dataset = dataset, size.reduced(assumed(dataset))
-    found = study(dataset, size, progress=progress)
-    if found is None:
+    slip_study = study(dataset, size, progress=progress)
+    if slip_study is None:
         return _too_few(given)
-    decision = decide(found, channels=channels, progress=progress)
+    decision = decide(slip_study, channels=channels, progress=progress)
     progress("recalibration")
-    recalibrated = recalibrated_model(found.model, found)
+    recalibrated = recalibrated_model(slip_study.model, slip_study)
     progress("refit")
-    slips = _held_out_slips(dataset)
+    slips = _held_out_slips(dataset, slip_study)
     try:
-        answer, runs = _answer(decision, found, recalibrated, slips, channels, progress)
+        answer, runs = _answer(decision, slip_study, recalibrated, slips, channels, progress)
     except SimulationError as error:
         taken = taken_back(decision, f"comes closest, but its model cannot run by itself: {error}")
         answer, runs = Answer(taken, None, recalibrated.model), held_out(slips, phased=False)
     term = None
     if channels.unnamed and answer.decision.verdict == "unknown":
-        term = anonymous(found, recalibrated, runs)
-        answer.decision.details["unnamed_term"] = told(term)
+        term = anonymous(slip_study, recalibrated, runs)
+        answer.decision.details["unnamed_term"] = sentence_of(term)
     kept = term if term is not None and term.carries_over else None
-    models = (found.model, recalibrated.model, answer.model if kept is None else kept.fit.model)
-    result = _result(answer, kept, recalibrated, models, found, runs, given)
+    models = (slip_study.model, recalibrated.model, answer.model if kept is None else kept.fit.model)
+    result = _result(answer, kept, recalibrated, models, slip_study, runs, given)
     restored = (size.restored(models[0]), size.restored(models[1]), size.restored(models[2]))
     scenario = augmented_scenario(given, restored[2])
     if not size.usual:
         # what is shown is in SI units
-        found, runs = study(assumed(given), USUAL), held_out(_held_out_slips(given), phased=phased(models[2]))
-    return Outcome(result, scenario, given, found, answer.decision, restored, runs)
+        slip_study = study(assumed(given), USUAL)
+        assert slip_study is not None  # the same slips, in other units
+        runs = held_out(_held_out_slips(given, slip_study), phased=phased(models[2]))
+    return Outcome(result, scenario, given, slip_study, answer.decision, restored, runs)
 
 
 def _answer(
@@ -105,8 +108,8 @@ def _result(
         answer: the decision that held-out runs have validated, and its fit.
         kept: the term without a name, where one carries over.
         recalibrated: the stated model, fitted.
-        models: believed, recalibrated and augmented model.
-        study: what the fit runs told.
+        models: stated, recalibrated and augmented model.
+        study: what the fit runs show.
         runs: the held-out runs.
         given: the data set in SI units.
     """
@@ -116,10 +119,11 @@ def _result(
     final = kept.fit if kept is not None else answer.fit if answer.fit is not None and decision.named else recalibrated
     own, unmeasured = own_parameters(final, models[2], study), not_measured(final)
     beyond = moved(own, given, unmeasured)
+    form = kept.named if kept is not None else decision.form if decision.named else None
     decision.details["parameters"] = {"not_measured": unmeasured, "moved_beyond_uncertainty": beyond}
     return Result(
         verdict=decision.verdict,  # pyright: ignore[reportArgumentType]  # one of three words
-        effects=tuple(found_effect(n, answer.fit, models[2], study) for n in decision.named),
+        effects=tuple(effect_estimate(n, answer.fit, models[2], study) for n in decision.named),
         where=decision.where,
         ranking=tuple((k, float(s)) for k, s in decision.ranking),
         gap=gap,
@@ -127,16 +131,16 @@ def _result(
         leading=leading(gap, forces),
         not_identifiable=not_identifiable(study),
         next_experiment=next_experiment(decision, study),
-        believed=own,
+        parameters=own,
         notes=notes(study, decision, gap, forces, given),
-        unnamed=found_effect(kept.named, kept.fit, models[2], study) if kept is not None else None,
+        unnamed=effect_estimate(form, final, models[2], study) if form is not None else None,
         power=smallest(study) if decision.verdict == "none" else {},
         details=decision.details,
     )
 
 
-def _held_out_slips(dataset: Dataset) -> list[Slips]:
-    return [s for s in (slips_of_run(r, dataset) for r in dataset.test) if len(s) >= 2]
+def _held_out_slips(dataset: Dataset, slip_study: Study) -> list[Slips]:
+    return [s for s in (slips_of_run(r, dataset, slip_study) for r in dataset.test) if len(s) >= 2]
 
 
 def augmented_scenario(dataset: Dataset, model: Model) -> Scenario:
@@ -157,9 +161,10 @@ def augmented_scenario(dataset: Dataset, model: Model) -> Scenario:
 
 def recalibrated_model(model: Model, study: Study) -> Fit:
     """Return the model as stated, fitted within its uncertainty; its scatter, if any is declared, stays as declared."""
-    start = dataclasses.replace(deterministic(model), corrections=dict.fromkeys(("stiffness", "mass", "damping"), 0.0))
+    stated = dataclasses.replace(deterministic(model), corrections=dict.fromkeys(CORRECTED, 0.0))
     mu_s, mu_k = (float(max(c, 1.0e-5)) for c in study.solution.coefficients[:2])
-    fits = [refit(m, study.windows, study.uncertainty) for m in (start.with_law(mu_s, mu_k), start)]
+    shown = dataclasses.replace(stated, corrections=study.pool.slips[0].record.corrections).with_law(mu_s, mu_k)
+    fits = [refit(m, study.windows, study.uncertainty) for m in (shown, stated)]
     fit = with_deviations(min(fits, key=lambda f: f.cost), study.windows, study.uncertainty)
     return dataclasses.replace(fit, model=dataclasses.replace(model, law=fit.model.law, corrections=fit.model.corrections))
 
@@ -169,6 +174,6 @@ def _too_few(dataset: Dataset) -> Outcome:
     where, needed = refusal(dataset)
     result = Result(
         verdict="unknown", effects=(), where=where, ranking=(), gap=None, not_identifiable=(), next_experiment=needed,
-        believed={}, notes=(where.text,),
+        parameters={}, notes=(where.text,),
     )  # fmt: skip
     return Outcome(result, dataset.scenario, dataset)

@@ -10,14 +10,14 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.velocity_step.rate_and_state import AGEING, QUADRATIC, SLIP, friction_path
-from stochfric_mb.effects import kind_found_as
+from stochfric_mb.effects import kind_with_signature
 from stochfric_mb.effects.traits import MEMORY, RATE, SLOPE_IN_DISTANCE
 from stochfric_mb.measurement.run import Run
 
 Array = npt.NDArray[np.float64]
 
 MEMORY_STARTS = [(b, d, k) for b in (0.01, -0.01) for d in (1.0, 10.0, 100.0) for k in (0.3, 3.0)]
-"""Starts of the memory law: evolution effect b, distance D, and stiffness, the last two over the believed ones."""
+"""Starts of the memory law: evolution effect b, distance D, and stiffness, the last two over the stated ones."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -58,13 +58,13 @@ class Law:
     """Which of several forms of that effect it is."""
 
 
-def laws(reference: float, stiffness: float, believed: float, shortest: float) -> list[Law]:
+def laws(reference: float, stiffness: float, mu: float, shortest: float) -> list[Law]:
     """Return what is fitted: constant friction, drift with displacement, dependence on speed, and memory.
 
     Args:
         reference: speed v_0 at which mu_0 holds [m/s].
-        stiffness: believed stiffness [1/m].
-        believed: believed friction coefficient [-].
+        stiffness: stated stiffness [1/m].
+        mu: stated friction coefficient [-].
         shortest: least distance D that shows, that of the usual motion in two samples [m].
     """
 
@@ -90,24 +90,24 @@ def laws(reference: float, stiffness: float, believed: float, shortest: float) -
     }
 
     return [
-        Law("", ("mu_0",), ("-",), ((believed,),), (0.01,), (0.0,), constant),
+        Law("", ("mu_0",), ("-",), ((mu,),), (0.01,), (0.0,), constant),
         Law(
-            kind_found_as(SLOPE_IN_DISTANCE), ("mu_0", "slope"), ("-", "1/m"), ((believed, 0.0),),
+            kind_with_signature(SLOPE_IN_DISTANCE), ("mu_0", "slope"), ("-", "1/m"), ((mu, 0.0),),
             (0.01, 1.0), (0.0, -np.inf), drift,
         ),
         Law(
-            kind_found_as(RATE), ("mu_0", "slope", "a_minus_b"), ("-", "1/m", "-"), ((believed, 0.0, 0.0),),
+            kind_with_signature(RATE), ("mu_0", "slope", "a_minus_b"), ("-", "1/m", "-"), ((mu, 0.0, 0.0),),
             (0.01, 1.0, 0.001), (0.0, -np.inf, -np.inf), speed,
         ),
         Law(
-            kind_found_as(RATE), ("mu_0", "slope", "direct_effect", "log_stiffness"), ("-", "1/m", "-", "-"),
-            tuple((believed, 0.0, 0.005, float(np.log(stiffer * stiffness))) for stiffer in (0.3, 1.0, 3.0)),
+            kind_with_signature(RATE), ("mu_0", "slope", "direct_effect", "log_stiffness"), ("-", "1/m", "-", "-"),
+            tuple((mu, 0.0, 0.005, float(np.log(stiffer * stiffness))) for stiffer in (0.3, 1.0, 3.0)),
             (0.01, 1.0, 0.002, 0.3), (0.0, -np.inf, 1.0e-4, -np.inf), pulled, "through the spring",
         ),
         *(
             Law(
-                kind_found_as(MEMORY), numbers, ("-", "1/m", "-", "-", "-", "-", "-"),
-                tuple(memory_start(believed, stiffness, *start) for start in MEMORY_STARTS),
+                kind_with_signature(MEMORY), numbers, ("-", "1/m", "-", "-", "-", "-", "-"),
+                tuple(memory_start(mu, stiffness, *start) for start in MEMORY_STARTS),
                 (0.01, 1.0, 0.002, 0.002, 0.3, 0.3, 0.3), (0.0, -np.inf, 1.0e-4, -np.inf, least, -np.inf, -np.inf),
                 predict, variant,
             )
@@ -116,10 +116,10 @@ def laws(reference: float, stiffness: float, believed: float, shortest: float) -
     ]  # fmt: skip
 
 
-def memory_start(believed: float, stiffness: float, evolution: float, distance: float, stiffer: float) -> tuple[float, ...]:
+def memory_start(mu: float, stiffness: float, evolution: float, distance: float, stiffer: float) -> tuple[float, ...]:
     """Return a start of the memory law: its numbers in the order of `laws`."""
     length = 1.0e-3 / stiffness
-    return (believed, 0.0, 0.01, evolution, float(np.log(distance * length)), float(np.log(stiffer * stiffness)), 0.0)
+    return (mu, 0.0, 0.01, evolution, float(np.log(distance * length)), float(np.log(stiffer * stiffness)), 0.0)
 
 
 def _remembered(tracks: Sequence[Track], p: Array, reference: float, state: int) -> list[Array]:
@@ -150,7 +150,7 @@ def _marched(tracks: Sequence[Track], p: Array, reference: float, state: int) ->
     grid = np.arange(start, end + step, step)
     times, pull = (np.concatenate(x) for x in ([t.run.time for t in tracks], [t.pull for t in tracks]))
     speed = pull[np.searchsorted(times, grid + 0.5 * step, side="right") - 1]
-    speed[0] = tracks[0].speed[0]  # it starts at this speed, which a single step from sample to sample does not tell
+    speed[0] = tracks[0].speed[0]  # it starts at this speed, which a single step from sample to sample does not show
     mu = np.empty(len(grid))
     limits = np.array([[1.0e-6, -10.0, -40.0, -10.0, -20.0], [10.0, 10.0, 10.0, 40.0, 20.0]])
     direct, evolution, *logarithms = np.clip(p, *limits)

@@ -21,9 +21,9 @@ from stochfric_mb.discovery.inference.fitter import minimised
 from stochfric_mb.discovery.inference.free_parameter import INSIDE
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.inference.noise import independent_count, white_noise
-from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
+from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
 from stochfric_mb.discovery.velocity_step.laws import Law, Track, laws
-from stochfric_mb.effects import effect_class, effect_kinds, kind_found_as, kinds_with, make_effect
+from stochfric_mb.effects import effect_class, effect_kinds, kind_with_signature, kinds_with, make_effect
 from stochfric_mb.effects.traits import ANONYMOUS, LATE, MEMORY, MORE_DAMPING, RATE, SLOPE_IN_DISTANCE
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
@@ -64,11 +64,11 @@ class Fitted:
     @property
     def kind(self) -> str:
         """The effect that it is; friction that rises with the speed is viscous."""
-        rises = self.law.kind == kind_found_as(RATE) and self.values[2] > 0.0
-        return kind_found_as(MORE_DAMPING) if rises else self.law.kind
+        rises = self.law.kind == kind_with_signature(RATE) and self.values[2] > 0.0
+        return kind_with_signature(MORE_DAMPING) if rises else self.law.kind
 
 
-def spring_slider_outcome(dataset: Dataset, tell: Callable[[str], None]) -> JointOutcome:
+def spring_slider_outcome(dataset: Dataset, progress: Callable[[str], None]) -> JointOutcome:
     """Return the result of a dataset of velocity steps.
 
     Raises:
@@ -77,7 +77,7 @@ def spring_slider_outcome(dataset: Dataset, tell: Callable[[str], None]) -> Join
     tracks = sorted((track_of(r, dataset) for r in dataset.runs), key=lambda t: float(t.run.time[0]))
     offset = float(tracks[0].slid[0])
     tracks = [dataclasses.replace(t, slid=t.slid - offset) for t in tracks]
-    fits = _fits(tracks, dataset, tell)
+    fits = _fits(tracks, dataset, progress)
     plain = fits[0]
     best, scores = _best(fits)
     accepted = scores[best.kind] > NAMED
@@ -86,13 +86,13 @@ def spring_slider_outcome(dataset: Dataset, tell: Callable[[str], None]) -> Join
     return JointOutcome(result, _augmented(dataset, best if accepted else plain), dataset, pictures=(picture,))
 
 
-def _fits(tracks: Sequence[Track], dataset: Dataset, tell: Callable[[str], None]) -> list[Fitted]:
+def _fits(tracks: Sequence[Track], dataset: Dataset, progress: Callable[[str], None]) -> list[Fitted]:
     """Return the fit of each law, constant friction first."""
     reference = float(np.median(tracks[0].speed))
     shortest = 2.0 * min(float(np.median(t.speed)) * t.run.sample_interval for t in tracks)
     fits: list[Fitted] = []
     for law in laws(reference, dataset.scenario.mechanism.stiffness, dataset.scenario.law.mu_k, shortest):
-        tell(law.kind or "constant friction")
+        progress(law.kind or "constant friction")
         alike = next((f for f in fits if f.law.variant == "" and f.law.names == law.names), None)
         fits.append(_fit(law, tracks, law.starts if alike is None else [alike.values]))
     return fits
@@ -166,11 +166,11 @@ def _fit(law: Law, tracks: Sequence[Track], starts: Sequence[Sequence[float] | A
 
 def _from(law: Law, tracks: Sequence[Track], start: Array, evaluations: int) -> Fitted:
     scale = np.array(law.scales)
-    learn = [i for i, t in enumerate(tracks) if t.run.role == "fit"]
+    fitted = [i for i, t in enumerate(tracks) if t.run.role == "fit"]
 
     def errors(step: Array) -> Array:
         predicted = law.predict(tracks, start + scale * step)
-        return np.concatenate([tracks[i].friction - predicted[i] for i in learn])
+        return np.concatenate([tracks[i].friction - predicted[i] for i in fitted])
 
     low, high = (np.array(law.low) - start) / scale - INSIDE, np.full(len(start), np.inf)
     minimum = minimised(
@@ -178,7 +178,7 @@ def _from(law: Law, tracks: Sequence[Track], start: Array, evaluations: int) -> 
     )
     jacobian, values = minimum.jacobian, start + scale * minimum.x
     predicted = law.predict(tracks, values)
-    rest = [tracks[i].friction - predicted[i] for i in learn]
+    rest = [tracks[i].friction - predicted[i] for i in fitted]
     n, total = sum(map(len, rest)), sum(independent_count(r) for r in rest)
     variance = float(np.mean(errors(minimum.x) ** 2)) * n / max(total, 1.0)
     covariance = np.linalg.pinv(jacobian.T @ jacobian, hermitian=True) * variance
@@ -206,8 +206,8 @@ def _result(
 ) -> Result:
     gap = _gap(dataset, tracks, plain, best or plain)
     where = unexplained([t for t in tracks if t.run.role == "fit"], best or plain)
-    effects = () if best is None or where is not None else (_found(plain, best, scores),)
-    searched = {f.law.kind for f in fits} | {kind_found_as(finding) for finding in (MORE_DAMPING, LATE)}
+    effects = () if best is None or where is not None else (_estimate(plain, best, scores),)
+    searched = {f.law.kind for f in fits} | {kind_with_signature(finding) for finding in (MORE_DAMPING, LATE)}
     return Result(
         verdict=_verdict(effects, where),
         effects=effects,
@@ -216,7 +216,7 @@ def _result(
         gap=gap,
         not_identifiable=tuple(k for k in effect_kinds() if k not in (*searched, *kinds_with(ANONYMOUS))),
         next_experiment="Steps down as well as up, and hold tests: they separate ageing with time from slip with distance.",
-        believed=_numbers(plain),
+        parameters=_numbers(plain),
         notes=(
             *gap.notes,
             "the load point's speed is taken through a window; the machine's stiffness is fitted",
@@ -241,7 +241,7 @@ def _facts(fitted: Fitted, tracks: Sequence[Track]) -> dict[str, Any]:
     return {"fit": fitted.rms, "held_out": _held_out(fitted, tracks), "numbers": numbers}
 
 
-def _verdict(effects: Sequence[Found], where: Where | None) -> Literal["effect", "none", "unknown"]:
+def _verdict(effects: Sequence[EffectEstimate], where: Where | None) -> Literal["effect", "none", "unknown"]:
     if where is not None:
         return "unknown"
     return "effect" if effects else "none"
@@ -268,8 +268,8 @@ def unexplained(tracks: Sequence[Track], closest: Fitted) -> Where | None:
     rest = np.concatenate(closest.rest)
     shares = {axis: _share_along(np.concatenate(place), rest) for axis, place in places.items()}
     axis = max(shares, key=lambda a: shares[a])
-    told = left * (shares[axis] if closest.law.kind else 1.0)
-    if told <= (1.0 - criteria.EXPLAINED) * changes:
+    explained = left * (shares[axis] if closest.law.kind else 1.0)
+    if explained <= (1.0 - criteria.EXPLAINED) * changes:
         return None
     law = closest.law.kind or "constant friction"
     return Where(
@@ -286,8 +286,8 @@ def _share_along(place: Array, rest: Array) -> float:
     return float(np.sum(means[part] ** 2) / np.sum(rest**2))
 
 
-def _found(plain: Fitted, best: Fitted, scores: dict[str, float]) -> Found:
-    """Return the law that is named, as an effect is told."""
+def _estimate(plain: Fitted, best: Fitted, scores: dict[str, float]) -> EffectEstimate:
+    """Return the law that is named, as an effect of the result."""
     kind = best.kind
     same = tuple(k for k, s in scores.items() if k != kind and s > scores[kind] - TIE)
     form = f"{kind} ({best.law.variant})" if best.law.variant else kind
@@ -296,8 +296,8 @@ def _found(plain: Fitted, best: Fitted, scores: dict[str, float]) -> Found:
         "fitted."
     )
     axes = {MEMORY: "distance since a change of speed", SLOPE_IN_DISTANCE: "displacement", RATE: "speed", MORE_DAMPING: "speed"}
-    axis = next(axes[finding] for finding in effect_class(kind).found_as if finding in axes)
-    return Found(kind, same, Where(axis, text), _numbers(best), scores[kind], None)
+    axis = next(axes[finding] for finding in effect_class(kind).signatures if finding in axes)
+    return EffectEstimate(kind, same, Where(axis, text), _numbers(best), scores[kind], None)
 
 
 def _numbers(fitted: Fitted) -> dict[str, Interval]:
@@ -316,14 +316,14 @@ def _numbers(fitted: Fitted) -> dict[str, Interval]:
 
 
 def _augmented(dataset: Dataset, fitted: Fitted) -> Any:
-    """Return the scenario with what was found: static friction is the peak that a fast step gives, mu_0 + b."""
+    """Return the scenario with the fitted law: static friction is the peak that a fast step gives, mu_0 + b."""
     scenario = dataset.scenario
     numbers = _numbers(fitted)
     mu = float(numbers["mu_0"].value)
-    if fitted.law.kind != kind_found_as(MEMORY):
+    if fitted.law.kind != kind_with_signature(MEMORY):
         return dataclasses.replace(scenario, law=dataclasses.replace(scenario.law, mu_s=mu, mu_k=mu))
     rise = max(numbers["evolution_effect"].value, 0.0)
     law = dataclasses.replace(scenario.law, mu_s=mu + rise, mu_k=mu)
     mechanism = dataclasses.replace(scenario.mechanism, stiffness=numbers["stiffness"].value)
-    effect = make_effect(kind_found_as(MEMORY), distance=numbers["distance"].value)
+    effect = make_effect(kind_with_signature(MEMORY), distance=numbers["distance"].value)
     return dataclasses.replace(scenario, law=law, mechanism=mechanism, effects=(effect,))

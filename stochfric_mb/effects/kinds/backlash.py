@@ -38,10 +38,11 @@ class Backlash(Effect):
     source: ClassVar[str] = "Nordin and Gutman 2002"
     group: ClassVar[str] = "mechanism"
     traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS, POSITIVE})
-    told_from: ClassVar[Mapping[str, str]] = {
+    separated_by: ClassVar[Mapping[str, str]] = {
         "second_mode": "a free decay or an impact test of the box, lifted off the belt",
         "nonlinear_stiffness": "a quasi-static load test of the spring",
     }
+    form_axis: ClassVar[str] = "position"
     shows_on: ClassVar[str] = "position of the box"
     shows: ClassVar[str] = "the restoring force has a dead zone"
 
@@ -73,13 +74,13 @@ class Backlash(Effect):
             table = {"gap": float(abs(b[0]) * width), "position": place}
             return table | ({"share_below": float(np.clip(b[1] / b[0], 0.05, 0.95))} if len(b) > 1 and b[0] != 0.0 else {})
 
-        found: list[Hypothesis] = []
+        hypotheses: list[Hypothesis] = []
         for place in map(float, places):
             nodes = stiffness[:, None] * passed(slips.typical_position, place)
             columns = [slips.column(stiffness * passed(slips.typical_onset, place), nodes)]
             columns += [shift] if shifted else []
-            found.append(Hypothesis(cls.kind, columns, (place,), lambda b, place=place: start(b, place)))
-        return found
+            hypotheses.append(Hypothesis(cls.kind, columns, (place,), lambda b, place=place: start(b, place)))
+        return hypotheses
 
 
 def surroundings(world, memory, rates, p):

@@ -40,7 +40,7 @@ class BeltSpeedRipple(Effect):
     source: ClassVar[str] = "eccentric pulleys and cogging of drives: Armstrong 1991"
     group: ClassVar[str] = "mechanism"
     traits: ClassVar[frozenset[str]] = frozenset({BELT})
-    found_as: ClassVar[tuple[str, ...]] = (BELT_RIPPLE,)
+    signatures: ClassVar[tuple[str, ...]] = (BELT_RIPPLE,)
     shows_on: ClassVar[str] = "time, in stick"
     shows: ClassVar[str] = "the belt's speed varies periodically"
 

@@ -31,7 +31,7 @@ class CorrelatedCoefficients(Effect):
     source: ClassVar[str] = "Uhlenbeck and Ornstein 1930"
     group: ClassVar[str] = "randomness"
     traits: ClassVar[frozenset[str]] = frozenset({SCATTER, WANDERS_ALIKE})
-    found_as: ClassVar[tuple[str, ...]] = (WANDER,)
+    signatures: ClassVar[tuple[str, ...]] = (WANDER,)
     shows_on: ClassVar[str] = "scatter, time"
     shows: ClassVar[str] = "friction drifts slowly and at random"
 

@@ -10,7 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import DIRECTION, MU_K, MU_S, VISCOUS_FORCE, Effect, JointSignature, parameter
+from stochfric_mb.effects.contract import DIRECTION, MU_K, MU_S, SPEED, VISCOUS_FORCE, Effect, JointSignature, parameter
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Hypothesis, Slips, apart
 from stochfric_mb.effects.traits import BETWEEN_POINTS
@@ -20,18 +20,27 @@ from stochfric_mb.effects.traits import BETWEEN_POINTS
 class DirectionAsymmetry(Effect):
     """mu_k and viscous friction times 1 + asymmetry where v_rel (in stick: the force needed) is negative, mu_s by its share.
 
-    Reference: B. Armstrong-Helouvry, Control of Machines with Friction, Kluwer 1991.
+    Beside it viscous friction may differ alone: viscous_difference/2 abs(v_rel) more where v_rel < 0, as much less else.
+
+    References: B. Armstrong-Helouvry, Control of Machines with Friction, Kluwer 1991, chapter 4; A. Janot, M. Gautier,
+    M. Brunot, Data Set and Reference Models of EMPS, Nonlinear System Identification Benchmarks 2019 (both parts differ).
     """
 
-    asymmetry: float = parameter("-", "relative change in the negative direction", scale=0.1, low=-1.0, strict=True)
+    asymmetry: float = parameter(
+        "-", "relative change in the negative direction", scale=0.1, low=-1.0, strict=True, default=0.0
+    )
     """Relative change in the negative direction [-]."""
     static_share: float = parameter("-", "share of the change that mu_s takes", scale=1.0, default=1.0)
     """Share of the change that mu_s takes [-]: 1, both coefficients alike; 0, mu_k alone."""
 
+    viscous_difference: float = parameter("N s/m", "further force per speed, negative less positive", scale=3.0, default=0.0)
+    """Further force per speed where v_rel < 0 less that where v_rel > 0 [N s/m]."""
+
     kind: ClassVar[str] = "direction_asymmetry"
     equation: ClassVar[str] = (
         "mu_k and viscous friction times 1 + asymmetry, mu_s times 1 + static_share asymmetry, where v_rel < 0 (in stick: "
-        "where the force needed is negative)"
+        "where the force needed is negative); further friction viscous_difference/2 abs(v_rel), against the motion where v_rel "
+        "< 0, along it where v_rel > 0"
     )
     source: ClassVar[str] = "Armstrong-Helouvry 1991 (robot joints)"
     group: ClassVar[str] = "friction law"
@@ -42,9 +51,12 @@ class DirectionAsymmetry(Effect):
     order: ClassVar[int] = 3
 
     @classmethod
-    def at_joint(cls, span: JointSpan) -> JointSignature | None:
-        """Return a difference between both directions."""
-        return JointSignature((cls(asymmetry=0.0),), "direction", 1) if span.both_ways else None
+    def at_joint(cls, span: JointSpan) -> tuple[JointSignature, ...]:
+        """Return a difference between both directions, of all friction or of what is viscous alone."""
+        if not span.both_ways:
+            return ()
+        viscous = cls(viscous_difference=0.2 * span.friction / span.speed)
+        return JointSignature((cls(asymmetry=0.01),), "direction", 1), JointSignature((viscous,), "speed and direction", 1)
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
@@ -56,8 +68,9 @@ class DirectionAsymmetry(Effect):
 
 
 def friction(world, memory, rates, p):
-    """Multiply friction in the negative direction."""
+    """Multiply friction in the negative direction; add half the difference there, take it in the other."""
     if world[DIRECTION] < 0.0:
         world[MU_S] *= 1.0 + p[0] * p[1]
         world[MU_K] *= 1.0 + p[0]
         world[VISCOUS_FORCE] *= 1.0 + p[0]
+    world[VISCOUS_FORCE] += (0.5 if world[DIRECTION] < 0.0 else -0.5) * p[2] * world[SPEED]

@@ -7,10 +7,18 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from typing import ClassVar
+
+import numpy as np
 
 from stochfric_mb.effects.contract import BELT_VELOCITY, MU_K, MU_S, TRAVELLED, VELOCITY, Effect, JointSignature, parameter
 from stochfric_mb.effects.joints import JointSpan
+from stochfric_mb.effects.marks import Hypothesis, Slips, drifting
+from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, WANDERS_ALIKE
+
+PACES_DIFFER = 1.1
+"""Ratio of the distances slid in a time from which on they differ between runs [-]."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -37,16 +45,29 @@ class DistanceDrift(Effect):
     )
     source: ClassVar[str] = "Blau 2005 (running-in of frictional contacts)"
     group: ClassVar[str] = "friction varies"
+    traits: ClassVar[frozenset[str]] = frozenset({COURSE_OF_RUN, WANDERS_ALIKE, DRIFTS})
     answers_to: ClassVar[str] = "distance"
     shows_on: ClassVar[str] = "slid distance"
     shows: ClassVar[str] = "friction drifts with the distance slid"
     order: ClassVar[int] = 3
     n_memory: ClassVar[int] = 1
+    forgets: ClassVar[bool] = False
+    separated_by: ClassVar[Mapping[str, str]] = {"friction_drift": "a run at another belt speed"}
 
     @classmethod
     def at_joint(cls, span: JointSpan) -> JointSignature:
         """Return a drift of a hundredth over the distance slid."""
         return JointSignature((cls(rate=0.01 / span.distance),), "distance slid", 1)
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return friction that drifts with the distance slid; none where it grows alike in all runs, as the time does."""
+        before, inside = slips.slid_before, slips.slid_before + slips.slip_distance.mean(axis=1)
+        ends = [int(np.flatnonzero(slips.run == run)[-1]) for run in range(slips.n_runs)]
+        paces = inside[ends] / slips.mean_time[ends]
+        if paces.max() < PACES_DIFFER * paces.min():
+            return []
+        return drifting(cls.kind, before, inside, float(inside.max()), slips, "settling_distance")
 
 
 def surroundings(world, memory, rates, p):

@@ -9,12 +9,10 @@ import dataclasses
 import math
 from typing import Any, ClassVar
 
-import numpy as np
-
 from stochfric_mb.effects.contract import MU_K, MU_S, TIME, Array, JointSignature, parameter
 from stochfric_mb.effects.course import COARSER, Course, sized, splines
 from stochfric_mb.effects.joints import JointSpan
-from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, Hypothesis, Slips, apart
+from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, Hypothesis, Slips, drifting, levels
 from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, SLOPE_IN_DISTANCE, WANDERS_ALIKE
 
 SHARES = (1.0, 0.0, 0.5, 2.0)
@@ -48,7 +46,7 @@ class FrictionDrift(Course):
     source: ClassVar[str] = "Blau 2005 (running-in of frictional contacts)"
     group: ClassVar[str] = "friction varies"
     traits: ClassVar[frozenset[str]] = frozenset({COURSE_OF_RUN, WANDERS_ALIKE, DRIFTS})
-    found_as: ClassVar[tuple[str, ...]] = (SLOPE_IN_DISTANCE,)
+    signatures: ClassVar[tuple[str, ...]] = (SLOPE_IN_DISTANCE,)
     answers_to: ClassVar[str] = "time"
     shows_on: ClassVar[str] = "time"
     shows: ClassVar[str] = "friction drifts in the course of a run"
@@ -62,30 +60,19 @@ class FrictionDrift(Course):
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
         """Return friction that drifts in each run: linearly, towards a limit, or along a course of any smooth shape."""
-        last, middle = slips.duration, slips.mean_time
-        result = apart(
-            cls.kind, slips.static * slips.onset_time / last, slips.kinetic * middle / last, slips, "rate", {}, 1.0 / last
-        )
-        # neighbours differ by a fifth: a coarser grid would leave a clear record to what names no physics
-        for share in np.geomspace(0.03, 1.0, 22):
-            tau = float(share * last)
-            static, kinetic = (
-                level * -np.expm1(-t / tau) for level, t in ((slips.static, slips.onset_time), (slips.kinetic, middle))
-            )
-            result += apart(cls.kind, static, kinetic, slips, "rate", {"time_constant": tau}, 1.0 / tau)
-        return result + [_course(slips, pieces, share) for pieces in COARSER for share in SHARES]
+        ways = drifting(cls.kind, slips.onset_time, slips.mean_time, slips.duration, slips, "time_constant")
+        return ways + [_course(slips, pieces, share) for pieces in COARSER for share in SHARES]
 
 
 def _course(slips: Slips, pieces: int, share: float) -> Hypothesis:
     """Return a course of any smooth shape, the same in each run since its start."""
+    held, rubbing = levels(slips)
     at_onset, inside = (splines(t / slips.duration, pieces) for t in (slips.onset_time, slips.node_time))
 
     def start(b: Array) -> dict[str, Any]:
         return sized(b, pieces, slips.duration) | {"static_share": share}
 
-    columns = [
-        slips.column(share * slips.static * at_onset[:, k], slips.kinetic[:, None] * inside[..., k]) for k in range(pieces + 2)
-    ]
+    columns = [slips.column(share * held * at_onset[:, k], rubbing[:, None] * inside[..., k]) for k in range(pieces + 2)]
     return Hypothesis(FrictionDrift.kind, columns, (), start, COURSE_OF_ANY_SHAPE)
 
 

@@ -42,8 +42,9 @@ class FrictionalLag(Effect):
     source: ClassVar[str] = "Rabinowicz 1951, 1958; Dieterich 1979; Hess and Soom 1990"
     group: ClassVar[str] = "friction law"
     traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS, POSITIVE})
-    found_as: ClassVar[tuple[str, ...]] = (MEMORY,)
+    signatures: ClassVar[tuple[str, ...]] = (MEMORY,)
     frees: ClassVar[tuple[str, ...]] = ("mu_s",)
+    form_axis: ClassVar[str] = "slip"
     shows_on: ClassVar[str] = "slip distance"
     shows: ClassVar[str] = "friction falls with the distance slid after a break-away, not at once"
     order: ClassVar[int] = 2

@@ -40,7 +40,7 @@ class HarmonicForce(Effect):
     source: ClassVar[str] = "Den Hartog 1956, chapter 2 (unbalance)"
     group: ClassVar[str] = "mechanism"
     traits: ClassVar[frozenset[str]] = frozenset({WAVES, FORCE_IN_TIME, COURSE_OF_RUN, WANDERS_ALIKE})
-    told_from: ClassVar[Mapping[str, str]] = {
+    separated_by: ClassVar[Mapping[str, str]] = {
         "nonlinear_stiffness": "a run at a second belt speed",
     }
     shows_on: ClassVar[str] = "time"

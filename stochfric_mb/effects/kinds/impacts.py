@@ -45,7 +45,7 @@ class Impacts(Effect):
     source: ClassVar[str] = "Cox and Isham 1980 (Poisson process)"
     group: ClassVar[str] = "mechanism"
     traits: ClassVar[frozenset[str]] = frozenset({RANDOM})
-    found_as: ClassVar[tuple[str, ...]] = (KICKS,)
+    signatures: ClassVar[tuple[str, ...]] = (KICKS,)
     shows_on: ClassVar[str] = "time"
     shows: ClassVar[str] = "single impacts let the box break away early or jump"
 

@@ -47,6 +47,7 @@ class LoadDependence(Effect):
     group: ClassVar[str] = "friction law"
     traits: ClassVar[frozenset[str]] = frozenset({BETWEEN_POINTS, READS_LOAD})
     answers_to: ClassVar[str] = "load"
+    form_axis: ClassVar[str] = "load"
     shows_on: ClassVar[str] = "normal load"
     shows: ClassVar[str] = "friction is not proportional to the normal load"
     order: ClassVar[int] = 3
@@ -60,8 +61,8 @@ class LoadDependence(Effect):
         """Return a power of the normal force of a contact, or what a joint transmits beyond its preload."""
         if not span.load:
             return None
-        if span.contact:  # mu_k holds at the believed load, and the exponent is searched
-            powers = tuple(cls(exponent=x, reference_load=span.believed_load) for x in (-0.3, 0.3))
+        if span.contact:  # mu_k holds at the stated load, and the exponent is searched
+            powers = tuple(cls(exponent=x, reference_load=span.stated_load) for x in (-0.3, 0.3))
             return JointSignature(powers, "normal force", 1)
         return JointSignature(tuple(cls(exponent=1.0, reference_load=part * span.load) for part in (0.3, 1.0, 4.0)), "load", 1)
 

@@ -42,6 +42,7 @@ class NonlinearStiffness(Effect):
     traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS})
     answers_to: ClassVar[str] = "position"
     frees: ClassVar[tuple[str, ...]] = ("stiffness",)
+    form_axis: ClassVar[str] = "position"
     shows_on: ClassVar[str] = "position of the box"
     shows: ClassVar[str] = "the restoring force is not linear in position"
 

@@ -34,7 +34,7 @@ class NormalLoadRipple(Effect):
     source: ClassVar[str] = "disc thickness variation: Jacobsson 2003"
     group: ClassVar[str] = "mechanism"
     traits: ClassVar[frozenset[str]] = frozenset({WAVES, COURSE_OF_RUN, WANDERS_ALIKE})
-    told_from: ClassVar[Mapping[str, str]] = {
+    separated_by: ClassVar[Mapping[str, str]] = {
         "harmonic_force": "a run at a second normal load, or a normal-force sensor",
     }
     shows_on: ClassVar[str] = "time"

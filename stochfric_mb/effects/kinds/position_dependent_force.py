@@ -51,7 +51,7 @@ class PositionDependentForce(Effect):
     source: ClassVar[str] = "Zhu and Howe 2000 (cogging); Den Hartog 1956, sections 6.1 and 8.1 (unbalance, springs)"
     group: ClassVar[str] = "mechanism"
     answers_to: ClassVar[str] = "position"
-    told_from: ClassVar[Mapping[str, str]] = {
+    separated_by: ClassVar[Mapping[str, str]] = {
         "position_dependent_friction": "strokes both ways over the same place: friction turns with the direction",
     }
     shows_on: ClassVar[str] = "position"

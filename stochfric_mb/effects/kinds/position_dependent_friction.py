@@ -57,7 +57,7 @@ class PositionDependentFriction(Effect):
     group: ClassVar[str] = "friction varies"
     traits: ClassVar[frozenset[str]] = frozenset({ANY_SHAPE, WAVES, ALONG_BELT, COURSE_OF_RUN, WANDERS_ALIKE})
     answers_to: ClassVar[str] = "position"
-    told_from: ClassVar[Mapping[str, str]] = {
+    separated_by: ClassVar[Mapping[str, str]] = {
         "normal_load_ripple": "a run at a second belt speed (or a normal-force sensor)",
         "nonlinear_stiffness": "a quasi-static load test of the spring",
         "backlash": "a quasi-static load test of the spring",
@@ -105,13 +105,13 @@ class PositionDependentFriction(Effect):
 
         def start(b: Array, wavelength: float) -> dict[str, float | str]:
             size, phase = np.hypot(b[0::2], b[1::2]), np.arctan2(-b[1::2], b[0::2])
-            found: dict[str, float | str] = {"wavelength": wavelength, "axis": "position"}
+            numbers: dict[str, float | str] = {"wavelength": wavelength, "axis": "position"}
             for h in range(len(size)):
                 more = "" if h == 0 else f"_{h + 1}"
-                found |= {f"amplitude{more}": float(size[h]), f"phase{more}": float(phase[h])}
-            return found
+                numbers |= {f"amplitude{more}": float(size[h]), f"phase{more}": float(phase[h])}
+            return numbers
 
-        found: list[Hypothesis] = []
+        hypotheses: list[Hypothesis] = []
         for wavelength in (length * np.array(STROKES)).tolist():
             for harmonics, variant in ((1, "stroke"), (2, "stroke with an overtone")):
                 waves = [
@@ -119,8 +119,8 @@ class PositionDependentFriction(Effect):
                 ]
                 columns = [slips.column(force[:, 0] * w[:, 0], force[:, 1:] * w[:, 1:]) for w in waves]
                 setting, begin = (wavelength, float(harmonics)), functools.partial(start, wavelength=wavelength)
-                found.append(Hypothesis(cls.kind, columns, setting, begin, variant=variant))
-        return found
+                hypotheses.append(Hypothesis(cls.kind, columns, setting, begin, variant=variant))
+        return hypotheses
 
     @classmethod
     def wave(cls, slips: Slips) -> Wave:

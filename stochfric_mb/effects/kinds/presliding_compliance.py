@@ -32,6 +32,6 @@ class PreslidingCompliance(Effect):
     )
     source: ClassVar[str] = "Dahl 1968; Kang, Choi and Yoo 2015, eqs. 3-5"
     group: ClassVar[str] = "friction law"
-    found_as: ClassVar[tuple[str, ...]] = (YIELDING,)
+    signatures: ClassVar[tuple[str, ...]] = (YIELDING,)
     shows_on: ClassVar[str] = "stick"
     shows: ClassVar[str] = "the contact yields and rings in stick"

@@ -40,8 +40,8 @@ class RandomCoefficients(Effect):
     source: ClassVar[str] = "Kang, Choi and Yoo 2015, section 2.2"
     group: ClassVar[str] = "randomness"
     traits: ClassVar[frozenset[str]] = frozenset({SCATTER, WANDERS_ALIKE})
-    found_as: ClassVar[tuple[str, ...]] = (DRAWN_ANEW,)
-    told_from: ClassVar[Mapping[str, str]] = {
+    signatures: ClassVar[tuple[str, ...]] = (DRAWN_ANEW,)
+    separated_by: ClassVar[Mapping[str, str]] = {
         "correlated_coefficients": "a longer record",
     }
     shows_on: ClassVar[str] = "scatter"

@@ -30,7 +30,7 @@ class SensorClipping(Effect):
     source: ClassVar[str] = "Fraden 2016, chapter 3"
     group: ClassVar[str] = "sensor"
     traits: ClassVar[frozenset[str]] = frozenset({OUTSIDE_FORECASTS})
-    found_as: ClassVar[tuple[str, ...]] = (CLIPPED,)
+    signatures: ClassVar[tuple[str, ...]] = (CLIPPED,)
     shows_on: ClassVar[str] = "position, sensor"
     shows: ClassVar[str] = "the position reading is clipped at one value"
 

@@ -30,7 +30,7 @@ class SensorDelay(Effect):
     source: ClassVar[str] = "Fraden 2016, chapter 3"
     group: ClassVar[str] = "sensor"
     traits: ClassVar[frozenset[str]] = frozenset({SHAPED_IF_FORCED, POSITIVE})
-    found_as: ClassVar[tuple[str, ...]] = (LATE,)
+    signatures: ClassVar[tuple[str, ...]] = (LATE,)
     answers_to: ClassVar[str] = "known force"
     shows_on: ClassVar[str] = "time, sensor"
     shows: ClassVar[str] = "the record lags behind the known excitation"

@@ -31,8 +31,8 @@ class SensorDrift(Course):
     source: ClassVar[str] = "Fraden 2016, chapter 3"
     group: ClassVar[str] = "sensor"
     traits: ClassVar[frozenset[str]] = frozenset({COURSE_OF_RUN, DRIFTS, MOVES_ZERO})
-    found_as: ClassVar[tuple[str, ...]] = (CREEPING_ZERO,)
-    told_from: ClassVar[Mapping[str, str]] = {
+    signatures: ClassVar[tuple[str, ...]] = (CREEPING_ZERO,)
+    separated_by: ClassVar[Mapping[str, str]] = {
         "friction_drift": "a force sensor, or a second position sensor",
     }
     shows_on: ClassVar[str] = "time, sensor"

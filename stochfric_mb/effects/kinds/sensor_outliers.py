@@ -29,7 +29,7 @@ class SensorOutliers(Effect):
     source: ClassVar[str] = "Tukey 1960 (contaminated normal)"
     group: ClassVar[str] = "sensor"
     traits: ClassVar[frozenset[str]] = frozenset({OUTSIDE_FORECASTS, RANDOM})
-    found_as: ClassVar[tuple[str, ...]] = (STRAY,)
+    signatures: ClassVar[tuple[str, ...]] = (STRAY,)
     shows_on: ClassVar[str] = "sensor"
     shows: ClassVar[str] = "single samples are outliers"
 

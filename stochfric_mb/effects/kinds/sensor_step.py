@@ -28,7 +28,7 @@ class SensorStep(Effect):
     source: ClassVar[str] = "Fraden 2016, chapter 3"
     group: ClassVar[str] = "sensor"
     traits: ClassVar[frozenset[str]] = frozenset({WANDERS_ALIKE, MOVES_ZERO})
-    found_as: ClassVar[tuple[str, ...]] = (JUMP,)
+    signatures: ClassVar[tuple[str, ...]] = (JUMP,)
     shows_on: ClassVar[str] = "time, sensor"
     shows: ClassVar[str] = "the position reading jumps once and stays off"
 

@@ -29,7 +29,7 @@ class StaleSamples(Effect):
     source: ClassVar[str] = "Nilsson, Bernhardsson and Wittenmark 1998"
     group: ClassVar[str] = "sensor"
     traits: ClassVar[frozenset[str]] = frozenset({OUTSIDE_FORECASTS, RANDOM})
-    found_as: ClassVar[tuple[str, ...]] = (REPEATED_READING,)
+    signatures: ClassVar[tuple[str, ...]] = (REPEATED_READING,)
     shows_on: ClassVar[str] = "sensor"
     shows: ClassVar[str] = "readings are repeated while the body moves on"
 

@@ -8,15 +8,15 @@ from __future__ import annotations
 import dataclasses
 from typing import ClassVar
 
-from stochfric_mb.effects.contract import MU_K, MU_S, POSITION, SLIP, SPEED, TIME, Effect, choice, parameter
+from stochfric_mb.effects.contract import MU_K, MU_S, NORMAL_FORCE, POSITION, SLIP, SPEED, TIME, Effect, choice, parameter
 from stochfric_mb.effects.traits import ANONYMOUS
 from stochfric_mb.errors import InputError
 
-AXES = {"speed": "m/s", "position": "m", "slip": "m", "time": "s"}
+AXES = {"speed": "m/s", "position": "m", "slip": "m", "time": "s", "load": "N"}
 """Axis -> unit of its ends."""
 WORDS = {
     "speed": "relative velocity", "position": "position of the box", "slip": "distance slid since break-away",
-    "time": "time within the run",
+    "time": "time within the run", "load": "normal force",
 }  # fmt: skip
 """Axis -> its name for readers."""
 CHANGES = tuple(f"change_{i}" for i in range(1, 7))
@@ -32,7 +32,7 @@ def _change(knot: int) -> float:
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Unnamed(Effect):
-    """mu_k plus a table over speed, position, slip or time, and mu_s plus static_share times it.
+    """mu_k plus a table over speed, position, slip, time or load, and mu_s plus static_share times it.
 
     The table is linear between seven knots, evenly spaced from ``low`` to ``high``, 0 at the first and constant outside.
 
@@ -40,11 +40,11 @@ class Unnamed(Effect):
     """
 
     axis: str = choice("along what friction changes", tuple(AXES))
-    """Along what friction changes: "speed" relative to the counter-surface, "position", "slip" since break-away or "time"."""
+    """Along what friction changes: "speed" past the counter-surface, "position", "slip" since break-away, "time" or "load"."""
     low: float = parameter("-", "place of the first knot, in the unit of the axis", scale=0.0)
-    """Place of the first knot [m/s, m or s]."""
+    """Place of the first knot [m/s, m, s or N]."""
     high: float = parameter("-", "place of the last knot, in the unit of the axis", scale=1.0)
-    """Place of the last knot [m/s, m or s], above ``low``."""
+    """Place of the last knot [m/s, m, s or N], above ``low``."""
     static_share: float = parameter("-", "change of mu_s over that of mu_k", scale=1.0, default=0.0)
     """Change of mu_s over that of mu_k [-]: 0, mu_k alone; 1, both alike."""
     change_1: float = _change(1)
@@ -61,7 +61,7 @@ class Unnamed(Effect):
     """The same at the seventh knot [-]."""
 
     kind: ClassVar[str] = "unnamed"
-    equation: ClassVar[str] = "mu_k plus a table over speed, position, slip or time, mu_s plus static_share times it"
+    equation: ClassVar[str] = "mu_k plus a table over speed, position, slip, time or load, mu_s plus static_share times it"
     source: ClassVar[str] = "de Boor 1978, chapter III (broken lines)"
     group: ClassVar[str] = "friction varies"
     traits: ClassVar[frozenset[str]] = frozenset({ANONYMOUS})
@@ -96,6 +96,8 @@ def friction(world, memory, rates, p):
         s = world[SLIP]
     elif p[0] == 3.0:
         s = world[TIME]
+    elif p[0] == 4.0:
+        s = world[NORMAL_FORCE]
     k = 6.0 * (s - p[1]) / (p[2] - p[1])
     change = p[4] * min(max(k, 0.0), 1.0)
     change += (p[5] - p[4]) * min(max(k - 1.0, 0.0), 1.0)

@@ -39,11 +39,12 @@ class VelocityWeakening(Effect):
     source: ClassVar[str] = "Bo and Pavelescu 1982; Armstrong-Helouvry, Dupont and Canudas de Wit 1994, eq. 7"
     group: ClassVar[str] = "friction law"
     traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS, POSITIVE})
-    found_as: ClassVar[tuple[str, ...]] = (RATE,)
+    signatures: ClassVar[tuple[str, ...]] = (RATE,)
     answers_to: ClassVar[str] = "speed"
-    told_from: ClassVar[Mapping[str, str]] = {
+    separated_by: ClassVar[Mapping[str, str]] = {
         "quadratic_damping": "runs at other belt speeds and normal loads",
     }
+    form_axis: ClassVar[str] = "speed"
     shows_on: ClassVar[str] = "relative velocity"
     shows: ClassVar[str] = "friction falls as the sliding velocity rises"
     order: ClassVar[int] = 1
@@ -51,7 +52,7 @@ class VelocityWeakening(Effect):
     @classmethod
     def at_joint(cls, span: JointSpan) -> JointSignature:
         """Return a fall of friction over a small, a middling and a large part of the speed."""
-        size = 0.1 * span.friction / span.believed_load
+        size = 0.1 * span.friction / span.stated_load
         return JointSignature(
             tuple(cls(amplitude=size, decay_velocity=part * span.speed) for part in (0.05, 0.2, 0.6)), "speed", 2
         )

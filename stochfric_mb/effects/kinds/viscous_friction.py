@@ -45,12 +45,13 @@ class ViscousFriction(Effect):
     source: ClassVar[str] = "Reynolds 1886; Armstrong-Helouvry, Dupont and Canudas de Wit 1994, eq. 6"
     group: ClassVar[str] = "friction law"
     traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS, POSITIVE})
-    found_as: ClassVar[tuple[str, ...]] = (MORE_DAMPING,)
+    signatures: ClassVar[tuple[str, ...]] = (MORE_DAMPING,)
     answers_to: ClassVar[str] = "speed"
-    told_from: ClassVar[Mapping[str, str]] = {
+    separated_by: ClassVar[Mapping[str, str]] = {
         "quadratic_damping": "runs at other belt speeds and normal loads",
         "velocity_weakening": "runs at other belt speeds and normal loads",
     }
+    form_axis: ClassVar[str] = "speed"
     shows_on: ClassVar[str] = "relative velocity"
     shows: ClassVar[str] = "friction rises with the sliding velocity"
 

@@ -7,7 +7,7 @@ static void say(const instance *c, int status, const char *message) {
     if (c->logger) ((logger2)c->logger)(c->environment, c->name, fmi2Error, "error", message);
 }
 
-static fmi2Status told(int bad) { return bad ? fmi2Error : fmi2OK; }
+static fmi2Status status(int bad) { return bad ? fmi2Error : fmi2OK; }
 
 #define INSTANCE(c) instance *i = (instance *)(c); if (!i) return fmi2Error
 
@@ -34,7 +34,7 @@ FMI2_Export fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean with_tol
                                            fmi2Boolean with_stop, fmi2Real stop) {
     INSTANCE(c);
     (void)with_tolerance; (void)tolerance; (void)with_stop; (void)stop;
-    if (!isfinite(start_time)) return told(refused(i, "the start time is not finite"));
+    if (!isfinite(start_time)) return status(refused(i, "the start time is not finite"));
     i->now.values[VR_TIME] = start_time;
     return fmi2OK;
 }
@@ -45,18 +45,18 @@ FMI2_Export fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
     return fmi2OK;
 }
 
-FMI2_Export fmi2Status fmi2ExitInitializationMode(fmi2Component c) { INSTANCE(c); return told(start(i)); }
+FMI2_Export fmi2Status fmi2ExitInitializationMode(fmi2Component c) { INSTANCE(c); return status(start(i)); }
 FMI2_Export fmi2Status fmi2Terminate(fmi2Component c) { INSTANCE(c); i->now.phase = TERMINATED; return fmi2OK; }
 FMI2_Export fmi2Status fmi2Reset(fmi2Component c) { INSTANCE(c); clear(i); return fmi2OK; }
 
 FMI2_Export fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Real value[]) {
     INSTANCE(c);
-    return told(get_values(i, vr, n, 'r', value));
+    return status(get_values(i, vr, n, 'r', value));
 }
 
 FMI2_Export fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Real value[]) {
     INSTANCE(c);
-    return told(set_values(i, vr, n, 'r', value));
+    return status(set_values(i, vr, n, 'r', value));
 }
 
 #define ACCESS2(NAME, LETTER) \
@@ -83,17 +83,17 @@ ACCESS2(Boolean, 'b')
 FMI2_Export fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2String value[]) {
     INSTANCE(c);
     (void)vr; (void)value;
-    return told(n > 0 && refused(i, "this FMU has no strings"));
+    return status(n > 0 && refused(i, "this FMU has no strings"));
 }
 
 FMI2_Export fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2String value[]) {
     INSTANCE(c);
     (void)vr; (void)value;
-    return told(n > 0 && refused(i, "this FMU has no strings"));
+    return status(n > 0 && refused(i, "this FMU has no strings"));
 }
 
-FMI2_Export fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) { INSTANCE(c); return told(save(i, state)); }
-FMI2_Export fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) { INSTANCE(c); return told(restore(i, state)); }
+FMI2_Export fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) { INSTANCE(c); return status(save(i, state)); }
+FMI2_Export fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) { INSTANCE(c); return status(restore(i, state)); }
 FMI2_Export fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
     (void)c;
     if (state) { free(*state); *state = 0; }
@@ -106,18 +106,18 @@ FMI2_Export fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate 
 }
 FMI2_Export fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size) {
     INSTANCE(c);
-    return told(serialized(i, state, bytes, size));
+    return status(serialized(i, state, bytes, size));
 }
 FMI2_Export fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state) {
     INSTANCE(c);
-    return told(deserialized(i, bytes, size, state));
+    return status(deserialized(i, bytes, size, state));
 }
 
 FMI2_Export fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknown[], size_t n_unknown,
                                                     const fmi2ValueReference known[], size_t n_known, const fmi2Real d_known[],
                                                     fmi2Real d_unknown[]) {
     INSTANCE(c);
-    return told(directional(i, unknown, n_unknown, known, n_known, d_known, d_unknown));
+    return status(directional(i, unknown, n_unknown, known, n_known, d_known, d_unknown));
 }
 
 FMI2_Export fmi2Status fmi2EnterEventMode(fmi2Component c) { INSTANCE(c); i->now.phase = EVENTS; return fmi2OK; }
@@ -148,36 +148,36 @@ FMI2_Export fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean 
 
 FMI2_Export fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) {
     INSTANCE(c);
-    if (!isfinite(time)) return told(refused(i, "the time is not finite"));
+    if (!isfinite(time)) return status(refused(i, "the time is not finite"));
     i->now.values[VR_TIME] = time;
     return fmi2OK;
 }
 
-FMI2_Export fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n) { INSTANCE(c); return told(set_states(i, x, n)); }
-FMI2_Export fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t n) { INSTANCE(c); return told(get_states(i, x, n)); }
-FMI2_Export fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real x[], size_t n) { INSTANCE(c); return told(get_rates(i, x, n)); }
-FMI2_Export fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real z[], size_t n) { INSTANCE(c); return told(get_indicators(i, z, n)); }
-FMI2_Export fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real x[], size_t n) { INSTANCE(c); return told(get_nominals(i, x, n)); }
+FMI2_Export fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n) { INSTANCE(c); return status(set_states(i, x, n)); }
+FMI2_Export fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t n) { INSTANCE(c); return status(get_states(i, x, n)); }
+FMI2_Export fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real x[], size_t n) { INSTANCE(c); return status(get_rates(i, x, n)); }
+FMI2_Export fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real z[], size_t n) { INSTANCE(c); return status(get_indicators(i, z, n)); }
+FMI2_Export fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real x[], size_t n) { INSTANCE(c); return status(get_nominals(i, x, n)); }
 
 FMI2_Export fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                                    const fmi2Integer order[], const fmi2Real value[]) {
     INSTANCE(c);
     (void)vr; (void)n; (void)order; (void)value;
-    return told(refused(i, "this FMU does not interpolate its inputs"));
+    return status(refused(i, "this FMU does not interpolate its inputs"));
 }
 FMI2_Export fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                                     const fmi2Integer order[], fmi2Real value[]) {
     INSTANCE(c);
     (void)vr; (void)n; (void)order; (void)value;
-    return told(refused(i, "this FMU has no derivatives of its outputs"));
+    return status(refused(i, "this FMU has no derivatives of its outputs"));
 }
 
 FMI2_Export fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real h, fmi2Boolean no_return) {
     INSTANCE(c);
     (void)no_return;
-    return told(step(i, time, h));
+    return status(step(i, time, h));
 }
-FMI2_Export fmi2Status fmi2CancelStep(fmi2Component c) { INSTANCE(c); return told(refused(i, "steps are never pending")); }
+FMI2_Export fmi2Status fmi2CancelStep(fmi2Component c) { INSTANCE(c); return status(refused(i, "steps are never pending")); }
 
 #define STATUS2(NAME) \
     FMI2_Export fmi2Status fmi2Get##NAME##Status(fmi2Component c, const fmi2StatusKind kind, fmi2##NAME *value) { \

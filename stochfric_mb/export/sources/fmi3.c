@@ -5,7 +5,7 @@ static void say(const instance *c, int status, const char *message) {
     if (c->logger) ((fmi3LogMessageCallback)c->logger)(c->environment, fmi3Error, "error", message);
 }
 
-static fmi3Status told(int bad) { return bad ? fmi3Error : fmi3OK; }
+static fmi3Status status(int bad) { return bad ? fmi3Error : fmi3OK; }
 
 #define INSTANCE(c) instance *i = (instance *)(c); if (!i) return fmi3Error
 #define REFS const fmi3ValueReference vr[], size_t n
@@ -53,13 +53,13 @@ FMI3_Export fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean w
                                                    fmi3Float64 start_time, fmi3Boolean with_stop, fmi3Float64 stop) {
     INSTANCE(c);
     (void)with_tolerance; (void)tolerance; (void)with_stop; (void)stop;
-    if (!isfinite(start_time)) return told(refused(i, "the start time is not finite"));
+    if (!isfinite(start_time)) return status(refused(i, "the start time is not finite"));
     i->now.values[VR_TIME] = start_time;
     i->now.phase = INITIALIZING;
     return fmi3OK;
 }
 
-FMI3_Export fmi3Status fmi3ExitInitializationMode(fmi3Instance c) { INSTANCE(c); return told(start(i)); }
+FMI3_Export fmi3Status fmi3ExitInitializationMode(fmi3Instance c) { INSTANCE(c); return status(start(i)); }
 FMI3_Export fmi3Status fmi3EnterEventMode(fmi3Instance c) { INSTANCE(c); i->now.phase = EVENTS; return fmi3OK; }
 FMI3_Export fmi3Status fmi3Terminate(fmi3Instance c) { INSTANCE(c); i->now.phase = TERMINATED; return fmi3OK; }
 FMI3_Export fmi3Status fmi3Reset(fmi3Instance c) { INSTANCE(c); clear(i); return fmi3OK; }
@@ -96,7 +96,7 @@ ACCESS3(Int32, '-')
 ACCESS3(Int64, '-')
 ACCESS3(UInt64, '-')
 
-static fmi3Status without(void *c, const char *what) { INSTANCE(c); return told(refused(i, what)); }
+static fmi3Status without(void *c, const char *what) { INSTANCE(c); return status(refused(i, what)); }
 
 FMI3_Export fmi3Status fmi3GetString(fmi3Instance c, REFS, fmi3String values[], size_t m) { (void)vr; (void)values; (void)m; return n ? without(c, "this FMU has no strings") : fmi3OK; }
 FMI3_Export fmi3Status fmi3SetString(fmi3Instance c, REFS, const fmi3String values[], size_t m) { (void)vr; (void)values; (void)m; return n ? without(c, "this FMU has no strings") : fmi3OK; }
@@ -118,8 +118,8 @@ FMI3_Export fmi3Status fmi3GetVariableDependencies(fmi3Instance c, fmi3ValueRefe
     return without(c, "dependencies stand in modelDescription.xml");
 }
 
-FMI3_Export fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state) { INSTANCE(c); return told(save(i, state)); }
-FMI3_Export fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state) { INSTANCE(c); return told(restore(i, state)); }
+FMI3_Export fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state) { INSTANCE(c); return status(save(i, state)); }
+FMI3_Export fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state) { INSTANCE(c); return status(restore(i, state)); }
 FMI3_Export fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state) {
     (void)c;
     if (state) { free(*state); *state = 0; }
@@ -132,11 +132,11 @@ FMI3_Export fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState s
 }
 FMI3_Export fmi3Status fmi3SerializeFMUState(fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size) {
     INSTANCE(c);
-    return told(serialized(i, state, bytes, size));
+    return status(serialized(i, state, bytes, size));
 }
 FMI3_Export fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState *state) {
     INSTANCE(c);
-    return told(deserialized(i, bytes, size, state));
+    return status(deserialized(i, bytes, size, state));
 }
 
 #define DERIVATIVE const fmi3ValueReference unknown[], size_t n_unknown, const fmi3ValueReference known[], size_t n_known, \
@@ -145,7 +145,7 @@ FMI3_Export fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte by
 FMI3_Export fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, DERIVATIVE) {
     INSTANCE(c);
     if (counted(i, n_seed, n_known) || counted(i, n_out, n_unknown)) return fmi3Error;
-    return told(directional(i, unknown, n_unknown, known, n_known, seed, out));
+    return status(directional(i, unknown, n_unknown, known, n_known, seed, out));
 }
 FMI3_Export fmi3Status fmi3GetAdjointDerivative(fmi3Instance c, DERIVATIVE) { UNUSED_DERIVATIVE; return without(c, "this FMU has no adjoint derivatives"); }
 
@@ -178,16 +178,16 @@ FMI3_Export fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean n
 
 FMI3_Export fmi3Status fmi3SetTime(fmi3Instance c, fmi3Float64 time) {
     INSTANCE(c);
-    if (!isfinite(time)) return told(refused(i, "the time is not finite"));
+    if (!isfinite(time)) return status(refused(i, "the time is not finite"));
     i->now.values[VR_TIME] = time;
     return fmi3OK;
 }
 
-FMI3_Export fmi3Status fmi3SetContinuousStates(fmi3Instance c, const fmi3Float64 x[], size_t n) { INSTANCE(c); return told(set_states(i, x, n)); }
-FMI3_Export fmi3Status fmi3GetContinuousStates(fmi3Instance c, fmi3Float64 x[], size_t n) { INSTANCE(c); return told(get_states(i, x, n)); }
-FMI3_Export fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance c, fmi3Float64 x[], size_t n) { INSTANCE(c); return told(get_rates(i, x, n)); }
-FMI3_Export fmi3Status fmi3GetEventIndicators(fmi3Instance c, fmi3Float64 z[], size_t n) { INSTANCE(c); return told(get_indicators(i, z, n)); }
-FMI3_Export fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance c, fmi3Float64 x[], size_t n) { INSTANCE(c); return told(get_nominals(i, x, n)); }
+FMI3_Export fmi3Status fmi3SetContinuousStates(fmi3Instance c, const fmi3Float64 x[], size_t n) { INSTANCE(c); return status(set_states(i, x, n)); }
+FMI3_Export fmi3Status fmi3GetContinuousStates(fmi3Instance c, fmi3Float64 x[], size_t n) { INSTANCE(c); return status(get_states(i, x, n)); }
+FMI3_Export fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance c, fmi3Float64 x[], size_t n) { INSTANCE(c); return status(get_rates(i, x, n)); }
+FMI3_Export fmi3Status fmi3GetEventIndicators(fmi3Instance c, fmi3Float64 z[], size_t n) { INSTANCE(c); return status(get_indicators(i, z, n)); }
+FMI3_Export fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance c, fmi3Float64 x[], size_t n) { INSTANCE(c); return status(get_nominals(i, x, n)); }
 FMI3_Export fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance c, size_t *n) { INSTANCE(c); (void)i; *n = INDICATORS; return fmi3OK; }
 FMI3_Export fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance c, size_t *n) { INSTANCE(c); (void)i; *n = N_STATES; return fmi3OK; }
 
@@ -204,7 +204,7 @@ FMI3_Export fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 
     *event = *stop = *early = false;
     const int bad = step(i, time, h);
     *last = i->now.values[VR_TIME];
-    return told(bad);
+    return status(bad);
 }
 
 FMI3_Export fmi3Status fmi3ActivateModelPartition(fmi3Instance c, fmi3ValueReference clock, fmi3Float64 time) { (void)clock; (void)time; return without(c, "this FMU has no clocks"); }

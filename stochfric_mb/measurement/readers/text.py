@@ -1,4 +1,4 @@
-"""Columns of text files: CSV, TSV and tables aligned by spaces; delimiter and decimal sign are found, not asked for."""
+"""Columns of text files: CSV, TSV and tables aligned by spaces; delimiter and decimal sign are detected."""
 
 from __future__ import annotations
 

@@ -1,11 +1,10 @@
-"""What to change in a model, from what a check of its friction found."""
+"""What to change in a model, from the findings of a check of its friction."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
 
-from stochfric_mb.laws import Law
 from stochfric_mb.mujoco.check.findings import Findings, Row
 from stochfric_mb.mujoco.check.probes import Drift
 
@@ -17,10 +16,12 @@ CREATED = 0.01
 """Energy created over energy dissipated that is worth a word [-]."""
 WRONG = 0.05
 """Relative error of break-away that is worth a word [-]; twice that for the deceleration, whose mass is less certain."""
+MUCH_BETTER = 0.1
+"""Drift over the native one below which it is no fault any more [-]."""
 
 
-def advice(row: Row, timestep: float, invented: frozenset[str]) -> str:
-    """Return what is wrong with the model's friction and what to change, in words."""
+def advice(row: Row, invented: frozenset[str]) -> str:
+    """Return what is wrong with the model's friction and what to change, in words; ``invented`` names are not the user's."""
     if row.native is None:
         return "not probed: " + row.problem
     native = _faults(row, row.native, 0.0)
@@ -33,38 +34,31 @@ def advice(row: Row, timestep: float, invented: frozenset[str]) -> str:
     said = "; ".join(native.values())
     if row.ours is None:
         return f"{said}. Ours could not be measured: {row.ours_problem}"
-    if _much_better(row):
+    before, after = _worst_drift(row.native), _worst_drift(row.ours)
+    if before is not None and after is not None and after.speed < MUCH_BETTER * before.speed:
         ours.pop("drift", None)
     if not native.keys() - ours.keys():
         return f"{said}. Ours does no better at this timestep ({'; '.join(ours.values())})"
     left = f" (that still {'; '.join(ours.values())})" if ours else ""
-    return f"{said}: {_take_over_words(row)}{left}{_step_words(row)}{_naming_words(row, invented)}"
+    return f"{said}: take it over with {_call(row)}{left}{_conditions(row, invented)}"
 
 
-def _take_over_words(row: Row) -> str:
-    parameters = row.law.to_dict() if row.law is not None else {}
-    words = ", ".join(f"{k}={v:.4g}" for k, v in parameters.items() if isinstance(v, float) and _told(row.law, k))
+def _call(row: Row) -> str:
+    """Return the call of `add_friction` that takes the site over, with the law's parameters that are no defaults."""
     where, load = repr(row.names), ""
     if row.kind != "contact":
         where, load = f"{row.kind.capitalize()}({row.names[0]!r})", f", normal_force={row.limit:.6g}"
-    return f"take it over with add_friction(spec, {where}, {type(row.law).__name__}({words}){load})"
+    given = [(f.name, getattr(row.law, f.name), f.default) for f in dataclasses.fields(row.law)] if row.law else []
+    words = ", ".join(f"{name}={value:.4g}" for name, value, default in given if isinstance(value, float) and value != default)
+    return f"add_friction(spec, {where}, {type(row.law).__name__}({words}){load})"
 
 
-def _step_words(row: Row) -> str:
-    if row.mode == "explicit" and math.isfinite(row.step_limit):
-        return f"; explicit, timestep <= {row.step_limit:.2g} s"
-    return ""
-
-
-def _naming_words(row: Row, invented: frozenset[str]) -> str:
-    unnamed = [n for n in row.names if n in invented]
-    return f" (it needs a name first: here {' and '.join(unnamed)}, by number)" if unnamed else ""
-
-
-def _told(law: Law | None, key: str) -> bool:
-    """Return whether a parameter differs from its default."""
-    field = next((f for f in dataclasses.fields(law) if f.name == key), None) if law is not None else None
-    return field is not None and (field.default is dataclasses.MISSING or field.default != getattr(law, key))
+def _conditions(row: Row, invented: frozenset[str]) -> str:
+    explicit = row.mode == "explicit" and math.isfinite(row.step_limit)
+    unnamed = " and ".join(n for n in row.names if n in invented)
+    return (f"; explicit, timestep <= {row.step_limit:.2g} s" if explicit else "") + (
+        f" (it needs a name first: here {unnamed}, by number)" if unnamed else ""
+    )
 
 
 def _faults(row: Row, findings: Findings, stored: float) -> dict[str, str]:
@@ -72,8 +66,9 @@ def _faults(row: Row, findings: Findings, stored: float) -> dict[str, str]:
     faults: dict[str, str] = {}
     worst = _worst_drift(findings)
     if worst is not None and worst.speed > CREEP:
-        of = "mu N" if row.kind == "contact" else "the frictionloss"
-        faults["drift"] = f"creeps {_micro(worst.speed)} u{row.unit}/s at {100.0 * worst.load:.0f} % of {of}"
+        speed, of = 1.0e6 * worst.speed, "mu N" if row.kind == "contact" else "the frictionloss"
+        shown = f"{speed:.0f}" if speed >= 100.0 else f"{speed:.2g}"
+        faults["drift"] = f"creeps {shown} u{row.unit}/s at {100.0 * worst.load:.0f} % of {of}"
     broken = findings.break_away
     if broken is not None and abs(broken.share - 1.0) > WRONG:
         faults["break_away"] = f"breaks away at {100.0 * broken.share:.0f} % of its limit"
@@ -85,18 +80,7 @@ def _faults(row: Row, findings: Findings, stored: float) -> dict[str, str]:
     return faults
 
 
-def _micro(speed: float) -> str:
-    value = 1.0e6 * speed
-    return f"{value:.0f}" if abs(value) >= 100.0 else f"{value:.2g}"
-
-
 def _worst_drift(findings: Findings) -> Drift | None:
     """Return the fastest drift under a load that should hold."""
     held = [d for d in (findings.own, *findings.held) if d is not None and d.load < SLIDING]
     return max(held, key=lambda d: d.speed, default=None)
-
-
-def _much_better(row: Row) -> bool:
-    native = _worst_drift(row.native) if row.native is not None else None
-    ours = _worst_drift(row.ours) if row.ours is not None else None
-    return native is not None and ours is not None and ours.speed < 0.1 * native.speed

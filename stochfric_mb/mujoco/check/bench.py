@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import math
 from collections.abc import Callable
-from typing import Any
 
 import mujoco
 
-from stochfric_mb.errors import SimulationError
-from stochfric_mb.mujoco.check import probes
+from stochfric_mb.errors import InputError, SimulationError
+from stochfric_mb.laws import Law, make_law
+from stochfric_mb.mujoco import joints
+from stochfric_mb.mujoco.attach import add_friction
 from stochfric_mb.mujoco.check.advice import SLIDING, advice
-from stochfric_mb.mujoco.check.alternatives import fitted_law, mode_of, with_ours, without_friction
 from stochfric_mb.mujoco.check.findings import SHARES, Findings, Row
-from stochfric_mb.mujoco.check.probes import Drift, Record, Slide, State
-from stochfric_mb.mujoco.check.site_search import unit_of
-from stochfric_mb.mujoco.check.sites import ContactPair, Site, kick, lightest_mass
+from stochfric_mb.mujoco.check.loading import copied
+from stochfric_mb.mujoco.check.probes import BREAK_AWAY_TIME, LOST, OVERLOAD, TOUCHING, Drift, Probe, Record, Slide, started
+from stochfric_mb.mujoco.check.sites import ContactPair, Site, kick, touches
+from stochfric_mb.mujoco.memory.state import header_of
+from stochfric_mb.mujoco.pairs import take_over
+from stochfric_mb.mujoco.reading import instances, state_of
 
 UNSTEADY = 0.5
 """Relative spread of the normal force above which a contact is not at rest."""
@@ -32,7 +36,7 @@ class Bench:
     """The model."""
     invented: frozenset[str]
     """Names that are not the user's."""
-    state: State
+    state: mujoco.MjData
     """Where every probe starts."""
     law: str
     """Kind of our law."""
@@ -43,110 +47,145 @@ class Bench:
 
     def probe_time(self) -> float:
         """Return the simulated time of one site's probes, without slides [s]."""
-        return 2.0 * (1.0 + len(SHARES) + probes.BREAK_AWAY_TIME) * self.duration
+        return 2.0 * (1.0 + len(SHARES) + BREAK_AWAY_TIME) * self.duration
 
     def row(self, site: Site, problem: str, advance: Callable[[float], None]) -> Row:
-        """Return what the probes find at one site."""
-        data = probes.started(self.model, self.state)
-        dt = float(self.model.opt.timestep)
-        mass, sliding = math.inf, math.inf
-        carried: Record | None = None
-        if not problem:
-            mass = lightest_mass(self.model, data, site)
-            sliding = kick(self.model, data, site.row(self.model, data))[1]
+        """Return what the probes find at one site; ``problem`` says why not to probe it."""
+        row = Row(site.kind, site.name, site.names, site.unit, getattr(site, "mu", None))
+        probe = Probe(self.model, self.state, site, self.duration)
+        try:
+            if problem:
+                raise SimulationError(problem)
+            data = started(self.model, self.state)
+            sliding = kick(self.model, data, site.sample(self.model, data).row)[1]
             if not math.isfinite(sliding):
-                problem = "cannot slide: other constraints, or no freedom along the surface"
-        if not problem:
-            try:
-                carried = probes.run(self.model, self.state, site, self.duration)
-                problem = _unsteady(carried)
-            except SimulationError as error:
-                problem = str(error)
-        if problem or carried is None:
-            return self._row(site, problem=problem, advice="not probed: " + problem)
-        limit = float(carried.column("limit").mean())
-        normal = float(carried.column("normal").mean())
-        native, native_problem = self._findings(self.model, site, site, limit, sliding, 1.0, advance, 0.0)
-        law, law_limit = fitted_law(self.law, self.mu_k_ratio, site, normal, mass)
-        ours = None
-        model, own, why = with_ours(self.spec, self.model, self.state, site, law)
-        if model is not None and own is not None:
-            ours, why = self._findings(model, own, site, limit, sliding, self.mu_k_ratio, advance, 0.5 * self.probe_time())
-        row = self._row(
-            site, problem=native_problem, native=native, ours=ours, ours_problem=why, law=law, mass=mass, limit=limit,
-            normal_force=normal, step_limit=law_limit,
-            mode=mode_of(self.model, law, law_limit),
+                raise SimulationError("cannot slide: other constraints, or no freedom along the surface")
+            record = probe.run(self.duration)
+            _require_steady(record)
+        except SimulationError as error:
+            return dataclasses.replace(row, problem=str(error), advice=f"not probed: {error}")
+        limit, normal = float(record.column("limit").mean()), float(record.column("normal").mean())
+        native, problem, _ = self._findings(probe, site, limit, sliding, 1.0, advance)
+        mu_s = site.mu if isinstance(site, ContactPair) else 1.0
+        law = make_law(self.law, mu_s=mu_s, mu_k=self.mu_k_ratio * mu_s)
+        mobility = site.mobility(self.model, data)
+        mass = 1.0 / mobility if mobility > 0.0 else math.inf
+        ours, mode = None, ""
+        try:
+            own = self._with_ours(site, law)
+            half = 0.5 * self.probe_time()
+            ours, why, mode = self._findings(own, site, limit, sliding, self.mu_k_ratio, lambda t: advance(half + t))
+        except (InputError, ValueError) as error:
+            why = str(error)
+        row = dataclasses.replace(
+            row, problem=problem, native=native, ours=ours, ours_problem=why, law=law, mass=mass, limit=limit,
+            normal_force=normal, step_limit=law.step_limit(normal, mass), mode=mode,
         )  # fmt: skip
-        return dataclasses.replace(row, advice=advice(row, dt, self.invented))
-
-    def _row(self, site: Site, **values: Any) -> Row:
-        blank: dict[str, Any] = {
-            "normal_force": math.nan, "limit": math.nan, "problem": "", "native": None, "ours": None, "ours_problem": "",
-            "law": None, "mass": math.nan, "mode": "", "step_limit": math.nan, "advice": "",
-        }  # fmt: skip
-        return Row(
-            kind=site.kind, name=site.name, names=site.names,
-            unit=unit_of(self.model, site), coefficient=site.mu if isinstance(site, ContactPair) else None, **(blank | values),
-        )  # fmt: skip
+        return dataclasses.replace(row, advice=advice(row, self.invented))
 
     def _findings(
-        self, model: mujoco.MjModel, site: Site, original: Site, limit: float, mass: float, ratio: float,
-        advance: Callable[[float], None], done: float,
-    ) -> tuple[Findings | None, str]:  # fmt: skip
-        """Return what all probes find with one friction, or why they could not run."""
+        self, probe: Probe, original: Site, limit: float, mass: float, ratio: float, advance: Callable[[float], None]
+    ) -> tuple[Findings | None, str, str]:
+        """Return what all probes find with one friction, or why they could not run; and the mode of a friction of ours."""
         notes: list[str] = []
         try:
-            own, record = probes.hold(model, self.state, site, self.duration, 0.0)
+            own, record = probe.hold(0.0)
             if own is None:
-                return None, "the contact is lost"
-            state, carried, records = record.end, own.load * limit, [record]
+                return None, LOST, ""
+            mode = _mode(probe, record)
+            probe, carried, records = dataclasses.replace(probe, state=record.end), own.load * limit, [record]
             held: list[Drift | None] = []
             for share in SHARES:
-                advance(done + len(records) * self.duration)
+                advance(len(records) * self.duration)
                 if share * limit <= carried:
                     held.append(None)
                     continue
-                result, record = probes.hold(model, state, site, self.duration, share * limit - carried)
+                result, record = probe.hold(share * limit - carried)
                 held.append(result)
                 if result is None:
                     notes.append(f"the contact is lost at {100.0 * share:.0f} % of the limit")
                 records.append(record)
-            broken, record = probes.break_away(model, state, site, self.duration, carried, limit, mass)
+            broken, record = probe.break_away(carried, limit, mass)
             records.append(record)
-            slide, why = self._slide(model, state, site, original, limit, ratio, records)
+            slide, why = self._slide(probe, original, limit, ratio, records)
         except SimulationError as error:
-            return None, str(error)
+            return None, str(error), ""
         if own.load >= SLIDING:
             notes.append("slides in the given state: nothing to hold")
         if slide is not None and slide.touching < 1.0:
             notes.append(f"hops: touches in {100.0 * slide.touching:.0f} % of the slide")
         if broken is None:
-            notes.append(f"no break-away up to {100.0 * probes.OVERLOAD:.0f} % of the limit")
+            notes.append(f"no break-away up to {100.0 * OVERLOAD:.0f} % of the limit")
         if why:
             notes.append(f"no slide: {why}")
-        created = max(r.energy_created() for r in records)
-        dissipated = sum(r.energy_dissipated() for r in records)
-        advance(done + 0.5 * self.probe_time())
-        return Findings(own, tuple(held), broken, slide, created, dissipated, tuple(notes)), ""
+        energies = [r.integral("power") for r in records]
+        created, dissipated = max(0.0, *(float(e.max()) for e in energies)), -sum(float(e[-1]) for e in energies)
+        advance(0.5 * self.probe_time())
+        return Findings(own, tuple(held), broken, slide, created, dissipated, tuple(notes)), "", mode
 
     def _slide(
-        self, model: mujoco.MjModel, state: State, site: Site, original: Site, limit: float, ratio: float,
-        records: list[Record],
-    ) -> tuple[Slide | None, str]:  # fmt: skip
-        bare = without_friction(self.spec, self.model, original)
+        self, probe: Probe, original: Site, limit: float, ratio: float, records: list[Record]
+    ) -> tuple[Slide | None, str]:
+        bare = self._without_friction(original)
         if bare is None:
             return None, "a contact's friction can be removed only in a model that comes as XML"
-        slide, record, why = probes.slide(model, bare, state, site, original, limit)
+        slide, record, why = probe.slide(dataclasses.replace(probe, model=bare, site=original), limit)
         if record is not None:
             records.append(record)
         return (dataclasses.replace(slide, expected=ratio * slide.expected) if slide is not None else None), why
 
+    def _without_friction(self, site: Site) -> mujoco.MjModel | None:
+        """Return the model without the site's friction, None if it cannot be had."""
+        if isinstance(site, ContactPair):
+            if self.spec is None:
+                return None
+            bare = copied(self.spec)
+            take_over(bare, *site.names, site.mu).condim = 1
+            return bare.compile()
+        model = copy.copy(self.model)
+        losses = model.dof_frictionloss if site.kind == "joint" else model.tendon_frictionloss
+        losses[site.number] = 0.0
+        return model
 
-def _unsteady(record: Record) -> str:
-    if record.touching < probes.TOUCHING:
-        return f"flickers: touches in {100.0 * record.touching:.0f} % of the steps"
+    def _with_ours(self, site: Site, law: Law) -> Probe:
+        """Return the same with our law at the site.
+
+        Raises:
+            InputError: it cannot be had; says why.
+            ValueError: MuJoCo does not compile the model.
+        """
+        if self.spec is None:
+            raise InputError("a binary model cannot be changed; give the XML")
+        changed = copied(self.spec)
+        changed.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+        if isinstance(site, ContactPair):
+            contacts = len(touches(self.model, started(self.model, self.state), site.geoms))
+            name = add_friction(changed, site.names, law, slots=max(16, 2 * contacts))
+        else:
+            place = joints.Joint(*site.names) if site.kind == "joint" else joints.Tendon(*site.names)
+            name = add_friction(changed, place, law, normal_force=site.loss)
+        return Probe(changed.compile(), self.state, dataclasses.replace(site, instance=name), self.duration)
+
+
+def _mode(probe: Probe, record: Record) -> str:
+    """Return how a friction of ours ran in the end: solver or explicit; empty for the model's own."""
+    if not probe.site.instance:
+        return ""
+    state = state_of(probe.model, record.end, instances(probe.model)[probe.site.instance])
+    return "solver" if header_of(state).solved else "explicit"
+
+
+def _require_steady(record: Record) -> None:
+    """Refuse a contact that flickers, bears nothing or is shaken.
+
+    Raises:
+        SimulationError: says why.
+    """
+    if record.touching < TOUCHING:
+        raise SimulationError(f"flickers: touches in {100.0 * record.touching:.0f} % of the steps")
     limit = record.column("limit")
     if limit.mean() <= 0.0:
-        return "carries no normal force"
-    spread = float(limit.std() / limit.mean())
-    return f"not at rest: the normal force varies by {100.0 * spread:.0f} %" if spread > UNSTEADY else ""
+        raise SimulationError("carries no normal force")
+    if limit.std() > UNSTEADY * limit.mean():
+        spread = 100.0 * limit.std() / limit.mean()
+        raise SimulationError(f"not at rest: the normal force varies by {spread:.0f} %")

@@ -7,7 +7,6 @@ import math
 from typing import Any
 
 import mujoco
-import numpy as np
 
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco.check.probes import BreakAway, Drift, Slide
@@ -19,7 +18,7 @@ SHARES = (0.5, 0.9)
 
 @dataclasses.dataclass(frozen=True)
 class Findings:
-    """What the probes found with one friction."""
+    """Findings of the probes with one friction."""
 
     own: Drift
     """Under the load that the site carries in the given state."""
@@ -33,7 +32,7 @@ class Findings:
     """Most energy that friction gave to the motion in any probe [J]."""
     energy_dissipated: float
     """Energy that friction took in all probes [J]."""
-    notes: tuple[str, ...] = ()
+    notes: tuple[str, ...]
     """What could not be measured, and why."""
 
 
@@ -51,41 +50,33 @@ class Row:
     """Unit of displacements: m or rad."""
     coefficient: float | None
     """The model's sliding coefficient [-]; None for joints and tendons."""
-    normal_force: float
+    normal_force: float = math.nan
     """Mean normal force [N]; for joints and tendons the frictionloss [N or N m]."""
-    limit: float
+    limit: float = math.nan
     """Mean limit of the friction force [N or N m]."""
-    problem: str
+    problem: str = ""
     """Why the site was not probed, empty if it was."""
-    native: Findings | None
+    native: Findings | None = None
     """With the model's own friction."""
-    ours: Findings | None
+    ours: Findings | None = None
     """With a law of this package."""
-    ours_problem: str
+    ours_problem: str = ""
     """Why there is nothing of ours, empty if there is."""
-    law: Law | None
+    law: Law | None = None
     """The law that ran."""
-    mass: float
+    mass: float = math.nan
     """Least mass that a force at the site feels [kg or kg m^2]."""
-    mode: str
-    """How it ran: by MuJoCo's solver, or explicitly with RK4 where the timestep is below half its limit."""
-    step_limit: float
+    mode: str = ""
+    """How it ran: by MuJoCo's solver, or explicitly."""
+    step_limit: float = math.nan
     """Largest stable explicit step of that law here [s]."""
-    advice: str
+    advice: str = ""
     """What to change."""
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain values; numbers that are not finite become None."""
-        plain: dict[str, Any] = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
-        for key in ("native", "ours"):
-            plain[key] = dataclasses.asdict(plain[key]) if plain[key] is not None else None
-        plain["law"] = self.law.to_dict() if self.law is not None else None
-        return _plain(plain)
 
 
 @dataclasses.dataclass(frozen=True)
 class CheckResult:
-    """What `check` found."""
+    """Findings of `check`."""
 
     model: str
     """File, or the model's name."""
@@ -111,16 +102,15 @@ class CheckResult:
     """What was left out, and why."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the content of ``check.json``."""
-        plain = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)} | {"rows": [r.to_dict() for r in self.rows]}
-        return _plain({"schema": SCHEMA, "mujoco": mujoco.__version__, "shares": SHARES} | plain)
+        """Return the content of ``check.json``: plain values; numbers that are not finite become None."""
+        return {"schema": SCHEMA, "mujoco": mujoco.__version__, "shares": list(SHARES)} | _plain(self)
 
 
 def _plain(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _plain(v) for key, v in value.items()}
-    if isinstance(value, list | tuple):
+    if isinstance(value, Law):
+        return value.to_dict()
+    if dataclasses.is_dataclass(value):
+        return {f.name: _plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
+    if isinstance(value, tuple):
         return [_plain(v) for v in value]
-    if isinstance(value, float | np.floating):
-        return float(value) if math.isfinite(value) else None
-    return value
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -2,32 +2,37 @@
 
 from __future__ import annotations
 
+import contextlib
+from collections.abc import Generator
 from pathlib import Path
 from typing import Any
 
 import mujoco
 
 from stochfric_mb.errors import InputError, require_name
+from stochfric_mb.mujoco.pairs import name_all
+from stochfric_mb.mujoco.reading import name_in
 from stochfric_mb.scenario import scenario_folders
 
 
-def load(model: str | Path | mujoco.MjSpec) -> tuple[mujoco.MjSpec | None, mujoco.MjModel]:
-    """Return a spec of one's own (None for a binary model) and the compiled model.
+def load(model: str | Path | mujoco.MjSpec) -> tuple[mujoco.MjSpec | None, mujoco.MjModel, frozenset[str]]:
+    """Return a spec of one's own (None for a binary model), the compiled model, and the names that are not the user's.
 
     Raises:
         InputError: there is no such file, or MuJoCo cannot load it.
     """
     if isinstance(model, mujoco.MjSpec):
-        spec = copied(model)
-        return spec, _compiled(spec, "the spec")
-    path = _located(Path(model))
-    try:
-        if path.suffix.lower() == ".mjb":
-            return None, mujoco.MjModel.from_binary_path(str(path))
-        spec = mujoco.MjSpec.from_file(str(path))
-    except (ValueError, mujoco.FatalError) as error:
-        raise InputError(f"{path} is no model that MuJoCo can load: {_one_line(error)}") from None
-    return spec, _compiled(spec, str(path))
+        spec, what = copied(model), "the spec"
+    else:
+        what = _located(Path(model))
+        with _explained(f"{what} is no model that MuJoCo can load"):
+            if what.suffix.lower() == ".mjb":
+                return None, mujoco.MjModel.from_binary_path(str(what)), frozenset()
+            spec = mujoco.MjSpec.from_file(str(what))
+    parts = {"geom": spec.geoms, "joint": spec.joints, "tendon": spec.tendons}
+    invented = frozenset(name for kind, elements in parts.items() for name in name_all(kind, elements))
+    with _explained(f"{what} does not compile"):
+        return spec, spec.compile(), invented
 
 
 def copied(spec: mujoco.MjSpec) -> mujoco.MjSpec:
@@ -42,43 +47,24 @@ def copied(spec: mujoco.MjSpec) -> mujoco.MjSpec:
     return copy
 
 
+@contextlib.contextmanager
+def _explained(what: str) -> Generator[None]:
+    """Make MuJoCo's errors in one line of this package's, after ``what``."""
+    try:
+        yield
+    except (ValueError, mujoco.FatalError) as error:
+        lines = [line.strip() for line in str(error).splitlines()]
+        raise InputError(f"{what}: {'; '.join(filter(None, lines))}") from None
+
+
 def _located(path: Path) -> Path:
     """Return a model file, or the one that comes with the package under that name."""
-    if path.is_file():
-        return path
-    bundled = [folder / path.name / f"{path.name}.xml" for folder in scenario_folders()] if path.name == str(path) else []
-    for file in bundled:
+    bundled = [folder / path / f"{path}.xml" for folder in scenario_folders()] if path.name == str(path) else []
+    for file in (path, *bundled):
         if file.is_file():
             return file
     what = "a folder" if path.is_dir() else "no such file"
     raise InputError(f"{path}: {what}; give an MJCF (.xml), URDF or binary (.mjb) model, or a bundled one: incline, belt_box")
-
-
-def _compiled(spec: mujoco.MjSpec, what: str) -> mujoco.MjModel:
-    try:
-        return spec.compile()
-    except (ValueError, mujoco.FatalError) as error:
-        raise InputError(f"{what} does not compile: {_one_line(error)}") from None
-
-
-def _one_line(error: Exception) -> str:
-    return "; ".join(line.strip() for line in str(error).splitlines() if line.strip())
-
-
-def name_all(spec: mujoco.MjSpec) -> frozenset[str]:
-    """Give every geom, joint and tendon a name; return the names that are not the user's."""
-    made: set[str] = set()
-    for kind, elements in (("geom", spec.geoms), ("joint", spec.joints), ("tendon", spec.tendons)):
-        taken = {e.name for e in elements}
-        for element in elements:
-            if not element.name:
-                name = f"{kind}_{element.id}"
-                while name in taken:
-                    name += "_"
-                element.name = name
-                taken.add(name)
-                made.add(name)
-    return frozenset(made)
 
 
 def keyframe_number(model: mujoco.MjModel, name: str) -> int:
@@ -91,5 +77,5 @@ def keyframe_number(model: mujoco.MjModel, name: str) -> int:
         return int(name)
     if not model.nkey:
         raise InputError(f"keyframe {name!r}: the model has no keyframes; leave the option out")
-    known = [mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_KEY, k) or str(k) for k in range(model.nkey)]
+    known = [name_in(model, mujoco.mjtObj.mjOBJ_KEY, k) for k in range(model.nkey)]
     return known.index(require_name("keyframe", name, known))

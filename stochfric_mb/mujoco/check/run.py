@@ -10,7 +10,6 @@ import contextlib
 import warnings
 from collections.abc import Generator
 from pathlib import Path
-from typing import Any
 
 import mujoco
 
@@ -18,10 +17,10 @@ from stochfric_mb.errors import require_number
 from stochfric_mb.laws import make_law
 from stochfric_mb.mujoco.check.bench import Bench
 from stochfric_mb.mujoco.check.findings import CheckResult
-from stochfric_mb.mujoco.check.loading import load, name_all
+from stochfric_mb.mujoco.check.loading import load
+from stochfric_mb.mujoco.check.search import find_sites
 from stochfric_mb.mujoco.check.settling import Stage
 from stochfric_mb.mujoco.check.settling import settle as leave_alone
-from stochfric_mb.mujoco.check.site_search import find_sites
 
 
 def check(
@@ -56,21 +55,17 @@ def check(
     require_number("mu_k_ratio", mu_k_ratio, low=0.0, high=1.0)
     make_law(law, mu_s=1.0, mu_k=mu_k_ratio)
     with _quiet() as said:
-        spec, compiled = load(model)
-        invented = name_all(spec) if spec is not None else frozenset[str]()
-        if invented and spec is not None:
-            compiled = spec.compile()
+        spec, compiled, invented = load(model)
         settled = leave_alone(compiled, keyframe, settle, stage)
         result, notes = find_sites(compiled, settled, most)
-        notes = [*notes, *settled.convergence_note(int(compiled.opt.iterations))]
-        bench = Bench(spec, compiled, invented, settled.state, law, mu_k_ratio, duration)
+        bench = Bench(spec, compiled, invented, settled.data, law, mu_k_ratio, duration)
         rows = tuple(bench.row(site, problem, stage(site.name, bench.probe_time())) for site, problem in result)
     option = compiled.opt
     return CheckResult(
         model=str(model) if isinstance(model, str | Path) else (model.modelname or "spec"),
         timestep=float(option.timestep),
-        integrator=_word(mujoco.mjtIntegrator(option.integrator), "mjINT_"),
-        cone=_word(mujoco.mjtCone(option.cone), "mjCONE_"),
+        integrator=mujoco.mjtIntegrator(option.integrator).name.removeprefix("mjINT_").lower(),
+        cone=mujoco.mjtCone(option.cone).name.removeprefix("mjCONE_").lower(),
         impratio=float(option.impratio),
         keyframe=keyframe or "",
         settle=settle,
@@ -79,10 +74,6 @@ def check(
         rows=rows,
         notes=tuple(dict.fromkeys([*(str(w.message) for w in said), *notes])),
     )
-
-
-def _word(member: Any, prefix: str) -> str:
-    return str(member.name).removeprefix(prefix).lower()
 
 
 @contextlib.contextmanager

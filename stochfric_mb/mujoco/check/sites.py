@@ -1,15 +1,15 @@
 """Where a model has friction, and what can be measured there: contact pairs, joints and tendons.
 
-A *site* gives the row of generalised velocities that is its sliding velocity, and what its friction does at an
-instant. Signs: ``along`` is the direction in which the probe pushes the first body (or the joint); ``velocity`` is
-along it, and ``resistance`` is the friction force against it.
+A *site* says what its friction does at an instant, and which row of generalised velocities is its sliding velocity. Signs:
+``along`` is the direction in which the probe pushes the first body (or the joint); ``velocity`` is along it, and
+``resistance`` is the friction force against it.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -19,8 +19,6 @@ from stochfric_mb.mujoco.reading import readings
 
 Array = npt.NDArray[np.float64]
 
-SLOPE = 0.98
-"""Contacts whose normals have less than this cosine with their mean are not one plane."""
 CONSTRAINT = mujoco.mjtConstraint
 
 
@@ -39,9 +37,44 @@ class Sample(NamedTuple):
     """Power of friction on the motion [W]; never positive where friction dissipates."""
     touching: bool
     """Whether there is any contact."""
+    row: Array
+    """Velocity along the direction of the probe per generalised velocity, shape (nv,); zeros without contact."""
 
 
-# --- contact pairs ---------------------------------------------------------------------------------------------------
+class Touch(NamedTuple):
+    """One contact between two geoms at an instant, in world axes."""
+
+    normal: float
+    """Normal force [N]."""
+    friction: Array
+    """The engine's friction force on the first geom [N]."""
+    frame: Array
+    """The contact's normal and tangents, shape (3, 3)."""
+    belt: Array
+    """Velocity that surface velocities add to the first geom's relative to the second [m/s]."""
+    jacobian: Array
+    """Velocity of the first geom relative to the second at the contact per generalised velocity, shape (3, nv)."""
+
+
+def touches(model: mujoco.MjModel, data: mujoco.MjData, geoms: tuple[int, int]) -> list[Touch]:
+    """Return the contacts between two geoms that bear something (see `contact.face`)."""
+    contacts = data.contact
+    ours = (np.sort(contacts.geom, axis=1) == np.sort(geoms)).all(axis=1)
+    return [
+        touch(model, data, int(i), geoms) for i in np.flatnonzero(ours & ((contacts.exclude == 0) | (contacts.efc_address < 0)))
+    ]
+
+
+def touch(model: mujoco.MjModel, data: mujoco.MjData, contact: int, geoms: tuple[int, int]) -> Touch:
+    """Return one contact, between two geoms that it joins in either order."""
+    wrench, jacobians = np.zeros(6), np.zeros((2, 3, model.nv))
+    mujoco.mj_contactForce(model, data, contact, wrench)
+    for jacobian, geom in zip(jacobians, geoms, strict=True):
+        mujoco.mj_jac(model, data, jacobian, None, data.contact.pos[contact], int(model.geom_bodyid[geom]))
+    frame = data.contact.frame[contact].reshape(3, 3)
+    sign = -1.0 if data.contact.geom[contact, 0] == geoms[0] else 1.0
+    belt = -sign * data.contact.surfacevel[contact, :2] @ frame[1:]
+    return Touch(float(wrench[0]), sign * wrench[1:3] @ frame[1:], frame, belt, jacobians[0] - jacobians[1])
 
 
 @dataclasses.dataclass(frozen=True)
@@ -59,95 +92,42 @@ class ContactPair:
     instance: str = ""
     """Friction instance of this package that acts here; empty: the model's own friction."""
     kind = "contact"
+    unit = "m"
 
     @property
     def name(self) -> str:
         """Name for tables."""
         return " - ".join(self.names)
 
-    def row(self, model: mujoco.MjModel, data: mujoco.MjData) -> Array:
-        """Return the velocity of the first geom relative to the second at the contacts' centre; zeros without contact."""
-        contacts = pair_contacts(data, self.geoms)
-        if not len(contacts):
-            return np.zeros(model.nv)
-        return np.asarray(self.along) @ _jacobians(model, data, self.geoms, _centre(model, data, contacts))[0]
-
     def sample(self, model: mujoco.MjModel, data: mujoco.MjData) -> Sample:
         """Return the sums over the pair's contacts; the velocity is that of their centre of normal force."""
-        contacts = pair_contacts(data, self.geoms)
-        if not len(contacts):
-            return Sample(0.0, 0.0, 0.0, 0.0, 0.0, False)
-        centre = _centre(model, data, contacts)
-        translation, rotation = _jacobians(model, data, self.geoms, centre)
-        at_centre, spin = translation @ data.qvel, rotation @ data.qvel
-        along = np.asarray(self.along)
-        own = readings(model, data)[self.instance] if self.instance else []
-        normal, power = 0.0, 0.0
-        total, belt = np.zeros(3), np.zeros(3)
-        for k, i in enumerate(contacts):
-            push, friction = contact_forces(model, data, int(i), self.geoms[0])
-            if self.instance:
-                friction = np.asarray(own[k].force) if k < len(own) else np.zeros(3)
-            normal += push
-            total += friction
-            belt = surface_velocity(data, int(i), self.geoms[0])
-            power += friction @ (at_centre + np.cross(spin, data.contact.pos[i] - centre) - belt)
-        return Sample(self.mu * normal, normal, -float(total @ along), float(along @ (at_centre - belt)), float(power), True)
+        contacts = touches(model, data, self.geoms)
+        if not contacts:
+            return Sample(0.0, 0.0, 0.0, 0.0, 0.0, False, np.zeros(model.nv))
+        friction = np.array([t.friction for t in contacts])
+        if self.instance:
+            own = [r.force for r in readings(model, data)[self.instance][: len(contacts)]]
+            friction = np.array([*own, *[(0.0, 0.0, 0.0)] * (len(contacts) - len(own))])
+        normals = np.array([t.normal for t in contacts])
+        normal, along = float(normals.sum()), np.asarray(self.along)
+        weights = normals / normal if normal > 0.0 else np.full(len(contacts), 1.0 / len(contacts))
+        row = along @ np.tensordot(weights, [t.jacobian for t in contacts], 1)
+        slips = np.array([t.jacobian @ data.qvel - t.belt for t in contacts])
+        return Sample(
+            limit=self.mu * normal,
+            normal=normal,
+            resistance=-float(friction.sum(axis=0) @ along),
+            velocity=float(weights @ slips @ along),
+            power=float((friction * slips).sum()),
+            touching=True,
+            row=row,
+        )
 
-
-def pair_contacts(data: mujoco.MjData, geoms: tuple[int, int]) -> npt.NDArray[np.int64]:
-    """Return the numbers of the contacts between two geoms."""
-    result = data.contact.geom
-    a, b = geoms
-    return np.flatnonzero(((result[:, 0] == a) & (result[:, 1] == b)) | ((result[:, 0] == b) & (result[:, 1] == a)))
-
-
-def contact_forces(model: mujoco.MjModel, data: mujoco.MjData, contact: int, body: int) -> tuple[float, Array]:
-    """Return normal force [N] and the engine's friction force on the geom ``body`` [N, world axes] at a contact."""
-    wrench = np.zeros(6)
-    mujoco.mj_contactForce(model, data, contact, wrench)
-    frame = data.contact.frame[contact].reshape(3, 3)
-    friction = wrench[1] * frame[1] + wrench[2] * frame[2]
-    return float(wrench[0]), -friction if data.contact.geom[contact, 0] == body else friction
-
-
-def surface_velocity(data: mujoco.MjData, contact: int, body: int) -> Array:
-    """Return the velocity [m/s, world axes] that the counter-surface's belt adds at a contact."""
-    frame = data.contact.frame[contact].reshape(3, 3)
-    belt = data.contact.surfacevel[contact]
-    velocity = belt[0] * frame[1] + belt[1] * frame[2]
-    return velocity if data.contact.geom[contact, 0] == body else -velocity
-
-
-def flat(data: mujoco.MjData, contacts: npt.NDArray[np.int64]) -> bool:
-    """Return whether all contacts face the same way."""
-    normals = data.contact.frame[contacts][:, :3]
-    mean = normals.mean(axis=0)
-    return bool(np.all(normals @ mean >= SLOPE * np.linalg.norm(mean)))
-
-
-def mobility(model: mujoco.MjModel, data: mujoco.MjData, geoms: tuple[int, int], contact: int) -> Array:
-    """Return the velocity per impulse in the contact's tangent plane, shape (2, 2) [1/kg]."""
-    axes = data.contact.frame[contact].reshape(3, 3)[1:]
-    rows = axes @ _jacobians(model, data, geoms, data.contact.pos[contact])[0]
-    return rows @ solve_mass(model, data, rows).T
-
-
-def _centre(model: mujoco.MjModel, data: mujoco.MjData, contacts: npt.NDArray[np.int64]) -> Array:
-    weights = np.array([contact_forces(model, data, int(i), 0)[0] for i in contacts])
-    weights = weights if weights.sum() > 0.0 else np.ones(len(contacts))
-    return weights @ data.contact.pos[contacts] / weights.sum()
-
-
-def _jacobians(model: mujoco.MjModel, data: mujoco.MjData, geoms: tuple[int, int], point: Array) -> tuple[Array, Array]:
-    """Return translation and rotation of the first geom's body relative to the second's at a point, shape (3, nv)."""
-    jacobians = np.zeros((2, 2, 3, model.nv))
-    for k, geom in enumerate(geoms):
-        mujoco.mj_jac(model, data, jacobians[k, 0], jacobians[k, 1], point, int(model.geom_bodyid[geom]))
-    return jacobians[0, 0] - jacobians[1, 0], jacobians[0, 1] - jacobians[1, 1]
-
-
-# --- joints and tendons ----------------------------------------------------------------------------------------------
+    def mobility(self, model: mujoco.MjModel, data: mujoco.MjData) -> float:
+        """Return the largest velocity per impulse [1/kg] that a force at one of the contacts meets."""
+        return max(
+            (np.linalg.eigvalsh(plane_mobility(model, data, t))[-1] for t in touches(model, data, self.geoms)), default=0.0
+        )
 
 
 @dataclasses.dataclass(frozen=True)
@@ -160,6 +140,8 @@ class Coordinate:
     """Name of the joint or tendon."""
     kind: str
     """joint or tendon."""
+    unit: str
+    """Unit of its displacement: m or rad."""
     number: int
     """The degree of freedom, or the tendon."""
     loss: float
@@ -167,39 +149,35 @@ class Coordinate:
     instance: str = ""
     """Friction instance of this package that acts here; empty: the model's own friction."""
 
-    def row(self, model: mujoco.MjModel, data: mujoco.MjData) -> Array:
-        """Return the unit row of the degree of freedom, or the tendon's Jacobian."""
-        row = np.zeros(model.nv)
-        if self.kind == "joint":
-            row[self.number] = 1.0
-            return row
-        first = int(model.ten_J_rowadr[self.number])
-        places = slice(first, first + int(model.ten_J_rownnz[self.number]))
-        row[model.ten_J_colind[places]] = data.ten_J[places]
-        return row
-
     def sample(self, model: mujoco.MjModel, data: mujoco.MjData) -> Sample:
         """Return what friction does along the coordinate, the package's or the engine's constraint."""
+        if self.kind == "joint":
+            row, kind = np.eye(1, model.nv, self.number)[0], CONSTRAINT.mjCNSTR_FRICTION_DOF
+        else:
+            rows, kind = np.zeros((model.ntendon, model.nv)), CONSTRAINT.mjCNSTR_FRICTION_TENDON
+            mujoco.mju_sparse2dense(rows, data.ten_J, model.ten_J_rownnz, model.ten_J_rowadr, model.ten_J_colind)
+            row = rows[self.number]
         if self.instance:
             force = sum(reading.force[0] for reading in readings(model, data)[self.instance])
         else:
-            kind = CONSTRAINT.mjCNSTR_FRICTION_DOF if self.kind == "joint" else CONSTRAINT.mjCNSTR_FRICTION_TENDON
-            force = constraint_force(data, kind, self.number)
-        velocity = float(self.row(model, data) @ data.qvel)
-        return Sample(self.loss, self.loss, -force, velocity, force * velocity, True)
+            force = float(data.efc_force[(data.efc_type == int(kind)) & (data.efc_id == self.number)].sum())
+        velocity = float(row @ data.qvel)
+        return Sample(self.loss, self.loss, -force, velocity, force * velocity, True, row)
 
-
-def constraint_force(data: mujoco.MjData, kind: mujoco.mjtConstraint, number: int) -> float:
-    """Return the force of the constraint of a kind on an element, 0 if there is none."""
-    rows = (data.efc_type == int(kind)) & (data.efc_id == number)
-    return float(data.efc_force[rows].sum())
+    def mobility(self, model: mujoco.MjModel, data: mujoco.MjData) -> float:
+        """Return the velocity per impulse [1/kg or 1/(kg m^2)] along the coordinate."""
+        row = self.sample(model, data).row[None, :]
+        return float((row @ solve_mass(model, data, row).T)[0, 0])
 
 
 Site = ContactPair | Coordinate
 """A place with friction."""
 
 
-# --- the mass that a probe moves -------------------------------------------------------------------------------------
+def plane_mobility(model: mujoco.MjModel, data: mujoco.MjData, contact: Touch) -> Array:
+    """Return the velocity per impulse in a contact's tangent plane, shape (2, 2) [1/kg]."""
+    rows = contact.frame[1:] @ contact.jacobian
+    return rows @ solve_mass(model, data, rows).T
 
 
 def solve_mass(model: mujoco.MjModel, data: mujoco.MjData, rows: Array) -> Array:
@@ -229,36 +207,11 @@ def kick(model: mujoco.MjModel, data: mujoco.MjData, row: Array) -> tuple[Array,
 
 def held_rows(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
     """Return the rows that a slide must leave at rest: equalities, active limits and normals of loaded contacts."""
-    rows: list[Array] = []
     types = data.efc_type
     limits = ((types == CONSTRAINT.mjCNSTR_LIMIT_JOINT) | (types == CONSTRAINT.mjCNSTR_LIMIT_TENDON)) & (data.efc_force > 0.0)
-    for i in np.flatnonzero((types == CONSTRAINT.mjCNSTR_EQUALITY) | limits):
-        rows.append(_constraint_row(model, data, int(i)))
-    for i in range(data.ncon):
-        geoms = data.contact.geom[i]
-        if min(geoms) >= 0 and contact_forces(model, data, i, 0)[0] > 0.0:
-            jacobian = _jacobians(model, data, (int(geoms[0]), int(geoms[1])), data.contact.pos[i])[0]
-            rows.append(data.contact.frame[i, :3] @ jacobian)
-    return np.array(rows).reshape(-1, model.nv)
-
-
-def _constraint_row(model: mujoco.MjModel, data: mujoco.MjData, i: int) -> Array:
-    if not mujoco.mj_isSparse(model):
-        return np.array(data.efc_J).reshape(-1, model.nv)[i]
-    row = np.zeros(model.nv)
-    places = slice(int(data.efc_J_rowadr[i]), int(data.efc_J_rowadr[i]) + int(data.efc_J_rownnz[i]))
-    row[data.efc_J_colind[places]] = data.efc_J[places]
-    return row
-
-
-def lightest_mass(model: mujoco.MjModel, data: mujoco.MjData, site: Site) -> float:
-    """Return the least mass [kg or kg m^2] that a force at the site feels, which sets the step limit."""
-    if isinstance(site, ContactPair):
-        items: list[Any] = [
-            np.linalg.eigvalsh(mobility(model, data, site.geoms, int(i)))[-1] for i in pair_contacts(data, site.geoms)
-        ]
-        largest = max(items, default=0.0)
-    else:
-        row = site.row(model, data)[None, :]
-        largest = float((row @ solve_mass(model, data, row).T)[0, 0])
-    return 1.0 / largest if largest > 0.0 else math.inf
+    held = np.flatnonzero((types == CONSTRAINT.mjCNSTR_EQUALITY) | limits).tolist()
+    rows = np.zeros((len(held), model.nv))
+    for row, i in zip(rows, held, strict=True):
+        mujoco.mj_mulJacTVec(model, data, row, np.eye(1, data.nefc, i)[0])
+    loaded = [touch(model, data, i, tuple(geoms)) for i, geoms in enumerate(data.contact.geom.tolist()) if min(geoms) >= 0]
+    return np.vstack([rows, *(t.frame[:1] @ t.jacobian for t in loaded if t.normal > 0.0)])

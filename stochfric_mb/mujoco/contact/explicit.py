@@ -15,12 +15,13 @@ import numpy as np
 from stochfric_mb.coefficients.path import canonical_time
 from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.laws.plane import length
+from stochfric_mb.mujoco.contact.face import predecessor
 from stochfric_mb.mujoco.contact.kinematics import (
     add_rows,
     bodies_of,
     displacement,
     dot,
-    ordinal_of,
+    ordinal_after,
     put,
     relative_velocity,
     set_axes,
@@ -79,7 +80,7 @@ def tangent_mass(model, data, state, contact, slot, body, surface):
     """Return the mass [kg] that a tangential force feels, 1/(J M^-1 J^T) in the direction where it is smallest."""
     m, d = model_at(model), data_at(data)
     nv = m.nv
-    rows = np.empty((4, nv)).ctypes.data if nv > s.MAX_ROW else s.rows_of(state)
+    rows = np.empty((4, nv)).ctypes.data if nv > s.MAX_ROW else s.header_record(state).rows.ctypes.data
     for j in range(2 * nv):
         w.put(rows, j, 0.0)
     p = contact.pos
@@ -96,7 +97,7 @@ def tangent_mass(model, data, state, contact, slot, body, surface):
 
 
 @compiled
-def told_by(m, d):
+def sum_of_velocities(m, d):
     """Return a sum that tells the velocities: with weights between 1 and 2, no two alike."""
     total, weight = 0.0, 0.0
     for j in range(m.nv):
@@ -116,15 +117,16 @@ def begin(model, data, state, law):
     known = int(header.n_committed) if header.advanced == d.time else 0
     t = header.instant
     body, surface = int(header.geom_body), int(header.geom_surface)
-    count, total, sudden = 0, 0.0, False
+    count, total, sudden, ordinal = 0, 0.0, False, 0
     for i in range(d.ncon):
         contact = contact_at(d, i)
+        ordinal = ordinal_after(d, i, ordinal)
         sign = side(contact, body, surface)
         if sign == 0:
             continue
         s.require_room(header, count)
         slot = s.slot_at(state, 1, count)
-        total += track(model, data, state, i, sign, t, known, count)
+        total += track(model, data, state, contact, sign, ordinal, t, known, count)
         if header.mode == s.AUTO and header.advanced != s.UNSET:
             sudden = sudden or slot.live == 0.0 or is_sudden(m, d, contact, slot)
         count += 1
@@ -147,7 +149,7 @@ def was_pushed(m, d, header):
     """Return whether velocities were written since the last step, by more than the law's stick speed."""
     if header.finished == 0.0 or header.has_mode == 0.0:
         return False
-    return abs(told_by(m, d) - header.velocities) > header.stick_speed
+    return abs(sum_of_velocities(m, d) - header.velocities) > header.stick_speed
 
 
 @compiled
@@ -199,16 +201,15 @@ def critical_ratio(header, step):
 
 
 @compiled
-def track(model, data, state, i, sign, t, known, k):
-    """Fill the current slot ``k`` from contact ``i``; return its normal force [N]. ``known`` committed slots count."""
+def track(model, data, state, contact, sign, ordinal, t, known, k):
+    """Fill the current slot ``k`` from a contact; return its normal force [N]. ``known`` committed slots count."""
     m, d = model_at(model), data_at(data)
-    contact, slot = contact_at(d, i), s.slot_at(state, 1, k)
-    a, b, ordinal = contact.geom[0], contact.geom[1], ordinal_of(d, i)
-    number = s.find(state, 0, known, a, b, ordinal, k) if known > 0 else -1
+    slot = s.slot_at(state, 1, k)
+    number = predecessor(state, known, contact, k)
     old = s.slot_at(state, 0, max(number, 0))
     normal_force = old.normal if number >= 0 else predicted_normal_force(m, d, contact)
     fill(model, data, state, contact, sign, t, slot, old, number >= 0 and old.live != 0.0)
-    slot.geom_1, slot.geom_2, slot.ordinal, slot.normal = a + 1.0, b + 1.0, ordinal, normal_force
+    slot.geom_1, slot.geom_2, slot.ordinal, slot.normal = contact.geom[0] + 1.0, contact.geom[1] + 1.0, ordinal, normal_force
     return normal_force
 
 
@@ -246,6 +247,7 @@ def fill(model, data, state, contact, sign, t, slot, old, known):
     slot.sx, slot.sy = dot(e1, sx, sy, sz), dot(e2, sx, sy, sz)
     slot.since = t
     p = contact.pos
+    put(slot.place, p[0], p[1], p[2])
     bx, by, bz = to_body(d, body, p[0], p[1], p[2])
     put(slot.on_body, bx, by, bz)
     cx, cy, cz = to_body(d, surface, p[0], p[1], p[2])
@@ -263,13 +265,14 @@ def apply(model, data, state, law):
     t = header.instant if starting else canonical_time(d.time, 0.5 * m.timestep)
     target = d.qfrc_passive
     geom, other = int(header.geom_body), int(header.geom_surface)
-    k, last_body, last_surface = 0, -1, -1
+    k, last_body, last_surface, ordinal = 0, -1, -1, 0
     for i in range(d.ncon):
         contact = contact_at(d, i)
+        ordinal = ordinal_after(d, i, ordinal)
         sign = side(contact, geom, other)
         if sign == 0:
             continue
-        number = k if starting else slot_at_stage(model, data, state, law, i, sign, t, k)
+        number = k if starting else slot_at_stage(model, data, state, law, contact, sign, ordinal, t, k)
         k += 1
         if number < 0:
             continue
@@ -281,27 +284,27 @@ def apply(model, data, state, law):
             last_body, last_surface = body, surface
         if contact.dim > 2 and m.cone != ELLIPTIC:
             engine.mju_error(w.c_string(PYRAMIDAL))
-        set_cap(m, d, contact, OFF, 1.0)
+        if contact.dim > 2 and contact.efc_address >= 0:
+            set_cap(m, d, contact, OFF, 1.0, w.at(d.efc_R, contact.efc_address + 1))
         apply_contact(model, data, state, contact, sign, body, surface, number, law.force, t, starting)
     if last_body >= 0:
         push(model, data, header, last_body, last_surface, target)
 
 
 @compiled
-def slot_at_stage(model, data, state, law, i, sign, t, k):
-    """Return the number of the current slot of contact ``i``; one that was born within the step gets a slot of its own.
+def slot_at_stage(model, data, state, law, contact, sign, ordinal, t, k):
+    """Return the number of a contact's current slot; one that was born within the step gets a slot of its own.
 
     In auto mode it gets none (-1), and has MuJoCo's own friction up to the step's end: its explicit limit is not known.
     """
-    d, header = data_at(data), s.header_record(state)
-    contact = contact_at(d, i)
+    header = s.header_record(state)
     count = int(header.n_current)
-    number = s.find(state, 1, count, contact.geom[0], contact.geom[1], ordinal_of(d, i), k) if count > 0 else -1
+    number = s.find(state, 1, count, contact.geom[0], contact.geom[1], ordinal, k)
     if number >= 0 or header.mode == s.AUTO:
         return number
     s.require_room(header, count)
     header.n_current = count + 1.0
-    normal_force = track(model, data, state, i, sign, t, 0, count)
+    normal_force = track(model, data, state, contact, sign, ordinal, t, 0, count)
     commit_slot(state, s.slot_address(state, 1, count), law, t, normal_force, 1)
     s.slot_at(state, 1, count).live = 0.0
     return count

@@ -22,7 +22,7 @@ def side(contact, body, surface):
     ``body`` or ``surface`` -1 stands for any geom; contacts of flexible bodies have geom -1 and are never ours.
     """
     a, b = contact.geom[0], contact.geom[1]
-    if a < 0 or b < 0:
+    if a < 0 or b < 0 or is_idle(contact):
         return 0
     if a == body and (b == surface or surface < 0):
         return 1
@@ -36,15 +36,23 @@ def side(contact, body, surface):
 
 
 @compiled_inline
-def ordinal_of(d, i):
-    """Return how many earlier contacts join the same two geoms as contact ``i``."""
-    geoms = contact_at(d, i).geom
-    count = 0
-    for j in range(i):
-        other = contact_at(d, j).geom
-        if other[0] == geoms[0] and other[1] == geoms[1]:
-            count += 1
-    return count
+def is_idle(contact):
+    """Return whether a contact that has rows bears nothing (see `contact.face`)."""
+    return contact.exclude != 0 and contact.efc_address >= 0
+
+
+@compiled_inline
+def ordinal_after(d, i, ordinal):
+    """Return how many contacts before contact ``i`` join the same two geoms, from ``ordinal``, that number of the one before.
+
+    They follow each other in MuJoCo's list.
+    """
+    if i == 0:
+        return 0
+    last, geoms = contact_at(d, i - 1), contact_at(d, i).geom
+    if last.geom[0] != geoms[0] or last.geom[1] != geoms[1]:
+        return 0
+    return ordinal if is_idle(last) else ordinal + 1
 
 
 @compiled_inline
@@ -169,7 +177,7 @@ def add_rows(m, d, slot, body, sign, px, py, pz, rows):
         dof = w.int_at(m.dof_parentid, dof)
 
 
-@compiled
+@compiled_inline
 def set_axes(d, contact, slot, old, known, body, surface, step):
     """Write the tangent frame: the old one carried along with the contact, or a new one along the surface velocity."""
     f = contact.frame

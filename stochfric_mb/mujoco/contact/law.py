@@ -42,10 +42,10 @@ def coefficients_anew(state, t, position, events):
 @compiled_inline
 def call(state, address, function, t, ux, uy, vx, vy, mu_s, mu_k):
     """Call one of the law's functions on a slot; the result goes to the header's ``output``."""
-    slot = s.slot_record(address)
+    slot, header = s.slot_record(address), s.header_record(state)
     call_law(
         function, t, ux, uy, vx, vy, slot.normal, mu_s, mu_k, slot.mass, slot.hold[0], slot.hold[1],
-        s.law_state(address), s.parameters_of(state), s.output_of(state),
+        slot.state.ctypes.data, header.parameters.ctypes.data, header.output.ctypes.data,
     )  # fmt: skip
 
 
@@ -111,35 +111,24 @@ def switch(state, address, law, function, t, ux, uy, vx, vy):
     return changed
 
 
-@compiled_inline
+@compiled
 def switch_within(state, address, law, t):
     """Let a law with modes switch where it should have within the step that has just ended.
 
     Where one of the law's guards has changed sign, ``commit`` runs with the state there, by the cubic through both
     ends of the step: what the law remembers of a switch then does not depend on where the step ended.
     """
-    if guard_crossed(state, address, law, t):
-        switch_at_crossings(state, address, law, t)
-    else:
-        keep_guards(state, address)
-
-
-@compiled
-def switch_at_crossings(state, address, law, t):
-    """Switch the law where its guards cross zero within the step, one of which does."""
-    before = s.slot_record(address).before[0]
-    start = 0.0
+    before, start = s.slot_record(address).before[0], 0.0
     for _ in range(SWITCHES):
-        end = first_crossing(state, address, law, t, start)
-        ux, uy, vx, vy = between(address, t, end)
-        now = before + end * (t - before)
+        if least_guard(state, address, law, t, 1.0) > 0.0:
+            keep_guards(state, address)
+            return
+        start = first_crossing(state, address, law, t, start)
+        ux, uy, vx, vy = between(address, t, start)
+        now = before + start * (t - before)
         switch(state, address, law, law.commit, now, ux, uy, vx, vy)
         guards_at(state, address, law, now, ux, uy, vx, vy)
         keep_guards(state, address)
-        start = end
-        if not guard_crossed(state, address, law, t):
-            keep_guards(state, address)
-            return
 
 
 @compiled
@@ -173,12 +162,6 @@ def between(address, t, part):
         rise * dx + early * vx + late * wx,
         rise * dy + early * vy + late * wy,
     )
-
-
-@compiled_inline
-def guard_crossed(state, address, law, t):
-    """Return whether a guard that was positive at the start of the search is not positive at the end of the step."""
-    return least_guard(state, address, law, t, 1.0) <= 0.0
 
 
 @compiled_inline

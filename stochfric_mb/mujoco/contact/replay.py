@@ -13,7 +13,7 @@ import numpy as np
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco.contact import solver
-from stochfric_mb.mujoco.contact.kinematics import ordinal_of, side
+from stochfric_mb.mujoco.contact.kinematics import ordinal_after, side
 from stochfric_mb.mujoco.contact.rows import is_sparse, rate_of
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
@@ -40,13 +40,14 @@ def keep(model, data, state, kept):
     count, size = int(header.n_current), N_KEPT + 6 * m.nv
     for k in range(count):
         _kept_record(kept + 8 * size * k).dim = 0.0
-    k = 0
+    k, ordinal = 0, 0
     for i in range(d.ncon):
         contact = contact_at(d, i)
+        ordinal = ordinal_after(d, i, ordinal)
         sign = side(contact, int(header.geom_body), int(header.geom_surface))
         if sign == 0 or contact.efc_address < 0:
             continue
-        number = s.find(state, 1, count, contact.geom[0], contact.geom[1], ordinal_of(d, i), k) if count > 0 else -1
+        number = s.find(state, 1, count, contact.geom[0], contact.geom[1], ordinal, k)
         k += 1
         if number < 0:
             continue

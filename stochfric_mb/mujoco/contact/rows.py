@@ -28,11 +28,11 @@ LEAST = 1.0e-5
 """Smallest coefficient of friction of an elliptic cone that MuJoCo itself uses (mjMINMU)."""
 
 
-@compiled
+@compiled_inline
 def rate_of(m, d, row, vector):
     """Return a row of the constraint Jacobian times a vector of generalised coordinates, which is given by its address."""
     total = 0.0
-    if d.efc_J_rownnz != 0 and w.int_at(d.efc_J_rownnz, row) > 0 and m.nv > 0 and is_sparse(m):
+    if is_sparse(m):
         first = w.int_at(d.efc_J_rowadr, row)
         for k in range(first, first + w.int_at(d.efc_J_rownnz, row)):
             total += w.at(d.efc_J, k) * w.at(vector, w.int_at(d.efc_J_colind, k))
@@ -48,7 +48,7 @@ def is_sparse(m):
     return m.jacobian == 1 or (m.jacobian == 2 and m.nv >= 60)
 
 
-@compiled
+@compiled_inline
 def set_resistance(d, row, resistance):
     """Give a row its R, and its D = 1/R, wherever the solver looks for them."""
     w.put(d.efc_R, row, resistance)
@@ -59,7 +59,7 @@ def set_resistance(d, row, resistance):
         w.put(d.iefc_D, other, 1.0 / resistance)
 
 
-@compiled
+@compiled_inline
 def set_reference(d, row, damping, stiffness, position):
     """Make a row ask for a = -damping v - stiffness position (1/s, 1/s^2, m)."""
     w.put(d.efc_KBIP, 4 * row, stiffness / w.at(d.efc_KBIP, 4 * row + 2))
@@ -123,7 +123,7 @@ def forget_target(m, contact, slot):
         contact.surfacevel[0], contact.surfacevel[1] = slot.sx, slot.sy
 
 
-@compiled
+@compiled_inline
 def spring_of(resistance, stiffness, damping, h):
     """Return R [1/kg] and K I [1/s^2] of a row that is a spring and a damper in the velocity at the step's end.
 
@@ -134,7 +134,7 @@ def spring_of(resistance, stiffness, damping, h):
     return total, stiffness * total
 
 
-@compiled
+@compiled_inline
 def resistances(m, d, row):
     """Return R [1/kg] of a contact's normal row and of its tangents, as MuJoCo made them (constraint model, impratio)."""
     impedance = w.at(d.efc_KBIP, 4 * row + 2)
@@ -142,20 +142,19 @@ def resistances(m, d, row):
     return normal, normal / m.impratio
 
 
-@compiled
-def set_cap(m, d, contact, cap, across):
+@compiled_inline
+def set_cap(m, d, contact, cap, across, resistance):
     """Give an elliptic contact its coefficient of sliding friction; torsional and rolling friction stay what they are.
 
-    ``across`` is the coefficient along the second tangent over that along the first.
+    ``across`` is the coefficient along the second tangent over that along the first, ``resistance`` R of the first [1/kg].
     """
-    if contact.dim < 3 or contact.efc_address < 0:
-        return
     row, friction = contact.efc_address, contact.friction
     friction[0] = cap
     friction[1] = cap * across
     if m.integrator == DISCRETE:  # it makes these rows later, and mu with them
         return
-    resistance = w.at(d.efc_R, row + 1)
     contact.mu = cap * math.sqrt(resistance / w.at(d.efc_R, row))
-    for j in range(1, contact.dim - 1):  # a cone is circular where R_j friction_j^2 is the same for all
+    set_resistance(d, row + 1, resistance)
+    set_resistance(d, row + 2, resistance / (across * across))  # a cone is circular where R_j friction_j^2 is the same for all
+    for j in range(2, contact.dim - 1):
         set_resistance(d, row + 1 + j, resistance * (cap / friction[j]) ** 2)

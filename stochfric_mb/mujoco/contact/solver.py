@@ -2,7 +2,7 @@
 
 *Stuck* rows ask for the relative velocity and the deflection since the contact stuck to vanish (native friction asks for
 the velocity alone, and creeps); their cap is mu_s N. *Sliding* rows ask for the velocity to vanish, with the law's
-coefficient at the speed at hand as cap. What the solver found says when a contact switches: a force at its cap ends
+coefficient at the speed at hand as cap. The solver's solution says when a contact switches: a force at its cap ends
 stick, one below it ends slip.
 
 Two terms make the step first order in everything. The elliptic cone of a sliding contact asks its normal row for
@@ -26,7 +26,8 @@ from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.laws.abi import call_slide, call_spring
 from stochfric_mb.laws.plane import length
 from stochfric_mb.mujoco.contact.directions import force_stretch_of, product, size, stretch_of, turn
-from stochfric_mb.mujoco.contact.kinematics import bodies_of, dot, ordinal_of, put, set_axes, side, spin
+from stochfric_mb.mujoco.contact.face import predecessor, share_out
+from stochfric_mb.mujoco.contact.kinematics import bodies_of, dot, ordinal_after, put, set_axes, side, spin
 from stochfric_mb.mujoco.contact.law import coefficients
 from stochfric_mb.mujoco.contact.rows import (
     LEAST,
@@ -61,6 +62,8 @@ FRICTIONLESS = (
     "stochfric_mb: a contact of a pair with friction has condim 1, so MuJoCo's solver has no friction for the law to steer; "
     "give the pair condim 3"
 )
+UNKNOWN = -1.0
+"""Value of ``given`` of a contact that has just come up, before it has a share of its face."""
 JUST_STUCK = -1.0
 """Value of a slot's ``springs`` in the first step of a stick phase."""
 
@@ -69,39 +72,59 @@ JUST_STUCK = -1.0
 def evaluate(m, d, state, law, starting):
     """Steer the solver, at a step's start with new current slots; contacts born at a later stage get slots of their own."""
     header = s.header_record(state)
-    known = int(header.n_committed) if starting and header.advanced == d.time else 0
-    header.n_current = 0.0 if starting else header.n_current
     since = d.time - header.evaluated
     body, surface = int(header.geom_body), int(header.geom_surface)
-    k = 0
+    if starting:
+        begin(m, d, state, law)
+    k, ordinal = 0, 0
     for i in range(d.ncon):
         contact = contact_at(d, i)
+        ordinal = ordinal_after(d, i, ordinal)
         sign = side(contact, body, surface)
         if sign == 0 or contact.efc_address < 0:
             continue
-        require_tangents(contact)
-        count, number = int(header.n_current), -1
-        if not starting and count > 0:
-            number = s.find(state, 1, count, contact.geom[0], contact.geom[1], ordinal_of(d, i), k)
-        k += 1
-        if number < 0:
-            s.require_room(header, count)
-            number, header.n_current = count, count + 1.0
-            forget_target(m, contact, s.slot_at(state, 1, number))
-            follow(m, d, state, law, i, sign, known, number)
+        number = k
         if not starting:
+            number = s.find(state, 1, int(header.n_current), contact.geom[0], contact.geom[1], ordinal, k)
+            if number < 0:
+                number = take_slot(m, d, state, law, contact, sign, ordinal, 0)
+                s.slot_at(state, 1, number).given = 0.0
             slot = s.slot_at(state, 1, number)
             if header.across != 1.0:
                 turn(m, d, header, slot, contact, bodies_of(m, contact, sign)[0])
             slot.mu_s, slot.mu_k = coefficients(state, canonical_time(d.time, 0.5 * m.timestep), slot.ux, slot.events)
+        k += 1
         steer(m, d, state, law, contact, sign, s.slot_address(state, 1, number), since)
 
 
+@compiled
+def begin(m, d, state, law):
+    """Make the current slots for a step that starts now."""
+    header = s.header_record(state)
+    known = int(header.n_committed) if header.advanced == d.time else 0
+    header.n_current = 0.0
+    ordinal = 0
+    for i in range(d.ncon):
+        contact = contact_at(d, i)
+        ordinal = ordinal_after(d, i, ordinal)
+        sign = side(contact, int(header.geom_body), int(header.geom_surface))
+        if sign != 0 and contact.efc_address >= 0:
+            take_slot(m, d, state, law, contact, sign, ordinal, known)
+    share_out(state, int(header.n_current))
+
+
 @compiled_inline
-def require_tangents(contact):
-    """Stop with MuJoCo's error at a contact without friction rows."""
+def take_slot(m, d, state, law, contact, sign, ordinal, known):
+    """Return the number of the next free slot, filled from a contact."""
+    header = s.header_record(state)
+    number = int(header.n_current)
     if contact.dim < 3:
         engine.mju_error(w.c_string(FRICTIONLESS))
+    s.require_room(header, number)
+    header.n_current = number + 1.0
+    forget_target(m, contact, s.slot_at(state, 1, number))
+    follow(m, d, state, law, contact, sign, ordinal, known, number)
+    return number
 
 
 @compiled_inline
@@ -113,13 +136,11 @@ def measure_velocity(m, d, contact, sign):
     return a * f[3] + b * f[6], a * f[4] + b * f[7], a * f[5] + b * f[8]
 
 
-@compiled
-def follow(m, d, state, law, i, sign, known, k):
-    """Fill the current slot ``k`` from contact ``i`` and what it was a step ago; decide whether it sticks or slides."""
-    header, contact = s.header_record(state), contact_at(d, i)
-    slot = s.slot_at(state, 1, k)
-    ordinal = ordinal_of(d, i)
-    number = s.find(state, 0, known, contact.geom[0], contact.geom[1], ordinal, k) if known > 0 else -1
+@compiled_inline
+def follow(m, d, state, law, contact, sign, ordinal, known, k):
+    """Fill the current slot ``k`` from a contact and what it was a step ago; decide whether it sticks or slides."""
+    header, slot = s.header_record(state), s.slot_at(state, 1, k)
+    number = predecessor(state, known, contact, k)
     old = s.slot_at(state, 0, max(number, 0))
     h = m.timestep
     body, surface = bodies_of(m, contact, sign)
@@ -129,6 +150,9 @@ def follow(m, d, state, law, i, sign, known, k):
     slot.since, slot.live, slot.solved, slot.cap = header.instant, 1.0, 1.0, 0.0
     slot.bodies = body * s.BODIES + surface
     put(slot.w, wx, wy, wz)
+    put(slot.normal_axis, contact.frame[0], contact.frame[1], contact.frame[2])
+    put(slot.place, contact.pos[0], contact.pos[1], contact.pos[2])
+    slot.resistance = resistances(m, d, contact.efc_address)[1] if m.integrator != DISCRETE else math.inf
     put(slot.mean, wx / 6.0, wy / 6.0, wz / 6.0)
     slot.vx, slot.vy = dot(slot.axis_1, wx, wy, wz), dot(slot.axis_2, wx, wy, wz)
     mobility = w.at(m.body_invweight0, 2 * body) + w.at(m.body_invweight0, 2 * surface)
@@ -141,28 +165,28 @@ def follow(m, d, state, law, i, sign, known, k):
     if number < 0:
         born(header, slot, speed)
     else:
-        slot.given, slot.weight, slot.events, slot.energy = old.given, old.weight, old.events, old.energy
-        slot.creep = 0.0
+        slot.given, slot.events, slot.energy = old.given, old.events, old.energy
+        slot.creep, slot.creep_share, slot.creep_slope, slot.fluidity = 0.0, 0.0, 0.0, 0.0
         put(slot.pull, old.pull[0], old.pull[1], old.pull[2])
         move(m, d, header, contact, slot, old, body, surface)
         switch(state, law, slot, old, speed, h * mobility)
     slot.mu_s, slot.mu_k = coefficients(state, header.instant, slot.ux, slot.events)
 
 
-@compiled
+@compiled_inline
 def born(header, slot, speed):
     """Start a contact: sliding if it is faster than the law's stick speed (or peak speed), otherwise stuck."""
     slot.slides = 1.0 if speed > max(header.stick_speed, header.peak_speed) else 0.0
     slot.ux, slot.uy = header.origin, 0.0
-    slot.given, slot.events, slot.energy, slot.saturated = 0.0, 0.0, 0.0, 0.0
+    slot.given, slot.events, slot.energy, slot.saturated = UNKNOWN, 0.0, 0.0, 0.0
     put(slot.z, 0.0, 0.0, 0.0)
     put(slot.pull, 0.0, 0.0, 0.0)
     put(slot.a, 0.0, 0.0, 0.0)
     put(slot.lead, 0.0, 0.0, 0.0)
-    slot.weight, slot.creep = 1.0, 0.0
+    slot.weight, slot.creep, slot.creep_share, slot.creep_slope, slot.fluidity = 1.0, 0.0, 0.0, 0.0, 0.0
 
 
-@compiled
+@compiled_inline
 def move(m, d, header, contact, slot, old, body, surface):
     """Carry deflection, displacement and dissipated energy of a contact over the step that has just ended."""
     h, f = m.timestep, contact.frame
@@ -192,9 +216,9 @@ def move(m, d, header, contact, slot, old, body, surface):
         put(z, z[0] - out * f[0], z[1] - out * f[1], z[2] - out * f[2])
 
 
-@compiled
+@compiled_inline
 def switch(state, law, slot, old, speed, step_mobility):
-    """Let a contact break away or stick again, by the force that the solver found in the step that has just ended.
+    """Let a contact break away or stick again, by the force of the solver's solution in the step that has just ended.
 
     No contact is stuck that friction could not stop within one step: ``step_mobility`` is the step over the mass.
     """
@@ -204,19 +228,16 @@ def switch(state, law, slot, old, speed, step_mobility):
     if old.slides == 0.0:
         breaks = old.loose != 0.0
         if old.saturated != 0.0 and not breaks:  # the other contacts hold the bodies: its force stays at the cap
-            if old.compliance > 0.0:
-                put(z, 0.0, 0.0, 0.0)
-                move_along(header, slot, old.pull, old.compliance)
-            else:
-                put(z, old.z[0], old.z[1], old.z[2])
+            put(z, old.z[0], old.z[1], old.z[2])
         if header.rest == s.CREEP:
             creep(state, law, slot, old)
         elif old.springs != 0.0:
-            limit, stretch = spring_at(state, law, old, old.given)[2], stretch_of(header)
-            out = size(stretch, slot.side, z)
-            breaks = breaks and out >= limit and product(stretch, slot.side, z, v) > 0.0
-            if old.saturated != 0.0 and out > limit:
-                put(z, z[0] * limit / out, z[1] * limit / out, z[2] * limit / out)
+            limit, stretch = old.springs, stretch_of(header)
+            squared = product(stretch, slot.side, z, z)
+            breaks = breaks and squared >= limit * limit and product(stretch, slot.side, z, v) > 0.0
+            if old.saturated != 0.0 and squared > limit * limit:
+                part = limit / math.sqrt(squared)
+                put(z, part * z[0], part * z[1], part * z[2])
         slot.slides = 1.0 if breaks or speed > stoppable else 0.0
     else:
         fast = old.saturated != 0.0 and (header.rest != s.CREEP or speed > header.peak_speed)
@@ -229,13 +250,11 @@ def switch(state, law, slot, old, speed, step_mobility):
                 creep(state, law, slot, old)
 
 
-@compiled
+@compiled_inline
 def spring_at(state, law, slot, load):
     """Return stiffness [N/m], damping [N s/m] and largest deflection [m] of an elastic law under a load [N]."""
     header = s.header_record(state)
-    call_spring(
-        law.spring, load, slot.felt, slot.mu_s, s.parameters_of(state), s.output_of(state)
-    )  # fmt: skip
+    call_spring(law.spring, load, slot.felt, slot.mu_s, header.parameters.ctypes.data, header.output.ctypes.data)
     return header.output[0], header.output[1], header.output[2]
 
 
@@ -244,12 +263,16 @@ def creep(state, law, slot, old):
     """Find the speed at which the law has the force at hand, at which the anchor of a law that creeps at rest follows."""
     header = s.header_record(state)
     force = size(force_stretch_of(header), slot.side, old.pull)
-    slot.creep = creep_speed(state, law, old, force) if force > 0.0 else 0.0
-    if old.slides == 0.0 and force > 0.0:
-        move_along(header, slot, old.pull, (old.since - slot.since) * slot.creep / force)
+    if force > 0.0:
+        slot.creep, slot.creep_share = creep_at(state, law, old, force)
+        more = slot.creep_share - old.creep_share
+        slot.creep_slope = (slot.creep - old.creep) / more if more != 0.0 else old.creep_slope
+        slot.fluidity = slot.creep / force
+        if old.slides == 0.0:
+            move_along(header, slot, old.pull, (old.since - slot.since) * slot.fluidity)
 
 
-@compiled
+@compiled_inline
 def move_along(header, slot, force, part):
     """Add to the deflection what a spring of stiffness 1/``part`` [N/m] gives under a force."""
     z, e = slot.z, slot.side
@@ -258,31 +281,44 @@ def move_along(header, slot, force, part):
     put(z, z[0] + part * x, z[1] + part * y, z[2] + part * k)
 
 
-@compiled
-def creep_speed(state, law, slot, force):
-    """Return the speed [m/s], up to the peak, at which the law's coefficient times the normal force is ``force`` [N].
+@compiled_inline
+def peak_coefficient(state, law, slot):
+    """Return the law's coefficient [-] at its peak speed, evaluated where mu_s or mu_k has changed."""
+    header = s.header_record(state)
+    if header.peak_mu_s != slot.mu_s or header.peak_mu_k != slot.mu_k:
+        header.peak = call_slide(law.slide, header.peak_speed, slot.mu_s, slot.mu_k, header.parameters.ctypes.data)
+        header.peak_mu_s, header.peak_mu_k = slot.mu_s, slot.mu_k
+    return header.peak
 
-    The search starts at the speed that the slot had a step ago.
+
+@compiled
+def creep_at(state, law, slot, force):
+    """Return the speed [m/s], up to the peak, at which the law has ``force`` [N], and its coefficient there over mu_s.
+
+    The search starts where the slot was a step ago, and as that had changed in the step before.
     """
     header = s.header_record(state)
-    slide, parameters, fastest = law.slide, s.parameters_of(state), header.peak_speed
-    most = slot.cap if slot.slides == 0.0 else call_slide(slide, fastest, slot.mu_s, slot.mu_k, parameters)
+    slide, parameters, fastest = law.slide, header.parameters.ctypes.data, header.peak_speed
+    most = peak_coefficient(state, law, slot)
     cap = most * slot.given
     excess, close = force - cap, CLOSE * force + NOTHING * cap
     if excess > 0.0:
-        return fastest
+        return fastest, most / slot.mu_s
     b, least = bracket(0.0, force, fastest, excess), ROUNDING * fastest
-    speed = slot.creep if 0.0 < slot.creep < fastest else trial(b, least)
+    share = force / (slot.given * slot.mu_s)
+    speed = slot.creep + slot.creep_slope * (share - slot.creep_share)
+    speed = speed if 0.0 < speed < fastest else trial(b, least)
     while is_wide(b, least):
-        lack = force - call_slide(slide, speed, slot.mu_s, slot.mu_k, parameters) * slot.given
+        coefficient = call_slide(slide, speed, slot.mu_s, slot.mu_k, parameters)
+        lack = force - coefficient * slot.given
         if abs(lack) <= close:
-            return speed
+            return speed, coefficient / slot.mu_s
         b = narrowed(b, speed, lack)
         speed = trial(b, least)
-    return b.negative
+    return b.negative, share
 
 
-@compiled
+@compiled_inline
 def steer(m, d, state, law, contact, sign, address, since):
     """Write a contact's cap and its rows' references, ``since`` [s] after the step's start."""
     slot = s.slot_record(address)
@@ -308,8 +344,9 @@ def let_slide(m, d, state, law, contact, slot, vx, vy, vz):
     e, stretch = slot.side, stretch_of(header)
     v = vx, vy, vz
     speed = size(stretch, e, v)
-    cap = max(call_slide(law.slide, speed, slot.mu_s, slot.mu_k, s.parameters_of(state)), LEAST)
+    cap = max(call_slide(law.slide, speed, slot.mu_s, slot.mu_k, header.parameters.ctypes.data), LEAST)
     lift = cap * max(0.0, speed / h + product(stretch, e, slot.a, v) / speed) if speed > 0.0 else 0.0
+    resistance = w.at(d.efc_R, first + 1)
     if m.integrator == DISCRETE:
         set_target(m, contact, slot, 0.0, 0.0)
         raise_normal(m, d, contact, lift)
@@ -319,14 +356,14 @@ def let_slide(m, d, state, law, contact, slot, vx, vy, vz):
         stiffness = w.at(d.efc_KBIP, 4 * first) * w.at(d.efc_KBIP, 4 * first + 2)
         if lift > 0.0 and stiffness > 0.0:
             w.put(d.efc_pos, first, contact.dist + lift / stiffness)
-            keep_normal(m, d, first, cap)
-    set_cap(m, d, contact, cap, slot.across)
+            resistance = keep_normal(m, d, first, cap)
+    set_cap(m, d, contact, cap, slot.across, resistance)
     slot.cap = cap
 
 
 @compiled
 def keep_normal(m, d, first, cap):
-    """Let the normal force of a sliding contact be that of a frictionless one.
+    """Let the normal force of a sliding contact be that of a frictionless one; return R of the tangents for it [1/kg].
 
     In slip the cone's normal force is (...)/(R_n (1 + mu^2)) with mu^2 = cap^2 R_t/R_n; R_n - cap^2 R_t in place of R_n
     makes that (...)/R_n. Where that would be less than 3/4 of R_n, R_t is lowered, which in slip changes nothing else.
@@ -334,12 +371,11 @@ def keep_normal(m, d, first, cap):
     normal, tangent = resistances(m, d, first)
     if 4.0 * cap * cap * tangent > normal:
         tangent = 0.25 * normal / (cap * cap)
-    set_resistance(d, first + 1, tangent)
-    set_resistance(d, first + 2, tangent)
     set_resistance(d, first, normal - cap * cap * tangent)
+    return tangent
 
 
-@compiled
+@compiled_inline
 def spring_and_cap(state, law, slot, resistance, h):
     """Return R [1/kg] and K I [1/s^2] of a stuck row that has R = ``resistance``, and its cap [-].
 
@@ -351,63 +387,55 @@ def spring_and_cap(state, law, slot, resistance, h):
     stiffness, cap = RIGID / (h * h), slot.mu_s
     just_stuck, slot.springs = slot.springs == JUST_STUCK, 0.0
     if header.rest == s.CREEP:
-        cap = call_slide(law.slide, header.peak_speed, slot.mu_s, slot.mu_k, s.parameters_of(state))
-        force = size(force_stretch_of(header), slot.side, slot.pull)
-        if force > 0.0:
-            resistance += slot.creep / (h * force)
+        cap = peak_coefficient(state, law, slot)
+        resistance += slot.fluidity / h
     elif header.rest == s.ELASTIC:
-        weight = max(slot.weight, LIGHTEST)  # contacts of one pair share what they hold together, by their normal forces
-        k, c, _ = spring_at(state, law, slot, slot.given / weight)
+        weight = max(slot.weight, LIGHTEST)  # contacts of one face share what they hold together, by their normal forces
+        k, c, limit = spring_at(state, law, slot, slot.given / weight)
         if k > 0.0:
             total, own = spring_of(resistance, weight * k, weight * c, h)
             if own <= 1.0 / (h * h):
-                resistance, stiffness, slot.springs = total, own, 1.0
+                resistance, stiffness, slot.springs = total, own, limit
                 if just_stuck:  # the deflection that keeps the force
                     move_along(header, slot, slot.pull, 1.0 / (weight * k))
     return resistance, stiffness, max(cap, LEAST)
 
 
-@compiled
+@compiled_inline
 def hold(m, d, state, law, contact, sign, slot, x, y, z):
     """Steer a stuck contact that has moved by (x, y, z) [m] since the step's start."""
     f, first = contact.frame, contact.efc_address
-    resistance = math.inf  # so contacts share a load by their normal forces
-    if m.integrator != DISCRETE:
-        resistance = resistances(m, d, first)[1] / max(slot.weight, LIGHTEST)
-    resistance, stiffness, slot.cap = spring_and_cap(state, law, slot, resistance, m.timestep)
+    weight = max(slot.weight, LIGHTEST)  # so contacts share a load by their normal forces
+    resistance, stiffness, slot.cap = spring_and_cap(state, law, slot, slot.resistance / weight, m.timestep)
     x, y, z = x + slot.z[0], y + slot.z[1], z + slot.z[2]
     if m.integrator == DISCRETE:
-        part = sign * RIGID / m.timestep
+        part = sign * weight * RIGID / m.timestep
         u, v = part * (x * f[3] + y * f[4] + z * f[5]), part * (x * f[6] + y * f[7] + z * f[8])
         set_target(m, contact, slot, u, v)
-        set_cap(m, d, contact, slot.cap, slot.across)
-        return
-    for j in (1, 2):
-        if m.solver != PGS:
-            set_resistance(d, first + j, resistance)
-        ex, ey, ez = sign * f[3 * j], sign * f[3 * j + 1], sign * f[3 * j + 2]
-        lead = dot(slot.lead, ex, ey, ez) / stiffness
-        set_reference(d, first + j, 1.0 / m.timestep, stiffness, x * ex + y * ey + z * ez + lead)
-    set_cap(m, d, contact, slot.cap, slot.across)
+    else:
+        resistance = resistance if m.solver != PGS else w.at(d.efc_R, first + 1)
+        rate, part = 1.0 / m.timestep, sign / stiffness
+        x, y, z = sign * x + part * slot.lead[0], sign * y + part * slot.lead[1], sign * z + part * slot.lead[2]
+        set_reference(d, first + 1, rate, stiffness, x * f[3] + y * f[4] + z * f[5])
+        set_reference(d, first + 2, rate, stiffness, x * f[6] + y * f[7] + z * f[8])
+    set_cap(m, d, contact, slot.cap, slot.across, resistance)
 
 
-@compiled
+@compiled_inline
 def learn(m, d, header, contact, sign, slot, accepted):
-    """Write what the solver found for a contact to its slot (see `settle`)."""
+    """Write the solver's solution for a contact to its slot (see `settle`)."""
     first = contact.efc_address
     normal, a, b = w.at(d.efc_force, first), w.at(d.efc_force, first + 1), w.at(d.efc_force, first + 2)
     others = 0.0
     for j in range(2, contact.dim - 1):
         others += (w.at(d.efc_force, first + 1 + j) / contact.friction[j]) ** 2
     p, q = 0.0, 0.0
-    if m.integrator == DISCRETE:
-        slot.compliance = w.at(d.efc_R, first + 1) * m.timestep * m.timestep / RIGID
     if accepted:
         p, q = rate_of(m, d, first + 1, d.qacc), rate_of(m, d, first + 2, d.qacc)
     settle(header, slot, contact.frame, sign, normal, a, b, others, p, q, accepted, m.integrator != RUNGE_KUTTA)
 
 
-@compiled
+@compiled_inline
 def settle(header, slot, f, sign, normal, a, b, others, p, q, accepted, foresees):
     """Write the forces of a contact to its slot, and of an accepted step what follows from them.
 
@@ -419,7 +447,7 @@ def settle(header, slot, f, sign, normal, a, b, others, p, q, accepted, foresees
     slot.normal = max(normal, 0.0)
     slot.fx, slot.fy = dot(slot.axis_1, x, y, z), dot(slot.axis_2, x, y, z)
     force = length(a, b / slot.across)
-    at_cone = normal > 0.0 and math.sqrt((force / slot.cap) ** 2 + others) >= SATURATED * normal
+    at_cone = normal > 0.0 and (force / slot.cap) ** 2 + others >= (SATURATED * normal) ** 2
     saturated = at_cone and force >= SLIDING_SHARE * slot.cap * normal
     slow = size(stretch_of(header), slot.side, slot.w) <= max(header.stick_speed, header.peak_speed)
     slot.stick = 1.0 if slot.slides == 0.0 and not saturated and slow else 0.0

@@ -5,7 +5,8 @@ from __future__ import annotations
 from stochfric_mb.coefficients.path import canonical_time
 from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.mujoco.contact import explicit, solver
-from stochfric_mb.mujoco.contact.kinematics import ordinal_of, side
+from stochfric_mb.mujoco.contact.face import rest_on_corners
+from stochfric_mb.mujoco.contact.kinematics import ordinal_after, put, side
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import RUNGE_KUTTA, contact_at, data_at, model_at
@@ -15,6 +16,7 @@ from stochfric_mb.mujoco.memory.structs import RUNGE_KUTTA, contact_at, data_at,
 def evaluate(model, data, state, law):
     """Let friction act at this instant: the first one of a step, or a later stage of a Runge-Kutta step."""
     m, d, header = model_at(model), data_at(data), s.header_record(state)
+    rest_on_corners(d, int(header.geom_body), int(header.geom_surface))
     starting = starts(m, d, header)
     if starting:
         explicit_does = tries_explicit(m, d, header) and explicit.begin(model, data, state, law)
@@ -25,7 +27,7 @@ def evaluate(model, data, state, law):
         explicit.apply(model, data, state, law)
 
 
-@compiled
+@compiled_inline
 def starts(m, d, header):
     """Return whether a step starts at this instant, which is noted then; otherwise it is a later stage of one."""
     start = header.evaluated
@@ -47,7 +49,7 @@ def tries_explicit(m, d, header):
     return m.integrator == RUNGE_KUTTA and not (known and header.latched != 0.0)
 
 
-@compiled
+@compiled_inline
 def finish(model, data, state):
     """Commit the current slots when the engine accepts a step, with the forces of its last solution."""
     m, header = model_at(model), s.header_record(state)
@@ -56,31 +58,33 @@ def finish(model, data, state):
     close(model, data, state)
 
 
-@compiled
+@compiled_inline
 def commit(model, data, state):
     """Make the current slots the committed ones, still without forces."""
     header = s.header_record(state)
     count = int(header.n_current)
     for k in range(count):
         s.copy_slot(state, 1, k, header.solved == 0.0)
-        forget_forces(s.slot_at(state, 0, k))
+        slot = s.slot_at(state, 0, k)  # its forces count as zero until known: it may have ended within the step
+        slot.normal, slot.given, slot.saturated, slot.foreseen = 0.0, 0.0, 0.0, 0.0
+        put(slot.pull, 0.0, 0.0, 0.0)
     header.n_committed = count
 
 
-@compiled
+@compiled_inline
 def close(model, data, state):
     """End a step whose forces are known."""
     m, d, header = model_at(model), data_at(data), s.header_record(state)
     if header.solved != 0.0:
         compare(state, int(header.n_committed))
     else:
-        header.velocities, header.finished = explicit.told_by(m, d), 1.0
+        header.velocities, header.finished = explicit.sum_of_velocities(m, d), 1.0
     header.latched = 1.0 if header.solved != 0.0 and header.n_committed > 0.0 else 0.0
     header.unconverged += 1.0 if stopped_early(model, data) else 0.0
     header.advanced, header.started = d.time, 0.0
 
 
-@compiled
+@compiled_inline
 def learn(data, state, current, count, m):
     """Write the forces of the engine's last solution to the slots of a block; return the number of its contacts.
 
@@ -89,14 +93,15 @@ def learn(data, state, current, count, m):
     """
     d, header = data_at(data), s.header_record(state)
     body, surface = int(header.geom_body), int(header.geom_surface)
-    k = 0
+    k, ordinal = 0, 0
     for i in range(d.ncon):
         contact = contact_at(d, i)
+        ordinal = ordinal_after(d, i, ordinal)
         sign = side(contact, body, surface)
         if sign == 0:
             continue
-        a, b, ordinal = contact.geom[0], contact.geom[1], ordinal_of(d, i)
-        number = s.find(state, current, count, a, b, ordinal, k) if count > 0 else -1
+        a, b = contact.geom[0], contact.geom[1]
+        number = s.find(state, current, count, a, b, ordinal, k)
         k += 1
         if header.solved != 0.0:
             if number >= 0 and contact.efc_address >= 0 and contact.dim > 2:
@@ -107,33 +112,21 @@ def learn(data, state, current, count, m):
             number, count = count, count + 1
             slot = s.slot_at(state, current, number)
             slot.geom_1, slot.geom_2, slot.ordinal, slot.live = a + 1.0, b + 1.0, ordinal, 0.0
+            put(slot.place, contact.pos[0], contact.pos[1], contact.pos[2])
         s.slot_at(state, current, number).normal = normal_force(d, contact)
     return count
 
 
-@compiled
+@compiled_inline
 def compare(state, count):
-    """Compare the contacts between the same two bodies: how much of the normal force each has, and which are loose.
-
-    A contact at its cap is loose, and slides, if none of the others holds less than its cap.
-    """
+    """Find which contacts are loose: at their cap, and none of those between the same two bodies holds less than its own."""
     for k in range(count):
         slot = s.slot_at(state, 0, k)
-        slot.loose, among, total = slot.saturated, 0.0, 0.0
-        for j in range(count):
+        slot.loose = slot.saturated
+        for j in range(count if slot.saturated != 0.0 else 0):
             other = s.slot_at(state, 0, j)
-            if other.bodies == slot.bodies:
-                among, total = among + 1.0, total + other.given
-                if other.saturated == 0.0 and other.given > 0.0:
-                    slot.loose = 0.0
-        slot.weight = slot.given * among / total if total > 0.0 else 1.0
-
-
-@compiled_inline
-def forget_forces(slot):
-    """Take a contact's forces as zero, until the engine's solution says otherwise: it may have ended within the step."""
-    slot.normal, slot.given, slot.saturated, slot.foreseen = 0.0, 0.0, 0.0, 0.0
-    slot.pull[0], slot.pull[1], slot.pull[2] = 0.0, 0.0, 0.0
+            if other.bodies == slot.bodies and other.saturated == 0.0 and other.given > 0.0:
+                slot.loose = 0.0
 
 
 @compiled_inline

@@ -134,7 +134,7 @@ def steer(m, d, state, law, since):
         v = -along_row(m, d, header, d.qvel)
         z = 0.5 * since * (slot.vx + v)
     if slot.slides != 0.0:
-        slot.cap = call_slide(law.slide, abs(v), slot.mu_s, slot.mu_k, s.parameters_of(state))
+        slot.cap = call_slide(law.slide, abs(v), slot.mu_s, slot.mu_k, header.parameters.ctypes.data)
         set_reference(d, place, 1.0 / h, 0.0, 0.0)
     else:
         resistance, stiffness, slot.cap = solver.spring_and_cap(state, law, slot, STIFFER * w.at(d.efc_R, place), h)
@@ -168,7 +168,7 @@ def apply(m, d, state, law, stage):
 
 @compiled
 def learn(m, d, state, current):
-    """Write what the solver found for the coordinate to its slot; the committed block (0) is that of an accepted step."""
+    """Write the solver's solution for the coordinate to its slot; the committed block (0) is that of an accepted step."""
     header, slot = s.header_record(state), s.slot_at(state, current, 0)
     place = friction_row(m, d, header)
     force = w.at(d.efc_force, place) if place >= 0 else 0.0

@@ -7,7 +7,6 @@ and become the committed ones when the engine advances. Both stand by turns, and
 
 from __future__ import annotations
 
-import ctypes
 from typing import Any
 
 import numpy as np
@@ -19,7 +18,7 @@ from stochfric_mb.laws.abi import MAX_STATE
 from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.mujoco.memory import engine, table
 from stochfric_mb.mujoco.memory import words as w
-from stochfric_mb.mujoco.memory.structs import data_at, model_at, record_view
+from stochfric_mb.mujoco.memory.structs import array_at, data_at, model_at, record_view
 
 MAX_PARAMETERS, N_LIMITS, MAX_ROW = 16, 13, 32
 BODIES = 2**24
@@ -62,6 +61,7 @@ HEADER = _record(
     "velocities", "finished",  # a sum that tells the velocities at the end of the last step, 1 if there is one
     "instant",  # canonical time [s] of the last evaluation at a step's start
     "path_time", "path_mu_s", "path_mu_k",  # last evaluation of a path along time
+    "peak", "peak_mu_s", "peak_mu_k",  # last coefficient at the law's peak speed, and of what coefficients
     "critical", "critical_step",  # normal force over mass [N/kg] where an explicit step [s] is at half its limit
     ("parameters", MAX_PARAMETERS),
     ("limits", N_LIMITS),  # step limits [s] at normal forces over mass of 1e-4, 1e-3, ... 1e8 N/kg
@@ -70,7 +70,8 @@ HEADER = _record(
     ("output", MAX_STATE), ("rows", 4 * MAX_ROW),  # room to work in
 )  # fmt: skip
 SLOT = _record(
-    "geom_1", "geom_2", "ordinal",  # key: geoms plus 1, number among equals
+    "geom_1", "geom_2", "ordinal",  # key within a step: geoms plus 1, number among equals
+    "continues",  # number of the committed slot that it goes on from, -1 if it is new
     "bodies",  # number of the two bodies, see `BODIES`
     "live",  # 1 if it has a law state, 0 not yet, -1 where it was given another velocity
     "normal", "mass", "felt",  # normal force [N], mass felt by the law, by this contact alone [kg]
@@ -88,10 +89,13 @@ SLOT = _record(
     ("a", 3),  # relative acceleration that the solver foresaw in the step before [m/s^2], world axes
     "foreseen", ("lead", 3),  # 1 if it was for a step; the acceleration over that step less the foreseen one [m/s^2]
     ("mean", 3),  # relative velocity over a Runge-Kutta step so far, as that weighs its stages [m/s], world axes
-    "creep",  # speed at which a law that creeps at rest has the force [m/s]
-    "weight",  # its normal force over the mean of those between the two bodies
-    "compliance",  # with the discrete integrator, deflection of a stuck contact over its force [m/N]; otherwise 0
-    "springs",  # 1 if it was held by the law's own spring in the step before
+    "creep", "creep_share", "creep_slope",  # of a law that creeps at rest: speed at which it has the force [m/s], mu there over
+    # mu_s, change of the speed with that [m/s]
+    "fluidity",  # that speed over the force [m/(N s)]
+    "face",  # number of the first contact of its face
+    "weight", "resistance",  # its normal force over the mean of its face, and that mean of R of a tangent row [1/kg]
+    ("place", 3), ("normal_axis", 3),  # where it was at the step's start [m], and its normal, world axes
+    "springs",  # the deflection [m] at which the law's own spring breaks that held it in the step before, 0 if none did
     ("pull", 3),  # friction force on the body in the step before [N], world axes
     # of explicit steps, joints and tendons alone:
     ("on_body", 3), ("on_surface", 3),  # the contact point in the frames of the two bodies
@@ -110,8 +114,7 @@ N_HEADER, N_SLOT = HEADER.itemsize // 8, SLOT.itemsize // 8
 header_record, slot_record, law_at = record_view(HEADER), record_view(SLOT), record_view(LAW)
 _HEADER_SIZE, _SLOT_SIZE = HEADER.itemsize, SLOT.itemsize
 _SOLVED_SIZE = int(SLOT.fields["on_body"][1])  # type: ignore
-_CURSOR, _OUTPUT, _PARAMETERS, _ROWS = (int(HEADER.fields[f][1]) for f in ("cursor", "output", "parameters", "rows"))  # type: ignore
-_STATE, _GUARDS = (int(SLOT.fields[f][1]) for f in ("state", "guards"))  # type: ignore
+_CURSOR = int(HEADER.fields["cursor"][1])  # type: ignore
 
 Array = npt.NDArray[np.float64]
 
@@ -130,7 +133,7 @@ def header_of(state: Array) -> Any:
 def started(law: npt.NDArray[Any], **address: int) -> Array:
     """Return the state that an instance with this `LAW` begins with; ``address`` is seed, sample and contact."""
     state = np.zeros(int(law["n_all"][0]))
-    start = np.ctypeslib.as_array((ctypes.c_double * int(law["n_start"][0])).from_address(int(law["start"][0])))
+    start = array_at(int(law["start"][0]), int(law["n_start"][0]))
     state[:N_HEADER] = start[:N_HEADER]
     header = header_of(state)
     state[descriptor_place(header) :] = start[N_HEADER:]
@@ -221,27 +224,3 @@ def descriptor_of(state):
 def cursor_of(state):
     """Return the cursor of the coefficient path."""
     return w.vector(state + _CURSOR, CURSOR)
-
-
-@compiled
-def output_of(state):
-    """Return the address of the room for what a law's function returns."""
-    return state + _OUTPUT
-
-
-@compiled
-def parameters_of(state):
-    """Return the address of the law's parameters."""
-    return state + _PARAMETERS
-
-
-@compiled
-def rows_of(state):
-    """Return the address of the room for four rows of generalised coordinates."""
-    return state + _ROWS
-
-
-@compiled
-def law_state(address):
-    """Return the address of the law's state in the slot at ``address``."""
-    return address + _STATE

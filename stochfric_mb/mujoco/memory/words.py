@@ -10,53 +10,34 @@ from numba.core import cgutils
 from numba.extending import intrinsic
 
 from stochfric_mb.compile import compiled
-from stochfric_mb.numerics.memory import (
-    as_doubles,
-    carray,
-    instructions,
-    load_byte,
-    load_double,
-    load_int,
-    load_word,
-    store_double,
-    store_word,
-)
+from stochfric_mb.numerics.memory import as_doubles, carray, instructions
 
 
-@compiled
-def at(array, i):
-    """Return number ``i`` of the doubles at ``array``."""
-    return load_double(array + 8 * i)
+def _place(context: Any, builder: Any, kind: Any, array: Any, i: Any) -> Any:
+    return builder.gep(builder.inttoptr(array, context.get_value_type(kind).as_pointer()), [i])
 
 
-@compiled
-def put(array, i, value):
-    """Write number ``i`` of the doubles at ``array``."""
-    store_double(array + 8 * i, value)
+def _reader(kind: Any) -> Any:
+    wide = kind if kind == types.float64 else types.int64
+
+    def read(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        return context.cast(builder, builder.load(_place(context, builder, kind, *args)), kind, wide)
+
+    return instructions(wide(types.intp, types.intp), read)
 
 
-@compiled
-def int_at(array, i):
-    """Return number ``i`` of the C ints at ``array``."""
-    return load_int(array + 4 * i)
+def _writer(kind: Any) -> Any:
+    def write(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        builder.store(args[2], _place(context, builder, kind, *args[:2]))
+        return context.get_dummy_value()
+
+    return instructions(types.void(types.intp, types.intp, kind), write)
 
 
-@compiled
-def byte_at(text, i):
-    """Return byte ``i`` of the C string at ``text``."""
-    return load_byte(text + i)
-
-
-@compiled
-def word_at(array, i):
-    """Return number ``i`` of the 64-bit integers or pointers at ``array``."""
-    return load_word(array + 8 * i)
-
-
-@compiled
-def put_word(array, i, value):
-    """Write number ``i`` of the 64-bit integers or pointers at ``array``."""
-    store_word(array + 8 * i, value)
+at, int_at, byte_at, word_at = map(_reader, (types.float64, types.int32, types.uint8, types.int64))
+"""Return, of (array, i), number ``i`` of the doubles, C ints, bytes, or 64-bit integers or pointers at an address."""
+put, put_word = map(_writer, (types.float64, types.int64))
+"""Write, of (array, i, value), number ``i`` of the doubles, or 64-bit integers or pointers at an address."""
 
 
 @compiled

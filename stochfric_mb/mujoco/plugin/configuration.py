@@ -77,30 +77,15 @@ def configuration(
 
 
 def friction_of(law: str, coefficients: str) -> Friction:
-    """Return the friction that a configuration's two texts describe.
-
-    Raises:
-        InputError: unknown or missing key or value, with the same message as for a scenario file.
-    """
-    table = _parse("law", law)
-    made = law_from_dict(table)
+    """Return the friction that a configuration's two texts describe, or raise what a scenario file with them would raise."""
     process = process_from_dict(_parse("coefficients", coefficients), 0.0, Path()) if coefficients.strip() else None
-    return Friction(made, process)
+    return Friction(law_from_dict(_parse("law", law)), process)
 
 
 def _record(friction: Friction, texts: Mapping[str, str]) -> npt.NDArray[np.float64]:
-    """Return the header and the descriptor that the states of a configuration start with.
-
-    Args:
-        friction: what the texts of law and coefficients say.
-        texts: the plugin's keys and values; those left out are as if empty.
-
-    Raises:
-        InputError: a text is malformed, or the law cannot run in this engine, this mode or with this anisotropy.
-    """
+    """Return the header and the descriptor that a configuration's states start with; ``friction`` is what its texts say."""
     mode = texts.get("mode") or "auto"
-    _require_runnable(friction.law)
-    require_mode(friction.law, mode)
+    _require_runnable(friction.law, mode)
     descriptor = friction.path(0).descriptor
     record = np.zeros(N_HEADER + len(descriptor))
     record[:N_HEADER] = law_header(friction.law)
@@ -112,22 +97,17 @@ def _record(friction: Friction, texts: Mapping[str, str]) -> npt.NDArray[np.floa
             header[field] = require_number(f"plugin key {key}", _number(texts[key]), above=0.0)
     if "slots" in texts:
         header.n_slots = require_slots(_number(texts["slots"] or str(DEFAULT_SLOTS)))
-    anisotropy = _anisotropy(texts.get("across", ""), texts.get("direction", ""))
+    anisotropy = ISOTROPIC
+    if texts.get("across") or texts.get("direction"):
+        direction: Any = tuple(_number(word) for word in texts.get("direction", "").split())
+        anisotropy = Anisotropy(_number(texts.get("across") or "1"), direction)
     if anisotropy.across != 1.0 and (mode == "explicit" or friction.law.rest == "bristle"):
         raise InputError(
             f"across = {anisotropy.across:g}: friction that differs by direction is found by MuJoCo's solver; use mode "
-            "'solver' "
-            f"(not {mode!r}) and a law that runs in it (law {friction.law.kind!r} has rest {friction.law.rest!r})"
+            f"'solver' (not {mode!r}) and a law that runs in it (law {friction.law.kind!r} has rest {friction.law.rest!r})"
         )
     header.across, header.direction[:] = anisotropy.across, anisotropy.direction
     return record
-
-
-def _anisotropy(across: str, direction: str) -> Anisotropy:
-    if not across and not direction:
-        return ISOTROPIC
-    numbers = [_number(word) for word in direction.split()]
-    return Anisotropy(_number(across or "1"), tuple(numbers))  # type: ignore[arg-type]
 
 
 def _number(text: str) -> Any:
@@ -139,11 +119,7 @@ def _number(text: str) -> Any:
 
 
 def require_slots(slots: Any) -> int:
-    """Return a number of slots.
-
-    Raises:
-        InputError: it is no whole number, or out of range.
-    """
+    """Return a number of slots, or refuse what is no whole number or out of range."""
     if not isinstance(slots, int | float) or int(slots) != slots or not 0 < slots <= MAX_SLOTS:
         shown = f"{slots:g}" if isinstance(slots, float) else repr(slots)
         raise InputError(f"slots = {shown} must be a whole number from 1 to {MAX_SLOTS}; {DEFAULT_SLOTS} suits most pairs")
@@ -157,8 +133,8 @@ def law_of(texts: Mapping[str, str], place: tuple[int, int, int]) -> npt.NDArray
         texts: the plugin's keys and values, see `configuration`; seeds and names do not count.
         place: PAIR, JOINT or TENDON, and the numbers of the geoms, or twice that of the joint or tendon.
     """
-    told = repr((*place, *(texts.get(name, "") for name in RECORDED)))
-    key = int.from_bytes(hashlib.blake2b(told.encode(), digest_size=7).digest()) or 1
+    text = repr((*place, *(texts.get(name, "") for name in RECORDED)))
+    key = int.from_bytes(hashlib.blake2b(text.encode(), digest_size=7).digest()) or 1
     with _lock:
         if key not in _laws:
             friction = friction_of(texts["law"], texts.get("coefficients", ""))
@@ -193,25 +169,15 @@ def law_header(law: Law) -> npt.NDArray[np.float64]:
     return numbers
 
 
-def _require_runnable(law: Law) -> None:
+def _require_runnable(law: Law, mode: str) -> None:
+    """Refuse a law that cannot run in this engine, or not in the mode asked for."""
+    require_name("mode", mode, MODES)
     if len(law.parameters()) > MAX_PARAMETERS or len(law.state_names) > MAX_STATE:
         raise InputError(
             f"law {law.kind!r} has {len(law.parameters())} parameters and {len(law.state_names)} state entries; "
             f"at most {MAX_PARAMETERS} and {MAX_STATE} fit"
         )
 
-
-def require_mode(law: Law, mode: str) -> None:
-    """Refuse a law that cannot run in the mode asked for.
-
-    Raises:
-        InputError: says why.
-    """
-    if mode == "implicit":
-        raise InputError(
-            "mode 'implicit' is no more: mode 'solver' lets MuJoCo's own solver find the friction; use that, or 'auto'"
-        )
-    require_name("mode", mode, MODES)
     if law.needs_holding_force and mode == "explicit":
         raise InputError(
             f"law {law.kind!r} needs the force that would hold the contact, which the explicit mode cannot know; use mode "

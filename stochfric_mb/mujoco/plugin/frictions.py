@@ -7,16 +7,16 @@ from collections.abc import Mapping
 from typing import Any
 
 import mujoco
-from numba import types
+import numpy as np
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.errors import InputError
 from stochfric_mb.mujoco.contact import tracking
 from stochfric_mb.mujoco.joint import friction as coordinates
-from stochfric_mb.mujoco.memory import engine, layout, table
+from stochfric_mb.mujoco.memory import engine, table
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
-from stochfric_mb.mujoco.memory.structs import data_at, model_at
+from stochfric_mb.mujoco.memory.structs import DATA, MODEL, array_at, data_at, model_at, record_at, struct, verify
 from stochfric_mb.mujoco.plugin import options
 from stochfric_mb.mujoco.plugin.configuration import law_of
 from stochfric_mb.mujoco.plugin.registration import register_plugin
@@ -31,8 +31,9 @@ KEYS = {
 """Configuration keys. geom1 is the body, geom2 the counter-surface, either may be ``*``. Of joint and tendon one is given;
 normal_force is the given load [N or N m]; without it, radius [m] is that of the bearing on which the joint's reaction rubs (1
 for a slide joint)."""
+ANY = "*"
+"""Stands for every geom that the other one can collide with; -1 as a number."""
 NO_GEOM = -2
-_POINTER, _INT = types.intp, types.int32
 
 
 @functools.cache
@@ -42,19 +43,14 @@ def slot_of(name: str) -> int:
     Raises:
         MissingEngineError: this MuJoCo build has another struct layout than this package knows.
     """
-    layout.verify()
+    verify()
     compute, advance = (_compute_pair, _advance_pair) if name == PAIRS else (_compute_dof, _advance_dof)
     return register_plugin(
         name,
         KEYS[name],
         capability=mujoco.mjtPluginCapabilityBit.mjPLUGIN_PASSIVE,
         first={"nstate": functools.partial(_nstate, name), "init": functools.partial(_init, name)},
-        compiled={
-            "copy": (copy, types.void(_POINTER, _POINTER, _POINTER, _INT)),
-            "reset": (_reset, types.void(_POINTER, _POINTER, _POINTER, _INT)),
-            "compute": (compute, types.void(_POINTER, _POINTER, _INT, _INT)),
-            "advance": (advance, types.void(_POINTER, _POINTER, _INT)),
-        },
+        compiled={"copy": copy, "reset": _reset, "compute": compute, "advance": advance},
     )
 
 
@@ -69,14 +65,15 @@ def _init(name: str, model: int, data: int, instance: int) -> int:
     law = _law(name, model, instance)
     header = s.header_of(s.started(law))
     steered = name == PAIRS and header.mode != s.EXPLICIT and header.rest != s.BRISTLE
-    if name == PAIRS and not steered:
+    options.check_options(record_at(MODEL, model), steered=steered, coordinate=name == DOFS)
+    if name == DOFS:
+        _require_row(model, header)
+    elif not steered:
         _drop_native(model, int(header.geom_body), int(header.geom_surface))
-    option = layout.struct("mjModel").from_address(model).opt
-    options.check_options(option, steered=steered)
     if steered:
-        options.require_elliptic(option)
+        options.require_elliptic(record_at(MODEL, model))
         options.warn_of_stiff_damping(model)
-    layout.pointers(layout.struct("mjData").from_address(data).plugin_data, instance + 1)[instance] = law["key"][0]
+    array_at(record_at(DATA, data).plugin_data, instance + 1, np.int64)[instance] = law["key"][0]
     return 0
 
 
@@ -95,12 +92,17 @@ def _law(name: str, model: int, instance: int) -> Any:
 
 def _geoms(model: int, texts: Mapping[str, str]) -> tuple[int, int, int]:
     names = texts["geom1"], texts["geom2"]
-    geoms = [-1 if name == "*" else engine.id_in(model, mujoco.mjtObj.mjOBJ_GEOM, name, NO_GEOM) for name in names]
+    geoms = [-1 if name == ANY else engine.id_in(model, mujoco.mjtObj.mjOBJ_GEOM, name, NO_GEOM) for name in names]
     if NO_GEOM in geoms or names[0] == names[1]:
         raise InputError(
             f"plugin keys geom1 = {names[0]!r}, geom2 = {names[1]!r}: they must be two geoms of the model (one may be '*')"
         )
     return s.PAIR, geoms[0], geoms[1]
+
+
+def covers(pair: tuple[Any, Any], geoms: tuple[Any, Any]) -> bool:
+    """Return whether a pair, one of which may stand for any (``"*"``, or number -1), is of two geoms in either order."""
+    return any(all(mine in (ANY, -1, its) for mine, its in zip(p, geoms, strict=True)) for p in (pair, pair[::-1]))
 
 
 def _coordinate(model: int, texts: Mapping[str, str]) -> tuple[int, int, int]:
@@ -109,8 +111,8 @@ def _coordinate(model: int, texts: Mapping[str, str]) -> tuple[int, int, int]:
     joint, tendon = texts["joint"], texts["tendon"]
     kind = mujoco.mjtObj.mjOBJ_TENDON if tendon else mujoco.mjtObj.mjOBJ_JOINT
     number = engine.id_in(model, kind, tendon or joint, -1)
-    types_of = layout.struct("mjModel").from_address(model).jnt_type
-    turns = not tendon and number >= 0 and layout.integers(types_of, number + 1)[number] < int(mujoco.mjtJoint.mjJNT_SLIDE)
+    kinds = array_at(record_at(MODEL, model).jnt_type, number + 1, np.int32)
+    turns = not tendon and number >= 0 and kinds[number] < int(mujoco.mjtJoint.mjJNT_SLIDE)
     if number < 0 or turns or bool(joint) == bool(tendon) or (tendon and texts["radius"]):
         raise InputError(
             f"plugin keys joint = {joint!r}, tendon = {tendon!r}: give one of them, the name of a hinge or slide joint or of a "
@@ -124,11 +126,22 @@ def _drop_native(model: int, body: int, surface: int) -> None:
 
     It stays in the model's file, so that a model without this plugin keeps its friction.
     """
-    m = layout.struct("mjModel").from_address(model)
-    first, second, dims = (layout.integers(p, m.npair) for p in (m.pair_geom1, m.pair_geom2, m.pair_dim))
-    for i, (a, b) in enumerate(zip(first, second, strict=True)):
-        if (body in (a, -1) and surface in (b, -1)) or (body in (b, -1) and surface in (a, -1)):
+    m = record_at(MODEL, model)
+    first, second, dims = (array_at(p, m.npair, np.int32) for p in (m.pair_geom1, m.pair_geom2, m.pair_dim))
+    for i, geoms in enumerate(zip(first, second, strict=True)):
+        if covers((body, surface), geoms):
             dims[i] = 1
+
+
+def _require_row(model: int, header: Any) -> None:
+    """Let MuJoCo make the friction row that the law steers where the model, one from XML, gives no frictionloss."""
+    m, number = record_at(struct("mjModel"), model), int(header.geom_surface)
+    if header.place == s.TENDON:
+        loss = array_at(m.tendon_frictionloss, number + 1)[number:]
+    else:
+        dof = int(array_at(m.jnt_dofadr, number + 1, np.int32)[number])
+        loss = array_at(m.dof_frictionloss, dof + 1)[dof:]
+    loss[loss == 0.0] = header.parameters[0] * (header.load or 1.0)
 
 
 # --- what MuJoCo calls -----------------------------------------------------------------------------------------------

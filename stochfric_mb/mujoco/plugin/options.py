@@ -12,11 +12,11 @@ import mujoco
 import numpy as np
 
 from stochfric_mb.errors import InputError
-from stochfric_mb.mujoco.memory import layout
-from stochfric_mb.mujoco.memory.structs import DISCRETE, ELLIPTIC, EULER, PGS, RUNGE_KUTTA
+from stochfric_mb.mujoco.memory.structs import DISCRETE, ELLIPTIC, EULER, MODEL, PGS, RUNGE_KUTTA, array_at, record_at
 
 NO_PASSIVE_FORCES = int(mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER)
 """With both of these disabled, MuJoCo leaves out all passive forces."""
+NO_FRICTION_LOSS = int(mujoco.mjtDisableBit.mjDSBL_FRICTIONLOSS)
 SWITCHED_OFF = (
     "option.disableflags has both spring and damper disabled, with which MuJoCo leaves out all passive forces, "
     "friction too; enable one of them (and set stiffness or damping to 0 instead)"
@@ -36,37 +36,32 @@ class IntegratorWarning(UserWarning):
     """An integrator with which friction is known to be inaccurate."""
 
 
-def check_options(option: Any, *, steered: bool = True, stacklevel: int = 2) -> None:
-    """Look at a model's ``disableflags`` and ``integrator``.
+def check_options(option: Any, *, steered: bool = True, coordinate: bool = False) -> None:
+    """Refuse what switches friction off, and warn of ``discrete`` where it makes the references anew that friction needs.
 
     Args:
-        option: ``option`` of a spec or ``opt`` of a model.
-        steered: whether the law steers MuJoCo's own solver (modes auto and solver).
-        stacklevel: of the warning.
-
-    Raises:
-        InputError: passive forces are off, and friction with them.
-
-    Warns:
-        IntegratorWarning: the ``discrete`` integrator, with what cannot be steered in it: joints, tendons, explicit friction.
+        option: ``option`` of a spec, ``opt`` of a model, or a model's record.
+        steered: whether the law steers MuJoCo's own solver at contacts; other friction suffers from ``discrete``.
+        coordinate: whether the friction is of a joint or tendon.
     """
     if option.disableflags & NO_PASSIVE_FORCES == NO_PASSIVE_FORCES:
         raise InputError(SWITCHED_OFF)
+    if coordinate and option.disableflags & NO_FRICTION_LOSS:
+        raise InputError(
+            "option.disableflags has frictionloss disabled, so MuJoCo's solver has no friction of joints and tendons for the "
+            "law to steer; enable it (and leave frictionloss out where there should be none)"
+        )
     if option.integrator == DISCRETE and not steered:
         warnings.warn(
             "integrator discrete makes its constraints' references anew after friction has set them: joints and tendons creep "
             "with it as with native friction, and explicit friction is inaccurate; use Euler, implicitfast, implicit or RK4",
             IntegratorWarning,
-            stacklevel=stacklevel + 1,
+            stacklevel=3,
         )
 
 
 def require_elliptic(option: Any) -> None:
-    """Refuse pyramidal cones.
-
-    Raises:
-        InputError: the cones are pyramidal.
-    """
+    """Refuse pyramidal cones."""
     if option.cone != ELLIPTIC:
         raise InputError(
             "option.cone is pyramidal: the coefficients of pyramidal contacts are fixed before friction can set them; use "
@@ -76,11 +71,7 @@ def require_elliptic(option: Any) -> None:
 
 
 def require_primal(option: Any) -> None:
-    """Refuse solvers that make the rows' matrix before friction that differs by direction can turn them.
-
-    Raises:
-        InputError: PGS, or noslip iterations.
-    """
+    """Refuse solvers that make the rows' matrix before friction that differs by direction can turn them."""
     if option.solver == PGS or option.noslip_iterations > 0:
         raise InputError(
             f"option.solver = {mujoco.mjtSolver(option.solver).name}, noslip_iterations = {option.noslip_iterations}: friction "
@@ -88,35 +79,27 @@ def require_primal(option: Any) -> None:
         )
 
 
-def warn_of_stiff_damping(model: int, *, stacklevel: int = 2) -> None:
-    """Warn where damping and a long step let stuck contacts slip in the model at an address.
-
-    Warns:
-        IntegratorWarning: they do.
-    """
-    ratio, timestep = stiff_damping(model), layout.struct("mjModel").from_address(model).opt.timestep
+def warn_of_stiff_damping(model: int) -> None:
+    """Warn where damping and a long step let stuck contacts slip in the model at an address."""
+    ratio = stiff_damping(model)
     if ratio > 0.0:
         warnings.warn(
-            f"timestep = {timestep:g} s with h kv/m = {ratio:.3g} of an actuator or joint: contacts that it carries slip while "
-            "stuck, by tenths of a millimetre at 10 ms where it shakes them; use implicitfast with a timestep of 2 ms, or "
-            "integrator discrete",
+            f"timestep = {record_at(MODEL, model).timestep:g} s with h kv/m = {ratio:.3g} of an actuator or joint: contacts "
+            "that it carries slip while stuck, by tenths of a millimetre at 10 ms where it shakes them; use implicitfast with "
+            "a timestep of 2 ms, or integrator discrete",
             IntegratorWarning,
-            stacklevel=stacklevel + 1,
+            stacklevel=3,
         )
 
 
 def stiff_damping(model: int) -> float:
-    """Return the largest h c/m [-] of joints and of actuators with kv, where stuck contacts slip by it; otherwise 0.
-
-    ``model`` is a model's address.
-    """
-    m = layout.struct("mjModel").from_address(model)
-    h, integrator = m.opt.timestep, m.opt.integrator
-    if integrator == DISCRETE or h <= (LONG_STAGES if integrator == RUNGE_KUTTA else LONG):
+    """Return the largest h c/m [-] of a model's joints and actuators with kv, if stuck contacts slip by it; otherwise 0."""
+    m = record_at(MODEL, model)
+    if m.integrator == DISCRETE or m.timestep <= (LONG_STAGES if m.integrator == RUNGE_KUTTA else LONG):
         return 0.0
-    ratios = h * layout.doubles(m.dof_damping, m.nv) * layout.doubles(m.dof_invweight0, m.nv)
-    if integrator != EULER and m.nu:
-        moved = np.abs(layout.doubles(m.actuator_gear, N_GEAR * m.nu)[::N_GEAR]) * layout.doubles(m.actuator_acc0, m.nu)
-        ratios = np.append(ratios, -h * layout.doubles(m.actuator_biasprm, N_BIAS * m.nu)[DAMPING::N_BIAS] * moved)
-    ratio = float(ratios.max(initial=0.0))
+    ratios = array_at(m.dof_damping, m.nv) * array_at(m.dof_invweight0, m.nv)
+    if m.integrator != EULER:
+        moved = np.abs(array_at(m.actuator_gear, N_GEAR * m.nu)[::N_GEAR]) * array_at(m.actuator_acc0, m.nu)
+        ratios = np.append(ratios, -array_at(m.actuator_biasprm, N_BIAS * m.nu)[DAMPING::N_BIAS] * moved)
+    ratio = float(m.timestep * ratios.max(initial=0.0))
     return ratio if ratio > STIFF else 0.0

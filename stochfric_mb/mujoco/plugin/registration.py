@@ -3,6 +3,9 @@
 MuJoCo keeps a table of plugins and calls them through it. A plugin's ``nstate``, ``nsensordata`` and ``init``, which MuJoCo
 calls while it makes a model or its data, are Python functions; the first such call compiles the others and writes their
 addresses into MuJoCo's table. So importing compiles nothing.
+
+What a Python function raises cannot pass through MuJoCo, which would go on with a result that is none. So a few machine
+instructions stand between (`guarded`): they stop with MuJoCo's error, which says what was raised, where the user's call fails.
 """
 
 from __future__ import annotations
@@ -14,12 +17,14 @@ import traceback
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import llvmlite.binding
 import mujoco
+from numba import types
 
 from stochfric_mb.compile import native
-from stochfric_mb.errors import MissingEngineError
+from stochfric_mb.errors import MissingEngineError, StochfricError
 from stochfric_mb.mujoco.memory.engine import library as mujoco_library
-from stochfric_mb.mujoco.memory.layout import Plugin
+from stochfric_mb.mujoco.memory.structs import Plugin
 
 FIRST = {
     "nstate": ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_int),
@@ -27,6 +32,28 @@ FIRST = {
     "init": ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int),
 }
 """Callbacks that MuJoCo calls before all others."""
+_POINTER, _INT = types.intp, types.int32
+COMPILED = {
+    "copy": types.void(_POINTER, _POINTER, _POINTER, _INT),
+    "reset": types.void(_POINTER, _POINTER, _POINTER, _INT),
+    "compute": types.void(_POINTER, _POINTER, _INT, _INT),
+    "advance": types.void(_POINTER, _POINTER, _INT),
+}
+"""Callbacks that Python never sees."""
+LONGEST = 480
+"""Most characters of an error: MuJoCo's compiler keeps 500."""
+GUARD = """
+define i32 @guarded({parameters}) {{
+  %result = call i32 inttoptr (i64 {function} to i32 ({types})*)({parameters})
+  %failed = icmp slt i32 %result, 0
+  br i1 %failed, label %stop, label %done
+stop:
+  call void (i64, ...) inttoptr (i64 {error} to void (i64, ...)*)(i64 {text})
+  br label %done
+done:
+  ret i32 %result
+}}
+"""
 _alive: list[Any] = []
 _lock = threading.RLock()
 
@@ -37,7 +64,7 @@ def register_plugin(
     *,
     capability: mujoco.mjtPluginCapabilityBit,
     first: Mapping[str, Callable[..., int]],
-    compiled: Mapping[str, tuple[Callable[..., Any], Any]],
+    compiled: Mapping[str, Callable[..., Any]],
     stage: int = 0,
 ) -> int:
     """Return MuJoCo's slot number of a plugin.
@@ -46,9 +73,8 @@ def register_plugin(
         name: its name in MJCF.
         attributes: its configuration keys.
         capability: what the plugin does.
-        first: Python functions, some of `FIRST`; they return -1 for a model that they refuse, and an error that they raise
-            is printed and refuses it too.
-        compiled: function to compile and its numba signature, by the name of the callback.
+        first: Python functions, some of `FIRST`; what they raise is MuJoCo's error where the user's call fails.
+        compiled: functions to compile, some of `COMPILED`.
         stage: the stage that a sensor needs.
 
     Raises:
@@ -64,9 +90,7 @@ def register_plugin(
     plugin.needstage = stage
     entered: list[Any] = []
     for callback, function in first.items():
-        made = FIRST[callback](functools.partial(_call, entered, compiled, function))
-        _alive.append(made)
-        setattr(plugin, callback, ctypes.cast(made, ctypes.c_void_p).value)
+        setattr(plugin, callback, guarded(name, FIRST[callback], functools.partial(_call, entered, compiled, function)))
     _alive.append(plugin)
     library.mjp_registerPlugin.argtypes = [ctypes.c_void_p]
     slot = library.mjp_registerPlugin(ctypes.byref(plugin))
@@ -74,24 +98,56 @@ def register_plugin(
     return slot
 
 
+def guarded(name: str, kind: Any, function: Callable[..., int]) -> int:
+    """Return the address of a C function that calls a Python one, and stops with MuJoCo's error where that raises.
+
+    Args:
+        name: of the plugin, which the error says.
+        kind: ctypes' type of the function; it has addresses and ints, and returns an int that is not negative.
+        function: what to call; an error that is not of this package is printed as well, with the way to it.
+    """
+    text = ctypes.create_string_buffer(LONGEST + 1)
+
+    def call(*arguments: Any) -> int:
+        try:
+            return function(*arguments)
+        except BaseException as error:
+            if not isinstance(error, StochfricError):
+                traceback.print_exc()
+            said = f"stochfric_mb: plugin {name}: {type(error).__name__}: {error}".replace("%", "%%")  # MuJoCo formats it
+            text.value = said.encode("ascii", "replace")[:LONGEST].rstrip(b"%")
+            return -1
+
+    made = kind(call)
+    words = ["i64" if argument is ctypes.c_void_p else "i32" for argument in kind._argtypes_]
+    source = GUARD.format(
+        parameters=", ".join(f"{word} %a{i}" for i, word in enumerate(words)),
+        types=", ".join(words),
+        function=ctypes.cast(made, ctypes.c_void_p).value,
+        error=ctypes.cast(mujoco_library().mju_error, ctypes.c_void_p).value,
+        text=ctypes.addressof(text),
+    )
+    machine = llvmlite.binding.Target.from_default_triple().create_target_machine()
+    engine = llvmlite.binding.create_mcjit_compiler(llvmlite.binding.parse_assembly(source), machine)
+    engine.finalize_object()
+    _alive.extend([text, made, engine])
+    return engine.get_function_address("guarded")
+
+
 def _call(
     entered: list[Any],
-    compiled: Mapping[str, tuple[Callable[..., Any], Any]],
+    compiled: Mapping[str, Callable[..., Any]],
     function: Callable[..., int],
     *arguments: Any,
 ) -> int:
     """Call one of the Python functions, once MuJoCo's table holds the compiled ones."""
-    try:
-        with _lock:
-            for callback, (source, signature) in compiled.items():
-                if not getattr(entered[0], callback):
-                    made = native(source, signature)
-                    _alive.append(made)
-                    setattr(entered[0], callback, made.address)
-        return function(*arguments)
-    except BaseException:
-        traceback.print_exc()
-        return -1
+    with _lock:
+        for callback, source in compiled.items():
+            if not getattr(entered[0], callback):
+                made = native(source, COMPILED[callback])
+                _alive.append(made)
+                setattr(entered[0], callback, made.address)
+    return function(*arguments)
 
 
 def _entered(slot: int, mine: Plugin) -> Any:

@@ -15,16 +15,16 @@ import functools
 from typing import Any
 
 import mujoco
-from numba import types
+import numpy as np
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.errors import InputError, require_name
 from stochfric_mb.mujoco.contact import tracking
 from stochfric_mb.mujoco.joint import friction
-from stochfric_mb.mujoco.memory import engine, layout
+from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import words as w
-from stochfric_mb.mujoco.memory.structs import data_at, model_at
+from stochfric_mb.mujoco.memory.structs import DATA, MODEL, array_at, data_at, model_at, record_at
 from stochfric_mb.mujoco.plugin.frictions import DOFS, PAIRS, copy, slot_of
 from stochfric_mb.mujoco.plugin.registration import register_plugin
 
@@ -39,7 +39,6 @@ number of the contacts there are."""
 CONTACT_FIELDS = ("force_x", "force_y", "force_z", "normal_force", "mu_s", "mu_k", "stick", "dissipated")
 """Numbers of each contact listed."""
 MAX_CONTACTS, SHIFT = 64, 2**32
-_POINTER, _INT = types.intp, types.int32
 
 
 @functools.cache
@@ -52,11 +51,7 @@ def register() -> int:
         ATTRIBUTES,
         capability=mujoco.mjtPluginCapabilityBit.mjPLUGIN_SENSOR,
         first={"nstate": lambda model, instance: 0, "nsensordata": _nsensordata, "init": _init},
-        compiled={
-            "copy": (copy, types.void(_POINTER, _POINTER, _POINTER, _INT)),
-            "reset": (_reset, types.void(_POINTER, _POINTER, _POINTER, _INT)),
-            "compute": (_compute, types.void(_POINTER, _POINTER, _INT, _INT)),
-        },
+        compiled={"copy": copy, "reset": _reset, "compute": _compute},
         stage=int(mujoco.mjtStage.mjSTAGE_ACC),
     )
 
@@ -111,10 +106,10 @@ def _init(model: int, data: int, instance: int) -> int:
     """Let the data find what the sensor watches: the friction's number, and the contacts listed times `SHIFT`."""
     friction = engine.plugin_text(model, instance, "friction")
     number = engine.id_in(model, mujoco.mjtObj.mjOBJ_PLUGIN, friction, -1)
-    slots = layout.integers(layout.struct("mjModel").from_address(model).plugin, number + 1)
+    slots = array_at(record_at(MODEL, model).plugin, number + 1, np.int32)
     if number < 0 or slots[number] not in (slot_of(PAIRS), slot_of(DOFS)):
         raise InputError(f"plugin key friction = {friction!r} must name an instance of {PAIRS} or {DOFS} in the model")
-    watched = layout.pointers(layout.struct("mjData").from_address(data).plugin_data, instance + 1)
+    watched = array_at(record_at(DATA, data).plugin_data, instance + 1, np.int64)
     watched[instance] = number + SHIFT * _listed(model, instance)
     return 0
 
@@ -153,32 +148,17 @@ def measure(model, data, instance, sensor):
     w.put(out, line, count)
     for k in range(count):
         slot = s.slot_at(state, block, k)
+        (a, b, c), (d, e, f), x, y = slot.axis_1, slot.axis_2, slot.fx, slot.fy
+        values = x * a + y * d, x * b + y * e, x * c + y * f, slot.normal, slot.mu_s, slot.mu_k, slot.stick, slot.energy
         for j in range(line):
-            value = measured(slot, j)
             share = 1.0 / count if MEANS[j] else 1.0
-            w.put(out, j, w.at(out, j) + share * value)
+            w.put(out, j, w.at(out, j) + share * values[j])
             if k < lines:
-                w.put(out, width + k * line + j, value)
+                w.put(out, width + k * line + j, values[j])
 
 
 MEANS = tuple(f in ("mu_s", "mu_k", "stick") for f in CONTACT_FIELDS)
 """Which of the fields are means over the contacts; the others are sums."""
-
-
-@compiled
-def measured(slot, j):
-    """Return one of `CONTACT_FIELDS` from a slot."""
-    if j < 3:
-        return slot.fx * slot.axis_1[j] + slot.fy * slot.axis_2[j]
-    if j == 3:
-        return slot.normal
-    if j == 4:
-        return slot.mu_s
-    if j == 5:
-        return slot.mu_k
-    if j == 6:
-        return slot.stick
-    return slot.energy
 
 
 def _reset(model, state, plugin_data, instance):

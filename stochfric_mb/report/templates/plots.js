@@ -1,224 +1,129 @@
 // Figures of a page: hover shows values, a drag zooms in, a double click zooms out. Without this script they stay as drawn.
+// matplotlib drew them; D3 has the scales, the ticks, the search for the nearest point and the drag.
 (() => {
   "use strict";
-  const drawn = document.querySelectorAll("svg[data-axes]");
-  const SVG = drawn[0]?.namespaceURI;
   const REACH = 24; // how near the pointer must be to a point of a curve [px]
-  const tip = document.createElement("div");
-  tip.className = "tip";
-  tip.hidden = true;
-  document.body.append(tip);
-
-  const text = (value) => {
-    const size = Math.abs(value);
-    const plain = size && (size < 1e-3 || size >= 1e6) ? value.toExponential(3) : String(Number(value.toPrecision(5)));
-    return plain.replace("-", "\u2212");
-  };
-  const inner = (value, kind) => (kind === "log" ? Math.log10(value) : value);
-  const outer = (value, kind) => (kind === "log" ? 10 ** value : value);
-
-  // round numbers from low to high
-  const rounds = (low, high, count) => {
-    const unit = 10 ** Math.floor(Math.log10((high - low) / count));
-    const step = unit * [1, 2, 5, 10].find((m) => m * unit >= (high - low) / count);
-    const first = Math.ceil(low / step - 1e-9);
-    return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, i) => (first + i) * step);
-  };
+  const THIN = 6; // a drag that is thinner than this zooms along the other axis alone [pt]
+  const SCALES = { linear: d3.scaleLinear, log: d3.scaleLog };
+  const COORDINATES = /(-?[\d.]+) (-?[\d.]+)/g;
+  const text = d3.format(".5~g");
+  const tip = d3.select("body").append("div").attr("class", "tip").property("hidden", true);
 
   class Axes {
     constructor(group, facts) {
-      Object.assign(this, facts, { group });
-      const own = (e) => !e.closest(".axis");
-      this.moved = [...group.querySelectorAll("[clip-path]")].filter(own).flatMap((e) => this.parts(e));
-      this.curves = facts.series.map((name, i) => [name, group.querySelector(`[data-series="${i}"]`)]);
-      this.view = this.box; // part of the drawing that fills the axes
+      Object.assign(this, facts, { group: d3.select(group) });
+      const [x0, y0, x1, y1] = this.box;
+      this.whole = [SCALES[this.scales[0]](this.x, [x0, x1]), SCALES[this.scales[1]](this.y, [y1, y0])];
+      this.shown = this.whole;
+      const own = [...group.querySelectorAll("[clip-path]")].filter((e) => !e.closest(".axis"));
+      const inner = (e) => (e.matches("path, image") ? e : [...e.querySelectorAll("use, path, image")]);
+      this.parts = d3.selectAll(own.flatMap(inner));
+      this.parts.datum(function () {
+        const [d, x, y, transform] = ["d", "x", "y", "transform"].map((name) => this.getAttribute(name)); // as drawn
+        return { d, place: [+x, +y], transform: transform ?? "" };
+      });
+      this.brush = d3.brush().touchable(false).extent([[x0, y0], [x1, y1]]).handleSize(0)
+        .on("brush", (event) => this.snap(event)).on("end", (event) => this.chosen(event));
+      this.overlay = this.group.append("g").attr("class", "brush").call(this.brush);
     }
 
-    // what is shifted and stretched inside a clipped element, with its coordinates as drawn
-    parts(element) {
-      if (element.tagName === "path") return [{ element, d: element.getAttribute("d") }];
-      const uses = [...element.querySelectorAll("use")];
-      if (uses.length) return uses.map((e) => ({ element: e, x: +e.getAttribute("x"), y: +e.getAttribute("y") }));
-      const known = [...element.querySelectorAll("path")].map((e) => ({ element: e, d: e.getAttribute("d") }));
-      const images = [...element.querySelectorAll("image")];
-      return [...known, ...images.map((e) => ({ element: e, transform: e.getAttribute("transform") || "" }))];
+    // place in the axes of a point as drawn
+    now(point) {
+      return point.map((p, axis) => this.shown[axis](this.whole[axis].invert(p)));
     }
 
-    // place in the axes of a point as drawn, and the other way round; axis 0 is x
-    now(value, axis) {
-      const [a, b, low, high] = [this.view[axis], this.view[axis + 2], this.box[axis], this.box[axis + 2]];
-      return low + ((value - a) * (high - low)) / (b - a);
+    // named points of the curves as drawn, in a tree of their places now
+    points() {
+      return this.series.flatMap((name, i) => {
+        const curve = this.group.select(`[data-series="${i}"]`).node();
+        const mine = this.parts.filter((_, k, all) => curve?.contains(all[k]));
+        const dots = mine.filter("use").data().map((as) => as.place);
+        const path = mine.filter("path").data()[0]?.d ?? "";
+        const places = dots.length ? dots : [...path.matchAll(COORDINATES)].map((p) => [+p[1], +p[2]]);
+        return places.map((drawn) => ({ name, drawn }));
+      });
     }
 
-    drawn(value, axis) {
-      const [a, b, low, high] = [this.view[axis], this.view[axis + 2], this.box[axis], this.box[axis + 2]];
-      return a + ((value - low) * (b - a)) / (high - low);
+    nearest(place, reach) {
+      this.known ??= this.points();
+      this.tree ??= d3.quadtree(this.known.map((p) => ({ ...p, now: this.now(p.drawn) })), (p) => p.now[0], (p) => p.now[1]);
+      return this.tree.find(...place, reach);
     }
 
-    // value at a point as drawn
-    value(point, axis) {
-      const kind = this.scales[axis];
-      const [low, high] = (axis ? this.y : this.x).map((v) => inner(v, kind));
-      const [from, to] = axis ? [this.box[3], this.box[1]] : [this.box[0], this.box[2]];
-      return outer(low + ((point - from) * (high - low)) / (to - from), kind);
+    // lines of the hint at a place, and whether a curve is near
+    hint(place, reach) {
+      const point = this.nearest(place, reach);
+      const at = point ? point.now : place;
+      const values = [0, 1].filter((i) => this.numbers[i])
+        .map((i) => `${this.labels[i] || "xy"[i]}: ${text(this.shown[i].invert(at[i]))}`);
+      return { lines: [...(point?.name ? [point.name] : []), ...values], near: Boolean(point) };
     }
 
-    holds(x, y) {
-      return x >= this.box[0] && x <= this.box[2] && y >= this.box[1] && y <= this.box[3];
+    wide([[a, c], [b, d]]) {
+      const [x0, y0, x1, y1] = this.box;
+      return [b - a < THIN ? [x0, x1] : [a, b], d - c < THIN ? [y0, y1] : [c, d]];
     }
 
-    points(curve) {
-      const uses = [...curve.querySelectorAll("use")];
-      const dots = this.moved.filter((m) => uses.includes(m.element)).map((m) => [m.x, m.y]);
-      if (dots.length) return dots;
-      const path = this.moved.find((m) => m.d !== undefined && curve.contains(m.element));
-      return path ? [...path.d.matchAll(/(-?[\d.]+) (-?[\d.]+)/g)].map((p) => [+p[1], +p[2]]) : [];
+    snap({ sourceEvent, selection }) {
+      if (!sourceEvent || !selection) return;
+      const [[a, b], [c, d]] = this.wide(selection);
+      this.overlay.call(this.brush.move, [[a, c], [b, d]]);
     }
 
-    nearest(x, y, reach) {
-      let best = null;
-      for (const [name, curve] of this.curves) {
-        if (!curve) continue;
-        curve.points ??= this.points(curve);
-        for (const [px, py] of curve.points) {
-          const away = Math.hypot(this.now(px, 0) - x, this.now(py, 1) - y);
-          if (away < (best ? best.away : reach)) best = { away, name, x: px, y: py };
-        }
-      }
-      return best;
+    chosen({ sourceEvent, selection }) {
+      if (!sourceEvent || !selection) return;
+      this.overlay.call(this.brush.clear);
+      const [x, [low, high]] = this.wide(selection);
+      this.zoom([x, [high, low]].map((ends, i) => this.shown[i].copy().domain(ends.map(this.shown[i].invert))));
     }
 
-    zoom(view) {
-      this.view = view;
-      const place = (_, x, y) => `${this.now(+x, 0).toFixed(2)} ${this.now(+y, 1).toFixed(2)}`;
-      for (const m of this.moved) {
-        if (m.d !== undefined) m.element.setAttribute("d", m.d.replace(/(-?[\d.]+) (-?[\d.]+)/g, place));
-        else if (m.transform !== undefined) m.element.setAttribute("transform", `${this.matrix()} ${m.transform}`);
-        else {
-          m.element.setAttribute("x", this.now(m.x, 0));
-          m.element.setAttribute("y", this.now(m.y, 1));
-        }
-      }
-      this.ticks(view === this.box);
-    }
-
-    matrix() {
-      const [sx, sy] = [0, 1].map((i) => (this.box[i + 2] - this.box[i]) / (this.view[i + 2] - this.view[i]));
-      return `matrix(${sx} 0 0 ${sy} ${this.now(0, 0)} ${this.now(0, 1)})`;
+    zoom(scales) {
+      this.shown = scales;
+      this.tree = null;
+      const [[a, b], [c, d]] = [this.now([0, 0]), this.now([1, 1])];
+      const moved = (_, x, y) => this.now([+x, +y]).map((p) => p.toFixed(2)).join(" ");
+      this.parts.filter("path").attr("d", (as) => as.d.replace(COORDINATES, moved));
+      this.parts.filter("use").attr("x", (as) => this.now(as.place)[0]).attr("y", (as) => this.now(as.place)[1]);
+      this.parts.filter("image").attr("transform", (as) => `matrix(${c - a} 0 0 ${d - b} ${a} ${b}) ${as.transform}`);
+      this.ticks();
     }
 
     // ticks of the part that is shown; those of the whole are the ones that were drawn
-    ticks(whole) {
-      this.group.querySelectorAll(".zoomed").forEach((e) => e.remove());
-      this.group.querySelectorAll(".axis").forEach((e, i) => {
-        if (this.numbers[i]) e.style.display = whole ? "" : "none";
-      });
+    ticks() {
+      const whole = this.shown === this.whole;
+      const [x0, y0, x1, y1] = this.box;
+      this.group.selectAll(".zoomed").remove();
+      this.group.selectAll(".axis").style("display", (_, i) => (this.numbers[i] && !whole ? "none" : null));
       if (whole) return;
-      for (const axis of [0, 1]) {
-        if (!this.numbers[axis]) continue;
-        const [from, to] = axis ? [this.view[3], this.view[1]] : [this.view[0], this.view[2]];
-        const [low, high] = [this.value(from, axis), this.value(to, axis)];
-        const kind = this.scales[axis];
-        const wide = kind === "log" && high / low > 30;
-        const all = wide ? rounds(Math.log10(low), Math.log10(high), 5).map((p) => 10 ** p) : rounds(low, high, 5);
-        const [a, b] = [inner(low, kind), inner(high, kind)];
-        for (const at of all) {
-          const share = (inner(at, kind) - a) / (b - a);
-          this.tick(axis, this.box[axis ? 3 : 0] + share * (axis ? this.box[1] - this.box[3] : this.box[2] - this.box[0]), at);
-        }
-        this.note(axis, this.labels[axis]);
+      const made = [d3.axisBottom(this.shown[0]).tickSize(y0 - y1), d3.axisLeft(this.shown[1]).tickSize(x0 - x1)];
+      const places = [[0, y1, x1, 27, "end"], [x0, 0, 4, y0 + 10, "start"]];
+      for (const axis of [0, 1].filter((i) => this.numbers[i])) {
+        const [left, top, x, y, anchor] = places[axis];
+        const drawn = this.group.insert("g", () => this.group.node().children[1]).attr("class", "zoomed");
+        drawn.attr("transform", `translate(${left} ${top})`);
+        drawn.call(made[axis].ticks(5, ".5~g").tickPadding(7)).select(".domain").remove();
+        drawn.append("text").attr("x", x).attr("y", y).attr("text-anchor", anchor).text(this.labels[axis]);
       }
-    }
-
-    tick(axis, place, value) {
-      const [x0, y0, x1, y1] = this.box;
-      const line = document.createElementNS(SVG, "line");
-      const ends = axis ? { x1: x0, x2: x1, y1: place, y2: place } : { x1: place, x2: place, y1: y0, y2: y1 };
-      for (const [name, end] of Object.entries(ends)) line.setAttribute(name, end);
-      line.setAttribute("class", "zoomed");
-      this.group.insertBefore(line, this.group.children[1]);
-      this.write(axis ? x0 - 5 : place, axis ? place + 3 : y1 + 14, text(value), axis ? "end" : "middle");
-    }
-
-    note(axis, label) {
-      const [x0, y0, x1, y1] = this.box;
-      this.write(axis ? x0 + 4 : x1, axis ? y0 + 10 : y1 + 27, label, axis ? "start" : "end");
-    }
-
-    write(x, y, content, anchor) {
-      const made = document.createElementNS(SVG, "text");
-      made.setAttribute("x", x);
-      made.setAttribute("y", y);
-      made.setAttribute("text-anchor", anchor);
-      made.setAttribute("class", "zoomed");
-      made.textContent = content;
-      this.group.append(made);
     }
   }
 
-  const watch = (svg) => {
-    const facts = JSON.parse(svg.dataset.axes);
-    const known = (f) => f.scales.every((s) => s === "linear" || s === "log");
-    const all = [...svg.querySelectorAll(".axes")].map((g, i) => [g, facts[i]]).filter(([, f]) => f && known(f));
-    const axes = all.map(([g, f]) => new Axes(g, f));
-    const place = (event) => {
-      const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
-      return { x: at.x, y: at.y, in: axes.findLast((a) => a.holds(at.x, at.y)) };
-    };
-    let start = null;
-    const mark = document.createElementNS(SVG, "rect");
-    mark.setAttribute("class", "chosen");
-
-    const tell = (event) => {
-      const at = place(event);
-      if (!at.in) return void (tip.hidden = true);
-      const point = at.in.nearest(at.x, at.y, REACH / svg.getScreenCTM().a);
-      const from = point ?? { x: at.in.drawn(at.x, 0), y: at.in.drawn(at.y, 1) };
-      const told = [0, 1].filter((i) => at.in.numbers[i]);
-      const lines = told.map((i) => `${at.in.labels[i] || "xy"[i]}: ${text(at.in.value(i ? from.y : from.x, i))}`);
-      tip.textContent = [...(point && point.name ? [point.name] : []), ...lines].join("\n");
-      tip.classList.toggle("on-curve", Boolean(point));
-      tip.hidden = !lines.length;
-      const left = Math.min(event.clientX + 14, document.documentElement.clientWidth - tip.offsetWidth - 4);
-      tip.style.left = `${Math.max(left, 0) + scrollX}px`;
-      tip.style.top = `${event.clientY + 16 + scrollY}px`;
-    };
-
-    svg.addEventListener("pointermove", (event) => {
-      tell(event);
-      if (!start) return;
-      const at = place(event);
-      const [x0, y0, x1, y1] = start.in.box;
-      const inside = (v, low, high) => Math.min(Math.max(v, low), high);
-      const ends = [inside(at.x, x0, x1), inside(at.y, y0, y1)];
-      const thin = [Math.abs(ends[0] - start.x) < 6, Math.abs(ends[1] - start.y) < 6];
-      const [a, b] = thin[0] ? [x0, x1] : [Math.min(start.x, ends[0]), Math.max(start.x, ends[0])];
-      const [c, d] = thin[1] ? [y0, y1] : [Math.min(start.y, ends[1]), Math.max(start.y, ends[1])];
-      start.chosen = thin[0] && thin[1] ? null : [a, c, b, d];
-      for (const [name, v] of Object.entries({ x: a, y: c, width: b - a, height: d - c })) mark.setAttribute(name, v);
-      if (start.chosen) svg.append(mark);
-      else mark.remove();
-    });
-    svg.addEventListener("pointerdown", (event) => {
-      const at = place(event);
-      if (event.pointerType !== "touch" && event.button === 0 && at.in) start = at;
-      if (start) event.preventDefault();
-    });
-    addEventListener("pointerup", () => {
-      mark.remove();
-      if (start && start.chosen) {
-        const [a, b, c, d] = start.chosen;
-        const one = start.in;
-        one.zoom([one.drawn(a, 0), one.drawn(b, 1), one.drawn(c, 0), one.drawn(d, 1)]);
-      }
-      start = null;
-    });
-    svg.addEventListener("pointerleave", () => (tip.hidden = true));
-    svg.addEventListener("dblclick", (event) => {
-      const one = place(event).in;
-      if (one) one.zoom(one.box);
-    });
-  };
-
-  drawn.forEach(watch);
+  d3.selectAll("svg[data-axes]").each(function () {
+    const facts = JSON.parse(this.dataset.axes);
+    const groups = [...this.querySelectorAll(".axes")].map((g, i) => [g, facts[i]]);
+    const axes = groups.filter(([, f]) => f?.scales.every((s) => s in SCALES)).map(([g, f]) => new Axes(g, f));
+    const under = (x, y) => axes.findLast(({ box }) => x >= box[0] && x <= box[2] && y >= box[1] && y <= box[3]);
+    d3.select(this)
+      .on("pointermove", (event) => {
+        const place = d3.pointer(event, this);
+        const { lines, near } = under(...place)?.hint(place, REACH / this.getScreenCTM().a) ?? { lines: [] };
+        tip.text(lines.join("\n")).classed("on-curve", near).property("hidden", !lines.length);
+        const left = Math.min(event.clientX + 14, document.documentElement.clientWidth - tip.node().offsetWidth - 4);
+        tip.style("left", `${Math.max(left, 0) + scrollX}px`).style("top", `${event.clientY + 16 + scrollY}px`);
+      })
+      .on("pointerleave", () => tip.property("hidden", true))
+      .on("dblclick", (event) => {
+        const one = under(...d3.pointer(event, this));
+        if (one) one.zoom(one.whole);
+      });
+  });
 })();

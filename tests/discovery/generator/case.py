@@ -55,7 +55,7 @@ class Made:
 
     case: Case
     design: Design
-    believed: Rig
+    nominal: Rig
     true: Rig
     load_factor: float
     effects: tuple[Effect, ...]
@@ -160,10 +160,10 @@ def _write_csv(file: Path, record: Record) -> None:
 
 
 def _scenario(made: Made) -> str:
-    rig = made.believed
+    rig = made.nominal
     mechanism = {key: value for key, value in asdict(rig).items() if not key.startswith("mu_")}
     mechanism |= {"initial_position": 0.0, "initial_velocity": 0.0}
-    coefficients = {key: value for effect in made.effects for key, value in effect.believed.items()}
+    coefficients = {key: value for effect in made.effects for key, value in effect.nominal.items()}
     text = 'schema = "stochfric.scenario/1"\ntitle = "Belt rig"\n'
     text += _table("mechanism", {"kind": "belt_box"} | mechanism)
     text += _table("law", {"kind": "coulomb", "mu_s": rig.mu_s, "mu_k": rig.mu_k})

@@ -31,12 +31,12 @@ def acceptable(form: Form, design: Design) -> frozenset[str]:
         return frozenset({NONE, kind})
     names = {kind} | form.also
     varied = design.varied
-    for group, told_apart in (
+    for group, separable in (
         ({"position_dependent_friction", "normal_load_ripple"}, _SPEEDS in varied),
         ({"viscous_friction", "quadratic_damping", "velocity_weakening"}, _SPEEDS in varied and _LOADS in varied),
         ({"backlash", "second_mode"}, False),
         ({"sensor_drift", "harmonic_force"}, False),
     ):
-        if kind in group and not told_apart:
+        if kind in group and not separable:
             names |= group
     return frozenset(names)

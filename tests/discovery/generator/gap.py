@@ -85,8 +85,8 @@ def _forecasts(made: Made, run: int) -> _Forecasts:
 def _baseline_errors(made: Made, deviations: Array, of: _Forecasts) -> Array:
     """Errors of the stated model with its parameters off by these standard deviations."""
     factors = {name: 1.0 + UNCERTAINTY[name] * float(d) for name, d in zip(_FREE, deviations, strict=True)}
-    wrong = {name: getattr(made.believed, name) * factor for name, factor in factors.items()}
-    parameters = asdict(replace(made.believed, **wrong)) | made.design.runs[of.run].conditions
+    wrong = {name: getattr(made.nominal, name) * factor for name, factor in factors.items()}
+    parameters = asdict(replace(made.nominal, **wrong)) | made.design.runs[of.run].conditions
     machine = plain_machine(**parameters, duration=made.design.runs[of.run].duration + 1.0)
     errors = []
     for start, position, measured in zip(of.starts, of.positions, of.measured, strict=True):

@@ -1,11 +1,11 @@
-"""The rig that is believed, how well it is known, and the rig that is true."""
+"""The nominal rig, how well it is known, and the true rig."""
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 UNCERTAINTY = {"mass": 0.003, "stiffness": 0.01, "damping": 0.2, "normal_force": 0.01, "mu_s": 0.05, "mu_k": 0.05}
-"""Relative standard deviations of what is believed."""
+"""Relative standard deviations of the nominal numbers."""
 
 _WIDEST = 2.0  # deviations are cut here: a longer tail would make a few cases about lost calibrations, not about effects
 
@@ -41,9 +41,9 @@ class Rig:
         return 2.0 * (self.mu_s - self.mu_k) * self.normal_force / self.stiffness
 
 
-def true_rig(believed: Rig, rng: np.random.Generator) -> tuple[Rig, float]:
+def true_rig(nominal: Rig, rng: np.random.Generator) -> tuple[Rig, float]:
     """The rig with errors drawn within its uncertainty, and the factor on every normal force."""
     factors = {name: 1.0 + sigma * np.clip(rng.standard_normal(), -_WIDEST, _WIDEST) for name, sigma in UNCERTAINTY.items()}
     load = factors.pop("normal_force")
-    wrong = {name: float(getattr(believed, name) * factor) for name, factor in factors.items()}
-    return replace(believed, **wrong), float(load)
+    wrong = {name: float(getattr(nominal, name) * factor) for name, factor in factors.items()}
+    return replace(nominal, **wrong), float(load)

@@ -7,11 +7,11 @@ discovery is judged on what it does not contain literally. Only the documented f
 plant       everything the integrator must know about one run: bodies, tables over speed, place and time
 integrator  the compiled time stepping
 motion      what the controller is asked to follow
-bench       the rigs: sizes, sample rates, noise, controllers, what is believed and what is true
+bench       the rigs: sizes, sample rates, noise, controllers, nominal and true numbers
 slider      the spring slider, which has no inertia
 thrown      short slides, which nothing drives
 forms       the hidden effects
-unseen      further ones, for a report alone
+unseen      further ones, for a report alone; unseen_second: again others, for the next one
 case        (form, design, strength, seed) -> dataset folder and truth record
 files       how a case is written down
 """

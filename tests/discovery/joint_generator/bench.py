@@ -1,4 +1,4 @@
-"""The rigs: sizes, sample rates, noise, controllers; what is believed of them, and what is true."""
+"""The rigs: sizes, sample rates, noise, controllers; nominal numbers and true ones."""
 
 from dataclasses import dataclass, replace
 
@@ -13,7 +13,7 @@ DESIGNS = ("slide", "hinge", "mjcf_slide", "mjcf_hinge", "arm", "slider", "throw
 """Mechanisms: prismatic_joint, hinge_pendulum, three MJCF models, spring_slider, and a prismatic_joint that is thrown."""
 
 UNCERTAINTY = {"mass": 0.02, "mu": 0.2, "damping": 0.2, "inertia": 0.05}
-"""Relative standard deviations of what is believed; that of an offset is in its own unit."""
+"""Relative standard deviations of the nominal numbers; that of an offset is in its own unit."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Sensor:
 
 @dataclass(frozen=True)
 class Bench:
-    """A rig, its believed or true numbers, and how it is driven and measured."""
+    """A rig, its nominal or true numbers, and how it is driven and measured."""
 
     design: str
     numbers: dict[str, float]
@@ -55,7 +55,9 @@ class Bench:
     n_test: int = 1
     duration: float = 12.0
     offset_sd: float = 0.0
-    """Standard deviation of the believed offset [N or N m]."""
+    """Standard deviation of the nominal offset [N or N m]."""
+    bandwidth: float = 1.0
+    """Of the controller, as a share of the usual one."""
 
     @property
     def rotational(self) -> bool:
@@ -79,7 +81,7 @@ class Bench:
         return {"kind": kind} | self.numbers
 
 
-def believed_bench(design: str, rng: Generator, rate: float | None = None) -> Bench:
+def nominal_bench(design: str, rng: Generator, rate: float | None = None) -> Bench:
     """A rig of the design, of a size of its own."""
     rate = rate or float(rng.choice([500.0, 1000.0, 1000.0, 2000.0]))
     motion = str(rng.choice(["strokes", "sines"]))
@@ -135,16 +137,16 @@ def _arm(design: str, rng: Generator, rate: float, motion: str) -> Bench:
     )  # fmt: skip
 
 
-def true_bench(believed: Bench, rng: Generator, deviation: float | None = None) -> Bench:
+def true_bench(nominal: Bench, rng: Generator, deviation: float | None = None) -> Bench:
     """What is true of the rig: within the stated uncertainty, or at this many standard deviations on a random side."""
 
     def off(sd: float) -> float:
         drawn = float(np.clip(rng.standard_normal(), -1.5, 1.5))
         return sd * (drawn if deviation is None else deviation * float(rng.choice([-1.0, 1.0])))
 
-    n = dict(believed.numbers)
+    n = dict(nominal.numbers)
     mass, rotor = 1.0 + off(UNCERTAINTY["mass"]), 1.0 + off(UNCERTAINTY["inertia"])
-    if believed.design == "arm":
+    if nominal.design == "arm":
         for name in ("inertia", "inertia_2", "coupling", "gravity", "gravity_2"):
             n[name] *= mass
         n["rotor"], n["rotor_2"] = n["rotor"] * rotor, n["rotor_2"] * rotor
@@ -154,6 +156,6 @@ def true_bench(believed: Bench, rng: Generator, deviation: float | None = None) 
     else:
         n["inertia"] *= mass
     n["damping"] *= 1.0 + off(UNCERTAINTY["damping"])
-    n["offset"] += off(believed.offset_sd)
-    coulomb = tuple(level * (1.0 + off(UNCERTAINTY["mu"])) for level in believed.coulomb)
-    return replace(believed, numbers=n, coulomb=(coulomb[0], coulomb[1]))
+    n["offset"] += off(nominal.offset_sd)
+    coulomb = tuple(level * (1.0 + off(UNCERTAINTY["mu"])) for level in nominal.coulomb)
+    return replace(nominal, numbers=n, coulomb=(coulomb[0], coulomb[1]))

@@ -8,20 +8,21 @@ from pathlib import Path
 import numpy as np
 
 from . import files, slider, thrown
-from .bench import DESIGNS, Bench, Sensor, believed_bench, true_bench
+from .bench import DESIGNS, Bench, Sensor, nominal_bench, true_bench
 from .forms import FORMS, Effect, Form, Record
 from .forms.form import NONE, UNKNOWN
 from .integrator import simulate
 from .motion import MOTIONS
 from .plant import PRESSURE, Array, Plant, plain_plant
 from .unseen import UNSEEN
+from .unseen_second import UNSEEN_SECOND
 
 VOCABULARY = frozenset(
     (
         "random_coefficients", "correlated_coefficients", "velocity_weakening", "viscous_friction", "frictional_lag",
         "direction_asymmetry", "load_dependence", "position_dependent_friction", "position_dependent_force", "friction_drift",
         "distance_drift", "temperature_drift", "quadratic_damping", "sensor_delay", "harmonic_force", "stale_samples",
-        "sensor_outliers",
+        "sensor_outliers", "effective_area", "drive_gain_change",
     )
 )  # fmt: skip
 """Kinds that docs/joints.md says are searched at joints. Any other kind is rightly answered `unknown`."""
@@ -48,7 +49,7 @@ class Case:
     @property
     def parts(self) -> tuple[Form, ...]:
         """The forms."""
-        known = FORMS | UNSEEN
+        known = FORMS | UNSEEN | UNSEEN_SECOND
         for name in self.forms.split("+"):
             if name not in known:
                 raise SystemExit(f"form {name!r} is unknown; known: {', '.join(known)}")
@@ -65,20 +66,20 @@ class Made:
     """A case with its truth, ready to simulate run after run."""
 
     case: Case
-    believed: Bench
+    nominal: Bench
     true: Bench
     effects: tuple[Effect, ...]
 
     @property
     def roles(self) -> list[str]:
-        return ["fit"] * self.believed.n_fit + ["test"] * self.believed.n_test
+        return ["fit"] * self.nominal.n_fit + ["test"] * self.nominal.n_test
 
     @property
     def gains(self) -> tuple[float, float, float]:
         """Position gain, velocity gain and limit of the first joint, in units of its output."""
-        b = self.believed
+        b = self.nominal
         inertia = b.numbers["inertia"] + b.numbers.get("rotor", 0.0)
-        w = min(2.5 * np.pi * b.speed / b.reach + 12.0, b.rate / 12.0)
+        w = b.bandwidth * min(2.5 * np.pi * b.speed / b.reach + 12.0, b.rate / 12.0)
         most = 4.0 * (sum(b.coulomb) + b.numbers.get("gravity", 0.0) + inertia * 4.0 * b.speed**2 / b.reach)
         return inertia * w**2 / b.gain, 2.0 * 0.8 * inertia * w / b.gain, most / b.gain
 
@@ -97,7 +98,7 @@ class Made:
 
     def wanted(self, i: int) -> Array:
         """What the controller of run i is asked for, at each control instant from `_BEFORE` before the record, (n, 6)."""
-        b = self.believed
+        b = self.nominal
         rng = self.case.rng(3, i)
         times = np.arange(-round(_BEFORE * b.rate), round(b.duration * b.rate) + 1) / b.rate
         wanted = np.zeros((times.size, 6))
@@ -109,14 +110,14 @@ class Made:
 
     def _held(self, wanted: Array) -> tuple[Array, Array]:
         """Output that holds the weight of both links."""
-        n = self.believed.numbers
+        n = self.nominal.numbers
         g1, g2 = n.get("gravity", 0.0), n.get("gravity_2", 0.0)
         outer = g2 * np.sin(wanted[:, 0] + wanted[:, 1])
-        return (g1 * np.sin(wanted[:, 0]) + outer) / self.believed.gain, outer
+        return (g1 * np.sin(wanted[:, 0]) + outer) / self.nominal.gain, outer
 
     def states(self, i: int, *, with_effects: bool = True) -> tuple[Array, Array]:
         """States over the record of run i, and what was wanted."""
-        b = self.believed
+        b = self.nominal
         position, velocity, limit = self.gains
         shares = (*files.arm_shares(b), 1.0)[:2]
         forward = 0.0 if b.declared else 1.0
@@ -129,7 +130,7 @@ class Made:
 
     def record(self, i: int) -> Record:
         """What the sensors of run i deliver."""
-        b = self.believed
+        b = self.nominal
         states, wanted = self.states(i)
         rng = self.case.rng(4, i)
 
@@ -161,13 +162,13 @@ def make(case: Case) -> Made:
     """Draw a case's truth."""
     if case.design not in DESIGNS:
         raise SystemExit(f"design {case.design!r} is unknown; known: {', '.join(DESIGNS)}")
-    believed = believed_bench("slide" if case.design in ("slider", "thrown") else case.design, case.rng(0))
-    effects = tuple(part.draw(case.rng(1, j), case.strength, believed) for j, part in enumerate(case.parts))
+    nominal = nominal_bench("slide" if case.design in ("slider", "thrown") else case.design, case.rng(0))
+    effects = tuple(part.draw(case.rng(1, j), case.strength, nominal) for j, part in enumerate(case.parts))
     for effect in effects:
-        believed = effect.rig(believed)
+        nominal = effect.rig(nominal)
     deviations = [effect.deviation for effect in effects if effect.deviation is not None]
-    true = true_bench(believed, case.rng(6), deviations[0] if deviations else None)
-    return Made(case, believed, true, effects)
+    true = true_bench(nominal, case.rng(6), deviations[0] if deviations else None)
+    return Made(case, nominal, true, effects)
 
 
 def acceptable(form: Form) -> frozenset[str]:
@@ -177,7 +178,7 @@ def acceptable(form: Form) -> frozenset[str]:
 
 def expected(form: Form) -> str:
     """The true kind: the form's own if it is in the vocabulary, otherwise `unknown`."""
-    numbers = NUMBERS if form.name in UNSEEN else frozenset()
+    numbers = frozenset() if form.name in FORMS else NUMBERS
     return form.kind if form.kind in VOCABULARY | numbers | {NONE} else UNKNOWN
 
 
@@ -192,8 +193,8 @@ def truth(made: Made) -> dict[str, object]:
         "visible": [True for _ in parts],
         "several_points": False,
         "effect_parameters": [effect.parameters for effect in made.effects],
-        "place": made.believed.place,
-        "believed": asdict(made.believed),
+        "place": made.nominal.place,
+        "believed": asdict(made.nominal),
         "true": asdict(made.true),
     }
 
@@ -209,10 +210,10 @@ def write(case: Case, folder: Path, truth_file: Path) -> dict[str, object]:
     else:
         for i in range(len(made.roles)):
             files.write_csv(folder / f"run_{i + 1}.csv", made.record(i))
-        (folder / "scenario.toml").write_text(files.scenario_text(made.believed, made.gains))
+        (folder / "scenario.toml").write_text(files.scenario_text(made.nominal, made.gains))
         (folder / "dataset.toml").write_text(files.dataset_text(made.roles))
         if case.design in ("mjcf_slide", "mjcf_hinge", "arm"):
-            (folder / "model.xml").write_text(files.model_text(made.believed))
+            (folder / "model.xml").write_text(files.model_text(made.nominal))
     record = truth(made)
     truth_file.parent.mkdir(parents=True, exist_ok=True)
     truth_file.write_text(json.dumps(record, indent=1))
@@ -223,7 +224,7 @@ def _write_slider(made: Made, folder: Path) -> None:
     """Velocity steps up and down; the held-out run has other ones."""
     rng = made.case.rng(7)
     stiffness = rng.uniform(1500.0, 6000.0)
-    believed = stiffness * (1.0 + 0.4 * float(np.clip(rng.standard_normal(), -1.5, 1.5)))
+    nominal = stiffness * (1.0 + 0.4 * float(np.clip(rng.standard_normal(), -1.5, 1.5)))
     noise = rng.uniform(1e-4, 4e-4)
     tests = ((1e-6, 1e-5, 1e-6, 3e-6, 3e-5, 3e-6), (3e-6, 3e-5, 1e-5, 1e-6, 1e-5))
     for i, velocities in enumerate(tests):
@@ -233,7 +234,7 @@ def _write_slider(made: Made, folder: Path) -> None:
         assert isinstance(drawn, slider.RateAndState)
         record = slider.record(drawn, stiffness, np.array(velocities), noise, made.case.rng(4, i))
         files.write_csv(folder / f"run_{i + 1}.csv", record)
-    (folder / "scenario.toml").write_text(files.slider_scenario(believed, 0.62))
+    (folder / "scenario.toml").write_text(files.slider_scenario(nominal, 0.62))
     (folder / "dataset.toml").write_text(files.dataset_text(["fit", "test"]))
 
 

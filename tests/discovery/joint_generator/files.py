@@ -32,14 +32,14 @@ def thrown_scenario(mass: float, mu: float) -> str:
 
 
 def scenario_text(bench: Bench, gains: tuple[float, float, float]) -> str:
-    """The scenario of a believed rig; gains: position and velocity gain of its controller, and its limit."""
+    """The scenario of a nominal rig; gains: position and velocity gain of its controller, and its limit."""
     make = {"slide": _slide, "hinge": _hinge}.get(bench.design, _mjcf)
     return make(bench, gains)
 
 
 def _scenario(mechanism: str, mu: float, uncertainty: str, controller: str = "") -> str:
     return (
-        'schema = "stochfric.scenario/1"\ntitle = "as believed"\n'
+        'schema = "stochfric.scenario/1"\ntitle = "as stated"\n'
         f"\n[mechanism]\n{mechanism}\n{controller}"
         f'\n[law]\nkind = "coulomb"\nmu_s = {mu!r}\nmu_k = {mu!r}\n'
         f"\n[uncertainty]\n{uncertainty}"
@@ -124,7 +124,7 @@ def _inline(table: dict[str, float] | dict[str, str]) -> str:
 
 
 def model_text(bench: Bench) -> str:
-    """The believed MJCF model: point masses, and rotors as armatures."""
+    """The nominal MJCF model: point masses, and rotors as armatures."""
     n = bench.numbers
     head = '<mujoco>\n  <compiler angle="radian"/>\n  <option timestep="0.0005" gravity="0 0 -9.81"/>\n  <worldbody>\n'
     tail = "  </worldbody>\n</mujoco>\n"

@@ -4,7 +4,7 @@ The bristle is as stiff as 1000 rad/s, micrometres for usual joints: what sticks
 slides is its limit. Dupont et al., IEEE Trans. Autom. Control 47 (2002) 787, doi 10.1109/TAC.2002.1000274.
 """
 
-from math import cos, exp, sin
+from math import cos, exp, sin, sqrt
 
 import numba
 import numpy as np
@@ -14,14 +14,19 @@ from .plant import (
     AREA_AT,
     ARM,
     BACKWARD,
+    BASE_SPEED,
+    BEND,
     CHAIN,
     COUPLING,
     DAMPING,
     DEAD_ZONE,
+    DRIVE_FROM,
     DRIVE_POWER,
     DRIVE_SHARE,
+    DRIVE_SPEED,
     FACTOR_AT,
     FACTOR_OF_TIME,
+    FACTOR_ON_SPEED,
     FORCE_AT,
     FORCE_OF_TIME,
     FORWARD,
@@ -34,18 +39,26 @@ from .plant import (
     INERTIA,
     INERTIA_2,
     KIND,
+    LIMIT_FORWARD,
+    LINK_CUBIC,
     LINK_DAMPING,
     LINK_STIFFNESS,
+    MASS_OF_TIME,
     MEMORY,
     MEMORY_DISTANCE,
     MEMORY_TIME,
     OFFSET,
+    ONE_WAY_AT,
+    OTHER_PLACE,
     OTHER_SPEED,
     PLACE,
+    PLAY,
     PRESSURE,
     PRESSURE_SHARE,
     QUADRATIC,
     RATIONAL,
+    RELAXING_STIFFNESS,
+    RELAXING_TIME,
     ROTOR,
     ROTOR_2,
     SATURATION,
@@ -54,6 +67,8 @@ from .plant import (
     SPEED_LAG,
     SPEED_TIMES_PLACE,
     TIME_SPACING,
+    WEAR,
+    WEAR_DISTANCE,
     Array,
     Plant,
 )
@@ -82,19 +97,29 @@ def _limit(d, speed, v, q, t_share, drive, hold, since, other, extra, coulomb, r
     if extra[MEMORY] != 0.0:
         gone = since[0] / extra[MEMORY_DISTANCE] + since[1] / extra[MEMORY_TIME]
         level *= 1.0 + extra[MEMORY] * (1.0 / (1.0 + gone) if extra[RATIONAL] > 0.0 else exp(-gone))
-    level += extra[DRIVE_SHARE] * abs(drive) ** extra[DRIVE_POWER] + extra[HOLD_SHARE] * abs(hold)
+    level *= 1.0 + extra[WEAR] * (1.0 - exp(-since[3] / extra[WEAR_DISTANCE]))
+    carried = max(abs(drive) - extra[DRIVE_FROM], 0.0)
+    level += extra[DRIVE_SHARE] * carried ** extra[DRIVE_POWER] + extra[HOLD_SHARE] * abs(hold)
+    level += extra[DRIVE_SPEED] * abs(drive) * speed
     level += extra[PRESSURE_SHARE] * _at(by_time, PRESSURE, t_share)
-    level += _at(by_speed, FORWARD if v >= 0.0 else BACKWARD, speed / reach[0])
+    level += _at(by_speed, FORWARD if v >= 0.0 else BACKWARD, speed / reach[0]) * _at(by_time, FACTOR_ON_SPEED, t_share)
+    if v >= 0.0:
+        level += _at(by_place, ONE_WAY_AT, 0.5 + 0.5 * q / reach[1])
     level *= 1.0 + extra[OTHER_SPEED] * abs(other)
     return max(level + extra[SPEED_TIMES_PLACE] * speed * q, 0.0)
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _applied(drive, q, t_share, extra, reach, by_place, by_time):
+def _applied(drive, v, q, t_share, extra, reach, by_place, by_time):
     """What the motor gives for a commanded force."""
     size = max(abs(drive) - extra[DEAD_ZONE], 0.0)
     size *= _at(by_place, GAIN_AT, 0.5 + 0.5 * q / reach[1]) * _at(by_time, GAIN_OF_TIME, t_share)
-    return min(size, extra[SATURATION]) * (1.0 if drive >= 0.0 else -1.0)
+    if extra[BEND] > 0.0:
+        size /= sqrt(sqrt(1.0 + (size / extra[BEND]) ** 2))
+    if abs(v) > extra[BASE_SPEED]:
+        size *= extra[BASE_SPEED] / abs(v)
+    size = min(size, extra[SATURATION])
+    return min(size, extra[LIMIT_FORWARD]) if drive >= 0.0 else -size
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -117,7 +142,11 @@ def _accelerations(body, q, v, force):
         stretch = q[0] - q[1]
         beyond = stretch - min(max(stretch, -body[HALF_GAP]), body[HALF_GAP])
         touching = body[HALF_GAP] == 0.0 or beyond != 0.0
-        link = body[LINK_STIFFNESS] * beyond + (body[LINK_DAMPING] * (v[0] - v[1]) if touching else 0.0)
+        link = (
+            body[LINK_STIFFNESS] * beyond
+            + body[LINK_CUBIC] * beyond**3
+            + (body[LINK_DAMPING] * (v[0] - v[1]) if touching else 0.0)
+        )
         a[0] = (force[0] - link) / body[ROTOR]
         a[1] = (force[1] + link - body[GRAVITY] * sin(q[1])) / body[INERTIA]
     else:
@@ -137,8 +166,10 @@ def _run(body, extra, coulomb, reach, by_speed, by_place, by_time, by_stroke, ga
     stiffness[0] = (body[ROTOR] if body[KIND] == CHAIN else body[INERTIA]) * BRISTLE**2
     stiffness[1] = (body[INERTIA] if body[KIND] == CHAIN else max(body[INERTIA_2], 1e-9)) * BRISTLE**2
     q, v, z, f = start.copy(), np.zeros(2), np.zeros(2), np.zeros(2)
-    soft, slow = 0.0, 0.0
-    since = np.zeros(3)  # distance and time since the last reversal where the effect sits, number of reversals
+    soft, slow, pull = 0.0, 0.0, 0.0
+    # distance and time since the last reversal where the effect sits, number of reversals, distance since the record began
+    since = np.zeros(4)
+    sent = np.zeros(2)  # commands as an actuator with play passes them on
     u, given = np.zeros(2), np.zeros(2)
     direction = 0.0
     for i in range(n):
@@ -154,14 +185,17 @@ def _run(body, extra, coulomb, reach, by_speed, by_place, by_time, by_stroke, ga
             t_share = max((i - n_before) * stride + s, 0) * h / span
             q_mid = q + 0.5 * h * v
             v_next = v.copy()
-            z_next, soft_next = z.copy(), soft
+            z_next, soft_next, pull_next = z.copy(), soft, pull
+            for d in range(2):
+                command, play = gains[d, 4] * u[d], extra[PLAY] if d == place else 0.0
+                sent[d] = min(max(sent[d], command - play), command + play)
             for _ in range(_ROUNDS):
                 v_mid = 0.5 * (v + v_next)
                 force = np.zeros(2)
                 for d in range(2):
                     drive = gains[d, 4] * u[d]
                     if d == place or (body[KIND] == CHAIN and d == 0):
-                        given[d] = _applied(drive, q_mid[d], t_share, extra, reach, by_place, by_time)
+                        given[d] = _applied(sent[d], v_mid[d], q_mid[d], t_share, extra, reach, by_place, by_time)
                     else:
                         given[d] = drive if body[KIND] == ARM else 0.0  # the load of a chain has no motor
                     if d == 1 and not two:
@@ -180,20 +214,29 @@ def _run(body, extra, coulomb, reach, by_speed, by_place, by_time, by_stroke, ga
                         if extra[SOFT_LENGTH] > 0.0:
                             soft_next = min(max(soft + h * v_mid[d], -extra[SOFT_LENGTH]), extra[SOFT_LENGTH])
                             force[d] -= extra[SOFT_FORCE] * soft_next / extra[SOFT_LENGTH]
+                        if extra[RELAXING_TIME] > 0.0:
+                            share = 0.5 * h / extra[RELAXING_TIME]
+                            grown = h * extra[RELAXING_STIFFNESS] * v_mid[d]
+                            pull_next = (pull * (1.0 - share) + grown) / (1.0 + share)
+                            force[d] -= 0.5 * (pull + pull_next)
+                        force[d] -= extra[OTHER_PLACE] * q_mid[1 - d]
                         force[d] -= _at(by_place, FORCE_AT, 0.5 + 0.5 * q_mid[d] / reach[1])
                         force[d] += _at(by_time, FORCE_OF_TIME, t_share) - extra[QUADRATIC] * v_mid[d] * abs(v_mid[d])
                     if d == 0:
                         area = body[AREA] * _at(by_place, AREA_AT, 0.5 + 0.5 * q_mid[d] / reach[1])
                         force[d] -= body[DAMPING] * v_mid[d] + body[OFFSET] + area * _at(by_time, PRESSURE, t_share)
+                if not two:
+                    force[0] /= _at(by_time, MASS_OF_TIME, t_share)
                 v_next = v + h * _accelerations(body, q_mid, v_mid, force)
             moved = 0.5 * h * (v[place] + v_next[place])
             q = q_mid + 0.5 * h * v_next
-            v, z, soft = v_next, z_next, soft_next
+            v, z, soft, pull = v_next, z_next, soft_next, pull_next
             if extra[SPEED_LAG] > 0.0:
                 slow += (abs(v[place]) - slow) * h / extra[SPEED_LAG]
             now = 1.0 if v[place] > 1e-3 * reach[0] else (-1.0 if v[place] < -1e-3 * reach[0] else 0.0)
             since[0] += abs(moved)
             since[1] += h
+            since[3] += abs(moved) if i >= n_before else 0.0
             if now not in (0.0, direction):
                 direction = now
                 since[0], since[1] = 0.0, 0.0

@@ -12,32 +12,36 @@ SINGLE, CHAIN, ARM = 0.0, 1.0, 2.0
 
 BODY = (
     "kind", "inertia", "inertia_2", "coupling", "rotor", "rotor_2", "damping", "gravity", "gravity_2", "offset", "area",
-    "link_stiffness", "link_damping", "half_gap",
+    "link_stiffness", "link_damping", "half_gap", "link_cubic",
 )  # fmt: skip
 (
     KIND, INERTIA, INERTIA_2, COUPLING, ROTOR, ROTOR_2, DAMPING, GRAVITY, GRAVITY_2, OFFSET, AREA,
-    LINK_STIFFNESS, LINK_DAMPING, HALF_GAP,
+    LINK_STIFFNESS, LINK_DAMPING, HALF_GAP, LINK_CUBIC,
 ) = range(len(BODY))  # fmt: skip
 """Inertias [kg or kg m^2], gravity moments [N m], a constant force [N or N m] and the spring between motor and load."""
 
 EXTRA = (
     "place", "drive_share", "drive_power", "hold_share", "pressure_share", "memory", "memory_distance", "memory_time",
     "rational", "other_speed", "speed_times_place", "soft_force", "soft_length", "saturation", "dead_zone", "quadratic",
-    "speed_lag",
+    "speed_lag", "drive_from", "drive_speed", "bend", "base_speed", "limit_forward", "play", "wear", "wear_distance",
+    "other_place", "relaxing_stiffness", "relaxing_time",
 )  # fmt: skip
 (
     PLACE, DRIVE_SHARE, DRIVE_POWER, HOLD_SHARE, PRESSURE_SHARE, MEMORY, MEMORY_DISTANCE, MEMORY_TIME,
     RATIONAL, OTHER_SPEED, SPEED_TIMES_PLACE, SOFT_FORCE, SOFT_LENGTH, SATURATION, DEAD_ZONE, QUADRATIC,
-    SPEED_LAG,
+    SPEED_LAG, DRIVE_FROM, DRIVE_SPEED, BEND, BASE_SPEED, LIMIT_FORWARD, PLAY, WEAR, WEAR_DISTANCE,
+    OTHER_PLACE, RELAXING_STIFFNESS, RELAXING_TIME,
 ) = range(len(EXTRA))  # fmt: skip
 """Hidden numbers; 0 switches one off."""
 
 FORWARD, BACKWARD = 0, 1
 """Rows of `by_speed`: friction beyond Coulomb's [N or N m] over the speed."""
-FACTOR_AT, FORCE_AT, GAIN_AT, AREA_AT = 0, 1, 2, 3
-"""Rows of `by_place`: factor on friction, force against q [N or N m], factor on the drive, factor on the area."""
-FACTOR_OF_TIME, FORCE_OF_TIME, GAIN_OF_TIME, PRESSURE = 0, 1, 2, 3
-"""Rows of `by_time`: factor on friction, force along q [N or N m], factor on the drive, pressure [Pa]."""
+FACTOR_AT, FORCE_AT, GAIN_AT, AREA_AT, ONE_WAY_AT = range(5)
+"""Rows of `by_place`: factor on friction, force against q [N or N m], factor on the drive, factor on the area, friction that
+only forward motion meets [N or N m]."""
+FACTOR_OF_TIME, FORCE_OF_TIME, GAIN_OF_TIME, PRESSURE, FACTOR_ON_SPEED, MASS_OF_TIME = range(6)
+"""Rows of `by_time`: factor on friction, force along q [N or N m], factor on the drive, pressure [Pa], factor on `by_speed`,
+factor on the mass of a single body."""
 
 N_TABLE = 4001
 TIME_SPACING = 1e-3
@@ -95,9 +99,9 @@ class Plant:
         table[row] *= factor(self.places)
         return replace(self, by_place=table)
 
-    def add_force_at(self, force: Callable[[Array], Array]) -> "Plant":
+    def add_force_at(self, force: Callable[[Array], Array], row: int = FORCE_AT) -> "Plant":
         table = self.by_place.copy()
-        table[FORCE_AT] += force(self.places)
+        table[row] += force(self.places)
         return replace(self, by_place=table)
 
     def times_in_time(self, row: int, factor: Callable[[Array], Array]) -> "Plant":
@@ -112,7 +116,10 @@ class Plant:
 
     def packed(self) -> tuple[Array, ...]:
         """Arguments of the compiled code, in its order."""
-        extra = {"memory_distance": np.inf, "memory_time": np.inf, "saturation": np.inf, "drive_power": 1.0} | self.extra
+        endless = dict.fromkeys(
+            ("memory_distance", "memory_time", "wear_distance", "saturation", "base_speed", "limit_forward"), np.inf
+        )
+        extra = endless | {"drive_power": 1.0} | self.extra
         return (
             np.array([self.body.get(name, 0.0) for name in BODY]),
             np.array([extra.get(name, 0.0) for name in EXTRA]),
@@ -130,8 +137,8 @@ def plain_plant(
 ) -> Plant:
     """A plant with nothing hidden in it."""
     n = round(duration / TIME_SPACING) + 2
-    places = np.ones((4, N_TABLE))
-    places[FORCE_AT] = 0.0
-    times = np.ones((4, n))
+    places = np.ones((5, N_TABLE))
+    places[FORCE_AT], places[ONE_WAY_AT] = 0.0, 0.0
+    times = np.ones((6, n))
     times[FORCE_OF_TIME], times[PRESSURE] = 0.0, 0.0
     return Plant(body, coulomb, top_speed, reach, np.zeros((2, N_TABLE)), places, times)

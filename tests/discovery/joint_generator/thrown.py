@@ -16,15 +16,17 @@ N_RUNS = 48
 
 @dataclass(frozen=True)
 class Throw:
-    """Friction coefficient over speed [m/s] and place [m] in one slide."""
+    """Friction coefficient over speed [m/s] and place [m] in one slide; slowest and fastest start [m/s]; position noise [m]."""
 
     mu: Callable[[float, float], float]
+    starts: tuple[float, float] = (1.1, 1.5)
+    noise: float = NOISE
 
 
 def record(throw: Throw, rng: np.random.Generator) -> dict[str, Array]:
-    """Frames of a slide from 1.1 to 1.5 m/s until it is nearly at rest."""
+    """Frames of a slide until it is nearly at rest."""
     h = 1.0 / (RATE * STEPS)
-    x, v, places = 0.0, rng.uniform(1.1, 1.5), []
+    x, v, places = 0.0, rng.uniform(*throw.starts), []
     for i in range(400 * STEPS):
         if i % STEPS == 0:
             places.append(x)
@@ -36,6 +38,6 @@ def record(throw: Throw, rng: np.random.Generator) -> dict[str, Array]:
     n = len(places)
     return {
         "time [s]": np.arange(n) / RATE,
-        "position [m]": np.array(places) + NOISE * rng.standard_normal(n),
+        "position [m]": np.array(places) + throw.noise * rng.standard_normal(n),
         "force [N]": np.zeros(n),
     }

@@ -25,7 +25,7 @@ def outcome(name: str) -> JointOutcome:
 
 
 def repeated(data: Dataset, result: JointOutcome) -> Dataset:
-    """The held-out repeats as fit runs, and what was found before as the model believed."""
+    """The held-out repeats as fit runs, and the augmented model as the stated one."""
     swapped = tuple(dataclasses.replace(r, role="test" if r.role == "fit" else "fit") for r in data.runs)
     return dataclasses.replace(data, scenario=result.scenario, runs=swapped)
 

@@ -41,7 +41,7 @@ def test_the_joint_the_effect_and_its_size(hidden, kind, name, truth, tolerance,
     assert [e.kind for e in effects] == [kind]
     assert "elbow" in effects[0].where.text
     assert result.places[0].place == "elbow"
-    assert result.places[1].selected.found == ()
+    assert result.places[1].selected.effects == ()
     assert effects[0].parameters[name].value == pytest.approx(truth, abs=tolerance)
     before, after = (result.places[0].scores[k] for k in ("recalibrated", "augmented"))
     assert (before.sliding - after.sliding) / (before.sliding - result.places[0].floor) > 0.85

@@ -16,6 +16,10 @@ CASES = [
     ("sensor_outliers.spikes", "mjcf_hinge", 1.0, ["sensor_outliers"]),
     ("frictional_lag.slip_law", "slider", 1.0, ["frictional_lag"]),
     ("viscous_friction.logarithmic", "slider", 0.5, ["viscous_friction"]),
+    ("direction_asymmetry.viscous_part", "slide", 1.0, ["direction_asymmetry", "viscous_friction"]),
+    ("position_dependent_force.effective_area", "slide", 0.5, ["effective_area"]),
+    ("unknown.bore_with_a_step", "slide", 1.0, ["effective_area"]),
+    ("drive_gain_change.fading_magnets", "hinge", 0.5, ["drive_gain_change"]),
 ]
 """Form, mechanism, strength, and what is named first."""
 

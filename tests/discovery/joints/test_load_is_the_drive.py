@@ -82,13 +82,13 @@ def dataset(
 def test_nothing_is_found_where_nothing_is_missing(mechanism, motion, tmp_path):
     if mechanism.startswith("mjcf"):
         pytest.importorskip("mujoco")
-    # so wide that what shrinks the needs of the motion is not held by what is believed
+    # so wide that what shrinks the needs of the motion is not held by its prior
     wide = {"mass": 0.5, "gain": 0.3}
     result = joint_outcome(dataset(mechanism, motion, tmp_path, inertia=1.0, uncertainty=wide)).result
     assert result.verdict == "none", [e.kind for e in result.effects]
     # the model is right: what it leaves is noise, within the scatter of an rms of some tens of independent windows
     assert result.gap.augmented < 1.3 * result.gap.floor
-    inertia = next(v for k, v in result.believed.items() if "mass" in k or k == "inertia")
+    inertia = next(v for k, v in result.parameters.items() if "mass" in k or k == "inertia")
     assert inertia.low <= 1.0 <= inertia.high
 
 

@@ -36,7 +36,7 @@ def test_the_augmented_scenario_alone_has_the_augmented_score(name):
     result = outcome(name)
     again = joint_outcome(dataclasses.replace(dataset(name), scenario=result.scenario))
     before, after = result.places[0].scores["augmented"], again.places[0].scores["baseline"]
-    # the width of the window is chosen against the friction that is believed, which for the seal is less than before
+    # the width of the window is chosen against the stated friction, which for the seal is less than before
     assert after.sliding == pytest.approx(before.sliding, rel=0.02 if name == "seal_o_ring" else 1e-9)
     if before.loop is not None:
         assert after.loop == pytest.approx(before.loop, rel=1e-9)
@@ -47,14 +47,14 @@ def test_emps_twice_gives_the_same():
     assert joint_outcome(dataset("emps")).result.to_json() == outcome("emps").result.to_json()
 
 
-@pytest.mark.parametrize(("name", "believed", "left"), [("seal_o_ring", 1.84, 0.91), ("seal_napn", 3.45, 1.17)])
-def test_seals_load_dependence_and_what_is_confounded(name, believed, left):
+@pytest.mark.parametrize(("name", "recalibrated", "left"), [("seal_o_ring", 1.84, 0.91), ("seal_napn", 3.45, 1.17)])
+def test_seals_load_dependence_and_what_is_confounded(name, recalibrated, left):
     result = outcome(name)
     assert kinds(result) == ["load_dependence"]
     gap = result.result.gap
     assert gap is not None
     # a first look in-sample: that much before and after; steady sliding held out is less than it
-    assert gap.recalibrated <= believed
+    assert gap.recalibrated <= recalibrated
     assert gap.augmented <= left
     assert any("direction and speed are confounded" in note for note in result.result.notes)
     assert "direction" in result.result.next_experiment

@@ -59,6 +59,6 @@ def test_it_is_found_with_its_place_and_height():
     runs = tuple(sine_run(force, seed=s, role=role) for s, role in ((1, "fit"), (2, "test")))
     result = discover(Dataset(title="", scenario_path=None, scenario=scenario(), runs=runs)).result
     assert [e.kind for e in result.effects] == ["burr"]
-    found = result.effects[0].parameters
-    assert found["place"].value == pytest.approx(PLACE, abs=1.0e-3)  # a tenth of its width
-    assert found["height"].value == pytest.approx(HEIGHT, rel=0.05)
+    parameters = result.effects[0].parameters
+    assert parameters["place"].value == pytest.approx(PLACE, abs=1.0e-3)  # a tenth of its width
+    assert parameters["height"].value == pytest.approx(HEIGHT, rel=0.05)

@@ -93,8 +93,8 @@ def wave(q, v):
 def test_one_effect_is_named_and_measured(friction, kind, name, truth):
     result = joint_outcome(pair(friction)).result
     assert [e.kind for e in result.effects] == [kind]
-    found = result.effects[0].parameters[name]
-    assert found.low - 0.03 * truth <= truth <= found.high + 0.03 * truth
+    interval = result.effects[0].parameters[name]
+    assert interval.low - 0.03 * truth <= truth <= interval.high + 0.03 * truth
     assert result.gap is not None
     assert result.gap.closed is not None
     assert result.gap.closed > 0.9
@@ -178,7 +178,7 @@ def test_a_joint_that_rests_is_refused():
 def test_without_uncertainty_the_mechanism_is_taken_as_exact():
     outcome = joint_outcome(dataclasses.replace(pair(grease), scenario=scenario(uncertainty={})))
     assert [e.kind for e in outcome.result.effects] == ["viscous_friction"]
-    assert set(outcome.result.believed) == {"mu_k"}
+    assert set(outcome.result.parameters) == {"mu_k"}
     assert outcome.scenario.mechanism == scenario().mechanism
 
 

@@ -40,12 +40,12 @@ def data():
 
 
 @pytest.fixture(scope="module")
-def found(data):
+def outcome(data):
     return joint_outcome(data)
 
 
-def test_it_is_named_with_its_size(found):
-    effects = found.result.effects
+def test_it_is_named_with_its_size(outcome):
+    effects = outcome.result.effects
     assert [e.kind for e in effects] == ["random_coefficients"]
     sigma = effects[0].parameters["sigma_k"]
     assert sigma.low < SHARE * 0.1 < sigma.high
@@ -54,15 +54,15 @@ def test_it_is_named_with_its_size(found):
     assert "each stroke" in effects[0].where.text
 
 
-def test_what_is_left_is_the_floor_then(found):
-    place = found.places[0]
+def test_what_is_left_is_the_floor_then(outcome):
+    place = outcome.places[0]
     # scatter cannot be foreseen: held-out runs are off by it, and by the noise
     assert place.scores["augmented"].sliding == pytest.approx(place.floor, rel=0.25)
 
 
-def test_once_it_is_believed_nothing_is_missing(data, found):
-    scenario = any_scenario_from_dict(found.scenario.to_dict())
-    assert scenario == found.scenario
+def test_once_it_is_believed_nothing_is_missing(data, outcome):
+    scenario = any_scenario_from_dict(outcome.scenario.to_dict())
+    assert scenario == outcome.scenario
     assert [e.kind for e in scenario.effects] == ["random_coefficients"]
     assert joint_outcome(dataclasses.replace(data, scenario=scenario)).result.verdict == "none"
 

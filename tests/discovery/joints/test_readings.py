@@ -1,4 +1,4 @@
-"""Repeated and stray positions are found, replaced, and told from encoders that are coarse or rest."""
+"""Repeated and stray positions are detected, replaced, and distinguished from encoders that are coarse or rest."""
 
 import numpy as np
 

@@ -41,13 +41,13 @@ def data(seed, share=0.0, zero=0.0):
 
 
 @pytest.fixture(scope="module")
-def found():
+def outcome():
     measured, _ = data(1, share=0.15)
     return joint_outcome(measured)
 
 
-def test_it_is_named_with_its_size(found):
-    effects = found.result.effects
+def test_it_is_named_with_its_size(outcome):
+    effects = outcome.result.effects
     assert [e.kind for e in effects] == ["random_coefficients"]
     assert effects[0].where.axis == "run"
     sigma = effects[0].parameters["sigma_k"]
@@ -58,8 +58,8 @@ def test_it_is_named_with_its_size(found):
     assert effects[0].p_value < 1e-6
 
 
-def test_the_forecast_that_knows_of_it_is_better(found):
-    gap = found.result.gap
+def test_the_forecast_that_knows_of_it_is_better(outcome):
+    gap = outcome.result.gap
     assert gap is not None
     assert gap.metric == "crps_friction"
     # for normal errors of a known size the ratio is 1/sqrt(2); the size is known from six runs, and sixteen are scored
@@ -67,10 +67,10 @@ def test_the_forecast_that_knows_of_it_is_better(found):
     assert gap.floor == pytest.approx(gap.augmented, rel=0.5)
 
 
-def test_the_augmented_scenario_draws_one_friction_a_run(found):
-    effect = found.scenario.effects[-1]
+def test_the_augmented_scenario_draws_one_friction_a_run(outcome):
+    effect = outcome.scenario.effects[-1]
     assert effect.to_dict()["process"] == "per_run"
-    assert any_scenario_from_dict(found.scenario.to_dict()) == found.scenario
+    assert any_scenario_from_dict(outcome.scenario.to_dict()) == outcome.scenario
     box = dataclasses.replace(
         load_scenario("kang2015_table1"),
         process=None,
@@ -85,11 +85,11 @@ def test_the_augmented_scenario_draws_one_friction_a_run(found):
     assert np.std(levels, ddof=1) == pytest.approx(0.02, rel=4.0 / np.sqrt(80.0))
 
 
-def test_once_it_is_believed_nothing_is_missing(found):
+def test_once_it_is_believed_nothing_is_missing(outcome):
     measured, _ = data(1, share=0.15)
-    again = joint_outcome(dataclasses.replace(measured, scenario=found.scenario))
+    again = joint_outcome(dataclasses.replace(measured, scenario=outcome.scenario))
     assert again.result.verdict == "none"
-    assert again.places[0].forecasts.baseline == pytest.approx(found.places[0].forecasts.augmented, rel=0.1)
+    assert again.places[0].forecasts.baseline == pytest.approx(outcome.places[0].forecasts.augmented, rel=0.1)
 
 
 @pytest.mark.parametrize("seed", [2, 3])
@@ -105,11 +105,11 @@ def test_a_zero_that_differs_is_no_friction():
     assert any("a zero or a law" in note for note in result.notes)
 
 
-def test_crps_of_a_normal_forecast_by_quadrature(found):
+def test_crps_of_a_normal_forecast_by_quadrature(outcome):
     """The closed form that scores forecasts, against the integral that defines it."""
     from stochfric_mb.discovery.driven_joint.decision.run_scatter import crps_of
 
-    place = found.places[0]
+    place = outcome.places[0]
     model, balances = place.selected.final.model, place.test[:1]
     score, floor = crps_of(model, balances, place.nuisances, 0.2, 0.0)
     error = model.remainder(balances[0], place.nuisances)[balances[0].sliding]

@@ -103,27 +103,27 @@ def discovered(folder, grease, seed):
 
 
 @pytest.fixture(scope="module")
-def found(folder):
+def outcome(folder):
     return discovered(folder, 100.0, 3)
 
 
-def test_the_tendon_the_effect_and_its_size(found):
-    effects = found.result.effects
+def test_the_tendon_the_effect_and_its_size(outcome):
+    effects = outcome.result.effects
     assert [e.kind for e in effects] == ["viscous_friction"]
     assert "tendon cable" in effects[0].where.text
-    assert found.places[0].place == "cable"
+    assert outcome.places[0].place == "cable"
     number = effects[0].parameters["coefficient"]
     assert number.unit == "N s/m"
     assert number.value == pytest.approx(100.0, rel=0.05)
-    before, after = (found.places[0].scores[k] for k in ("recalibrated", "augmented"))
+    before, after = (outcome.places[0].scores[k] for k in ("recalibrated", "augmented"))
     assert after.sliding < 0.3 * before.sliding
     assert after.forward < 0.5 * before.forward
 
 
-def test_what_was_found_reads_back_and_goes_into_the_model(found, folder):
-    again = any_scenario_from_dict(found.scenario.to_dict(), folder=folder)
-    assert again == found.scenario
-    model = mujoco.MjModel.from_xml_string(mjcf(found.scenario))
+def test_what_was_found_reads_back_and_goes_into_the_model(outcome, folder):
+    again = any_scenario_from_dict(outcome.scenario.to_dict(), folder=folder)
+    assert again == outcome.scenario
+    model = mujoco.MjModel.from_xml_string(mjcf(outcome.scenario))
     assert float(np.max(model.tendon_damping)) == pytest.approx(100.0, rel=0.05)
 
 

@@ -2,7 +2,8 @@
 
 ::
 
-    python -m tests.discovery.unseen_forms --out DIR [--series 1] [--seed S] [--workers 1 | --here] [--limit-s 1200]
+    python -m tests.discovery.unseen_forms --out DIR [--series 1] [--plan core] [--seed S]
+        [--repeats 1] [--workers 1 | --here] [--limit-s 1200]
 
 An interrupted run goes on where it stopped. ``DIR/cases.jsonl`` has a line a case, ``DIR/records`` the datasets.
 """
@@ -35,12 +36,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, required=True, help="folder of records and answers")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--repeats", type=int, default=1, help="seeds in turn, from --seed on")
     parser.add_argument("--workers", type=int, default=1, help="cases at a time")
     parser.add_argument("--limit-s", type=float, default=1200.0, help="seconds that discovery may take for a case")
     parser.add_argument(
-        "--plan", choices=("core", "all"), default="core", help="core: each form once; all: designs and strengths"
+        "--plan",
+        choices=("core", "all", "nulls"),
+        default="core",
+        help="core: each form once; all: designs and strengths; nulls: the rigs that are as believed, in each design",
     )
-    parser.add_argument("--series", type=int, choices=(1, 2, 3), default=1, help="the set: the first, or one written later")
+    parser.add_argument("--series", type=int, choices=(1, 2, 3, 4), default=1, help="the set: the first, or one written later")
     parser.add_argument("--strength", type=float, nargs="*", default=[], help="only these strengths")
     parser.add_argument("--only", nargs="*", default=[], help="forms, families (named, unknown, none) or names of cases")
     parser.add_argument("--here", action="store_true", help="one after the other in this process, whose code is loaded once")
@@ -58,9 +63,11 @@ def main() -> None:
         return
     out.mkdir(parents=True, exist_ok=True)
     lines = [json.loads(line) for line in _file(out).read_text().splitlines()] if _file(out).exists() else []
-    lines = [line for line in lines if line["seed"] == given.seed]
+    seeds = range(given.seed, given.seed + given.repeats)
+    lines = [line for line in lines if line["seed"] in seeds]
     if not given.table:
-        _run(_chosen(given), out, given, lines)
+        chosen = _chosen(given)
+        _run([(case, seed) for seed in seeds for case in chosen], out, given, lines)
     if lines:
         print(table(lines))
 
@@ -79,25 +86,27 @@ def _chosen(given: argparse.Namespace) -> list[Case]:
             for case in every
             if case.strength == 1.0 and case.design == case.form.designs[names.index(case.form.name) % len(case.form.designs)]
         ]
+    if given.plan == "nulls":
+        every = [case for case in every if case.family == NONE]
     wanted = set(given.only)
     every = [case for case in every if not given.strength or case.strength in given.strength]
     random.Random(given.series).shuffle(every)  # so that a run that was cut short holds a fair share of everything
     return [case for case in every if not wanted or wanted & {case.form.name, case.family, case.name}]
 
 
-def _run(chosen: list[Case], out: Path, given: argparse.Namespace, lines: list[dict]) -> None:
-    done = {(line["form"], line["design"], line["strength"]) for line in lines}
+def _run(chosen: list[tuple[Case, int]], out: Path, given: argparse.Namespace, lines: list[dict]) -> None:
+    done = {(line["form"], line["design"], line["strength"], line["seed"]) for line in lines}
     lock = Lock()
 
-    def one(case: Case) -> None:
-        if (case.form.name, case.design, case.strength) in done:
+    def one(case: Case, seed: int) -> None:
+        if (case.form.name, case.design, case.strength, seed) in done:
             return
-        folder = out / "records" / f"seed_{given.seed}" / case.name
+        folder = out / "records" / f"seed_{seed}" / case.name
         if not (folder / "truth.json").exists():
             if given.here:
-                write_record(case, folder, given.seed)
+                write_record(case, folder, seed)
             else:
-                _child("--out", str(folder), "--make", case.name, "--seed", str(given.seed), limit=None)
+                _child("--out", str(folder), "--make", case.name, "--seed", str(seed), limit=None)
         truth = json.loads((folder / "truth.json").read_text())
         if given.records_only:
             print(f"{case.name}: {truth['feature']} {truth['size']:g} floors", flush=True)
@@ -111,11 +120,11 @@ def _run(chosen: list[Case], out: Path, given: argparse.Namespace, lines: list[d
             print(f"{case.name}: {line['first'] or line['answer']} ({mark}), {line['seconds']:.0f} s", flush=True)
 
     if given.here:
-        for case in chosen:
-            one(case)
+        for case, seed in chosen:
+            one(case, seed)
         return
     with ThreadPoolExecutor(given.workers) as pool:
-        list(pool.map(one, chosen))
+        list(pool.map(lambda item: one(*item), chosen))
 
 
 def _child(*arguments: str, limit: float | None) -> str:

@@ -40,6 +40,8 @@ KINDS = {
     "sensor_delay": "sensor",
 }
 """Vocabulary: name -> class."""
+AT_JOINTS = {"position_dependent_force": "mechanism", "stale_samples": "sensor"}
+"""The same of names that are looked for at driven joints alone: on a belt rig `unknown` is right as well."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -63,7 +65,7 @@ class Form:
     options: dict[str, object]
     """What is special about its records (`records.py`)."""
     series: int = 1
-    """The set that it was written for: 1, 2 (`second_forms.py`) or 3 (`third`)."""
+    """The set that it was written for: 1, 2 (`second_forms.py`), 3 (`third`) or 4 (`fourth`)."""
 
     def right(self, design: str) -> frozenset[str]:
         """Return the first names that count as right in `design`."""
@@ -71,7 +73,7 @@ class Form:
 
     def classes(self, design: str) -> frozenset[str]:
         """Return the classes that count as right in `design`."""
-        return frozenset(KINDS.get(name, name) for name in self.right(design))
+        return frozenset((KINDS | AT_JOINTS).get(name, name) for name in self.right(design))
 
 
 FORMS: dict[str, Form] = {}

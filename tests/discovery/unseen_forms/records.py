@@ -10,7 +10,8 @@ from zlib import crc32
 import numpy as np
 from scipy.signal import lfilter
 
-from . import (  # each enters its forms; later sets last: the rigs that forms take in turn hang on their order
+from . import (  # each enters its forms; `fourth` has the others enter theirs first: rigs in turn hang on the order
+    fourth,  # noqa: F401
     friction_forms,  # noqa: F401
     mechanism_forms,  # noqa: F401
     nameless_forms,  # noqa: F401
@@ -58,12 +59,12 @@ class Case:
 
 
 def cases() -> list[Case]:
-    """Return all cases: full strength in each design, half strength in the first (third set: in each); nulls once in each."""
+    """Return all cases: full strength in each design, half strength in the first (later sets: in each); nulls once in each."""
     items = []
     for form in FORMS.values():
         items += [Case(form, design, 1.0) for design in form.designs]
         if NONE not in form.truth:
-            items += [Case(form, design, 0.5) for design in (form.designs if form.series == 3 else form.designs[:1])]
+            items += [Case(form, design, 0.5) for design in (form.designs if form.series >= 3 else form.designs[:1])]
     return items
 
 
@@ -96,9 +97,12 @@ def make_runs(case: Case, seed: int, *, strength: float | None = None, share: fl
     """Return the runs of a case, of which `share` of the usual length is made."""
     form, strength = case.form, case.strength if strength is None else strength
     key = [seed, crc32(f"{form.name}-{case.design}".encode())]
-    nominal = RIGS[form.rig]
-    nominal = dataclasses.replace(nominal, rate=float(form.options.get("rate", nominal.rate)))
-    true = nominal.drawn(np.random.default_rng([*key, 0]), at_limits=bool(form.options.get("at_limits")))
+    nominal = rig_of(form)
+    true = nominal.drawn(
+        np.random.default_rng([*key, 0]),
+        at_limits=bool(form.options.get("at_limits")),
+        uncertainty=form.options.get("uncertainty", UNCERTAINTY),
+    )
     runs = []
     for i, (speed, load, role, cycles) in enumerate(points(case)):
         here = dataclasses.replace(
@@ -123,8 +127,22 @@ def make_runs(case: Case, seed: int, *, strength: float | None = None, share: fl
     return runs
 
 
+def rig_of(form: Form) -> Rig:
+    """Return the rig that a form's records come from, with the form's rate and noise."""
+    rig = RIGS[form.rig]
+    return dataclasses.replace(
+        rig,
+        rate=float(form.options.get("rate", rig.rate)),
+        noise=rig.noise * float(form.options.get("loudness", 1.0)),
+    )
+
+
 def noise(kind: str, size: float, count: int, rng: np.random.Generator) -> np.ndarray:
-    """Return a sensor's noise [m]: white, coloured, pink (1/f above 0.1 % of the rate) or white on a zero that wanders."""
+    """Return a sensor's noise [m].
+
+    White, uniform, coloured, pink (1/f above 0.1 % of the rate), white on a zero that wanders, or white and a hum that
+    carries half the power of it.
+    """
     white = size * rng.standard_normal(count)
     if kind == "pink":
         spectrum = np.fft.rfft(white)
@@ -138,14 +156,18 @@ def noise(kind: str, size: float, count: int, rng: np.random.Generator) -> np.nd
         steps = rng.standard_normal(count)
         decay = np.exp(-1.0 / 4000.0)
         return white + 2.0 * size * lfilter([np.sqrt(1.0 - decay**2)], [1.0, -decay], steps)
+    if kind == "uniform":
+        return size * rng.uniform(-np.sqrt(3.0), np.sqrt(3.0), count)
+    if kind == "hum":
+        return white + size * np.sin(2 * np.pi * (0.0371 * np.arange(count) + rng.random()))
     return white
 
 
 def write_record(case: Case, folder: Path, seed: int, *, share: float = 1.0) -> dict:
     """Write the dataset of a case to `folder`/data, and what is true of it to `folder`/truth.json, which is returned."""
-    form, nominal = case.form, RIGS[case.form.rig]
+    form, nominal = case.form, rig_of(case.form)
     runs = make_runs(case, seed, share=share)
-    twins = make_runs(case, seed, strength=0.0, share=share)
+    twins = runs if case.family == NONE else make_runs(case, seed, strength=0.0, share=share)  # nulls know no strength
     data = folder / "data"
     data.mkdir(parents=True, exist_ok=True)
     lines = ['schema = "stochfric.dataset/1"', f'title = "{nominal.name} belt rig"', 'scenario = "scenario.toml"']
@@ -179,7 +201,7 @@ def write_record(case: Case, folder: Path, seed: int, *, share: float = 1.0) -> 
 
 
 def _write_run(path: Path, run: Run, form: Form, nominal: Rig, rng: np.random.Generator) -> None:
-    rate = float(form.options.get("rate", nominal.rate))
+    rate = nominal.rate
     time = run.motion.time if form.options.get("stamped") else np.arange(run.motion.time.size) / rate
     shown = run.reading + noise(str(form.options.get("noise", "white")), nominal.noise, time.size, rng)
     quantum = float(form.options.get("quantum", 0.0)) * nominal.noise
@@ -197,9 +219,20 @@ def _write_run(path: Path, run: Run, form: Form, nominal: Rig, rng: np.random.Ge
     if missing:
         keep = rng.random(time.size) > missing
         gap = int(rng.uniform(0.4, 0.6) * time.size)
-        keep[gap : gap + int(0.15 * nominal.period * rate)] = False
+        keep[gap : gap + int(float(form.options.get("gap", 0.15)) * nominal.period * rate)] = False
         rows = rows[keep]
+    stamp = float(form.options.get("stamp", 0.0))
+    if stamp:
+        rows[:, 0] = stamp * np.round(rows[:, 0] / stamp)
+    rows = rows[_first(run, form) : len(rows) - int(float(form.options.get("end", 0.0)) * nominal.period * rate)]
     np.savetxt(path, rows, "%.9g", ",", header=",".join(header), comments="")
+
+
+def _first(run: Run, form: Form) -> int:
+    """Return the sample that the record begins with: option `amid` counts half natural periods from the third break-away."""
+    amid = float(form.options.get("amid", 0.0))
+    nominal = run.world.nominal
+    return int(np.searchsorted(run.motion.time, run.motion.breaks[2, 0] + amid * np.pi / nominal.pulsation)) if amid else 0
 
 
 def _scenario(nominal: Rig, form: Form, duration: float) -> str:
@@ -217,11 +250,14 @@ def _scenario(nominal: Rig, form: Form, duration: float) -> str:
     lines += ["", "[law]", 'kind = "coulomb"', f"mu_s = {nominal.mu_s!r}", f"mu_k = {nominal.mu_k!r}"]
     declared = form.options.get("declared")
     if declared:
-        lines += ["", "[coefficients]", f'process = "{declared}"', "sigma_s = 0.015", "sigma_k = 0.015"]
+        sigma = float(form.options.get("declared_sigma", 0.015))
+        lines += ["", "[coefficients]", f'process = "{declared}"', f"sigma_s = {sigma!r}", f"sigma_k = {sigma!r}"]
         lines += ["spacing = 0.01"] if declared == "knots" else []
         lines += [f"correlation_time = {nominal.period!r}"] if declared == "ornstein_uhlenbeck" else []
-    lines += ["", "[uncertainty]", *(f"{name} = {value!r}" for name, value in UNCERTAINTY.items())]
-    step = 1.0 / float(form.options.get("rate", nominal.rate))
+    if not form.options.get("unstated"):
+        stated = form.options.get("uncertainty", UNCERTAINTY)
+        lines += ["", "[uncertainty]", *(f"{name} = {value!r}" for name, value in stated.items())]
+    step = 1.0 / nominal.rate
     lines += ["", "[simulation]", f"duration = {step * round(duration / step)!r}", f"output_step = {step!r}"]
     return "\n".join(lines) + "\n"
 

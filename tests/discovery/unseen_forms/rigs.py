@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 
 import numpy as np
 
 UNCERTAINTY = {"mass": 0.003, "stiffness": 0.01, "damping": 0.2, "normal_force": 0.01, "mu_s": 0.05, "mu_k": 0.05}
 """Relative standard deviations of what is believed [-]."""
+DEFAULT_UNCERTAINTY = UNCERTAINTY | {"mass": 0.01, "stiffness": 0.02, "damping": 0.3}
+"""The same where a scenario states none, as docs/discovery.md says."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -71,12 +74,14 @@ class Rig:
         """Duration of a stick-slip cycle of the undamped rig [s]."""
         return self.slip_length / self.belt_velocity + np.pi / self.pulsation
 
-    def drawn(self, rng: np.random.Generator, *, at_limits: bool = False) -> Rig:
+    def drawn(
+        self, rng: np.random.Generator, *, at_limits: bool = False, uncertainty: Mapping[str, float] = UNCERTAINTY
+    ) -> Rig:
         """Return the true rig: each number within 1.5 of its standard deviations, or all of them at 2, up or down."""
-        z = {key: float(np.clip(rng.standard_normal(), -1.5, 1.5)) for key in UNCERTAINTY}
+        z = {key: float(np.clip(rng.standard_normal(), -1.5, 1.5)) for key in uncertainty}
         if at_limits:
             z = {key: 2.0 if value > 0.0 else -2.0 for key, value in z.items()}
-        return dataclasses.replace(self, **{key: getattr(self, key) * (1.0 + sd * z[key]) for key, sd in UNCERTAINTY.items()})
+        return dataclasses.replace(self, **{key: getattr(self, key) * (1.0 + sd * z[key]) for key, sd in uncertainty.items()})
 
 
 PAPER = Rig(

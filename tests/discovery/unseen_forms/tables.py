@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from .forms import KINDS, NONE, UNKNOWN
+from .forms import AT_JOINTS, KINDS, NONE, UNKNOWN
 
 
 def judged(truth: dict, answer: dict) -> dict:
@@ -15,7 +15,7 @@ def judged(truth: dict, answer: dict) -> dict:
     if first == "unnamed":
         verdict, first = UNKNOWN, None
     name = first if verdict == "effect" else verdict
-    kind = KINDS.get(first or "", first) if verdict == "effect" else verdict
+    kind = (KINDS | AT_JOINTS).get(first or "", first) if verdict == "effect" else verdict
     line = {
         key: truth[key]
         for key in ("form", "truth", "classes", "family", "design", "strength", "rig", "feature", "size", "seed")

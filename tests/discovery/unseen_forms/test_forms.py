@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from stochfric_mb import load_dataset
-from tests.discovery.unseen_forms.forms import FORMS, KINDS, NONE, UNKNOWN
+from tests.discovery.unseen_forms.forms import AT_JOINTS, FORMS, KINDS, NONE, UNKNOWN
 from tests.discovery.unseen_forms.motion import World, simulate
 from tests.discovery.unseen_forms.records import Case, cases, make_runs, write_record
 from tests.discovery.unseen_forms.rigs import PAPER
@@ -30,13 +30,13 @@ def test_the_vocabulary_is_that_of_the_page_of_effects():
     page = (Path(__file__).parents[3] / "docs" / "effects.md").read_text(encoding="utf-8")
     listed = page.split("<!-- effects -->")[1].split("<!-- end of effects -->")[0]
     rows = {kind: group for group, kind in re.findall(r"^\| ([a-z ]+) \| `(\w+)` \|", listed, re.MULTILINE)}
-    assert KINDS.items() <= rows.items()
+    assert (KINDS | AT_JOINTS).items() <= rows.items()
 
 
 def test_each_kind_has_a_form_and_truths_are_names():
     named = [form for form in FORMS.values() if not form.truth & {NONE, UNKNOWN}]
     assert {kind for form in named for kind in form.truth} == set(KINDS)
-    assert all(form.truth_one <= {*KINDS, UNKNOWN, NONE} and form.source for form in FORMS.values())
+    assert all(form.truth_one <= {*KINDS, *AT_JOINTS, UNKNOWN, NONE} and form.source for form in FORMS.values())
     assert len(named) >= 45
     assert sum(UNKNOWN in form.truth for form in FORMS.values()) >= 15
     assert sum(NONE in form.truth for form in FORMS.values()) >= 10

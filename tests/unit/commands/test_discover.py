@@ -90,7 +90,7 @@ def test_it_writes_numbers_scenario_page_and_plots(rig, tmp_path):
     assert content["schema"] == "stochfric.discovery/1"
     assert content["verdict"] == "unknown"  # no verdict on friction without slips
     assert content["details"]["command"].startswith("stochfric discover ")
-    assert "These data cannot tell" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "These data do not decide" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     assert load_any_scenario(tmp_path / "out" / "augmented.toml").law == load_any_scenario(rig / "scenario.toml").law
     assert "Verdict: unknown" in result.stdout
     assert "Next experiment: record at least 12 stick-slip cycles" in result.stdout

@@ -125,3 +125,13 @@ def test_a_log_of_velocity_steps_brings_its_coefficient_of_friction(tmp_path):
     assert "friction_coefficient: column 'mu' [-] (a guess" in done.output
     data = load_dataset(tmp_path / "rig")
     assert np.allclose(data.runs[0].covariates["friction_coefficient"], 0.6)
+
+
+def test_a_column_is_guessed_as_what_its_name_says_and_what_is_missing_is_said(tmp_path):
+    log = _csv(tmp_path / "log.csv", "time [s],position [m],friction_force [N]", TIME, 1e-6 * TIME, 7.0 + 0.0 * TIME)
+    done = invoke("init", "spring_slider", "--from", log, "--out", tmp_path / "rig")
+    assert "friction_force: column 'friction_force' [N]\n" in done.output
+    assert "friction_coefficient" not in done.output
+    done = invoke("init", "prismatic_joint", "--from", log, "--out", tmp_path / "joint")
+    assert "force or voltage: no column looks like it" in done.output
+    assert "column 'friction_force'" not in done.output  # what drives a joint is not its friction

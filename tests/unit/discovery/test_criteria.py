@@ -14,8 +14,8 @@ def test_every_criterion_says_what_it_is_and_has_no_dimension():
     for node, after in itertools.pairwise(body):
         if isinstance(node, ast.Assign):
             assert isinstance(after, ast.Expr), ast.unparse(node)
-            told = ast.literal_eval(after.value)
-            assert not any(unit in told for unit in ("[m]", "[s]", "[N]", "[Hz]", "[kg]", "[N s]")), told
+            reason = ast.literal_eval(after.value)
+            assert not any(unit in reason for unit in ("[m]", "[s]", "[N]", "[Hz]", "[kg]", "[N s]")), reason
             targets = node.targets[0]
             named |= {e.id for e in targets.elts} if isinstance(targets, ast.Tuple) else {targets.id}
     assert {name.lower() for name in named} == set(criteria.values())

@@ -29,9 +29,9 @@ def test_free_parameters_at_their_values_give_the_model_back(model):
 
 def test_free_parameters_are_what_may_be_adjusted(model):
     names = [(one.name, one.owner, one.run) for one in free_parameters(model, UNCERTAINTY, RUNS)]
-    believed = [(n, LAW, "") for n in ("mu_s", "mu_k")] + [(n, MECHANISM, "") for n in ("stiffness", "mass", "damping")]
+    stated = [(n, LAW, "") for n in ("mu_s", "mu_k")] + [(n, MECHANISM, "") for n in ("stiffness", "mass", "damping")]
     phases = [("phase", 1, run) for run in RUNS]
-    assert names == [*believed, ("coefficient", 0, ""), ("amplitude", 1, ""), ("frequency", 1, ""), *phases]
+    assert names == [*stated, ("coefficient", 0, ""), ("amplitude", 1, ""), ("frequency", 1, ""), *phases]
 
 
 def test_what_is_certain_is_not_free(model):

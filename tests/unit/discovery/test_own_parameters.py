@@ -15,17 +15,17 @@ from stochfric_mb.measurement.dataset import Dataset
 
 @pytest.mark.parametrize(("slope", "prior"), [(1.0, 1.0), (3.0, 1.0), (0.0, 1.0), (2.0, 0.0), (10.0, 0.1)])
 def test_one_number_is_told_by_data_and_prior_in_proportion(slope, prior):
-    """Of one number the information adds up: slope^2 from the data, 1/prior^2 from what is believed."""
-    told, deviation = _with_priors(np.array([[slope]]), np.array([prior]))
+    """Of one number the information adds up: slope^2 from the data, 1/prior^2 from the prior."""
+    share, deviation = _with_priors(np.array([[slope]]), np.array([prior]))
     least = WIDEST**-2
     assert deviation[0] == pytest.approx((slope**2 + prior**2 + least) ** -0.5, rel=1e-12)
-    assert told[0] == pytest.approx(1.0 - max(prior**2, least) / (slope**2 + prior**2 + least), rel=1e-9, abs=1e-12)
+    assert share[0] == pytest.approx(1.0 - max(prior**2, least) / (slope**2 + prior**2 + least), rel=1e-9, abs=1e-12)
 
 
 def test_two_numbers_of_which_only_the_sum_is_told_stay_as_believed():
-    told, deviation = _with_priors(np.array([[50.0, 50.0]]), np.array([1.0, 1.0]))
-    assert (told < 0.51).all()
-    assert deviation == pytest.approx([0.5**0.5] * 2, rel=1e-2)  # half of each prior's variance is the sum's, which is told
+    share, deviation = _with_priors(np.array([[50.0, 50.0]]), np.array([1.0, 1.0]))
+    assert (share < 0.51).all()
+    assert deviation == pytest.approx([0.5**0.5] * 2, rel=1e-2)  # half of each prior's variance is the sum's, which data decide
 
 
 def test_only_what_the_prior_made_is_named():
@@ -34,7 +34,7 @@ def test_only_what_the_prior_made_is_named():
 
     numbers = [free("mu_s", LAW), free("damping", MECHANISM), free("amplitude", 0), free("mu_k", LAW, "run_1")]
     nothing = np.zeros(4)
-    fit = Fit(None, numbers, nothing, nothing, nothing, 0.0, told=np.array([0.9, 0.3, 0.1, 0.1]), posterior=nothing)
+    fit = Fit(None, numbers, nothing, nothing, nothing, 0.0, data_share=np.array([0.9, 0.3, 0.1, 0.1]), posterior=nothing)
     assert not_measured(fit) == ["damping"]
 
 

@@ -30,12 +30,24 @@ def test_coarse_samples_and_a_belt_at_rest_are_refused(interval, belt, said):
         require_usable(experiment(interval, belt))
 
 
-@pytest.mark.parametrize(("onset", "kinetic"), [(-8.0, -5.0), (8.0, -0.1)])
-def test_friction_against_the_belt_is_a_wrong_sign(onset, kinetic):
+@pytest.mark.parametrize(
+    ("onset", "kinetic", "remedy"),
+    [
+        (-8.0, -5.0, "same positive direction"),
+        (8.0, -0.1, "same positive direction"),
+        (470.0, 465.0, "36.2 times the normal force, with mu_s stated as 0.45; count the position from where the spring is"),
+    ],
+)
+def test_friction_against_the_belt_and_a_zero_that_is_off_are_refused(onset, kinetic, remedy):
     record = SimpleNamespace(name="a", mechanism=BeltBox(**BOX, belt_velocity=2e-3))
     slips = SimpleNamespace(record=record, onset_force=np.full(20, onset), moments=np.full((20, 7), kinetic))
-    with pytest.raises(InputError, match="same positive direction"):
-        require_driven([slips])
+    with pytest.raises(InputError, match=remedy):
+        require_driven([slips], 0.45)
+
+
+def test_rubber_may_hold_more_than_its_load():
+    record = SimpleNamespace(name="a", mechanism=BeltBox(**BOX, belt_velocity=2e-3))
+    require_driven([SimpleNamespace(record=record, onset_force=np.full(20, 26.0), moments=np.full((20, 7), 20.0))], 0.45)
 
 
 @pytest.mark.parametrize("rate", [200.0, 1000.0])

@@ -15,6 +15,10 @@ STATIC, KINETIC = 8.0, 5.0
 CALM = Switching(separation=3.0, changes=10.0, regular=False, jumps=0, still=1.0)
 
 
+def sensor(deviation: float, coloured: float = 0.0) -> SimpleNamespace:
+    return SimpleNamespace(deviation=deviation, coloured=coloured)
+
+
 def study(onset: np.ndarray, in_slip: np.ndarray | float = 0.0, jumps: int = 0) -> SimpleNamespace:
     """Slips whose onset force and mean force [N] are off, with a little noise; as much of a study as chance needs."""
     generator = np.random.default_rng(1)
@@ -29,7 +33,7 @@ def study(onset: np.ndarray, in_slip: np.ndarray | float = 0.0, jumps: int = 0) 
         n_runs=RUNS,
         static=np.full(N * RUNS, STATIC),
         kinetic=np.full(N * RUNS, KINETIC),
-        slips=[SimpleNamespace(onset_time=1.1 * np.arange(N))] * RUNS,
+        slips=[SimpleNamespace(onset_time=1.1 * np.arange(N), noise=sensor(5.0e-6))] * RUNS,
         onset_time=times,
         restick_time=times + 0.1,
         normal_force=np.full(N * RUNS, 13.0),
@@ -37,7 +41,11 @@ def study(onset: np.ndarray, in_slip: np.ndarray | float = 0.0, jumps: int = 0) 
     )
     solution = SimpleNamespace(coefficients=np.array([0.6, 0.4]), scatter=np.log([0.3, 0.2, 0.01]))
     return SimpleNamespace(
-        pool=pool, solution=solution, model=SimpleNamespace(process=None), sticking=SimpleNamespace(jumps=jumps)
+        pool=pool,
+        solution=solution,
+        model=SimpleNamespace(process=None),
+        sticking=SimpleNamespace(jumps=jumps),
+        records=[SimpleNamespace(mechanism=SimpleNamespace(stiffness=4000.0))],
     )
 
 
@@ -113,6 +121,14 @@ def called(levels: Switching = CALM, in_slip: float = 0.5, **changes: float) -> 
     return random_effects(one, scatter(**changes), levels, one.solution, [])
 
 
+@pytest.mark.parametrize(("coloured", "drawn"), [(20.0e-6, True), (400.0e-6, False)])
+def test_scatter_no_larger_than_slow_noise_of_the_sensor_is_no_friction(coloured, drawn):
+    one = study(np.zeros(N * RUNS))
+    assert np.exp(one.solution.scatter[0]) / 4000.0 == pytest.approx(75.0e-6)  # the scatter, as motion of the spring
+    one.pool.slips = [SimpleNamespace(onset_time=s.onset_time, noise=sensor(coloured, coloured)) for s in one.pool.slips]
+    assert (random_effects(one, scatter(), CALM, one.solution, []) is not None) == drawn
+
+
 def test_independent_scatter_is_random_coefficients():
     result = called()
     assert isinstance(result, RandomEffects)
@@ -146,8 +162,7 @@ def test_switching_has_no_name_however_it_wanders():
 @pytest.mark.parametrize(("noise", "verdict"), [(5.0e-6, Where), (5.0e-5, None)])
 def test_a_force_that_wanders_alike_in_stick_and_slip_is_no_coefficient_and_may_be_the_sensor(noise, verdict):
     one = study(np.zeros(N * RUNS))
-    one.pool.slips = [SimpleNamespace(onset_time=s.onset_time, noise=SimpleNamespace(deviation=noise)) for s in one.pool.slips]
-    one.records = [SimpleNamespace(mechanism=SimpleNamespace(stiffness=4000.0))]
+    one.pool.slips = [SimpleNamespace(onset_time=s.onset_time, noise=sensor(noise)) for s in one.pool.slips]
     wander = scatter(correlation=5.0, wander=80.0, wander_of="offset", wander_share=0.01)  # 0.08 N, 20 um
     result = random_effects(one, wander, CALM, one.solution, [])
     assert result is None if verdict is None else isinstance(result, verdict)

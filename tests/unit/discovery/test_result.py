@@ -28,7 +28,7 @@ def test_nothing_is_closed_where_hardly_anything_is_reducible(floor):
 def test_text_holds_null_for_what_is_not_finite_and_the_digits_that_matter():
     result = Result(
         verdict="none", effects=(), where=None, ranking=(("drift", -math.inf),), gap=gap(3.0, 3.0, 2.0), not_identifiable=(),
-        next_experiment="", believed={"mu_s": Interval(1.0 / 3.0, math.nan, 1.0, "-")},
+        next_experiment="", parameters={"mu_s": Interval(1.0 / 3.0, math.nan, 1.0, "-")},
     )  # fmt: skip
     read = json.loads(result.to_json())
     assert read["ranking"] == [{"kind": "drift", "score": None}]

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import stochfric_mb
-from stochfric_mb.effects import EFFECTS, effect_class, kind_found_as, kinds_with
+from stochfric_mb.effects import EFFECTS, effect_class, kind_with_signature, kinds_with
 from stochfric_mb.effects.traits import ANONYMOUS
 from stochfric_mb.errors import InputError
 
@@ -60,15 +60,15 @@ def test_no_module_of_discovery_names_an_effect():
 
 
 def test_findings_have_one_effect_each():
-    said = [finding for kind in EFFECTS for finding in effect_class(kind).found_as]
+    said = [finding for kind in EFFECTS for finding in effect_class(kind).signatures]
     assert sorted(said) == sorted(set(said))
-    assert {kind_found_as(finding) for finding in said} == {kind for kind in EFFECTS if effect_class(kind).found_as}
-    with pytest.raises(InputError, match="no effect is found as 'nothing'"):
-        kind_found_as("nothing")
+    assert {kind_with_signature(finding) for finding in said} == {kind for kind in EFFECTS if effect_class(kind).signatures}
+    with pytest.raises(InputError, match="no effect has the signature 'nothing'"):
+        kind_with_signature("nothing")
 
 
 def test_an_effect_is_told_from_known_ones():
-    assert {other for kind in EFFECTS for other in effect_class(kind).told_from} <= set(EFFECTS)
+    assert {other for kind in EFFECTS for other in effect_class(kind).separated_by} <= set(EFFECTS)
 
 
 STRAIGHT = ("stick_slip", "velocity_step", "inference")

@@ -8,7 +8,7 @@ import pytest
 from stochfric_mb.discovery.inference.free_parameter import LAW, FreeParameter
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit
-from stochfric_mb.discovery.stick_slip.simulation.strength import NORMAL, told_by_ratio, undecided
+from stochfric_mb.discovery.stick_slip.simulation.strength import NORMAL, decided_by_ratio, undecided
 from stochfric_mb.effects import make_effect
 
 WAVE = make_effect("harmonic_force", amplitude=0.3, frequency=2.0)
@@ -35,7 +35,7 @@ def test_a_kind_is_undecided_where_none_of_its_strengths_is_told():
 
 def test_the_likelihood_ratio_ends_an_interval():
     fit = fit_of([(0, "amplitude"), (0, "frequency")], [0.3, 2.0], [3.0, 9.0])
-    cut = told_by_ratio(fit, model_of(WAVE), "harmonic_force", 100.0)
+    cut = decided_by_ratio(fit, model_of(WAVE), "harmonic_force", 100.0)
     assert cut.deviations[0] == pytest.approx(0.03)  # the signed root of the ratio is 10 at the fitted value
     assert cut.values[0] - NORMAL * cut.deviations[0] > 0.0
     assert cut.deviations[1] == 9.0

@@ -35,7 +35,7 @@ class Pool:
         return [one] * RUNS
 
 
-def found(onset: np.ndarray, slip: np.ndarray | None = None):
+def pattern(onset: np.ndarray, slip: np.ndarray | None = None):
     generator = np.random.default_rng(1)
     residuals = NOISE * generator.standard_normal((N * RUNS, 8))
     residuals[:, 0] += onset
@@ -53,19 +53,19 @@ def time() -> np.ndarray:
 
 def test_random_levels_are_told_from_everything_else():
     state = np.cumsum(draws().random(N * RUNS) < 0.3) % 2
-    assert found(0.2 * state).where is SWITCHES
+    assert pattern(0.2 * state).where is SWITCHES
 
 
 def test_levels_that_stay_for_long_are_jumps():
     levels = np.repeat([0.0, 0.9, 0.3, 1.4, 0.6, -0.5, 0.1, 1.1, -0.2, 0.7], N * RUNS // 10)
-    assert found(np.zeros(N * RUNS), 0.3 * levels).where is JUMPS
+    assert pattern(np.zeros(N * RUNS), 0.3 * levels).where is JUMPS
 
 
 @pytest.mark.parametrize("period", [4.3, 9.7])
 def test_square_ripple_switches_regularly(period):
     run = Pool().run
     square = np.sign(np.sin(2.0 * np.pi * (time() / period + 0.37 * run)))
-    assert found(0.2 * square).where is None
+    assert pattern(0.2 * square).where is None
 
 
 @pytest.mark.parametrize(
@@ -80,12 +80,12 @@ def test_square_ripple_switches_regularly(period):
     ids=["normal draws", "even draws", "sine", "wander", "drift"],
 )
 def test_what_changes_from_every_slip_to_the_next_does_not_switch(scatter):
-    assert found(0.1 * scatter).where is None
+    assert pattern(0.1 * scatter).where is None
 
 
 def test_one_step_of_a_sensor_is_no_switching():
-    assert found(0.3 * (time() > 20.0)).where is None
+    assert pattern(0.3 * (time() > 20.0)).where is None
 
 
 def test_noise_alone_does_not_switch():
-    assert found(np.zeros(N * RUNS)).where is None
+    assert pattern(np.zeros(N * RUNS)).where is None

@@ -8,7 +8,7 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.record import make_record
 from stochfric_mb.discovery.stick_slip.records.slips import extract
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import waves_in
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Terms, believed
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Terms, stated_terms
 from stochfric_mb.discovery.stick_slip.screening.waves import _gains, best_wave, frequencies, wave_columns
 from stochfric_mb.effects import make_effect
 from stochfric_mb.laws import make_law
@@ -35,7 +35,7 @@ def pool_of(effect) -> Pool:
 @pytest.fixture(scope="module")
 def entrained() -> tuple[Pool, Regression, Terms]:
     pool = pool_of(make_effect("harmonic_force", amplitude=0.6, frequency=FREQUENCY, phase=0.4))
-    return pool, Regression(pool), believed(pool, {"mass": 0.003, "stiffness": 0.01, "damping": 0.2})
+    return pool, Regression(pool), stated_terms(pool, {"mass": 0.003, "stiffness": 0.01, "damping": 0.2})
 
 
 @pytest.mark.parametrize("kind", ["normal_load_ripple", "harmonic_force", "position_dependent_friction"])

@@ -129,6 +129,8 @@ def test_impacts_are_a_poisson_process() -> None:
         ("normal_load_ripple", True, False),
         ("stale_samples", False, True),
         ("temperature_drift", False, True),
+        ("effective_area", False, True),
+        ("drive_gain_change", False, True),
         ("unnamed", False, False),
     ],
 )

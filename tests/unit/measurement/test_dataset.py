@@ -263,18 +263,6 @@ def test_what_is_no_angle_is_not_taken_for_one(rig, unit):
         assemble(entry, rotational=True)
 
 
-def test_other_units_than_si_without_pint(rig, monkeypatch):
-    from stochfric_mb.errors import MissingEngineError
-    from stochfric_mb.measurement import units
-
-    units._registry.cache_clear()
-    monkeypatch.setitem(__import__("sys").modules, "pint", None)
-    assert only(rig).time.size == TIME.size
-    csv(rig / "run.csv", time__s=TIME, position__mm=POSITION)
-    with pytest.raises(MissingEngineError, match=r"pip install 'stochfric_mb\[measured\]', or write the file in SI units"):
-        only(rig)
-
-
 # --- clocks ----------------------------------------------------------------------------------------------------------
 
 
@@ -403,7 +391,6 @@ def test_pendulum():
 
 
 def test_a_model_with_joints_of_both_kinds_takes_lengths_and_angles(tmp_path):
-    pytest.importorskip("pint", reason="units are pint's")
     t = np.arange(100) * 1e-3
     for unit, si, factor in (("mm", "m", 1e-3), ("deg", "rad", np.pi / 180.0)):
         file = tmp_path / f"{unit}.csv"

@@ -2,15 +2,19 @@
 
 import dataclasses
 import datetime
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from stochfric_mb import InputError, load_scenario
 from stochfric_mb.measurement import load_dataset
+from stochfric_mb.measurement.scales import slip_time, stuck_speed
 from stochfric_mb.reference import simulate
 
-from .files import csv
+from .files import csv, measured
+
+ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.fixture(scope="module")
@@ -88,6 +92,16 @@ def test_a_box_that_rides_on_the_belt_throughout_has_no_wrong_unit(tmp_path, mot
     assert _load(tmp_path, (time, truth.mechanism.belt_velocity * time), truth).fit
 
 
+def test_slips_that_are_shorter_than_the_look_at_them_tell_no_time(motion):
+    _, position = motion
+    interval = 1e-3
+    speed, lag = stuck_speed(position, interval)
+    real = slip_time(position, interval, speed, lag)
+    assert real > lag * interval
+    long = round(4.0 * real / interval)
+    assert slip_time(position, interval, speed, long) is None  # clamped to a sample, it was taken for a wrong mass
+
+
 def test_dead_channels(tmp_path, motion, truth):
     zero = np.zeros(motion[0].size)
     with pytest.raises(
@@ -120,3 +134,70 @@ def test_dates_are_seconds_since_the_first(tmp_path, motion, truth, zone):
     data = load_dataset(csv(tmp_path / "run.csv", time=dates, position__m=position), truth)
     assert data.fit[0].time[0] == 0.0
     assert data.fit[0].sample_interval == pytest.approx(1e-3, rel=1e-6)  # dates are read to a microsecond
+
+
+@pytest.fixture(scope="module")
+def slide():
+    """A mass of 4.2 kg, driven along a line by 9 N of friction and 12 N s/m, and the force that it takes [N]."""
+    time = np.arange(0.0, 20.0, 1.0 / 487.0)
+    waves = [(0.05, 0.23, 1.0), (0.025, 0.61, 2.0), (0.0125, 1.37, 3.0)]
+    turns = [(a, 2.0 * np.pi * f, p) for a, f, p in waves]
+    position = sum(a * np.sin(w * time + p) for a, w, p in turns)
+    velocity = sum(a * w * np.cos(w * time + p) for a, w, p in turns)
+    acceleration = sum(-a * w**2 * np.sin(w * time + p) for a, w, p in turns)
+    noise = np.random.default_rng(3).standard_normal((2, time.size))
+    force = 4.2 * acceleration + 12.0 * velocity + 9.0 * np.sign(velocity) + 0.05 * noise[0]
+    return time, position + 2e-6 * noise[1], force
+
+
+JOINT = """
+schema = "stochfric.scenario/1"
+[mechanism]
+kind = "prismatic_joint"
+mass = {mass}
+normal_force = 20.0
+[law]
+kind = "coulomb"
+mu_s = 0.5
+mu_k = 0.4
+[simulation]
+duration = 10.0
+output_step = 1.0e-3
+"""
+
+
+@pytest.mark.parametrize(
+    ("scales", "mass", "remedies"),
+    [
+        ((1.0, 1.0, 1.0), 4.0, []),
+        ((1.0, 1.0, 1.0), 8.0, []),  # a payload, a wrong guess: that is for discovery
+        ((1.0, 1e3, 1.0), 4.0, ['position = "mm"', "is in g"]),  # these two look the same
+        ((1e3, 1.0, 1.0), 4.0, ['time = "ms"']),
+        ((1e6, 1.0, 1.0), 4.0, ['time = "us"']),
+        ((1.0, 1.0, 1e-3), 4.0, ['force = "kN"']),
+        ((1.0, 1.0, 1.0), 4000.0, ['position = "mm"', "write mass = 4 (kg)"]),
+    ],
+)
+def test_units_at_a_driven_joint_by_force_over_acceleration(tmp_path, slide, scales, mass, remedies):
+    time, position, force = (s * values for s, values in zip(scales, slide, strict=True))
+    (tmp_path / "scenario.toml").write_text(JOINT.format(mass=mass))
+    file = csv(tmp_path / "run.csv", time__s=time, position__m=position, force__N=force)
+    if not remedies:
+        assert load_dataset(file, tmp_path / "scenario.toml").fit
+        return
+    with pytest.raises(InputError) as caught:
+        load_dataset(file, tmp_path / "scenario.toml")
+    text = str(caught.value)
+    assert text.startswith(f"{file}: the force is ")
+    assert text.count("write ") == len(remedies)
+    assert all(remedy in text for remedy in remedies), text
+
+
+@pytest.mark.parametrize(
+    ("name", "file"),
+    [("emps", "emps/DATA_EMPS.mat"), ("seal_napn", "pneuseal/NAPN_1bar.csv"), ("seal_o_ring", "pneuseal/O-ring_1bar.csv")],
+)
+def test_measured_joints_are_read(monkeypatch, name, file):
+    """A servo axis, and two seals that move too slowly to show a mass."""
+    monkeypatch.setenv("STOCHFRIC_DATA", str(measured(file).parents[1]))
+    assert load_dataset(ROOT / "models" / name).fit

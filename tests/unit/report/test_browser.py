@@ -99,21 +99,35 @@ def test_a_curve_tells_its_values_zooms_and_goes_back(opened):
         shown.mouse.move(place["x"] + x * place["width"], place["y"] + y * place["height"])
         return shown.locator(".tip").inner_text()
 
-    told = tell(0.5, 0.5)
-    assert "time [s]: " in told
-    assert 8.0 < float(re.search(r"time \[s\]: ([\d.]+)", told)[1]) < 12.0  # the middle of 20 s, and the margins
+    readout = tell(0.5, 0.5)
+    assert "time [s]: " in readout
+    assert 8.0 < float(re.search(r"time \[s\]: ([\d.]+)", readout)[1]) < 12.0  # the middle of 20 s, and the margins
     ticks = "all => all.map(one => one.textContent)"
     assert shown.eval_on_selector_all("svg .zoomed", ticks) == []
     shown.mouse.move(place["x"] + 0.4 * place["width"], place["y"] + 0.5 * place["height"])
     shown.mouse.down()
     shown.mouse.move(place["x"] + 0.6 * place["width"], place["y"] + 0.5 * place["height"], steps=4)
     shown.mouse.up()
-    seen = [float(t) for t in shown.eval_on_selector_all("svg text.zoomed", ticks) if re.fullmatch(r"[\d.]+", t)]
+    seen = [float(t) for t in shown.eval_on_selector_all("svg .zoomed text", ticks) if re.fullmatch(r"[\d.]+", t)]
     assert sum(7.0 < t < 13.0 for t in seen) >= 4  # a fifth of 20 s has more ticks than the whole had there
     assert 7.0 < float(re.search(r"time \[s\]: ([\d.]+)", tell(0.1, 0.5))[1]) < 9.5
     shown.mouse.dblclick(place["x"] + 0.5 * place["width"], place["y"] + 0.5 * place["height"])
     assert shown.eval_on_selector_all("svg .zoomed", ticks) == []
     assert said == []
+
+
+def test_figures_are_drawn_without_scripts_and_the_library_comes_once_with_its_licence(browser, tmp_path, pages):
+    text = pages("records")[0]
+    assert text.count("https://d3js.org v7") == 1
+    assert "Permission to use, copy, modify, and/or distribute this software" in text
+    (tmp_path / "report.html").write_text(text, encoding="utf-8")
+    context = browser.new_context(java_script_enabled=False)
+    shown = context.new_page()
+    shown.goto((tmp_path / "report.html").as_uri())
+    curve = shown.locator("svg[data-axes] [data-series='0'] path").first.bounding_box()
+    context.close()
+    assert curve["width"] > 300.0
+    assert curve["height"] > 50.0
 
 
 @pytest.mark.parametrize("name", [*RESULTS, *(n for n, command in COMMANDS.items() if command.numbers)])

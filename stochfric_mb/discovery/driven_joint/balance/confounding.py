@@ -92,7 +92,7 @@ def spoken_of(pairs: Sequence[Confounded], kinds: Sequence[str]) -> list[Confoun
 
     Args:
         pairs: conditions that went together.
-        kinds: kinds of the effects found.
+        kinds: kinds of the selected effects.
     """
     drifts = any(map(by_clock, kinds))
     return [p for p in pairs if p.explained >= TOGETHER and (drifts or {p.first, p.second} != {"time", "distance"})]

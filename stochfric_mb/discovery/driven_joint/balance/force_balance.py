@@ -27,9 +27,9 @@ class Nuisance:
     name: str
     """Its name in the scenario's ``[mechanism]``."""
     value: float
-    """What is believed."""
+    """Prior mean."""
     deviation: float
-    """Standard deviation of that belief, > 0; inf: nothing is believed."""
+    """Standard deviation of the prior, > 0; inf: there is none."""
     unit: str
     """Its unit."""
     low: float = -np.inf
@@ -38,7 +38,7 @@ class Nuisance:
 
 @dataclasses.dataclass(frozen=True)
 class ForceBalance:
-    """driven = sum of nuisance columns times (value - believed) + friction, at the centres of windows.
+    """driven = sum of nuisance columns times (value - stated) + friction, at the centres of windows.
 
     ``driven`` is the driving force less inertia, gravity and all else that the stated model says, friction left out.
     """
@@ -60,7 +60,7 @@ class ForceBalance:
     velocity: Array
     """Velocity in weak form [m/s or rad/s], shape (count,)."""
     load: Array
-    """Load that the joint transmits, beyond its believed load [N or N m], shape (count,), >= 0."""
+    """Load that the joint transmits, beyond its stated load [N or N m], shape (count,), >= 0."""
     slip: Array
     """Distance since the last reversal [m or rad], shape (count,)."""
     driven: Array
@@ -81,8 +81,12 @@ class ForceBalance:
     """Measured temperature [degC], shape (count,); None: none was."""
     load_by_drive: Array | None = None
     """Change of ``load`` with the driving force, -1 or 1, shape (count,); None: the load is known without it."""
+    drive: Array | None = None
+    """Driving force, its gain as stated [N or N m], shape (count,); None: the place has none of its own."""
+    pressure: Array | None = None
+    """Pressure on the piston [Pa], shape (count,); None: none was measured."""
     normal_force: Array | None = None
-    """Normal force of a contact [N], shape (count,), >= 0; None: the believed load, which stays."""
+    """Normal force of a contact [N], shape (count,), >= 0; None: the stated load, which stays."""
 
     def white_variance(self, along: Array, centres: npt.NDArray[np.int64]) -> float:
         """Return the variance that white noise of the channels gives the coefficient of ``along`` [1/(N or N m)^2 of it].

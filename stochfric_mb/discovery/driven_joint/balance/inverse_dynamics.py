@@ -33,7 +33,7 @@ UNITS = {
 }
 """Numbers of the mechanisms that may be corrected, and their units."""
 ABSOLUTE = ("offset",)
-"""Numbers whose uncertainty is given in their own unit, since they may be believed to be 0."""
+"""Numbers whose uncertainty is given in their own unit, since they may be stated as 0."""
 POSITIVE = ("mass", "inertia", "damping", "piston_area")
 """Numbers that cannot be negative."""
 HELD = 0.5
@@ -95,6 +95,13 @@ def position_of(run: Run) -> Array:
     raise InputError(f"run {run.name!r} has neither position nor velocity; a driven joint needs its motion")
 
 
+def drive_of(run: Run, joint: Joint) -> Array:
+    """Return the driving force, its gain as stated [N or N m], shape (count,)."""
+    force, gain = ("force", "force_gain") if isinstance(joint, PrismaticJoint) else ("torque", "torque_gain")
+    factor = getattr(joint, gain)
+    return factor * _channel(run, "voltage") if factor else _channel(run, force)
+
+
 def motion_velocity(run: Run) -> Array:
     """Return the velocity of a run through its narrowest window [m/s or rad/s], shape (count,)."""
     return narrowest(run).through(position_of(run), 1)
@@ -112,7 +119,7 @@ def nuisances_of(scenario: Scenario, joint: Joint) -> list[Nuisance]:
     return nuisances
 
 
-def believed_friction(scenario: Scenario, load: float) -> float:
+def stated_friction(scenario: Scenario, load: float) -> float:
     """Return the sliding friction that the scenario believes in [N or N m]."""
     return scenario.law.mu_k * load
 
@@ -138,7 +145,7 @@ def balance_of(
     values = {name: float(getattr(joint, name, 1.0)) for name in terms}
     noise = _noise(terms, values, q)
     window = (
-        chosen_window(h, len(q), noise, believed_friction(scenario, joint.normal_force))
+        chosen_window(h, len(q), noise, stated_friction(scenario, joint.normal_force))
         if samples is None
         else Window(samples * h, h, len(q))
     )
@@ -180,6 +187,8 @@ def balance_of(
         before=before,
         temperature=temperature_through(run, window),
         load_by_drive=load_by_drive,
+        drive=window.sampled(drive_of(run, joint), late),
+        pressure=window.sampled(run.channels["pressure"]) if "pressure" in run.channels else None,
     )
 
 
@@ -201,7 +210,7 @@ def _noise(
 
 
 def transmitted_load(run: Run, joint: Joint, window: Window) -> tuple[Array, Array | None]:
-    """Return the load that the joint transmits beyond its believed load, and its change with the drive, shape (count,) each.
+    """Return the load that the joint transmits beyond its stated load, and its change with the drive, shape (count,) each.
 
     The load is the channel ``normal_force``, or the force of the pressure on the piston, or the size of the driving torque:
     then it changes with the drive that it is asked to explain.

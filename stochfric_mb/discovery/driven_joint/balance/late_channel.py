@@ -24,8 +24,8 @@ def late_channel(dataset: Dataset, source: Any, places: Sequence[PlaceOutcome], 
     Args:
         dataset: the dataset.
         source: its balances.
-        places: what was found without a delay of one column.
-        base: delay of all positions that is believed [s].
+        places: the outcomes without a delay of one column.
+        base: stated delay of all positions [s].
     """
     mechanism = dataset.scenario.mechanism
     columns = [c for c in mechanism.positions.values() if isinstance(c, str)] if isinstance(mechanism, Mjcf) else []

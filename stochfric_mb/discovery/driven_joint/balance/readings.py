@@ -1,6 +1,6 @@
 """Readings that are not what the sensor saw then: repeated ones, and single ones that are far off.
 
-Both are told by the record itself. A bus that drops telegrams repeats a position, to the last digit, while the joint moves on,
+Both show in the record itself. A bus that drops telegrams repeats a position, to the last digit, while the joint moves on,
 and then jumps by what it has missed; an encoder without noise repeats positions too, but then moves on by one step. A stray
 reading is far from a curve through its neighbours. Both are replaced by a smooth curve through the readings around them, so
 that they do not enter the noise of the balance, and are findings of their own.
@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.inference.noise import white_noise
-from stochfric_mb.effects import Effect, kind_found_as, make_effect
+from stochfric_mb.effects import Effect, kind_with_signature, make_effect
 from stochfric_mb.effects.traits import REPEATED_READING
 from stochfric_mb.effects.traits import STRAY as STRAY_READING
 from stochfric_mb.measurement.dataset import Dataset
@@ -64,13 +64,13 @@ class Readings:
 
     @property
     def effects(self) -> tuple[Effect, ...]:
-        """Return what is found by them."""
-        found: list[Effect] = []
+        """Return the effects that they mean."""
+        effects: list[Effect] = []
         if self.repeated >= FEWEST:
-            found.append(make_effect(kind_found_as(REPEATED_READING), rate=self.rate, duration=self.stale / self.rate))
+            effects.append(make_effect(kind_with_signature(REPEATED_READING), rate=self.rate, duration=self.stale / self.rate))
         if self.stray >= FEWEST:
-            found.append(make_effect(kind_found_as(STRAY_READING), fraction=self.fraction, size=self.size))
-        return tuple(found)
+            effects.append(make_effect(kind_with_signature(STRAY_READING), fraction=self.fraction, size=self.size))
+        return tuple(effects)
 
 
 def mended(dataset: Dataset) -> tuple[Dataset, Readings]:
@@ -95,7 +95,7 @@ def mended(dataset: Dataset) -> tuple[Dataset, Readings]:
                 run = _with(run, name, better)
         runs.append(run)
     distances = np.concatenate([*away, np.zeros(0)])
-    found = Readings(
+    readings = Readings(
         len(stretches),
         sum(stretches) / max(duration, 1.0e-300),
         max(stretches, default=0.0),
@@ -104,7 +104,7 @@ def mended(dataset: Dataset) -> tuple[Dataset, Readings]:
         float(np.sqrt(np.mean(distances**2))) if len(distances) else 0.0,
         len(stretches) / max(duration, 1.0e-300),
     )
-    return (dataclasses.replace(dataset, runs=tuple(runs)) if stretches or strays else dataset), found
+    return (dataclasses.replace(dataset, runs=tuple(runs)) if stretches or strays else dataset), readings
 
 
 def repeated(values: Array) -> list[tuple[int, int]]:
@@ -113,7 +113,7 @@ def repeated(values: Array) -> list[tuple[int, int]]:
     edges = np.flatnonzero(np.diff(np.r_[0, same.astype(np.int8), 0]))
     moved = np.abs(np.diff(values))
     step = float(np.min(moved[moved > 0.0], initial=np.inf))  # the resolution, where there is one
-    found: list[tuple[int, int]] = []
+    stretches: list[tuple[int, int]] = []
     for first, last in zip(edges[::2], edges[1::2], strict=True):
         end = last + 1
         if end - first < REPEATED or end >= len(values):
@@ -122,8 +122,8 @@ def repeated(values: Array) -> list[tuple[int, int]]:
         near = np.r_[moved[max(first - reach, 0) : first], moved[end : end + reach]]
         usual = float(np.median(near)) if len(near) else np.inf
         if moved[last] > MISSED * max(usual, step) and np.count_nonzero(near == 0.0) < 0.5 * len(near):
-            found.append((int(first) + 1, int(end)))
-    return found
+            stretches.append((int(first) + 1, int(end)))
+    return stretches
 
 
 def stray(values: Array) -> Mask:

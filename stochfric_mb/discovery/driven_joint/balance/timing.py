@@ -1,7 +1,7 @@
 """Timing: whether the motion comes later in the record than the force that drives it.
 
 A delay looks like friction: m q''(t - T) has a part along q'. And friction looks like a delay. So a delay is sought beside a
-generous friction law, where what it explains is surely timing, and beside the believed law alone; and what it could be is
+generous friction law, where what it explains is surely timing, and beside the stated law alone; and what it could be is
 named only if the record is explained better with it than by any effects without it (`Timing.beside`). Only windows in which
 the joint slides one way count: at reversals, friction that gives before it slides looks late.
 """
@@ -33,7 +33,7 @@ narrow."""
 NARROWEST = 16
 """Narrowest of them [samples]."""
 LEAST_SAMPLES = 1.5
-"""A delay of fewer samples is how signals are sampled and held, and is not called one."""
+"""A delay of fewer samples is how signals are sampled and held: it is compensated, and not called one."""
 NAMED = 14.0
 """Score above which a delay is asked for, and named: it is one question, not one of many."""
 MATERIAL = 0.03
@@ -59,9 +59,19 @@ class Timing:
     named: bool = False
     """Whether it is a finding, and compensated."""
 
-    def beside(self, evidence: float) -> Timing:
-        """Return the timing once it is known by how much the record is explained better with it than by effects without it."""
-        return dataclasses.replace(self, score=evidence, named=evidence > NAMED)
+    def beside(self, evidence: float, explains: bool) -> Timing:
+        """Return the timing once it is known by how much the record is explained better with it than by effects without it.
+
+        Args:
+            evidence: that, numbers counted.
+            explains: whether it explains more than it leaves, all along the motion.
+        """
+        return dataclasses.replace(self, score=evidence, named=evidence > NAMED and explains)
+
+    @property
+    def puzzling(self) -> bool:
+        """Whether motion is late or early somewhere, and no delay explains it."""
+        return self.score > NAMED and not self.named
 
 
 def timing(
@@ -77,14 +87,14 @@ def timing(
     """
     names = [n.name for n in nuisances]
     make = functools.cache(make)
-    found: list[Timing] = []
+    timings: list[Timing] = []
     for generous in (True, False):
         seen: list[Timing] = []
         for width in sorted({max(round(w * half_width / interval), NARROWEST) for w in HALF_WIDTHS}):
             with contextlib.suppress(InputError):  # a run is too short for this window
                 seen.append(_through(lambda d, w=width: make(d, w), names, interval, generous, width))
-        found += sorted(seen, key=lambda t: -t.score)[:1]
-    return next((t for t in found if t.score > NAMED and t.low * t.high > 0.0), None)
+        timings += sorted(seen, key=lambda t: -t.score)[:1]
+    return next((t for t in timings if t.score > NAMED and t.low * t.high > 0.0), None)
 
 
 def _through(
@@ -107,7 +117,7 @@ def _through(
     tried = len(HALF_WIDTHS) * max(2.0 * span / (4.0 * deviation), 1.0)
     score = n * np.log(still / rest) - np.log(n) - 2.0 * np.log(tried)
     gain = 1.0 - float(np.sqrt(rest / still))
-    material = inside and gain > MATERIAL and abs(delay) > LEAST_SAMPLES * interval
+    material = inside and gain > MATERIAL
     within = confidence_interval(delay, deviation, "s")
     return Timing(delay, within.low, within.high, float(score) if material else 0.0, gain, width)
 
@@ -123,8 +133,8 @@ def of_channel(
         interval: distance between samples [s].
         width: half width of the windows [samples].
     """
-    found = _through(make, [n.name for n in nuisances], interval, True, width)
-    return found if found.score > NAMED and found.low * found.high > 0.0 else None
+    timing = _through(make, [n.name for n in nuisances], interval, True, width)
+    return timing if timing.score > NAMED and timing.low * timing.high > 0.0 else None
 
 
 def lowest(x: Array, y: Array) -> float:

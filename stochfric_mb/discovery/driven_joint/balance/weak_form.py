@@ -27,7 +27,7 @@ SHORTEST = 3
 WIDER = 2.0**0.5
 """Ratio of half widths that are tried."""
 QUIET = 0.05
-"""Noise of the balance over the believed friction [-] below which no wider window is asked for."""
+"""Noise of the balance over the stated friction [-] below which no wider window is taken."""
 LONGER = 1.5
 """Half widths that noise may ask for at most, over those that suit the record [-]: chosen."""
 LOUD = 0.3
@@ -67,6 +67,14 @@ class Window:
     def through(self, signal: Array, derivative: int = 0, shift: float = 0.0) -> Array:
         """Return a signal, shape (count,), or a derivative of it through the window, delayed by ``shift`` [s]."""
         return smooth(signal, self.half_width, self.interval, derivative=derivative, shift=shift)
+
+    def sampled(self, signal: Array, shift: float = 0.0) -> Array:
+        """Return a signal smoothed no more than `means` needs it, delayed by ``shift`` [s], shape (count,)."""
+        fine = max(self.stride, SHORTEST) * self.interval
+        edge = len(window(fine, self.interval)) + int(abs(shift) / self.interval)
+        seen = smooth(signal, fine, self.interval, shift=shift)
+        seen[:edge], seen[len(seen) - edge :] = signal[:edge], signal[len(seen) - edge :]
+        return seen
 
     def held(self, seen: Array) -> Array:
         """Return what was seen `through` the window, shape (count,), held at both ends, where the window reaches out."""
@@ -125,7 +133,7 @@ def chosen_window(interval: float, count: int, noise: dict[int, float], friction
         interval: distance between samples [s].
         count: samples of the run.
         noise: derivative -> noise of what enters the balance with that derivative (coefficients included).
-        friction: believed size of the friction [N or N m].
+        friction: stated size of the friction [N or N m].
     """
     half = least_width(count) * interval
     widest = count * interval / RECORD

@@ -31,16 +31,19 @@ class Candidate:
     """Numbers it adds to a fit."""
     scan: Scan | None = None
     """Waves among which further fits begin."""
+    form: int = 0
+    """Its place among the forms of its kind."""
 
 
 def span_of(balances: Sequence[ForceBalance], friction: float, load: float) -> JointSpan:
-    """Return what the motion of ``balances`` covers; friction and load are what is believed [N or N m]."""
+    """Return what the motion of ``balances`` covers; friction and load are the stated ones [N or N m]."""
     at = [s.window.centres[s.sliding] for s in balances]
     speed = np.concatenate([np.abs(s.velocity[c]) for s, c in zip(balances, at, strict=True)])
     position = np.concatenate([s.position[c] for s, c in zip(balances, at, strict=True)])
     carried = [s.load if s.normal_force is None else s.normal_force for s in balances]
     carries = np.concatenate([x[c] for x, c in zip(carried, at, strict=True)])
     direction = np.concatenate([np.sign(s.velocity[c]) for s, c in zip(balances, at, strict=True)])
+    pressures = [s.pressure[c] for s, c in zip(balances, at, strict=True) if s.pressure is not None]
     varies = carries.std() > 0.05 * max(float(np.mean(carries)), 1.0e-12)
     return JointSpan(
         speed=float(np.quantile(speed, 0.95)),
@@ -52,9 +55,16 @@ def span_of(balances: Sequence[ForceBalance], friction: float, load: float) -> J
         distance=max(float(s.travelled[-1]) for s in balances),
         temperature=_temperatures(balances),
         contact=any(s.normal_force is not None for s in balances),
-        believed_load=load,
+        stated_load=load,
+        drive=_driven(balances, at),
+        pressure=float(np.median(np.abs(np.concatenate(pressures)))) if pressures else 0.0,
         window=max(s.window.half_width for s in balances),
     )
+
+
+def _driven(balances: Sequence[ForceBalance], at: Sequence[npt.NDArray[np.int64]]) -> bool:
+    """Return whether a drive is known in all records and moves the joint."""
+    return all(s.drive is not None and bool(np.any(s.drive[c] != 0.0)) for s, c in zip(balances, at, strict=True))
 
 
 def _temperatures(balances: Sequence[ForceBalance]) -> tuple[float, float] | None:
@@ -66,20 +76,20 @@ def _temperatures(balances: Sequence[ForceBalance]) -> tuple[float, float] | Non
     return (0.5 * (low + high), high - low) if high > low else None
 
 
-def candidates(span: JointSpan, believed: Sequence[Effect]) -> list[Candidate]:
+def candidates(span: JointSpan, stated: Sequence[Effect]) -> list[Candidate]:
     """Return the effects that this motion can show and that the model does not have yet, installed ones of other packages too.
 
     Args:
         span: what the motion covers.
-        believed: effects in the model.
+        stated: effects in the model.
     """
-    have = {e.kind for e in believed}
-    found: list[Candidate] = []
+    have = {e.kind for e in stated}
+    searched: list[Candidate] = []
     for kind in effect_kinds():
         forms = effect_class(kind).at_joint(span) if kind not in have else None
         forms = (forms,) if isinstance(forms, JointSignature) else forms or ()
-        found += [Candidate(kind, form.starts, form.axis, form.parameters, form.scan) for form in forms]
-    return found
+        searched += [Candidate(kind, f.starts, f.axis, f.parameters, f.scan, i) for i, f in enumerate(forms)]
+    return searched
 
 
 @dataclasses.dataclass(frozen=True)
@@ -101,13 +111,13 @@ class Competitor:
         values = [self.values(s) for s in balances]
         around = values if like is None else [self.values(s) for s in like]
         low, high = min(float(v.min()) for v in around), max(float(v.max()) for v in around)
-        found: list[Array] = []
+        columns: list[Array] = []
         for balance, value in zip(balances, values, strict=True):
             rows = _legendre(value, low, high)
             rows = np.sign(balance.velocity) * rows if self.signed else rows
             seen = [balance.window.at_centres(row) for row in rows]
-            found.append(np.column_stack(seen) if seen else np.zeros((len(balance.driven), 0)))
-        return found
+            columns.append(np.column_stack(seen) if seen else np.zeros((len(balance.driven), 0)))
+        return columns
 
 
 COMPETITORS = (

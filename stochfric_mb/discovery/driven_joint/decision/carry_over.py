@@ -5,7 +5,9 @@ from __future__ import annotations
 import dataclasses
 
 import numpy as np
+import numpy.typing as npt
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.decision.evidence import settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
@@ -13,6 +15,8 @@ from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_f
 from stochfric_mb.effects import kinds_with, make_effect
 from stochfric_mb.effects.traits import ANONYMOUS
 from stochfric_mb.measurement.dataset import Dataset
+
+Array = npt.NDArray[np.float64]
 
 AWAY = 2.0
 """Factor on the error of forward simulation from which an effect is not named, whatever else it explains [-]: chosen, so that
@@ -32,19 +36,19 @@ BEGIN = 1.0e-3
 
 
 def with_idle(place: PlaceOutcome) -> PlaceOutcome:
-    """Return the outcome at a place with why what was found there is not named; the model without it, where no delay is."""
+    """Return the outcome at a place with why its effects are not named; the model without it, where no delay is."""
     reason = _reason(place)
     if not reason or place.late:
         return dataclasses.replace(place, idle=reason)
-    plain = dataclasses.replace(place.selected, final=place.selected.recalibrated, found=(), equivalents=(), released=())
+    plain = dataclasses.replace(place.selected, final=place.selected.recalibrated, effects=(), equivalents=(), released=())
     scores = place.scores | {"augmented": place.scores["recalibrated"]}
     return dataclasses.replace(place, selected=plain, scores=scores, idle=reason)
 
 
 def _reason(place: PlaceOutcome) -> str:
-    """Return why what was found is not named: it brings the model no closer to the held-out runs; empty if it does."""
+    """Return why the selected effects are not named: they bring the model no closer to the held-out runs; empty if they do."""
     before, after = (place.scores[k] for k in ("recalibrated", "augmented"))
-    kinds = ", ".join(t.candidate.kind for t in place.selected.found)
+    kinds = ", ".join([t.candidate.kind for t in place.selected.effects] + [r.name for r in place.selected.released])
     if not kinds or place.forecasts is not None or (place.random is not None and place.random.named):
         return ""
     pairs = ((before.forward, after.forward), (before.loop, after.loop))
@@ -63,12 +67,13 @@ def _explained(before: float, after: float, floor: float) -> float:
 
 
 def lacks(dataset: Dataset, place: PlaceOutcome) -> bool:
-    """Return whether a place leaves more than noise explains, where the noise of its records can tell.
+    """Return whether a place leaves more than noise explains, where the noise of its records can tell, or is mistimed.
 
     Slow and prescribed, without a mass, motion shows the noise of a force sensor alone: what friction itself does is far above
     that.
     """
-    return getattr(dataset.scenario.mechanism, "mass", 1.0) > 0.0 and above_floor(place)
+    mistimed = place.timing is not None and place.timing.puzzling
+    return mistimed or (getattr(dataset.scenario.mechanism, "mass", 1.0) > 0.0 and above_floor(place))
 
 
 def above_floor(place: PlaceOutcome) -> bool:
@@ -76,21 +81,32 @@ def above_floor(place: PlaceOutcome) -> bool:
     strokes, runs = place.random, place.runs
     if strokes is not None and strokes.accounted:
         return not strokes.all_of_it
-    # noise of the drive that goes on across reversals is noise, which a note speaks of
-    accounted = (runs is not None and runs.accounted) or (strokes is not None and strokes.slow_noise)
+    accounted = runs is not None and runs.accounted
     last = place.selected.recalibrated if place.idle else place.selected.final
     floor = noise_floor(last.model, place.fit, place.nuisances)
     rest = np.concatenate(last.remainders)
     # runs that differ for no known reason are said in a note: what counts is what is left within them
     settings = np.unique(settings_of(place.fit), return_inverse=True)[1]
     means = np.bincount(settings, rest) / np.bincount(settings)
-    return not accounted and float(np.std(rest - means[settings])) > FLOOR * floor
+    within = rest - means[settings]
+    # a zero of the drive that wanders goes on across reversals; a force as large as this is no zero
+    small = float(np.std(within)) < criteria.ZERO_WANDERS * last.model.law.mu_k * last.model.load
+    accounted = accounted or (strokes is not None and strokes.slow_noise and small)
+    return not accounted and (float(np.std(within)) > FLOOR * floor or _waves(within, last.independent))
+
+
+def _waves(rest: Array, independent: float) -> bool:
+    """Return whether what is left is flatter than noise: waves that come and go, of no frequency that stays."""
+    off = rest - rest.mean()
+    kurtosis = float(np.mean(off**4) / np.mean(off**2) ** 2)
+    flat = (3.0 - kurtosis) * float(np.sqrt(independent / 24.0))
+    return kurtosis < criteria.WAVE_FLATTENS and flat > criteria.WAVE_CERTAIN
 
 
 def with_unnamed(dataset: Dataset, place: PlaceOutcome) -> PlaceOutcome:
     """Return the outcome at a place with an unnamed term in its model, if nothing has a name there and one carries over."""
     selected = place.selected
-    named = selected.found or selected.released or place.late or place.idle
+    named = selected.effects or selected.released or place.late or place.idle
     drawn = any(s is not None and s.accounted for s in (place.random, place.runs))
     rivals = [(SMOOTH[axis], evidence) for axis, evidence in selected.stages[-1].competitors if axis in SMOOTH]
     if named or drawn or not rivals or rivals[0][1] <= 0.0 or not (selected.unknown or lacks(dataset, place)):

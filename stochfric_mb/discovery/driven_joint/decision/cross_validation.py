@@ -43,6 +43,16 @@ def strokes(balances: Sequence[ForceBalance]) -> list[Masks]:
     return [_split((number == k) & sliding, balances) for k in np.unique(number[sliding])]
 
 
+def witnesses(balances: Sequence[ForceBalance]) -> list[Masks]:
+    """Return what an effect has to foretell: runs in one direction where there are up to `BLOCKS` of these, or else blocks.
+
+    Half of a run foretells the other half with whatever is peculiar to that run in that direction. Of more runs a block holds
+    whole ones.
+    """
+    settings = strokes(balances) if len(balances) >= FEWEST else []
+    return settings if 1 < len(settings) <= BLOCKS else blocks(balances)
+
+
 def each_run(balances: Sequence[ForceBalance]) -> list[Masks]:
     """Return the runs, one by one: what each run has a phase of its own for must show in runs that it was not learned from."""
     return [[s.sliding if s is own else np.zeros_like(s.sliding) for s in balances] for own in balances]

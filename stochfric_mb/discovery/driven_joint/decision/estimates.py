@@ -37,7 +37,7 @@ def parameters(place: PlaceOutcome, owner: int) -> dict[str, Interval]:
     """Return the numbers of an effect of the final model at a place, its ``owner``-th, with their intervals."""
     fit = place.selected.final
     effect = fit.model.effects[owner]
-    found: dict[str, Interval] = {}
+    intervals: dict[str, Interval] = {}
     for field in dataclasses.fields(effect):
         unit = unit_at(str(field.metadata.get("unit", "-")), place.fit[0].unit)
         value = getattr(effect, field.name)
@@ -48,28 +48,32 @@ def parameters(place: PlaceOutcome, owner: int) -> dict[str, Interval]:
         if deviation < 1.0e-6 * abs(value):  # not known that well: nothing in these data depends on it
             continue
         if np.isfinite(deviation):
-            found[field.name] = confidence_interval(value, deviation, unit, field.metadata["low"], field.metadata["high"])
+            intervals[field.name] = confidence_interval(value, deviation, unit, field.metadata["low"], field.metadata["high"])
         elif value != field.default:
-            found[field.name] = Interval(value, value, value, unit)
+            intervals[field.name] = Interval(value, value, value, unit)
     # the numbers of a wave trade off against each other where it is longer than the stroke
-    if hasattr(effect, "wavelength") and "amplitude" in found and found["amplitude"].low <= 0.0 <= found["amplitude"].high:
-        found |= _profiled(place, owner, found)
-    return found
+    if (
+        hasattr(effect, "wavelength")
+        and "amplitude" in intervals
+        and intervals["amplitude"].low <= 0.0 <= intervals["amplitude"].high
+    ):
+        intervals |= _profiled(place, owner, intervals)
+    return intervals
 
 
 def _profiled(place: PlaceOutcome, owner: int, numbers: dict[str, Interval]) -> dict[str, Interval]:
     """Return amplitude and wavelength of a wave with intervals that do not take the fit as linear in them."""
-    fit, found = place.selected.final, dict[str, Interval]()
+    fit, intervals = place.selected.final, dict[str, Interval]()
     for name in ("amplitude", "wavelength"):
         value, unit = numbers[name].value, numbers[name].unit
         nothing = LEAST_WAVE * value if name == "wavelength" else 0.0
         ends = (nothing, np.inf) if value > 0.0 else (-np.inf, nothing)
         low, high = profile(fit, owner, name, place.fit, place.nuisances, prior_weight(fit), *ends)
-        found[name] = Interval(value, low, high, unit)
-    return found
+        intervals[name] = Interval(value, low, high, unit)
+    return intervals
 
 
-def believed(place: PlaceOutcome) -> dict[str, Interval]:
+def mechanism_estimates(place: PlaceOutcome) -> dict[str, Interval]:
     """Return the corrected numbers of law and mechanism at a place, with their intervals."""
     fit = place.selected.final
     return {
@@ -87,7 +91,7 @@ def against_priors(place: PlaceOutcome) -> tuple[list[str], dict[str, float]]:
     for one, value in zip(fit.free, fit.values, strict=True):
         if one.owner >= 0 or not np.isfinite(one.prior):
             continue
-        if 1.0 - (fit.deviation(one.owner, one.name) / one.prior) ** 2 < criteria.TOLD_BY_DATA:
+        if 1.0 - (fit.deviation(one.owner, one.name) / one.prior) ** 2 < criteria.DECIDED_BY_DATA:
             prior_made.append(_name(place, one))
         elif abs(by := (float(value) - one.nominal) / one.prior) > criteria.SURPRISING:
             off[_name(place, one)] = by

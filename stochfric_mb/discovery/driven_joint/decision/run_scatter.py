@@ -43,7 +43,7 @@ class RunScatter:
     share: float
     """The same over mu_k [-]."""
     score: float
-    """Evidence: fall of the deviance from the scatter that was believed, less ln(runs)."""
+    """Evidence: fall of the deviance from the stated scatter, less ln(runs)."""
     p_value: float
     """Chance of that fall without it."""
     gain: float
@@ -51,7 +51,7 @@ class RunScatter:
     runs: int
     """Number of runs."""
     believed: float
-    """Standard deviation of mu_k from run to run that was believed already [-]."""
+    """Stated standard deviation of mu_k from run to run [-]."""
 
     @property
     def named(self) -> bool:
@@ -60,7 +60,7 @@ class RunScatter:
 
     @property
     def accounted(self) -> bool:
-        """Whether the scatter is part of the model, found or believed."""
+        """Whether the scatter is part of the model, named or stated."""
         return self.named or self.believed > 0.0
 
     @property
@@ -78,7 +78,7 @@ def run_scatter(
         model: what is known of the friction.
         balances: fit runs.
         nuisances: numbers of the mechanism.
-        believed: standard deviation of mu_k from run to run that is believed already [-].
+        believed: stated standard deviation of mu_k from run to run [-].
     """
     along = [dependence(model, s) for s in balances]
     seen = [strokes_of(model.remainder(s, nuisances), f, s, 1) for s, f in zip(balances, along, strict=True)]
@@ -142,7 +142,7 @@ class Forecasts:
     recalibrated: float
     """Of the recalibrated one."""
     augmented: float
-    """Of the one with what was found, which knows how far runs scatter."""
+    """Of the augmented one, which knows how far runs scatter."""
     floor: float
     """Of the latter on data that it gives itself."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -11,7 +12,7 @@ from scipy.stats import f as fisher
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.decision.candidates import COMPETITORS, Candidate, Competitor, candidates, span_of
-from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes
+from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes, witnesses
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of, whitened
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.free_parameters import MOST_OFF
@@ -30,8 +31,6 @@ MATERIAL = 0.05
 MATERIAL_PHASED = 0.15
 """The same, on runs left out, for a wave whose phase is taken from each run: motion that is periodic itself, seen through an
 effect of another form, leaves waves that runs share by accident. Chosen: forces of the tests take away 0.5 and more."""
-PLAIN = 0.1
-"""The same for a competitor without a name: that something is missing is said where it is plain to see."""
 BETTER = 0.5
 """Least share of the blocks that must get better: an effect that shows in one place only is one that was fitted to it."""
 CHANCE = 0.05
@@ -50,10 +49,12 @@ MOST = 4
 PARTS = np.linspace(0.0, 1.0, 9)
 """Parts of the way to a competitor's fit that are tried where it reads the drive that it explains."""
 AT_BOUND = 0.95
-"""Part of the way to the bound of what is believed from which a number is held by it [-]."""
+"""Part of the way to the bound of a prior from which a number is held by it [-]."""
 WIDE = 1.0e3
 """Factor on the standard deviation of a number that is released: the data alone say what it is."""
-SIZES = ("amplitude", "coefficient", "asymmetry", "rate")
+UNDRIVEN = 1.0e-9
+"""Part of the balance that the mechanism's own terms must leave for a drive to be in it [-]: rounding leaves less."""
+SIZES = ("amplitude", "coefficient", "asymmetry", "viscous_difference", "rate")
 """Parameters that are zero where an effect is none."""
 WIN = (15.0, 0.03)
 """A competitor wins by that score, or that part of the best named effect's score, whichever is more."""
@@ -93,11 +94,11 @@ class Stage:
 
 @dataclasses.dataclass(frozen=True)
 class Released:
-    """A number of the mechanism that data take beyond what is believed of it."""
+    """A number of the mechanism that data take beyond its prior."""
 
     name: str
     """Its name."""
-    believed: float
+    stated: float
     """What was stated."""
     deviation: float
     """Standard deviation of that belief."""
@@ -107,26 +108,28 @@ class Released:
     """Error with the number within its belief (rms) [N or N m]."""
     after: float
     """Error with it where the data take it."""
+    alike: tuple[str, ...] = ()
+    """Other numbers that explain as much."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Selected:
-    """What was found at one joint."""
+    """The outcome at one joint."""
 
     recalibrated: JointFit
     """The stated model with its numbers fitted."""
     final: JointFit
-    """With the effects found."""
-    found: tuple[Trial, ...]
+    """With the selected effects."""
+    effects: tuple[Trial, ...]
     """Effects, as they were when accepted."""
     equivalents: tuple[tuple[str, ...], ...]
-    """Effects that could stand in the place of each."""
+    """Effects, and numbers of the mechanism, that could stand in the place of each."""
     stages: tuple[Stage, ...]
     """The steps."""
     unknown: str
     """Axis of what is missing without a name; empty: nothing is."""
     released: tuple[Released, ...] = ()
-    """Numbers of the mechanism that are off by more than they are believed to be."""
+    """Numbers of the mechanism that are off by more than their uncertainty."""
 
 
 class Selector:
@@ -152,11 +155,11 @@ class Selector:
     def run(self) -> Selected:
         """Return what was selected."""
         current = self.recalibrated
-        found: list[Trial] = []
+        effects: list[Trial] = []
         stages: list[Stage] = []
         released: list[Released] = []
-        while len(found) < MOST:
-            self._tell(f"effect {len(found) + 1}")
+        while len(effects) < MOST:
+            self._tell(f"effect {len(effects) + 1}")
             stage = self._stage(current)
             freed = self._released(current, stage)
             if freed is not None:
@@ -166,57 +169,77 @@ class Selector:
             stages.append(stage)
             if not stage.accepted:
                 break
-            found.append(stage.trials[0])
+            effects.append(stage.trials[0])
             self._noise = prior_weight(stage.trials[0].fit)
             current = self._fit(stage.trials[0].fit.model)
             self._noise = prior_weight(current)
-            current, found = self._re_examined(current, found)
-        final, found = self._without_zero(self._fit(current.model), found)
+            current, effects = self._re_examined(current, effects)
+        final, effects = self._without_zero(self._fit(current.model), effects)
         unknown = self._unknown(stages[-1]) if not stages[-1].accepted else ""
         return Selected(
             self.recalibrated,
             final,
-            tuple(found),
-            tuple(self._equivalents(final, i, t.candidate.parameters) for i, t in enumerate(found)),
+            tuple(effects),
+            tuple(self._equivalents(final, i, t.candidate.parameters) for i, t in enumerate(effects)),
             tuple(stages),
             unknown,
             tuple(released),
         )
 
     def _released(self, current: JointFit, stage: Stage) -> tuple[Released, JointFit] | None:
-        """Return the number of the mechanism that is off by more than is believed, if that explains more than any effect.
+        """Return the number of the mechanism that is off by more than its uncertainty, if that explains more than any effect.
 
         It is a finding of its own, a payload for instance: within its belief it would hide behind what it cannot explain.
         """
-        best: tuple[Released, JointFit, list[Nuisance]] | None = None
-        for i, number in enumerate(self._nuisances):
-            if abs(current.model.nuisances[number.name] - number.value) < AT_BOUND * MOST_OFF * number.deviation:
+        freed = sorted(self._freed(current), key=lambda f: -f[0].score)
+        # a prior is given up only where it explains more than any effect that leaves it alone
+        if not freed or freed[0][0].score < max(NAMED, stage.trials[0].score + TIE):
+            return None
+        (best, fitted, self._nuisances), others = freed[0], [number for number, _, _ in freed[1:]]
+        alike = tuple(r.name for r in others if r.score > max(best.score - TIE, ALIKE * best.score))
+        self._noise = prior_weight(fitted)
+        return dataclasses.replace(best, alike=alike), self._fit(fitted.model)
+
+    def _freed(self, current: JointFit) -> list[tuple[Released, JointFit, list[Nuisance]]]:
+        """Return the numbers that data take beyond their priors, each with the fit in which it may be anything."""
+        released: list[tuple[Released, JointFit, list[Nuisance]]] = []
+        beside = len(current.model.effects) > len(self.recalibrated.model.effects)
+        for i, number in enumerate(self._nuisances if self._nuisances and self._driven else ()):
+            # beside an effect that imitates inertia less mass would only be less noise: it must press against its bound
+            off = abs(current.model.nuisances[number.name] - number.value)
+            if beside and off < AT_BOUND * MOST_OFF * number.deviation:
                 continue
             wide = [*self._nuisances]
             wide[i] = dataclasses.replace(number, deviation=WIDE * number.deviation)
             freed = fit(current.model, self._balances, wide, noise=self._noise)
+            if abs(freed.model.nuisances[number.name] - number.value) < MOST_OFF * number.deviation:
+                continue
             n = max(freed.independent, 4.0)
             score = self._evidence(current, freed, freed, n) - np.log(n) - 2.0 * np.log(len(self._nuisances))
             seen = Released(number.name, number.value, number.deviation, float(score), current.rms, freed.rms)
-            if best is None or seen.score > best[0].score:
-                best = seen, freed, wide
-        # what is believed is given up only where it explains more than any effect that leaves it alone
-        if best is None or best[0].score < max(NAMED, stage.trials[0].score + TIE):
-            return None
-        self._nuisances = best[2]
-        self._noise = prior_weight(best[1])
-        return best[0], self._fit(best[1].model)
+            released.append((seen, freed, wide))
+        return released
 
-    def _without_zero(self, final: JointFit, found: list[Trial]) -> tuple[JointFit, list[Trial]]:
-        """Drop effects whose size may be zero beside those found after them: nothing is said by them."""
+    @functools.cached_property
+    def _driven(self) -> bool:
+        """Whether a drive is measured: without one all forces could be less in the same proportion, errors included."""
+        names = [n.name for n in self._nuisances]
+        columns = np.concatenate([np.column_stack([s.columns[n] for n in names if n in s.columns]) for s in self._balances])
+        driven = np.concatenate([s.driven for s in self._balances])
+        scaled = columns / np.maximum(np.linalg.norm(columns, axis=0), 1.0e-300)
+        rest = driven - scaled @ np.linalg.lstsq(scaled, driven, rcond=None)[0]
+        return float(np.linalg.norm(rest)) > UNDRIVEN * float(np.linalg.norm(driven))
+
+    def _without_zero(self, final: JointFit, effects: list[Trial]) -> tuple[JointFit, list[Trial]]:
+        """Drop effects whose size may be zero beside those selected after them: nothing is said by them."""
         while True:
-            first = len(final.model.effects) - len(found)
-            empty = next((i for i in range(len(found)) if _may_be_zero(final, first + i)), None)
+            first = len(final.model.effects) - len(effects)
+            empty = next((i for i in range(len(effects)) if _may_be_zero(final, first + i)), None)
             if empty is None:
-                return final, found
-            effects = tuple(e for i, e in enumerate(final.model.effects) if i != first + empty)
-            final = self._fit(dataclasses.replace(final.model, effects=effects))
-            found = [t for i, t in enumerate(found) if i != empty]
+                return final, effects
+            others = tuple(e for i, e in enumerate(final.model.effects) if i != first + empty)
+            final = self._fit(dataclasses.replace(final.model, effects=others))
+            effects = [t for i, t in enumerate(effects) if i != empty]
 
     def first(self) -> Stage:
         """Return the first step alone."""
@@ -233,7 +256,7 @@ class Selector:
         rivals = self._competitors(current, trials[0].fit)
         models = current.model, trials[0].fit.model
         phased = len(models[1].own) > len(models[0].own) and len(self._balances) > 1
-        parts = each_run(self._balances) if phased else blocks(self._balances)
+        parts = each_run(self._balances) if phased else witnesses(self._balances)
         noise = min(self._noise, prior_weight(trials[0].fit))
         inside = compared(*models, self._balances, self._nuisances, noise, parts)
         better = inside.share_better > BETTER if phased else inside.share_better >= BETTER
@@ -302,7 +325,7 @@ class Selector:
         rest = np.concatenate(current.remainders)
         before = scatter(rest, self._settings, n)
         kept = adjustable(current)
-        found: list[tuple[str, float]] = []
+        rivals: list[tuple[str, float]] = []
         for rival in COMPETITORS:
             seen = rival.columns(self._balances)
             columns = np.concatenate([c[s.sliding] for c, s in zip(seen, self._balances, strict=True)])
@@ -314,8 +337,8 @@ class Selector:
             slopes = self._by_drive(rival)
             after = min(self._deviance_without(rest, offsets, design, below, n, ratio, slopes) for ratio in {0.0, before.ratio})
             score = before.deviance - after - width * np.log(n)
-            found.append((rival.axis, float(score)))
-        return sorted(found, key=lambda r: -r[1])
+            rivals.append((rival.axis, float(score)))
+        return sorted(rivals, key=lambda r: -r[1])
 
     def _deviance_without(
         self, rest: Array, offsets: Array, design: Array, below: Array, n: float, ratio: float, slopes: Array
@@ -343,9 +366,9 @@ class Selector:
         change = zip(rival.columns(moved, at), rival.columns(at), at, strict=True)
         return np.concatenate([((there - here) / step)[s.sliding] for there, here, s in change])
 
-    def _re_examined(self, current: JointFit, found: list[Trial]) -> tuple[JointFit, list[Trial]]:
+    def _re_examined(self, current: JointFit, effects: list[Trial]) -> tuple[JointFit, list[Trial]]:
         """Drop effects that later ones have made superfluous."""
-        for trial in found[:-1]:
+        for trial in effects[:-1]:
             if trial.score < NAMED:  # taken for what it is worth on strokes left out
                 continue
             kind = trial.candidate.kind
@@ -354,11 +377,14 @@ class Selector:
             n = max(current.independent, 4.0)
             score = self._evidence(fitted, current, current, n) - trial.candidate.parameters * np.log(n)
             if score < NAMED:
-                current, found = fitted, [t for t in found if t.candidate.kind != kind]
-        return current, found
+                current, effects = fitted, [t for t in effects if t.candidate.kind != kind]
+        return current, effects
 
     def _equivalents(self, final: JointFit, number: int, size: int) -> tuple[str, ...]:
-        """Return the kinds that could stand in the place of an effect of ``size`` numbers of the final model, within `TIE`."""
+        """Return what could stand in the place of an effect of ``size`` numbers of the final model, within `TIE`.
+
+        Kinds of effects, and names of numbers of the mechanism that would be beyond their beliefs.
+        """
         added = len(final.model.effects) - len(self.recalibrated.model.effects)
         own = final.model.effects[len(final.model.effects) - added + number]
         others = tuple(e for e in final.model.effects if e is not own)
@@ -368,13 +394,14 @@ class Selector:
         fits = [(c, f) for c in choices if (f := self._best(without, c)) is not None]
         n = max(final.independent, 4.0)
         mine = self._evidence(without, final, final, n)
-        theirs = [(c, self._evidence(without, f, final, n)) for c, f in fits]
+        theirs = [(c.kind, c.parameters, self._evidence(without, f, final, n)) for c, f in fits]
+        theirs += [(number.name, 1, self._evidence(without, f, final, n)) for number, f, _ in self._freed(without)]
         # one that explains next to nothing stands in for nothing, however close the scores
         return tuple(
             dict.fromkeys(
-                c.kind
-                for c, gain in theirs
-                if gain > ALIKE * mine and gain - c.parameters * np.log(n) > mine - size * np.log(n) - TIE
+                name
+                for name, numbers, gain in theirs
+                if gain > ALIKE * mine and gain - numbers * np.log(n) > mine - size * np.log(n) - TIE
             )
         )
 
@@ -387,7 +414,7 @@ class Selector:
         if score < NAMED + 2.0 * np.log(len(COMPETITORS)) or score < named + max(WIN[0], WIN[1] * abs(named)):
             return ""
         rival = next(c for c in COMPETITORS if c.axis == axis)
-        return axis if self._rival_gain(last.before, rival) > PLAIN else ""
+        return axis if self._rival_gain(last.before, rival) > MATERIAL else ""
 
     def _rival_gain(self, current: JointFit, rival: Competitor) -> float:
         """Return by what part a competitor lowers the error on blocks left out."""
@@ -414,14 +441,17 @@ class Selector:
 
 
 def simplest_first(trials: list[Trial]) -> list[Trial]:
-    """Return trials, best first, with the one of fewest numbers in front among those that cannot be told from the best.
+    """Return trials, best first, with the one of fewest numbers in front among those as good as the best.
 
-    A wave far longer than the stroke is a constant force with three numbers.
+    A wave far longer than the stroke is a constant force with three numbers. Of forms of one effect with as many numbers it is
+    the one that the effect gives first, which assumes least.
     """
     tied = [t for t in trials if t.score > max(trials[0].score - TIE, 0.0)]
     if not tied:
         return trials
-    first = min(tied, key=lambda t: (t.candidate.parameters, -t.score))
+    best = min(tied, key=lambda t: (t.candidate.parameters, -t.score)).candidate
+    alike = [t for t in tied if (t.candidate.kind, t.candidate.parameters) == (best.kind, best.parameters)]
+    first = min(alike, key=lambda t: t.candidate.form)
     return [first, *(t for t in trials if t is not first)]
 
 

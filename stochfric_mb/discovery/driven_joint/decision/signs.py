@@ -29,7 +29,7 @@ def sign_notes(dataset: Dataset, place: str, load: float, balances: Sequence[For
     Args:
         dataset: the dataset.
         place: name of the joint, tendon or pair; empty where there is one only.
-        load: its believed load [N or N m].
+        load: its stated load [N or N m].
         balances: its fit runs.
 
     Raises:
@@ -75,9 +75,9 @@ def _fits_turned(dataset: Dataset, place: str, load: float, balances: Sequence[F
         return []  # the drives press there, too: with them turned round nothing touches
     source = source_of(_turned(dataset, place))
     nuisances = source.nuisances(place)
-    believed = prior_model(dataset.scenario, place, nuisances, load)
+    stated = prior_model(dataset.scenario, place, nuisances, load)
     both = balances, source.balances(place, "fit", 0.0)
-    as_given, turned = (Selector(s, nuisances, believed).recalibrated.rms for s in both)
+    as_given, turned = (Selector(s, nuisances, stated).recalibrated.rms for s in both)
     if turned > TURNED * as_given:
         return []
     where = f" at {place}" if place else ""

@@ -49,7 +49,7 @@ class StrokeScatter:
     share: float
     """The same over mu_k [-]."""
     score: float
-    """Evidence: fall of the deviance from the scatter that was believed, less ln(strokes)."""
+    """Evidence: fall of the deviance from the stated scatter, less ln(strokes)."""
     p_value: float
     """Chance of that fall without it."""
     gain: float
@@ -63,7 +63,7 @@ class StrokeScatter:
     level: float
     """Scatter of the friction force [N or N m]."""
     believed: float
-    """Standard deviation of mu_k that was believed already [-]."""
+    """Stated standard deviation of mu_k [-]."""
     inside: float
     """What is left within strokes (rms), each with a mu_k of its own [N or N m]."""
     floor: float
@@ -91,7 +91,7 @@ class StrokeScatter:
 
     @property
     def accounted(self) -> bool:
-        """Whether the scatter is part of the model, found or believed, and so of the floor that no mean friction gets below."""
+        """Whether the scatter is part of the model, named or stated, and so of the floor that no mean friction gets below."""
         return self.named or self.believed > 0.0
 
 
@@ -104,7 +104,7 @@ def stroke_scatter(
         model: what is known of the friction.
         balances: fit runs.
         nuisances: numbers of the mechanism.
-        believed: standard deviation of mu_k that is believed already [-].
+        believed: stated standard deviation of mu_k [-].
     """
     strokes: list[Stroke] = []
     settings: list[int] = []

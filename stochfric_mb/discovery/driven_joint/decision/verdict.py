@@ -1,4 +1,4 @@
-"""From what was selected at each joint to the result: names, numbers with intervals, gap, what cannot be told."""
+"""From what was selected at each joint to the result: names, numbers with intervals, gap, what cannot be identified."""
 
 from __future__ import annotations
 
@@ -11,25 +11,27 @@ import numpy as np
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_clock, confounded, spoken_of, stand_ins
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.carry_over import lacks
-from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, believed, parameters
+from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, mechanism_estimates, parameters
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM
 from stochfric_mb.discovery.inference.intervals import confidence_interval
-from stochfric_mb.discovery.result import Found, Gap, Interval, Result, Where
-from stochfric_mb.effects import Effect, effect_kinds, kind_found_as, kinds_with, words_of
-from stochfric_mb.effects.traits import ANONYMOUS, BELT, DRAWN_ANEW, LATE, MORE_DAMPING, REPEATED_READING, STRAY
+from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
+from stochfric_mb.effects import Effect, effect_kinds, kind_with_signature, kinds_with, words_of
+from stochfric_mb.effects.traits import ANONYMOUS, BELT, DRAWN_ANEW, LATE, MORE_DAMPING, OTHER_AREA, REPEATED_READING, STRAY
 from stochfric_mb.measurement.dataset import Dataset
 
 IMITATED = 0.99
 """Part of an effect's change of friction that other numbers imitate, from which it cannot be identified [-]."""
 BEYOND = {
     "mass": "payload", "inertia": "payload", "armature": "payload", "gain": "drive_gain", "force_gain": "drive_gain",
-    "torque_gain": "drive_gain", "offset": "constant_force", "piston_area": "effective_area",
+    "torque_gain": "drive_gain", "offset": "constant_force",
 }  # fmt: skip
-"""Number of the mechanism -> what it is called where it is off by more than is believed; more damping is an effect's."""
+"""Number of the mechanism -> what it is called where it is off by more than its uncertainty; other ones are an effect's."""
+OF_EFFECTS = {"damping": MORE_DAMPING, "piston_area": OTHER_AREA}
+"""Number of the mechanism -> the finding of an effect that it is."""
 PLAIN = 14.0
 """Fall of the deviance from which a scatter between settings is spoken of."""
 
@@ -44,15 +46,16 @@ def verdict(
 ) -> Result:
     """Return the result of a dataset."""
     pairs = confounded(places[0].fit)
-    effects: list[Found] = []
+    effects: list[EffectEstimate] = []
     for place in places:
-        effects += _delay(place) + _released(place) + _found(place, pairs) + _drawn(place) + _drawn_by_run(place)
+        effects += _delay(place) + ([] if place.idle else _released(place) + _estimates(place, pairs))
+        effects += _drawn(place) + _drawn_by_run(place)
     gap = _gap(places, loop_floor)
-    if places[0].idle:
-        effects = [e for e in effects if e.kind == kind_found_as(LATE)]
-    effects = _late_column(channel) + effects + [_reading(e) for e in readings]
+    effects = _late_column(channel) + effects
     lacking = (p for p in places if p.selected.unknown or p.unnamed is not None or lacks(dataset, p))
     unknown = None if effects else next(lacking, None)
+    if unknown is None:
+        effects += [_reading(e) for e in readings]
     kind = "effect" if effects else "unknown" if unknown is not None else "none"
     where = None
     if unknown is not None:
@@ -67,10 +70,11 @@ def verdict(
         gap=gap,
         not_identifiable=_unseen(places),
         next_experiment=_advice(pairs, places),
-        believed={_at_place(p, places, k): v for p in places for k, v in believed(p).items()},
+        parameters={_at_place(p, places, k): v for p in places for k, v in mechanism_estimates(p).items()},
         notes=(
             *gap.notes,
-            *([places[0].idle] if places[0].idle else []),
+            *(p.idle for p in places if p.idle),
+            *(f"{e.appears()[1]}; with them replaced, more than noise is left" for e in readings if unknown is not None),
             *notes,
             *_forward_notes(places[0]),
             *map(str, spoken_of(pairs, [e.kind for e in effects])),
@@ -81,7 +85,7 @@ def verdict(
     )
 
 
-def _late_column(channel: tuple[str, Timing] | None) -> list[Found]:
+def _late_column(channel: tuple[str, Timing] | None) -> list[EffectEstimate]:
     """Return the finding that one column comes late, if it is one."""
     if channel is None:
         return []
@@ -91,19 +95,19 @@ def _late_column(channel: tuple[str, Timing] | None) -> list[Found]:
     text = (
         f"The column {name} alone comes {1e3 * size.value:.1f} ms {how} in the record; it is moved before friction is judged."
     )
-    return [Found(kind_found_as(LATE), (), Where("time", text), {"delay": size}, timing.score, None)]
+    return [EffectEstimate(kind_with_signature(LATE), (), Where("time", text), {"delay": size}, timing.score, None)]
 
 
-def _reading(effect: Effect) -> Found:
+def _reading(effect: Effect) -> EffectEstimate:
     """Return the finding that readings are wrong, which have been replaced before anything else was asked."""
     axis, how = effect.appears()
     numbers = {f.name: float(getattr(effect, f.name)) for f in dataclasses.fields(effect)}
     about = {name: Interval(value, value, value, effect.unit_of(name)) for name, value in numbers.items()}
     text = f"{how[0].upper()}{how[1:]}; they are replaced by a curve through the readings around them."
-    return Found(effect.kind, (), Where(axis, text), about, None, None)
+    return EffectEstimate(effect.kind, (), Where(axis, text), about, None, None)
 
 
-def _unnamed(place: PlaceOutcome) -> Found:
+def _unnamed(place: PlaceOutcome) -> EffectEstimate:
     """Return the term without a name that is part of the final model of a place."""
     before, after = (place.scores[k].sliding for k in ("recalibrated", "augmented"))
     effect = place.selected.final.model.effects[-1]
@@ -113,10 +117,10 @@ def _unnamed(place: PlaceOutcome) -> Found:
         f"{after:.4g} {place.fit[0].unit}."
     )
     numbers = parameters(place, len(place.selected.final.model.effects) - 1)
-    return Found(effect.kind, (), Where(axis, text), numbers, place.unnamed or 0.0, 1.0)
+    return EffectEstimate(effect.kind, (), Where(axis, text), numbers, place.unnamed or 0.0, 1.0)
 
 
-def _delay(place: PlaceOutcome) -> list[Found]:
+def _delay(place: PlaceOutcome) -> list[EffectEstimate]:
     """Return the finding that the motion of a place comes late, if it is one."""
     timing = place.timing
     if timing is None or not timing.named:
@@ -127,16 +131,16 @@ def _delay(place: PlaceOutcome) -> list[Found]:
         f"The {first}{_at(place)} comes {1e3 * size.value:.1f} ms late in the record; this is compensated before friction is "
         "judged, and explains more than effects do without it."
     )
-    return [Found(kind_found_as(LATE), (), Where("time", text), {"delay": size}, timing.score, None)]
+    return [EffectEstimate(kind_with_signature(LATE), (), Where("time", text), {"delay": size}, timing.score, None)]
 
 
-def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
+def _estimates(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[EffectEstimate]:
     fit = place.selected.final
-    first = len(place.believed.effects)
-    found: list[Found] = []
-    for i, (trial, same) in enumerate(zip(place.selected.found, place.selected.equivalents, strict=True)):
+    first = len(place.stated.effects)
+    effects: list[EffectEstimate] = []
+    for i, (trial, same) in enumerate(zip(place.selected.effects, place.selected.equivalents, strict=True)):
         effect = fit.model.effects[first + i]
-        others = tuple(dict.fromkeys([*same, *stand_ins(effect.kind, pairs)]))
+        others = tuple(k for k in dict.fromkeys([*map(_beyond, same), *stand_ins(effect.kind, pairs)]) if k != effect.kind)
         axis = trial.candidate.where
         stage = next(s for s in place.selected.stages if s.trials[0] is trial)
         text = (
@@ -152,35 +156,40 @@ def _found(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[Found]:
                 "predicts the other better; it is named for that."
             )
         numbers = parameters(place, first + i)
-        found.append(Found(effect.kind, others, Where(axis, text), numbers, trial.score, chance))
-    return found
+        effects.append(EffectEstimate(effect.kind, others, Where(axis, text), numbers, trial.score, chance))
+    return effects
 
 
-def _released(place: PlaceOutcome) -> list[Found]:
-    """Return the numbers of the mechanism that are off by more than is believed."""
+def _beyond(name: str) -> str:
+    """Return what a number of the mechanism is called where it is off by more than its uncertainty; a kind is called itself."""
+    return kind_with_signature(OF_EFFECTS[name]) if name in OF_EFFECTS else BEYOND.get(name, name)
+
+
+def _released(place: PlaceOutcome) -> list[EffectEstimate]:
+    """Return the numbers of the mechanism that are off by more than its uncertainty."""
     fit = place.selected.final
-    found: list[Found] = []
+    effects: list[EffectEstimate] = []
     for number in place.selected.released:
         one = next(k for k in fit.free if (k.owner, k.name) == (MECHANISM, number.name))
         deviation = fit.deviation(MECHANISM, number.name)
         size = confidence_interval(fit.model.nuisances[number.name], deviation, one.unit, one.low, one.high)
-        off = abs(size.value - number.believed) / number.deviation
+        off = abs(size.value - number.stated) / number.deviation
         text = (
-            f"{number.name}{_at(place)} is {size.value:.4g} {one.unit} and not {number.believed:.4g}: off by {off:.0f} of its "
+            f"{number.name}{_at(place)} is {size.value:.4g} {one.unit} and not {number.stated:.4g}: off by {off:.0f} of its "
             f"stated standard deviations. With it the error falls from {number.before:.4g} to {number.after:.4g} "
             f"{place.fit[0].unit} on the fit runs."
         )
-        found.append(
-            Found(
-                BEYOND.get(number.name) or kind_found_as(MORE_DAMPING),
-                (),
+        effects.append(
+            EffectEstimate(
+                _beyond(number.name),
+                tuple(k for k in dict.fromkeys(map(_beyond, number.alike)) if k != _beyond(number.name)),
                 Where("motion", text),
                 {number.name: size},
                 number.score,
                 None,
             )
         )
-    return found
+    return effects
 
 
 def _axis(place: PlaceOutcome) -> str:
@@ -189,7 +198,7 @@ def _axis(place: PlaceOutcome) -> str:
     return rivals[0][0] if rivals and rivals[0][1] > 0.0 else "time"
 
 
-def _drawn(place: PlaceOutcome) -> list[Found]:
+def _drawn(place: PlaceOutcome) -> list[EffectEstimate]:
     """Return the finding that friction is drawn anew for each stroke, if it is one."""
     seen = place.random
     if seen is None or not seen.named:
@@ -199,10 +208,12 @@ def _drawn(place: PlaceOutcome) -> list[Found]:
         "strokes), more than its scatter within them explains, and each stroke by itself."
     )
     size = Interval(seen.sigma, seen.low, seen.high, "-")
-    return [Found(kind_found_as(DRAWN_ANEW), (), Where("stroke", text), {"sigma_k": size}, seen.score, seen.p_value)]
+    return [
+        EffectEstimate(kind_with_signature(DRAWN_ANEW), (), Where("stroke", text), {"sigma_k": size}, seen.score, seen.p_value)
+    ]
 
 
-def _drawn_by_run(place: PlaceOutcome) -> list[Found]:
+def _drawn_by_run(place: PlaceOutcome) -> list[EffectEstimate]:
     """Return the finding that friction is drawn anew for each run, if it is one."""
     seen = place.runs
     if seen is None or not seen.named:
@@ -212,7 +223,9 @@ def _drawn_by_run(place: PlaceOutcome) -> list[Found]:
         "more than the scatter of their strokes explains; no run says it of another."
     )
     size = Interval(seen.sigma, seen.low, seen.high, "-")
-    return [Found(kind_found_as(DRAWN_ANEW), (), Where("run", text), {"sigma_k": size}, seen.score, seen.p_value)]
+    return [
+        EffectEstimate(kind_with_signature(DRAWN_ANEW), (), Where("run", text), {"sigma_k": size}, seen.score, seen.p_value)
+    ]
 
 
 def _at(place: PlaceOutcome) -> str:
@@ -228,7 +241,7 @@ def _ranking(places: Sequence[PlaceOutcome]) -> tuple[tuple[str, float], ...]:
                 best[name] = max(best.get(name, -np.inf), trial.score)
     late = [p.timing.score for p in places if p.timing is not None]
     if late:
-        best[kind_found_as(LATE)] = max(late)
+        best[kind_with_signature(LATE)] = max(late)
     return tuple(sorted(best.items(), key=lambda item: -item[1]))
 
 
@@ -255,22 +268,22 @@ def _gap(places: Sequence[PlaceOutcome], loop_floor: float | None) -> Gap:
 
 
 def _imitated(place: PlaceOutcome) -> list[str]:
-    """Return the one-parameter effects, not found, that corrections of the mechanism imitate."""
+    """Return the one-parameter effects, not selected, that corrections of the mechanism imitate."""
     fit = place.selected.final
-    found = {t.candidate.kind for t in place.selected.found}
+    selected = {t.candidate.kind for t in place.selected.effects}
     tried = [t.candidate for t in place.selected.stages[0].trials if t.candidate.parameters == 1]
     return [
         c.kind
         for c in tried
-        if c.kind not in found and place.nuisances and hidden_share(c.starts[0], place.fit, fit) > IMITATED
+        if c.kind not in selected and place.nuisances and hidden_share(c.starts[0], place.fit, fit) > IMITATED
     ]
 
 
 def _unseen(places: Sequence[PlaceOutcome]) -> tuple[str, ...]:
     seen = {t.candidate.kind for p in places for s in p.selected.stages for t in s.trials}
-    seen |= {e.kind for p in places for e in p.believed.effects}
-    seen |= {kind_found_as(finding) for finding in (LATE, STRAY, REPEATED_READING)}
-    seen |= {kind_found_as(DRAWN_ANEW)} if any(p.random is not None or p.runs is not None for p in places) else set()
+    seen |= {e.kind for p in places for e in p.stated.effects}
+    seen |= {kind_with_signature(finding) for finding in (LATE, STRAY, REPEATED_READING)}
+    seen |= {kind_with_signature(DRAWN_ANEW)} if any(p.random is not None or p.runs is not None for p in places) else set()
     seen -= {kind for p in places for kind in _imitated(p)}
     return tuple(k for k in effect_kinds() if k not in seen and k not in (*kinds_with(BELT), *kinds_with(ANONYMOUS)))
 
@@ -281,7 +294,12 @@ def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
     if worst:
         first, second = worst[0].first, worst[0].second
         return f"Vary {first} and {second} apart: repeat the experiment with the {second} that each {first} has not had yet."
-    same = [(t.candidate.kind, e) for p in places for t, e in zip(p.selected.found, p.selected.equivalents, strict=True) if e]
+    same = [
+        (t.candidate.kind, tuple(map(_beyond, e)))
+        for p in places
+        for t, e in zip(p.selected.effects, p.selected.equivalents, strict=True)
+        if e
+    ]
     if same:
         kind, others = same[0]
         which = f"{words_of(kind)} from {', '.join(map(words_of, others))}"
@@ -318,7 +336,7 @@ def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
             share, strokes = 100.0 * place.random.share, place.random.strokes
             why = "; it goes on across reversals, as slow noise of the drive does" if place.random.slow_noise else ""
             remarks.append(f"friction {how} by {share:.1f} % from stroke to stroke ({strokes} strokes){_at(place)}{why}")
-        if place.selected.found and place.selected.unknown:
+        if place.selected.effects and place.selected.unknown:
             remarks.append(f"what remains depends on {place.selected.unknown}{_at(place)}; no known effect explains it")
     return remarks
 

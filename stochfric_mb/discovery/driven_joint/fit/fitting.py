@@ -1,4 +1,4 @@
-"""Fits of a joint's friction and of the numbers believed of its mechanism to the balance of forces."""
+"""Fits of a joint's friction and of the stated numbers of its mechanism to the balance of forces."""
 
 from __future__ import annotations
 

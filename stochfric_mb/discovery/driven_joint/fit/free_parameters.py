@@ -17,9 +17,9 @@ from stochfric_mb.effects import Effect
 Array = npt.NDArray[np.float64]
 
 LEAST_PRELOAD = 0.01
-"""Smallest reference load of a load-dependent joint, over its believed load [-]."""
+"""Smallest reference load of a load-dependent joint, over its stated load [-]."""
 MOST_OFF = 4.0
-"""Standard deviations by which data may move what is believed of the mechanism [-]; 6e-5 of all beliefs are off by more. What
+"""Standard deviations by which data may move the stated numbers of the mechanism [-]; 6e-5 of all priors are off by more. What
 is off by more is a finding, or no number of the mechanism at all."""
 INSIDE = 1.0e-6
 """Distance kept from bounds that are themselves forbidden [scales]."""
@@ -52,10 +52,10 @@ def free_parameters(
             one = _parameter(model, i, field.name, float(value), field.metadata)
             runs = [(run, x) for (kind, run, name), x in model.own.items() if (kind, name) == (effect.kind, field.name)]
             free += [dataclasses.replace(one, run=run, value=x) for run, x in runs] or [one]
-    return free + [_believed(model, n) for n in nuisances]
+    return free + [_with_prior(model, n) for n in nuisances]
 
 
-def _believed(model: JointModel, n: Nuisance) -> FreeParameter:
+def _with_prior(model: JointModel, n: Nuisance) -> FreeParameter:
     """Return a number of the mechanism, which data may move by `MOST_OFF` of its deviations."""
     low, high = max(n.low, n.value - MOST_OFF * n.deviation), n.value + MOST_OFF * n.deviation
     return FreeParameter(

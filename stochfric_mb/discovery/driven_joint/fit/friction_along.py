@@ -1,6 +1,6 @@
 """The friction of a joint along a measured motion, from the law and the effects' own functions.
 
-Friction is mu N along the motion's opposite, N being the believed load of the joint. Where an effect depends on load, the
+Friction is mu N along the motion's opposite, N being the stated load of the joint. Where an effect depends on load, the
 contact carries that effect's reference load plus the load that the joint transmits; the reference load is fitted.
 """
 
@@ -20,7 +20,7 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalan
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects import contract as e
 from stochfric_mb.effects.abi import call_effect, native_effect
-from stochfric_mb.effects.traits import READS_LOAD
+from stochfric_mb.effects.traits import READS_DRIVE, READS_LOAD
 from stochfric_mb.laws import Law
 
 Array = npt.NDArray[np.float64]
@@ -31,7 +31,7 @@ class Chain:
     """Law and effects in the form that compiled code takes."""
 
     numbers: Array
-    """mu_s, mu_k, believed load, reference load of a joint whose friction depends on what it transmits, or 0; shape (4,)."""
+    """mu_s, mu_k, stated load, reference load of a joint whose friction depends on what it transmits, or 0; shape (4,)."""
     calls: npt.NDArray[np.int64]
     """Address of ``surroundings`` and of ``friction`` (0: none) and offset of the parameters, shape (n_effects, 3)."""
     parameters: Array
@@ -44,7 +44,7 @@ def chain(law: Law, effects: Sequence[Effect], load: float, *, contact: bool = F
     Args:
         law: the law.
         effects: what is added to it.
-        load: believed load of the joint [N or N m].
+        load: stated load of the joint [N or N m].
         contact: whether the place is a contact, whose normal force is known along the motion.
     """
     ordered = sorted((x for x in effects if x.group != "sensor"), key=lambda x: x.order)
@@ -59,9 +59,9 @@ def chain(law: Law, effects: Sequence[Effect], load: float, *, contact: bool = F
     return Chain(np.array([law.mu_s, law.mu_k, load, reference]), calls, np.array([*parameters, 0.0]))
 
 
-def reads_load(law: Law, effects: Sequence[Effect], load: float) -> bool:
-    """Return whether friction in a joint depends on the load that the joint transmits."""
-    return bool(chain(law, effects, load).numbers[3] > 0.0)
+def reads_drive(law: Law, effects: Sequence[Effect], load: float) -> bool:
+    """Return whether forces in a joint depend on the load that it transmits, or on its drive."""
+    return bool(chain(law, effects, load).numbers[3] > 0.0) or any(READS_DRIVE in x.traits for x in effects)
 
 
 def friction_along(balance: ForceBalance, law: Law, effects: Sequence[Effect], load: float) -> Array:
@@ -71,14 +71,16 @@ def friction_along(balance: ForceBalance, law: Law, effects: Sequence[Effect], l
         balance: the motion.
         law: its mu_k holds while the joint slides.
         effects: what is added to it.
-        load: believed load [N or N m].
+        load: stated load [N or N m].
     """
     links = chain(law, effects, load, contact=balance.normal_force is not None)
     n, every = len(balance.time), balance.window.stride
     pressed = np.ones(n) if balance.normal_force is None else balance.normal_force / load
     temperature = np.zeros(n) if balance.temperature is None else balance.temperature
+    drive, pressure = (np.zeros(n) if x is None else x for x in (balance.drive, balance.pressure))
     signals = (
         balance.time, balance.position, balance.velocity, balance.load, balance.slip, balance.travelled, temperature, pressed,
+        drive, pressure,
     )  # fmt: skip
     some = [np.ascontiguousarray(x[::every]) for x in signals]
     force = np.empty(len(some[0]))
@@ -87,27 +89,31 @@ def friction_along(balance: ForceBalance, law: Law, effects: Sequence[Effect], l
 
 
 @compiled
-def along(numbers, calls, parameters, time, position, velocity, load, slip, travelled, temperature, pressed, force):
+def along(
+    numbers, calls, parameters, time, position, velocity, load, slip, travelled, temperature, pressed, drive, pressure, force
+):
     """Fill ``force`` with the friction against the motion at each sample."""
     world = np.zeros(e.WORLD)
     memory = np.zeros(8)
     for i in range(len(time)):
         force[i] = resistance(
             numbers, calls, parameters, world, memory, time[i], position[i], velocity[i], load[i], slip[i],
-            np.sign(velocity[i]), travelled[i], temperature[i], pressed[i],
+            np.sign(velocity[i]), travelled[i], temperature[i], pressed[i], drive[i], pressure[i],
         )  # fmt: skip
 
 
 @compiled
 def resistance(
-    numbers, calls, parameters, world, memory, time, position, velocity, load, slip, side, travelled, temperature, pressed
-):
+    numbers, calls, parameters, world, memory, time, position, velocity, load, slip, side, travelled, temperature, pressed,
+    drive, pressure,
+):  # fmt: skip
     """Return the force against the motion at one instant.
 
-    ``side`` is the direction of the motion, 1, -1 or 0, and ``pressed`` the normal force of a contact over its believed load;
-    1 for a joint.
+    ``side`` is the direction of the motion, 1, -1 or 0, ``pressed`` the normal force of a contact over its stated load (1 for
+    a joint), ``drive`` the driving force as stated and ``pressure`` that on a piston.
     """
     world[:] = 0.0
+    world[e.DRIVE], world[e.PRESSURE], world[e.TEMPERATURE] = drive, pressure, temperature
     world[e.TIME], world[e.POSITION], world[e.VELOCITY] = time, position, velocity
     base = numbers[2] * pressed
     around = numbers[3] + load if numbers[3] > 0.0 else base
@@ -119,7 +125,7 @@ def resistance(
     ripple = world[e.NORMAL_FORCE] / around if around > 0.0 else 1.0
     # v_rel is counter-surface minus body: the counter-surface rests
     world[e.DIRECTION], world[e.SPEED], world[e.BELT_POSITION] = -side, abs(velocity), -position
-    world[e.SLIP], world[e.TRAVELLED], world[e.TEMPERATURE] = slip, travelled, temperature
+    world[e.SLIP], world[e.TRAVELLED] = slip, travelled
     world[e.MU_S], world[e.MU_K] = numbers[0], numbers[1]
     for k in range(len(calls)):
         if calls[k, 1] != 0:

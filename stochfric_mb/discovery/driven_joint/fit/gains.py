@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
-from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit
+from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.free_parameters import adjusted, free_parameters
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.inference.free_parameter import LAW, FreeParameter
@@ -49,11 +49,12 @@ def predicted_rms(model: JointModel, effect: Effect, balances: Sequence[ForceBal
 
 
 def hidden_share(effect: Effect, balances: Sequence[ForceBalance], current: JointFit) -> float:
-    """Return what part of an effect's change of friction the numbers fitted already would imitate [-]."""
+    """Return what part of an effect's change of friction the numbers fitted already would imitate, beliefs counted [-]."""
     columns = effect_columns(current.model, effect, balances)
     change = columns[:, int(np.argmax(np.abs(columns).max(axis=0) > 0.0))]
     size = float(change @ change)
-    left = _left_by(current.jacobian, change)
+    prior, _ = prior_rows(current, prior_weight(current))
+    left = _left_by(np.vstack([current.jacobian, prior]), np.r_[change, np.zeros(len(prior))])
     return 1.0 - float(left @ left) / size if size > 0.0 else 1.0
 
 

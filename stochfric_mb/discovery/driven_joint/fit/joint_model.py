@@ -1,4 +1,4 @@
-"""What is believed of a joint in the making: corrections of the mechanism, friction law and effects.
+"""The model of a joint in the making: corrections of the mechanism, friction law and effects.
 
 A drive is explained only by motion. Where friction F depends on the drive tau itself, the balance is r = g tau - F(tau) - needs
 with g the factor by which data have corrected the drive. The drive that the motion needs solves r = 0; the measured one is off
@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.fit.friction_along import friction_along, reads_load
+from stochfric_mb.discovery.driven_joint.fit.friction_along import friction_along, reads_drive
 from stochfric_mb.effects import Effect
 from stochfric_mb.laws import Law
 
@@ -32,7 +32,7 @@ LEAST = 1.0e-3
 
 @dataclasses.dataclass(frozen=True)
 class JointModel:
-    """What is believed of a joint in the making: corrections, law and effects."""
+    """The model of a joint in the making: corrections, law and effects."""
 
     law: Law
     """Friction law; mu_k holds while the joint slides."""
@@ -41,11 +41,11 @@ class JointModel:
     nuisances: Mapping[str, float]
     """Number of the mechanism -> its value."""
     load: float
-    """Believed load of the joint [N or N m]."""
+    """Stated load of the joint [N or N m]."""
     contact: bool = False
     """Whether the place is a contact, whose normal force is known along the motion."""
     level: tuple[float, float] = (0.0, np.inf)
-    """mu_k as believed, and the standard deviation of that belief; inf: nothing is believed [-]."""
+    """mu_k as stated, and the standard deviation of its prior; inf: there is none [-]."""
     own: Mapping[Own, float] = dataclasses.field(default_factory=dict[Own, float])
     """Kind of an effect, run, parameter -> its value in that run: phases of what is periodic in time."""
 
@@ -71,18 +71,20 @@ class JointModel:
                 rest = rest - (self.nuisances[n.name] - n.value) * balance.columns[n.name]
                 if n.name.endswith("gain"):
                     by_drive = by_drive * self.nuisances[n.name] / n.value
-        if balance.load_by_drive is not None and reads_load(self.law, self.effects, self.load):
-            by_drive = by_drive - self._friction_by_drive(balance, balance.load_by_drive, friction)
+        known = balance.load_by_drive is not None or balance.drive is not None
+        if known and reads_drive(self.law, self.effects, self.load):
+            by_drive = by_drive - self._friction_by_drive(balance, friction)
         return rest / change_of(by_drive)
 
     def friction(self, balance: ForceBalance) -> Array:
         """Return the friction against the motion at the centres of windows [N or N m], shape (n_centres,)."""
         return friction_along(balance, self.law, self.effects_in(balance.run), self.load)
 
-    def _friction_by_drive(self, balance: ForceBalance, load_by_drive: Array, friction: Array) -> Array:
+    def _friction_by_drive(self, balance: ForceBalance, friction: Array) -> Array:
         """Return the change of friction with the driving force [-], shape (n_centres,)."""
         step = STEP * max(float(np.mean(balance.load)), self.load)
-        moved = dataclasses.replace(balance, load=balance.load + step * load_by_drive)
+        load = balance.load if balance.load_by_drive is None else balance.load + step * balance.load_by_drive
+        moved = dataclasses.replace(balance, load=load, drive=None if balance.drive is None else balance.drive + step)
         return (self.friction(moved) - friction) / step
 
 

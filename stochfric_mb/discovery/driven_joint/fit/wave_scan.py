@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
-from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit
+from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel, Own
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects.contract import Scan
@@ -43,7 +43,7 @@ class Start:
 
 
 def tried(scan: Scan, balances: Sequence[ForceBalance]) -> float:
-    """Return how many waves can be told apart in the range of a scan [-]."""
+    """Return how many waves can be distinguished in the range of a scan [-]."""
     return max((scan.high - scan.low) * _length(scan, balances), 1.0)
 
 
@@ -54,9 +54,9 @@ def wave_starts(scan: Scan, current: JointFit, balances: Sequence[ForceBalance])
     if len(numbers) < 2:
         return []
     own = scan.begin(float(numbers[0]), 1.0, 0.0).own_to_run
-    basis = np.linalg.svd(
-        current.jacobian / np.maximum(np.linalg.norm(current.jacobian, axis=0), 1.0e-300), full_matrices=False
-    )[0]
+    known = np.vstack([current.jacobian, prior_rows(current, prior_weight(current))[0]])
+    scaled = known / np.maximum(np.linalg.norm(known, axis=0), 1.0e-300)
+    basis = np.linalg.svd(scaled, full_matrices=False)[0][: len(current.jacobian)]
     ends = np.cumsum([len(r) for r in current.remainders])[:-1]
     parts = zip(balances, current.remainders, np.split(basis, ends), strict=True)
     sums = np.array([_sums(scan, s, r, q, numbers) for s, r, q in parts])

@@ -1,4 +1,4 @@
-"""Confirmation in the engine: the user's model runs forward with the friction found, and the controller in the loop.
+"""Confirmation in the engine: the user's model runs forward with the identified friction, and the controller in the loop.
 
 Before each step the friction that is available in each joint or tendon goes into MuJoCo's own ``frictionloss``, which holds
 at rest and opposes motion; in a pair it goes into our plugin's coefficients (`mjcf_places`). Where a controller drives a joint

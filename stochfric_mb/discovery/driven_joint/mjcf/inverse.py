@@ -48,7 +48,7 @@ OF_TENDONS = ("mass", "armature", "gain", "offset")
 OF_PAIRS = ("mass", "armature", "offset")
 """The same at a pair, which nothing drives but through the joints."""
 LIFTED = 0.05
-"""Normal force over the believed one below which a pair is not taken to slide on its surface [-]."""
+"""Normal force over the stated one below which a pair is not taken to slide on its surface [-]."""
 HELD = 0.5
 """How much later than its sample a drive acts that is held until the next one, on average [periods]."""
 
@@ -58,7 +58,7 @@ class MjcfSource(Rig):
     """The balances of an MJCF model, made when asked for."""
 
     known: dict[str, JointModel] = dataclasses.field(default_factory=dict[str, JointModel])
-    """Place -> what has been found of its friction, which other places are then judged beside."""
+    """Place -> the identified model of its friction, which other places are then judged beside."""
 
     @property
     def places(self) -> list[tuple[str, float]]:
@@ -66,14 +66,14 @@ class MjcfSource(Rig):
         return list(self.mechanism.friction.items())
 
     def nuisances(self, place: str) -> list[Nuisance]:
-        """Return what data may correct, with its priors; a believed value of 1 is a factor."""
+        """Return what data may correct, with its priors; a stated value of 1 is a factor."""
         spread = self.dataset.scenario.uncertainty
-        found: list[Nuisance] = []
+        nuisances: list[Nuisance] = []
         for name, unit in CORRECTED.items():
             if spread.get(name, 0.0) > 0.0 and name in self._corrected(place):
                 value, low = (0.0, -np.inf) if name == "offset" else (1.0, 0.0)
-                found.append(Nuisance(name, value, spread[name], unit, low))
-        return found
+                nuisances.append(Nuisance(name, value, spread[name], unit, low))
+        return nuisances
 
     def _corrected(self, place: str) -> Sequence[str]:
         return OF_PAIRS if place in self.mechanism.pairs else OF_TENDONS if place in self.tendons else tuple(CORRECTED)
@@ -173,6 +173,7 @@ class MjcfSource(Rig):
             temperature=temperature_through(run, window),
             normal_force=normal,
             load_by_drive=path.load_by_drive,
+            drive=window.sampled(drive_of(run, self.mechanism, place), delay) if place in self.mechanism.drives else None,
         )
 
     def _normal_force(self, run: Run, place: str, window: Window, left: Array) -> Array:
@@ -188,6 +189,12 @@ class MjcfSource(Rig):
         each = [_level(position_of_joint(run, self.mechanism, n)) for n in self.names]
         seen = float(np.linalg.norm(np.abs(path.direction).mean(axis=0) * each))
         return least_speed(path.velocity, window.gain(1) * seen)
+
+    def slip(self, run: Run, place: str) -> Array:
+        """Return the distance since a place last reversed or rested in a run [m or rad], shape (count,)."""
+        narrow = narrowest(run)
+        path = self.path(run, place, narrow)
+        return slipped(path.position, path.velocity, self._least(run, place, narrow, path))
 
     def _rotates(self, place: str) -> bool:
         if place not in self.names:

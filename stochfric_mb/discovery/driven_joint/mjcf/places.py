@@ -30,7 +30,7 @@ LEAST = 1.0e-9
 MARK_S, MARK_K = 0.123456, 0.0654321
 """Coefficients by which their places are known."""
 LOOSE = 1.0e-3
-"""Normal force over the believed one below which a pair is left as it is [-]."""
+"""Normal force over the stated one below which a pair is left as it is [-]."""
 
 
 def place_of(source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> LossPlace | PairPlace:
@@ -52,6 +52,7 @@ class LossPlace:
         self._turned, self._side = 0.0, 0.0
         # conditions as they were: what drifts changes little by an error of the simulation
         self._travelled = source.travelled(run, name)
+        self._slip = source.slip(run, name)
         self._temperature = known_temperature(run)
 
     def _seen(self, data: Any) -> tuple[float, float]:
@@ -60,9 +61,10 @@ class LossPlace:
         return float(data.ten_length[self._number]), float(data.ten_velocity[self._number])
 
     def start(self, data: Any, sample: int) -> None:
-        """Begin a stroke where the model is."""
+        """Begin where the model is, in the middle of a stroke as the record has it."""
         q, v = self._seen(data)
-        self._turned, self._side = q, 1.0 if v >= 0.0 else -1.0
+        self._side = 1.0 if v >= 0.0 else -1.0
+        self._turned = q - self._side * self._slip[sample]
 
     def set(
         self, model: Any, data: Any, t: float, forces: Mapping[str, float], drives: Mapping[str, Array], sample: int
@@ -73,13 +75,13 @@ class LossPlace:
         if side != self._side:
             self._turned, self._side = q, side
         drive = forces.get(self.name, float(drives[self.name][sample]) if self.name in drives else 0.0)
-        # the load that friction knows of is that of the drive as believed, as in the fits
+        # the load that friction knows of is that of the drive as stated, as in the fits
         load = abs(drive / self._gain - self._damping * v)
         links = self._links
         against = side * float(
             resistance(
                 links.numbers, links.calls, links.parameters, self._world, self._memory, t, q, v, load,
-                abs(q - self._turned), side, self._travelled[sample], self._temperature[sample], 1.0,
+                abs(q - self._turned), side, self._travelled[sample], self._temperature[sample], 1.0, drive / self._gain, 0.0,
             )
         )  # fmt: skip
         pushed = float(self._world[LOAD])
@@ -97,8 +99,10 @@ class PairPlace:
         self._more = model.law.mu_s / model.law.mu_k
         self._world, self._memory = np.zeros(WORLD), np.zeros(8)
         self._travelled = source.travelled(run, name)
+        self._slip = source.slip(run, name)
         self._temperature = known_temperature(run)
-        self._position = source.path(run, name, narrowest(run)).position
+        path = source.path(run, name, narrowest(run))
+        self._position, self._direction = path.position, np.sign(path.velocity)
         measured = source.mechanism.pairs[name].normal_force
         self._measured = in_si(run, measured, "normal_force") if measured else None
         self._turned, self._side, self._at = 0.0, 0.0, 0.0
@@ -106,16 +110,16 @@ class PairPlace:
         self._slots: _Slots | None = None
 
     def start(self, data: Any, sample: int) -> None:
-        """Begin a stroke where the model is."""
-        self._at = self._turned = float(self._position[sample])
-        self._side = 0.0
+        """Begin where the model is, in the middle of a stroke as the record has it."""
+        self._at, self._side = float(self._position[sample]), float(self._direction[sample])
+        self._turned = self._at - self._side * float(self._slip[sample])
 
     def set(
         self, model: Any, data: Any, t: float, forces: Mapping[str, float], drives: Mapping[str, Array], sample: int
     ) -> float:
         """Give the plugin the coefficients that friction has now; returns what else pushes along the pair [N]."""
-        found = self._attach.readings(model, data)
-        instance, contacts = next(iter(found.items()))
+        readings = self._attach.readings(model, data)
+        instance, contacts = next(iter(readings.items()))
         pressed = sum(c.normal_force for c in contacts)
         if pressed < LOOSE * self._load:
             return 0.0
@@ -130,6 +134,7 @@ class PairPlace:
             resistance(
                 links.numbers, links.calls, links.parameters, self._world, self._memory, t, self._at, v, normal,
                 abs(self._at - self._turned), side, self._travelled[sample], self._temperature[sample], normal / self._load,
+                0.0, 0.0,
             )
         )  # fmt: skip
         pushed = float(self._world[LOAD])

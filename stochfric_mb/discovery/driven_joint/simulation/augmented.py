@@ -1,4 +1,4 @@
-"""The scenario of a driven joint with what was found, and what it believed of scatter and delay before."""
+"""The scenario of a driven joint with the identified effects, and its stated scatter and delay."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
-from stochfric_mb.effects import Effect, kind_found_as, make_effect
+from stochfric_mb.effects import Effect, kind_with_signature, make_effect
 from stochfric_mb.effects.traits import DRAWN_ANEW, LATE
 from stochfric_mb.mechanisms import Mjcf
 from stochfric_mb.scenario import Scenario
@@ -19,34 +19,36 @@ BESIDE = ("sensor", "randomness")
 """Groups of effects that are no part of the mean friction."""
 
 
-def believed_scatter(scenario: Scenario[Any], process: str) -> float:
+def stated_scatter(scenario: Scenario[Any], process: str) -> float:
     """Return the standard deviation of mu_k that the scenario declares, stroke by stroke or run by run [-]."""
-    declared = [e.to_dict() for e in scenario.effects if DRAWN_ANEW in e.found_as]
+    declared = [e.to_dict() for e in scenario.effects if DRAWN_ANEW in e.signatures]
     return float(np.sqrt(sum(e["sigma_k"] ** 2 for e in declared if e["process"] == process)))
 
 
-def believed_delay(scenario: Scenario[Any]) -> float:
+def stated_delay(scenario: Scenario[Any]) -> float:
     """Return by how much the scenario says that positions are late [s]."""
     return sum(e.late for e in scenario.effects)
 
 
 def augmented(
-    scenario: Scenario[Any], places: Sequence[PlaceOutcome], found: Timing | None, readings: Sequence[Effect] = ()
+    scenario: Scenario[Any], places: Sequence[PlaceOutcome], timing: Timing | None, readings: Sequence[Effect] = ()
 ) -> Scenario[Any]:
-    """Return the scenario with what was found; of several joints, the first one's effects, in that joint."""
+    """Return the scenario with the identified effects; of several joints, the first one's effects, in that joint."""
     model = places[0].selected.final.model
     effects = list(model.effects_in(places[0].fit[0].run))
     drawn = _drawn(places[0])
     effects += [
-        e for e in scenario.effects if e.group in BESIDE and LATE not in e.found_as and not (drawn and DRAWN_ANEW in e.found_as)
+        e
+        for e in scenario.effects
+        if e.group in BESIDE and LATE not in e.signatures and not (drawn and DRAWN_ANEW in e.signatures)
     ]
     if drawn:
         sigma, process = max(drawn)  # a model has one such process
         sigma_s = sigma * model.law.mu_s / model.law.mu_k
-        effects.append(make_effect(kind_found_as(DRAWN_ANEW), process=process, sigma_s=sigma_s, sigma_k=sigma))
-    delay = believed_delay(scenario) + (found.seconds if found is not None and found.named else 0.0)
+        effects.append(make_effect(kind_with_signature(DRAWN_ANEW), process=process, sigma_s=sigma_s, sigma_k=sigma))
+    delay = stated_delay(scenario) + (timing.seconds if timing is not None and timing.named else 0.0)
     if delay > 0.0:  # one that comes before has no effect of its own, and stays a finding
-        effects.append(make_effect(kind_found_as(LATE), delay=delay))
+        effects.append(make_effect(kind_with_signature(LATE), delay=delay))
     return dataclasses.replace(
         scenario,
         mechanism=_corrected(scenario.mechanism, places),
@@ -70,6 +72,6 @@ def _corrected(mechanism: Any, places: Sequence[PlaceOutcome]) -> Any:
 
 
 def _drawn(place: PlaceOutcome) -> list[tuple[float, str]]:
-    """Return the scatter that was found: standard deviation of mu_k, and when it is drawn anew."""
-    found = ((place.random, "per_event"), (place.runs, "per_run"))
-    return [(seen.sigma, process) for seen, process in found if seen is not None and seen.named]
+    """Return the identified scatter: standard deviation of mu_k, and when it is drawn anew."""
+    scatters = ((place.random, "per_event"), (place.runs, "per_run"))
+    return [(seen.sigma, process) for seen, process in scatters if seen is not None and seen.named]

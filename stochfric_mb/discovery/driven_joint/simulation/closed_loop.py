@@ -48,6 +48,7 @@ def closed_loop(
     reference = np.ascontiguousarray(run.covariates[controller.reference])
     q = position_of(run)
     temperature = known_temperature(run)
+    pressure = run.channels.get("pressure", np.zeros(len(q)))
     value = {
         name: model.nuisances.get(name, float(getattr(joint, name))) for name in ("mass", "damping", "offset", "force_gain")
     }
@@ -63,7 +64,7 @@ def closed_loop(
     voltage, position = np.empty(len(q)), np.empty(len(q))
     _march(
         links.numbers, links.calls, links.parameters, plant, loop, reference, float(run.time[0]), run.sample_interval,
-        start, rate, before, temperature, voltage, position,
+        start, rate, before, temperature, pressure, voltage, position,
     )  # fmt: skip
     return voltage, position
 
@@ -82,8 +83,9 @@ def controller_output(run: Run, joint: PrismaticJoint) -> Array:
 
 @compiled
 def _march(
-    numbers, calls, parameters, plant, loop, reference, start, interval, q, v, travelled, temperature, voltage, position
-):
+    numbers, calls, parameters, plant, loop, reference, start, interval, q, v, travelled, temperature, pressure, voltage,
+    position,
+):  # fmt: skip
     world = np.zeros(e.WORLD)
     memory = np.zeros(8)
     mass, damping, offset, gain = plant[0], plant[1], plant[2], plant[3]
@@ -96,15 +98,17 @@ def _march(
         voltage[i], position[i] = u, q
         for k in range(FINER):
             t = start + i * interval + k * h
-            pushed = gain * u - offset - damping * v + world[e.LOAD]
-            free = v + h * pushed / mass
-            side = np.sign(v) if v != 0.0 else np.sign(free)
+            known = gain * u - offset - damping * v
+            side = (
+                np.sign(v) if v != 0.0 else np.sign(known + world[e.LOAD])
+            )  # at rest the other forces are those of a moment ago
             if side not in (0.0, before):
                 turned, before = q, side
             friction = resistance(
-                numbers, calls, parameters, world, memory, t, q, v, 0.0, abs(q - turned), side, travelled, temperature[i], 1.0
-            )
-            v = free - h * (friction + world[e.LOAD]) / mass  # the other forces were in ``pushed``, those of a moment ago
+                numbers, calls, parameters, world, memory, t, q, v, 0.0, abs(q - turned), side, travelled, temperature[i], 1.0,
+                gain * u, pressure[i],
+            )  # fmt: skip
+            v += h * (known - friction) / mass
             if v * side < 0.0:  # friction stops a mass, it does not turn it
                 v = 0.0
             q += h * v

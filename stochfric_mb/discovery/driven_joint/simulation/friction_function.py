@@ -18,13 +18,13 @@ FrictionFunction = Callable[..., float]
 
 
 def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint: str = "") -> FrictionFunction:
-    """Return ``force(t, q, v, load=0.0, travelled=0.0, temperature=0.0)``: the friction on a joint along +q [N or N m].
+    """Return ``force(t, q, v, load=0, travelled=0, temperature=0, drive, pressure)``: friction along +q [N or N m].
 
     F = P - R(abs(v)) tanh(v/smoothing_velocity) with the scenario's law and effects in R, and in P what effects push with
     whichever way the joint moves: what multi-step integrators can take.
     Friction does not hold at rest then; it creeps at a part of ``smoothing_velocity``. ``load`` is what the joint transmits
-    (at a pair of geoms: its normal force), ``travelled`` the distance slid and ``temperature`` the measured one, for effects
-    that ask for them.
+    (at a pair of geoms: its normal force), ``travelled`` the distance slid, ``temperature`` and ``pressure`` the measured ones
+    and ``drive`` the driving force, for effects that ask for them; what these take from the drive is part of the force.
 
     Args:
         scenario: a scenario of a driven joint.
@@ -32,7 +32,7 @@ def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint:
         joint: joint of an MJCF model; empty: its first.
 
     Raises:
-        InputError: another mechanism, or a velocity that is not positive.
+        InputError: another mechanism, or a velocity that is not positive; from ``force``, where it lacks what an effect reads.
     """
     require_number("smoothing_velocity", smoothing_velocity, above=0.0, unit="m/s or rad/s")
     mechanism = scenario.mechanism
@@ -42,13 +42,21 @@ def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint:
     place = joint or next(iter(loads))
     acts_in = getattr(mechanism, "effects_in", ())
     effects = scenario.effects if not acts_in or place in acts_in else ()
-    contact, believed = place in getattr(mechanism, "pairs", {}), loads[place]
-    links = chain(scenario.law, effects, believed, contact=contact)
+    contact, stated_load = place in getattr(mechanism, "pairs", {}), loads[place]
+    links = chain(scenario.law, effects, stated_load, contact=contact)
     world, memory = np.zeros(WORLD), np.zeros(8)
 
-    def force(t: float, q: float, v: float, load: float = 0.0, travelled: float = 0.0, temperature: float = 0.0) -> float:
+    needed = {name: e.kind for e in effects for name in e.reads if name in ("drive", "pressure")}
+
+    def force(
+        t: float, q: float, v: float, load: float = 0.0, travelled: float = 0.0, temperature: float = 0.0,
+        drive: float | None = None, pressure: float | None = None,
+    ) -> float:  # fmt: skip
+        for name, kind in needed.items():
+            if {"drive": drive, "pressure": pressure}[name] is None:
+                raise InputError(f"effect {kind!r} reads the {name}, which is not given; call the friction with {name}=...")
         side = 1.0 if v >= 0.0 else -1.0
-        pressed = load / believed if contact else 1.0
+        pressed = load / stated_load if contact else 1.0
         against = resistance(
             links.numbers,
             links.calls,
@@ -64,6 +72,8 @@ def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint:
             travelled,
             temperature,
             pressed,
+            drive or 0.0,
+            pressure or 0.0,
         )
         pushed = float(world[LOAD])
         return pushed - (float(against) + pushed) * math.tanh(abs(v) / smoothing_velocity)

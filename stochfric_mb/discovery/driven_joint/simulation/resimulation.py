@@ -1,4 +1,4 @@
-"""Held-out runs simulated again, with the model as stated, recalibrated, and with what was found."""
+"""Held-out runs simulated again, with the model as stated, recalibrated and augmented."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ def simulated(
         dataset: the dataset.
         tell: called with what is being done.
         source: balances of the dataset.
-        places: what was found; the first one's scores are completed.
-        delays: delay believed, and the one that is compensated [s].
+        places: the outcomes; the first one's scores are completed.
+        delays: the stated delay, and the one that is compensated [s].
     """
     mechanism = dataset.scenario.mechanism
     floor = None
@@ -47,7 +47,7 @@ def simulated(
     names = {p.place or source.places[0][0]: p for p in places}
     early = any(p.undelayed is not None for p in places)
     stages: dict[str, tuple[Models, float]] = {
-        "baseline": ({n: p.believed for n, p in names.items()}, base),
+        "baseline": ({n: p.stated for n, p in names.items()}, base),
         "recalibrated": ({n: p.undelayed or p.selected.recalibrated.model for n, p in names.items()}, base if early else delay),
         "augmented": ({n: with_phases(p.selected.final.model, p.test) for n, p in names.items()}, delay),
     }
@@ -80,8 +80,8 @@ def as_mjcf(dataset: Dataset, model: JointModel) -> tuple[Any, Models]:
     from stochfric_mb.discovery.export import plain_mjcf
 
     mujoco: Any = importlib.import_module("mujoco")
-    believed: Any = dataset.scenario.mechanism
-    mechanism = dataclasses.replace(believed, **model.nuisances)
+    stated: Any = dataset.scenario.mechanism
+    mechanism = dataclasses.replace(stated, **model.nuisances)
     name, gain = ("force", "force_gain") if isinstance(mechanism, PrismaticJoint) else ("torque", "torque_gain")
     factor = getattr(mechanism, gain)
     drive = Drive(columns=("voltage",), gain=factor) if factor else Drive(columns=(name,))

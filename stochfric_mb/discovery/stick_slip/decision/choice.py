@@ -99,12 +99,12 @@ def _by_score(
     nameless = _nameless(effects, [c for c in candidates if not c.is_effect])
     if nameless is not None or not effects or effects[0].score < criteria.NAMED:
         return nameless
-    best, class_ = _told_apart(study, model, terms, effects)
+    best, class_ = _distinguished(study, model, terms, effects)
     return Chosen(best, class_, with_candidate(model, best, study.pool, terms.columns.shape[2]), before, False)
 
 
-def _told_apart(study: Study, model: Model, terms: Terms, effects: Sequence[Candidate]) -> tuple[Candidate, tuple[str, ...]]:
-    """Return the effect that is meant, and which others cannot be told from it: refitted to forecasts where marks are close.
+def _distinguished(study: Study, model: Model, terms: Terms, effects: Sequence[Candidate]) -> tuple[Candidate, tuple[str, ...]]:
+    """Return the effect that is meant, and those alike: refitted to forecasts where marks are close.
 
     The marks of a strong effect are its first order alone, forecasts are exact.
     """
@@ -115,12 +115,16 @@ def _told_apart(study: Study, model: Model, terms: Terms, effects: Sequence[Cand
     near = [c for c in kinds.values() if c.score > criteria.CONTENDS * best.score][:MOST_CONTENDERS]
     if len(near) == 1:
         return best, ()
-    starts = [with_candidate(model, c, study.pool, terms.columns.shape[2]) for c in near]
-    fits = [refit(m, study.windows, study.uncertainty, most=REFIT_WINDOWS, evaluations=20) for m in starts]
-    fit = min(fits, key=lambda f: f.cost)
-    # of those that forecast as well the one with the best marks stands first
-    alike = [c for c, f in zip(near, fits, strict=True) if likelihood_ratio(fit, f, study.windows) < criteria.ALIKE_SCREENED]
+    alike = _alike_in_forecasts(study, [(c, with_candidate(model, c, study.pool, terms.columns.shape[2])) for c in near])
     return alike[0], tuple(c.name for c in alike[1:])
+
+
+def _alike_in_forecasts(study: Study, trials: Sequence[tuple[Candidate, Model]]) -> list[Candidate]:
+    """Return the candidates whose models forecast as well as the best one when refitted, in the order given."""
+    fits = [refit(m, study.windows, study.uncertainty, most=REFIT_WINDOWS, evaluations=20) for _, m in trials]
+    best = min(fits, key=lambda f: f.cost)
+    near = zip(trials, fits, strict=True)
+    return [c for (c, _), f in near if likelihood_ratio(best, f, study.windows) < criteria.ALIKE_SCREENED]
 
 
 def _best_score(candidates: Iterable[Candidate]) -> float:
@@ -211,7 +215,23 @@ class _Simulation:
                 "shape of the friction force within a slip",
                 f"no known effect explains the force within the slips; {best.name} comes closest",
             )
-        return Chosen(best, _alike(best, fitted, tried, spread, self.before), fitted.model, fitted, True)
+        alike = _alike(best, fitted, tried, spread, self.before)
+        best, fitted, alike = self._against_waves((best, fitted), alike, tried)
+        return Chosen(best, alike, fitted.model, fitted, True)
+
+    def _against_waves(
+        self, chosen: Trial, alike: tuple[str, ...], tried: Sequence[Trial]
+    ) -> tuple[Candidate, Confirmed, tuple[str, ...]]:
+        """Return what is chosen and its class, where forecasts decide against waves: slips that keep to one show its phase."""
+        best, fitted = chosen
+        waves = [t for t in tried if t[0].is_wave and t[0].name in alike]
+        if best.is_wave or not waves:
+            return best, fitted, alike
+        contenders = {c.name: (c, f) for c, f in reversed([chosen, *waves])}
+        near = _alike_in_forecasts(self.study, [(c, f.model) for c, f in reversed(contenders.values())])
+        if best in near:
+            return best, fitted, alike
+        return *contenders[near[0].name], tuple(c.name for c in near[1:])
 
     def _tried(self, mine: Sequence[Candidate]) -> list[Trial]:
         """Return the candidates that are worth it, simulated, best first."""
@@ -228,8 +248,8 @@ class _Simulation:
             tried += entrained(self.study, self.model, self.terms, self.cases)
         tried.sort(key=lambda t: t[1].criterion)
         # of several variants of an effect the best one counts
-        told = {c.name: [f.chi2, f.criterion] for c, f in reversed(tried)}
-        self.details[f"confirmation_{rounds + 1}"] = told | {"believed": [self.before.chi2, self.before.criterion]}
+        scores = {c.name: [f.chi2, f.criterion] for c, f in reversed(tried)}
+        self.details[f"confirmation_{rounds + 1}"] = scores | {"believed": [self.before.chi2, self.before.criterion]}
         return tried
 
 

@@ -16,12 +16,11 @@ import numpy as np
 
 from stochfric_mb.discovery.inference.fitter import minimised
 from stochfric_mb.discovery.inference.free_parameter import FreeParameter, steps_of
-from stochfric_mb.discovery.stick_slip.records.calibration import damped
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
-from stochfric_mb.discovery.stick_slip.records.record import Array, Record
+from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array, Record
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, features_near
 from stochfric_mb.discovery.stick_slip.simulation.auxiliary_state import auxiliary_state
-from stochfric_mb.discovery.stick_slip.simulation.model import CORRECTED, TUNED, Model, adjusted, free_parameters
+from stochfric_mb.discovery.stick_slip.simulation.model import TUNED, Model, adjusted, free_parameters
 from stochfric_mb.discovery.stick_slip.simulation.strength import STRENGTHS
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.reference.augmented import Start
@@ -39,7 +38,7 @@ LEVELLINGS = 2
 DIFFERENCE = 0.01
 """Step of the derivatives, over a natural step of each number [-]."""
 REMEMBERED = 5.0
-"""Length of the record that what effects with a motion of their own remember is found from [s]."""
+"""Length of the record that what effects with a motion of their own remember is computed from [s]."""
 MISSED = 50.0
 """Deviation that counts for every feature where the candidate does not slip as the data do."""
 
@@ -115,7 +114,7 @@ def _free(pool: Pool, model: Model, rows: np.ndarray, runs: Sequence[int]) -> Ca
     middle = float(slips.onset_time[len(slips) // 2])
     onset = (middle, float(np.median(slips.onset_position)), float(np.median(pool.dwell[rows])))
     length = float(np.median(pool.restick_time[rows] - pool.onset_time[rows]))
-    return _case(model, slips, onset, length, centre, covariance, pool.calibrations[runs[0]].damping)
+    return _case(model, slips, onset, length, centre, covariance)
 
 
 def _forced(pool: Pool, model: Model, rows: np.ndarray) -> list[Case]:
@@ -125,7 +124,7 @@ def _forced(pool: Pool, model: Model, rows: np.ndarray) -> list[Case]:
     stated model misses in each.
     """
     chosen = rows[np.unique(np.linspace(0, len(rows) - 1, LOOKED_AT).round().astype(int))]
-    plain = dataclasses.replace(model, corrections={}, effects=(), process=None, own={})
+    plain = model.bare(pool.slips[0].record)
     onsets: list[tuple[float, float, float]] = []
     lengths = pool.restick_time - pool.onset_time
     predictions: list[Array] = []
@@ -151,11 +150,10 @@ def _forced(pool: Pool, model: Model, rows: np.ndarray) -> list[Case]:
         mine = np.array(kept)[part]
         slips = pool.slips[pool.run[kept[middle]]]
         missed = pool.features[mine] - np.array(predictions)[part]
-        calibration = pool.calibrations[pool.run[kept[middle]]]
-        covariance = _of_median(calibration.covariance, missed)
+        covariance = _of_median(pool.calibrations[pool.run[kept[middle]]].covariance, missed)
         features = predictions[middle] + np.median(missed, axis=0)
         length = float(np.median(lengths[mine]))
-        cases.append(_case(model, slips, onsets[middle], length, features, covariance, calibration.damping))
+        cases.append(_case(model, slips, onsets[middle], length, features, covariance))
     return cases
 
 
@@ -187,16 +185,13 @@ def _case(
     length: float,
     features: Array,
     covariance: Array,
-    damping: float,
 ) -> Case:
     load = slips.record.mechanism.normal_force
     floor = (FLOOR * 0.5 * load * np.r_[0.2, 0.5, np.ones(N_FEATURES - 2)]) ** 2
     whitening = np.asarray(np.linalg.inv(np.linalg.cholesky(covariance + np.diag(floor))), dtype=np.float64)
     case = Case(slips.record, onset, length, features, whitening, (slips.ridge, slips.firm), np.zeros(N_FEATURES))
     plain = model.with_law(features[0] / load, min(features[1], 0.99 * features[0]) / load)
-    plain = dataclasses.replace(plain, corrections={}, effects=(), process=None, own={})
-    # at the damping at which the bias of the features was found
-    predicted = predict(plain, dataclasses.replace(case, record=damped(case.record, damping)))
+    predicted = predict(plain.bare(slips.record), case)
     if predicted is None:
         return case
     truth = np.zeros(N_FEATURES)
@@ -217,7 +212,8 @@ def predict(model: Model, case: Case) -> Array | None:
     ahead = max(margin * 1.2, 0.55 * case.onset[2])
     time, position = case.onset[0] - ahead, record.direction * (case.onset[1] - box.belt_velocity * ahead)
     system = model.system(record)
-    memory = auxiliary_state(system, record, np.array([time]), np.array([position]), since=REMEMBERED)
+    since = REMEMBERED if all(e.forgets for e in system.effects) else 0.0
+    memory = auxiliary_state(system, record, np.array([time]), np.array([position]), since=since)
     start = Start(
         time - model.late, position, record.stated.belt_velocity, True, max(case.onset[2] - ahead, 0.0),
         memory=None if memory is None else tuple(memory[0]),
@@ -250,7 +246,7 @@ def confirm(
     Args:
         cases: slips to be predicted.
         candidate: the model.
-        uncertainty: relative standard deviations of what is believed.
+        uncertainty: relative standard deviations of the stated numbers.
         evaluations: most Gauss-Newton steps.
         entrained: whether the last effect is a wave to which the slips keep: what they leave open is its phase, not its
             frequency.

@@ -9,12 +9,14 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.decision.kinematics import STICK_SHARE
 from stochfric_mb.discovery.stick_slip.decision.rounds import SCORE_LEFT, SHAPE_LEFT, Decision
+from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, score
-from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of, mean_score
+from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of, floor_scores, scores
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.effects import kind_found_as, kinds_with
+from stochfric_mb.effects import kind_with_signature, kinds_with
 from stochfric_mb.effects.traits import JUMP, KICKS, OUTSIDE_FORECASTS, SCATTER
 from stochfric_mb.errors import SimulationError
 
@@ -38,40 +40,51 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
         return None
     windows = [_scattered(w, JUDGED_WINDOWS) for w in study.windows if len(w)]
     runs = HeldOut(study.pool.slips[:2], tuple(windows), tuple(windows))
-    before, after = mean_score(recalibrated, runs), mean_score(augmented, runs)
+    without, with_ = scores(recalibrated, runs), scores(augmented, runs)
+    before, after = float(without.mean()), float(with_.mean())
     if _unfelt(kinds, recalibrated, study, runs, before):
         return dataclasses.replace(decision, verdict="none", named=())
     try:
-        floor = min(floor_of(augmented, runs, recalibrated if kind_found_as(KICKS) in kinds else None), after)
+        best = floor_scores(augmented, runs, recalibrated if kind_with_signature(KICKS) in kinds else None)
     except SimulationError as error:
         return taken_back(decision, f"comes closest, but its model cannot run by itself: {error}")
-    reducible, unit = before - floor, study.size.length
+    floor, unit = min(float(best.mean()), after), study.size.length
     if not kinds:
         decision.details["explained"] = {"before": before * unit, "floor": floor * unit}
-        return _missed(decision, before * unit, floor * unit) if reducible > criteria.NONE_MISSES * before else None
-    share = (before - after) / reducible if reducible > criteria.LEAST_REDUCIBLE * before else 1.0
+        return _missed(decision, before * unit, floor * unit) if before - floor > criteria.NONE_MISSES * before else None
+    enough = criteria.CLOSES_NOTHING if _explained_with_its_form(decision) else _least_share(augmented, kinds)
+    # what is left beyond the share that may be, and how well so few forecasts tell it
+    left = with_ - (1.0 - enough) * without
+    doubt = float(np.hypot(_error_of_mean(left), enough * _error_of_mean(best)))
+    share = (before - after) / (before - floor) if before > floor else 1.0
     decision.details["explained"] = {
-        "before": before * unit, "after": after * unit, "floor": floor * unit, "share": share
+        "before": before * unit, "after": after * unit, "floor": floor * unit, "share": share, "doubt": doubt * unit,
     }  # fmt: skip
     why = f"comes closest, but explains only {max(share, 0.0):.0%} of what the runs show"
-    enough = criteria.CLOSES_NOTHING if _in_shape(decision) else _least_share(augmented, kinds)
-    return None if share >= enough else taken_back(decision, why)
+    return taken_back(decision, why) if float(left.mean()) - enough * floor > criteria.LACKS * doubt else None
 
 
-def _in_shape(decision: Decision) -> bool:
-    """Return whether the one effect named leaves no more of the slips' forces than another form of its kind would.
+def _error_of_mean(values: Array) -> float:
+    """Return the standard error of the mean of ``values``, shape (n,)."""
+    return float(np.std(values)) / max(len(values) - 1, 1) ** 0.5
 
-    What its form leaves of every slip adds up in a forecast of a whole cycle; of its kind the slips say more, unless a pattern
-    without a name in what it leaves says more still.
+
+def _explained_with_its_form(decision: Decision) -> bool:
+    """Return whether the one effect named explains what its channel shows, but for what another form of its kind would leave.
+
+    What its form leaves adds up in a forecast of a whole cycle. The forces of the slips, or the stick phases, in which it was
+    selected say more of its kind, unless a pattern without a name in what it leaves says more still.
     """
     left = cast("float", decision.details.get(SHAPE_LEFT, 1.0))
+    in_stick = cast("float", decision.details.get(STICK_SHARE, 0.0))
     pattern = cast("float", decision.details.get(SCORE_LEFT, 0.0))
-    return len(decision.named) == 1 and left < criteria.FORM_MISSES and pattern < (decision.named[0].evidence.score or 0.0)
+    explained = left < criteria.FORM_MISSES or in_stick > criteria.STICK_EXPLAINED
+    return len(decision.named) == 1 and explained and pattern < (decision.named[0].evidence.score or 0.0)
 
 
 def _least_share(augmented: Model, kinds: set[str]) -> float:
     """Return the share of the reducible error that a name must explain [-]."""
-    lenient = augmented.random or kind_found_as(JUMP) in kinds
+    lenient = augmented.random or kind_with_signature(JUMP) in kinds
     return criteria.EXPLAINED_RANDOM if lenient else criteria.EXPLAINED
 
 
@@ -86,7 +99,7 @@ def _unfelt(kinds: set[str], recalibrated: Model, study: Study, runs: HeldOut, b
 
     Edges that noise has hidden stand out as kicks do, and a scatter of the forces may be smaller than any forecast feels.
     """
-    if kinds == {kind_found_as(KICKS)}:
+    if kinds == {kind_with_signature(KICKS)}:
         return not _thrown_off(recalibrated, study)
     return (
         bool(kinds)

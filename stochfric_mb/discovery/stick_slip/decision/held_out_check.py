@@ -50,7 +50,7 @@ class Comparison:
 
 
 def compared(without: Model, with_: Model, runs: HeldOut) -> Comparison | None:
-    """Return how two models, phases found already, forecast held-out runs; None where there are too few forecasts."""
+    """Return how two models, phases estimated already, forecast held-out runs; None where there are too few forecasts."""
     first, second = (np.concatenate([score(m, w) for w in runs.second]) for m in (without, with_))
     if len(first) < 3:  # no standard error
         return None

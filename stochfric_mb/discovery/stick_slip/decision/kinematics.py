@@ -18,7 +18,7 @@ from stochfric_mb.discovery.stick_slip.screening.competitors import step_times, 
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import refit
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.effects import effect_class, kind_found_as, make_effect
+from stochfric_mb.effects import effect_class, kind_with_signature, make_effect
 from stochfric_mb.effects.course import PIECES
 from stochfric_mb.effects.traits import BELT_RIPPLE, CLIPPED, CREEPING_ZERO, JUMP, LATE, STRAY, YIELDING
 from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
@@ -34,10 +34,13 @@ ELSE = ("stick", "in stick the box does not follow the belt, in a way that no kn
 STEP_SEEN = "step_in_stick"
 """Name under which the details hold the score of a step that stands in a stick phase and stays."""
 
+STICK_SHARE = "share_in_stick"
+"""Name under which they hold the share of what the stick phases show that the effect named there explains [-]."""
+
 
 def with_kinematic(study: Study, model: Model, kind: str, values: dict[str, float]) -> Model:
     """Return the model with an effect that the stick phases showed; a ripple's phases and amplitude are fitted at once."""
-    if kind == kind_found_as(BELT_RIPPLE):
+    if kind == kind_with_signature(BELT_RIPPLE):
         names = [s.record.name for s in study.pool.slips]
         best: tuple[float, Model] | None = None
         for amplitude in (0.01, 0.05):
@@ -53,7 +56,7 @@ def with_kinematic(study: Study, model: Model, kind: str, values: dict[str, floa
         assert best is not None
         return best[1]
     model = model.plus(make_effect(kind, **values))
-    if kind == kind_found_as(YIELDING):
+    if kind == kind_with_signature(YIELDING):
         return _compliant(study, model)
     return model
 
@@ -76,7 +79,7 @@ def _compliant(study: Study, model: Model) -> Model:
 
 def _ripple_phases(study: Study, frequency: float) -> list[tuple[str, float]]:
     """Return run and phase of a ripple of the belt's speed, from what its integral leaves in the stick phases."""
-    found: list[tuple[str, float]] = []
+    phases: list[tuple[str, float]] = []
     for slips in study.pool.slips:
         samples = slips.stick
         angle = 2.0 * np.pi * frequency * samples.time
@@ -88,8 +91,8 @@ def _ripple_phases(study: Study, frequency: float) -> list[tuple[str, float]]:
         a, b, _ = np.linalg.lstsq(np.stack(centred[:3], axis=1), centred[3], rcond=None)[0]
         # the position is the integral, v_b A/w sin(w t + phase) = v_b A/w (cos w t sin phase + sin w t cos phase)
         phase = float(np.arctan2(a, b))
-        found.append((slips.record.name, phase))
-    return found
+        phases.append((slips.record.name, phase))
+    return phases
 
 
 @dataclasses.dataclass(frozen=True)
@@ -113,7 +116,7 @@ def kinematics(study: Study, details: dict[str, object]) -> Blamed | Where:
     details["ceiling"] = study.range.share
     if study.range.clipped:
         ends = {"high": study.range.high, "low": study.range.low}
-        return [Blame(kind_found_as(CLIPPED), detected("clipped", study.range.share), ends)]
+        return [Blame(kind_with_signature(CLIPPED), detected("clipped", study.range.share), ends)]
     stray, in_stick = _outliers(study, details), _in_stick(study, details)
     if isinstance(stray, Where) or isinstance(in_stick, Where):
         return stray if isinstance(stray, Where) else in_stick
@@ -130,7 +133,11 @@ def _outliers(study: Study, details: dict[str, object]) -> Blamed | Where:
         return Where("slip, sensor", "the reading jumps in the slips and at their edges, and hardly anywhere else")
     sizes = np.concatenate([np.abs(r.raw - r.position)[r.outlier] for r in study.records])
     return [
-        Blame(kind_found_as(STRAY), detected("outliers", share), {"fraction": share, "size": float(np.sqrt(np.mean(sizes**2)))})
+        Blame(
+            kind_with_signature(STRAY),
+            detected("outliers", share),
+            {"fraction": share, "size": float(np.sqrt(np.mean(sizes**2)))},
+        )
     ]
 
 
@@ -174,14 +181,26 @@ def _in_stick(study: Study, details: dict[str, object]) -> Blamed | Where:
     if score <= criteria.NAMED:
         _single_moments(study, sticking, details)
         return line if line is not None else []
-    if best == JUMP:
-        details[STEP_SEEN] = score
-    if best in (CREEPING_ZERO, JUMP) or (best == BELT_RIPPLE and _of_the_zero(study, sticking.settings[best]["frequency"])):
+    details |= {STEP_SEEN: score} if best == JUMP else {}
+    if _of_the_sensor(study, sticking, best, score):
         return []
-    share, slack = criteria.STICK_EXPLAINED, criteria.STICK_SLACK
-    if best in CREEP or score < share * sticking.excess - slack or _in_noise_alone(best, sticking):
+    if best in CREEP or score < _least(sticking) or _in_noise_alone(best, sticking):
         return Where(*CREEP.get(best, ELSE))
+    details[STICK_SHARE] = score / sticking.excess if sticking.excess > 0.0 else 0.0
     return _in_stick_named(study, best, score, sticking.settings[best])
+
+
+def _least(sticking: Sticking) -> float:
+    """Return the score that a name needs to explain what the stick phases show [-]."""
+    return criteria.STICK_EXPLAINED * sticking.excess - criteria.STICK_SLACK
+
+
+def _of_the_sensor(study: Study, sticking: Sticking, best: str, score: float) -> bool:
+    """Return whether what is seen in stick is a sensor's: its zero steps or drifts, or wanders by less than a reading errs."""
+    if best in (CREEPING_ZERO, JUMP) or (best == BELT_RIPPLE and _of_the_zero(study, sticking.settings[best]["frequency"])):
+        return True
+    slow = score < _least(sticking) and sticking.departure < criteria.STICK_DEPARTS
+    return slow and best not in CREEP and not _in_noise_alone(best, sticking)
 
 
 def _in_noise_alone(best: str, sticking: Sticking) -> bool:
@@ -199,7 +218,7 @@ def _of_the_zero(study: Study, frequency: float) -> bool:
     """
     if frequency * study.pool.duration >= PIECES / 2.0:
         return False
-    ways = [h.columns for h in effect_class(kind_found_as(CREEPING_ZERO)).hypotheses(study.pool)]
+    ways = [h.columns for h in effect_class(kind_with_signature(CREEPING_ZERO)).hypotheses(study.pool)]
     gains = study.regression.gains(study.terms, study.solution.scatter, ways)
     scores = [2.0 * gain - len(way) * np.log(study.regression.n) for gain, way in zip(gains, ways, strict=True)]
     return max(scores) > criteria.NAMED
@@ -215,12 +234,14 @@ def _single_moments(study: Study, sticking: Sticking, details: dict[str, object]
 def _in_stick_named(study: Study, best: str, score: float, settings: dict[str, float]) -> Blamed:
     """Return the effect that stands for what is seen in stick, at numbers to start from."""
     if best == BELT_RIPPLE:
-        return [Blame(kind_found_as(best), likely("stick", score), {"amplitude": 0.01, "frequency": settings["frequency"]})]
+        return [
+            Blame(kind_with_signature(best), likely("stick", score), {"amplitude": 0.01, "frequency": settings["frequency"]})
+        ]
     box = study.records[0].mechanism
     stiffness = max(settings["angular_frequency"] ** 2 * box.mass - box.stiffness, 0.1 * box.stiffness)
     limit = float(study.solution.coefficients[0]) * box.normal_force / stiffness
     values = {"elastic_limit": limit, "damping_ratio": settings["damping_ratio"]}
-    return [Blame(kind_found_as(best), likely("stick", score), values)]
+    return [Blame(kind_with_signature(best), likely("stick", score), values)]
 
 
 def _winner(study: Study, sticking: Sticking) -> tuple[str, float]:
@@ -250,23 +271,23 @@ def _driven(study: Study, frequency: float) -> bool:
 
 def _delays(study: Study, details: dict[str, object]) -> Blamed:
     """Return the delay of the position after a velocity channel, where runs have one and the delay is beyond doubt."""
-    found: list[Delay] = []
+    delays: list[Delay] = []
     for run in study.dataset.fit:
         if "velocity" in run.channels:
             position = Term(run.channels["position"], 1)
             width = 0.4 / study.records[0].angular_frequency
-            found.append(estimate_delay(run.channels["velocity"], [position], run.sample_interval, half_width=width))
-    if not found:
+            delays.append(estimate_delay(run.channels["velocity"], [position], run.sample_interval, half_width=width))
+    if not delays:
         return []
-    seconds = float(np.mean([d.seconds for d in found]))
-    doubt = float(np.mean([d.high - d.low for d in found])) / 3.92 / np.sqrt(len(found))
+    seconds = float(np.mean([d.seconds for d in delays]))
+    doubt = float(np.mean([d.high - d.low for d in delays])) / 3.92 / np.sqrt(len(delays))
     details["delay"] = {"seconds": seconds, "deviation": doubt}
     # a velocity that is late, a filtered one, is none of the position's faults
     if seconds < max(5.0 * doubt, 0.5 * study.dataset.fit[0].sample_interval):
         return []
     # twice the log likelihood ratio of one normal number against 0
     ratio = (seconds / doubt) ** 2 if doubt > 0.0 else float("inf")
-    return [Blame(kind_found_as(LATE), Evidence(ratio, None), {"delay": seconds})]
+    return [Blame(kind_with_signature(LATE), Evidence(ratio, None), {"delay": seconds})]
 
 
 def delay_deviation(details: Mapping[str, object]) -> float:

@@ -10,14 +10,14 @@ import numpy as np
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.false_alarms import Evidence, detected, likely
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
+from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, believed
+from stochfric_mb.discovery.stick_slip.screening.null_draws import drawn
+from stochfric_mb.discovery.stick_slip.screening.regression import Solution
 from stochfric_mb.discovery.stick_slip.screening.switching import Switching
 from stochfric_mb.discovery.stick_slip.screening.variance_components import Randomness, randomness
-from stochfric_mb.discovery.stick_slip.simulation.scatter import simulated_slips
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.effects import kind_found_as
+from stochfric_mb.effects import kind_with_signature
 from stochfric_mb.effects.traits import DRAWN_ANEW, KICKS, WANDER
 from stochfric_mb.numerics.robust import deviation
 
@@ -117,7 +117,9 @@ def kicks(study: Study) -> RandomEffects | None:
     # of kicks from both sides those that push the stuck box on with the belt set off no slip
     unseen = UNSEEN if mean == 0.0 else 1.0
     return RandomEffects(
-        kind_found_as(KICKS), detected("kicks", share), {"rate": unseen * share / cycle, "impulse": deviation, "mean": mean}
+        kind_with_signature(KICKS),
+        detected("kicks", share),
+        {"rate": unseen * share / cycle, "impulse": deviation, "mean": mean},
     )
 
 
@@ -162,7 +164,7 @@ def _drawn_anew(scatter: Randomness, sigma_s: float, sigma_k: float, ratio: floa
     values: dict[str, float | str] = {
         "process": "knots" if within else "per_event", "sigma_s": float(sigma_s), "sigma_k": float(sigma_k)
     }  # fmt: skip
-    return RandomEffects(kind_found_as(DRAWN_ANEW), likely("scatter", strongest), values)
+    return RandomEffects(kind_with_signature(DRAWN_ANEW), likely("scatter", strongest), values)
 
 
 def _memory(scatter: Randomness, mu_s: float, mu_k: float) -> RandomEffects | Where | None:
@@ -172,7 +174,7 @@ def _memory(scatter: Randomness, mu_s: float, mu_k: float) -> RandomEffects | Wh
     ) or scatter.wander > 5.0 * criteria.NAMED:
         share = max(scatter.wander_share, 1.0e-3)
         return RandomEffects(
-            kind_found_as(WANDER),
+            kind_with_signature(WANDER),
             likely("wander", scatter.wander),
             {"sigma_s": float(share * mu_s), "sigma_k": float(share * mu_k), "correlation_time": float(scatter.wander_time)},
         )
@@ -183,11 +185,7 @@ def _memory(scatter: Randomness, mu_s: float, mu_k: float) -> RandomEffects | Wh
 
 def _declared(study: Study) -> Randomness:
     """Return what the scatter would tell if the declared process were all that is random."""
-    slips = [simulated_slips(study.model, s, sample=i) for i, s in enumerate(study.pool.slips)]
-    pool = make_pool(slips, study.pool.calibrations)
-    regression = Regression(pool)
-    terms = believed(pool, dict(study.uncertainty))
-    return randomness(regression, terms, regression.fit(terms, study.solution.scatter))
+    return randomness(*drawn(study, 0))
 
 
 def _offset(study: Study, scatter: Randomness) -> Where | None:
@@ -202,6 +200,11 @@ def _offset(study: Study, scatter: Randomness) -> Where | None:
 def _scatters(study: Study, scatter: Randomness, solution: Solution, named: Sequence[str], share: float) -> bool:
     """Return whether friction scatters beyond doubt, and by more than what the form of a named effect may leave."""
     if max(scatter.static, scatter.kinetic) <= criteria.SCATTER_CERTAIN and scatter.wander <= criteria.NAMED:
+        return False
+    # of noise slower than a stick phase the record says nothing but where the box breaks away: as little is no friction
+    level = float(np.median(study.pool.static))
+    away = max(share * level, scatter.wander_share * level) / study.records[0].mechanism.stiffness
+    if away < max(s.noise.coloured for s in study.pool.slips):
         return False
     remaining = np.exp(2.0 * solution.scatter[:2]).sum() / np.exp(2.0 * study.solution.scatter[:2]).sum()
     return not named or (remaining >= criteria.SCATTER_REMAINING and share >= criteria.SCATTER_LEAST_SHARE)

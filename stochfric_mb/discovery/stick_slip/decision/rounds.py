@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
 
@@ -17,11 +18,13 @@ from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.decision.kinematics import delay_deviation, kinematics, with_kinematic
 from stochfric_mb.discovery.stick_slip.decision.random_effects import kicked, kicks, random_effects, stray
 from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_step, steady
-from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array, corrections_of
 from stochfric_mb.discovery.stick_slip.screening.folding import comes_back
 from stochfric_mb.discovery.stick_slip.screening.naming import as_harmonic, with_candidate
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms, believed
+from stochfric_mb.discovery.stick_slip.screening.null_draws import largest_by_chance
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms, stated_terms
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate, screen
+from stochfric_mb.discovery.stick_slip.screening.smooth_term import axes_of, smooth_term
 from stochfric_mb.discovery.stick_slip.screening.switching import JUMPS, SWITCHES, levels_score, switching
 from stochfric_mb.discovery.stick_slip.screening.variance_components import Randomness, randomness
 from stochfric_mb.discovery.stick_slip.screening.waves import shared_by_runs
@@ -29,7 +32,7 @@ from stochfric_mb.discovery.stick_slip.simulation.delay_compensation import dela
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import cost_of, refit
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study
-from stochfric_mb.effects import effect_class, kind_found_as, kinds_with, make_effect
+from stochfric_mb.effects import effect_class, kind_with_signature, kinds_with, make_effect
 from stochfric_mb.effects.course import PIECES
 from stochfric_mb.effects.traits import (
     BELT_RIPPLE,
@@ -51,6 +54,8 @@ SHAPE_LEFT = "shape_left"
 """Name under which the details hold the misfit of simulated slips with the effects named over that without."""
 SCORE_LEFT = "left_over_score"
 """Name under which the details hold the score of a pattern without a name in what the effects named leave."""
+LARGEST = "largest_by_chance"
+"""Name under which the details hold the score that a declared scatter reaches by chance."""
 MOST_EFFECTS = 3
 """Effects that are looked for."""
 MOST_ROUNDS = 5
@@ -70,7 +75,7 @@ class Named:
     where: Where
     """Where it shows."""
     before: Model | None = None
-    """The model without it, as it stood when it was found."""
+    """The model without it, as it stood when it was selected."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -80,7 +85,7 @@ class Decision:
     verdict: str
     """"effect", "none" or "unknown"."""
     named: tuple[Named, ...]
-    """The effects, in the order in which they were found."""
+    """The effects, in the order of selection."""
     where: Where | None
     """Where an unknown disagreement lives."""
     model: Model
@@ -91,6 +96,8 @@ class Decision:
     """What the scatter says."""
     details: dict[str, object]
     """Numbers behind it."""
+    form: Named | None = None
+    """The unnamed term of the model that carries what the form of the first effect leaves along the effect's own axis."""
 
 
 def decide(study: Study, *, channels: Channels = EVERYTHING, progress: Progress = lambda _: None) -> Decision:
@@ -105,7 +112,7 @@ def decide(study: Study, *, channels: Channels = EVERYTHING, progress: Progress 
         return Decision("unknown", (), blamed, model, (), None, details)
     named: list[Named] = []
     late: float | None = None
-    late_kind = kind_found_as(LATE)
+    late_kind = kind_with_signature(LATE)
     for blame in blamed:
         kind, values = blame.kind, blame.values
         named.append(Named(kind, (), blame.evidence, _shown_by(kind), model if late is None else with_delay(model, late)))
@@ -119,7 +126,7 @@ def decide(study: Study, *, channels: Channels = EVERYTHING, progress: Progress 
         if kind == late_kind:
             # a velocity tells it far better than forecasts, and no forecast tells it where no known force acts
             model = dataclasses.replace(model, measured={"delay": delay_deviation(details)})
-    if any(n.kind == kind_found_as(CLIPPED) for n in named):
+    if any(n.kind == kind_with_signature(CLIPPED) for n in named):
         # a clipped record says too little of the forces
         return Decision("effect", tuple(named), None, model if late is None else with_delay(model, late), (), None, details)
     progress("screening")
@@ -139,7 +146,13 @@ def of_wander(study: Study, refuted: Decision) -> Decision | None:
         return None
     result = _Search(study, _levels(study.model, study), [], dict(refuted.details), lambda _: None, confirmation=False)
     decision = dataclasses.replace(result.by_chance(), ranking=refuted.ranking)
-    return decision if [n.kind for n in decision.named] == [kind_found_as(WANDER)] else None
+    return decision if [n.kind for n in decision.named] == [kind_with_signature(WANDER)] else None
+
+
+def term_of(model: Model, score: float) -> Named:
+    """Return a model's last effect, a term without a name, for the result."""
+    term = model.effects[-1]
+    return Named(term.kind, (), Evidence(score, None), Where(*term.appears()))
 
 
 def _shown_by(kind: str) -> Where:
@@ -149,9 +162,10 @@ def _shown_by(kind: str) -> Where:
 
 
 def _levels(model: Model, study: Study) -> Model:
-    """Return the model at the mean coefficients that the regression found."""
-    mu_s, mu_k = study.solution.coefficients[:2]
-    return model.with_law(float(max(mu_s, 1.0e-3)), float(np.clip(mu_k, 1.0e-5, 0.999 * mu_s)))
+    """Return the model at the coefficients of the regression, with the mechanism that it estimates."""
+    mu_s, mu_k = map(float, study.solution.coefficients[:2])
+    model = dataclasses.replace(model, corrections=corrections_of(study.solution.coefficients[2 : 2 + len(CORRECTED)]))
+    return model.with_law(max(mu_s, 1.0e-3), float(np.clip(mu_k, 1.0e-5, 0.999 * mu_s)))
 
 
 def _scores(candidates: Sequence[Candidate]) -> dict[str, float]:
@@ -188,7 +202,8 @@ class _Search:
         self.confirmed: Confirmed | None = None
         self.unaided: Confirmed | None = None
         self.first = 0.0
-        if any(n.kind in (kind_found_as(BELT_RIPPLE), kind_found_as(YIELDING)) for n in named):
+        self.form: Named | None = None
+        if any(n.kind in (kind_with_signature(BELT_RIPPLE), kind_with_signature(YIELDING)) for n in named):
             self._take_out()
 
     def run(self) -> Decision:
@@ -209,7 +224,7 @@ class _Search:
         if round_ == 0 and (step := seen_step(candidates, self.details)) is not None:
             self._add(Chosen(step, (), with_candidate(self.model, step, self.pool, self._n_terms), None, False))
             return True
-        if not candidates or candidates[0].score < self._needed(round_):
+        if not candidates or candidates[0].score < self._needed(round_) or self._by_chance(candidates[0].score):
             return False
         if round_ == 0 and not self.named and (of_chance := self._of_chance(candidates)) is not False:
             return of_chance if of_chance is not True else False
@@ -221,7 +236,7 @@ class _Search:
         self._look_at(candidates)
         outcome = choose(self.study, self.model, self.terms, candidates, self.cases, self.confirmed, self.details)
         if isinstance(outcome, Where) and self.named:
-            # what was found stands; the rest is noted, not named
+            # the selected effects stand; the rest is noted, not named
             self.details["left_over"] = dataclasses.asdict(outcome)
             self.details[SCORE_LEFT] = candidates[0].score
             return False
@@ -258,6 +273,15 @@ class _Search:
         """Return the score that is worth a look."""
         return criteria.NAMED if round_ == 0 else max(criteria.FOLLOWED_UP, criteria.SECOND_SHARE * self.first)
 
+    def _by_chance(self, score: float) -> bool:
+        """Return whether a score is no larger than a declared scatter makes by chance."""
+        if self.study.model.process is None:
+            return False
+        if LARGEST not in self.details:
+            self.progress("records of the declared scatter")
+            self.details[LARGEST] = largest_by_chance(self.study)
+        return score < cast("float", self.details[LARGEST])
+
     @property
     def _n_terms(self) -> int:
         return self.terms.columns.shape[2]
@@ -288,7 +312,7 @@ class _Search:
     def _wanders(self, candidates: Sequence[Candidate]) -> bool:
         """Return whether a winner on the axis of time is better described as a random drift."""
         winner = candidates[0]
-        if winner.name not in (*IN_TIME, kind_found_as(JUMP)) and not (winner.is_wave or winner.any_course):
+        if winner.name not in (*IN_TIME, kind_with_signature(JUMP)) and not (winner.is_wave or winner.any_course):
             return False
         drifts = max((c.score for c in candidates if c.has(DRIFTS)), default=-np.inf)
         scatter = randomness(self.regression, self.terms, self.solution)
@@ -307,7 +331,8 @@ class _Search:
             score = levels_score(self.regression, self.terms, self.solution)
             self.details["two_levels"] = score
             return None if best is not None and best.score > score else SWITCHES
-        if levels.where is None:
+        # what all slips share is explained first; what jumps beside it is judged last of all
+        if levels.where is None or candidates[0].name in SHAPES or candidates[0].has(SHAPES_SLIPS):
             return None
         if best is not None:
             with_best = self.terms.plus(best.hypothesis.columns)
@@ -355,8 +380,10 @@ class _Search:
         """Take an effect into the model, and out of the features; return whether it is worth a place beside the others."""
         kind, without, known = chosen.candidate.name, self.model, self._timed()
         harmonic = as_harmonic(self.model, chosen.candidate, self.study.pool, self._n_terms)
-        screened = self.model = chosen.model if harmonic is None else harmonic
-        fitted = (kind in kinds_with(COURSE_OF_RUN) or chosen.simulated) and kind != kind_found_as(LATE)
+        self.model = chosen.model if harmonic is None else harmonic
+        self._complete(kind)
+        screened = self.model
+        fitted = (kind in kinds_with(COURSE_OF_RUN) or chosen.simulated) and kind != kind_with_signature(LATE)
         # single forecasts of friction that scatters tell less than the slips' medians, to which a simulated model is fitted
         fitted &= not (chosen.simulated and without.random)
         if fitted and not self._refitted(without):
@@ -367,13 +394,42 @@ class _Search:
         self.course |= chosen.candidate.any_course
         self.progress("what is left")
         before = _scatter(self.solution)
-        if kind == kind_found_as(LATE):
+        if kind == kind_with_signature(LATE):
             self._put_on_time()
             return True
         if kind in kinds_with(MOVES_ZERO):
             self.kept += chosen.candidate.hypothesis.columns
         self._go_on(chosen, screened if fitted else None, before)
         return True
+
+    def _complete(self, kind: str) -> None:
+        """Take what the form of the one effect leaves along the effect's own axis into the model: a term without a name.
+
+        A name says on what friction depends, not how. What is left on that axis is its shape, as long as the effect's own form
+        takes the larger part of what both take together.
+        """
+        own = effect_class(kind).form_axis
+        if not own or self.named or self.model.random or any(e.group == "sensor" for e in self.model.effects):
+            return
+        pool = left_over(self.study.pool, self.model)
+        if pool.kept.sum() < criteria.LEAST_KEPT * self.pool.kept.sum():
+            return
+        regression, terms = Regression(pool), stated_terms(pool, dict(self.study.uncertainty))
+        solution = regression.fit(terms, self.solution.scatter)
+        axis = next(a for a in axes_of(pool) if a.name == own)
+        term = smooth_term(regression, terms, solution, self.model, axis)
+        shown = self.study.regression.solve(self.study.terms, term.solution.scatter).cost - term.solution.cost
+        left = regression.solve(terms, term.solution.scatter).cost - term.solution.cost
+        self.details["form"] = {"axis": own, "score": term.score, "share": 1.0 - left / shown}
+        if term.score <= criteria.NAMED or 1.0 - left / shown < criteria.EXPLAINED:
+            return
+        model = term.model
+        if self.confirmed is not None:
+            fitted = confirm(self.cases, model, self.study.uncertainty)
+            if fitted.criterion >= self.confirmed.criterion:  # simulated slips say no more than the regression's first order
+                return
+            self.confirmed, model = fitted, fitted.model
+        self.model, self.form = model, term_of(model, term.score)
 
     def _go_on(self, chosen: Chosen, screened: Model | None, before: float) -> None:
         """Go on with what is left; ``screened``: the model before a fit to forecasts, ``before``: the scatter then."""
@@ -410,7 +466,7 @@ class _Search:
             return
         self.pool = left
         self.regression = Regression(self.pool)
-        self.terms = believed(self.pool, dict(self.study.uncertainty)).plus(self.kept)
+        self.terms = stated_terms(self.pool, dict(self.study.uncertainty)).plus(self.kept)
         self.solution = self.regression.fit(self.terms, self.solution.scatter)
 
     def _take_out_better(self, other: Model) -> None:
@@ -455,7 +511,7 @@ class _Search:
             self.named.append(Named(result.kind, (), result.evidence, _shown_by(result.kind), self._timed()))
             self.model = self.model.plus(make_effect(result.kind, **result.values))
         verdict = "effect" if self.named else "none"
-        return Decision(verdict, tuple(self.named), None, self._timed(), self.ranking, scatter, self.details)
+        return Decision(verdict, tuple(self.named), None, self._timed(), self.ranking, scatter, self.details, self.form)
 
     def _timed(self) -> Model:
         """Return the model so far with the sensor's delay, if the records were put on time."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping, Sequence
+from typing import cast
 
 import numpy as np
 
@@ -13,23 +14,27 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
-from stochfric_mb.effects import kind_found_as
-from stochfric_mb.effects.traits import JUMP, MOVES_ZERO
+from stochfric_mb.effects import kind_with_signature
+from stochfric_mb.effects.traits import CREEPING_ZERO, JUMP, MOVES_ZERO
 
 
 def seen_step(candidates: Sequence[Candidate], details: Mapping[str, object]) -> Candidate | None:
     """Return a step of the sensor that was seen in stick, too: it is there, whatever else the forces hold.
 
-    Only another way in which the sensor's zero moves may stand for it: a drift of it jumps a little at every look.
+    Only another way in which the sensor's zero moves may stand for it: a drift of it jumps a little at every look, but shows
+    in stick as well.
 
     Args:
         candidates: the screening's outcome.
-        details: what the stick phases told.
+        details: what the stick phases show.
     """
-    step = next((c for c in candidates if c.name == kind_found_as(JUMP)), None)
+    step = next((c for c in candidates if c.name == kind_with_signature(JUMP)), None)
     if STEP_SEEN not in details or step is None or step.score < criteria.NAMED:
         return None
-    return step if all(c.score <= step.score for c in candidates if c.has(MOVES_ZERO)) else None
+    if all(c.score <= step.score for c in candidates if c.has(MOVES_ZERO)):
+        return step
+    in_stick = cast("dict[str, float]", details["sticking"])
+    return step if in_stick[CREEPING_ZERO] < criteria.OUTDONE * in_stick[JUMP] else None
 
 
 def steady(

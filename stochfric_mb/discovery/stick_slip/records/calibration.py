@@ -11,9 +11,9 @@ import dataclasses
 import numpy as np
 
 from stochfric_mb.discovery.stick_slip.records.long_records import middle
-from stochfric_mb.discovery.stick_slip.records.record import Array, Record, make_record
+from stochfric_mb.discovery.stick_slip.records.record import Array, make_record
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, extract
-from stochfric_mb.effects import kind_found_as, make_effect
+from stochfric_mb.effects import kind_with_signature, make_effect
 from stochfric_mb.effects.traits import DRAWN_ANEW
 from stochfric_mb.laws import make_law
 from stochfric_mb.numerics.robust import deviation
@@ -24,7 +24,7 @@ REPEATS = 2
 FINER = 4
 """Simulated steps in one sample: what is taken for the truth at a break-away must be sharper than a sample."""
 FEWEST = 15
-"""Simulated slips below which the bias cannot be told."""
+"""Simulated slips below which the bias cannot be estimated."""
 UNKNOWN = np.array([0.03, 0.1, 0.2, 0.3, 0.3, 0.3, 0.3, 0.3])
 """Standard deviations of the features [N] that are assumed in that case, for forces of about 10 N."""
 
@@ -41,8 +41,6 @@ class Calibration:
     """Onset force and mean force in slip at which the bias is given [N]."""
     covariance: Array
     """Covariance of the error [N^2], shape (N_FEATURES, N_FEATURES)."""
-    damping: float = 1.0
-    """Damping that was simulated, over the believed one [-]."""
 
     def unbiased(self, features: Array) -> Array:
         """Return features [N], shape (n, N_FEATURES), less their bias."""
@@ -50,14 +48,12 @@ class Calibration:
         return features - self.bias - away @ self.slopes.T
 
 
-def calibrate(slips: Slips, *, seed: int = 11, damping: float = 1.0) -> Calibration:
+def calibrate(slips: Slips, *, seed: int = 11) -> Calibration:
     """Return the errors of the features of ``slips``, by simulation.
 
     Args:
         slips: the slips of a record.
         seed: of the simulated measurements.
-        damping: factor on the believed damping [-]. Where the slips are damped far more than believed, the edges are
-            located differently, and the features with them.
     """
     static, kinetic = float(np.median(slips.onset_force)), float(np.median(slips.moments[:, 0]))
     observed: list[Array] = []
@@ -65,13 +61,13 @@ def calibrate(slips: Slips, *, seed: int = 11, damping: float = 1.0) -> Calibrat
     generator = np.random.default_rng(seed)
     like = middle(slips)
     for repeat in range(REPEATS):
-        measured, truth = _simulated(like, static, kinetic, damping, repeat, generator)
+        measured, truth = _simulated(like, static, kinetic, repeat, generator)
         observed.append(measured)
         true.append(truth)
     features, forces = np.concatenate(observed), np.concatenate(true)
     if len(features) < FEWEST:
         return Calibration(
-            np.zeros(N_FEATURES), np.zeros((N_FEATURES, 2)), (static, kinetic), np.diag((UNKNOWN * static / 10.0) ** 2), damping
+            np.zeros(N_FEATURES), np.zeros((N_FEATURES, 2)), (static, kinetic), np.diag((UNKNOWN * static / 10.0) ** 2)
         )
     error = features.copy()
     error[:, :2] -= forces
@@ -85,27 +81,19 @@ def calibrate(slips: Slips, *, seed: int = 11, damping: float = 1.0) -> Calibrat
         kept = (np.abs(rest) < 6.0 * deviation(rest, about=0.0, axis=0) + 1.0e-6).all(axis=1)
     # a floor keeps a noiseless record's covariance invertible
     covariance = np.cov(rest[kept].T) + (1.0e-4 * static) ** 2 * np.eye(N_FEATURES)
-    return Calibration(fitted[0], fitted[1:].T, (static, kinetic), covariance, damping)
+    return Calibration(fitted[0], fitted[1:].T, (static, kinetic), covariance)
 
 
-def damped(record: Record, factor: float) -> Record:
-    """Return a record whose mechanism has ``factor`` times the believed damping."""
-    box, stated = (dataclasses.replace(b, damping=factor * b.damping) for b in (record.mechanism, record.stated))
-    return dataclasses.replace(record, mechanism=box, stated=stated)
-
-
-def _simulated(
-    slips: Slips, static: float, kinetic: float, damping: float, repeat: int, generator: np.random.Generator
-) -> tuple[Array, Array]:
+def _simulated(slips: Slips, static: float, kinetic: float, repeat: int, generator: np.random.Generator) -> tuple[Array, Array]:
     """Return features and true (onset force, mean force in slip) [N] of the slips of one simulated record."""
     record = slips.record
-    box = damped(record, damping).mechanism
+    box = record.mechanism
     spread = (0.005 * static, 0.05 * static)
     sigma_s = float(np.clip(deviation(slips.onset_force), *spread)) / box.normal_force
     sigma_k = float(np.clip(deviation(slips.moments[:, 0]), *spread)) / box.normal_force
     kinetic = min(kinetic, 0.98 * static)
     law = make_law("coulomb", mu_s=static / box.normal_force, mu_k=max(kinetic, 1.0e-3 * static) / box.normal_force)
-    scatter = make_effect(kind_found_as(DRAWN_ANEW), process="per_event", sigma_s=sigma_s, sigma_k=sigma_k)
+    scatter = make_effect(kind_with_signature(DRAWN_ANEW), process="per_event", sigma_s=sigma_s, sigma_k=sigma_k)
     system = augmented_system(box, law, [scatter], seed=repeat + 1)
     step = 1.0 / record.rate
     first = Start(-slips.settling, 0.0, box.belt_velocity, stick=True)

@@ -75,6 +75,11 @@ class Pool:
         return np.maximum(self.belt_velocity[:, None] * (self.node_time - self.onset_time[:, None]) - moved, 0.0)
 
     @property
+    def slid_before(self) -> Array:
+        """Distance slid at the break-away since the record began [m]: that of the slips seen."""
+        return np.concatenate([np.r_[0.0, np.cumsum(_travel(s))[:-1]] for s in self.slips])
+
+    @property
     def mean_time(self) -> Array:
         """Middle of the slip [s]."""
         return self.node_time.mean(axis=1)
@@ -163,6 +168,12 @@ def _kept(features: Array, run: np.ndarray, static: Array) -> np.ndarray:
         if off[mine].sum() <= max(criteria.FEW_STRAY, criteria.STRAY_SHARE * mine.sum()):
             gross |= off & mine
     return np.logical_not(gross)
+
+
+def _travel(slips: Slips) -> Array:
+    """Return the relative displacement of each slip [m], shape (n,)."""
+    lasting = slips.restick_time - slips.onset_time
+    return slips.record.mechanism.belt_velocity * lasting - (slips.restick_position - slips.onset_position)
 
 
 def _typical(slips: Slips) -> Array:

@@ -37,11 +37,15 @@ def require_usable(dataset: Dataset) -> None:
             )
 
 
-def require_driven(slips: Sequence[Slips]) -> None:
-    """Require that friction drives the box along with the belt.
+def require_driven(slips: Sequence[Slips], mu_s: float) -> None:
+    """Require that friction drives the box along with the belt, with a coefficient that dry friction can have.
+
+    Args:
+        slips: the slips of each run.
+        mu_s: static coefficient as stated [-].
 
     Raises:
-        InputError: a run whose spring pulls along the belt's motion at break-away, or in slip.
+        InputError: a run whose spring pulls along the belt's motion at break-away or in slip, or pulls too hard.
     """
     for one in slips:
         load = one.record.mechanism.normal_force
@@ -52,4 +56,9 @@ def require_driven(slips: Sequence[Slips]) -> None:
                     f"run {one.record.name}: friction {when} comes out at {share:.3g} times the normal force, against the "
                     "belt's motion; give position and belt_velocity the same positive direction (sign = { position = -1 } "
                     "turns a column round) and count the position from the unstressed spring"
+                )
+            if share > criteria.MOST_FRICTION * max(1.0, mu_s):
+                raise InputError(
+                    f"run {one.record.name}: friction {when} comes out at {share:.3g} times the normal force, with mu_s stated "
+                    f"as {mu_s:.3g}; count the position from where the spring is unstressed, or mend normal_force"
                 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
+from collections.abc import Mapping
 
 import numpy as np
 import numpy.typing as npt
@@ -27,6 +28,11 @@ LINE_WINDOW = 128
 """Samples of the pieces in which a line of the noise is looked for."""
 LEAST_NOISE = 1.0e-10
 """Noise that is always allowed, over the span of the record [-]: rounding of the sums."""
+CORRECTED = ("stiffness", "mass", "damping")
+"""Parameters of the mechanism that recalibration may correct."""
+LEAST_CORRECTION = -0.95
+"""Least relative correction of each of them [-]: no rig is without mass, stiffness or any damping. What a regression, which is
+linear, takes beyond belongs to an effect: friction that falls with speed looks like damping below zero."""
 LAGS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96)
 """Lags at which the colour of the noise is looked at [samples]."""
 MEMORIES = 1.0 - np.geomspace(0.95, 0.003, 48)
@@ -61,6 +67,11 @@ class Noise:
         return noise
 
 
+def corrections_of(coefficients: Array) -> dict[str, float]:
+    """Return the relative corrections of the mechanism [-] that a regression estimates, shape (3,), as far as one can be so."""
+    return dict(zip(CORRECTED, map(float, np.maximum(coefficients, LEAST_CORRECTION)), strict=True))
+
+
 @dataclasses.dataclass(frozen=True)
 class Record:
     """One run, ready for analysis; arrays have shape (n,)."""
@@ -78,7 +89,8 @@ class Record:
     noise: float
     """Standard deviation of the white part of the noise [m], from third differences."""
     mechanism: BeltBox
-    """The mechanism under the run's operating conditions, mirrored alike: its belt velocity is positive."""
+    """The mechanism that forces are taken with, under the run's operating conditions, mirrored alike: its belt velocity is
+    positive."""
     stated: BeltBox
     """The mechanism as stated, not mirrored."""
     direction: int
@@ -101,6 +113,21 @@ class Record:
         step = 1.0 / self.rate
         smooth, velocity = (savgol_filter(self.position, width, 3, deriv=d, delta=step) for d in (0, 1))
         return self.direction * np.asarray(smooth, dtype=np.float64), self.direction * np.asarray(velocity, dtype=np.float64)
+
+    @property
+    def corrections(self) -> dict[str, float]:
+        """Relative difference of the mechanism that forces are taken with from the stated one [-], by name."""
+        pairs = {name: (getattr(self.mechanism, name), getattr(self.stated, name)) for name in CORRECTED}
+        return {name: here / stated - 1.0 if stated else 0.0 for name, (here, stated) in pairs.items()}
+
+    def corrected(self, corrections: Mapping[str, float]) -> Record:
+        """Return the record with forces to be taken with a mechanism that differs from the stated one by ``corrections``."""
+        numbers = {name: getattr(self.stated, name) * (1.0 + value) for name, value in corrections.items()}
+        return dataclasses.replace(self, mechanism=dataclasses.replace(self.mechanism, **numbers))
+
+    def showing(self, position: Array) -> Record:
+        """Return the record as it would be had the sensor shown ``position`` [m], shape (n,), not mirrored."""
+        return make_record(self.name, self.time, position, self.stated).corrected(self.corrections)
 
     def samples(self, angle: float) -> int:
         """Return how many samples the natural oscillation takes to turn by ``angle`` [rad]."""

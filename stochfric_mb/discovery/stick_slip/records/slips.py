@@ -34,7 +34,7 @@ SETTLING = 4.0
 """Time before a record that is simulated at least and not looked at [s]."""
 _DEGREE = 9
 _STIFF, _SOFT = 0.06, 3.0
-"""Standard deviation of an edge's cubic term over half the record's range: constant force believed, or a changing one."""
+"""Standard deviation of an edge's cubic term over half the record's range: for a constant force, or a changing one."""
 _MISFIT_ALLOWED = 1.6
 """Median squared misfit over noise variance above which the force at break-away is taken to change."""
 _ORDERS = np.arange(N_MOMENTS)
@@ -143,7 +143,7 @@ def extract(record: Record, *, ridge: float | None = None, noise: Noise | None =
 
     Args:
         record: the record.
-        ridge: how firmly the force at break-away is believed to be constant; chosen from the data if not given.
+        ridge: how firmly the force at break-away is assumed to be constant; chosen from the data if not given.
         noise: the noise that edges are located in; that of the stick phases if not given.
     """
     rough = list(_inside(record, slips_of(record, noise)))
@@ -185,7 +185,7 @@ def features_near(record: Record, time: float, *, ridge: float, firm: float) -> 
     Args:
         record: some slips without noise.
         time: where the slip is expected to begin [s].
-        ridge: how firmly the force at break-away is believed to be constant.
+        ridge: how firmly the force at break-away is assumed to be constant.
         firm: the same at re-stick.
     """
     table = _edges(record, list(_inside(record, slips_of(record))), ridge, firm)

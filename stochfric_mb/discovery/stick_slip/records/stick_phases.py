@@ -47,6 +47,8 @@ class Sticking:
     """chi^2 over its degrees of freedom [-]."""
     jumps: int = 0
     """Stick phases within which the box jumps."""
+    departure: float = np.inf
+    """Root mean square of what the belt's line leaves beyond noise, over the noise of one reading [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -97,8 +99,12 @@ def analyse(slips: Sequence[Slips]) -> Sticking | None:
     scores[JUMP] = step - len(runs) * (log_n + 2.0 * np.log(max(freedom, 2)))
     settings[JUMP] = {f"time_{i}": t for i, t in enumerate(times)}
     errors = np.array([_belt_error(run) for run in runs]).T
+    beyond = sum(
+        (float(r @ r) - len(r)) * (run.deviation / run.slips.noise.deviation) ** 2 for run, r in zip(runs, rests, strict=True)
+    )
+    departure = float(np.sqrt(max(beyond, 0.0) / sum(map(len, rests))))
     stated = tuple((run.slips.record.name, run.slips.record.mechanism.belt_velocity) for run in runs)
-    return Sticking(scores, settings, stated, errors[0], errors[1], chi2 - freedom, chi2 / max(freedom, 1), jumps)
+    return Sticking(scores, settings, stated, errors[0], errors[1], chi2 - freedom, chi2 / max(freedom, 1), jumps, departure)
 
 
 def _gain(runs: Sequence[_Phases], rests: Sequence[Array], columns: Callable[[_Phases], Sequence[Array]]) -> float:

@@ -51,7 +51,7 @@ def comes_back(study: Study, far: npt.NDArray[np.bool_]) -> Where | None:
     """Return where slips that stand out come back with the belt; None where they come at random.
 
     Args:
-        study: what the fit runs told.
+        study: what the fit runs show.
         far: which slips stand out, shape (n,).
     """
     pool = study.pool

@@ -8,10 +8,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
-from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.records.record import Array, corrections_of
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
-from stochfric_mb.discovery.stick_slip.simulation.model import CORRECTED, MOST_FREED, Model
-from stochfric_mb.effects import Effect, effect_class, kind_found_as, make_effect
+from stochfric_mb.discovery.stick_slip.simulation.model import MOST_FREED, Model
+from stochfric_mb.effects import Effect, effect_class, kind_with_signature, make_effect
 from stochfric_mb.effects.traits import JUMP, WAVES
 
 HIGHEST_HARMONIC = 9
@@ -30,7 +30,7 @@ def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int)
     coefficients = candidate.solution.coefficients[n_terms:]
     if candidate.is_wave:
         return _periodic(model, candidate, pool, coefficients)
-    if candidate.name == kind_found_as(JUMP):
+    if candidate.name == kind_with_signature(JUMP):
         sizes = coefficients.reshape(pool.n_runs, -1)
         times = np.array(candidate.hypothesis.setting).reshape(pool.n_runs, -1)
         for step in range(sizes.shape[1]):
@@ -40,7 +40,7 @@ def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int)
     values = candidate.hypothesis.start(coefficients)
     # a fit begins where screening ended: coefficients and corrections belong to the effect's strength
     mu_s, mu_k = (max(float(c), 1.0e-3) for c in candidate.solution.coefficients[:2])
-    corrections: dict[str, float] = dict(zip(CORRECTED, map(float, candidate.solution.coefficients[2:5]), strict=True))
+    corrections = corrections_of(candidate.solution.coefficients[2:5])
     for name in effect_class(candidate.name).frees:
         if name not in corrections:
             continue
@@ -59,7 +59,7 @@ def with_steps(model: Model, steps: Mapping[str, tuple[float, float]], place: in
     """
     if place is None:
         size, when = next(iter(steps.values()))
-        model = model.plus(make_effect(kind_found_as(JUMP), size=size, time=when))
+        model = model.plus(make_effect(kind_with_signature(JUMP), size=size, time=when))
         place = len(model.effects) - 1
     own = dict(model.own)
     for run, (size, when) in steps.items():
@@ -139,7 +139,7 @@ def as_harmonic(model: Model, candidate: Candidate, pool: Pool, n_terms: int) ->
         return None
     if held.kind == candidate.name:
         return with_candidate(model, candidate, pool, n_terms)
-    # told by the kind that is held; amplitude and phases are fitted next
+    # set by the kind that is held; amplitude and phases are fitted next
     setting = {"frequency": order * main} if hasattr(held, "frequency") else {"wavelength": belt / (order * main)}
     small = dataclasses.replace(held, amplitude=0.2 * held.amplitude, **setting)  # pyright: ignore[reportAttributeAccessIssue, reportCallIssue]
     return model.plus(small)

@@ -14,30 +14,35 @@ from collections.abc import Sequence
 import numpy as np
 
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
-from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, N_MOMENTS
 
 LOWEST, HIGHEST = -7.0, 1.0
 """Range of the logarithm of the variance components [ln N]."""
-DAMPING = 4
-"""Place of the relative error of the damping among the terms of the stated model."""
 _WHITE = 2.0 * np.arange(N_MOMENTS) + 1.0
 
 
 @dataclasses.dataclass(frozen=True)
 class Terms:
-    """Regressors of a model, shape (n, N_FEATURES, p), and the prior deviation of each coefficient (inf: free)."""
+    """Regressors of a model."""
 
     columns: Array
+    """What each changes in the features for a unit of its coefficient [N], shape (n, N_FEATURES, p)."""
     priors: Array
+    """Prior deviation of each coefficient, shape (p,); inf: free."""
+    taken_at: Array
+    """Coefficients of the first ones with which the features were taken, shape (q,), q <= p: the others' are 0."""
 
-    def plus(self, columns: Sequence[Array]) -> Terms:
-        """Return these terms and further, free ones."""
-        if not columns:
+    def target(self, features: Array) -> Array:
+        """Return what the terms are to explain [N], shape (n, N_FEATURES)."""
+        return features + self.columns[..., : len(self.taken_at)] @ self.taken_at
+
+    def plus(self, columns: Sequence[Array], priors: Array | None = None) -> Terms:
+        """Return these terms and further ones, free if no deviations are given."""
+        if not len(columns):
             return self
-        return Terms(
-            np.concatenate([self.columns, np.stack(columns, axis=2)], axis=2), np.r_[self.priors, [np.inf] * len(columns)]
-        )
+        more = np.full(len(columns), np.inf) if priors is None else priors
+        return Terms(np.concatenate([self.columns, np.stack(columns, axis=2)], axis=2), np.r_[self.priors, more], self.taken_at)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -82,7 +87,8 @@ class Regression:
 
     def solve(self, terms: Terms, scatter: Array) -> Solution:
         """Return the best coefficients for given variance components."""
-        design, target, volume = self._whitened(terms.columns, scatter)
+        target = self._white(terms.target(self.pool.features)[..., None], scatter)[:, 0]
+        design = self._white(terms.columns, scatter)
         precision = 1.0 / terms.priors**2
         scale = np.sqrt((design**2).sum(axis=0) + precision) + 1.0e-12
         scaled = design / scale
@@ -92,7 +98,7 @@ class Regression:
         fitted = inverse @ (scaled.T @ target)
         residual = target - scaled @ fitted
         coefficients = fitted / scale
-        cost = 0.5 * (residual @ residual + (coefficients**2 * precision).sum()) + 0.5 * volume
+        cost = 0.5 * (residual @ residual + (coefficients**2 * precision).sum()) + 0.5 * self._volume(scatter)
         return Solution(float(cost), coefficients, np.sqrt(np.diag(inverse)) / scale, np.asarray(scatter, dtype=np.float64))
 
     def fit(self, terms: Terms, start: Array | None = None) -> Solution:
@@ -118,7 +124,7 @@ class Regression:
         top, rest = self._rest(terms, scatter)
         gains = np.zeros(len(trials))
         for i, columns in enumerate(trials):
-            more, _, _ = self._whitened(np.stack(columns, axis=2), scatter)
+            more = self._white(np.stack(columns, axis=2), scatter)
             # what of the columns the stated model cannot imitate, by its Gram matrix: small and quick
             shared = top.T @ more
             gram = more.T @ more - shared.T @ shared
@@ -148,15 +154,16 @@ class Regression:
 
         The last p rows are what priors of the terms say against the imitation.
         """
-        design, _, _ = self._whitened(terms.columns, scatter)
-        more, _, _ = self._whitened(np.stack(columns, axis=2), scatter)
+        design = self._white(terms.columns, scatter)
+        more = self._white(np.stack(columns, axis=2), scatter)
         basis, _ = np.linalg.qr(np.r_[design, np.diag(1.0 / terms.priors)])
         padded = np.r_[more, np.zeros((design.shape[1], len(columns)))]
         return padded - basis @ (basis.T @ padded)
 
     def _rest(self, terms: Terms, scatter: Array) -> tuple[Array, Array]:
         """Return an orthonormal basis of the whitened terms, and what they leave of the whitened features."""
-        design, target, _ = self._whitened(terms.columns, scatter)
+        target = self._white(terms.target(self.pool.features)[..., None], scatter)[:, 0]
+        design = self._white(terms.columns, scatter)
         weights = np.diag(1.0 / terms.priors)
         basis, _ = np.linalg.qr(np.r_[design, weights])
         rest = np.r_[target, np.zeros(len(weights))]
@@ -165,7 +172,7 @@ class Regression:
 
     def residuals(self, terms: Terms, solution: Solution) -> Array:
         """Return the features less the model [N], shape (n, N_FEATURES), of all slips."""
-        return self.pool.features - terms.columns @ solution.coefficients
+        return terms.target(self.pool.features) - terms.columns @ solution.coefficients
 
     def covariance(self, run: int, scatter: Array) -> Array:
         """Return the covariance of the features in a run [N^2], shape (N_FEATURES, N_FEATURES)."""
@@ -179,37 +186,47 @@ class Regression:
     def _whitening(self, run: int, scatter: Array) -> Array:
         return np.asarray(np.linalg.inv(np.linalg.cholesky(self.covariance(run, scatter))), dtype=np.float64)
 
-    def _whitened(self, columns: Array, scatter: Array) -> tuple[Array, Array, float]:
-        designs: list[Array] = []
-        targets: list[Array] = []
-        volume = 0.0
-        for r, rows in enumerate(self._rows):
-            inverse = self._whitening(r, scatter)
-            volume -= 2.0 * float(np.log(np.diag(inverse)).sum()) * len(rows)
-            targets.append((self.pool.features[rows] @ inverse.T).ravel())
-            designs.append((inverse @ columns[rows]).reshape(-1, columns.shape[2]))
-        return np.concatenate(designs), np.concatenate(targets), volume
+    def _volume(self, scatter: Array) -> float:
+        """Return the logarithm of the determinant of the covariance of all features."""
+        factors = (np.diag(self._whitening(r, scatter)) for r in range(self.pool.n_runs))
+        return sum(-2.0 * float(np.log(f).sum()) * len(rows) for f, rows in zip(factors, self._rows, strict=True))
+
+    def _white(self, columns: Array, scatter: Array) -> Array:
+        """Return columns, shape (n, N_FEATURES, p), of the kept slips in units of their errors, shape (rows, p)."""
+        whitened = [self._whitening(r, scatter) @ columns[rows] for r, rows in enumerate(self._rows)]
+        return np.concatenate(whitened).reshape(-1, columns.shape[2])
 
 
-def believed(pool: Pool, uncertainty: dict[str, float]) -> Terms:
+def stated_terms(pool: Pool, uncertainty: dict[str, float]) -> Terms:
     """Return the terms of the model as stated: mu_s, mu_k, and errors of stiffness, mass and damping with their priors.
 
     Args:
         pool: the slips.
-        uncertainty: relative standard deviations of what is believed.
+        uncertainty: relative standard deviations of the stated numbers.
     """
 
     def of(name: str) -> Array:
-        return pool.per_run(lambda s: getattr(s.record.mechanism, name))
+        return pool.per_run(lambda s: getattr(s.record.stated, name))
 
-    stiffness, mass, damping = of("stiffness"), of("mass"), of("damping")
-    priors = [max(uncertainty.get(name, 0.0), 1.0e-6) for name in ("stiffness", "mass", "damping")]
-    columns = [
-        pool.column(pool.normal_force, None),
-        pool.column(None, pool.normal_force),
-        pool.column(-pool.typical_onset * stiffness, -pool.typical_position * stiffness[:, None]),
-        pool.column(None, -pool.node_acceleration * mass[:, None]),
-        pool.column(-pool.belt_velocity * damping, -pool.node_velocity * damping[:, None]),
-    ]
+    stiffness, _, damping = map(of, CORRECTED)
+    priors = [max(uncertainty.get(name, 0.0), 1.0e-6) for name in CORRECTED]
+    taken_at = np.array([0.0, 0.0, *pool.slips[0].record.corrections.values()])
+    static, kinetic = pool.column(pool.normal_force, None), pool.column(None, pool.normal_force)
+    spring = pool.column(pool.typical_onset * stiffness, pool.typical_position * stiffness[:, None])
+    damper = pool.column(pool.belt_velocity * damping, pool.node_velocity * damping[:, None])
+    # what friction leaves of spring, damper and known force: an acceleration as measured errs, and a rig of which all forces
+    # are a share less, errors and misfit too, would fit better, though nothing in a motion shows how large the forces are
+    levels = (float(np.median(force / pool.normal_force)) for force in (pool.static, pool.kinetic))
+    inertia = sum(level * column for level, column in zip(levels, (static, kinetic), strict=True)) - spring - damper
+    inertia += pool.column(_known(pool, pool.onset_time[:, None])[:, 0], _known(pool, pool.node_time))
+    columns = [static, kinetic, -spring, -inertia, -damper]
     assert all(c.shape[1] == N_FEATURES for c in columns)
-    return Terms(np.stack(columns, axis=2), np.array([np.inf, np.inf, *priors]))
+    return Terms(np.stack(columns, axis=2), np.array([np.inf, np.inf, *priors]), taken_at)
+
+
+def _known(pool: Pool, time: Array) -> Array:
+    """Return the known force [N] at times in the slips [s], shape (n, m) each."""
+    force = np.zeros_like(time)
+    for run, slips in enumerate(pool.slips):
+        force[pool.run == run] = slips.record.excitation(time[pool.run == run])
+    return force

@@ -17,7 +17,7 @@ from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING, c
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
 from stochfric_mb.discovery.stick_slip.screening.waves import best_wave
-from stochfric_mb.effects import effect_class, kind_found_as, kinds_with
+from stochfric_mb.effects import effect_class, kind_with_signature, kinds_with
 from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, ENTRAINED, WAVE, Hypothesis
 from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, JUMP, POSITIVE
 
@@ -153,7 +153,10 @@ def _patterns(pool: Pool) -> Iterator[_Kind]:
 
 def _steps(pool: Pool, regression: Regression, terms: Terms, solution: Solution, without: Sequence[str]) -> Iterator[_Kind]:
     """Yield steps of the friction, which have no name, and of the sensor."""
-    for kind, axis, multiplied in (("friction_step", "abrupt change of the friction", True), (kind_found_as(JUMP), "", False)):
+    for kind, axis, multiplied in (
+        ("friction_step", "abrupt change of the friction", True),
+        (kind_with_signature(JUMP), "", False),
+    ):
         if kind not in without:
             step = _step(pool, regression, terms, solution, kind, multiplied=multiplied)
             yield _Kind(kind, axis, [step], len(step_times(pool)) ** pool.n_runs)

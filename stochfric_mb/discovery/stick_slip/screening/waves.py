@@ -1,7 +1,7 @@
 """Periodic effects: what a wave in time or along the belt would leave in the slips, looked for over a grid of frequencies.
 
 Amplitude and phase of every harmonic are each run's own, so that the columns of a wave are nonzero in one run only; the
-gain of thousands of frequencies is found from small Gram matrices, run by run.
+gain of thousands of frequencies is computed from small Gram matrices, run by run.
 
 Slow waves count by how they differ from slip to slip: phases of their own must not stand in for levels that differ from
 run to run. Waves faster than the slips make these break away at their crests, all in the same phase, so that nothing

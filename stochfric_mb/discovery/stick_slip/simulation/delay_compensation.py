@@ -9,7 +9,7 @@ import dataclasses
 
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.study import Study, study
-from stochfric_mb.effects import kind_found_as, make_effect
+from stochfric_mb.effects import kind_with_signature, make_effect
 from stochfric_mb.effects.traits import LATE
 
 
@@ -33,11 +33,11 @@ def delay_compensated(result: Study, delay: float) -> Study:
 
 def without_delay(model: Model) -> Model:
     """Return the model of records put on time."""
-    kept = [i for i, e in enumerate(model.effects) if LATE not in e.found_as]
+    kept = [i for i, e in enumerate(model.effects) if LATE not in e.signatures]
     own = {run: tuple(values[i] for i in kept) for run, values in model.own.items()}
     return dataclasses.replace(model, effects=tuple(model.effects[i] for i in kept), own=own)
 
 
 def with_delay(model: Model, delay: float) -> Model:
     """Return the model of the records as they are."""
-    return model.plus(make_effect(kind_found_as(LATE), delay=delay))
+    return model.plus(make_effect(kind_with_signature(LATE), delay=delay))

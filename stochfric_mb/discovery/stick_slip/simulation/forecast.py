@@ -107,7 +107,7 @@ def forecasts(model: Model, windows: Windows, *, sample: int = 0) -> Array:
     except SimulationError:
         return np.full(windows.targets.shape, np.nan)
     for effect in effects:
-        if effect.group == "sensor" and not effect.random and LATE not in effect.found_as:
+        if effect.group == "sensor" and not effect.random and LATE not in effect.signatures:
             paths = np.stack([effect.measure(t, p, generator) for t, p in zip(windows.times(), paths, strict=True)])
     return sign * paths
 

@@ -1,6 +1,6 @@
 """The gap on held-out runs: one-cycle-ahead forecasts before and after, and the noise floor.
 
-A phase that each run has its own value of cannot be known before a run begins: it is found in the first half of a
+A phase that each run has its own value of cannot be known before a run begins: it is estimated in the first half of a
 held-out run, and every model is then scored on the second half alone.
 """
 
@@ -14,10 +14,11 @@ import numpy as np
 from stochfric_mb.discovery.result import Gap
 from stochfric_mb.discovery.stick_slip.records.calibration import calibrate
 from stochfric_mb.discovery.stick_slip.records.pool import make_pool
+from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.discovery.stick_slip.screening.competitors import step_times, steps
 from stochfric_mb.discovery.stick_slip.screening.naming import with_steps
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, believed
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, stated_terms
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, expected_scores, score, windows_of
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.phases import in_phase
@@ -30,12 +31,12 @@ START = np.array([-3.0, -3.0, -4.0])
 
 @dataclasses.dataclass(frozen=True)
 class HeldOut:
-    """Held-out runs, split where phases must be found first."""
+    """Held-out runs, split where phases must be estimated first."""
 
     slips: tuple[Slips, ...]
     """Slips of the held-out runs."""
     first: tuple[Windows, ...]
-    """Forecasts in which phases are found."""
+    """Forecasts from which phases are estimated."""
     second: tuple[Windows, ...]
     """Forecasts that are scored."""
 
@@ -57,7 +58,7 @@ def phased(model: Model) -> bool:
 
 
 def settled(model: Model, runs: HeldOut) -> Model:
-    """Return the model with its phases found in the first halves of the held-out runs."""
+    """Return the model with its phases estimated in the first halves of the held-out runs."""
     model = _stepped(model, runs)
     if not phased(model):
         return model
@@ -76,14 +77,14 @@ def settled(model: Model, runs: HeldOut) -> Model:
 
 
 def _stepped(model: Model, runs: HeldOut) -> Model:
-    """Return the model with the sensor's step found in each held-out run: a fault of the record, like its phase."""
-    places = [i for i, e in enumerate(model.effects) if JUMP in e.found_as]
+    """Return the model with the sensor's step estimated in each held-out run: a fault of the record, like its phase."""
+    places = [i for i, e in enumerate(model.effects) if JUMP in e.signatures]
     if not places:
         return model
     for slips in runs.slips:
         pool = make_pool([slips], [calibrate(slips)])
         regression = Regression(pool)
-        terms = believed(pool, dict.fromkeys(("stiffness", "mass", "damping"), 0.01))
+        terms = stated_terms(pool, dict.fromkeys(("stiffness", "mass", "damping"), 0.01))
         trials = steps(pool, 0, multiplied=False)
         when: list[float] = []
         for _ in places:
@@ -103,40 +104,48 @@ def deterministic(model: Model) -> Model:
     return dataclasses.replace(model, process=None, effects=tuple(model.effects[i] for i in kept), own=own)
 
 
+def scores(model: Model, runs: HeldOut) -> Array:
+    """Return the CRPS of each of the scored forecasts [m], shape (n,)."""
+    return np.concatenate([np.zeros(0), *(score(model, w) for w in runs.second)])
+
+
 def mean_score(model: Model, runs: HeldOut) -> float:
     """Return the mean CRPS of the scored forecasts [m]; nan where there is none."""
-    scores = np.concatenate([score(model, w) for w in runs.second])
-    return float(scores.mean()) if len(scores) else float("nan")
+    each = scores(model, runs)
+    return float(each.mean()) if len(each) else float("nan")
 
 
-def floor_of(model: Model, runs: HeldOut, plain: Model | None = None) -> float:
-    """Return what the model scores on runs simulated from itself with the noise of the records [m]; a random one on average.
+def floor_scores(model: Model, runs: HeldOut, plain: Model | None = None) -> Array:
+    """Return what the model scores in each forecast [m], shape (n,), on runs simulated from itself with the records' noise.
 
     Args:
-        model: the model.
+        model: the model; a random one's scores are expected values.
         runs: the runs whose place the simulated ones take.
         plain: a model without what is random in it. If it is given, the floor of a random model is that of records as
             eventful as these: what the plain one misses of them, times how much less the model misses of its own records.
             A record with twice as many kicks as usual leaves twice as much to miss, whatever the model.
     """
-    if model.random:
-        noises = {s.record.name: s.noise for s in runs.slips}
-        typical = next(iter(noises.values()))
-        beside = model if plain is None else plain
-        expected = [expected_scores(model, beside, w, noises.get(w.record.name, typical)) for w in runs.second]
-        if not sum(map(len, runs.second)):
-            return float("nan")
-        own, others = np.concatenate(expected, axis=1).mean(axis=1)
-        return mean_score(beside, runs) * float(own / others) if plain is not None else float(own)
-    scores = [score(model, windows_of(simulated_slips(model, s, sample=7 + i))) for i, s in enumerate(runs.slips)]
-    joined = np.concatenate(scores) if scores else np.zeros(0)
-    return float(joined.mean()) if len(joined) else float("nan")
+    if not model.random:
+        simulated = [windows_of(simulated_slips(model, s, sample=7 + i)) for i, s in enumerate(runs.slips)]
+        return np.concatenate([np.zeros(0), *(score(model, w) for w in simulated)])
+    noises = {s.record.name: s.noise for s in runs.slips}
+    typical = next(iter(noises.values()))
+    beside = model if plain is None else plain
+    each = [expected_scores(model, beside, w, noises.get(w.record.name, typical)) for w in runs.second]
+    own, others = np.concatenate([np.zeros((2, 0)), *each], axis=1)
+    return own if plain is None or not len(own) else scores(beside, runs) * float(own.mean() / others.mean())
 
 
-def gap_of(believed: Model, recalibrated: Model, augmented: Model, runs: HeldOut) -> Gap:
-    """Return the gap of three models, phases found already."""
+def floor_of(model: Model, runs: HeldOut, plain: Model | None = None) -> float:
+    """Return the mean of `floor_scores` [m]; nan where there is none."""
+    each = floor_scores(model, runs, plain)
+    return float(each.mean()) if len(each) else float("nan")
+
+
+def gap_of(stated: Model, recalibrated: Model, augmented: Model, runs: HeldOut) -> Gap:
+    """Return the gap of three models, phases estimated already."""
     before = mean_score(recalibrated, runs)
     after = mean_score(augmented, runs) if augmented is not recalibrated else before
     # a score that was reached on real data is itself a bound of the floor
     floor = min(floor_of(augmented, runs, recalibrated), after)
-    return Gap("crps_one_cycle", "m", True, mean_score(believed, runs), before, after, floor)
+    return Gap("crps_one_cycle", "m", True, mean_score(stated, runs), before, after, floor)

@@ -1,4 +1,4 @@
-"""A model in the making: the believed one, its parameters corrected within their uncertainty, and the effects found so far."""
+"""A model in the making: the stated one, its parameters corrected within their uncertainty, and the effects selected so far."""
 
 from __future__ import annotations
 
@@ -11,15 +11,13 @@ import numpy as np
 
 from stochfric_mb.coefficients import Process
 from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM, FreeParameter
-from stochfric_mb.discovery.stick_slip.records.record import Array, Record
+from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, LEAST_CORRECTION, Array, Record
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects.contract import PHASES
 from stochfric_mb.laws import Law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference.augmented import AugmentedSystem, augmented_system
 
-CORRECTED = ("stiffness", "mass", "damping")
-"""Parameters of the mechanism that recalibration may correct."""
 NOT_FITTED = (
     "reference_load", "spacing", "fraction", "size", "time", "duration", "high", "low", "static_share", "share_below",
     "shape_exponent", "adhesion",
@@ -40,7 +38,7 @@ MOST_TUNED, FARTHEST = 2.0, 30.0
 
 @dataclasses.dataclass(frozen=True)
 class Model:
-    """What is believed of the rig."""
+    """The model of the rig: law, mechanism, effects."""
 
     law: Law
     """The friction law with its mean coefficients."""
@@ -53,7 +51,7 @@ class Model:
     own: Mapping[str, tuple[Mapping[str, float], ...]] = dataclasses.field(default_factory=dict[str, Any])
     """Run -> values of the parameters that are its own (`Effect.own_to_run`), one mapping an effect."""
     measured: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
-    """Parameter of an effect that neither forces nor forecasts told, and that no fit may move -> its standard deviation."""
+    """Parameter of an effect that neither forces nor forecasts show, and that no fit may move -> its standard deviation."""
 
     def mechanism(self, stated: BeltBox) -> BeltBox:
         """Return a run's mechanism with the corrections applied."""
@@ -77,6 +75,10 @@ class Model:
         """Return the model with other mean coefficients."""
         return dataclasses.replace(self, law=dataclasses.replace(self.law, mu_s=mu_s, mu_k=min(mu_k, mu_s)))
 
+    def bare(self, record: Record) -> Model:
+        """Return the law alone, on the mechanism that a record's forces are taken with."""
+        return Model(self.law, record.corrections)
+
     def plus(self, *effects: Effect) -> Model:
         """Return the model with further effects."""
         own = {run: (*values, *({} for _ in effects)) for run, values in self.own.items()}
@@ -98,7 +100,7 @@ def free_parameters(model: Model, uncertainty: Mapping[str, float], runs: Sequen
 
     Args:
         model: the model; its present values are the start.
-        uncertainty: relative standard deviations of what is believed about the mechanism.
+        uncertainty: relative standard deviations of the mechanism's stated numbers.
         runs: runs that have own parameters.
     """
     law = model.law
@@ -119,7 +121,7 @@ def _correction(model: Model, name: str, deviation: float) -> FreeParameter | No
     if prior <= 0.0:
         return None
     present = model.corrections.get(name, 0.0)
-    return FreeParameter(MECHANISM, name, present, deviation or 0.01, max(-0.95, -most), most, prior=prior)
+    return FreeParameter(MECHANISM, name, present, deviation or 0.01, max(LEAST_CORRECTION, -most), most, prior=prior)
 
 
 def _of_effect(model: Model, i: int, runs: Sequence[str]) -> Iterator[FreeParameter]:

@@ -27,7 +27,7 @@ MOST = 10
 
 
 def in_phase(model: Model, windows: Windows) -> Model:
-    """Return the model with its phases in one run found from that run's forecasts.
+    """Return the model with its phases in one run estimated from that run's forecasts.
 
     Args:
         model: a deterministic model with phases.

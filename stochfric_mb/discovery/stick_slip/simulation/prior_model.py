@@ -21,7 +21,7 @@ NOT_STATED = "the scenario states no [uncertainty]; taken were " + ", ".join(
 
 
 def prior_model(scenario: Scenario) -> Model:
-    """Return what is believed: the scenario's law, process and effects, nothing corrected yet.
+    """Return the stated model: the scenario's law, process and effects, nothing corrected yet.
 
     Raises:
         InputError: a law that the simulator of discovery does not take.

@@ -29,7 +29,7 @@ ALIKE = 3.0
 """Factor within which two slopes, or a change of the errors and one standard deviation, count as alike [-]."""
 MOST_STEPS = 10
 """Steps that are tried for such a slope."""
-LEAST_TOLD = 1.0e-8
+LEAST_CURVATURE = 1.0e-8
 """Smallest information on a combination of numbers, over that on single ones, that counts [-]."""
 
 
@@ -49,11 +49,11 @@ class Fit:
     """What they would be if the others were known, shape (len(free),)."""
     cost: float
     """Robust sum of squares at the end [-]."""
-    told: Array = dataclasses.field(default_factory=lambda: np.zeros(0))
+    data_share: Array = dataclasses.field(default_factory=lambda: np.zeros(0))
     """Share of what is known of each number that the forecasts tell, the rest being its prior [-], 0 .. 1, shape (len(free),);
     empty before `with_deviations`."""
     posterior: Array = dataclasses.field(default_factory=lambda: np.zeros(0))
-    """Standard deviations by forecasts and prior together, each at its own weight, shape as `told`."""
+    """Standard deviations by forecasts and prior together, each at its own weight, shape as `data_share`."""
 
 
 def thinned(windows: Windows, most: int) -> Windows:
@@ -77,7 +77,7 @@ def refit(
     Args:
         model: where the fit starts.
         windows: forecasts, run by run.
-        uncertainty: relative standard deviations of what is believed.
+        uncertainty: relative standard deviations of the stated numbers.
         only: names of the parameters, of single runs, that may move; all of them if not given.
         evaluations: most Gauss-Newton steps.
         most: forecasts used in each run.
@@ -116,7 +116,7 @@ def with_deviations(fit: Fit, windows: Sequence[Windows], uncertainty: Mapping[s
     Args:
         fit: a fit of all free parameters.
         windows: the forecasts it was made to.
-        uncertainty: relative standard deviations of what is believed.
+        uncertainty: relative standard deviations of the stated numbers.
         most: forecasts used in each run.
     """
     misfit = _Misfit(fit.model, windows, uncertainty, None, most)
@@ -146,10 +146,10 @@ def with_deviations(fit: Fit, windows: Sequence[Windows], uncertainty: Mapping[s
         else:
             slopes[:, j] = 0.5 * (sides[0] + sides[1])
     steps = misfit.steps
-    data = slopes[: len(here) - len(misfit.free)]  # the last rows are what is believed
-    told, posterior = _with_priors(data, steps.scale / steps.prior)
+    data = slopes[: len(here) - len(misfit.free)]  # the last rows are the priors
+    data_share, posterior = _with_priors(data, steps.scale / steps.prior)
     return dataclasses.replace(
-        fit, free=misfit.free, values=steps.start, deviations=steps.scale * _deviations(slopes, 1.0), told=told,
+        fit, free=misfit.free, values=steps.start, deviations=steps.scale * _deviations(slopes, 1.0), data_share=data_share,
         posterior=steps.scale * posterior,
     )  # fmt: skip
 
@@ -159,13 +159,13 @@ def _with_priors(slopes: Array, prior: Array) -> tuple[Array, Array]:
 
     Args:
         slopes: of the data, in their standard deviations over natural steps, shape (n, p).
-        prior: natural steps over prior standard deviations, 0 where nothing is believed, shape (p,).
+        prior: natural steps over prior standard deviations, 0 where there is no prior, shape (p,).
     """
     information = slopes.T @ slopes + np.diag(prior**2)
     least = np.diag(np.full(len(prior), WIDEST**-2.0))  # what nothing tells is left open, not singular
     variance = np.array(np.diag(np.linalg.inv(information + least)), dtype=np.float64)
-    told = 1.0 - np.clip(variance * np.maximum(prior**2, WIDEST**-2.0), 0.0, 1.0)
-    return told, np.sqrt(variance)
+    data_share = 1.0 - np.clip(variance * np.maximum(prior**2, WIDEST**-2.0), 0.0, 1.0)
+    return data_share, np.sqrt(variance)
 
 
 def _slope(change: Callable[[float], Array], first: float, most: float) -> Array:
@@ -213,7 +213,7 @@ class _Misfit:
         self.steps = steps_of(self.free)
 
     def errors(self, step: Array) -> Array:
-        """Return the errors of all forecasts, then what is believed and missed, in units of `UNIT` and of beliefs."""
+        """Return the errors of all forecasts, then how far priors are missed, in units of `UNIT` and of their deviations."""
         values = self.steps.values(step)
         trial = adjusted(self.model, self.free, values)
         parts = [
@@ -232,13 +232,13 @@ class _Misfit:
 
 
 def _deviations(slopes: Array, spread: float) -> Array:
-    """Return the standard deviations that slopes leave; a direction that they do not tell is left open, not called certain."""
+    """Return the standard deviations that slopes leave; a direction that they do not show is left open, not called certain."""
     size = np.sqrt((slopes**2).sum(axis=0))
-    told = size > 0.0
+    seen = size > 0.0
     result = np.full(len(size), WIDEST)
-    if told.any():
-        scaled = slopes[:, told] / size[told]
+    if seen.any():
+        scaled = slopes[:, seen] / size[seen]
         values, vectors = np.linalg.eigh(scaled.T @ scaled)
-        variance = (vectors**2 / np.maximum(values, LEAST_TOLD)).sum(axis=1)
-        result[told] = np.sqrt(spread * variance) / size[told]
+        variance = (vectors**2 / np.maximum(values, LEAST_CURVATURE)).sum(axis=1)
+        result[seen] = np.sqrt(spread * variance) / size[seen]
     return result

@@ -1,4 +1,4 @@
-"""Rigs of all sizes: a data set is brought to the size of the rig on which the method's numbers were found, and back.
+"""Rigs of all sizes: a data set is brought to the size of the rig for which the method's numbers were set, and back.
 
 Grids, first steps and limits of the method (a slip of millimetres, a tenth of a second, some newtons) are those of the rig of
 Kang, Choi and Yoo 2015, Table 1. Another rig is studied in units of force, length and time of its own, in which it is

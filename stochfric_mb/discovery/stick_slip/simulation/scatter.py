@@ -8,7 +8,7 @@ import numpy as np
 
 from stochfric_mb.discovery.stick_slip.records.long_records import middle
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
-from stochfric_mb.discovery.stick_slip.records.record import Array, make_record
+from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, extract
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.numerics.robust import deviation
@@ -93,7 +93,7 @@ def measured_slips(shown: Array, like: Slips, generator: np.random.Generator) ->
     """Return the slips of a record of ``shown`` [m], shape (n,), with the noise of ``like``."""
     record = like.record
     measured = shown + like.noise.draw(len(shown), generator)
-    return extract(make_record(record.name, record.time, measured, record.stated), ridge=like.ridge)
+    return extract(record.showing(measured), ridge=like.ridge)
 
 
 def _deviation(values: Array) -> float:

@@ -14,7 +14,7 @@ import numpy as np
 
 from stochfric_mb.discovery.stick_slip.records.calibration import FEWEST
 from stochfric_mb.discovery.stick_slip.records.long_records import middle
-from stochfric_mb.discovery.stick_slip.records.record import Array, make_record
+from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, extract
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.scatter import measured_slips, shown_by
@@ -45,7 +45,7 @@ def errors_by_noise(model: Model, like: Slips) -> Errors | None:
         shown = shown_by(model, like, generator)
     except SimulationError:
         return None
-    still = extract(make_record(record.name, record.time, shown, record.stated), ridge=like.ridge, noise=like.noise)
+    still = extract(record.showing(shown), ridge=like.ridge, noise=like.noise)
     arrays: list[Array] = []
     for _ in range(REPEATS):
         noisy = measured_slips(shown, like, generator)

@@ -34,15 +34,15 @@ def undecided(fit: Fit, model: Model) -> list[str]:
     """
     owners = deterministic(model).effects
     first = {e.kind: i for i, e in reversed(list(enumerate(owners)))}
-    told: dict[str, bool] = {}
+    decided: dict[str, bool] = {}
     for i in _strengths(fit):
         kind = owners[fit.free[i].owner].kind
         if fit.free[i].owner == first[kind]:
-            told[kind] = told.get(kind, False) or abs(fit.values[i]) > NORMAL * fit.deviations[i]
-    return [kind for kind, yes in told.items() if not yes]
+            decided[kind] = decided.get(kind, False) or abs(fit.values[i]) > NORMAL * fit.deviations[i]
+    return [kind for kind, yes in decided.items() if not yes]
 
 
-def told_by_ratio(fit: Fit, model: Model, kind: str, ratio: float) -> Fit:
+def decided_by_ratio(fit: Fit, model: Model, kind: str, ratio: float) -> Fit:
     """Return the fit with intervals of a kind's strengths that end where the likelihood ratio says.
 
     Args:

@@ -1,4 +1,4 @@
-"""What a hidden effect is: a change of the machine, of the measurement, or of what is believed."""
+"""What a hidden effect is: a change of the machine, of the measurement, or of the nominal model."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -31,7 +31,7 @@ class Effect:
     parameters: dict[str, float]
     alter: Callable[[Machine, Generator], Machine] = _same_machine
     measure: Callable[[Record, Generator], Record] = _same_record
-    believed: dict[str, object] = field(default_factory=dict)
+    nominal: dict[str, object] = field(default_factory=dict)
     """What the scenario declares under [coefficients]."""
     channels: tuple[str, ...] = ()
     """Further columns that the experiment records."""
@@ -48,7 +48,7 @@ class Form:
     kind: str
     draw: Callable[[Generator, float, Rig], Effect]
     rig: dict[str, float]
-    """Changes of the believed rig, for effects that its usual motion cannot show."""
+    """Changes of the nominal rig, for effects that its usual motion cannot show."""
     also: frozenset[str]
     """Further kinds that describe this form as well."""
 

@@ -11,7 +11,7 @@ from tests.discovery.generator.rig import Rig
 from .form import Effect, Generator, form
 
 _FASTEST = 1.0  # m/s, far above any slip of the rig
-_USUAL_DWELL = 0.9  # s: ageing leaves mu_s as believed here
+_USUAL_DWELL = 0.9  # s: ageing leaves mu_s at its nominal value here
 
 
 def _with(parameters: dict[str, float], **fields: Curve | float) -> Effect:
@@ -25,7 +25,7 @@ def _with(parameters: dict[str, float], **fields: Curve | float) -> Effect:
 
 
 def _over_speed(parameters: dict[str, float], factor: Callable[[Array], Array], rig: Rig) -> Effect:
-    """mu_k times a factor over speed, scaled so that its mean over the rig's slip is as believed."""
+    """mu_k times a factor over speed, scaled so that its mean over the rig's slip is the nominal one."""
     usual = np.sin(np.linspace(0.0, np.pi, 200)) * rig.slip_speed
     level = float(np.mean(factor(usual)))
     return _with(parameters, sliding=tabulate(lambda v: factor(np.maximum(v, 0.0)) / level, 0.0, _FASTEST, 20001))

@@ -39,7 +39,7 @@ def declared_scatter(rng: Generator, strength: float, rig: Rig) -> Effect:
         return add_knots(machine, spacing, sigma_s, sigma_k, rng.standard_normal)
 
     declared = {"process": "knots", "sigma_s": sigma_s, "sigma_k": sigma_k, "spacing": spacing}
-    return Effect({}, alter, believed=declared)
+    return Effect({}, alter, nominal=declared)
 
 
 def _coloured(correlation: float, sigma: float) -> Effect:

@@ -64,7 +64,7 @@ def windowed(shocks: Array, window: Array) -> Array:
     return np.asarray(np.convolve(shocks, window / np.sqrt(np.sum(window**2)), mode="same"), dtype=np.float64)
 
 
-def _wander(machine: Machine, path: Array) -> Machine:
+def _drifting(machine: Machine, path: Array) -> Machine:
     return machine.scaled(STATIC, 1.0 + path).scaled(KINETIC, 1.0 + path)
 
 
@@ -81,7 +81,7 @@ def first_order(rng: Generator, strength: float, rig: Rig) -> Effect:
         path[0] = rng.standard_normal()
         for i, shock in enumerate(np.sqrt(1.0 - kept**2) * rng.standard_normal(coarse.size - 1)):
             path[i + 1] = kept * path[i] + shock
-        return _wander(machine, sigma * np.asarray(np.interp(machine.time, coarse, path), dtype=np.float64))
+        return _drifting(machine, sigma * np.asarray(np.interp(machine.time, coarse, path), dtype=np.float64))
 
     return Effect({"relative_sigma": sigma, "correlation_time": time}, alter)
 
@@ -96,7 +96,7 @@ def smooth(rng: Generator, strength: float, rig: Rig) -> Effect:
         coarse = np.arange(machine.start - 4.0 * time, machine.time[-1] + 4.0 * time, 0.05)
         window = np.exp(-0.5 * (np.arange(-4.0 * time, 4.0 * time, 0.05) / time) ** 2)
         path = windowed(rng.standard_normal(coarse.size), window)
-        return _wander(machine, sigma * np.asarray(np.interp(machine.time, coarse, path), dtype=np.float64))
+        return _drifting(machine, sigma * np.asarray(np.interp(machine.time, coarse, path), dtype=np.float64))
 
     return Effect({"relative_sigma": sigma, "window": time}, alter)
 

@@ -50,7 +50,7 @@ def seal(rng: Generator, strength: float, bench: Bench) -> Effect:
     return Effect({"share": share}, rig=pressurised, alter=lambda plant, _: plant.with_extra(pressure_share=share))
 
 
-@form("position_dependent_force", also=("position_dependent_friction",), on=("slide",))
+@form("position_dependent_force", also=("effective_area", "position_dependent_friction"), on=("slide",))
 def effective_area(rng: Generator, strength: float, bench: Bench) -> Effect:
     """A bore that widens along the stroke: pressure times area times place."""
     size, where = 0.12 * strength, either_sign(rng) / bench.reach

@@ -36,7 +36,7 @@ def _in_time(row: int, parameters: dict[str, float], path: Callable[[Array, Gene
     return Effect(parameters, alter=alter)
 
 
-def _wander(t: Array, rng: Generator, time: float) -> Array:
+def _drifting(t: Array, rng: Generator, time: float) -> Array:
     """First-order autoregression of unit variance."""
     kept, path = np.exp(-TIME_SPACING / time), np.zeros(t.size)
     shocks = np.sqrt(1.0 - kept**2) * rng.standard_normal(t.size)
@@ -187,7 +187,7 @@ def flutters(rng: Generator, strength: float, bench: Bench) -> Effect:
     """Godet 1984 (third bodies: friction that wanders within strokes)."""
     size, time = 0.3 * strength, rng.uniform(0.1, 0.25)
     return _in_time(
-        FACTOR_OF_TIME, {"size": size, "time": time}, lambda t, rng: np.maximum(1.0 + size * _wander(t, rng, time), 0.1)
+        FACTOR_OF_TIME, {"size": size, "time": time}, lambda t, rng: np.maximum(1.0 + size * _drifting(t, rng, time), 0.1)
     )
 
 
@@ -205,7 +205,7 @@ def strain_wave(rng: Generator, strength: float, bench: Bench) -> Effect:
     return Effect({"frequency": frequency}, alter=lambda plant, _: chained(bench, plant, 0.75, frequency, 0.0))
 
 
-@form("unknown", also=("temperature_drift", "drive_gain"))
+@form("unknown", also=("temperature_drift", "drive_gain", "drive_gain_change"))
 def magnets_warm(rng: Generator, strength: float, bench: Bench) -> Effect:
     """Sebastian 1995 (magnets that weaken with a temperature that is recorded)."""
     size, start = 0.3 * strength, rng.uniform(0.0, 1.0)

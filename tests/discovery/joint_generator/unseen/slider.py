@@ -104,5 +104,5 @@ def noise_first_order(rng: Generator, strength: float, bench: Bench) -> Effect:
 
 @form("none", on=SLIDER)
 def another_level(rng: Generator, strength: float, bench: Bench) -> Effect:
-    """Constant friction at 1.8 standard deviations from what is believed."""
+    """Constant friction at 1.8 standard deviations from the stated one."""
     return Effect(law=lambda _: RateAndState(0.51, 0.0))

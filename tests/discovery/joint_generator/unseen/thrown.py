@@ -56,5 +56,5 @@ def alike(rng: Generator, strength: float, bench: Bench) -> Effect:
 
 @form("none", on=THROWN)
 def alike_but_rough(rng: Generator, strength: float, bench: Bench) -> Effect:
-    """Another level than believed."""
+    """Another level than stated."""
     return Effect(law=lambda _: Throw(lambda v, x: 1.4 * MU))

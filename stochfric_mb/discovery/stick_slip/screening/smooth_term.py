@@ -1,0 +1,119 @@
+"""A smooth change of friction along an axis, found in the features of the slips: where a term without a name begins."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from numpy.polynomial import legendre
+
+from stochfric_mb.discovery.stick_slip.records.pool import Pool
+from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array, corrections_of
+from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.effects import kinds_with, make_effect
+from stochfric_mb.effects.traits import ANONYMOUS
+
+KNOTS = 7
+"""Knots of the term's table."""
+ORDERS, SIZE = 4, 0.3
+"""Polynomials that the features can tell apart, half of a slip's seven moments, and the prior deviation of the first over mu_s;
+the k-th one's is 1/k^2 of it, as the coefficients of a curve without corners fall [-]."""
+ENDS = 0.01, 0.99
+"""Quantiles of what the slips visit along an axis at which its table begins and ends [-]."""
+
+SPANS = (1.0, 0.3)
+"""Shares of what they visit that the table covers [-]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Axis:
+    """An axis along which friction may change."""
+
+    name: str
+    at_onset: Array | None
+    """Places at the break-aways, shape (n,); None: nothing changes there."""
+    in_slip: Array
+    """Places in the slips, shape (n, nodes)."""
+
+
+@dataclasses.dataclass(frozen=True)
+class SmoothTerm:
+    """A term along an axis, as the features of the slips tell it."""
+
+    score: float
+    """Score [-]."""
+    model: Model
+    """The model with it, where a fit may start."""
+    solution: Solution
+    """The fit of the features with it."""
+
+
+def smooth_term(
+    regression: Regression, terms: Terms, solution: Solution, model: Model, axis: Axis, among: int = 1
+) -> SmoothTerm:
+    """Return the term along an axis.
+
+    Args:
+        regression: fits to what the model's effects leave of the slips.
+        terms: the stated model in them.
+        solution: its fit.
+        model: the model.
+        axis: the axis.
+        among: number of axes among which it is chosen.
+    """
+    first, last = (float(np.quantile(axis.in_slip, q)) for q in ENDS)
+    spread = SIZE * float(solution.coefficients[0]) / np.arange(1, ORDERS + 1) ** 2
+
+    def fitted(share: float) -> tuple[Solution, float, float]:
+        high = first + share * (last - first)
+        columns = _columns(regression.pool, axis, first, high)
+        return regression.fit(terms.plus(columns, spread), solution.scatter), first, high
+
+    # what begins with every slip may be over soon
+    spans = SPANS if axis.at_onset is None else SPANS[:1]
+    best, low, high = min(map(fitted, spans), key=lambda f: f[0].cost)
+    choice = 2.0 * float(np.log(among * len(spans)))
+    score = 2.0 * (solution.cost - best.cost) - ORDERS * float(np.log(regression.n)) - choice
+    numbers = best.coefficients
+    table = _polynomials(np.linspace(-1.0, 1.0, KNOTS)) @ numbers[-ORDERS:]
+    values = {f"change_{i}": float(table[i] - table[0]) for i in range(1, KNOTS)}
+    share = 0.0 if axis.at_onset is None else 1.0
+    term = make_effect(kinds_with(ANONYMOUS)[0], axis=axis.name, low=low, high=high, static_share=share, **values)
+    # coefficients and corrections belong to the table: a fit begins where the regression ended
+    mu_s, mu_k = max(float(numbers[0]), 1.0e-3), max(float(numbers[1] + table[0]), 1.0e-3)
+    freed = {name for e in model.effects for name in e.frees}
+    held = np.array([model.corrections.get(name, 0.0) if name in freed else 0.0 for name in CORRECTED])
+    corrections = corrections_of(numbers[2:5] + held)  # what is left holds what an effect frees no more
+    start = dataclasses.replace(model.with_law(mu_s, mu_k), corrections=corrections)
+    return SmoothTerm(score, start.plus(term), best)
+
+
+def axes_of(pool: Pool) -> list[Axis]:
+    """Return the axes on which every run starts anew: what lives elsewhere does not come back in another run.
+
+    The last one is that of a named effect alone: any difference between runs may lie along their loads.
+    """
+    turned = pool.direction[:, None]
+    return [
+        Axis("speed", None, pool.relative_velocity),
+        Axis("slip", None, pool.slip_distance),
+        Axis("position", pool.direction * pool.typical_onset, turned * pool.typical_position),
+        Axis("time", pool.onset_time, pool.node_time),
+        Axis("load", pool.normal_force, np.repeat(pool.normal_force[:, None], pool.node_time.shape[1], axis=1)),
+    ]
+
+
+def _polynomials(place: Array) -> Array:
+    """Return Legendre polynomials of order 1 to `ORDERS` of places between -1 and 1, shape (..., ORDERS)."""
+    return np.asarray(legendre.legvander(np.clip(place, -1.0, 1.0), ORDERS)[..., 1:], dtype=np.float64)
+
+
+def _columns(pool: Pool, axis: Axis, low: float, high: float) -> list[Array]:
+    """Return what each polynomial would change for a unit of the coefficient, shape (n, N_FEATURES)."""
+    load = pool.normal_force
+    inside = _polynomials(2.0 * (axis.in_slip - low) / (high - low) - 1.0)
+    at_onset = None if axis.at_onset is None else _polynomials(2.0 * (axis.at_onset - low) / (high - low) - 1.0)
+    return [
+        pool.column(None if at_onset is None else load * at_onset[:, k], load[:, None] * inside[..., k]) for k in range(ORDERS)
+    ]

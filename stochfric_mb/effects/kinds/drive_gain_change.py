@@ -1,0 +1,81 @@
+"""Drive gain change: the force per command changes in time or with temperature."""
+
+# pyright: standard
+# (compiled functions are typed by numba)
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import ClassVar
+
+from stochfric_mb.effects.contract import DRIVE, LOAD, TEMPERATURE, TIME, Effect, JointSignature, parameter
+from stochfric_mb.effects.joints import JointSpan
+from stochfric_mb.effects.traits import READS_DRIVE
+
+SETTLED = (0.1, 0.2, 0.4, 0.8)
+"""Shares of a record in which a gain may settle [-]; one that settles at once is no change, and imitates a payload."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class DriveGainChange(Effect):
+    """Drive times 1 + rate tau (1 - exp(-t/tau)) + per_kelvin (T - reference_temperature).
+
+    tau = time_constant, 1 + rate t for an infinite one. Magnets weaken as they warm up, and supplies sag.
+
+    References: T. Sebastian, IEEE Trans. Ind. Appl. 31, 1995, 353-357 (magnets); M. Gautier, S. Briot, J. Dyn. Sys., Meas.,
+    Control 136, 2014, doi 10.1115/1.4027506 (drive gains of robots).
+    """
+
+    rate: float = parameter("1/s", "relative rate of change at t = 0", scale=1.0e-2, default=0.0)
+    """Relative rate of change at t = 0 [1/s]."""
+    time_constant: float = parameter(
+        "s", "time in which the change settles", scale=5.0, low=0.0, strict=True, infinite=True, default=math.inf
+    )
+    """Time in which the change settles [s]."""
+    per_kelvin: float = parameter("1/K", "relative change per kelvin", scale=2.0e-3, default=0.0)
+    """Relative change per kelvin [1/K]."""
+    reference_temperature: float = parameter("degC", "temperature at which nothing changes", scale=10.0, default=20.0)
+    """Temperature at which nothing changes [degC]."""
+
+    kind: ClassVar[str] = "drive_gain_change"
+    equation: ClassVar[str] = (
+        "drive times 1 + rate tau (1 - exp(-t/tau)) + per_kelvin (T - reference_temperature), tau = time_constant"
+    )
+    source: ClassVar[str] = "Sebastian 1995 (magnets); Gautier and Briot 2014"
+    group: ClassVar[str] = "mechanism"
+    traits: ClassVar[frozenset[str]] = frozenset({READS_DRIVE})
+    separated_by: ClassVar[Mapping[str, str]] = {
+        "friction_drift": "the same strokes with another payload or acceleration",
+        "temperature_drift": "the same strokes with another payload or acceleration",
+    }
+    reads: ClassVar[tuple[str, ...]] = ("drive",)
+    shows_on: ClassVar[str] = "drive"
+    shows: ClassVar[str] = "the force per command changes"
+
+    def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
+        """Return the time in which a gain settles: one of a few shares of the record."""
+        return ("time_constant",)
+
+    @classmethod
+    def at_joint(cls, span: JointSpan) -> tuple[JointSignature, ...]:
+        """Return gains that change in time, with temperature where one was measured."""
+        if not span.drive or not span.both_ways:
+            return ()
+        fades = cls(rate=0.01 / span.duration)
+        times = [part * span.duration for part in SETTLED]
+        settles = tuple(cls(rate=size / time, time_constant=time) for time in times for size in (0.05, -0.05))
+        forms = [JointSignature((fades,), "time", 1), JointSignature(settles, "time", 1)]
+        if span.temperature is not None:
+            middle, width = span.temperature
+            warm = cls(per_kelvin=0.01 / width, reference_temperature=middle)
+            forms.append(JointSignature((warm,), "temperature", 1))
+        return tuple(forms)
+
+
+def surroundings(world, memory, rates, p):
+    """Add what the drive gives beyond what is stated."""
+    grown = p[0] * (world[TIME] if p[1] > 1.0e300 else -p[1] * math.expm1(-world[TIME] / p[1]))
+    grown += p[2] * (world[TEMPERATURE] - p[3])
+    world[LOAD] += grown * world[DRIVE]
