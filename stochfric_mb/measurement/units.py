@@ -53,7 +53,10 @@ def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | No
 
 def _parsed(units: Any, unit: str, quantity: Quantity, targets: Sequence[str]) -> Any:
     try:
-        return units.Unit(_spelled(unit))
+        text = _spelled(unit)
+        if re.search(r"\d[\s)]*\*\*", text):
+            raise ValueError("a power of a number is no unit; pint would work it out, however large")
+        return units.Unit(text)
     except Exception:  # pint raises errors of many kinds for text that is no unit, AssertionError among them
         raise InputError(f"unit {unit!r} of {quantity.name} is unknown; give {_choices(quantity, targets)}") from None
 

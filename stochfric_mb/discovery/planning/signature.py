@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
@@ -81,11 +82,11 @@ def _of_one_sign(kind: str) -> bool:
 
 
 def best_of_each(signatures: Sequence[Signature]) -> dict[str, Signature]:
-    """Return the form of each kind with the smallest limit, of those whose size is the number that its first form has."""
+    """Return the form of each kind with the smallest limit, of those whose size is the number of the first that shows."""
     table: dict[str, Signature] = {}
     for one in signatures:
         best = table.setdefault(one.kind, one)
-        if one.parameter == best.parameter and one.limit < best.limit:
+        if one.limit < best.limit and (one.parameter == best.parameter or math.isinf(best.limit)):
             table[one.kind] = one
     return table
 

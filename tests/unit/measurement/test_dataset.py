@@ -160,6 +160,7 @@ def test_temperature_keeps_its_scale(rig):
             r"'deg' is not one of position, which is kept in m \(this mechanism moves along a line\)",
         ),
         ('units = { position = "furlung" }', r"unit 'furlung' of position is unknown; give m, mm"),
+        ('units = { position = "10**10**10" }', r"unit '10\*\*10\*\*10' of position is unknown; give m, mm"),
         ("sign = { position = -2 }", r"sign\.position = -2; a sign is 1 or -1"),
         ("sign = { force = -1 }", r"unknown quantity in sign .*'force'"),
         ("skip_rows = -1", r"skip_rows = -1; give a whole number"),

@@ -39,6 +39,8 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
     if kinds and kinds <= set(kinds_with(OUTSIDE_FORECASTS)):
         return None
     windows = [_scattered(w, JUDGED_WINDOWS) for w in study.windows if len(w)]
+    if not windows:
+        return None
     runs = HeldOut(study.pool.slips[:2], tuple(windows), tuple(windows))
     without, with_ = scores(recalibrated, runs), scores(augmented, runs)
     before, after = float(without.mean()), float(with_.mean())
