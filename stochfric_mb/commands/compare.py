@@ -57,13 +57,13 @@ def compare(
     from stochfric_mb.outputs import check_target, claimed, whole_folder
     from stochfric_mb.scenario import load_scenario
 
-    target = check_target(out, force=force, marker=MARKER)
     names = engine_names(engines)
+    problem = load_scenario(scenario, law=law, overrides=overrides)
+    target = check_target(out, force=force, marker=MARKER)
     with display() as shown, claimed(target):
         shown.note("loading engines")
         for name in names or ():
             adapter(name)
-        problem = load_scenario(scenario, law=law, overrides=overrides)
         chosen = names or [name for name in library.installed_engines() if name != "reference"]
         with compiling_beside(chosen, problem) as wait_for:
 

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.measurement.smoothing import smooth
-from stochfric_mb.mechanisms import BeltBox, PrismaticJoint
+from stochfric_mb.mechanisms import BeltBox, HingePendulum, PrismaticJoint
 
 if TYPE_CHECKING:
     from stochfric_mb.measurement.run import Run
@@ -96,6 +96,9 @@ FACTORS: dict[str, tuple[float, ...]] = {
     "mass": (1e3, 1e-3),
     "normal_force": (1e3, 1e-3),
     "force": (1e3, 1e-3),
+    "torque": (1e3, 1e-3),
+    "angle": (180.0 / math.pi, math.pi / 180.0),
+    "length": (1e3, 1e-3),
 }
 """What may have a wrong unit -> factors between the units in use."""
 
@@ -192,33 +195,45 @@ def likeliest(seen: Shown) -> Cause | None:
     )
 
 
-def inertia(run: Run, joint: PrismaticJoint) -> tuple[float, float] | None:
-    """Return force over acceleration [kg], and friction [N], in the units of the file; None where a record does not show them.
+def inertia(run: Run, joint: PrismaticJoint | HingePendulum, angle: float = 1.0) -> tuple[float, float] | None:
+    """Return force over acceleration, and friction, in the units of the file; None where a record does not show them.
 
     Least squares of the driving force on acceleration, velocity, its sign, position, pressure and a constant, all seen through
-    one window; that of the windows in which the mass is surest.
+    one window; that of the windows in which the mass is surest. At a hinge the weight of the arm comes in as sine and cosine
+    of the angle in place of the position.
+
+    Args:
+        run: the record.
+        joint: the joint stated.
+        angle: the unit of the recorded angle [rad].
+
+    Returns:
+        Mass [kg] and friction [N], or inertia [kg m^2] and friction torque [N m].
     """
-    position, force = run.channels.get("position"), run.channels.get("force")
-    if force is None and joint.force_gain > 0.0 and "voltage" in run.channels:
-        force = joint.force_gain * run.channels["voltage"]
-    if position is None or force is None:
+    hinge = isinstance(joint, HingePendulum)
+    position, drive = run.channels.get("position"), run.channels.get("torque" if hinge else "force")
+    gain = joint.torque_gain if isinstance(joint, HingePendulum) else joint.force_gain
+    if drive is None and gain > 0.0 and "voltage" in run.channels:
+        drive = gain * run.channels["voltage"]
+    if position is None or drive is None:
         return None
-    others = [run.channels[name] for name in ("pressure",) if name in run.channels]
-    fits = [_force_balance(position, force, others, run.sample_interval, m) for m in WINDOWS if 20 * m < position.size]
+    others = [np.sin(angle * position), np.cos(angle * position)] if hinge else [position]
+    others += [run.channels[name] for name in ("pressure",) if name in run.channels]
+    fits = [_force_balance(angle * position, drive, others, run.sample_interval, m) for m in WINDOWS if 20 * m < position.size]
     mass, error, friction, share = min(fits, key=lambda fit: fit[1] / abs(fit[0]), default=(0.0, 1.0, 0.0, 0.0))
     return (mass, friction) if mass > 0.0 and friction > 0.0 and error < SURE * mass and share > SHARE else None
 
 
-def _force_balance(position: Array, force: Array, others: list[Array], h: float, m: int) -> tuple[float, float, float, float]:
+def _force_balance(position: Array, drive: Array, others: list[Array], h: float, m: int) -> tuple[float, float, float, float]:
     """Return mass, its standard error, friction, and the deviation of the inertial force over that of the driving force."""
     rows = slice(2 * m, -2 * m, m)  # about one row a window
     velocity = smooth(position, m * h, h, derivative=1)
     terms = [smooth(position, m * h, h, derivative=2), smooth(np.sign(velocity), m * h, h), velocity]
-    terms += [smooth(values, m * h, h) for values in (position, *others)]
+    terms += [smooth(values, m * h, h) for values in others]
     columns: Array = np.column_stack([*terms, np.ones_like(position)])[rows]
     sizes: Array = np.sqrt((columns**2).sum(axis=0))
     sizes[sizes == 0.0] = 1.0
-    driving = smooth(force, m * h, h)[rows]
+    driving = smooth(drive, m * h, h)[rows]
     basis = np.asarray(np.linalg.pinv(columns / sizes), dtype=np.float64)
     values: Array = basis @ driving
     rest: Array = driving - (columns / sizes) @ values

@@ -11,13 +11,15 @@ from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.measurement.scales import FACTORS, Array, Cause, Shown, inertia, likeliest, shown
 from stochfric_mb.measurement.smoothing import smooth
-from stochfric_mb.mechanisms import BeltBox, PrismaticJoint
+from stochfric_mb.mechanisms import BeltBox, HingePendulum, PrismaticJoint
 from stochfric_mb.scenario import Scenario
 
 CHANNEL_UNITS: dict[str, dict[str, float]] = {
     "position": {"m": 1.0, "mm": 1e-3, "um": 1e-6, "cm": 1e-2, "in": 0.0254},
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0},
     "force": {"N": 1.0, "kN": 1e3, "mN": 1e-3},
+    "torque": {"N m": 1.0, "mN m": 1e-3, "kN m": 1e3},
+    "angle": {"rad": 1.0, "deg": math.pi / 180.0},
     "belt_velocity": {"m/s": 1.0, "mm/s": 1e-3, "um/s": 1e-6, "cm/s": 1e-2, "mm/min": 1e-3 / 60.0},
 }
 """Channel -> units in which it may really be, with their size in SI units."""
@@ -26,6 +28,7 @@ STATED_UNITS: dict[str, dict[str, float]] = {
     "stiffness": {"N/m": 1.0, "N/mm": 1e3, "N/um": 1e6},
     "mass": {"kg": 1.0, "g": 1e-3, "t": 1e3},
     "normal_force": {"N": 1.0, "kN": 1e3, "mN": 1e-3},
+    "length": {"m": 1.0, "mm": 1e-3},
 }
 """Key of ``[mechanism]`` -> units in which it may have been written, its SI unit first."""
 ALIKE = 0.9
@@ -38,10 +41,14 @@ SAME_FACTOR = math.log10(2.0)
 """Largest difference of its log10 from that of a factor between units: what a stated mass may be wrong by besides."""
 FRICTION_FITS = 1.0
 """Largest |log10| of friction over mu_k N, once a unit is corrected: friction is known to an order of magnitude."""
-JOINT_POWERS: dict[str, tuple[float, float]] = {
+POWERS_ALONG: dict[str, tuple[float, float]] = {
     "position": (-1.0, 0.0), "time": (2.0, 0.0), "mass": (-1.0, 0.0), "force": (1.0, 1.0),
 }  # fmt: skip
-"""What may have a wrong unit at a joint -> powers of its factor in force over acceleration over mass, and in friction."""
+"""What may have a wrong unit at a slide -> powers of its factor in force over acceleration over mass, and in friction."""
+POWERS_ABOUT: dict[str, tuple[float, float]] = {
+    "angle": (-1.0, 0.0), "time": (2.0, 0.0), "mass": (-1.0, 0.0), "length": (-2.0, 0.0), "torque": (1.0, 1.0),
+}  # fmt: skip
+"""The same at a hinge, whose inertia is m l^2 and some of its own."""
 HALF_WIDTH = 8
 """Half the length of the window through which a velocity is taken from a position [samples]."""
 
@@ -61,7 +68,7 @@ def require_plausible(run: Run, scenario: Scenario[Any], stated_in: str) -> None
     _require_alive(run)
     _require_rate(run)
     mechanism = run.mechanism(scenario)
-    if isinstance(mechanism, PrismaticJoint):
+    if isinstance(mechanism, PrismaticJoint | HingePendulum):
         _require_inertia(run, mechanism, float(scenario.law.mu_k), stated_in)
     if isinstance(mechanism, BeltBox) and (seen := shown(run, mechanism, scenario.law.mu_s)) is not None:
         cause = likeliest(seen)
@@ -111,35 +118,52 @@ def _require_rate(run: Run) -> None:
         )
 
 
-def _require_inertia(run: Run, joint: PrismaticJoint, mu_k: float, stated_in: str) -> None:
+def _require_inertia(run: Run, joint: PrismaticJoint | HingePendulum, mu_k: float, stated_in: str) -> None:
     """Require that force over acceleration is of the size of the stated mass, where one wrong unit explains that it is not."""
-    seen = inertia(run, joint)
-    if seen is None or joint.mass == 0.0 or abs(off := math.log10(seen[0] / joint.mass)) < MASS_FITS:
+    hinge = isinstance(joint, HingePendulum)
+    stated = joint.mass * joint.length**2 + joint.inertia if isinstance(joint, HingePendulum) else joint.mass
+    if stated == 0.0:
         return
-    mass, friction = seen
-    off, level = math.log10(mass / joint.mass), math.log10(friction / (mu_k * joint.normal_force))
-    causes = [
-        (name, factor)
-        for name, (of_mass, of_friction) in JOINT_POWERS.items()
-        for factor in FACTORS[name]
-        if abs(off - of_mass * math.log10(factor)) < SAME_FACTOR
-        and abs(level - of_friction * math.log10(factor)) < FRICTION_FITS
-    ]
-    remedies = [text for cause in causes if (text := _in_unit(run, *cause, joint.mass, stated_in))]
+    seen = inertia(run, joint)
+    if seen is not None and abs(math.log10(seen[0] / stated)) < MASS_FITS:
+        return
+    if seen is None and not hinge:
+        return
+    powers = POWERS_ABOUT if hinge else POWERS_ALONG
+    causes: list[tuple[str, float]] = []
+    for name, (of_mass, of_friction) in powers.items():
+        for factor in FACTORS[name]:
+            # an angle in another unit is no angle to gravity: it is corrected before one looks
+            look = inertia(run, joint, 1.0 / factor) if name == "angle" else seen
+            if look is None:
+                continue
+            off = math.log10(look[0] / stated) - (0.0 if name == "angle" else of_mass * math.log10(factor))
+            level = math.log10(look[1] / (mu_k * joint.normal_force)) - of_friction * math.log10(factor)
+            if abs(off) < SAME_FACTOR and abs(level) < FRICTION_FITS:
+                causes.append((name, factor))
+    remedies = [text for cause in causes if (text := _in_unit(run, joint, *cause, stated_in))]
     if remedies:
-        raise InputError(
-            f"{run.source}: the force is {mass:.3g} kg times the acceleration; the stated mass, {joint.mass:g} kg, is "
-            f"{_times(joint.mass / mass)} that. Probably {', or '.join(remedies)}"
+        unit, drive, motion = ("kg m^2", "torque", "angular acceleration") if hinge else ("kg", "force", "acceleration")
+        what = (
+            f"the {drive} follows neither the stated inertia, {stated:.4g} {unit}, nor the weight of the arm"
+            if seen is None
+            else f"the {drive} is {seen[0]:.3g} {unit} times the {motion}, not {stated:.4g} {unit} as stated"
         )
+        raise InputError(f"{run.source}: {what}. Probably {', or '.join(remedies)}")
 
 
-def _in_unit(run: Run, name: str, factor: float, mass: float, stated_in: str) -> str:
+def _in_unit(run: Run, joint: PrismaticJoint | HingePendulum, name: str, factor: float, stated_in: str) -> str:
     """Return what is in another unit, and what to write; nothing where no unit in use has this size."""
-    if name == "mass":
-        return f"mass in {stated_in} is in {_unit_of(STATED_UNITS[name], 1.0 / factor)}: write mass = {mass / factor:.6g} (kg)"
-    label, sizes = run.file_units.get(name, ""), CHANNEL_UNITS[name]
+    if name in ("mass", "length"):
+        value, (si, *_) = float(getattr(joint, name)), STATED_UNITS[name]
+        really = _unit_of(STATED_UNITS[name], 1.0 / factor)
+        return f"{name} in {stated_in} is in {really}: write {name} = {value / factor:.6g} ({si})" if really != si else ""
+    column = "position" if name == "angle" else name
+    label, sizes = run.file_units.get(column, ""), CHANNEL_UNITS[name]
     really = _unit_of(sizes, sizes.get(label, 1.0) / factor)
-    return f'column {name} [{label}] is in {really}: write units = {{ {name} = "{really}" }}' if really != label else ""
+    if really == label or abs(math.log10(sizes[really] * factor / sizes.get(label, 1.0))) > 0.01:  # no unit has this size
+        return ""
+    return f'column {column} [{label}] is in {really}: write units = {{ {column} = "{really}" }}'
 
 
 def _wrong_unit(run: Run, box: BeltBox, seen: Shown, cause: Cause, stated_in: str) -> str:

@@ -2,11 +2,13 @@
 
 import dataclasses
 import importlib.util
+import math
 from pathlib import Path
 
 import pytest
 
 from stochfric_mb.discovery.driven_joint import joint_outcome
+from stochfric_mb.discovery.driven_joint.mjcf.loaded_model import mjcf_balances
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import Dataset
 from stochfric_mb.scenario import load_any_scenario
@@ -85,3 +87,20 @@ def test_without_a_controller_the_arm_runs_from_measured_states():
     assert after.forward < 0.3 * before.forward
     assert outcome.result.gap is not None
     assert outcome.result.gap.metric == "inverse_dynamics_sliding"
+
+
+@pytest.mark.parametrize(("size", "refused"), [(1.0, False), (180.0 / math.pi, True)])
+def test_an_angle_far_beyond_the_range_of_its_joint_is_in_degrees(tmp_path, size, refused):
+    text = (ARM.MODEL / "two_joint_arm.xml").read_text(encoding="utf-8")
+    text = text.replace('<joint name="elbow"', '<joint name="elbow" limited="true" range="-2.6 2.6"')
+    (tmp_path / "arm.xml").write_text(text, encoding="utf-8")
+    scenario = load_any_scenario(ARM.MODEL / "scenario.toml")
+    mechanism = dataclasses.replace(scenario.mechanism, file=tmp_path / "arm.xml")
+    run = ARM.measured(ARM.nothing, seed=1, role="fit", duration=4.0)
+    wrong = dataclasses.replace(run, covariates=run.covariates | {"elbow_angle": size * run.covariates["elbow_angle"]})
+    data = Dataset(title="", scenario_path=None, scenario=dataclasses.replace(scenario, mechanism=mechanism), runs=(wrong,))
+    if refused:
+        with pytest.raises(InputError, match=r"'elbow' goes from .* rad, but its range in arm\.xml .* 'elbow_angle \[deg\]'"):
+            mjcf_balances(data)
+    else:
+        assert mjcf_balances(data).places

@@ -193,6 +193,65 @@ def test_units_at_a_driven_joint_by_force_over_acceleration(tmp_path, slide, sca
     assert all(remedy in text for remedy in remedies), text
 
 
+@pytest.fixture(scope="module")
+def swing():
+    """An arm of 1.1 kg at 0.4 m in gravity, a bearing with 0.6 N m of friction, and the torque that its motion takes [N m]."""
+    time = np.arange(0.0, 20.0, 1.0 / 487.0)
+    waves = [(0.9, 0.23, 1.0), (0.5, 0.61, 2.0), (0.25, 1.37, 3.0)]
+    turns = [(a, 2.0 * np.pi * f, p) for a, f, p in waves]
+    angle = sum(a * np.sin(w * time + p) for a, w, p in turns)
+    velocity = sum(a * w * np.cos(w * time + p) for a, w, p in turns)
+    acceleration = sum(-a * w**2 * np.sin(w * time + p) for a, w, p in turns)
+    noise = np.random.default_rng(5).standard_normal((2, time.size))
+    weight = 1.1 * 9.81 * 0.4 * np.sin(angle)
+    torque = 1.1 * 0.4**2 * acceleration + 0.3 * velocity + 0.6 * np.sign(velocity) + weight + 0.01 * noise[0]
+    return time, angle + 2e-5 * noise[1], torque
+
+
+HINGE = """
+schema = "stochfric.scenario/1"
+[mechanism]
+kind = "hinge_pendulum"
+mass = {mass}
+length = {length}
+normal_force = 2.0
+[law]
+kind = "coulomb"
+mu_s = 0.4
+mu_k = 0.3
+[simulation]
+duration = 10.0
+output_step = 1.0e-3
+"""
+
+
+@pytest.mark.parametrize(
+    ("scales", "mass", "length", "remedies"),
+    [
+        ((1.0, 1.0, 1.0), 1.0, 0.4, []),
+        ((1.0, 1.0, 1.0), 2.0, 0.4, []),  # a payload: that is for discovery
+        ((1.0, 180.0 / np.pi, 1.0), 1.0, 0.4, ['position = "deg"']),
+        ((1e3, 1.0, 1.0), 1.0, 0.4, ['time = "ms"']),
+        ((1.0, 1.0, 1e3), 1.0, 0.4, ['torque = "mN m"']),
+        ((1.0, 1.0, 1.0), 1000.0, 0.4, ["write mass = 1 (kg)"]),
+        ((1.0, 1.0, 1.0), 1.0, 400.0, ["write length = 0.4 (m)"]),
+    ],
+)
+def test_units_at_a_hinge_by_torque_over_acceleration_and_weight(tmp_path, swing, scales, mass, length, remedies):
+    time, angle, torque = (s * values for s, values in zip(scales, swing, strict=True))
+    (tmp_path / "scenario.toml").write_text(HINGE.format(mass=mass, length=length))
+    file = csv(tmp_path / "run.csv", time__s=time, position__rad=angle, **{"torque__N m": torque})
+    if not remedies:
+        assert load_dataset(file, tmp_path / "scenario.toml").fit
+        return
+    with pytest.raises(InputError) as caught:
+        load_dataset(file, tmp_path / "scenario.toml")
+    text = str(caught.value)
+    assert text.startswith(f"{file}: the torque ")
+    assert all(remedy in text for remedy in remedies), text
+    assert text.count("write ") == len(remedies), text
+
+
 @pytest.mark.parametrize(
     ("name", "file"),
     [("emps", "emps/DATA_EMPS.mat"), ("seal_napn", "pneuseal/NAPN_1bar.csv"), ("seal_o_ring", "pneuseal/O-ring_1bar.csv")],

@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import copy
 import importlib
+import math
+from collections.abc import Mapping
 from typing import Any
 
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import scale_masses
 from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import geom_numbers, reach_out
 from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
-from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import require_loops
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_of_joint, require_loops
 from stochfric_mb.errors import InputError, MissingEngineError, require_name
 from stochfric_mb.laws.elastic_stick import ElasticStick
 from stochfric_mb.measurement.dataset import Dataset
@@ -20,6 +22,10 @@ from stochfric_mb.mechanisms import Mjcf
 
 PRESLIDING = 1.0e-5
 """Presliding displacement of the law in a pair [m]: it holds at rest."""
+LEEWAY = 0.1
+"""How far beyond its range a joint may go in a record that has the right unit, over the range [-]: stops are soft."""
+OTHER_UNITS = {"rad": {"deg": math.pi / 180.0}, "m": {"mm": 1.0e-3, "um": 1.0e-6}}
+"""SI unit of a joint's position -> units in which it may really be, with their size in it."""
 
 
 def mjcf_balances(dataset: Dataset) -> MjcfSource:
@@ -48,6 +54,7 @@ def mjcf_balances(dataset: Dataset) -> MjcfSource:
             "every joint needs one in mechanism.positions, hinge or slide; of one that stays, its number"
         )
     require_loops(dataset)
+    _require_ranges(dataset, mechanism, mujoco, model)
     shapes = None
     if mechanism.pairs:
         for pair in mechanism.pairs.values():
@@ -57,6 +64,34 @@ def mjcf_balances(dataset: Dataset) -> MjcfSource:
         # what contacts push with is asked of the balance: the soft contacts of the model have no part in it
         model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
     return MjcfSource(dataset, mechanism, mujoco, model, tuple(names), tuple(tendons), shapes)
+
+
+def _require_ranges(dataset: Dataset, mechanism: Mjcf, mujoco: Any, model: Any) -> None:
+    """Require that no record lies far beyond a joint's range where another unit would bring it back within."""
+    for i in range(model.njnt):
+        name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, i)
+        column = mechanism.positions[name]
+        if not model.jnt_limited[i] or isinstance(column, float):
+            continue
+        si = "rad" if model.jnt_type[i] == mujoco.mjtJoint.mjJNT_HINGE else "m"
+        low, high = model.jnt_range[i]
+        for run in dataset.runs:
+            q = position_of_joint(run, mechanism, name)
+            unit = _better_unit(float(q.min()), float(q.max()), low, high, OTHER_UNITS[si])
+            if unit is not None:
+                raise InputError(
+                    f"{run.source}: joint {name!r} goes from {q.min():.4g} to {q.max():.4g} {si}, but its range in "
+                    f"{mechanism.file.name} is {low:.4g} to {high:.4g} {si}. Column {column!r} is probably in {unit}: write "
+                    f"its header as '{column} [{unit}]'"
+                )
+
+
+def _better_unit(first: float, last: float, low: float, high: float, units: Mapping[str, float]) -> str | None:
+    """Return the unit in which a motion lies in a range that it leaves by more than its whole width; None if none does."""
+    width, slack = high - low, LEEWAY * (high - low)
+    if low - width <= first and last <= high + width:
+        return None
+    return next((unit for unit, size in units.items() if low - slack <= size * first and size * last <= high + slack), None)
 
 
 def without_friction(mujoco: Any, mechanism: Mjcf, friction: tuple[str, float, float] | None = None) -> Any:

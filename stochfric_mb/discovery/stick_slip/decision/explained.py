@@ -36,10 +36,8 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
     if decision.verdict == "unknown":
         return None
     kinds = {n.kind for n in decision.named}
-    if kinds and kinds <= set(kinds_with(OUTSIDE_FORECASTS)):
-        return None
     windows = [_scattered(w, JUDGED_WINDOWS) for w in study.windows if len(w)]
-    if not windows:
+    if not windows or (kinds and kinds <= set(kinds_with(OUTSIDE_FORECASTS))):
         return None
     runs = HeldOut(study.pool.slips[:2], tuple(windows), tuple(windows))
     without, with_ = scores(recalibrated, runs), scores(augmented, runs)
