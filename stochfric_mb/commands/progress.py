@@ -95,11 +95,11 @@ class Lines(Display):
     def stage(self, name: str, duration: float) -> Callable[[float], None]:
         """Begin the run ``name`` over ``duration`` [s]; return what is called with the simulated time [s]."""
         self.note(name)
-        return self._now_and_then(lambda t: f"{name}: {t:.3g} / {duration:g} s simulated")
+        return self._now_and_then(duration, lambda t: f"{name}: {t:.3g} / {duration:g} s simulated")
 
     def count(self, name: str, total: int) -> Callable[[int], None]:
         """Begin to count ``name`` up to ``total``; return what is called with how many are done."""
-        return self._now_and_then(lambda done: f"{done} / {total} {name}")
+        return self._now_and_then(total, lambda done: f"{done} / {total} {name}")
 
     def note(self, text: str) -> None:
         """Say that something begins."""
@@ -107,16 +107,28 @@ class Lines(Display):
         if spent >= self._patience:
             click.echo(f"[{spent:.0f} s] {text}", err=True)
 
-    def _now_and_then(self, text: Callable[[Any], str]) -> Callable[[Any], None]:
+    def _now_and_then(self, total: float, text: Callable[[Any], str]) -> Callable[[Any], None]:
         said = time.monotonic()
+        first: tuple[float, float] | None = None
 
         def advance(value: Any) -> None:
-            nonlocal said
-            if time.monotonic() - said >= EVERY:
-                said = time.monotonic()
-                self.note(text(value))
+            nonlocal said, first
+            now = time.monotonic()
+            first = (now, value) if first is None else first
+            if now - said >= EVERY:
+                said = now
+                spent, new = now - first[0], value - first[1]
+                self.note(text(value) + (f", about {_in_words(spent / new * (total - value))} left" if new > 0 else ""))
 
         return advance
+
+
+def _in_words(seconds: float) -> str:
+    """Return a time in the unit in which it is a small number."""
+    for unit, size in (("days", 86400.0), ("h", 3600.0), ("min", 60.0)):
+        if seconds >= 2.0 * size:
+            return f"{seconds / size:.0f} {unit}"
+    return f"{seconds:.0f} s"
 
 
 class Silence(Lines):

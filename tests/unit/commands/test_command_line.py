@@ -116,7 +116,21 @@ def test_lines_of_progress_wait_and_are_rare(monkeypatch, capsys):
         advance(0.1 * step)
     said = capsys.readouterr().err.splitlines()
     assert said[:2] == ["[3 s] screening", "[3 s] mujoco"]
-    assert said[2:] == ["[13 s] mujoco: 4 / 10 s simulated", "[23 s] mujoco: 8 / 10 s simulated"]
+    assert said[2:] == [
+        "[13 s] mujoco: 4 / 10 s simulated, about 15 s left",
+        "[23 s] mujoco: 8 / 10 s simulated, about 5 s left",
+    ]
+
+
+@pytest.mark.parametrize(("duration", "left"), [(964.0, "40 min"), (1.0e4, "7 h"), (1.0e6, "29 days")])
+def test_a_run_that_would_take_days_says_so_after_ten_seconds(monkeypatch, capsys, duration, left):
+    now = 0.0
+    monkeypatch.setattr(progress.time, "monotonic", lambda: now)
+    advance = progress.Lines(0.0).stage("exudyn", duration)
+    advance(0.0)
+    now = 10.0
+    advance(4.0)
+    assert capsys.readouterr().err.splitlines()[-1].endswith(f"simulated, about {left} left")
 
 
 def test_silence_is_silent(capsys):
