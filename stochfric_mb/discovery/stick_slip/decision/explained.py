@@ -36,10 +36,10 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
     if decision.verdict == "unknown":
         return None
     kinds = {n.kind for n in decision.named}
-    windows = [_scattered(w, JUDGED_WINDOWS) for w in study.windows if len(w)]
-    if not windows or (kinds and kinds <= set(kinds_with(OUTSIDE_FORECASTS))):
+    windows = _judged(study, kinds)
+    if not windows:
         return None
-    runs = HeldOut(study.pool.slips[:2], tuple(windows), tuple(windows))
+    runs = HeldOut(study.pool.slips[:2], windows, windows)
     without, with_ = scores(recalibrated, runs), scores(augmented, runs)
     before, after = float(without.mean()), float(with_.mean())
     if _unfelt(kinds, recalibrated, study, runs, before):
@@ -62,6 +62,13 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
     }  # fmt: skip
     why = f"comes closest, but explains only {max(share, 0.0):.0%} of what the runs show"
     return taken_back(decision, why) if float(left.mean()) - enough * floor > criteria.LACKS * doubt else None
+
+
+def _judged(study: Study, kinds: set[str]) -> tuple[Windows, ...]:
+    """Return the forecasts of the fit runs that say what is explained; none where the effects named show elsewhere."""
+    if kinds and kinds <= set(kinds_with(OUTSIDE_FORECASTS)):
+        return ()
+    return tuple(_scattered(w, JUDGED_WINDOWS) for w in study.windows if len(w))
 
 
 def _error_of_mean(values: Array) -> float:
