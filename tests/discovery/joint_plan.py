@@ -6,6 +6,7 @@ from .joint_generator.case import Case
 from .joint_generator.forms import FORMS
 from .joint_generator.unseen import UNSEEN
 from .joint_generator.unseen_second import UNSEEN_SECOND
+from .joint_generator.unseen_third import UNSEEN_THIRD
 
 STRENGTHS = (1.0, 0.5)
 
@@ -54,7 +55,7 @@ UNSEEN_SECOND_PAIRS = (
     "payload.counterweight+position_dependent_friction.worn_rack",
 )
 
-SERIES = {1: (UNSEEN, UNSEEN_PAIRS), 2: (UNSEEN_SECOND, UNSEEN_SECOND_PAIRS)}
+SERIES = {1: (UNSEEN, UNSEEN_PAIRS), 2: (UNSEEN_SECOND, UNSEEN_SECOND_PAIRS), 3: (UNSEEN_THIRD, ())}
 """Sets of forms for a report, with their pairs."""
 
 

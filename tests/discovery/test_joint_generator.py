@@ -18,6 +18,7 @@ from tests.discovery.joint_generator.motion import MOTIONS
 from tests.discovery.joint_generator.plant import ARM, CHAIN, FACTOR_ON_SPEED, MASS_OF_TIME, ONE_WAY_AT, plain_plant
 from tests.discovery.joint_generator.unseen import UNSEEN
 from tests.discovery.joint_generator.unseen_second import UNSEEN_SECOND
+from tests.discovery.joint_generator.unseen_third import UNSEEN_THIRD
 
 FREE = np.zeros((2, 5)) + np.array([0.0, 0.0, 0.0, 1e9, 1.0])
 
@@ -199,10 +200,10 @@ def test_a_slider_without_memory_follows_the_logarithm_of_speed():
     assert record["friction_coefficient"][-1] == pytest.approx(0.6 + 0.005 * math.log(10.0), abs=1e-6)
 
 
-@pytest.mark.parametrize("name", [*FORMS, *UNSEEN, *UNSEEN_SECOND])
+@pytest.mark.parametrize("name", [*FORMS, *UNSEEN, *UNSEEN_SECOND, *UNSEEN_THIRD])
 def test_every_form_changes_what_is_recorded(name):
     """With the same seed: another record than the one without the effect, apart from nulls."""
-    form = (FORMS | UNSEEN | UNSEEN_SECOND)[name]
+    form = (FORMS | UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD)[name]
     if form.designs[0] in ("slider", "thrown"):
         return
     made = make(Case(name, form.designs[0], 1.0, 1))
@@ -225,18 +226,23 @@ def test_every_form_changes_what_is_recorded(name):
 
 
 @pytest.mark.parametrize(
-    "name", [name for name, form in UNSEEN_SECOND.items() if form.kind != "none" and form.designs[0] in JOINTS]
+    "name",
+    [name for name, form in (UNSEEN_SECOND | UNSEEN_THIRD).items() if form.kind != "none" and form.designs[0] in JOINTS],
 )
 def test_a_form_of_half_strength_is_visible(name):
     """A fit of the believed balance, its numbers within their uncertainty, is worse by six standard deviations or more."""
-    made = make(Case(name, UNSEEN_SECOND[name].designs[0], 0.5, 1))
+    made = make(Case(name, (UNSEEN_SECOND | UNSEEN_THIRD)[name].designs[0], 0.5, 1))
     plain, noise = replace(made, effects=()), made.nominal.sensor.drive
     # noise of a block as the fit without the effect shows it: some 150 blocks in each of two runs or more
     noise *= math.sqrt(misfit(plain, noise) / 300.0)
     assert misfit(made, noise) - misfit(plain, noise) > 6.0**2
 
 
-BRIEF = {name: form.designs[0] for name, form in (UNSEEN | UNSEEN_SECOND).items() if form.designs[0] in ("slider", "thrown")}
+BRIEF = {
+    name: form.designs[0]
+    for name, form in (UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD).items()
+    if form.designs[0] in ("slider", "thrown")
+}
 
 
 @pytest.mark.parametrize("name", BRIEF)
@@ -270,23 +276,24 @@ def test_plan_has_every_form_in_all_its_mechanisms():
     assert len(FORMS) >= 60
 
 
-@pytest.mark.parametrize("series", joint_plan.SERIES)
-def test_forms_of_the_report_are_in_no_plan_for_tuning(series):
+@pytest.mark.parametrize(("series", "least", "of_each"), [(1, 60, 18), (2, 60, 18), (3, 32, 8)])
+def test_forms_of_the_report_are_in_no_plan_for_tuning(series, least, of_each):
     forms, _ = joint_plan.SERIES[series]
     assert not {part.name for case in joint_plan.cases(range(2)) for part in case.parts} & set(forms)
     cases = list(joint_plan.unseen_cases([2407], series))
     assert len({case.name for case in cases}) == len(cases)
     assert {part.name for case in cases for part in case.parts} == set(forms)
     kinds = [form.kind for form in forms.values()]
-    assert len(forms) >= 60
-    assert min(kinds.count("unknown"), kinds.count("none")) >= 18
+    assert len(forms) >= least
+    assert min(kinds.count("unknown"), kinds.count("none")) >= of_each
     assert {case.design for case in cases} == {*JOINTS, "slider", "thrown"}
 
 
-def test_the_second_set_shares_no_form_and_has_both_strengths():
-    assert not set(UNSEEN_SECOND) & set(FORMS | UNSEEN)
+@pytest.mark.parametrize(("series", "earlier"), [(2, FORMS | UNSEEN), (3, FORMS | UNSEEN | UNSEEN_SECOND)])
+def test_a_later_set_shares_no_form_and_has_both_strengths(series, earlier):
+    assert not set(joint_plan.SERIES[series][0]) & set(earlier)
     strengths = {}
-    for case in joint_plan.unseen_cases([2407], 2):
+    for case in joint_plan.unseen_cases([2407], series):
         strengths.setdefault(case.forms, set()).add(case.strength)
     assert all(seen == {0.5, 1.0} for forms, seen in strengths.items() if not forms.startswith("none"))
 

@@ -16,6 +16,7 @@ from .motion import MOTIONS
 from .plant import PRESSURE, Array, Plant, plain_plant
 from .unseen import UNSEEN
 from .unseen_second import UNSEEN_SECOND
+from .unseen_third import UNSEEN_THIRD
 
 VOCABULARY = frozenset(
     (
@@ -49,7 +50,7 @@ class Case:
     @property
     def parts(self) -> tuple[Form, ...]:
         """The forms."""
-        known = FORMS | UNSEEN | UNSEEN_SECOND
+        known = FORMS | UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD
         for name in self.forms.split("+"):
             if name not in known:
                 raise SystemExit(f"form {name!r} is unknown; known: {', '.join(known)}")
