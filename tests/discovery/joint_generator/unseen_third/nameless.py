@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from tests.discovery.joint_generator.bench import Bench
-from tests.discovery.joint_generator.forms.coupling import _usual_peak as usual_peak
-from tests.discovery.joint_generator.forms.form import HINGES, SINGLES, Effect, Generator, Record
+from tests.discovery.joint_generator.forms.form import SINGLES, Effect, Generator, Record
 from tests.discovery.joint_generator.forms.null import drives
 from tests.discovery.joint_generator.forms.sensor import positions
 from tests.discovery.joint_generator.plant import FACTOR_AT, GAIN_AT, GAIN_OF_TIME, MASS_OF_TIME, Plant
@@ -35,16 +34,14 @@ def drive_hears_an_echo(rng: Generator, strength: float, bench: Bench) -> Effect
 
 @form("unknown", on=SINGLES)
 def clock_runs_down(rng: Generator, strength: float, bench: Bench) -> Effect:
-    """Rawlings 1993 (a clockwork that runs slower and slower: stamps fall behind, ever more)."""
-    size = 0.3 * strength
+    """Rawlings 1993 (a clockwork that is set by its mean: fast when it is wound, slow when it has run down)."""
+    size = 0.25 * strength
 
     def measure(record: Record, rng: Generator) -> Record:
         del rng
         t = record["time [s]"]
-        true = t + size * t * t / t[-1]  # what the clock shows as t
-        even = np.clip(true, 0.0, t[-1])
-        keep = true <= t[-1]
-        return {name: (x[keep] if name == "time [s]" else np.interp(even, t, x)[keep]) for name, x in record.items()}
+        true = t + size * t * (t / t[-1] - 1.0)  # when the clock shows t
+        return {name: x if name == "time [s]" else np.interp(true, t, x) for name, x in record.items()}
 
     return Effect({"size": size}, measure=measure)
 
@@ -140,10 +137,3 @@ def lathe_of_two_men(rng: Generator, strength: float, bench: Bench) -> Effect:
         return plant.times_at_place(FACTOR_AT, lambda q: 1.0 + size * np.tanh(2.0 * side * q / bench.reach))
 
     return Effect({"size": size}, rig=lambda bench: replace(bench, n_fit=8, n_test=4, duration=5.0), alter=alter)
-
-
-@form("unknown", also=("drive_saturation", "load_dependence"), on=(*HINGES, "arm"))
-def motor_pulls_one_way(rng: Generator, strength: float, bench: Bench) -> Effect:
-    """Hollerbach, Hunter and Ballantyne 1992 (an antagonist that is worn: what pulls one way ends below what is asked for)."""
-    limit = (1.0 - 0.35 * strength) * usual_peak(bench)
-    return Effect({"limit": limit}, alter=lambda plant, _: plant.with_extra(limit_forward=limit))
