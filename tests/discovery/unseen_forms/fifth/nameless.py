@@ -174,7 +174,12 @@ def bit_is_stuck(w: World, a: float) -> None:
     w.sensor = sensor
 
 
-@form(UNKNOWN, source="Slocum 1992 (a guide that rubs on the box, whatever presses it onto the belt)", designs=SEVERAL)
+@form(
+    UNKNOWN,
+    source="Slocum 1992 (a guide that rubs on the box, whatever presses it onto the belt)",
+    rig="brake",
+    designs=SEVERAL,
+)
 def guide_rubs(w: World, a: float) -> None:
-    force, slow = 0.3 * a * w.nominal.gap * w.nominal.normal_force, 0.2 * w.nominal.belt_velocity
+    force, slow = 0.15 * a * w.nominal.gap * w.nominal.normal_force, 0.2 * w.nominal.belt_velocity
     w.load = lambda s: -force * np.tanh(s.v / slow)
