@@ -61,7 +61,8 @@ def require_number(
     Raises:
         InputError: ``value`` is not a finite number within the bounds.
     """
-    if not isinstance(value, SupportsFloat) or type(value).__name__ in ("bool", "bool_"):
+    # most are floats: protocols are slow to ask
+    if type(value) is not float and (not isinstance(value, SupportsFloat) or type(value).__name__ in ("bool", "bool_")):
         raise InputError(f"{name} = {value!r} is not a number; give a number in [{unit}]")
     try:
         number = float(value)

@@ -12,7 +12,7 @@ from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.assemble import RunEntry, assemble
 from stochfric_mb.measurement.entries import SCHEMA, run_entries
 from stochfric_mb.measurement.run import Run, apply_settings
-from stochfric_mb.measurement.sampling import MIN_SAMPLES, GapError
+from stochfric_mb.measurement.sampling import MIN_PIECE, GapError
 from stochfric_mb.measurement.signs import run_sign_error
 from stochfric_mb.measurement.wrong_units import require_plausible
 from stochfric_mb.mechanisms import BeltBox
@@ -107,10 +107,10 @@ def _alone(path: Path, scenario: str | Path | Scenario[Any] | None, plausible: b
     cut = end - HELD_OUT * (end - start)
     first = [run.between(start, cut, name=f"{run.name} (first two thirds)", role="fit") for run in pieces]
     last = [run.between(cut, float("inf"), name=f"{run.name} (last third)", role="test") for run in pieces]
-    runs = tuple(run for run in (*first, *last) if run.time.size >= MIN_SAMPLES)
+    runs = tuple(run for run in (*first, *last) if run.time.size >= MIN_PIECE)
     if {run.role for run in runs} != {"fit", "test"}:
         raise InputError(
-            f"{path}: {last[-1].time.size} samples in its last third, which is held out; at least {MIN_SAMPLES} are needed "
+            f"{path}: {last[-1].time.size} samples in its last third, which is held out; at least {MIN_PIECE} are needed "
             "there and before, without a gap: record longer"
         )
     return Dataset(title=path.name, scenario_path=source, scenario=model, runs=runs)

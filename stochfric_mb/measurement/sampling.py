@@ -15,8 +15,9 @@ UNIFORM = 0.01
 """Time stamps this close to a uniform grid are on it [sample intervals]: interpolation would change less than noise does."""
 GAP = 4.0
 """Distance between two samples from which samples are missing, not late [median distances]."""
-MIN_SAMPLES = 50
-"""Fewest samples of a run: fewer hold neither a noise level nor one cycle."""
+MIN_SAMPLES, MIN_PIECE = 30, 50
+"""Fewest samples of a run that was recorded as such, and of a piece that is cut out of one: a slide one way says its friction
+with 30, a piece of a longer motion with fewer than 50 holds neither a noise level nor one cycle."""
 
 
 class GapError(InputError):
@@ -96,7 +97,7 @@ def uniform_grid(time: Array, places: Places, *, max_gap: float | None = None) -
 
     Raises:
         InputError: too few samples; names the line.
-        GapError: a gap, with the pieces of at least `MIN_SAMPLES` samples beside it.
+        GapError: a gap, with the pieces of at least `MIN_PIECE` samples beside it.
     """
     if time.size < MIN_SAMPLES:
         raise InputError(
@@ -114,7 +115,7 @@ def uniform_grid(time: Array, places: Places, *, max_gap: float | None = None) -
         n = int(np.count_nonzero(steps > limit))
         ends = np.flatnonzero(steps > limit)
         firsts, lasts = [0, *(ends + 1)], [*ends, time.size - 1]
-        pieces = [(float(time[i]), float(time[j])) for i, j in zip(firsts, lasts, strict=True) if j - i + 1 >= MIN_SAMPLES]
+        pieces = [(float(time[i]), float(time[j])) for i, j in zip(firsts, lasts, strict=True) if j - i + 1 >= MIN_PIECE]
         raise GapError(
             f"{places.at(longest + 1)}: {steps[longest]:.4g} s without a sample, where {median:.4g} s is usual ({n} gaps "
             f"longer than {limit:.4g} s); cut the run there with time_range, or, where nothing moved meanwhile, allow "

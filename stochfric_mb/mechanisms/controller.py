@@ -12,7 +12,7 @@ from stochfric_mb.errors import InputError, require_name, require_number, requir
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Cascade:
-    """Voltage = clip(velocity_gain (position_gain (reference - q) - q'), -limit, limit).
+    """Voltage = clip(velocity_gain (position_gain (reference - q) - q') + added, -limit, limit).
 
     Reference: Janot, Gautier, Brunot, Data Set and Reference Models of EMPS, 2019.
     """
@@ -25,6 +25,8 @@ class Cascade:
     """Largest voltage [V], > 0."""
     reference: str
     """Covariate that holds the reference position [m or rad]."""
+    added: str = ""
+    """Covariate that is added to the output, such as pulses [V]; empty: nothing is."""
 
     kind: ClassVar[str] = "cascade"
 
@@ -35,12 +37,12 @@ class Cascade:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the controller as the ``[controller]`` table of a scenario."""
-        return {"kind": self.kind} | dataclasses.asdict(self)
+        return {"kind": self.kind} | {k: v for k, v in dataclasses.asdict(self).items() if k != "added" or v}
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class JointLoop:
-    """u = clip(factor (position_gain (reference - q) - velocity_gain q'), -limit, limit) of one joint.
+    """u = clip(factor (position_gain (reference - q) - velocity_gain q') + added, -limit, limit) of one joint.
 
     u is the first column of the joint's drive; what it is multiplied with there, such as a supply voltage, stays as measured.
     """
@@ -55,11 +57,15 @@ class JointLoop:
     """Largest u [unit of the drive's column], > 0."""
     factor: str = ""
     """Constant of each run that multiplies both gains, such as a setting of the firmware; empty: 1."""
+    added: str = ""
+    """Covariate that is added to the output, such as pulses [unit of the drive's column]; empty: nothing is."""
 
     def to_dict(self) -> dict[str, Any]:
         """Return the loop as a table."""
         table = dataclasses.asdict(self)
-        return {k: v for k, v in table.items() if not (k == "limit" and math.isinf(self.limit))}
+        return {
+            k: v for k, v in table.items() if not (k == "limit" and math.isinf(self.limit)) and not (k == "added" and not v)
+        }
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -109,9 +115,11 @@ def controller_from_dict(table: Mapping[str, Any]) -> Controller:
 
 def _cascade(table: Mapping[str, Any]) -> Cascade:
     fields = [f.name for f in dataclasses.fields(Cascade)]
-    _require_keys(table, "controller.", [*fields, "kind"], fields)
-    numbers = {k: require_number(f"controller.{k}", table[k]) for k in fields if k != "reference"}
-    return Cascade(reference=require_text("controller.reference", table["reference"]), **numbers)
+    words = [k for k in ("reference", "added") if k in table]
+    _require_keys(table, "controller.", [*fields, "kind"], [f for f in fields if f != "added"])
+    texts = {k: require_text(f"controller.{k}", table[k]) for k in words}
+    numbers = {k: require_number(f"controller.{k}", table[k]) for k in fields if k in table and k not in words}
+    return Cascade(**texts, **numbers)  # type: ignore[arg-type]
 
 
 def _joints(table: Mapping[str, Any]) -> ProportionalDerivative:
@@ -127,8 +135,8 @@ def _joints(table: Mapping[str, Any]) -> ProportionalDerivative:
         entry = cast(Mapping[str, Any], loop)
         fields = [f.name for f in dataclasses.fields(JointLoop)]
         _require_keys(entry, where, fields, ["position_gain", "reference"])
-        words = {k: require_text(where + k, entry[k]) for k in ("reference", "factor") if k in entry}
-        numbers = {k: require_number(where + k, v) for k, v in entry.items() if k not in ("reference", "factor")}
+        words = {k: require_text(where + k, entry[k]) for k in ("reference", "factor", "added") if k in entry}
+        numbers = {k: require_number(where + k, v) for k, v in entry.items() if k not in words}
         loops[str(joint)] = JointLoop(**words, **numbers)  # type: ignore[arg-type]
     return ProportionalDerivative(joints=loops, period=require_number("controller.period", table.get("period", 0.0)))
 

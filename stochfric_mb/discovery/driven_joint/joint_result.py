@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.run_scatter import Forecasts, RunScatter
-from stochfric_mb.discovery.driven_joint.decision.selection import Selected
+from stochfric_mb.discovery.driven_joint.decision.selection import Selected, Stage
 from stochfric_mb.discovery.driven_joint.decision.stroke_scatter import StrokeScatter
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.simulation.pictures import Picture
@@ -51,6 +52,15 @@ class PlaceOutcome:
     """Evidence for a term without a name that carries over to held-out runs; it is the last effect of the final model."""
     timing: Timing | None = None
     """Delay between drive and motion; None where none could be looked for, or none shows."""
+    beside: tuple[Stage, ...] = ()
+    """Steps of answers that were given up for this one, or that did not better it."""
+    again: Callable[[frozenset[str]], PlaceOutcome] | None = dataclasses.field(default=None, compare=False, repr=False)
+    """The answer without further kinds of effects and numbers of the mechanism."""
+
+    @property
+    def searched(self) -> tuple[Stage, ...]:
+        """All steps of the search at this place."""
+        return (*self.selected.stages, *self.beside)
 
     @property
     def late(self) -> float:

@@ -1,4 +1,4 @@
-"""Drive gain change: the force per command changes in time or with temperature."""
+"""Drive gain change: the force per command changes in time, with temperature or along the stroke."""
 
 # pyright: standard
 # (compiled functions are typed by numba)
@@ -10,22 +10,26 @@ import math
 from collections.abc import Mapping
 from typing import ClassVar
 
-from stochfric_mb.effects.contract import DRIVE, LOAD, TEMPERATURE, TIME, Effect, JointSignature, parameter
+from stochfric_mb.effects.contract import DRIVE, LOAD, POSITION, TEMPERATURE, TIME, Effect, JointSignature, parameter
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.traits import READS_DRIVE
 
 SETTLED = (0.1, 0.2, 0.4, 0.8)
 """Shares of a record in which a gain may settle [-]; one that settles at once is no change, and imitates a payload."""
+PITCHES = (2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12)
+"""Wavelengths from which fits begin, over the stroke [-]."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class DriveGainChange(Effect):
-    """Drive times 1 + rate tau (1 - exp(-t/tau)) + per_kelvin (T - reference_temperature).
+    """Drive times 1 + rate tau (1 - exp(-t/tau)) + per_kelvin (T - reference_temperature) + ripple cos(2 pi x/pitch + phase).
 
-    tau = time_constant, 1 + rate t for an infinite one. Magnets weaken as they warm up, and supplies sag.
+    tau = time_constant, 1 + rate t for an infinite one. Magnets weaken as they warm up, supplies sag, and the phases of a motor
+    are not equally strong.
 
     References: T. Sebastian, IEEE Trans. Ind. Appl. 31, 1995, 353-357 (magnets); M. Gautier, S. Briot, J. Dyn. Sys., Meas.,
-    Control 136, 2014, doi 10.1115/1.4027506 (drive gains of robots).
+    Control 136, 2014, doi 10.1115/1.4027506 (drive gains of robots); R. Krishnan, Electric Motor Drives,
+    Prentice Hall 2001, chapter 9 (torque per current along the turn).
     """
 
     rate: float = parameter("1/s", "relative rate of change at t = 0", scale=1.0e-2, default=0.0)
@@ -38,10 +42,17 @@ class DriveGainChange(Effect):
     """Relative change per kelvin [1/K]."""
     reference_temperature: float = parameter("degC", "temperature at which nothing changes", scale=10.0, default=20.0)
     """Temperature at which nothing changes [degC]."""
+    ripple: float = parameter("-", "relative amplitude of a wave along the stroke", scale=0.02, default=0.0)
+    """Relative amplitude of a wave along the stroke [-]."""
+    pitch: float = parameter("m", "wavelength of that wave", scale=0.01, low=0.0, strict=True, default=1.0)
+    """Wavelength of that wave [m]."""
+    phase: float = parameter("rad", "phase of that wave at x = 0", scale=1.0, default=0.0)
+    """Its phase at x = 0 [rad]."""
 
     kind: ClassVar[str] = "drive_gain_change"
     equation: ClassVar[str] = (
-        "drive times 1 + rate tau (1 - exp(-t/tau)) + per_kelvin (T - reference_temperature), tau = time_constant"
+        "drive times 1 + rate tau (1 - exp(-t/tau)) + per_kelvin (T - reference_temperature) + "
+        "ripple cos(2 pi x/pitch + phase), tau = time_constant"
     )
     source: ClassVar[str] = "Sebastian 1995 (magnets); Gautier and Briot 2014"
     group: ClassVar[str] = "mechanism"
@@ -60,13 +71,14 @@ class DriveGainChange(Effect):
 
     @classmethod
     def at_joint(cls, span: JointSpan) -> tuple[JointSignature, ...]:
-        """Return gains that change in time, with temperature where one was measured."""
+        """Return gains that change in time, along the stroke, and with temperature where one was measured."""
         if not span.drive or not span.both_ways:
             return ()
         fades = cls(rate=0.01 / span.duration)
         times = [part * span.duration for part in SETTLED]
         settles = tuple(cls(rate=size / time, time_constant=time) for time in times for size in (0.05, -0.05))
-        forms = [JointSignature((fades,), "time", 1), JointSignature(settles, "time", 1)]
+        waves = tuple(cls(ripple=0.05, pitch=part * span.stroke, phase=0.7) for part in PITCHES)
+        forms = [JointSignature((fades,), "time", 1), JointSignature(settles, "time", 1), JointSignature(waves, "position", 3)]
         if span.temperature is not None:
             middle, width = span.temperature
             warm = cls(per_kelvin=0.01 / width, reference_temperature=middle)
@@ -78,4 +90,6 @@ def surroundings(world, memory, rates, p):
     """Add what the drive gives beyond what is stated."""
     grown = p[0] * (world[TIME] if p[1] > 1.0e300 else -p[1] * math.expm1(-world[TIME] / p[1]))
     grown += p[2] * (world[TEMPERATURE] - p[3])
+    if p[4] != 0.0:
+        grown += p[4] * math.cos(2.0 * math.pi * world[POSITION] / p[5] + p[6])
     world[LOAD] += grown * world[DRIVE]

@@ -8,7 +8,7 @@ from scipy.stats import norm
 
 from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.effects import make_effect
-from stochfric_mb.measurement import Dataset
+from stochfric_mb.measurement import Dataset, Run
 from stochfric_mb.reference import simulate
 from stochfric_mb.scenario import any_scenario_from_dict, load_scenario
 from tests.discovery.joints.test_parts import coulomb, scenario, sine_run
@@ -119,3 +119,25 @@ def test_crps_of_a_normal_forecast_by_quadrature(outcome):
     np.testing.assert_allclose(integral, exact, atol=3e-4)  # half a step of the grid
     assert floor == pytest.approx(0.2 / np.sqrt(np.pi))
     assert score > 0.0
+
+
+def stroke(number, level, role):
+    """One stroke one way, the same in every run, with friction of this level."""
+    rng = np.random.default_rng(number)
+    t = 1.0e-3 * np.arange(1500)
+    v = 0.2 * np.sin(np.pi * t / t[-1]) ** 2 + 0.02
+    q = np.cumsum(v) * 1.0e-3
+    a = np.gradient(v, 1.0e-3)
+    channels = {
+        "position": q + 1.0e-6 * rng.standard_normal(len(t)),
+        "force": 2.0 * a + level + 0.02 * rng.standard_normal(len(t)),
+    }
+    return Run(name=f"repeat {number}", role=role, time=t, channels=channels, sample_interval=1.0e-3)
+
+
+def test_repeats_of_a_stroke_that_drift_from_run_to_run_are_not_none():
+    runs = tuple(stroke(i, 2.0 * (1.0 + 0.05 * i), "test" if i == 5 else "fit") for i in range(6))
+    result = joint_outcome(Dataset(title="", scenario_path=None, scenario=scenario(), runs=runs)).result
+    where = [result.where.axis] if result.verdict == "unknown" else [e.where.axis for e in result.effects]
+    assert where
+    assert set(where) <= {"run", "run and direction"}

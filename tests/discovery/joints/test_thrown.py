@@ -7,7 +7,7 @@ import pytest
 
 from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.laws import make_law
-from stochfric_mb.measurement import Dataset
+from stochfric_mb.measurement import Dataset, load_dataset
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import PrismaticJoint
 from stochfric_mb.scenario import Scenario
@@ -60,3 +60,17 @@ def test_the_first_slide_says_as_much_as_its_repeats():
     measured = data(0.05, count=12)
     runs = tuple(dataclasses.replace(r, role="fit" if i < 8 else "test") for i, r in enumerate(measured.runs))
     assert [e.kind for e in joint_outcome(dataclasses.replace(measured, runs=runs)).result.effects] == ["random_coefficients"]
+
+
+def test_slides_of_thirty_samples_are_read_from_files(tmp_path):
+    measured = data(0.05)
+    short = [r.between(0.0, 0.36, name=r.name, role=r.role) for r in measured.runs]
+    assert {len(r.time) for r in short} <= set(range(30, 38))
+    entries = []
+    for i, run in enumerate(short):
+        rows = np.column_stack([run.time, run.channels["position"], run.channels["force"]])
+        np.savetxt(tmp_path / f"{i}.csv", rows, delimiter=",", header="time [s],position [m],force [N]", comments="")
+        entries.append(f'[[runs]]\nfile = "{i}.csv"\nname = "{run.name}"\nrole = "{run.role}"\n')
+    (tmp_path / "dataset.toml").write_text('schema = "stochfric.dataset/1"\n' + "\n".join(entries))
+    result = joint_outcome(load_dataset(tmp_path, measured.scenario)).result
+    assert [e.kind for e in result.effects] == ["random_coefficients"]

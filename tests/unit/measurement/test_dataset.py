@@ -168,7 +168,7 @@ def test_temperature_keeps_its_scale(rig):
         ("time_range = [2.0]", r"time_range = \[2\.0\]; give \[first, last\] in s"),
         ("time_range = [2.0, 1.0]", r"the first must be before the last"),
         ("time_range = [5.0, 6.0]", r"holds no sample; the file goes from 0\.25 to 0\.369 s"),
-        ("time_range = [0.25, 0.26]", r"11 samples; at least 50 are needed"),
+        ("time_range = [0.25, 0.26]", r"11 samples; at least 30 are needed"),
         ("max_gap = 0.0", r"max_gap = 0 s is out of range"),
         ("columns = 3", r"columns = 3 is not a table"),
     ],
@@ -240,7 +240,7 @@ def broken(sample, value):
         ({"time__s": broken(9, TIME[8]), "position__m": POSITION}, r"line 11: time stamp 0\.258 s is there twice; remove"),
         ({"time__s": broken(9, np.nan), "position__m": POSITION}, r"line 11: time is nan, a missing value"),
         ({"time__s": TIME, "position__m": broken(9, np.inf)}, r"line 11: position is missing or not finite; remove or mend"),
-        ({"time__s": TIME[:49], "position__m": POSITION[:49]}, r"49 samples; at least 50 are needed"),
+        ({"time__s": TIME[:29], "position__m": POSITION[:29]}, r"29 samples; at least 30 are needed"),
         (
             {"time__s": TIME + (TIME > 0.29) + (TIME > 0.33), "position__m": POSITION},
             r"line \d+: 1\.001 s without a sample.*max_gap = 1\.1",

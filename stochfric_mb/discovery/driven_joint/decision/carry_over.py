@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.driven_joint.decision.adequacy import explained, inadequate
 from stochfric_mb.discovery.driven_joint.decision.evidence import settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
@@ -18,13 +19,9 @@ from stochfric_mb.measurement.dataset import Dataset
 
 Array = npt.NDArray[np.float64]
 
-AWAY = 2.0
-"""Factor on the error of forward simulation from which an effect is not named, whatever else it explains [-]: chosen, so that
-the scatter of such errors, which starts and contacts decide, rejects nothing."""
-HALF = 0.5
-"""Part of the squared error, noise apart, that effects have to explain on held-out runs to be named: more than they leave."""
 CARRIES = 0.05
-"""The same for a term without a name: that something is missing is known already, so any part that carries over is of use."""
+"""Part of the squared error, noise apart, that a term without a name has to explain on held-out runs: that something is missing
+is known already, so any part that carries over is of use."""
 SMOOTH = {"position and direction": "position", "speed and direction": "speed", "time and direction": "time"}
 """Axis of a smooth competitor that turns with the direction, as friction does -> axis of an unnamed term."""
 KNOTS = 7
@@ -37,33 +34,12 @@ BEGIN = 1.0e-3
 
 def with_idle(place: PlaceOutcome) -> PlaceOutcome:
     """Return the outcome at a place with why its effects are not named; the model without it, where no delay is."""
-    reason = _reason(place)
+    reason = inadequate(place)
     if not reason or place.late:
         return dataclasses.replace(place, idle=reason)
     plain = dataclasses.replace(place.selected, final=place.selected.recalibrated, effects=(), equivalents=(), released=())
     scores = place.scores | {"augmented": place.scores["recalibrated"]}
     return dataclasses.replace(place, selected=plain, scores=scores, idle=reason)
-
-
-def _reason(place: PlaceOutcome) -> str:
-    """Return why the selected effects are not named: they bring the model no closer to the held-out runs; empty if they do."""
-    before, after = (place.scores[k] for k in ("recalibrated", "augmented"))
-    kinds = ", ".join([t.candidate.kind for t in place.selected.effects] + [r.name for r in place.selected.released])
-    if not kinds or place.forecasts is not None or (place.random is not None and place.random.named):
-        return ""
-    pairs = ((before.forward, after.forward), (before.loop, after.loop))
-    ahead = [(b, a) for b, a in pairs if a is not None and b is not None]
-    lost = [f"simulated, it is off by {a:.3g} for {b:.3g}" for b, a in ahead if not a < AWAY * b]
-    explained = max(_explained(before.sliding, after.sliding, place.floor), *(_explained(b, a, 0.0) for b, a in ahead), -1.0)
-    if not lost and explained >= HALF:
-        return ""
-    how = lost[0] if lost else f"it explains {max(100.0 * explained, 0.0):.0f} % of the squared error there"
-    return f"{kinds} explains the fit runs, but not the held-out ones ({how}), and is not named"
-
-
-def _explained(before: float, after: float, floor: float) -> float:
-    """Return the part of the squared error, noise apart, that is gone [-]."""
-    return (before**2 - after**2) / max(before**2 - floor**2, 1.0e-12 * before**2, 1.0e-300)
 
 
 def lacks(dataset: Dataset, place: PlaceOutcome) -> bool:
@@ -115,7 +91,7 @@ def with_unnamed(dataset: Dataset, place: PlaceOutcome) -> PlaceOutcome:
     fitted = _fitted(place, axis)
     after = score(fitted.model, place.test, place.nuisances, dataset.test, dataset.scenario)
     before = place.scores["augmented"]
-    if _explained(before.sliding, after.sliding, place.floor) < CARRIES:
+    if explained(before.sliding, after.sliding, place.floor) < CARRIES:
         return place
     scores = place.scores | {"augmented": after}
     return dataclasses.replace(place, selected=dataclasses.replace(selected, final=fitted), scores=scores, unnamed=evidence)

@@ -11,7 +11,14 @@ import numpy.typing as npt
 from scipy.stats import f as fisher
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.decision.candidates import COMPETITORS, Candidate, Competitor, candidates, span_of
+from stochfric_mb.discovery.driven_joint.decision.candidates import (
+    COMPETITORS,
+    TOGETHER,
+    Candidate,
+    Competitor,
+    candidates,
+    span_of,
+)
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes, witnesses
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of, whitened
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_rows, prior_weight
@@ -21,6 +28,8 @@ from stochfric_mb.discovery.driven_joint.fit.joint_model import STEP, JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import Start, tried, wave_starts
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM
 from stochfric_mb.discovery.inference.paired import Paired
+from stochfric_mb.effects import Effect
+from stochfric_mb.effects.joints import JointSpan
 
 Array = npt.NDArray[np.float64]
 
@@ -128,8 +137,16 @@ class Selected:
     """The steps."""
     unknown: str
     """Axis of what is missing without a name; empty: nothing is."""
+    left: tuple[tuple[str, float], ...] = ()
+    """Conditions on which what is left plainly depends, one or two together, and by what part the error on blocks left out
+    falls with them."""
     released: tuple[Released, ...] = ()
     """Numbers of the mechanism that are off by more than their uncertainty."""
+
+    @property
+    def named(self) -> tuple[str, ...]:
+        """Kinds of the effects, and names of the numbers, that were selected."""
+        return (*(t.candidate.kind for t in self.effects), *(r.name for r in self.released))
 
 
 class Selector:
@@ -143,17 +160,21 @@ class Selector:
         progress: Callable[[str], None] | None = None,
     ) -> None:
         self._balances, self._nuisances = list(balances), list(nuisances)
+        self._without: frozenset[str] = frozenset()
+        self._first: list[tuple[Candidate, JointFit]] = []
         self._tell = progress or (lambda _: None)
         self._settings = settings_of(balances)
         first = fit(start, balances, nuisances, noise=_typical(balances))
         self._noise = prior_weight(first)
         self.recalibrated = self._fit(start)
+        self._begin = self._noise, self._nuisances
 
     def _fit(self, model: JointModel, evaluations: int = 12) -> JointFit:
         return fit(model, self._balances, self._nuisances, noise=self._noise, evaluations=evaluations)
 
-    def run(self) -> Selected:
-        """Return what was selected."""
+    def run(self, without: frozenset[str] = frozenset()) -> Selected:
+        """Return what is selected, without some kinds of effects and numbers of the mechanism."""
+        self._without, (self._noise, self._nuisances) = without, self._begin
         current = self.recalibrated
         effects: list[Trial] = []
         stages: list[Stage] = []
@@ -175,14 +196,16 @@ class Selector:
             self._noise = prior_weight(current)
             current, effects = self._re_examined(current, effects)
         final, effects = self._without_zero(self._fit(current.model), effects)
-        unknown = self._unknown(stages[-1]) if not stages[-1].accepted else ""
+        unknown = self._unknown(stages[-1]) if not stages[-1].accepted else ("", 0.0)
+        left = (unknown, self._together(final) if effects or released else ("", 0.0))
         return Selected(
             self.recalibrated,
             final,
             tuple(effects),
             tuple(self._equivalents(final, i, t.candidate.parameters) for i, t in enumerate(effects)),
             tuple(stages),
-            unknown,
+            unknown[0],
+            tuple((axis, gain) for axis, gain in left if axis),
             tuple(released),
         )
 
@@ -205,6 +228,8 @@ class Selector:
         released: list[tuple[Released, JointFit, list[Nuisance]]] = []
         beside = len(current.model.effects) > len(self.recalibrated.model.effects)
         for i, number in enumerate(self._nuisances if self._nuisances and self._driven else ()):
+            if number.name in self._without:
+                continue
             # beside an effect that imitates inertia less mass would only be less noise: it must press against its bound
             off = abs(current.model.nuisances[number.name] - number.value)
             if beside and off < AT_BOUND * MOST_OFF * number.deviation:
@@ -241,17 +266,19 @@ class Selector:
             final = self._fit(dataclasses.replace(final.model, effects=others))
             effects = [t for i, t in enumerate(effects) if i != empty]
 
+    def _candidates(self, span: JointSpan, stated: Sequence[Effect]) -> list[Candidate]:
+        return [c for c in candidates(span, stated) if c.kind not in self._without]
+
     def first(self) -> Stage:
         """Return the first step alone."""
         return self._stage(self.recalibrated)
 
     def _stage(self, current: JointFit) -> Stage:
         span = span_of(self._balances, current.model.law.mu_k * current.model.load, current.model.load)
-        fits: list[tuple[Candidate, JointFit]] = []
-        for candidate in candidates(span, current.model.effects):
-            self._tell(candidate.kind)
-            fitted = self._best(current, candidate)
-            fits += [(candidate, fitted)] if fitted is not None else []
+        again = current is self.recalibrated and bool(self._first)
+        fits = [(c, f) for c, f in self._first if c.kind not in self._without] if again else self._fitted(current, span)
+        if current is self.recalibrated and not self._first:
+            self._first = fits
         trials = self._scored(current, fits)
         rivals = self._competitors(current, trials[0].fit)
         models = current.model, trials[0].fit.model
@@ -268,6 +295,15 @@ class Selector:
             repeats = dataclasses.replace(repeats, p_value=min(1.0, repeats.p_value * questions))
             enough = repeats.rms_gain > MATERIAL and repeats.p_value < CHANCE and self._predicted_better(*models)
         return Stage(current, tuple(trials), tuple(rivals), inside, repeats, enough)
+
+    def _fitted(self, current: JointFit, span: JointSpan) -> list[tuple[Candidate, JointFit]]:
+        """Return the candidates that the model does not have yet, fitted."""
+        fits: list[tuple[Candidate, JointFit]] = []
+        for candidate in self._candidates(span, current.model.effects):
+            self._tell(candidate.kind)
+            fitted = self._best(current, candidate)
+            fits += [(candidate, fitted)] if fitted is not None else []
+        return fits
 
     def _predicted_better(self, plain: JointModel, richer: JointModel) -> bool:
         """Return whether each half of the record, left out, is predicted better by the richer model by a material part."""
@@ -327,8 +363,7 @@ class Selector:
         kept = adjustable(current)
         rivals: list[tuple[str, float]] = []
         for rival in COMPETITORS:
-            seen = rival.columns(self._balances)
-            columns = np.concatenate([c[s.sliding] for c, s in zip(seen, self._balances, strict=True)])
+            columns = self._sliding_columns(rival)
             width = columns.shape[1]
             if width == 0:
                 continue
@@ -339,6 +374,37 @@ class Selector:
             score = before.deviance - after - width * np.log(n)
             rivals.append((rival.axis, float(score)))
         return sorted(rivals, key=lambda r: -r[1])
+
+    def _together(self, current: JointFit) -> tuple[str, float]:
+        """Return the two conditions on which what is left depends together, beyond what it does on each; empty: on none.
+
+        Beside them stands by what part the error on blocks left out falls with them.
+        """
+        n = max(current.independent, 4.0)
+        prior, offsets = prior_rows(current, self._noise)
+        rest, kept = np.concatenate(current.remainders), adjustable(current)
+        ratio = scatter(rest, self._settings, n).ratio
+        scores: list[float] = []
+        for both, alone in TOGETHER:
+            deviances: list[float] = []
+            for some in (alone, (*alone, both)):
+                columns = np.column_stack([self._sliding_columns(c) for c in some])
+                design = np.column_stack([current.jacobian[:, kept], columns])
+                below = np.column_stack([prior[:, kept], np.zeros((len(prior), columns.shape[1]))])
+                slopes = np.column_stack([self._by_drive(c) for c in some])
+                deviances.append(self._deviance_without(rest, offsets, design, below, n, ratio, slopes))
+            scores.append(deviances[0] - deviances[1] - float(np.log(n)))
+        best = int(np.argmax(scores))
+        if scores[best] < NAMED + 2.0 * np.log(len(TOGETHER)):
+            return "", 0.0
+        both, alone = TOGETHER[best]
+        gain = self._rival_gain(current, both, alone)
+        return (both.axis, gain) if gain > MATERIAL else ("", 0.0)
+
+    def _sliding_columns(self, rival: Competitor) -> Array:
+        """Return the columns of a competitor at the windows of sliding, shape (n_windows, k)."""
+        seen = rival.columns(self._balances)
+        return np.concatenate([c[s.sliding] for c, s in zip(seen, self._balances, strict=True)])
 
     def _deviance_without(
         self, rest: Array, offsets: Array, design: Array, below: Array, n: float, ratio: float, slopes: Array
@@ -390,7 +456,7 @@ class Selector:
         others = tuple(e for e in final.model.effects if e is not own)
         without = self._fit(dataclasses.replace(final.model, effects=others))
         span = span_of(self._balances, without.model.law.mu_k * without.model.load, without.model.load)
-        choices = [c for c in candidates(span, others) if c.kind != own.kind]
+        choices = [c for c in self._candidates(span, others) if c.kind != own.kind]
         fits = [(c, f) for c in choices if (f := self._best(without, c)) is not None]
         n = max(final.independent, 4.0)
         mine = self._evidence(without, final, final, n)
@@ -405,39 +471,34 @@ class Selector:
             )
         )
 
-    def _unknown(self, last: Stage) -> str:
-        """Return the axis along which something is missing that no effect explains; empty if nothing is."""
-        if not last.competitors:
-            return ""
-        axis, score = last.competitors[0]
+    def _unknown(self, last: Stage) -> tuple[str, float]:
+        """Return the axis of what is missing that no effect explains, empty if nothing is, and what part it takes away."""
+        axis, score = last.competitors[0] if last.competitors else ("", -np.inf)
         named = last.trials[0].score
         if score < NAMED + 2.0 * np.log(len(COMPETITORS)) or score < named + max(WIN[0], WIN[1] * abs(named)):
-            return ""
-        rival = next(c for c in COMPETITORS if c.axis == axis)
-        return axis if self._rival_gain(last.before, rival) > MATERIAL else ""
+            return "", 0.0
+        gain = self._rival_gain(last.before, next(c for c in COMPETITORS if c.axis == axis))
+        return (axis, gain) if gain > MATERIAL else ("", 0.0)
 
-    def _rival_gain(self, current: JointFit, rival: Competitor) -> float:
-        """Return by what part a competitor lowers the error on blocks left out."""
+    def _rival_gain(self, current: JointFit, rival: Competitor, beside: Sequence[Competitor] = ()) -> float:
+        """Return by what part a competitor lowers the error on blocks left out, beyond what those ``beside`` it do."""
         inside = [s.sliding for s in self._balances]
-        x = np.concatenate([c[m] for c, m in zip(rival.columns(self._balances), inside, strict=True)])
-        slopes = self._by_drive(rival)
         prior, offsets = prior_rows(current, self._noise)
         known = np.vstack([current.jacobian, prior])[:, adjustable(current)]
-        x = np.column_stack([known, _padded(x, len(prior))])
         y = np.r_[np.concatenate(current.remainders), offsets]
-        before = after = 0.0
-        for block in blocks(self._balances):
-            out = np.r_[np.concatenate([b[m] for b, m in zip(block, inside, strict=True)]), np.zeros(len(prior), dtype=bool)]
-            for design, plain in ((known, True), (x, False)):
+        errors = [0.0, 0.0]
+        for i, some in enumerate((tuple(beside), (*beside, rival))):
+            more = [self._sliding_columns(c) for c in some]
+            slopes = np.column_stack([self._by_drive(c) for c in some]) if some else np.zeros((len(y) - len(prior), 0))
+            design = np.column_stack([known, *(_padded(c, len(prior)) for c in more)])
+            for block in blocks(self._balances):
+                inner = np.concatenate([b[m] for b, m in zip(block, inside, strict=True)])
+                out = np.r_[inner, np.zeros(len(prior), dtype=bool)]
                 scale = np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
-                b = np.linalg.lstsq(design[~out] / scale, y[~out], rcond=1.0e-10)[0]
-                left = y[out] - design[out] / scale @ b
-                if not plain and slopes.any():
-                    inner = out[: len(slopes)]
-                    left = explained(y[out], design[out], b / scale, slopes[inner])
-                error = float(np.sum(left**2))
-                before, after = (before + error, after) if plain else (before, after + error)
-        return 1.0 - float(np.sqrt(after / before))
+                b = np.linalg.lstsq(design[~out] / scale, y[~out], rcond=1.0e-10)[0] / scale
+                left = explained(y[out], design[out], b, slopes[inner]) if slopes.any() else y[out] - design[out] @ b
+                errors[i] += float(np.sum(left**2))
+        return 1.0 - float(np.sqrt(errors[1] / errors[0]))
 
 
 def simplest_first(trials: list[Trial]) -> list[Trial]:

@@ -13,10 +13,11 @@ from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.carry_over import lacks
 from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, mechanism_estimates, parameters
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
+from stochfric_mb.discovery.driven_joint.fit.free_parameters import MOST_OFF
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
-from stochfric_mb.discovery.inference.free_parameter import MECHANISM
+from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
 from stochfric_mb.effects import Effect, effect_kinds, kind_with_signature, kinds_with, words_of
@@ -30,6 +31,8 @@ BEYOND = {
     "torque_gain": "drive_gain", "offset": "constant_force",
 }  # fmt: skip
 """Number of the mechanism -> what it is called where it is off by more than its uncertainty; other ones are an effect's."""
+OTHER_LEVEL = "friction_level"
+"""What sliding friction is called that is beyond what is believed of it."""
 OF_EFFECTS = {"damping": MORE_DAMPING, "piston_area": OTHER_AREA}
 """Number of the mechanism -> the finding of an effect that it is."""
 PLAIN = 14.0
@@ -56,6 +59,7 @@ def verdict(
     unknown = None if effects else next(lacking, None)
     if unknown is None:
         effects += [_reading(e) for e in readings]
+        effects += [e for p in places for e in _other_level(p)]
     kind = "effect" if effects else "unknown" if unknown is not None else "none"
     where = None
     if unknown is not None:
@@ -68,7 +72,7 @@ def verdict(
         where=where,
         ranking=_ranking(places),
         gap=gap,
-        not_identifiable=_unseen(places),
+        not_identifiable=_unseen(places, effects),
         next_experiment=_advice(pairs, places),
         parameters={_at_place(p, places, k): v for p in places for k, v in mechanism_estimates(p).items()},
         notes=(
@@ -198,6 +202,20 @@ def _axis(place: PlaceOutcome) -> str:
     return rivals[0][0] if rivals and rivals[0][1] > 0.0 else "time"
 
 
+def _other_level(place: PlaceOutcome) -> list[EffectEstimate]:
+    """Return the finding that sliding friction is beyond what is believed of it, if it is."""
+    fit = place.selected.final
+    one = next((k for k in fit.free if (k.owner, k.name) == (LAW, "mu_k") and np.isfinite(k.prior)), None)
+    value = fit.model.law.mu_k
+    if one is None or abs(off := (value - one.nominal) / one.prior) <= MOST_OFF:
+        return []
+    size = confidence_interval(value, fit.deviation(LAW, "mu_k"), "-", 0.0)
+    text = (
+        f"mu_k{_at(place)} is {value:.4g} and not {one.nominal:.4g}: off by {abs(off):.0f} of its stated standard deviations."
+    )
+    return [EffectEstimate(OTHER_LEVEL, (), Where("motion", text), {"mu_k": size}, off**2, None)]
+
+
 def _drawn(place: PlaceOutcome) -> list[EffectEstimate]:
     """Return the finding that friction is drawn anew for each stroke, if it is one."""
     seen = place.random
@@ -235,7 +253,7 @@ def _at(place: PlaceOutcome) -> str:
 def _ranking(places: Sequence[PlaceOutcome]) -> tuple[tuple[str, float], ...]:
     best: dict[str, float] = {}
     for place in places:
-        for stage in place.selected.stages:
+        for stage in place.searched:
             for trial in stage.trials:
                 name = f"{trial.candidate.kind} ({place.place})" if len(places) > 1 else trial.candidate.kind
                 best[name] = max(best.get(name, -np.inf), trial.score)
@@ -279,12 +297,13 @@ def _imitated(place: PlaceOutcome) -> list[str]:
     ]
 
 
-def _unseen(places: Sequence[PlaceOutcome]) -> tuple[str, ...]:
-    seen = {t.candidate.kind for p in places for s in p.selected.stages for t in s.trials}
+def _unseen(places: Sequence[PlaceOutcome], effects: Sequence[EffectEstimate]) -> tuple[str, ...]:
+    """Return the kinds that were not searched, and are no part of the model or of what is named."""
+    seen = {t.candidate.kind for p in places for s in p.searched for t in s.trials}
     seen |= {e.kind for p in places for e in p.stated.effects}
+    seen |= {kind for e in effects for kind in (e.kind, *e.equivalent_to)}
     seen |= {kind_with_signature(finding) for finding in (LATE, STRAY, REPEATED_READING)}
     seen |= {kind_with_signature(DRAWN_ANEW)} if any(p.random is not None or p.runs is not None for p in places) else set()
-    seen -= {kind for p in places for kind in _imitated(p)}
     return tuple(k for k in effect_kinds() if k not in seen and k not in (*kinds_with(BELT), *kinds_with(ANONYMOUS)))
 
 

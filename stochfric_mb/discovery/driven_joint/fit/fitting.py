@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.free_parameters import adjusted, free_parameters
-from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.fit.joint_model import Forces, JointModel
 from stochfric_mb.discovery.inference.fitter import minimised
 from stochfric_mb.discovery.inference.free_parameter import FreeParameter, steps_of
 from stochfric_mb.discovery.inference.noise import independent_count
@@ -97,11 +98,16 @@ def fit(
     used = [s.sliding for s in balances] if masks is None else list(masks)
     free = free_parameters(model, nuisances, fixed)
     steps = steps_of(free)
+    known: dict[Any, list[Forces]] = {}
 
     def errors(step: Array) -> Array:
         values = steps.values(step)
         trial = adjusted(model, free, values)
-        parts = [trial.remainder(s, nuisances)[m] for s, m in zip(balances, used, strict=True)]
+        key = trial.law, trial.effects, tuple(trial.own.items())  # what corrections leave as it is
+        if key not in known:
+            known[key] = [trial.forces(s) for s in balances]
+        seen = zip(balances, used, known[key], strict=True)
+        parts = [trial.remainder(s, nuisances, forces)[m] for s, m, forces in seen]
         return np.concatenate([*parts, noise * steps.surprise(values)])
 
     minimum = minimised(

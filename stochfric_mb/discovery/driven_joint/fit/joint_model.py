@@ -23,6 +23,8 @@ from stochfric_mb.laws import Law
 Array = npt.NDArray[np.float64]
 Own = tuple[str, str, str]
 """Kind of an effect, name of a run, name of a parameter."""
+Forces = tuple[Array, Array | None]
+"""Friction [N or N m] and its change with the drive [-], shape (n_centres,) each; None: the drive plays no part in it."""
 
 STEP = 1.0e-3
 """Step of the load by which the change of friction with it is taken, over the mean load [-]."""
@@ -61,9 +63,22 @@ class JointModel:
         changes = [{name: value for (kind, name), value in mine.items() if kind == e.kind} for e in self.effects]
         return tuple(dataclasses.replace(e, **c) if c else e for e, c in zip(self.effects, changes, strict=True))
 
-    def remainder(self, balance: ForceBalance, nuisances: Sequence[Nuisance]) -> Array:
-        """Return what the model leaves of the drive, in units of the drive [N or N m], shape (n_centres,)."""
+    def forces(self, balance: ForceBalance) -> Forces:
+        """Return friction at the centres of windows, and its change with the drive; corrections play no part in it."""
         friction = self.friction(balance)
+        known = balance.load_by_drive is not None or balance.drive is not None
+        reads = known and reads_drive(self.law, self.effects, self.load)
+        return friction, self._friction_by_drive(balance, friction) if reads else None
+
+    def remainder(self, balance: ForceBalance, nuisances: Sequence[Nuisance], forces: Forces | None = None) -> Array:
+        """Return what the model leaves of the drive, in units of the drive [N or N m], shape (n_centres,).
+
+        Args:
+            balance: a run.
+            nuisances: numbers of the mechanism.
+            forces: as of `forces`, where they are known already.
+        """
+        friction, changes = forces or self.forces(balance)
         rest = balance.driven - friction
         by_drive = np.ones(len(rest))
         for n in nuisances:
@@ -71,9 +86,8 @@ class JointModel:
                 rest = rest - (self.nuisances[n.name] - n.value) * balance.columns[n.name]
                 if n.name.endswith("gain"):
                     by_drive = by_drive * self.nuisances[n.name] / n.value
-        known = balance.load_by_drive is not None or balance.drive is not None
-        if known and reads_drive(self.law, self.effects, self.load):
-            by_drive = by_drive - self._friction_by_drive(balance, friction)
+        if changes is not None:
+            by_drive = by_drive - changes
         return rest / change_of(by_drive)
 
     def friction(self, balance: ForceBalance) -> Array:

@@ -199,6 +199,7 @@ class _Plant:
         run, source = self._run, self._source
         factor = run.constants[loop.factor] if loop.factor else 1.0
         reference, dof = column(run, loop.reference), source.names.index(joint)
+        added = column(run, loop.added) if loop.added else np.zeros(len(reference))
         drive = self._mechanism.drives[joint]
         ratio = np.full(len(run.time), drive.gain)
         for name in drive.columns[1:]:
@@ -207,7 +208,7 @@ class _Plant:
         def control(sample: int, part: float, data: Any) -> tuple[float, float]:
             goal = (1.0 - part) * reference[sample] + part * reference[min(sample + 1, len(reference) - 1)]
             error = goal - float(data.qpos[dof])
-            u = factor * (loop.position_gain * error - loop.velocity_gain * float(data.qvel[dof]))
+            u = factor * (loop.position_gain * error - loop.velocity_gain * float(data.qvel[dof])) + float(added[sample])
             u = min(max(u, -loop.limit), loop.limit)
             return u, u * float(ratio[sample])
 

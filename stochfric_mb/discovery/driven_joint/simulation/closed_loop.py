@@ -42,10 +42,7 @@ def closed_loop(
     Raises:
         InputError: the run has no such reference.
     """
-    if controller.reference not in run.covariates:
-        given = ", ".join(run.covariates)
-        raise InputError(f"run {run.name!r} has no covariate {controller.reference!r} for the controller (it has: {given})")
-    reference = np.ascontiguousarray(run.covariates[controller.reference])
+    reference, added = signals_of(run, controller)
     q = position_of(run)
     temperature = known_temperature(run)
     pressure = run.channels.get("pressure", np.zeros(len(q)))
@@ -58,15 +55,30 @@ def closed_loop(
     start = float(np.polyfit(np.arange(FIRST), q[:FIRST], 2)[2])
     # the voltage that the controller gave tells the velocity that it saw
     u = controller_output(run, joint)[0]
-    rate = controller.position_gain * (reference[0] - start) - u / controller.velocity_gain
+    rate = controller.position_gain * (reference[0] - start) - (u - added[0]) / controller.velocity_gain
     if abs(u) >= controller.limit:
         rate = float(np.polyfit(np.arange(FIRST), q[:FIRST], 1)[0]) / run.sample_interval
     voltage, position = np.empty(len(q)), np.empty(len(q))
     _march(
-        links.numbers, links.calls, links.parameters, plant, loop, reference, float(run.time[0]), run.sample_interval,
+        links.numbers, links.calls, links.parameters, plant, loop, reference, added, float(run.time[0]), run.sample_interval,
         start, rate, before, temperature, pressure, voltage, position,
     )  # fmt: skip
     return voltage, position
+
+
+def signals_of(run: Run, controller: Cascade) -> tuple[Array, Array]:
+    """Return the reference [m] and what is added to the output [V or N], shape (n,) each.
+
+    Raises:
+        InputError: the run lacks a covariate that the controller reads.
+    """
+    for name in filter(None, (controller.reference, controller.added)):
+        if name not in run.covariates:
+            given = ", ".join(run.covariates)
+            raise InputError(f"run {run.name!r} has no covariate {name!r} for the controller (it has: {given})")
+    reference = np.ascontiguousarray(run.covariates[controller.reference])
+    added = run.covariates[controller.added] if controller.added else np.zeros(len(reference))
+    return reference, np.ascontiguousarray(added)
 
 
 def controller_output(run: Run, joint: PrismaticJoint) -> Array:
@@ -83,8 +95,8 @@ def controller_output(run: Run, joint: PrismaticJoint) -> Array:
 
 @compiled
 def _march(
-    numbers, calls, parameters, plant, loop, reference, start, interval, q, v, travelled, temperature, pressure, voltage,
-    position,
+    numbers, calls, parameters, plant, loop, reference, added, start, interval, q, v, travelled, temperature, pressure,
+    voltage, position,
 ):  # fmt: skip
     world = np.zeros(e.WORLD)
     memory = np.zeros(8)
@@ -93,7 +105,7 @@ def _march(
     turned = q
     before = np.sign(v)
     for i in range(len(reference)):
-        u = loop[1] * (loop[0] * (reference[i] - q) - v)
+        u = loop[1] * (loop[0] * (reference[i] - q) - v) + added[i]
         u = min(max(u, -loop[2]), loop[2])
         voltage[i], position[i] = u, q
         for k in range(FINER):

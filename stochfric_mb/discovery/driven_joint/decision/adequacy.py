@@ -1,0 +1,77 @@
+"""Whether the named model of a place is adequate: a name stands only where its model explains more than it leaves."""
+
+from __future__ import annotations
+
+from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.driven_joint.decision.candidates import SIGNED
+from stochfric_mb.discovery.driven_joint.decision.selection import AT_BOUND
+from stochfric_mb.discovery.driven_joint.fit.free_parameters import MOST_OFF
+from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
+
+AWAY = 2.0
+"""Factor on the error of forward simulation from which an effect is not named, whatever else it explains [-]: chosen, so that
+the scatter of such errors, which starts and contacts decide, rejects nothing."""
+HALF = 0.5
+"""Part of the squared error, noise apart, that effects have to explain on held-out runs to be named: more than they leave."""
+
+
+def inadequate(place: PlaceOutcome) -> str:
+    """Return why what was selected at a place does not stand; empty if it does, or if nothing was.
+
+    It does not where it explains no more than it leaves on the held-out runs, where a number that is believed has to go as far
+    as beliefs allow for it, and where more than noise is left, which plainly depends on conditions that are not its own.
+    """
+    kinds = ", ".join(place.selected.named)
+    if not kinds or place.forecasts is not None or (place.random is not None and place.random.named):
+        return ""
+    why = _lost(place)
+    if why:
+        return f"{kinds} explains the fit runs, but not the held-out ones ({why}), and is not named"
+    why = _at_bound(place) or _plainly_left(place)
+    return f"{kinds} explains much of the record, but {why}, and is not named" if why else ""
+
+
+def _lost(place: PlaceOutcome) -> str:
+    """Return what held-out runs say against the selected effects; empty: nothing."""
+    before, after = (place.scores[k] for k in ("recalibrated", "augmented"))
+    pairs = ((before.forward, after.forward), (before.loop, after.loop))
+    ahead = [(b, a) for b, a in pairs if a is not None and b is not None]
+    lost = [f"simulated, it is off by {a:.3g} for {b:.3g}" for b, a in ahead if not a < AWAY * b]
+    gains = [explained(before.sliding, after.sliding, place.floor), *(explained(b, a, 0.0) for b, a in ahead)]
+    if not lost and max(gains) >= HALF:
+        return ""
+    return lost[0] if lost else f"it explains {max(100.0 * max(gains), 0.0):.0f} % of the squared error there"
+
+
+def _at_bound(place: PlaceOutcome) -> str:
+    """Return which believed number the model needs at the end of what is believed; empty: none."""
+    fit, released = place.selected.final, {r.name for r in place.selected.released}
+    for n in place.nuisances:
+        off = (fit.model.nuisances[n.name] - n.value) / n.deviation
+        if n.name not in released and abs(off) > AT_BOUND * MOST_OFF:
+            return f"needs {n.name} off by {off:.1f} of its stated standard deviations, as far as a belief gives way"
+    return ""
+
+
+def _plainly_left(place: PlaceOutcome) -> str:
+    """Return on what that is not its own the error plainly depends which the selected effects leave; empty: on nothing."""
+    selected = place.selected
+    own = {t.candidate.where for t in selected.effects}
+    noise = noise_floor(selected.final.model, place.fit, place.nuisances)
+    remains = (selected.final.rms / selected.recalibrated.rms) ** 2
+    if selected.final.rms < FLOOR * noise:
+        return ""
+    others = [
+        (axis, remains * (1.0 - (1.0 - gain) ** 2)) for axis, gain in selected.left if axis.removesuffix(SIGNED) not in own
+    ]
+    axis, share = max(others, key=lambda o: o[1], default=("", 0.0))
+    if share < criteria.PLAINLY_LEFT:
+        return ""
+    how = f"{selected.final.rms / noise:.1f} times the noise is left, {100.0 * share:.0f} % of the squared error"
+    return f"{how} depends on {axis}"
+
+
+def explained(before: float, after: float, floor: float) -> float:
+    """Return the part of the squared error, noise apart, that is gone [-]."""
+    return (before**2 - after**2) / max(before**2 - floor**2, 1.0e-12 * before**2, 1.0e-300)

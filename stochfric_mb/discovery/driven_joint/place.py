@@ -1,0 +1,234 @@
+"""One place: timing, effects one by one, errors on held-out runs, and what scatters from stroke to stroke and run to run."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.balance.timing import LEAST_SAMPLES, Timing, timing
+from stochfric_mb.discovery.driven_joint.decision.run_scatter import Forecasts, crps_of, run_scatter
+from stochfric_mb.discovery.driven_joint.decision.selection import MATERIAL, Selected, Selector
+from stochfric_mb.discovery.driven_joint.decision.signs import sign_notes
+from stochfric_mb.discovery.driven_joint.decision.stroke_coefficients import dependence
+from stochfric_mb.discovery.driven_joint.decision.stroke_scatter import stroke_scatter
+from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
+from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.discovery.driven_joint.simulation.augmented import stated_scatter
+from stochfric_mb.discovery.driven_joint.simulation.scores import noise_floor, score
+from stochfric_mb.discovery.driven_joint.source import prior_model
+from stochfric_mb.discovery.inference.noise import independent_count
+from stochfric_mb.measurement.dataset import Dataset
+from stochfric_mb.mechanisms import PrismaticJoint
+from stochfric_mb.numerics.robust import deviation
+
+Array = npt.NDArray[np.float64]
+Progress = Callable[[str], None]
+HELD = 4
+"""Delays from none to that of sampling and holding that are tried."""
+
+
+@dataclasses.dataclass(frozen=True)
+class _Asked:
+    """A place, and how it is seen."""
+
+    dataset: Dataset
+    source: Any
+    name: str
+    load: float
+    base: float
+    tell: Progress
+    timing: Timing | None
+    selectors: dict[float, Selector] = dataclasses.field(default_factory=dict[float, Selector])
+    """Delay that is compensated [s] -> selection with it: answers share what they begin with."""
+
+    def selector(self, delay: float, start: JointModel, how: str) -> Selector:
+        """Return the selection with a delay compensated."""
+        if delay not in self.selectors:
+            balances, where = self.source.balances(self.name, "fit", delay), f"{self.name}: " if self.name else ""
+            nuisances = self.source.nuisances(self.name)
+            self.selectors[delay] = Selector(balances, nuisances, start, lambda text: self.tell(where + text + how))
+        return self.selectors[delay]
+
+
+def place_outcome(
+    dataset: Dataset,
+    tell: Progress,
+    source: Any,
+    name: str,
+    load: float,
+    base: float,
+    notes: list[str],
+    *,
+    timed: bool = True,
+) -> PlaceOutcome:
+    """Return the outcome at a place.
+
+    Args:
+        dataset: the dataset.
+        tell: called with what is being done.
+        source: balances of the dataset.
+        name: the place.
+        load: its stated load [N or N m].
+        base: delay of all positions that is known [s].
+        notes: what the reader should know is added to these.
+        timed: whether a delay is looked for.
+    """
+    balances = source.balances(name, "fit", base)
+    notes += sign_notes(dataset, name, load, balances)
+    late = _timing(dataset, tell, source, name, base, balances) if timed else None
+    return _answered(_Asked(dataset, source, name, load, base, tell, late), frozenset())
+
+
+def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
+    """Return the outcome at a place, without some kinds and numbers."""
+    dataset, source, name, tell, base, timing = asked.dataset, asked.source, asked.name, asked.tell, asked.base, asked.timing
+    scenario, nuisances = dataset.scenario, source.nuisances(name)
+    stated = prior_model(scenario, name, nuisances, asked.load)
+    where = f"{name}: " if name else ""
+    undelayed = None
+    shortest = LEAST_SAMPLES * dataset.fit[0].sample_interval
+    if timing is not None and abs(timing.seconds) <= shortest:  # how signals are sampled and held
+        base, timing = base + timing.seconds, None
+    fit_balances = source.balances(name, "fit", base)
+    plain = asked.selector(base, stated, "")
+    selected = plain.run(without)
+    if timing is not None:
+        balances = source.balances(name, "fit", base + timing.seconds)
+        late = asked.selector(base + timing.seconds, stated, ", a delay compensated").run(without)
+        early = base + np.linspace(0.0, np.copysign(shortest, timing.seconds), HELD)
+        narrow = [source.balances(name, "fit", d, timing.half_width) for d in (*early, base + timing.seconds)]
+        timing = timing.beside(*_better(selected, late, narrow, nuisances))
+        if timing.named:  # the stated model knows nothing of the identified delay
+            undelayed, selected, fit_balances = selected.recalibrated.model, late, balances
+    delay = base + (timing.seconds if timing is not None and timing.named else 0.0)
+    test_balances = source.balances(name, "test", delay)
+    tell(f"{where}held-out runs")
+    scores = {
+        label: score(model, test_balances, nuisances, dataset.test, scenario)
+        for label, model in _models(stated, selected).items()
+    }
+    if undelayed is not None:
+        early = source.balances(name, "test", base)
+        scores["baseline"] = score(stated, early, nuisances, dataset.test, scenario)
+        scores["recalibrated"] = score(undelayed, early, nuisances, dataset.test, scenario)
+    final = with_phases(selected.final.model, test_balances)
+    # where something without a name is missing from the mean, strokes differ for that
+    random = None if selected.unknown else stroke_scatter(final, fit_balances, nuisances, stated_scatter(scenario, "per_event"))
+    noise = floor = noise_floor(final, test_balances, nuisances)
+    if random is not None and random.accounted:
+        floor = float(np.hypot(floor, random.sigma * _rms_dependence(final, test_balances)))
+    kinds = {"tendon": getattr(scenario.mechanism, "tendons", ()), "pair": getattr(scenario.mechanism, "pairs", ())}
+    thing = next((kind for kind, names in kinds.items() if name in names), "joint")
+    runs = None if selected.unknown else run_scatter(final, fit_balances, nuisances, stated_scatter(scenario, "per_run"))
+    forecasts = None
+    if runs is not None and runs.accounted:
+        models = (stated, runs.believed), (selected.recalibrated.model, runs.believed), (final, runs.foreseen)
+        each = [crps_of(m, test_balances, nuisances, noise, sigma) for m, sigma in models]
+        forecasts = Forecasts(*(score for score, _ in each), floor=each[-1][1])
+    seen = tuple(fit_balances), tuple(test_balances)
+    return PlaceOutcome(
+        name,
+        selected,
+        tuple(nuisances),
+        stated,
+        *seen,
+        scores,
+        floor,
+        thing,
+        random,
+        runs,
+        forecasts,
+        undelayed,
+        timing=timing,
+        again=lambda more: _answered(asked, without | more),
+    )
+
+
+def _timing(
+    dataset: Dataset, tell: Progress, source: Any, name: str, base: float, balances: Sequence[ForceBalance]
+) -> Timing | None:
+    """Return by how much the motion at a place may come late; None: it does not, or nothing could be late."""
+    mechanism = dataset.scenario.mechanism
+    if isinstance(mechanism, PrismaticJoint) and mechanism.mass <= 0.0:
+        return None  # a slow prescribed motion has no inertia by which it could be late
+    tell("timing")
+    half_width = float(np.median([s.window.half_width for s in balances]))
+    return timing(
+        lambda d, w: source.balances(name, "fit", base + d, w),
+        source.nuisances(name),
+        dataset.fit[0].sample_interval,
+        half_width,
+    )
+
+
+def _better(
+    plain: Selected, late: Selected, balances: Sequence[Sequence[ForceBalance]], nuisances: Sequence[Nuisance]
+) -> tuple[float, bool]:
+    """Return the evidence for a delay, and whether it explains more than it leaves, in loud windows and in typical ones.
+
+    The evidence is by how much the record is explained better with it, numbers counted.
+
+    Args:
+        plain: what was selected without it.
+        late: the same with it compensated.
+        balances: without and with it, through the window that shows it: friction may need a wider one. The last are with it;
+            those before are without, for all that sampling and holding may be late by.
+        nuisances: numbers of the mechanism.
+    """
+    without = [fit(plain.final.model, seen, nuisances, noise=prior_weight(plain.final)) for seen in balances[:-1]]
+    before = min(without, key=lambda f: f.rms)
+    after = fit(late.final.model, balances[-1], nuisances, noise=prior_weight(late.final))
+    n = max(sum(map(independent_count, after.remainders)), 4.0)  # timing shows within strokes, too
+    more = len(after.free) - len(before.free) + 1
+    gain = float(np.log(before.rms / after.rms))
+    if more < 0 and gain > np.log(1.0 - MATERIAL):
+        gain = max(gain, 0.0)  # effects that leave less by no material part explain no more than the delay, which is simpler
+    stated = fit(plain.recalibrated.model, balances[0], nuisances, noise=prior_weight(plain.recalibrated))
+    sizes = _rms, lambda rest: deviation(rest, about=0.0)
+    shares = [closed_share(stated, after, balances[-1], nuisances, size) for size in sizes]
+    evidence = 2.0 * n * gain + before.strain - after.strain - more * np.log(n)
+    return float(evidence), min(shares) >= criteria.EXPLAINED_BY_DELAY
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def closed_share(
+    plain: JointFit,
+    late: JointFit,
+    balances: Sequence[ForceBalance],
+    nuisances: Sequence[Nuisance],
+    size: Callable[[Array], float] = _rms,
+) -> float:
+    """Return the share of what stands above the noise that a delay, with what was selected beside it, closes [-].
+
+    Args:
+        plain: without the delay.
+        late: with it.
+        balances: with it.
+        nuisances: numbers of the mechanism.
+        size: size of what is left, in the unit of the balance.
+    """
+    before, after = (size(np.concatenate(fitted.remainders)) for fitted in (plain, late))
+    floor = min(noise_floor(late.model, balances, nuisances), after)
+    return (before**2 - after**2) / max(before**2 - floor**2, 1.0e-300)
+
+
+def _models(stated: JointModel, selected: Selected) -> dict[str, JointModel]:
+    models = {"baseline": stated, "recalibrated": selected.recalibrated.model}
+    models |= {f"with {t.candidate.kind}": t.fit.model for t in selected.effects}
+    return models | {"augmented": selected.final.model}
+
+
+def _rms_dependence(model: JointModel, balances: Sequence[ForceBalance]) -> float:
+    """Return the change of friction with mu_k, rms over the windows of sliding [N or N m]."""
+    return float(np.sqrt(np.mean(np.concatenate([dependence(model, s)[s.sliding] for s in balances]) ** 2)))
