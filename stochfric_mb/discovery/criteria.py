@@ -60,6 +60,10 @@ effects or a step between two slips, whose moment is not known well, are among t
 LACKS = 2.0
 """Standard errors by which the forecasts of the fit runs must show that less than that share is explained [-]: where an effect
 changes the forecasts of fifty slips by a tenth of the noise, the share itself is known to no better than a fifth."""
+EVIDENCE_LEFT = (1.0 - EXPLAINED) ** 2
+"""Share of each part of the evidence in the forces of the slips that a name may leave [-]: evidence goes by squares."""
+LEFT_BEYOND = 4.0
+"""Standard deviations by which what is left must exceed that share [-]: chance in the edges of single slips passes three."""
 EXPLAINED_AT_JOINTS = 0.7
 """Share of the squared error above the noise, on the fit runs, that one late position column of several must explain [-]:
 chosen between 0.77, load dependence in the measured O-ring seal, and 0.66, a drift in the place of a bearing that seizes."""

@@ -8,6 +8,7 @@ import pytest
 from stochfric_mb.discovery import criteria, discover
 from stochfric_mb.discovery.inference.paired import paired
 from stochfric_mb.discovery.result import Gap
+from stochfric_mb.discovery.stick_slip.adequacy import inadequate
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.stick_slip.decision import choice
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
@@ -160,6 +161,26 @@ def test_a_name_that_explains_stands_and_one_that_does_not_falls(slip_study, dec
     poor = unexplained(slip_study, decision, recalibrated.model, idle.model)
     assert poor is not None
     assert poor.verdict == "unknown"
+
+
+def test_a_name_is_held_against_each_part_of_the_evidence(slip_study, decision, recalibrated):
+    answer = fitted(decision, slip_study, recalibrated)
+    assert inadequate(slip_study, answer.model)[0] is None
+    where, numbers = inadequate(slip_study, recalibrated.model)  # the name without its effect
+    assert where is not None
+    assert where.axis == "shape of the friction force within a slip"
+    assert numbers["left"][1] > 0.5 * numbers["shown"][1]
+
+
+def test_a_name_that_explains_the_shape_of_slips_does_not_stand_for_slips_that_differ(slip_study, decision, recalibrated):
+    model = fitted(decision, slip_study, recalibrated).model
+    pool = slip_study.pool
+    features = pool.features.copy()
+    features[::2, 0] += 0.02 * pool.static[::2]
+    differing = dataclasses.replace(slip_study, pool=dataclasses.replace(pool, features=features))
+    where, _ = inadequate(differing, model)
+    assert where is not None
+    assert where.axis == "time within the run"
 
 
 def test_a_model_that_cannot_run_by_itself_is_no_answer(slip_study, decision, recalibrated):

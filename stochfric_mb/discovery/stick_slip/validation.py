@@ -6,6 +6,7 @@ import dataclasses
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.adequacy import inadequate
 from stochfric_mb.discovery.stick_slip.decision.explained import unexplained
 from stochfric_mb.discovery.stick_slip.decision.held_out_check import Comparison, compared, without_last
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, Named, of_wander
@@ -80,14 +81,27 @@ def explaining(answer: Answer, slip_study: Study, recalibrated: Fit) -> Answer:
     What the first effect's form leaves may look like another effect, which in a fit of both takes the first one along.
     """
     decision = answer.decision
-    poor = unexplained(slip_study, decision, recalibrated.model, answer.model)
+    poor = _poor(answer, slip_study, recalibrated)
     if poor is None:
         return answer
     for other in _instead(decision, slip_study):
         tried = fitted(other, slip_study, recalibrated)
-        if unexplained(slip_study, other, recalibrated.model, tried.model) is None:
+        if _poor(tried, slip_study, recalibrated) is None:
             return tried
     return Answer(poor, None, recalibrated.model)
+
+
+def _poor(answer: Answer, slip_study: Study, recalibrated: Fit) -> Decision | None:
+    """Return another decision if forecasts or forces of the fit runs say that this one explains too little; None if enough."""
+    decision = answer.decision
+    poor = unexplained(slip_study, decision, recalibrated.model, answer.model)
+    if poor is not None or decision.verdict != "effect":
+        return poor
+    where, decision.details["adequacy"] = inadequate(slip_study, answer.model)
+    if where is None:
+        return None
+    text = f"{decision.named[0].kind} comes closest, but {where.text}"
+    return dataclasses.replace(decision, verdict="unknown", named=(), where=Where(where.axis, text))
 
 
 def _instead(decision: Decision, slip_study: Study) -> list[Decision]:

@@ -184,7 +184,8 @@ def _in_stick(study: Study, details: dict[str, object]) -> Blamed | Where:
     if score <= criteria.NAMED:
         _single_moments(study, sticking, details)
         return line if line is not None else []
-    details |= {STEP_SEEN: score} if best == JUMP else {}
+    if best == JUMP:
+        details[STEP_SEEN] = score
     if _of_the_sensor(study, sticking, best, score):
         return []
     if best in CREEP or score < _least(sticking) or _in_noise_alone(best, sticking):

@@ -47,9 +47,9 @@ class Sticking:
     """chi^2 of the belt's line less its degrees of freedom [-]."""
     excess_ratio: float
     """chi^2 over its degrees of freedom [-]."""
-    jumps: int = 0
+    jumps: int
     """Stick phases within which the box jumps."""
-    departure: float = np.inf
+    departure: float
     """Root mean square of what the belt's line leaves beyond noise, over the noise of one reading [-]."""
 
 
