@@ -101,15 +101,16 @@ def inadequate(study: Study, model: Model) -> tuple[Where | None, dict[str, list
 
 
 def _lacks(shown: Array, left: Array, freedom: Array, error: Array | float) -> np.ndarray:
-    """Return which parts keep more evidence than a name may leave, beyond doubt, shape (4,).
+    """Return which parts that show something keep more evidence than a name may leave, both beyond doubt, shape (4,).
 
-    A form that errs by a share e of its effect leaves e^2 of the evidence where it acts, and the order of e^4 of it elsewhere. The
-    variance of a chi^2 with d degrees of freedom that exceeds them by x is 2 d + 4 x.
+    A form that errs by a share e of its effect leaves e^2 of the evidence where it acts, and the order of e^4 of it
+    elsewhere. The variance of a chi^2 with d degrees of freedom that exceeds them by x is 2 d + 4 x.
     """
     doubt = np.sqrt(2.0 * freedom + 4.0 * np.maximum(left, 0.0) + np.asarray(error) ** 2)
     shown = np.maximum(shown, 0.0)
     allowed = np.maximum(criteria.EVIDENCE_LEFT * shown, criteria.FORM_MISSES**2 * shown.sum())
-    return np.asarray(left - allowed > criteria.LEFT_BEYOND * doubt)
+    seen = shown > criteria.LEFT_BEYOND * np.sqrt(2.0 * freedom)
+    return np.asarray(seen & (left - allowed > criteria.LEFT_BEYOND * doubt))
 
 
 def _left(pool: Pool, calm: Model, uncertainty: Mapping[str, float], *, random: bool) -> tuple[_Misfit, np.ndarray] | None:
