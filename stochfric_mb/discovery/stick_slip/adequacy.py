@@ -132,7 +132,7 @@ def _of_its_own(study: Study, model: Model, calm: Model) -> tuple[list[Array], t
         if left is None:
             raise SimulationError("the model does not slip as it did in the fit")
         misfits.append(left[0])
-    means = [np.mean([m.means[r] for m in misfits], axis=0) for r in range(study.pool.n_runs)]
+    means = [np.asarray(np.mean([m.means[r] for m in misfits], axis=0), dtype=np.float64) for r in range(study.pool.n_runs)]
     varying = np.array([m.varying for m in misfits])
     return means, (varying.mean(axis=0), varying.std(axis=0, ddof=1))
 
