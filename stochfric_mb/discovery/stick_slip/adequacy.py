@@ -151,7 +151,7 @@ def _misfit(pool: Pool, uncertainty: Mapping[str, float], *, random: bool) -> _M
         floor = np.diag((FLOOR * pool.slips[run].record.mechanism.normal_force) ** 2)
         count = max(len(mine), 1)
         means.append(mine.mean(axis=0) if len(mine) else np.zeros(N_FEATURES))
-        weights.append(np.linalg.inv(covariance / count * (1.0 + 1.0 / DRAWS) + floor))
+        weights.append(np.asarray(np.linalg.inv(covariance / count * (1.0 + 1.0 / DRAWS) + floor), dtype=np.float64))
         away = mine - means[-1]
         levels = _chi2(away[:, :LEVELS], covariance[:LEVELS, :LEVELS])
         every = np.array([LEVELS, N_FEATURES - LEVELS], dtype=np.float64)
