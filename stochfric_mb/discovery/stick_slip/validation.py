@@ -7,7 +7,7 @@ import dataclasses
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.adequacy import inadequate
-from stochfric_mb.discovery.stick_slip.decision.explained import unexplained
+from stochfric_mb.discovery.stick_slip.decision.explained import explained_with_its_form, unexplained
 from stochfric_mb.discovery.stick_slip.decision.held_out_check import Comparison, compared, without_last
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, Named, of_wander
 from stochfric_mb.discovery.stick_slip.feature_skill import slip_force_gap
@@ -95,7 +95,7 @@ def _poor(answer: Answer, slip_study: Study, recalibrated: Fit) -> Decision | No
     """Return another decision if forecasts or forces of the fit runs say that this one explains too little; None if enough."""
     decision = answer.decision
     poor = unexplained(slip_study, decision, recalibrated.model, answer.model)
-    if poor is not None or decision.verdict != "effect":
+    if poor is not None or decision.verdict != "effect" or explained_with_its_form(decision):
         return poor
     where, decision.details["adequacy"] = inadequate(slip_study, answer.model)
     if where is None:

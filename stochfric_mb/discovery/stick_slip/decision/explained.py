@@ -57,7 +57,7 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
 
 def _enough(decision: Decision, augmented: Model) -> float:
     """Return the share of the reducible error that the names must explain [-]."""
-    if _explained_with_its_form(decision):
+    if explained_with_its_form(decision):
         return criteria.CLOSES_NOTHING
     return _least_share(augmented, {n.kind for n in decision.named})
 
@@ -95,7 +95,7 @@ def _error_of_mean(values: Array) -> float:
     return float(np.std(values)) / max(len(values) - 1, 1) ** 0.5
 
 
-def _explained_with_its_form(decision: Decision) -> bool:
+def explained_with_its_form(decision: Decision) -> bool:
     """Return whether the one effect named explains what its channel shows, but for what another form of its kind would leave.
 
     What its form leaves adds up in a forecast of a whole cycle. The forces of the slips, or the stick phases, in which it was
