@@ -65,6 +65,7 @@ def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> Join
 
         return spring_slider_outcome(dataset, tell)
     _require_controller(dataset.scenario)
+    source_of(dataset)  # refuses a controller that has no drive or reference
     better, readings = mended(dataset)
     notes = disbelieved(controller_misfit(better))
     if notes:
