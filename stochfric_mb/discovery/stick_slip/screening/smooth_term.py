@@ -95,14 +95,11 @@ def axes_of(pool: Pool) -> list[Axis]:
     The last one is that of a named effect alone: any difference between runs may lie along their loads.
     """
     turned = pool.direction[:, None]
-    warm, warmer = pool.temperature(pool.onset_time), pool.temperature(pool.node_time)
-    measured = [] if warm is None or warmer is None or not np.ptp(warm) else [Axis("temperature", warm, warmer)]
     return [
         Axis("speed", None, pool.relative_velocity),
         Axis("slip", None, pool.slip_distance),
         Axis("position", pool.direction * pool.typical_onset, turned * pool.typical_position),
         Axis("time", pool.onset_time, pool.node_time),
-        *measured,
         Axis("load", pool.normal_force, np.repeat(pool.normal_force[:, None], pool.node_time.shape[1], axis=1)),
     ]
 
