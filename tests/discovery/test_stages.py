@@ -8,7 +8,7 @@ import pytest
 from stochfric_mb.discovery import criteria, discover
 from stochfric_mb.discovery.inference.paired import paired
 from stochfric_mb.discovery.result import Gap
-from stochfric_mb.discovery.stick_slip.adequacy import inadequate
+from stochfric_mb.discovery.stick_slip.predictive_check import inadequate
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.stick_slip.decision import choice
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed

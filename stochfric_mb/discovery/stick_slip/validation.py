@@ -6,7 +6,7 @@ import dataclasses
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip.adequacy import inadequate
+from stochfric_mb.discovery.stick_slip.predictive_check import inadequate
 from stochfric_mb.discovery.stick_slip.decision.explained import explained_with_its_form, unexplained
 from stochfric_mb.discovery.stick_slip.decision.held_out_check import Comparison, compared, without_last
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, Named, of_wander
