@@ -8,7 +8,6 @@ import pytest
 from stochfric_mb.discovery import criteria, discover
 from stochfric_mb.discovery.inference.paired import paired
 from stochfric_mb.discovery.result import Gap
-from stochfric_mb.discovery.stick_slip.predictive_check import inadequate
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.stick_slip.decision import choice
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
@@ -20,6 +19,7 @@ from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.decision.rounds import decide
 from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_step, steady
 from stochfric_mb.discovery.stick_slip.notes import notes, of_the_record
+from stochfric_mb.discovery.stick_slip.predictive_check import inadequate
 from stochfric_mb.discovery.stick_slip.records.stick_phases import analyse
 from stochfric_mb.discovery.stick_slip.refusal import refusal
 from stochfric_mb.discovery.stick_slip.screening.competitors import competitors, softening

@@ -6,11 +6,11 @@ import dataclasses
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip.predictive_check import inadequate
 from stochfric_mb.discovery.stick_slip.decision.explained import explained_with_its_form, unexplained
 from stochfric_mb.discovery.stick_slip.decision.held_out_check import Comparison, compared, without_last
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, Named, of_wander
 from stochfric_mb.discovery.stick_slip.feature_skill import slip_force_gap
+from stochfric_mb.discovery.stick_slip.predictive_check import inadequate
 from stochfric_mb.discovery.stick_slip.simulation.forecast import score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, deterministic, floor_of, mean_score, settled
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
