@@ -1,9 +1,14 @@
 """What is left is held against: waves that come and go are flatter than noise, and a delay that does not explain is no name."""
 
-import numpy as np
+import dataclasses
 
+import numpy as np
+import pytest
+
+from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.carry_over import _waves
+from tests.discovery.joints.test_parts import coulomb, grease, pair
 
 
 def test_a_sweep_is_flatter_than_noise_and_noise_is_not():
@@ -21,3 +26,30 @@ def test_a_delay_that_shows_but_does_not_explain_is_a_puzzle():
     assert not seen.beside(40.0, explains=False).named
     assert seen.beside(40.0, explains=False).puzzling
     assert not seen.beside(5.0, explains=False).puzzling
+
+
+def test_speed_and_place_together_are_no_dependence_on_either():
+    # grease at one end of the stroke: 1.9 N at 0.67 m/s and 0.13 m, none at the middle
+    result = joint_outcome(pair(lambda q, v: coulomb(q, v) + 22.0 * v * q)).result
+    assert result.verdict == "unknown"
+    assert any("position times speed and direction" in note for note in result.notes) or "position" in result.where.axis
+
+
+def test_each_by_itself_is_no_interaction():
+    result = joint_outcome(pair(grease)).result
+    assert [e.kind for e in result.effects] == ["viscous_friction"]
+    assert not any(" times speed" in note for note in result.notes)
+
+
+def test_a_gain_that_waves_along_the_stroke_has_its_name():
+    def waving(run):
+        """The drive that is recorded where the amplifier gives 1 + 0.2 cos(2 pi q/0.15) of it."""
+        force = run.channels["force"] / (1.0 + 0.2 * np.cos(2.0 * np.pi * run.channels["position"] / 0.15))
+        return dataclasses.replace(run, channels=run.channels | {"force": force})
+
+    measured = pair(coulomb)
+    measured = dataclasses.replace(measured, runs=tuple(map(waving, measured.runs)))
+    (named,) = joint_outcome(measured).result.effects
+    assert named.kind == "drive_gain_change"
+    assert abs(named.parameters["ripple"].value) == pytest.approx(0.2, rel=0.05)
+    assert named.parameters["pitch"].value == pytest.approx(0.15, rel=0.02)
