@@ -41,6 +41,15 @@ def test_each_by_itself_is_no_interaction():
     assert not any(" times speed" in note for note in result.notes)
 
 
+def test_friction_beyond_its_belief_is_a_finding():
+    measured = pair(lambda q, v: 1.5 * coulomb(q, v))
+    scenario = dataclasses.replace(measured.scenario, uncertainty={"mass": 0.05, "mu_k": 0.05})
+    (named,) = joint_outcome(dataclasses.replace(measured, scenario=scenario)).result.effects
+    assert named.kind == "friction_level"
+    assert named.parameters["mu_k"].value == pytest.approx(0.15, rel=0.01)
+    assert joint_outcome(dataclasses.replace(measured, scenario=measured.scenario)).result.verdict == "none"
+
+
 def test_a_gain_that_waves_along_the_stroke_has_its_name():
     def waving(run):
         """The drive that is recorded where the amplifier gives 1 + 0.2 cos(2 pi q/0.15) of it."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.decision.candidates import SIGNED
 from stochfric_mb.discovery.driven_joint.decision.selection import AT_BOUND
+from stochfric_mb.discovery.driven_joint.fit.beliefs import beliefs
 from stochfric_mb.discovery.driven_joint.fit.free_parameters import MOST_OFF
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
@@ -46,11 +47,11 @@ def _lost(place: PlaceOutcome) -> str:
 
 def _at_bound(place: PlaceOutcome) -> str:
     """Return which believed number the model needs at the end of what is believed; empty: none."""
-    fit, released = place.selected.final, {r.name for r in place.selected.released}
-    for n in place.nuisances:
-        off = (fit.model.nuisances[n.name] - n.value) / n.deviation
-        if n.name not in released and abs(off) > AT_BOUND * MOST_OFF:
-            return f"needs {n.name} off by {off:.1f} of its stated standard deviations, as far as a belief gives way"
+    model, released = place.selected.final.model, {r.name for r in place.selected.released}
+    for belief in beliefs(place.stated, place.nuisances):
+        off = belief.off(model)
+        if belief.name not in released and abs(off) > AT_BOUND * MOST_OFF:
+            return f"needs {belief.name} off by {off:.1f} of its stated standard deviations, as far as a belief gives way"
     return ""
 
 

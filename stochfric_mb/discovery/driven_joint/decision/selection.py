@@ -21,6 +21,7 @@ from stochfric_mb.discovery.driven_joint.decision.candidates import (
 )
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes, witnesses
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of, whitened
+from stochfric_mb.discovery.driven_joint.fit.beliefs import Belief, beliefs
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.free_parameters import MOST_OFF
 from stochfric_mb.discovery.driven_joint.fit.gains import predicted_rms
@@ -59,8 +60,6 @@ PARTS = np.linspace(0.0, 1.0, 9)
 """Parts of the way to a competitor's fit that are tried where it reads the drive that it explains."""
 AT_BOUND = 0.95
 """Part of the way to the bound of a prior from which a number is held by it [-]."""
-WIDE = 1.0e3
-"""Factor on the standard deviation of a number that is released: the data alone say what it is."""
 UNDRIVEN = 1.0e-9
 """Part of the balance that the mechanism's own terms must leave for a drive to be in it [-]: rounding leaves less."""
 SIZES = ("amplitude", "coefficient", "asymmetry", "viscous_difference", "rate")
@@ -103,14 +102,10 @@ class Stage:
 
 @dataclasses.dataclass(frozen=True)
 class Released:
-    """A number of the mechanism that data take beyond its prior."""
+    """A number of law or mechanism that data take beyond what is believed of it."""
 
-    name: str
-    """Its name."""
-    stated: float
-    """What was stated."""
-    deviation: float
-    """Standard deviation of that belief."""
+    belief: Belief
+    """The number, and what was believed."""
     score: float
     """Evidence, as of a trial."""
     before: float
@@ -119,6 +114,11 @@ class Released:
     """Error with it where the data take it."""
     alike: tuple[str, ...] = ()
     """Other numbers that explain as much."""
+
+    @property
+    def name(self) -> str:
+        """Name of the number."""
+        return self.belief.name
 
 
 @dataclasses.dataclass(frozen=True)
@@ -141,7 +141,7 @@ class Selected:
     """Conditions on which what is left plainly depends, one or two together, and by what part the error on blocks left out
     falls with them."""
     released: tuple[Released, ...] = ()
-    """Numbers of the mechanism that are off by more than their uncertainty."""
+    """Numbers of law and mechanism that are off by more than their uncertainty."""
 
     @property
     def named(self) -> tuple[str, ...]:
@@ -210,7 +210,7 @@ class Selector:
         )
 
     def _released(self, current: JointFit, stage: Stage) -> tuple[Released, JointFit] | None:
-        """Return the number of the mechanism that is off by more than its uncertainty, if that explains more than any effect.
+        """Return the number that is off by more than its uncertainty, if that explains more than any effect.
 
         It is a finding of its own, a payload for instance: within its belief it would hide behind what it cannot explain.
         """
@@ -227,22 +227,20 @@ class Selector:
         """Return the numbers that data take beyond their priors, each with the fit in which it may be anything."""
         released: list[tuple[Released, JointFit, list[Nuisance]]] = []
         beside = len(current.model.effects) > len(self.recalibrated.model.effects)
-        for i, number in enumerate(self._nuisances if self._nuisances and self._driven else ()):
-            if number.name in self._without:
+        believed = beliefs(current.model, self._nuisances)
+        for belief in believed:
+            if belief.name in self._without or (belief.owner == MECHANISM and not self._driven):
                 continue
             # beside an effect that imitates inertia less mass would only be less noise: it must press against its bound
-            off = abs(current.model.nuisances[number.name] - number.value)
-            if beside and off < AT_BOUND * MOST_OFF * number.deviation:
+            if beside and abs(belief.off(current.model)) < AT_BOUND * MOST_OFF:
                 continue
-            wide = [*self._nuisances]
-            wide[i] = dataclasses.replace(number, deviation=WIDE * number.deviation)
-            freed = fit(current.model, self._balances, wide, noise=self._noise)
-            if abs(freed.model.nuisances[number.name] - number.value) < MOST_OFF * number.deviation:
+            model, wide = belief.given_up(current.model, self._nuisances)
+            freed = fit(model, self._balances, wide, noise=self._noise)
+            if abs(belief.off(freed.model)) < MOST_OFF:
                 continue
             n = max(freed.independent, 4.0)
-            score = self._evidence(current, freed, freed, n) - np.log(n) - 2.0 * np.log(len(self._nuisances))
-            seen = Released(number.name, number.value, number.deviation, float(score), current.rms, freed.rms)
-            released.append((seen, freed, wide))
+            score = self._evidence(current, freed, freed, n) - np.log(n) - 2.0 * np.log(len(believed))
+            released.append((Released(belief, float(score), current.rms, freed.rms), freed, wide))
         return released
 
     @functools.cached_property

@@ -13,11 +13,9 @@ from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.carry_over import lacks
 from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, mechanism_estimates, parameters
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
-from stochfric_mb.discovery.driven_joint.fit.free_parameters import MOST_OFF
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
-from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
 from stochfric_mb.effects import Effect, effect_kinds, kind_with_signature, kinds_with, words_of
@@ -29,10 +27,9 @@ IMITATED = 0.99
 BEYOND = {
     "mass": "payload", "inertia": "payload", "armature": "payload", "gain": "drive_gain", "force_gain": "drive_gain",
     "torque_gain": "drive_gain", "offset": "constant_force",
+    "mu_k": "friction_level",
 }  # fmt: skip
-"""Number of the mechanism -> what it is called where it is off by more than its uncertainty; other ones are an effect's."""
-OTHER_LEVEL = "friction_level"
-"""What sliding friction is called that is beyond what is believed of it."""
+"""Number of law or mechanism -> what it is called where it is off by more than its uncertainty; other ones are an effect's."""
 OF_EFFECTS = {"damping": MORE_DAMPING, "piston_area": OTHER_AREA}
 """Number of the mechanism -> the finding of an effect that it is."""
 PLAIN = 14.0
@@ -59,7 +56,6 @@ def verdict(
     unknown = None if effects else next(lacking, None)
     if unknown is None:
         effects += [_reading(e) for e in readings]
-        effects += [e for p in places for e in _other_level(p)]
     kind = "effect" if effects else "unknown" if unknown is not None else "none"
     where = None
     if unknown is not None:
@@ -170,16 +166,18 @@ def _beyond(name: str) -> str:
 
 
 def _released(place: PlaceOutcome) -> list[EffectEstimate]:
-    """Return the numbers of the mechanism that are off by more than its uncertainty."""
+    """Return the numbers of law and mechanism that are off by more than their uncertainty."""
     fit = place.selected.final
     effects: list[EffectEstimate] = []
     for number in place.selected.released:
-        one = next(k for k in fit.free if (k.owner, k.name) == (MECHANISM, number.name))
-        deviation = fit.deviation(MECHANISM, number.name)
-        size = confidence_interval(fit.model.nuisances[number.name], deviation, one.unit, one.low, one.high)
-        off = abs(size.value - number.stated) / number.deviation
+        belief = number.belief
+        one = next(k for k in fit.free if (k.owner, k.name) == (belief.owner, belief.name))
+        deviation = fit.deviation(belief.owner, belief.name)
+        size = confidence_interval(belief.in_model(fit.model), deviation, one.unit, one.low, one.high)
+        off = abs(belief.off(fit.model))
+        unit = "" if one.unit == "-" else f" {one.unit}"
         text = (
-            f"{number.name}{_at(place)} is {size.value:.4g} {one.unit} and not {number.stated:.4g}: off by {off:.0f} of its "
+            f"{number.name}{_at(place)} is {size.value:.4g}{unit} and not {belief.value:.4g}: off by {off:.0f} of its "
             f"stated standard deviations. With it the error falls from {number.before:.4g} to {number.after:.4g} "
             f"{place.fit[0].unit} on the fit runs."
         )
@@ -200,20 +198,6 @@ def _axis(place: PlaceOutcome) -> str:
     """Return the axis along which most is left; time where no smooth dependence says more than chance."""
     rivals = place.selected.stages[-1].competitors
     return rivals[0][0] if rivals and rivals[0][1] > 0.0 else "time"
-
-
-def _other_level(place: PlaceOutcome) -> list[EffectEstimate]:
-    """Return the finding that sliding friction is beyond what is believed of it, if it is."""
-    fit = place.selected.final
-    one = next((k for k in fit.free if (k.owner, k.name) == (LAW, "mu_k") and np.isfinite(k.prior)), None)
-    value = fit.model.law.mu_k
-    if one is None or abs(off := (value - one.nominal) / one.prior) <= MOST_OFF:
-        return []
-    size = confidence_interval(value, fit.deviation(LAW, "mu_k"), "-", 0.0)
-    text = (
-        f"mu_k{_at(place)} is {value:.4g} and not {one.nominal:.4g}: off by {abs(off):.0f} of its stated standard deviations."
-    )
-    return [EffectEstimate(OTHER_LEVEL, (), Where("motion", text), {"mu_k": size}, off**2, None)]
 
 
 def _drawn(place: PlaceOutcome) -> list[EffectEstimate]:

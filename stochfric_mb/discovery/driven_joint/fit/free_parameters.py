@@ -16,11 +16,13 @@ from stochfric_mb.effects import Effect
 
 Array = npt.NDArray[np.float64]
 
+LEAST_COEFFICIENT, MOST_COEFFICIENT = 1.0e-9, 1.0e3
+"""Bounds of a coefficient of friction that nothing is believed of [-]: the load that it is taken of may be any."""
 LEAST_PRELOAD = 0.01
 """Smallest reference load of a load-dependent joint, over its stated load [-]."""
 MOST_OFF = 4.0
-"""Standard deviations by which data may move the stated numbers of the mechanism [-]; 6e-5 of all priors are off by more. What
-is off by more is a finding, or no number of the mechanism at all."""
+"""Standard deviations by which data may move what is believed of law and mechanism [-]; 6e-5 of all priors are off by more.
+What is off by more is a finding, or not that number at all."""
 INSIDE = 1.0e-6
 """Distance kept from bounds that are themselves forbidden [scales]."""
 GIVEN = ("static_share", "reference_temperature", "shape_exponent", "adhesion")
@@ -39,11 +41,7 @@ def free_parameters(
     """
     level = max(model.law.mu_k, 1.0e-6)
     coefficients = ("mu_k", "mu_s") if any("mu_s" in e.frees for e in model.effects) else ("mu_k",)
-    belief = {"mu_k": model.level}
-    free = [
-        FreeParameter(LAW, n, getattr(model.law, n), 0.1 * level, 1.0e-9, 1.0e3, "-", *belief.get(n, (0.0, np.inf)))
-        for n in coefficients
-    ]
+    free = [FreeParameter(LAW, n, getattr(model.law, n), 0.1 * level, *_coefficient_prior(model, n)) for n in coefficients]
     for i, effect in enumerate(model.effects):
         for field in dataclasses.fields(effect):
             value = getattr(effect, field.name)
@@ -53,6 +51,13 @@ def free_parameters(
             runs = [(run, x) for (kind, run, name), x in model.own.items() if (kind, name) == (effect.kind, field.name)]
             free += [dataclasses.replace(one, run=run, value=x) for run, x in runs] or [one]
     return free + [_with_prior(model, n) for n in nuisances]
+
+
+def _coefficient_prior(model: JointModel, name: str) -> tuple[float, float, str, float, float]:
+    """Return the bounds of a coefficient, its unit, and mean and deviation of its prior: `MOST_OFF` of these are its bounds."""
+    value, deviation = model.level if name == "mu_k" else (0.0, np.inf)
+    low, high = max(LEAST_COEFFICIENT, value - MOST_OFF * deviation), min(MOST_COEFFICIENT, value + MOST_OFF * deviation)
+    return low, high, "-", value, deviation
 
 
 def _with_prior(model: JointModel, n: Nuisance) -> FreeParameter:
