@@ -64,26 +64,6 @@ EVIDENCE_LEFT = (1.0 - EXPLAINED) ** 2
 """Share of each part of the evidence in the forces of the slips that a name may leave [-]: evidence goes by squares."""
 LEFT_BEYOND = 4.0
 """Standard deviations by which what is left must exceed that share [-]: chance in the edges of single slips passes three."""
-EXPLAINED_AT_JOINTS = 0.7
-"""Share of the squared error above the noise, on the fit runs, that one late position column of several must explain [-]:
-chosen between 0.77, load dependence in the measured O-ring seal, and 0.66, a drift in the place of a bearing that seizes."""
-EXPLAINED_BY_DELAY = 0.5
-"""The same for a delay of all positions, with the effects beside it, of the mean square and of the square of the median size,
-for a delay is there all along a motion [-]: more is explained than is left. Delays, filters and measured swing-ups come to
-0.52 and more by the median, play and blows, which are late in some places, to 0.37 at most."""
-CONTROLLER_MISFIT = 0.5
-"""Error of what a stated controller gives from the measured motion, over the recorded drive, from which on it is not believed
-[-]: it then explains less than three quarters of the drive's square."""
-PLAINLY_LEFT = 0.1
-"""Share of the squared error without effects from which on what they leave may not depend on conditions that are not theirs
-[-]: a third of the error. Grease at one end of a stroke leaves a name by place 0.19; the measured seals leave load dependence
-below 0.06 in all."""
-ZERO_WANDERS = 0.15
-"""Force over friction up to which what goes on across reversals is a zero of the drive that wanders [-]: chosen between 0.12 of
-such a zero and 0.2 of a hose that somebody moves, in the tests."""
-WAVE_FLATTENS, WAVE_CERTAIN = 2.6, 2.6
-"""Kurtosis of what is left below which half of its power is waves (3 - 1.5 share^2), and standard errors sqrt(24/n) that it
-must be off by [-]: chance does that in one place of 200. Nulls of tests/discovery/joint_generator stay above 2.7."""
 NONE_MISSES = 0.5
 """Reducible error over the error itself above which "none" is no answer [-]: more is wrong with the forecasts than is right.
 Where nothing is missing, noise and declared scatter leave up to a third."""
@@ -224,6 +204,64 @@ STEPS_OF_A_SENSOR = 2.0
 """Changes of level a run that a sensor's steps may make."""
 OUT_OF_STEP = 0.25
 """Share of the rarer level's slips that a regular alternation may miss [-]; random ones miss half."""
+
+# Driven joints
+
+MATERIAL = 0.05
+"""Least share of the error on left-out parts of the record that an effect must take away [-]: less is real, perhaps, but no
+explanation."""
+MATERIAL_PHASED = 0.15
+"""The same, on runs left out, for a wave whose phase is taken from each run [-]: motion that is periodic itself, seen through
+an effect of another form, leaves waves that runs share by accident. Chosen: forces of the tests take away 0.5 and more."""
+BETTER = 0.5
+"""Least share of the parts that must get better [-]: an effect that shows in one place only is one that was fitted to it."""
+STROKES_BY_CHANCE = 0.05
+"""Without a score that names it an effect is taken where strokes left out, one by one, say so with no more chance than this of
+error, the axes that were tried counted, and where each half of the record foretells the other better with it [-]."""
+FEWEST_STROKES = 8
+"""Fewest strokes that can."""
+FEWEST_RUNS = 4
+"""Fewest runs of which a trend from one to the next is asked: through three of them nearly every curve is a line."""
+TIE = 10.0
+"""Difference of scores within which effects cannot be distinguished [-]."""
+STANDS_IN = 0.5
+"""Least part of an effect's evidence that one must have which could stand in for it [-]: the larger half."""
+MOST_EFFECTS = 4
+"""Most effects in one joint: beyond, errors of the first ones would be explained."""
+WINS_BY, WINS_BY_SHARE = 15.0, 0.03
+"""A smooth dependence without a name wins by that score, or that part of the best effect's score, whichever is more [-]."""
+MOST_OFF, AT_BOUND = 4.0, 0.95
+"""Standard deviations by which data may move what is believed of law and mechanism, and the part of that from which on a number
+is held by it [-]; 6e-5 of all priors are off by more. What is off by more is a finding, or not that number at all."""
+FAR_AHEAD = 2.0
+"""Factor on the error of forward simulation from which an effect is not named, whatever else it explains [-]: chosen, so that
+the scatter of such errors, which starts and contacts decide, rejects nothing."""
+EXPLAINED_HELD_OUT = 0.5
+"""Part of the squared error, noise apart, that effects have to explain on held-out runs to be named [-]: more than they
+leave."""
+UNNAMED_CARRIES = 0.05
+"""Part of the squared error, noise apart, that a term without a name has to explain on held-out runs [-]: that something is
+missing is known already, so any part that carries over is of use."""
+EXPLAINED_AT_JOINTS = 0.7
+"""Share of the squared error above the noise, on the fit runs, that one late position column of several must explain [-]:
+chosen between 0.77, load dependence in the measured O-ring seal, and 0.66, a drift in the place of a bearing that seizes."""
+EXPLAINED_BY_DELAY = 0.5
+"""The same for a delay of all positions, with the effects beside it, of the mean square and of the square of the median size,
+for a delay is there all along a motion [-]: more is explained than is left. Delays, filters and measured swing-ups come to
+0.52 and more by the median, play and blows, which are late in some places, to 0.37 at most."""
+CONTROLLER_MISFIT = 0.5
+"""Error of what a stated controller gives from the measured motion, over the recorded drive, from which on it is not believed
+[-]: it then explains less than three quarters of the drive's square."""
+PLAINLY_LEFT = 0.1
+"""Share of the squared error without effects from which on what they leave may not depend on conditions that are not theirs
+[-]: a third of the error. Grease at one end of a stroke leaves a name by place 0.19; the measured seals leave load dependence
+below 0.06 in all."""
+ZERO_WANDERS = 0.15
+"""Force over friction up to which what goes on across reversals is a zero of the drive that wanders [-]: chosen between 0.12 of
+such a zero and 0.2 of a hose that somebody moves, in the tests."""
+WAVE_FLATTENS, WAVE_CERTAIN = 2.6, 2.6
+"""Kurtosis of what is left below which half of its power is waves (3 - 1.5 share^2), and standard errors sqrt(24/n) that it
+must be off by [-]: chance does that in one place of 200. Nulls of tests/discovery/joint_generator stay above 2.7."""
 
 # Records
 

@@ -7,10 +7,10 @@ from collections.abc import Callable
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
-from stochfric_mb.discovery.driven_joint.decision.run_scatter import Forecasts, RunScatter
 from stochfric_mb.discovery.driven_joint.decision.selection import Selected, Stage
-from stochfric_mb.discovery.driven_joint.decision.stroke_scatter import StrokeScatter
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.scatter.run_scatter import Forecasts, RunScatter
+from stochfric_mb.discovery.driven_joint.scatter.stroke_scatter import StrokeScatter
 from stochfric_mb.discovery.driven_joint.simulation.pictures import Picture
 from stochfric_mb.discovery.driven_joint.simulation.scores import Score
 from stochfric_mb.discovery.outcome import Outcome

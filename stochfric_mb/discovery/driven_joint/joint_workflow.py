@@ -16,12 +16,12 @@ from stochfric_mb.discovery.driven_joint.balance.readings import Readings, mende
 from stochfric_mb.discovery.driven_joint.balance.timing import NAMED, Timing
 from stochfric_mb.discovery.driven_joint.decision.adequacy import inadequate
 from stochfric_mb.discovery.driven_joint.decision.carry_over import with_idle, with_unnamed
-from stochfric_mb.discovery.driven_joint.decision.selection import MATERIAL, Stage
+from stochfric_mb.discovery.driven_joint.decision.selection import Stage
 from stochfric_mb.discovery.driven_joint.decision.verdict import verdict
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome, PlaceOutcome
-from stochfric_mb.discovery.driven_joint.place import closed_share, place_outcome
+from stochfric_mb.discovery.driven_joint.place import place_outcome, share_by_delay
 from stochfric_mb.discovery.driven_joint.simulation.augmented import augmented, stated_delay
 from stochfric_mb.discovery.driven_joint.simulation.controller_check import controller_misfit, disbelieved
 from stochfric_mb.discovery.driven_joint.simulation.pictures import friction_picture
@@ -87,7 +87,7 @@ def _quieter(given: Dataset, better: Dataset) -> bool:
         model = prior_model(given.scenario, name, nuisances, load)
         seen = [s.balances(name, "fit", base, width) for s in (as_given, repaired)]
         raw, replaced = (fit(model, s, nuisances, noise=model.law.mu_k * load).rms for s in seen)
-        if replaced < (1.0 - MATERIAL) * raw:
+        if replaced < (1.0 - criteria.MATERIAL) * raw:
             return True
     return False
 
@@ -109,7 +109,7 @@ def _fits_better(before: Sequence[PlaceOutcome], after: Sequence[PlaceOutcome]) 
     plain, late = worst.selected, names[worst.place].selected
     n = max(late.final.independent, 4.0)
     evidence = 2.0 * n * float(np.log(plain.final.rms / late.final.rms)) - float(np.log(n))
-    share = closed_share(plain.recalibrated, late.final, names[worst.place].fit, worst.nuisances)
+    share = share_by_delay(plain.recalibrated, late.final, names[worst.place].fit, worst.nuisances)
     return evidence > NAMED and share >= criteria.EXPLAINED_AT_JOINTS
 
 

@@ -12,17 +12,17 @@ import numpy.typing as npt
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.balance.timing import LEAST_SAMPLES, Timing, timing
-from stochfric_mb.discovery.driven_joint.decision.run_scatter import Forecasts, crps_of, run_scatter
-from stochfric_mb.discovery.driven_joint.decision.selection import MATERIAL, Selected, Selector
+from stochfric_mb.discovery.driven_joint.decision.selection import Selected, Selector
 from stochfric_mb.discovery.driven_joint.decision.signs import sign_notes
-from stochfric_mb.discovery.driven_joint.decision.stroke_coefficients import dependence
-from stochfric_mb.discovery.driven_joint.decision.stroke_scatter import stroke_scatter
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.discovery.driven_joint.scatter.run_scatter import Forecasts, crps_of, run_scatter
+from stochfric_mb.discovery.driven_joint.scatter.stroke_coefficients import dependence
+from stochfric_mb.discovery.driven_joint.scatter.stroke_scatter import stroke_scatter
 from stochfric_mb.discovery.driven_joint.simulation.augmented import stated_scatter
-from stochfric_mb.discovery.driven_joint.simulation.scores import noise_floor, score
+from stochfric_mb.discovery.driven_joint.simulation.scores import closed_share, noise_floor, score
 from stochfric_mb.discovery.driven_joint.source import prior_model
 from stochfric_mb.discovery.inference.noise import independent_count
 from stochfric_mb.measurement.dataset import Dataset
@@ -189,11 +189,11 @@ def _better(
     n = max(sum(map(independent_count, after.remainders)), 4.0)  # timing shows within strokes, too
     more = len(after.free) - len(before.free) + 1
     gain = float(np.log(before.rms / after.rms))
-    if more < 0 and gain > np.log(1.0 - MATERIAL):
+    if more < 0 and gain > np.log(1.0 - criteria.MATERIAL):
         gain = max(gain, 0.0)  # effects that leave less by no material part explain no more than the delay, which is simpler
     stated = fit(plain.recalibrated.model, balances[0], nuisances, noise=prior_weight(plain.recalibrated))
     sizes = _rms, lambda rest: deviation(rest, about=0.0)
-    shares = [closed_share(stated, after, balances[-1], nuisances, size) for size in sizes]
+    shares = [share_by_delay(stated, after, balances[-1], nuisances, size) for size in sizes]
     evidence = 2.0 * n * gain + before.strain - after.strain - more * np.log(n)
     return float(evidence), min(shares) >= criteria.EXPLAINED_BY_DELAY
 
@@ -202,7 +202,7 @@ def _rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2)))
 
 
-def closed_share(
+def share_by_delay(
     plain: JointFit,
     late: JointFit,
     balances: Sequence[ForceBalance],
@@ -220,7 +220,7 @@ def closed_share(
     """
     before, after = (size(np.concatenate(fitted.remainders)) for fitted in (plain, late))
     floor = min(noise_floor(late.model, balances, nuisances), after)
-    return (before**2 - after**2) / max(before**2 - floor**2, 1.0e-300)
+    return closed_share(before, after, floor)
 
 
 def _models(stated: JointModel, selected: Selected) -> dict[str, JointModel]:

@@ -13,9 +13,10 @@ from typing import Any
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate, candidates, span_of
 from stochfric_mb.discovery.driven_joint.decision.estimates import unit_at
-from stochfric_mb.discovery.driven_joint.decision.selection import MATERIAL, NAMED, SIZES, Selector
+from stochfric_mb.discovery.driven_joint.decision.selection import SIZES, Selector
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.gains import effect_columns
 from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
@@ -185,8 +186,8 @@ def _form(candidate: Candidate, effect: Effect, balances: Any, fitted: JointFit,
     if size <= 1.0e-9 * float(np.sum(columns**2)):
         return None
     n = max(fitted.independent, 4.0)
-    needed = NAMED + candidate.parameters * math.log(n) + 2.0 * math.log(len(candidate.starts) * kinds)
-    share = max(math.expm1(needed / n), 1.0 / (1.0 - MATERIAL) ** 2 - 1.0)
+    needed = criteria.NAMED + candidate.parameters * math.log(n) + 2.0 * math.log(len(candidate.starts) * kinds)
+    share = max(math.expm1(needed / n), 1.0 / (1.0 - criteria.MATERIAL) ** 2 - 1.0)
     strength = math.sqrt(share * len(columns) * fitted.rms**2 / size)
     numbers = {f.name: getattr(effect, f.name) for f in dataclasses.fields(effect)}
     # overtones are in proportion to it

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
-from stochfric_mb.discovery.driven_joint.decision.selection import MATERIAL, NAMED, TIE
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.noise import independent_count
 from stochfric_mb.discovery.planning.planned_run import PlannedRun
 from stochfric_mb.discovery.planning.signature import Signature, missed_share
@@ -45,7 +45,7 @@ NUDGE = 1.0e-3
 """Step of the numbers of a law by which its columns are taken, over their natural steps [-]."""
 
 
-BEYOND = 1.0 / (1.0 - MATERIAL) ** 2 - 1.0
+BEYOND = 1.0 / (1.0 - criteria.MATERIAL) ** 2 - 1.0
 """Mean square over that of the noise that a law must take away beyond a simpler one to be preferred [-]."""
 
 
@@ -247,7 +247,7 @@ def _at_limit(
     Its score must reach that of a name, and it must take away more than `MATERIAL` beyond the ``simpler`` law.
     """
     cost = (len(law.names) - 1) * math.log(study.independent) + 2.0 * math.log(len(law.starts))
-    share = math.expm1((NAMED + cost) / study.independent)
+    share = math.expm1((criteria.NAMED + cost) / study.independent)
     basis = None if simpler is None else np.linalg.qr(simpler)[0]
 
     def surplus(log_size: float) -> float:
@@ -269,7 +269,7 @@ def _at_limit(
 
 
 def _apart(true: LawSignature, form: LawSignature) -> float:
-    share = math.expm1(max(TIE + true.cost - form.cost, 0.0) / true.independent)
+    share = math.expm1(max(criteria.TIE + true.cost - form.cost, 0.0) / true.independent)
     if true.cost > form.cost:
         share = max(share, BEYOND)
     missed = missed_share(true, form)

@@ -13,7 +13,6 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint.decision.selection import MATERIAL, NAMED, TIE
 from stochfric_mb.discovery.driven_joint.fit.fitting import DIFFERENCE, TOLERANCE
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome
 from stochfric_mb.discovery.driven_joint.simulation.pictures import Picture, step_picture
@@ -80,7 +79,7 @@ def spring_slider_outcome(dataset: Dataset, progress: Callable[[str], None]) -> 
     fits = _fits(tracks, dataset, progress)
     plain = fits[0]
     best, scores = _best(fits)
-    accepted = scores[best.kind] > NAMED
+    accepted = scores[best.kind] > criteria.NAMED
     result = _result(dataset, tracks, plain, best if accepted else None, fits, scores)
     picture = _picture(tracks, {"recalibrated": plain} | ({"augmented": best} if accepted else {}))
     return JointOutcome(result, _augmented(dataset, best if accepted else plain), dataset, pictures=(picture,))
@@ -106,7 +105,9 @@ def _best(fits: Sequence[Fitted]) -> tuple[Fitted, dict[str, float]]:
     scores = {f.kind: max(s for s, g in zip(each, fits[1:], strict=True) if g.kind == f.kind) for f in fits[1:]}
     best = fits[1 + int(np.argmax(each))]
     # of laws that leave as much the simplest: what a few more numbers take off is real, perhaps, but no explanation
-    return min((f for f in fits[1:] if f.rms <= best.rms / (1.0 - MATERIAL)), key=lambda f: (len(f.values), f.rms)), scores
+    return min(
+        (f for f in fits[1:] if f.rms <= best.rms / (1.0 - criteria.MATERIAL)), key=lambda f: (len(f.values), f.rms)
+    ), scores
 
 
 def _picture(tracks: Sequence[Track], models: Mapping[str, Fitted]) -> Picture:
@@ -289,7 +290,7 @@ def _share_along(place: Array, rest: Array) -> float:
 def _estimate(plain: Fitted, best: Fitted, scores: dict[str, float]) -> EffectEstimate:
     """Return the law that is named, as an effect of the result."""
     kind = best.kind
-    same = tuple(k for k, s in scores.items() if k != kind and s > scores[kind] - TIE)
+    same = tuple(k for k, s in scores.items() if k != kind and s > scores[kind] - criteria.TIE)
     form = f"{kind} ({best.law.variant})" if best.law.variant else kind
     text = (
         f"A constant friction coefficient is off by {plain.rms:.3g} (rms), {form} by {best.rms:.3g}, on the runs that were "

@@ -107,7 +107,7 @@ def test_a_zero_that_differs_is_no_friction():
 
 def test_crps_of_a_normal_forecast_by_quadrature(outcome):
     """The closed form that scores forecasts, against the integral that defines it."""
-    from stochfric_mb.discovery.driven_joint.decision.run_scatter import crps_of
+    from stochfric_mb.discovery.driven_joint.scatter.run_scatter import crps_of
 
     place = outcome.places[0]
     model, balances = place.selected.final.model, place.test[:1]

@@ -3,18 +3,10 @@
 from __future__ import annotations
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint.decision.candidates import SIGNED
-from stochfric_mb.discovery.driven_joint.decision.selection import AT_BOUND
+from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNED
 from stochfric_mb.discovery.driven_joint.fit.beliefs import beliefs
-from stochfric_mb.discovery.driven_joint.fit.free_parameters import MOST_OFF
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
-from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
-
-AWAY = 2.0
-"""Factor on the error of forward simulation from which an effect is not named, whatever else it explains [-]: chosen, so that
-the scatter of such errors, which starts and contacts decide, rejects nothing."""
-HALF = 0.5
-"""Part of the squared error, noise apart, that effects have to explain on held-out runs to be named: more than they leave."""
+from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, closed_share, noise_floor
 
 
 def inadequate(place: PlaceOutcome) -> str:
@@ -38,9 +30,9 @@ def _lost(place: PlaceOutcome) -> str:
     before, after = (place.scores[k] for k in ("recalibrated", "augmented"))
     pairs = ((before.forward, after.forward), (before.loop, after.loop))
     ahead = [(b, a) for b, a in pairs if a is not None and b is not None]
-    lost = [f"simulated, it is off by {a:.3g} for {b:.3g}" for b, a in ahead if not a < AWAY * b]
-    gains = [explained(before.sliding, after.sliding, place.floor), *(explained(b, a, 0.0) for b, a in ahead)]
-    if not lost and max(gains) >= HALF:
+    lost = [f"simulated, it is off by {a:.3g} for {b:.3g}" for b, a in ahead if not a < criteria.FAR_AHEAD * b]
+    gains = [closed_share(before.sliding, after.sliding, place.floor), *(closed_share(b, a, 0.0) for b, a in ahead)]
+    if not lost and max(gains) >= criteria.EXPLAINED_HELD_OUT:
         return ""
     return lost[0] if lost else f"it explains {max(100.0 * max(gains), 0.0):.0f} % of the squared error there"
 
@@ -50,7 +42,7 @@ def _at_bound(place: PlaceOutcome) -> str:
     model, released = place.selected.final.model, {r.name for r in place.selected.released}
     for belief in beliefs(place.stated, place.nuisances):
         off = belief.off(model)
-        if belief.name not in released and abs(off) > AT_BOUND * MOST_OFF:
+        if belief.name not in released and abs(off) > criteria.AT_BOUND * criteria.MOST_OFF:
             return f"needs {belief.name} off by {off:.1f} of its stated standard deviations, as far as a belief gives way"
     return ""
 
@@ -71,8 +63,3 @@ def _plainly_left(place: PlaceOutcome) -> str:
         return ""
     how = f"{selected.final.rms / noise:.1f} times the noise is left, {100.0 * share:.0f} % of the squared error"
     return f"{how} depends on {axis}"
-
-
-def explained(before: float, after: float, floor: float) -> float:
-    """Return the part of the squared error, noise apart, that is gone [-]."""
-    return (before**2 - after**2) / max(before**2 - floor**2, 1.0e-12 * before**2, 1.0e-300)

@@ -8,20 +8,17 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint.decision.adequacy import explained, inadequate
+from stochfric_mb.discovery.driven_joint.decision.adequacy import inadequate
 from stochfric_mb.discovery.driven_joint.decision.evidence import settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
-from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor, score
+from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, closed_share, noise_floor, score
 from stochfric_mb.effects import kinds_with, make_effect
 from stochfric_mb.effects.traits import ANONYMOUS
 from stochfric_mb.measurement.dataset import Dataset
 
 Array = npt.NDArray[np.float64]
 
-CARRIES = 0.05
-"""Part of the squared error, noise apart, that a term without a name has to explain on held-out runs: that something is missing
-is known already, so any part that carries over is of use."""
 SMOOTH = {"position and direction": "position", "speed and direction": "speed", "time and direction": "time"}
 """Axis of a smooth competitor that turns with the direction, as friction does -> axis of an unnamed term."""
 KNOTS = 7
@@ -91,7 +88,7 @@ def with_unnamed(dataset: Dataset, place: PlaceOutcome) -> PlaceOutcome:
     fitted = _fitted(place, axis)
     after = score(fitted.model, place.test, place.nuisances, dataset.test, dataset.scenario)
     before = place.scores["augmented"]
-    if explained(before.sliding, after.sliding, place.floor) < CARRIES:
+    if closed_share(before.sliding, after.sliding, place.floor) < criteria.UNNAMED_CARRIES:
         return place
     scores = place.scores | {"augmented": after}
     return dataclasses.replace(place, selected=dataclasses.replace(selected, final=fitted), scores=scores, unnamed=evidence)

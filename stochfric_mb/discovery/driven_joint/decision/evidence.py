@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
+from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit
 
 Array = npt.NDArray[np.float64]
 Labels = npt.NDArray[np.int64]
@@ -95,3 +96,18 @@ def whitened(columns: Array, settings: Labels, independent: float, ratio: float)
     means: Array = np.stack([np.bincount(index, c) / size for c in columns.T], axis=1)
     shrunk: Array = ((1.0 - kept)[:, None] * means)[index]
     return columns - shrunk
+
+
+def evidence(plain: JointFit, richer: JointFit, best: JointFit, settings: Labels) -> float:
+    """Return 2 delta log L of two fits, beliefs included, settings scattering as they do about the best fit there is.
+
+    Args:
+        plain: the fit that is compared with.
+        richer: the other one.
+        best: the best fit there is, by which independent windows are counted.
+        settings: the setting of each window of sliding, shape (n_windows,).
+    """
+    n = max(best.independent, 4.0)
+    ratio = scatter(np.concatenate(best.remainders), settings, n).ratio
+    before, after = (scatter(np.concatenate(f.remainders), settings, n, ratios=np.array([ratio])) for f in (plain, richer))
+    return before.deviance + plain.strain - after.deviance - richer.strain

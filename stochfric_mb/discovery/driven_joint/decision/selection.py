@@ -3,69 +3,33 @@
 from __future__ import annotations
 
 import dataclasses
-import functools
 from collections.abc import Callable, Sequence
 
 import numpy as np
 import numpy.typing as npt
 from scipy.stats import f as fisher
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.decision.candidates import (
-    COMPETITORS,
-    TOGETHER,
-    Candidate,
-    Competitor,
-    candidates,
-    span_of,
-)
+from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate, candidates, span_of
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes, witnesses
-from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of, whitened
-from stochfric_mb.discovery.driven_joint.fit.beliefs import Belief, beliefs
-from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_rows, prior_weight
-from stochfric_mb.discovery.driven_joint.fit.free_parameters import MOST_OFF
+from stochfric_mb.discovery.driven_joint.decision.evidence import evidence, settings_of
+from stochfric_mb.discovery.driven_joint.decision.released import Freed, Released, beyond_beliefs
+from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import COMPETITORS, SmoothDependences
+from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.gains import predicted_rms
-from stochfric_mb.discovery.driven_joint.fit.joint_model import STEP, JointModel, change_of
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import Start, tried, wave_starts
-from stochfric_mb.discovery.inference.free_parameter import MECHANISM
 from stochfric_mb.discovery.inference.paired import Paired
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects.joints import JointSpan
 
 Array = npt.NDArray[np.float64]
 
-NAMED = 20.0
-"""Score above which an effect is named."""
-MATERIAL = 0.05
-"""Least share of the error on left-out blocks that an effect must take away: less is real, perhaps, but no explanation."""
-MATERIAL_PHASED = 0.15
-"""The same, on runs left out, for a wave whose phase is taken from each run: motion that is periodic itself, seen through an
-effect of another form, leaves waves that runs share by accident. Chosen: forces of the tests take away 0.5 and more."""
-BETTER = 0.5
-"""Least share of the blocks that must get better: an effect that shows in one place only is one that was fitted to it."""
-CHANCE = 0.05
-"""Without that score an effect is taken where strokes left out, one by one, say so with no more chance than this of error,
-the axes that were tried counted, and where each half of the record foretells the other better with it."""
-FEWEST_STROKES = 8
-"""Fewest strokes that can."""
 SETTLINGS, SETTLED = 3, 0.8
 """Most refits in which beliefs weigh less, and the part of their weight from which one is worth it [-]."""
-TIE = 10.0
-"""Difference of scores within which effects cannot be distinguished."""
-ALIKE = 0.5
-"""Least part of an effect's evidence that one must have which could stand in for it."""
-MOST = 4
-"""Most effects in one joint: beyond, errors of the first ones would be explained."""
-PARTS = np.linspace(0.0, 1.0, 9)
-"""Parts of the way to a competitor's fit that are tried where it reads the drive that it explains."""
-AT_BOUND = 0.95
-"""Part of the way to the bound of a prior from which a number is held by it [-]."""
-UNDRIVEN = 1.0e-9
-"""Part of the balance that the mechanism's own terms must leave for a drive to be in it [-]: rounding leaves less."""
 SIZES = ("amplitude", "coefficient", "asymmetry", "viscous_difference", "rate")
 """Parameters that are zero where an effect is none."""
-WIN = (15.0, 0.03)
-"""A competitor wins by that score, or that part of the best named effect's score, whichever is more."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -98,27 +62,6 @@ class Stage:
     """What it is worth on strokes left out, where this was asked."""
     accepted: bool
     """Whether it was taken into the model."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Released:
-    """A number of law or mechanism that data take beyond what is believed of it."""
-
-    belief: Belief
-    """The number, and what was believed."""
-    score: float
-    """Evidence, as of a trial."""
-    before: float
-    """Error with the number within its belief (rms) [N or N m]."""
-    after: float
-    """Error with it where the data take it."""
-    alike: tuple[str, ...] = ()
-    """Other numbers that explain as much."""
-
-    @property
-    def name(self) -> str:
-        """Name of the number."""
-        return self.belief.name
 
 
 @dataclasses.dataclass(frozen=True)
@@ -163,7 +106,7 @@ class Selector:
         self._without: frozenset[str] = frozenset()
         self._first: list[tuple[Candidate, JointFit]] = []
         self._tell = progress or (lambda _: None)
-        self._settings = settings_of(balances)
+        self._settings, self._smooth = settings_of(balances), SmoothDependences(balances)
         first = fit(start, balances, nuisances, noise=_typical(balances))
         self._noise = prior_weight(first)
         self.recalibrated = self._fit(start)
@@ -179,7 +122,7 @@ class Selector:
         effects: list[Trial] = []
         stages: list[Stage] = []
         released: list[Released] = []
-        while len(effects) < MOST:
+        while len(effects) < criteria.MOST_EFFECTS:
             self._tell(f"effect {len(effects) + 1}")
             stage = self._stage(current)
             freed = self._released(current, stage)
@@ -197,7 +140,7 @@ class Selector:
             current, effects = self._re_examined(current, effects)
         final, effects = self._without_zero(self._fit(current.model), effects)
         unknown = self._unknown(stages[-1]) if not stages[-1].accepted else ("", 0.0)
-        left = (unknown, self._together(final) if effects or released else ("", 0.0))
+        left = (unknown, self._smooth.together(final, self._noise) if effects or released else ("", 0.0))
         return Selected(
             self.recalibrated,
             final,
@@ -214,44 +157,19 @@ class Selector:
 
         It is a finding of its own, a payload for instance: within its belief it would hide behind what it cannot explain.
         """
-        freed = sorted(self._freed(current), key=lambda f: -f[0].score)
+        freed = self._freed(current)
         # a prior is given up only where it explains more than any effect that leaves it alone
-        if not freed or freed[0][0].score < max(NAMED, stage.trials[0].score + TIE):
+        if not freed or freed[0].number.score < max(criteria.NAMED, stage.trials[0].score + criteria.TIE):
             return None
-        (best, fitted, self._nuisances), others = freed[0], [number for number, _, _ in freed[1:]]
-        alike = tuple(r.name for r in others if r.score > max(best.score - TIE, ALIKE * best.score))
-        self._noise = prior_weight(fitted)
-        return dataclasses.replace(best, alike=alike), self._fit(fitted.model)
+        best, others = freed[0], [f.number for f in freed[1:]]
+        least = max(best.number.score - criteria.TIE, criteria.STANDS_IN * best.number.score)
+        self._nuisances, self._noise = best.nuisances, prior_weight(best.fit)
+        released = dataclasses.replace(best.number, alike=tuple(r.name for r in others if r.score > least))
+        return released, self._fit(best.fit.model)
 
-    def _freed(self, current: JointFit) -> list[tuple[Released, JointFit, list[Nuisance]]]:
-        """Return the numbers that data take beyond their priors, each with the fit in which it may be anything."""
-        released: list[tuple[Released, JointFit, list[Nuisance]]] = []
+    def _freed(self, current: JointFit) -> list[Freed]:
         beside = len(current.model.effects) > len(self.recalibrated.model.effects)
-        believed = beliefs(current.model, self._nuisances)
-        for belief in believed:
-            if belief.name in self._without or (belief.owner == MECHANISM and not self._driven):
-                continue
-            # beside an effect that imitates inertia less mass would only be less noise: it must press against its bound
-            if beside and abs(belief.off(current.model)) < AT_BOUND * MOST_OFF:
-                continue
-            model, wide = belief.given_up(current.model, self._nuisances)
-            freed = fit(model, self._balances, wide, noise=self._noise)
-            if abs(belief.off(freed.model)) < MOST_OFF:
-                continue
-            n = max(freed.independent, 4.0)
-            score = self._evidence(current, freed, freed, n) - np.log(n) - 2.0 * np.log(len(believed))
-            released.append((Released(belief, float(score), current.rms, freed.rms), freed, wide))
-        return released
-
-    @functools.cached_property
-    def _driven(self) -> bool:
-        """Whether a drive is measured: without one all forces could be less in the same proportion, errors included."""
-        names = [n.name for n in self._nuisances]
-        columns = np.concatenate([np.column_stack([s.columns[n] for n in names if n in s.columns]) for s in self._balances])
-        driven = np.concatenate([s.driven for s in self._balances])
-        scaled = columns / np.maximum(np.linalg.norm(columns, axis=0), 1.0e-300)
-        rest = driven - scaled @ np.linalg.lstsq(scaled, driven, rcond=None)[0]
-        return float(np.linalg.norm(rest)) > UNDRIVEN * float(np.linalg.norm(driven))
+        return beyond_beliefs(current, self._balances, self._nuisances, self._noise, beside=beside, without=self._without)
 
     def _without_zero(self, final: JointFit, effects: list[Trial]) -> tuple[JointFit, list[Trial]]:
         """Drop effects whose size may be zero beside those selected after them: nothing is said by them."""
@@ -278,20 +196,28 @@ class Selector:
         if current is self.recalibrated and not self._first:
             self._first = fits
         trials = self._scored(current, fits)
-        rivals = self._competitors(current, trials[0].fit)
+        rivals = self._smooth.scores(current, trials[0].fit, self._noise)
         models = current.model, trials[0].fit.model
         phased = len(models[1].own) > len(models[0].own) and len(self._balances) > 1
         parts = each_run(self._balances) if phased else witnesses(self._balances)
         noise = min(self._noise, prior_weight(trials[0].fit))
         inside = compared(*models, self._balances, self._nuisances, noise, parts)
-        better = inside.share_better > BETTER if phased else inside.share_better >= BETTER
-        enough = trials[0].score > NAMED and inside.rms_gain > (MATERIAL_PHASED if phased else MATERIAL) and better
+        better = inside.share_better > criteria.BETTER if phased else inside.share_better >= criteria.BETTER
+        enough = (
+            trials[0].score > criteria.NAMED
+            and inside.rms_gain > (criteria.MATERIAL_PHASED if phased else criteria.MATERIAL)
+            and better
+        )
         repeats = None
-        if not enough and len(parts := strokes(self._balances)) >= FEWEST_STROKES:
+        if not enough and len(parts := strokes(self._balances)) >= criteria.FEWEST_STROKES:
             repeats = compared(*models, self._balances, self._nuisances, self._noise, parts)
             questions = len({t.candidate.where for t in trials})  # effects along one axis ask nearly the same
             repeats = dataclasses.replace(repeats, p_value=min(1.0, repeats.p_value * questions))
-            enough = repeats.rms_gain > MATERIAL and repeats.p_value < CHANCE and self._predicted_better(*models)
+            enough = (
+                repeats.rms_gain > criteria.MATERIAL
+                and repeats.p_value < criteria.STROKES_BY_CHANCE
+                and self._predicted_better(*models)
+            )
         return Stage(current, tuple(trials), tuple(rivals), inside, repeats, enough)
 
     def _fitted(self, current: JointFit, span: JointSpan) -> list[tuple[Candidate, JointFit]]:
@@ -307,7 +233,7 @@ class Selector:
         """Return whether each half of the record, left out, is predicted better by the richer model by a material part."""
         halves = blocks(self._balances, 2)
         seen = [compared(plain, richer, self._balances, self._nuisances, self._noise, [half]) for half in halves]
-        return min(s.rms_gain for s in seen) > MATERIAL
+        return min(s.rms_gain for s in seen) > criteria.MATERIAL
 
     def _best(self, current: JointFit, candidate: Candidate) -> JointFit | None:
         """Return the best fit with a candidate; None: nothing is left that a wave of it would explain."""
@@ -340,112 +266,27 @@ class Selector:
         p, grid = candidate.parameters, (len(candidate.starts) + waves) * kinds
         p += max(len(fitted.model.own) - len(current.model.own) - 1, 0)
         ratio = max((current.rms / fitted.rms) ** 2, 1.0)
-        score = self._evidence(current, fitted, best, n) - p * np.log(n) - 2.0 * np.log(grid)
+        score = evidence(current, fitted, best, self._settings) - p * np.log(n) - 2.0 * np.log(grid)
         spare = max(n - len(fitted.free), 1.0)
         chance = float(fisher.sf((ratio - 1.0) * spare / p, p, spare))
         return Trial(candidate, fitted, float(score), min(1.0, chance * grid))
 
-    def _evidence(self, plain: JointFit, richer: JointFit, best: JointFit, n: float) -> float:
-        """Return 2 delta log L of two fits, beliefs included, settings scattering as they do about the best fit there is."""
-        ratio = scatter(np.concatenate(best.remainders), self._settings, n).ratio
-        before, after = (
-            scatter(np.concatenate(f.remainders), self._settings, n, ratios=np.array([ratio])) for f in (plain, richer)
-        )
-        return before.deviance + plain.strain - after.deviance - richer.strain
-
-    def _competitors(self, current: JointFit, best: JointFit) -> list[tuple[str, float]]:
-        n = max(best.independent, 4.0)
-        prior, offsets = prior_rows(current, self._noise)
-        rest = np.concatenate(current.remainders)
-        before = scatter(rest, self._settings, n)
-        kept = adjustable(current)
-        rivals: list[tuple[str, float]] = []
-        for rival in COMPETITORS:
-            columns = self._sliding_columns(rival)
-            width = columns.shape[1]
-            if width == 0:
-                continue
-            design = np.column_stack([current.jacobian[:, kept], columns])
-            below = np.column_stack([prior[:, kept], np.zeros((len(prior), width))])
-            slopes = self._by_drive(rival)
-            after = min(self._deviance_without(rest, offsets, design, below, n, ratio, slopes) for ratio in {0.0, before.ratio})
-            score = before.deviance - after - width * np.log(n)
-            rivals.append((rival.axis, float(score)))
-        return sorted(rivals, key=lambda r: -r[1])
-
-    def _together(self, current: JointFit) -> tuple[str, float]:
-        """Return the two conditions on which what is left depends together, beyond what it does on each; empty: on none.
-
-        Beside them stands by what part the error on blocks left out falls with them.
-        """
-        n = max(current.independent, 4.0)
-        prior, offsets = prior_rows(current, self._noise)
-        rest, kept = np.concatenate(current.remainders), adjustable(current)
-        ratio = scatter(rest, self._settings, n).ratio
-        scores: list[float] = []
-        for both, alone in TOGETHER:
-            deviances: list[float] = []
-            for some in (alone, (*alone, both)):
-                columns = np.column_stack([self._sliding_columns(c) for c in some])
-                design = np.column_stack([current.jacobian[:, kept], columns])
-                below = np.column_stack([prior[:, kept], np.zeros((len(prior), columns.shape[1]))])
-                slopes = np.column_stack([self._by_drive(c) for c in some])
-                deviances.append(self._deviance_without(rest, offsets, design, below, n, ratio, slopes))
-            scores.append(deviances[0] - deviances[1] - float(np.log(n)))
-        best = int(np.argmax(scores))
-        if scores[best] < NAMED + 2.0 * np.log(len(TOGETHER)):
-            return "", 0.0
-        both, alone = TOGETHER[best]
-        gain = self._rival_gain(current, both, alone)
-        return (both.axis, gain) if gain > MATERIAL else ("", 0.0)
-
-    def _sliding_columns(self, rival: Competitor) -> Array:
-        """Return the columns of a competitor at the windows of sliding, shape (n_windows, k)."""
-        seen = rival.columns(self._balances)
-        return np.concatenate([c[s.sliding] for c, s in zip(seen, self._balances, strict=True)])
-
-    def _deviance_without(
-        self, rest: Array, offsets: Array, design: Array, below: Array, n: float, ratio: float, slopes: Array
-    ) -> float:
-        """Return the deviance of what ``design`` leaves, fitted for one ratio of the variances; ``below`` are the priors.
-
-        ``slopes`` is the change of its last columns with the drive: where they have any, the best part of the way to that
-        fit is taken, the drive being explained by motion only.
-        """
-        both = np.vstack([whitened(design, self._settings, n, ratio), below])
-        scale = np.maximum(np.linalg.norm(both, axis=0), 1.0e-300)
-        goal = np.r_[whitened(rest[:, None], self._settings, n, ratio)[:, 0], offsets]
-        fitted = np.linalg.lstsq(both / scale, goal, rcond=1.0e-10)[0]
-        b = fitted / scale
-        if not slopes.any():
-            return scatter(rest - design @ b, self._settings, n).deviance
-        left = [explained(rest, design, part * b, slopes) for part in PARTS]
-        return min(scatter(r, self._settings, n).deviance for r in left)
-
-    def _by_drive(self, rival: Competitor) -> Array:
-        """Return the change of a competitor's columns with the drive, shape (n_windows, k)."""
-        at = self._balances
-        step = STEP * max(float(np.mean(np.concatenate([s.load for s in at]))), 1.0e-300)
-        moved = [s if s.load_by_drive is None else dataclasses.replace(s, load=s.load + step * s.load_by_drive) for s in at]
-        change = zip(rival.columns(moved, at), rival.columns(at), at, strict=True)
-        return np.concatenate([((there - here) / step)[s.sliding] for there, here, s in change])
-
     def _re_examined(self, current: JointFit, effects: list[Trial]) -> tuple[JointFit, list[Trial]]:
         """Drop effects that later ones have made superfluous."""
         for trial in effects[:-1]:
-            if trial.score < NAMED:  # taken for what it is worth on strokes left out
+            if trial.score < criteria.NAMED:  # taken for what it is worth on strokes left out
                 continue
             kind = trial.candidate.kind
             without = dataclasses.replace(current.model, effects=tuple(e for e in current.model.effects if e.kind != kind))
             fitted = self._fit(without)
             n = max(current.independent, 4.0)
-            score = self._evidence(fitted, current, current, n) - trial.candidate.parameters * np.log(n)
-            if score < NAMED:
+            score = evidence(fitted, current, current, self._settings) - trial.candidate.parameters * np.log(n)
+            if score < criteria.NAMED:
                 current, effects = fitted, [t for t in effects if t.candidate.kind != kind]
         return current, effects
 
     def _equivalents(self, final: JointFit, number: int, size: int) -> tuple[str, ...]:
-        """Return what could stand in the place of an effect of ``size`` numbers of the final model, within `TIE`.
+        """Return what could stand in the place of an effect of ``size`` numbers of the final model, within `criteria.TIE`.
 
         Kinds of effects, and names of numbers of the mechanism that would be beyond their beliefs.
         """
@@ -457,15 +298,15 @@ class Selector:
         choices = [c for c in self._candidates(span, others) if c.kind != own.kind]
         fits = [(c, f) for c in choices if (f := self._best(without, c)) is not None]
         n = max(final.independent, 4.0)
-        mine = self._evidence(without, final, final, n)
-        theirs = [(c.kind, c.parameters, self._evidence(without, f, final, n)) for c, f in fits]
-        theirs += [(number.name, 1, self._evidence(without, f, final, n)) for number, f, _ in self._freed(without)]
+        mine = evidence(without, final, final, self._settings)
+        theirs = [(c.kind, c.parameters, evidence(without, f, final, self._settings)) for c, f in fits]
+        theirs += [(f.number.name, 1, evidence(without, f.fit, final, self._settings)) for f in self._freed(without)]
         # one that explains next to nothing stands in for nothing, however close the scores
         return tuple(
             dict.fromkeys(
                 name
                 for name, numbers, gain in theirs
-                if gain > ALIKE * mine and gain - numbers * np.log(n) > mine - size * np.log(n) - TIE
+                if gain > criteria.STANDS_IN * mine and gain - numbers * np.log(n) > mine - size * np.log(n) - criteria.TIE
             )
         )
 
@@ -473,30 +314,12 @@ class Selector:
         """Return the axis of what is missing that no effect explains, empty if nothing is, and what part it takes away."""
         axis, score = last.competitors[0] if last.competitors else ("", -np.inf)
         named = last.trials[0].score
-        if score < NAMED + 2.0 * np.log(len(COMPETITORS)) or score < named + max(WIN[0], WIN[1] * abs(named)):
+        if score < criteria.NAMED + 2.0 * np.log(len(COMPETITORS)) or score < named + max(
+            criteria.WINS_BY, criteria.WINS_BY_SHARE * abs(named)
+        ):
             return "", 0.0
-        gain = self._rival_gain(last.before, next(c for c in COMPETITORS if c.axis == axis))
-        return (axis, gain) if gain > MATERIAL else ("", 0.0)
-
-    def _rival_gain(self, current: JointFit, rival: Competitor, beside: Sequence[Competitor] = ()) -> float:
-        """Return by what part a competitor lowers the error on blocks left out, beyond what those ``beside`` it do."""
-        inside = [s.sliding for s in self._balances]
-        prior, offsets = prior_rows(current, self._noise)
-        known = np.vstack([current.jacobian, prior])[:, adjustable(current)]
-        y = np.r_[np.concatenate(current.remainders), offsets]
-        errors = [0.0, 0.0]
-        for i, some in enumerate((tuple(beside), (*beside, rival))):
-            more = [self._sliding_columns(c) for c in some]
-            slopes = np.column_stack([self._by_drive(c) for c in some]) if some else np.zeros((len(y) - len(prior), 0))
-            design = np.column_stack([known, *(_padded(c, len(prior)) for c in more)])
-            for block in blocks(self._balances):
-                inner = np.concatenate([b[m] for b, m in zip(block, inside, strict=True)])
-                out = np.r_[inner, np.zeros(len(prior), dtype=bool)]
-                scale = np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
-                b = np.linalg.lstsq(design[~out] / scale, y[~out], rcond=1.0e-10)[0] / scale
-                left = explained(y[out], design[out], b, slopes[inner]) if slopes.any() else y[out] - design[out] @ b
-                errors[i] += float(np.sum(left**2))
-        return 1.0 - float(np.sqrt(errors[1] / errors[0]))
+        gain = self._smooth.gain(last.before, self._noise, next(c for c in COMPETITORS if c.axis == axis))
+        return (axis, gain) if gain > criteria.MATERIAL else ("", 0.0)
 
 
 def simplest_first(trials: list[Trial]) -> list[Trial]:
@@ -505,19 +328,13 @@ def simplest_first(trials: list[Trial]) -> list[Trial]:
     A wave far longer than the stroke is a constant force with three numbers. Of forms of one effect with as many numbers it is
     the one that the effect gives first, which assumes least.
     """
-    tied = [t for t in trials if t.score > max(trials[0].score - TIE, 0.0)]
+    tied = [t for t in trials if t.score > max(trials[0].score - criteria.TIE, 0.0)]
     if not tied:
         return trials
     best = min(tied, key=lambda t: (t.candidate.parameters, -t.score)).candidate
     alike = [t for t in tied if (t.candidate.kind, t.candidate.parameters) == (best.kind, best.parameters)]
     first = min(alike, key=lambda t: t.candidate.form)
     return [first, *(t for t in trials if t is not first)]
-
-
-def explained(rest: Array, design: Array, b: Array, slopes: Array) -> Array:
-    """Return what ``design`` times ``b`` leaves of the drive, whose last columns change with the drive by ``slopes``."""
-    by_drive = 1.0 - slopes @ b[len(b) - slopes.shape[1] :]
-    return (rest - design @ b) / change_of(by_drive)
 
 
 def _may_be_zero(fitted: JointFit, owner: int) -> bool:
@@ -527,19 +344,6 @@ def _may_be_zero(fitted: JointFit, owner: int) -> bool:
         return False
     sizes = [(abs(getattr(effect, name)), fitted.deviation(owner, name)) for name in SIZES if hasattr(effect, name)]
     return any(np.isfinite(deviation) and size < 1.96 * deviation for size, deviation in sizes)
-
-
-def adjustable(fitted: JointFit) -> list[int]:
-    """Return the numbers of a fit that a smooth competitor may move: all but gains.
-
-    With less gain and a potential of its own in the place of gravity there would be less of everything, errors included.
-    """
-    return [i for i, k in enumerate(fitted.free) if k.owner != MECHANISM or not k.name.endswith("gain")]
-
-
-def _padded(columns: Array, rows: int) -> Array:
-    """Return ``columns`` with ``rows`` rows of zeros below."""
-    return np.vstack([columns, np.zeros((rows, columns.shape[1]))])
 
 
 def _typical(balances: Sequence[ForceBalance]) -> float:

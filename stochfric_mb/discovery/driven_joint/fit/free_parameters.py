@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import Nuisance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM, FreeParameter
@@ -20,9 +21,6 @@ LEAST_COEFFICIENT, MOST_COEFFICIENT = 1.0e-9, 1.0e3
 """Bounds of a coefficient of friction that nothing is believed of [-]: the load that it is taken of may be any."""
 LEAST_PRELOAD = 0.01
 """Smallest reference load of a load-dependent joint, over its stated load [-]."""
-MOST_OFF = 4.0
-"""Standard deviations by which data may move what is believed of law and mechanism [-]; 6e-5 of all priors are off by more.
-What is off by more is a finding, or not that number at all."""
 INSIDE = 1.0e-6
 """Distance kept from bounds that are themselves forbidden [scales]."""
 GIVEN = ("static_share", "reference_temperature", "shape_exponent", "adhesion")
@@ -56,13 +54,13 @@ def free_parameters(
 def _coefficient_prior(model: JointModel, name: str) -> tuple[float, float, str, float, float]:
     """Return the bounds of a coefficient, its unit, and mean and deviation of its prior: `MOST_OFF` of these are its bounds."""
     value, deviation = model.level if name == "mu_k" else (0.0, np.inf)
-    low, high = max(LEAST_COEFFICIENT, value - MOST_OFF * deviation), min(MOST_COEFFICIENT, value + MOST_OFF * deviation)
-    return low, high, "-", value, deviation
+    most = criteria.MOST_OFF * deviation
+    return max(LEAST_COEFFICIENT, value - most), min(MOST_COEFFICIENT, value + most), "-", value, deviation
 
 
 def _with_prior(model: JointModel, n: Nuisance) -> FreeParameter:
     """Return a number of the mechanism, which data may move by `MOST_OFF` of its deviations."""
-    low, high = max(n.low, n.value - MOST_OFF * n.deviation), n.value + MOST_OFF * n.deviation
+    low, high = max(n.low, n.value - criteria.MOST_OFF * n.deviation), n.value + criteria.MOST_OFF * n.deviation
     return FreeParameter(
         MECHANISM, n.name, model.nuisances.get(n.name, n.value), n.deviation, low, high, n.unit, n.value, n.deviation
     )

@@ -103,5 +103,16 @@ def noise_floor(model: JointModel, balances: Sequence[ForceBalance], nuisances: 
     return deviation(differences, about=0.0) if len(differences) else float("nan")
 
 
+def closed_share(before: float, after: float, floor: float) -> float:
+    """Return the part of a squared error, noise apart, that is gone [-].
+
+    Args:
+        before: error without what closes it.
+        after: the same with it, in the same unit.
+        floor: what noise alone leaves.
+    """
+    return (before**2 - after**2) / max(before**2 - floor**2, 1.0e-12 * before**2, 1.0e-300)
+
+
 def _rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2))) if len(values) else float("nan")

@@ -18,8 +18,8 @@ import numpy.typing as npt
 from scipy.stats import chi2
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.decision.stroke_coefficients import Stroke, dependence, strokes_of, variances
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.scatter.stroke_coefficients import Stroke, dependence, strokes_of, variances
 from stochfric_mb.discovery.driven_joint.simulation.scores import APART, FLOOR, noise_floor
 
 Array = npt.NDArray[np.float64]

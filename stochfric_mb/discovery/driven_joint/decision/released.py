@@ -1,0 +1,103 @@
+"""Numbers of law and mechanism that data take beyond what is believed of them: findings themselves, a payload for instance."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.decision.evidence import evidence, settings_of
+from stochfric_mb.discovery.driven_joint.fit.beliefs import Belief, beliefs
+from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit
+from stochfric_mb.discovery.inference.free_parameter import MECHANISM
+
+Array = npt.NDArray[np.float64]
+
+UNDRIVEN = 1.0e-9
+"""Part of the balance that the mechanism's own terms must leave for a drive to be in it [-]: rounding leaves less."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Released:
+    """A number of law or mechanism that data take beyond what is believed of it."""
+
+    belief: Belief
+    """The number, and what was believed."""
+    score: float
+    """Evidence, as of a trial."""
+    before: float
+    """Error with the number within its belief (rms) [N or N m]."""
+    after: float
+    """Error with it where the data take it."""
+    alike: tuple[str, ...] = ()
+    """Other numbers that explain as much."""
+
+    @property
+    def name(self) -> str:
+        """Name of the number."""
+        return self.belief.name
+
+
+@dataclasses.dataclass(frozen=True)
+class Freed:
+    """A fit in which one number may be anything."""
+
+    number: Released
+    """The number."""
+    fit: JointFit
+    """The fit."""
+    nuisances: list[Nuisance]
+    """Numbers of the mechanism, as they are believed in it."""
+
+
+def beyond_beliefs(
+    current: JointFit,
+    balances: Sequence[ForceBalance],
+    nuisances: Sequence[Nuisance],
+    noise: float,
+    *,
+    beside: bool,
+    without: frozenset[str],
+) -> list[Freed]:
+    """Return the numbers that data take beyond their priors, best first, each with the fit in which it may be anything.
+
+    Args:
+        current: the fit with all beliefs.
+        balances: fit runs.
+        nuisances: numbers of the mechanism with their priors.
+        noise: weight of beliefs, as of `fit`.
+        beside: whether the model has effects that were not stated.
+        without: names of numbers that stay as they are believed.
+    """
+    freed: list[Freed] = []
+    believed, driven, settings = beliefs(current.model, nuisances), _driven(balances, nuisances), settings_of(balances)
+    for belief in believed:
+        if belief.name in without or (belief.owner == MECHANISM and not driven):
+            continue
+        # beside an effect that imitates inertia less mass would only be less noise: it must press against its bound
+        if beside and abs(belief.off(current.model)) < criteria.AT_BOUND * criteria.MOST_OFF:
+            continue
+        model, wide = belief.given_up(current.model, nuisances)
+        fitted = fit(model, balances, wide, noise=noise)
+        if abs(belief.off(fitted.model)) < criteria.MOST_OFF:
+            continue
+        cost = np.log(max(fitted.independent, 4.0)) + 2.0 * np.log(len(believed))
+        score = evidence(current, fitted, fitted, settings) - float(cost)
+        freed.append(Freed(Released(belief, score, current.rms, fitted.rms), fitted, wide))
+    return sorted(freed, key=lambda f: -f.number.score)
+
+
+def _driven(balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]) -> bool:
+    """Return whether a drive is measured: without one all forces could be less in the same proportion, errors included."""
+    if not nuisances:
+        return True
+    names = [n.name for n in nuisances]
+    columns = np.concatenate([np.column_stack([s.columns[n] for n in names if n in s.columns]) for s in balances])
+    driven = np.concatenate([s.driven for s in balances])
+    scaled = columns / np.maximum(np.linalg.norm(columns, axis=0), 1.0e-300)
+    rest = driven - scaled @ np.linalg.lstsq(scaled, driven, rcond=None)[0]
+    return float(np.linalg.norm(rest)) > UNDRIVEN * float(np.linalg.norm(driven))
