@@ -418,10 +418,16 @@ class _Search:
         solution = regression.fit(terms, self.solution.scatter)
         axis = next(a for a in axes_of(pool) if a.name == own)
         term = smooth_term(regression, terms, solution, self.model, axis)
-        shown = self.study.regression.solve(self.study.terms, term.solution.scatter).cost - term.solution.cost
+        # of the same slips: costs of fewer are those of other data
+        measured = Regression(dataclasses.replace(self.study.pool, kept=pool.kept))
+        shown = measured.solve(self.study.terms, term.solution.scatter).cost - term.solution.cost
         left = regression.solve(terms, term.solution.scatter).cost - term.solution.cost
-        self.details["form"] = {"axis": own, "score": term.score, "share": 1.0 - left / shown}
-        if term.score <= criteria.NAMED or 1.0 - left / shown < criteria.EXPLAINED:
+        self.details["form"] = {"axis": own, "score": term.score}
+        if shown <= 0.0:  # both together explain nothing: there is no share of it
+            return
+        share = float(np.clip(1.0 - left / shown, 0.0, 1.0))
+        self.details["form"] = {"axis": own, "score": term.score, "share": share}
+        if term.score <= criteria.NAMED or share < criteria.EXPLAINED:
             return
         model = term.model
         if self.confirmed is not None:
