@@ -40,7 +40,7 @@ def simulate(scenario, *, seed=0, sample=0, dt=None, progress=None):
     attributes = {"engine": "pybullet", "version": version("pybullet"), "hook": "external force", "law": law.kind}
     attributes |= {"dt": step, "seed": seed, "sample": sample, "notes": [note] if note else [], "n_steps": n_steps}
     attributes["seconds_per_step"] = (time.perf_counter() - began) / n_steps
-    return Trajectory(np.array(scenario.output_times()), *np.ascontiguousarray(rows.T), attributes=attributes)
+    return Trajectory(scenario.output_times(), *np.ascontiguousarray(rows.T), attributes=attributes)
 
 
 def integrate(scenario, step, contact, client, progress):

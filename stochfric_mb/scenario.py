@@ -10,6 +10,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, cast
 
+import numpy as np
+import numpy.typing as npt
+
 from stochfric_mb.coefficients import DISTRIBUTIONS, PROCESSES, CoefficientPath, Distribution, OutputStep, Process
 from stochfric_mb.effects import Effect, effect_from_dict
 from stochfric_mb.effects.combine import combined_process, with_compliance
@@ -89,12 +92,10 @@ class Scenario(Generic[M]):
         """Number of output samples, the one at t = 0 included."""
         return round(self.duration / self.output_step) + 1
 
-    def output_times(self) -> list[float]:
-        """Return the output times [s], rounded to whole nanoseconds where they are."""
-        return [
-            round(i * self.output_step, 9) if self.output_step >= 1.0e-6 else i * self.output_step
-            for i in range(self.n_outputs)
-        ]
+    def output_times(self) -> npt.NDArray[np.float64]:
+        """Return the output times [s], shape (n_outputs,), rounded to whole nanoseconds where they are."""
+        times = np.arange(self.n_outputs, dtype=np.float64) * self.output_step
+        return np.rint(times * 1.0e9) / 1.0e9 if self.output_step >= 1.0e-6 else times
 
     def path(self, seed: int, sample: int = 0, contact: int = 0) -> CoefficientPath:
         """Return the coefficient path of this scenario's contact for (seed, sample, contact)."""

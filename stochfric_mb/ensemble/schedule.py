@@ -85,7 +85,7 @@ def checked_times(scenario: Scenario, output_times: npt.ArrayLike | None) -> Arr
         InputError: times that are not increasing, not finite or not within 0 .. duration.
     """
     if output_times is None:
-        return np.array(scenario.output_times())
+        return scenario.output_times()
     times = np.atleast_1d(np.asarray(output_times, dtype=np.float64))
     if times.ndim != 1 or times.size == 0 or not np.all(np.isfinite(times)):
         raise InputError(f"output_times of shape {times.shape} must be one row of finite times [s]; give at least one")

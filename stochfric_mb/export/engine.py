@@ -81,7 +81,7 @@ def simulate(
         attributes["law"] = scenario.law.kind
     normal = np.full(len(rows), scenario.mechanism.normal_force)
     x, v, force, mu_s, mu_k, stick = rows.T.copy()
-    trajectory = Trajectory(np.array(scenario.output_times()), x, v, force, normal, mu_s, mu_k, stick, attributes=attributes)
+    trajectory = Trajectory(scenario.output_times(), x, v, force, normal, mu_s, mu_k, stick, attributes=attributes)
     return reported(trajectory, scenario.mechanism, scenario.effects, seed=seed, sample=sample)
 
 

@@ -129,7 +129,7 @@ def integrate(
         SimulationError: the run failed, or its outcome makes no sense.
     """
     scenario, mbs = built.scenario, built.mbs
-    times = np.array(scenario.output_times())
+    times = scenario.output_times()
     rows = built.contact.record(times)
     if progress is not None:
         mbs.SetPreStepUserFunction(_reporter(progress, scenario, installed(mbs, "PreStep")))

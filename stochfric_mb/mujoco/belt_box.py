@@ -195,7 +195,7 @@ def trajectory_of(model: mujoco.MjModel, state: Array, rows: Array, scenario: Sc
     _, notes = running_law(scenario.law, scenario.mechanism, scenario.effects, dt, substitute=True, **address)
     n_steps = (scenario.n_outputs - 1) * round(scenario.output_step / dt)
     trajectory = Trajectory(
-        time=np.array(scenario.output_times()),
+        time=scenario.output_times(),
         **{name: rows[:, i].copy() for i, name in enumerate(
             ("position", "velocity", "friction_force", "normal_force", "mu_s", "mu_k", "stick"))},
         attributes={

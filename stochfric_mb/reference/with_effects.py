@@ -73,7 +73,7 @@ def _fast(scenario: Scenario, seed: int, sample: int, progress: Callable[[float]
             progress(parts[-1].end.time)
     seconds = time.perf_counter() - before
     return Trajectory(
-        time=np.array(scenario.output_times()),
+        time=scenario.output_times(),
         **{name: np.concatenate([getattr(part, name) for part in parts]) for name in (
             "position", "velocity", "friction_force", "normal_force", "mu_s", "mu_k", "stick")},
         events=np.concatenate([part.events for part in parts]),

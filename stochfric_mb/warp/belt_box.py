@@ -130,4 +130,4 @@ def _read(d: mjw.Data, friction: ContactFriction, rows: Array) -> None:
 def _trajectory(scenario: Scenario[BeltBox], rows: Array, about: dict[str, Any]) -> Trajectory:
     names = ("position", "velocity", "friction_force", "normal_force", "mu_s", "mu_k", "stick")
     columns = {name: rows[:, i].copy() for i, name in enumerate(names)}
-    return Trajectory(time=np.array(scenario.output_times()), **columns, attributes=about)
+    return Trajectory(time=scenario.output_times(), **columns, attributes=about)

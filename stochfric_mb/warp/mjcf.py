@@ -68,7 +68,7 @@ def run_worlds(scenario: Scenario[Mjcf], *, seed: int, first_sample: int, n: int
         "seconds_per_step": (time.perf_counter() - began) / n / max(n_steps, 1), "position_unit": position.unit,
     }  # fmt: skip
     names = ("position", "velocity", "friction_force", "normal_force", "mu_s", "mu_k", "stick")
-    times = np.array(scenario.output_times())
+    times = scenario.output_times()
     return [
         Trajectory(
             time=times, **{name: rows[w, :, c].copy() for c, name in enumerate(names)},

@@ -1,5 +1,6 @@
 """Scenario files: what is read, and what is refused with which words."""
 
+import dataclasses
 import re
 
 import numpy as np
@@ -26,6 +27,12 @@ def test_table_1_is_the_papers():
     assert (m.mass, m.damping, m.stiffness, m.normal_force, m.belt_velocity) == (6.08, 0.768, 3956.0, 13.0, 2.5e-3)
     assert scenario.process == Knots(sigma_s=0.015, sigma_k=0.023, spacing=0.01)
     assert scenario.n_outputs == 10_001
+
+
+@pytest.mark.parametrize("step", [1.0e-6, 2.5e-5, 1.0e-3, 0.02])
+def test_output_times_are_the_decimal_numbers(step):
+    scenario = dataclasses.replace(load_scenario("kang2015_table1", law="coulomb"), duration=1.0, output_step=step)
+    assert scenario.output_times().tolist() == [round(i * step, 9) for i in range(scenario.n_outputs)]
 
 
 def test_law_and_settings_override_the_file():
