@@ -12,18 +12,26 @@ settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.register_profile("explore", deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
 
-SLOW = tuple(
-    line for line in Path(__file__).with_name("slow.txt").read_text(encoding="utf-8").splitlines() if line[:1] not in ("", "#")
-)
-"""Beginnings of the names of slow tests; what follows a star may stand anywhere in the name."""
+
+
+def _lines(file: str) -> tuple[str, ...]:
+    text = Path(__file__).with_name(file).read_text(encoding="utf-8")
+    return tuple(line for line in text.splitlines() if line[:1] not in ("", "#"))
+
+
+MARKS = {mark: _lines(f"{mark}.txt") for mark in ("slow", "long")}
+"""Beginnings of the names of slow and of long tests; what follows a star may stand anywhere in the name."""
 
 
 @pytest.hookimpl(tryfirst=True)  # before options select by marker
 def pytest_collection_modifyitems(items):
-    """Mark the slow tests."""
+    """Mark the slow and the long tests; a test that is both is long."""
     for item in items:
-        if item.nodeid.startswith(SLOW) or any(part[1:] in item.nodeid for part in SLOW if part.startswith("*")):
-            item.add_marker(pytest.mark.slow)
+        for mark, lines in MARKS.items():
+            if item.nodeid.startswith(lines) or any(part[1:] in item.nodeid for part in lines if part.startswith("*")):
+                item.add_marker(mark)
+        if item.get_closest_marker("long"):
+            item.own_markers[:] = [mark for mark in item.own_markers if mark.name != "slow"]
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -95,30 +95,30 @@ def name_in(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
 
 def reading_of(model: mujoco.MjModel, state: Array, row: Any) -> Reading:
     """Return the reading of one contact from its instance's state and its slot there."""
-    header = s.header_of(state)
-    if header.place != s.PAIR:
-        kind = mujoco.mjtObj.mjOBJ_TENDON if header.place == s.TENDON else mujoco.mjtObj.mjOBJ_JOINT
-        body, surface = name_in(model, kind, int(header.geom_surface)), ""
-        force: Any = (row.fx, 0.0, 0.0)
+    header = state[: s.N_HEADER].view(s.HEADER)[0]  # fields by index: by attribute each takes microseconds
+    if header["place"] != s.PAIR:
+        kind = mujoco.mjtObj.mjOBJ_TENDON if header["place"] == s.TENDON else mujoco.mjtObj.mjOBJ_JOINT
+        body, surface = name_in(model, kind, int(header["geom_surface"])), ""
+        force: Any = (row["fx"], 0.0, 0.0)
     else:
-        pair = [int(row.geom_1) - 1, int(row.geom_2) - 1]
-        if pair[1] == header.geom_body or (header.geom_body < 0 and pair[0] == header.geom_surface):
+        pair = [int(row["geom_1"]) - 1, int(row["geom_2"]) - 1]
+        if pair[1] == header["geom_body"] or (header["geom_body"] < 0 and pair[0] == header["geom_surface"]):
             pair.reverse()
         body, surface = (name_in(model, mujoco.mjtObj.mjOBJ_GEOM, g) for g in pair)
-        force = row.fx * row.axis_1 + row.fy * row.axis_2
+        force = row["fx"] * row["axis_1"] + row["fy"] * row["axis_2"]
     return Reading(
-        time=float(header.evaluated),
+        time=float(header["evaluated"]),
         body=body,
         surface=surface,
         force=(float(force[0]), float(force[1]), float(force[2])),
-        normal_force=float(row.normal),
-        mu_s=float(row.mu_s),
-        mu_k=float(row.mu_k),
-        stick=bool(row.stick),
-        displacement=(float(row.ux), float(row.uy)),
-        velocity=(float(row.vx), float(row.vy)),
-        effective_mass=float(row.mass),
-        stick_phases=int(row.events),
-        dissipated=float(row.energy),
-        converged=header.unconverged == 0.0,
+        normal_force=float(row["normal"]),
+        mu_s=float(row["mu_s"]),
+        mu_k=float(row["mu_k"]),
+        stick=bool(row["stick"]),
+        displacement=(float(row["ux"]), float(row["uy"])),
+        velocity=(float(row["vx"]), float(row["vy"])),
+        effective_mass=float(row["mass"]),
+        stick_phases=int(row["events"]),
+        dissipated=float(row["energy"]),
+        converged=bool(header["unconverged"] == 0.0),
     )

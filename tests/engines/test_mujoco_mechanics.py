@@ -403,7 +403,7 @@ def test_the_mass_felt_is_that_of_the_jacobian(jacobian):
     mujoco.mj_forward(model, data)
     assert data.ncon == 1  # a sphere on a flat top
     (row,) = slots_of(state_of(model, data, 0), committed=False)
-    axes = np.array([row.axis_1, row.axis_2])
+    axes = np.array([row["axis_1"], row["axis_2"]])
     jacobian_of = {}
     for name in ("tip", "cart"):
         rows = np.zeros((3, model.nv))
@@ -413,6 +413,6 @@ def test_the_mass_felt_is_that_of_the_jacobian(jacobian):
     mass = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, mass)
     felt = 1.0 / np.linalg.eigvalsh(rows @ np.linalg.solve(mass, rows.T)).max()
-    assert row.felt == pytest.approx(felt, rel=1e-12)
+    assert row["felt"] == pytest.approx(felt, rel=1e-12)
     relative = axes @ (jacobian_of["cart"] - jacobian_of["tip"]) @ data.qvel
-    assert [row.vx, row.vy] == pytest.approx(relative, abs=1e-13)
+    assert [row["vx"], row["vy"]] == pytest.approx(relative, abs=1e-13)

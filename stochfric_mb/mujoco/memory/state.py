@@ -142,12 +142,11 @@ def started(law: npt.NDArray[Any], **address: int) -> Array:
     return state
 
 
-def slots_of(state: Array, *, committed: bool) -> Any:
-    """Return the committed or the current contacts of an instance's state (a view), fields by name."""
-    header = header_of(state)
-    count = int(header.n_committed if committed else header.n_current)
-    slots = state[N_HEADER : N_HEADER + 2 * count * N_SLOT].view(SLOT)
-    return slots[0 if committed else 1 :: 2].view(np.recarray)
+def slots_of(state: Array, *, committed: bool) -> npt.NDArray[Any]:
+    """Return the committed or the current contacts of an instance's state (a view), fields by index: that is fast."""
+    header = state[:N_HEADER].view(HEADER)[0]
+    count = int(header["n_committed" if committed else "n_current"])
+    return state[N_HEADER : N_HEADER + 2 * count * N_SLOT].view(SLOT)[0 if committed else 1 :: 2]
 
 
 def descriptor_place(header: Any) -> int:

@@ -17,7 +17,8 @@ from tests.discovery.unseen_forms.tables import judged, table
 SHARE = 0.12  # of the usual length: 7 cycles at one operating point, 3 at each of several
 QUICK = ("stribeck_gaussian", "mode_heavy", "sensor_play", "delay_bessel", "samples_missing", "clock_jitters", "plain_small")
 ALL = [
-    pytest.param(name, marks=() if name in QUICK else pytest.mark.slow)  # a second each
+    # a second each, and what they say changes with the forms alone
+    pytest.param(name, marks=() if name in QUICK else pytest.mark.long)
     for name in FORMS
 ]
 
@@ -94,7 +95,7 @@ def test_at_strength_zero_the_rig_is_as_believed(name):
         np.testing.assert_allclose(one.reading, other.reading, rtol=0.0, atol=0.01 * floor)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", [name for name, form in FORMS.items() if NONE not in form.truth])
 def test_at_full_strength_the_stated_feature_is_above_the_floor(name, tmp_path):
     case = case_of(name)

@@ -33,10 +33,13 @@ LOOSE = 1.0e-3
 """Normal force over the stated one below which a pair is left as it is [-]."""
 
 
-def place_of(source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> LossPlace | PairPlace:
+def place_of(
+    source: MjcfSource, name: str, load: float, model: JointModel, run: Run, directions: PairDirections
+) -> LossPlace | PairPlace:
     """Return friction in a joint, tendon or pair, for one run."""
-    kind = PairPlace if name in source.mechanism.pairs else LossPlace
-    return kind(source, name, load, model, run)
+    if name in source.mechanism.pairs:
+        return PairPlace(source, name, load, model, run, directions)
+    return LossPlace(source, name, load, model, run)
 
 
 class LossPlace:
@@ -93,8 +96,10 @@ class LossPlace:
 class PairPlace:
     """Friction in a pair while the model runs: our plugin's coefficients are what is available over the normal force."""
 
-    def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> None:
-        self._source, self.name, self._load = source, name, load
+    def __init__(
+        self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run, directions: PairDirections
+    ) -> None:
+        self.name, self._load, self._directions = name, load, directions
         self._links = chain(model.law, model.effects_in(run.name), load, contact=True)
         self._more = model.law.mu_s / model.law.mu_k
         self._world, self._memory = np.zeros(WORLD), np.zeros(8)
@@ -123,7 +128,7 @@ class PairPlace:
         pressed = sum(c.normal_force for c in contacts)
         if pressed < LOOSE * self._load:
             return 0.0
-        v = float(pair_direction(self._source, model, data, self.name) @ data.qvel)
+        v = float(self._directions(self.name) @ data.qvel)
         self._at += v * model.opt.timestep
         side = 1.0 if v > 0.0 else -1.0 if v < 0.0 else self._side
         if side != self._side:
@@ -173,8 +178,23 @@ class _Slots:
         data.plugin_state[self.places] = values
 
 
-def pair_direction(source: MjcfSource, model: Any, data: Any, pair: str) -> Array:
-    """Return how a pair slides with each joint in the present state, shape (n_joints,); zeros where it does not touch."""
-    geoms = geom_numbers(source.mujoco, model, source.mechanism.pairs[pair])
-    seen = touch(source.mujoco, model, data, *geoms)
-    return np.zeros(model.nv) if seen is None else source.line(pair) @ seen.axes.T @ seen.slide
+class PairDirections:
+    """How the pairs of a model slide with its joints in the state that it is in, worked out once for each state."""
+
+    def __init__(self, source: MjcfSource, model: Any, data: Any) -> None:
+        self._source, self._model, self._data = source, model, data
+        pairs = source.mechanism.pairs
+        self._geoms = {name: geom_numbers(source.mujoco, model, pair) for name, pair in pairs.items()}
+        self._known: dict[str, Array] = {}
+
+    def __call__(self, pair: str) -> Array:
+        """Return how a pair slides with each joint, shape (n_joints,); zeros where it does not touch."""
+        if pair not in self._known:
+            seen = touch(self._source.mujoco, self._model, self._data, *self._geoms[pair])
+            still = np.zeros(self._model.nv)
+            self._known[pair] = still if seen is None else self._source.line(pair) @ seen.axes.T @ seen.slide
+        return self._known[pair]
+
+    def forget(self) -> None:
+        """Say that the state has changed."""
+        self._known.clear()
