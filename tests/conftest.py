@@ -13,7 +13,6 @@ settings.register_profile("explore", deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
 
 
-
 def _lines(file: str) -> tuple[str, ...]:
     text = Path(__file__).with_name(file).read_text(encoding="utf-8")
     return tuple(line for line in text.splitlines() if line[:1] not in ("", "#"))

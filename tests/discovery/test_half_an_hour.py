@@ -3,6 +3,7 @@
 import resource
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -14,8 +15,9 @@ from stochfric_mb.reference.augmented import Start, augmented_system
 
 pytestmark = pytest.mark.slow
 
-SECONDS, GIB = 60.0, 2**20
-"""Processor time that is allowed [s]: what one core alone may take; and 1 GiB [KiB]."""
+TIMES, GIB = 20.0, 2**20
+"""Processor time that is allowed, over what numpy takes to write the file: 60 s on a core that writes it in 3 s (measured: 10 to 13
+times, 40 s on a fast machine, 68 to 78 s on one half as fast); and 1 GiB [KiB]."""
 SCENARIO = """\
 schema = "stochfric.scenario/1"
 [mechanism]
@@ -59,7 +61,9 @@ def test_half_an_hour_at_1_khz(tmp_path):
     position = position + 5.0e-6 * np.random.default_rng(1).standard_normal(len(position))
     file = tmp_path / "run.csv"
     table = np.column_stack([1.0e-3 * np.arange(len(position)), position])
+    start = time.process_time()
     np.savetxt(file, table, "%.7g", ",", header="time [s],position [m]", comments="")
+    writing = time.process_time() - start
 
     scenario = tmp_path / "scenario.toml"
     scenario.write_text(SCENARIO)
@@ -70,6 +74,6 @@ def test_half_an_hour_at_1_khz(tmp_path):
     assert "Verdict: effect (random_coefficients)" in done.stdout
     assert int(done.stdout.split()[-1]) < GIB
     # compiling at the first use is not part of it: the tests before have filled the cache, or it is seen here once
-    assert after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime < SECONDS
+    assert after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime < TIMES * writing
     for stage in ("calibration", "screening", "refit", "held-out runs"):
         assert stage in done.stderr  # progress in lines, off a terminal
