@@ -16,7 +16,7 @@ from stochfric_mb.reference.augmented import Start, augmented_system
 pytestmark = pytest.mark.slow
 
 TIMES, GIB = 20.0, 2**20
-"""Processor time that is allowed, over what numpy takes to write the file: 60 s on a core that writes it in 3 s; and 1 GiB [KiB].
+"""Processor time that is allowed, over what numpy takes to write the file: 60 s on a core that writes it in 3 s; 1 GiB [KiB].
 Measured: 10 to 13 times; 40 s on a fast machine, 68 to 78 s on one half as fast."""
 SCENARIO = """\
 schema = "stochfric.scenario/1"
