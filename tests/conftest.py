@@ -24,13 +24,11 @@ MARKS = {mark: _lines(f"{mark}.txt") for mark in ("slow", "long")}
 
 @pytest.hookimpl(tryfirst=True)  # before options select by marker
 def pytest_collection_modifyitems(items):
-    """Mark the slow and the long tests; a test that is both is long."""
+    """Mark the slow and the long tests."""
     for item in items:
         for mark, lines in MARKS.items():
             if item.nodeid.startswith(lines) or any(part[1:] in item.nodeid for part in lines if part.startswith("*")):
                 item.add_marker(mark)
-        if item.get_closest_marker("long"):
-            item.own_markers[:] = [mark for mark in item.own_markers if mark.name != "slow"]
 
 
 @pytest.hookimpl(optionalhook=True)
