@@ -105,6 +105,7 @@ LIMITED = """\
 import resource, signal, sys
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+sys.dont_write_bytecode = True  # Python would leave the beginning of a file behind
 sys.argv[1:] = ["run", "kang2015_table1", "--out", sys.argv[1]]
 from stochfric_mb.__main__ import main
 main()
