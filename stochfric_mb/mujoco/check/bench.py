@@ -34,6 +34,8 @@ class Bench:
     """The model as it can be changed; None where it cannot."""
     model: mujoco.MjModel
     """The model."""
+    paired: mujoco.MjModel | None
+    """The model with each pair of the sites by itself, see `paired`; None where it cannot be changed."""
     invented: frozenset[str]
     """Names that are not the user's."""
     state: mujoco.MjData
@@ -137,11 +139,12 @@ class Bench:
     def _without_friction(self, site: Site) -> mujoco.MjModel | None:
         """Return the model without the site's friction, None if it cannot be had."""
         if isinstance(site, ContactPair):
-            if self.spec is None:
+            if self.paired is None:
                 return None
-            bare = copied(self.spec)
-            take_over(bare, *site.names, site.mu).condim = 1
-            return bare.compile()
+            bare = copy.copy(self.paired)
+            pairs = zip(bare.pair_geom1.tolist(), bare.pair_geom2.tolist(), strict=True)
+            bare.pair_dim[[set(pair) == set(site.geoms) for pair in pairs]] = 1
+            return bare
         model = copy.copy(self.model)
         losses = model.dof_frictionloss if site.kind == "joint" else model.tendon_frictionloss
         losses[site.number] = 0.0
@@ -165,6 +168,17 @@ class Bench:
             place = joints.Joint(*site.names) if site.kind == "joint" else joints.Tendon(*site.names)
             name = add_friction(changed, place, law, normal_force=site.loss)
         return Probe(changed.compile(), self.state, dataclasses.replace(site, instance=name), self.duration)
+
+
+def paired(spec: mujoco.MjSpec | None, sites: list[Site]) -> mujoco.MjModel | None:
+    """Return a model whose pairs of geoms at the sites are pairs by themselves; None without a spec."""
+    if spec is None:
+        return None
+    changed = copied(spec)
+    for site in sites:
+        if isinstance(site, ContactPair):
+            take_over(changed, *site.names, site.mu)
+    return changed.compile()
 
 
 def _mode(probe: Probe, record: Record) -> str:

@@ -149,20 +149,34 @@ class Probe:
             mujoco.mj_forward(model, data)
         applied = data.qfrc_applied.copy()
         step = float(model.opt.timestep)
-        samples = [self.site.sample(model, data)]
+        row, samples = self.site.sample(model, data).row, list[Sample]()
         follow = np.zeros(model.nv) if follow is None else follow
         followed = [follow @ data.qvel]
         for i in range(max(LEAST_STEPS, round(duration / step))):
-            data.qfrc_applied[:] = applied + load(i * step) * samples[-1].row
-            mujoco.mj_step(model, data)
-            mujoco.mj_forward(model, data)
+            data.qfrc_applied[:] = applied + load(i * step) * row
+            samples.append(self._step(data))
             if not np.isfinite(data.qvel).all() or not np.isfinite(data.qacc).all() or diverged(data):
                 raise SimulationError(
                     f"the state broke {(i + 1) * step:.3g} s after the start of a probe; use a smaller timestep"
                 )
-            samples.append(self.site.sample(model, data))
+            row = samples[-1].row
             followed.append(follow @ data.qvel)
-        return Record(samples, step, data, np.array(followed))
+        mujoco.mj_forward(model, data)
+        return Record([*samples, self.site.sample(model, data)], step, data, np.array(followed))
+
+    def _step(self, data: mujoco.MjData) -> Sample:
+        """Advance by one step, and return what the site did at its start.
+
+        An integrator of one stage leaves contacts, Jacobians and forces as they were there. RK4 leaves those of its last stage.
+        """
+        if self.model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
+            mujoco.mj_forward(self.model, data)
+            sample = self.site.sample(self.model, data)
+            mujoco.mj_step(self.model, data)
+            return sample
+        velocity = data.qvel.copy()
+        mujoco.mj_step(self.model, data)
+        return self.site.sample(self.model, data, velocity)
 
     def hold(self, force: float) -> tuple[Drift | None, Record]:
         """Return the drift under a force that rises to ``force`` [N or N m] and stays; None if the contact is lost."""

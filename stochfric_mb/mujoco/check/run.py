@@ -15,7 +15,7 @@ import mujoco
 
 from stochfric_mb.errors import require_number
 from stochfric_mb.laws import make_law
-from stochfric_mb.mujoco.check.bench import Bench
+from stochfric_mb.mujoco.check.bench import Bench, paired
 from stochfric_mb.mujoco.check.findings import CheckResult
 from stochfric_mb.mujoco.check.loading import load
 from stochfric_mb.mujoco.check.search import find_sites
@@ -58,7 +58,8 @@ def check(
         spec, compiled, invented = load(model)
         settled = leave_alone(compiled, keyframe, settle, stage)
         result, notes = find_sites(compiled, settled, most)
-        bench = Bench(spec, compiled, invented, settled.data, law, mu_k_ratio, duration)
+        own = paired(spec, [site for site, problem in result if not problem])
+        bench = Bench(spec, compiled, own, invented, settled.data, law, mu_k_ratio, duration)
         rows = tuple(bench.row(site, problem, stage(site.name, bench.probe_time())) for site, problem in result)
     option = compiled.opt
     return CheckResult(

@@ -85,14 +85,15 @@ def settle(model: mujoco.MjModel, keyframe: str | None, duration: float, stage: 
     settled = Settled(data, steps=round(duration / model.opt.timestep))
     advance = stage("settling", duration)
     for i in range(settled.steps + 1):
-        mujoco.mj_forward(model, data)
-        settled.met.update((a, b) for a, b in data.contact.geom.tolist() if min(a, b) >= 0)
-        if i >= (1.0 - TAIL) * settled.steps:
-            settled.look(model)
         if i < settled.steps:
             mujoco.mj_step(model, data)
             settled.unconverged += stopped_early(model._address, data._address)
             advance((i + 1) * model.opt.timestep)
+        else:
+            mujoco.mj_forward(model, data)
+        settled.met.update((a, b) for a, b in data.contact.geom.tolist() if min(a, b) >= 0)
+        if i >= (1.0 - TAIL) * settled.steps:
+            settled.look(model)
         if not np.isfinite(data.qvel).all() or diverged(data):
             raise SimulationError(
                 f"the model itself breaks at t = {data.time:.4g} s with timestep {model.opt.timestep:g} s; "

@@ -99,8 +99,14 @@ class ContactPair:
         """Name for tables."""
         return " - ".join(self.names)
 
-    def sample(self, model: mujoco.MjModel, data: mujoco.MjData) -> Sample:
-        """Return the sums over the pair's contacts; the velocity is that of their centre of normal force."""
+    def sample(self, model: mujoco.MjModel, data: mujoco.MjData, qvel: Array | None = None) -> Sample:
+        """Return the sums over the pair's contacts; the velocity is that of their centre of normal force.
+
+        Args:
+            model: the model.
+            data: its state, with forces.
+            qvel: velocities that belong to these forces, shape (nv,); those in ``data`` if not given.
+        """
         contacts = touches(model, data, self.geoms)
         if not contacts:
             return Sample(0.0, 0.0, 0.0, 0.0, 0.0, False, np.zeros(model.nv))
@@ -111,8 +117,9 @@ class ContactPair:
         normals = np.array([t.normal for t in contacts])
         normal, along = float(normals.sum()), np.asarray(self.along)
         weights = normals / normal if normal > 0.0 else np.full(len(contacts), 1.0 / len(contacts))
-        row = along @ np.tensordot(weights, [t.jacobian for t in contacts], 1)
-        slips = np.array([t.jacobian @ data.qvel - t.belt for t in contacts])
+        row = weights @ np.array([along @ t.jacobian for t in contacts])
+        qvel = data.qvel if qvel is None else qvel
+        slips = np.array([t.jacobian @ qvel - t.belt for t in contacts])
         return Sample(
             limit=self.mu * normal,
             normal=normal,
@@ -149,8 +156,8 @@ class Coordinate:
     instance: str = ""
     """Friction instance of this package that acts here; empty: the model's own friction."""
 
-    def sample(self, model: mujoco.MjModel, data: mujoco.MjData) -> Sample:
-        """Return what friction does along the coordinate, the package's or the engine's constraint."""
+    def sample(self, model: mujoco.MjModel, data: mujoco.MjData, qvel: Array | None = None) -> Sample:
+        """Return what friction does along the coordinate, the package's or the engine's constraint (see `ContactPair`)."""
         if self.kind == "joint":
             row, kind = np.eye(1, model.nv, self.number)[0], CONSTRAINT.mjCNSTR_FRICTION_DOF
         else:
@@ -161,7 +168,7 @@ class Coordinate:
             force = sum(reading.force[0] for reading in readings(model, data)[self.instance])
         else:
             force = float(data.efc_force[(data.efc_type == int(kind)) & (data.efc_id == self.number)].sum())
-        velocity = float(row @ data.qvel)
+        velocity = float(row @ (data.qvel if qvel is None else qvel))
         return Sample(self.loss, self.loss, -force, velocity, force * velocity, True, row)
 
     def mobility(self, model: mujoco.MjModel, data: mujoco.MjData) -> float:
