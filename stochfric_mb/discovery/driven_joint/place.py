@@ -183,11 +183,11 @@ def _better(
             those before are without, for all that sampling and holding may be late by.
         nuisances: numbers of the mechanism.
     """
-    without = [fit(plain.final.model, seen, nuisances, noise=prior_weight(plain.final)) for seen in balances[:-1]]
+    without = [_refitted(plain, seen) for seen in balances[:-1]]
     before = min(without, key=lambda f: f.rms)
-    after = fit(late.final.model, balances[-1], nuisances, noise=prior_weight(late.final))
+    after = _refitted(late, balances[-1])
     n = max(sum(map(independent_count, after.remainders)), 4.0)  # timing shows within strokes, too
-    more = len(after.free) - len(before.free) + 1
+    more = len(after.free) + len(late.released) - len(before.free) - len(plain.released) + 1
     gain = float(np.log(before.rms / after.rms))
     if more < 0 and gain > np.log(1.0 - criteria.MATERIAL):
         gain = max(gain, 0.0)  # effects that leave less by no material part explain no more than the delay, which is simpler
@@ -196,6 +196,15 @@ def _better(
     shares = [share_by_delay(stated, after, balances[-1], nuisances, size) for size in sizes]
     evidence = 2.0 * n * gain + before.strain - after.strain - more * np.log(n)
     return float(evidence), min(shares) >= criteria.EXPLAINED_BY_DELAY
+
+
+def _refitted(selected: Selected, balances: Sequence[ForceBalance]) -> JointFit:
+    """Return the final model through other windows; what it released stays free.
+
+    Beliefs weigh as they did in the selection: through narrow windows what is left is mostly the noise of acceleration times
+    mass, and a belief that weighs by it gives way to less mass, which is less noise.
+    """
+    return fit(selected.final.model, balances, selected.nuisances, noise=prior_weight(selected.final))
 
 
 def _rms(values: Array) -> float:

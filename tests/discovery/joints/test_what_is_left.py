@@ -41,13 +41,38 @@ def test_each_by_itself_is_no_interaction():
     assert not any(" times speed" in note for note in result.notes)
 
 
-def test_friction_beyond_its_belief_is_a_finding():
-    measured = pair(lambda q, v: 1.5 * coulomb(q, v))
-    scenario = dataclasses.replace(measured.scenario, uncertainty={"mass": 0.05, "mu_k": 0.05})
-    (named,) = joint_outcome(dataclasses.replace(measured, scenario=scenario)).result.effects
+BELIEVED = {"mass": 0.05, "offset": 0.1, "mu_k": 0.05}
+"""Stated standard deviations: of mass [-], offset [N] and mu_k [-]."""
+
+
+def off_by(deviations):
+    """Coulomb friction whose mu_k is off by so many of its stated standard deviations."""
+    measured = pair(lambda q, v: (1.0 + BELIEVED["mu_k"] * deviations) * coulomb(q, v))
+    scenario = dataclasses.replace(measured.scenario, uncertainty=BELIEVED)
+    return dataclasses.replace(measured, scenario=scenario)
+
+
+@pytest.mark.parametrize("deviations", [5.0, 10.0])
+def test_friction_beyond_its_belief_is_a_finding(deviations):
+    measured = off_by(deviations)
+    (named,) = joint_outcome(measured).result.effects
     assert named.kind == "friction_level"
-    assert named.parameters["mu_k"].value == pytest.approx(0.15, rel=0.01)
-    assert joint_outcome(dataclasses.replace(measured, scenario=measured.scenario)).result.verdict == "none"
+    assert named.parameters["mu_k"].value == pytest.approx(0.1 * (1.0 + BELIEVED["mu_k"] * deviations), rel=0.01)
+
+
+def test_friction_of_which_nothing_is_believed_may_be_anything():
+    measured = off_by(10.0)
+    scenario = dataclasses.replace(measured.scenario, uncertainty={"mass": 0.05, "offset": 0.1})
+    assert joint_outcome(dataclasses.replace(measured, scenario=scenario)).result.verdict == "none"
+
+
+@pytest.mark.parametrize("deviations", [-3.8, 3.0, 3.8])
+def test_friction_near_the_end_of_its_belief_makes_no_effect_of_what_is_left(deviations):
+    # against a belief that weighs too much, any effect that imitates its share of friction explains what it holds back
+    place = joint_outcome(off_by(deviations)).places[0]
+    assert not place.selected.named
+    mu_k = place.selected.final.model.law.mu_k
+    assert mu_k == pytest.approx(0.1 * (1.0 + BELIEVED["mu_k"] * deviations), abs=0.1 * BELIEVED["mu_k"] * 0.1)
 
 
 def test_a_gain_that_waves_along_the_stroke_has_its_name():

@@ -34,7 +34,14 @@ def with_idle(place: PlaceOutcome) -> PlaceOutcome:
     reason = inadequate(place)
     if not reason or place.late:
         return dataclasses.replace(place, idle=reason)
-    plain = dataclasses.replace(place.selected, final=place.selected.recalibrated, effects=(), equivalents=(), released=())
+    plain = dataclasses.replace(
+        place.selected,
+        final=place.selected.recalibrated,
+        effects=(),
+        equivalents=(),
+        released=(),
+        nuisances=place.nuisances,
+    )
     scores = place.scores | {"augmented": place.scores["recalibrated"]}
     return dataclasses.replace(place, selected=plain, scores=scores, idle=reason)
 

@@ -68,7 +68,7 @@ def _profiled(place: PlaceOutcome, owner: int, numbers: dict[str, Interval]) -> 
         value, unit = numbers[name].value, numbers[name].unit
         nothing = LEAST_WAVE * value if name == "wavelength" else 0.0
         ends = (nothing, np.inf) if value > 0.0 else (-np.inf, nothing)
-        low, high = profile(fit, owner, name, place.fit, place.nuisances, prior_weight(fit), *ends)
+        low, high = profile(fit, owner, name, place.fit, place.selected.nuisances, prior_weight(fit), *ends)
         intervals[name] = Interval(value, low, high, unit)
     return intervals
 

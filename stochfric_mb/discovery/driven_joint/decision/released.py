@@ -12,7 +12,7 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.decision.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.fit.beliefs import Belief, beliefs
-from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit
+from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, settled
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM
 
 Array = npt.NDArray[np.float64]
@@ -82,7 +82,7 @@ def beyond_beliefs(
         if beside and abs(belief.off(current.model)) < criteria.AT_BOUND * criteria.MOST_OFF:
             continue
         model, wide = belief.given_up(current.model, nuisances)
-        fitted = fit(model, balances, wide, noise=noise)
+        fitted, _ = settled(model, balances, wide, noise=noise)
         if abs(belief.off(fitted.model)) < criteria.MOST_OFF:
             continue
         cost = np.log(max(fitted.independent, 4.0)) + 2.0 * np.log(len(believed))

@@ -16,7 +16,7 @@ from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks
 from stochfric_mb.discovery.driven_joint.decision.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.decision.released import Freed, Released, beyond_beliefs
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import COMPETITORS, SmoothDependences
-from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
+from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight, settled
 from stochfric_mb.discovery.driven_joint.fit.gains import predicted_rms
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import Start, tried, wave_starts
@@ -26,8 +26,6 @@ from stochfric_mb.effects.joints import JointSpan
 
 Array = npt.NDArray[np.float64]
 
-SETTLINGS, SETTLED = 3, 0.8
-"""Most refits in which beliefs weigh less, and the part of their weight from which one is worth it [-]."""
 SIZES = ("amplitude", "coefficient", "asymmetry", "viscous_difference", "rate")
 """Parameters that are zero where an effect is none."""
 
@@ -85,6 +83,8 @@ class Selected:
     falls with them."""
     released: tuple[Released, ...] = ()
     """Numbers of law and mechanism that are off by more than their uncertainty."""
+    nuisances: tuple[Nuisance, ...] = ()
+    """Numbers of the mechanism with their priors in the final fit: those released have none that holds them."""
 
     @property
     def named(self) -> tuple[str, ...]:
@@ -107,9 +107,7 @@ class Selector:
         self._first: list[tuple[Candidate, JointFit]] = []
         self._tell = progress or (lambda _: None)
         self._settings, self._smooth = settings_of(balances), SmoothDependences(balances)
-        first = fit(start, balances, nuisances, noise=_typical(balances))
-        self._noise = prior_weight(first)
-        self.recalibrated = self._fit(start)
+        self.recalibrated, self._noise = settled(start, balances, nuisances, noise=_typical(balances))
         self._begin = self._noise, self._nuisances
 
     def _fit(self, model: JointModel, evaluations: int = 12) -> JointFit:
@@ -150,6 +148,7 @@ class Selector:
             unknown[0],
             tuple((axis, gain) for axis, gain in left if axis),
             tuple(released),
+            tuple(self._nuisances),
         )
 
     def _released(self, current: JointFit, stage: Stage) -> tuple[Released, JointFit] | None:
@@ -242,17 +241,10 @@ class Selector:
             starts.sort(key=lambda s: predicted_rms(current.model, s.effect, self._balances, current))
         waves = wave_starts(candidate.scan, current, self._balances) if candidate.scan is not None else []
         fits = [self._fit(s.added_to(current.model)) for s in (*starts[:2], *waves)]
-        return self._settled(min(fits, key=lambda f: f.rms)) if fits else None
-
-    def _settled(self, fitted: JointFit) -> JointFit:
-        """Return a fit in which beliefs count as much as one independent window of what it leaves itself."""
-        noise = self._noise
-        for _ in range(SETTLINGS):
-            if prior_weight(fitted) > SETTLED * noise:
-                break
-            noise = prior_weight(fitted)
-            fitted = fit(fitted.model, self._balances, self._nuisances, noise=noise)
-        return fitted
+        if not fits:
+            return None
+        best = min(fits, key=lambda f: f.rms)
+        return settled(best.model, self._balances, self._nuisances, noise=self._noise, fitted=best)[0]
 
     def _scored(self, current: JointFit, fits: Sequence[tuple[Candidate, JointFit]]) -> list[Trial]:
         # all are judged by the same count of independent windows: that of the best fit
@@ -278,7 +270,7 @@ class Selector:
                 continue
             kind = trial.candidate.kind
             without = dataclasses.replace(current.model, effects=tuple(e for e in current.model.effects if e.kind != kind))
-            fitted = self._fit(without)
+            fitted, _ = settled(without, self._balances, self._nuisances, noise=self._noise)
             n = max(current.independent, 4.0)
             score = evidence(fitted, current, current, self._settings) - trial.candidate.parameters * np.log(n)
             if score < criteria.NAMED:

@@ -23,6 +23,8 @@ DIFFERENCE, TOLERANCE = 1.0e-4, 1.0e-7
 """Step of the derivatives in natural steps, and fall of the sum of squares over itself at which a fit ends [-]."""
 EVALUATIONS = 12
 """Most Gauss-Newton steps: the balance is linear in most numbers."""
+SETTLINGS, SETTLED = 4, 0.8
+"""Most refits in which beliefs weigh otherwise, and the ratio of the weights at which one is not worth it [-]."""
 PER_STROKE = 6
 """Independent numbers that one stroke can give: friction's errors repeat along a stroke, and that no autocorrelation shows."""
 
@@ -126,6 +128,36 @@ def fit(
     information += np.diag((scale / steps.prior) ** 2)
     covariance = np.linalg.pinv(information, hermitian=True) * np.outer(scale, scale)
     return dataclasses.replace(result, covariance=covariance)
+
+
+def settled(
+    model: JointModel,
+    balances: Sequence[ForceBalance],
+    nuisances: Sequence[Nuisance],
+    *,
+    noise: float,
+    fitted: JointFit | None = None,
+) -> tuple[JointFit, float]:
+    """Return a fit in which beliefs count as much as one independent window of what it leaves itself, and that weight.
+
+    There the deviance n ln(mean square) plus the strain of beliefs, by which fits are compared, is least: its gradient
+    vanishes where the weight is the mean square over the share of windows that are independent.
+
+    Args:
+        model: where the fit starts.
+        balances: fit runs.
+        nuisances: numbers of the mechanism with their priors.
+        noise: weight of beliefs from which to begin, as of `fit`.
+        fitted: the fit with that weight, where it is known.
+    """
+    fitted = fitted or fit(model, balances, nuisances, noise=noise)
+    for _ in range(SETTLINGS):
+        weight = prior_weight(fitted)
+        if SETTLED * noise < weight < noise / SETTLED:
+            break
+        noise = weight
+        fitted = fit(fitted.model, balances, nuisances, noise=noise)
+    return fitted, noise
 
 
 def prior_weight(fitted: JointFit) -> float:
