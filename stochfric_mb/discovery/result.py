@@ -83,11 +83,6 @@ class Gap:
     floor_from: str = "simulated from the final model with the record's noise"
     """Where the floor comes from."""
 
-    def times(self, unit: float) -> Gap:
-        """Return the gap with its numbers times ``unit``."""
-        numbers = {name: unit * getattr(self, name) for name in ("baseline", "recalibrated", "augmented", "floor")}
-        return dataclasses.replace(self, **numbers)
-
     @property
     def notes(self) -> tuple[str, ...]:
         """What must be said where the effects do not bring the model closer to the held-out runs."""

@@ -121,6 +121,10 @@ class Slips(Protocol):
         """The run's median friction force in slip [N]."""
         ...
 
+    def temperature(self, time: Array) -> Array | None:
+        """Return the measured temperature [degC] at times in the slips [s], shape (n,) or (n, nodes); None: a run has none."""
+        ...
+
     def column(self, at_onset: Array | None, in_slip: Array | None) -> Array:
         """Return a regressor from its force at break-away and its force in the slip.
 

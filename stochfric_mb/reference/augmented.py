@@ -36,6 +36,8 @@ TOLERANCE = 1.0e-8
 """Local error of a step over the static deflection [-]."""
 TOLERANCE_SPRING = 1.0e-9
 """The same where a spring sticks: break-away from it is slow, so that small errors grow."""
+RESTART = 0.0051
+"""First step after a switch, as an angle of the natural oscillation [rad]."""
 LAWS = ("coulomb", "elastic_stick", "stribeck")
 """Laws that the fast simulator knows."""
 
@@ -100,6 +102,7 @@ def augmented_system(
     *,
     seed: int = 0,
     sample: int = 0,
+    temperature: tuple[Array, Array] | None = None,
 ) -> AugmentedSystem:
     """Return a belt-box with effects, ready to march.
 
@@ -110,9 +113,11 @@ def augmented_system(
         process: how the coefficients vary; None: constant, unless an effect of randomness sets them.
         seed: first part of the address of random numbers.
         sample: second part.
+        temperature: times [s], evenly spaced, and measured temperatures there [degC], `TEMPERATURES` of each; None: none was.
 
     Raises:
-        InputError: a law that the fast simulator does not know, two processes, or more effects than it has room for.
+        InputError: a law that the fast simulator does not know, two processes, more effects than it has room for, or an effect
+            that reads a temperature where none was measured.
     """
     process = combined_process(effects, process)
     path = CoefficientPath(process, law, seed=seed, sample=sample)
@@ -122,6 +127,7 @@ def augmented_system(
     _set_law(run, law, places)
     _set_effects(run, effects, places)
     _set_numerics(run, mechanism, law, effects, path)
+    _set_temperature(run, effects, temperature)
     return AugmentedSystem(mechanism, law, tuple(effects), process, run, path.descriptor, places)
 
 
@@ -378,6 +384,17 @@ def _set_effects(run: Any, effects: Sequence[Effect], places: Places) -> None:
         run.friction[i] = entry
 
 
+def _set_temperature(run: Any, effects: Sequence[Effect], temperature: tuple[Array, Array] | None) -> None:
+    if temperature is not None:
+        time, values = temperature
+        run.temperature[:2] = time[0], time[1] - time[0]
+        run.temperature[2:] = values
+        return
+    for effect in effects:
+        if "temperature" in effect.reads:
+            raise InputError(f"effect {effect.kind!r} reads a temperature, and none is given; leave it out")
+
+
 def _set_numerics(run: Any, mechanism: BeltBox, law: Law, effects: Sequence[Effect], path: CoefficientPath) -> None:
     m = augmented_model
     c = run.constants
@@ -392,6 +409,7 @@ def _set_numerics(run: Any, mechanism: BeltBox, law: Law, effects: Sequence[Effe
     in_slip = min((effect.shortest_time(speed) for effect in effects), default=math.inf)
     c[m.SEED], c[m.SAMPLE], c[m.CONTACT] = path.seed, path.sample, path.contact
     c[m.TOLERANCE] = (TOLERANCE_SPRING if c[m.LIMIT] > 0.0 else TOLERANCE) * static
+    c[m.RESTART] = RESTART * math.sqrt(mechanism.mass / mechanism.stiffness)
     c[m.LONGEST_SLIDE] = min(0.25 / fastest, 0.1 * in_slip)
     c[m.LONGEST_STICK] = min(0.1 / fastest, 0.05 * shortest)
     descriptor = path.descriptor

@@ -26,8 +26,6 @@ ENDLESS_SWITCHES = 5
 MOST_STEPS = 500
 """Steps per output, on average, beyond which a motion is too stiff: the stiffest contact that a fit may reach, 1 um
 at 8 N, swings through 1150 rad/s and takes 120 of them where outputs are 50 ms apart."""
-RESTART = 2.0e-4
-"""First step after a switch [s]."""
 APART = 1000.0
 """Draws at break-aways and re-sticks between those of two forecasts [-]: more than one forecast uses."""
 MEMORY_TOLERANCE = 1.0e-7
@@ -50,7 +48,7 @@ def begin(r, d, t, position, velocity, stuck, dwell, slip, slip_time, draws, def
     clock, y = r.clock, r.y
     clock[m.NOW], clock[m.DWELL], clock[m.DRAWS], clock[m.SWITCHES], clock[m.STATUS] = t, dwell, draws, 0.0, OK
     clock[m.SINCE] = t - dwell - (0.0 if stuck else slip_time)
-    clock[m.STEP], clock[m.MARGIN] = RESTART, math.nan
+    clock[m.STEP], clock[m.MARGIN] = r.constants[m.RESTART], math.nan
     y[0], y[1] = position, velocity
     surround(r, t, y, r.unused)
     travel, belt = r.world[e.BELT_TRAVEL], r.world[e.BELT_VELOCITY]
@@ -246,7 +244,7 @@ def _switch(r, d, log):
     """Go to the next mode; return the log of switches."""
     clock, y, w = r.clock, r.y, r.world
     t = clock[m.NOW]
-    clock[m.STEP], clock[m.MARGIN] = RESTART, math.nan
+    clock[m.STEP], clock[m.MARGIN] = r.constants[m.RESTART], math.nan
     if clock[m.MODE] == m.SLIDING:
         return _come_to_rest(r, d, log)
     if clock[m.MODE] == m.STUCK:

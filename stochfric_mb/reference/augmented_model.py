@@ -26,6 +26,8 @@ MAX_MEMORY = 8
 UNKNOWNS = 2 + MAX_MEMORY
 """x, x' and the effects' memories."""
 STAGES = len(DOPRI5.b)
+TEMPERATURES = 128
+"""Knots of the measured temperature."""
 
 # Modes of the contact.
 STUCK, SLIDING, SPRING = 0.0, 1.0, 2.0
@@ -35,7 +37,7 @@ COULOMB, ELASTIC, STRIBECK = 0.0, 1.0, 2.0
 
 # Entries of ``constants``.
 (M, C, K, N, VB, FOOT, W, MEAN_S, MEAN_K, CURVE, DECAY, RESTICK, FORM, LIMIT, ZETA, SEED, SAMPLE, CONTACT, TOLERANCE,
- LONGEST_SLIDE, LONGEST_STICK, KNOTS) = range(22)  # fmt: skip
+ LONGEST_SLIDE, LONGEST_STICK, KNOTS, RESTART) = range(23)  # fmt: skip
 # Entries of ``clock``.
 (NOW, MODE, SIDE, ARMED, DWELL, SINCE, BROKE_AT, SLID, X_STUCK, TRAVEL_STUCK, ANCHOR, DRAWS, STEP, SWITCHES,
  STATUS, MARGIN) = range(16)  # fmt: skip
@@ -43,7 +45,7 @@ COULOMB, ELASTIC, STRIBECK = 0.0, 1.0, 2.0
 _REAL = np.float64
 RUN = np.dtype(
     [
-        ("constants", _REAL, 22),
+        ("constants", _REAL, 23),
         ("counts", np.int64, 3),  # effects around the contact, effects on friction, unknowns of their memories
         ("around", np.int64, (MAX_EFFECTS, 3)),  # address, offset of p, offset of the memory
         ("friction", np.int64, (MAX_EFFECTS, 3)),
@@ -56,9 +58,22 @@ RUN = np.dtype(
         ("clock", _REAL, 16),
         ("world", _REAL, e.WORLD),
         ("cursor", _REAL, CURSOR),
+        (
+            "temperature",
+            _REAL,
+            2 + TEMPERATURES,
+        ),  # time of the first knot [s], their distance [s] (0: none), temperatures [degC]
     ]
 )
 """The model and the run."""
+
+
+@compiled
+def temperature_at(table, t):
+    """Return the temperature [degC] at a time [s]: linear between knots, constant outside."""
+    place = min(max((t - table[0]) / table[1], 0.0), TEMPERATURES - 1.0)
+    knot = min(int(place), TEMPERATURES - 2)
+    return table[2 + knot] + (place - knot) * (table[3 + knot] - table[2 + knot])
 
 
 @compiled
@@ -71,6 +86,8 @@ def surround(r, t, y, rates):
     w[e.BELT_VELOCITY], w[e.BELT_ACCELERATION], w[e.BELT_TRAVEL] = c[VB], 0.0, c[VB] * t
     w[e.NORMAL_FORCE] = c[N]
     w[e.LOAD] = 0.0
+    if r.temperature[1] > 0.0:
+        w[e.TEMPERATURE] = temperature_at(r.temperature, t)
     for i in range(r.counts[0]):
         offset = 8 * (2 + r.around[i, 2])
         call_effect(

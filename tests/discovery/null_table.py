@@ -20,7 +20,6 @@ from stochfric_mb.discovery.stick_slip.screening.screen import screen
 from stochfric_mb.discovery.stick_slip.screening.switching import switching
 from stochfric_mb.discovery.stick_slip.screening.variance_components import randomness
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import assumed
-from stochfric_mb.discovery.stick_slip.simulation.scaling import Scaling
 from stochfric_mb.discovery.stick_slip.study import study
 from tests.discovery.generator.case import Case
 from tests.discovery.generator.design import DESIGNS
@@ -43,8 +42,7 @@ def cases(count):
 def statistics(case, size):
     """Return statistic -> value in one record; None where the record is refused."""
     dataset = belt_box(case, size)
-    units = Scaling.of_rig(dataset.scenario.mechanism)
-    result = study(units.reduced(assumed(dataset)), units)
+    result = study(assumed(dataset))
     if result is None:
         return None
     candidates = screen(result.pool, result.regression, result.terms, result.solution)

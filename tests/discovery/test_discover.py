@@ -62,50 +62,6 @@ def plain() -> Dataset:
     return made(CLEAR[0])[1]
 
 
-def grown(dataset: Dataset, *, force: float, length: float, time: float) -> Dataset:
-    """The same rig, larger: its records and numbers in other units, under the old names of the units."""
-    box = dataset.scenario.mechanism
-    mechanism = replace(
-        box,
-        mass=box.mass * force / length * time**2,
-        damping=box.damping * force / length * time,
-        stiffness=box.stiffness * force / length,
-        normal_force=box.normal_force * force,
-        belt_velocity=box.belt_velocity * length / time,
-    )
-    scenario = replace(
-        dataset.scenario,
-        mechanism=mechanism,
-        duration=dataset.scenario.duration * time,
-        output_step=dataset.scenario.output_step * time,
-    )
-    runs = tuple(
-        replace(
-            run,
-            time=run.time * time,
-            channels={"position": run.channels["position"] * length},
-            sample_interval=run.sample_interval * time,
-        )
-        for run in dataset.runs
-    )
-    return replace(dataset, scenario=scenario, runs=runs)
-
-
-def test_the_answer_is_the_same_on_a_rig_of_another_size():
-    # powers of four: all numbers are exact, and the answers agree to the bit
-    dataset = made(Case("random_coefficients.per_slip", "one_free", 1.0, SEED))[1]
-    usual, large = discover(dataset).result, discover(grown(dataset, force=256.0, length=16.0, time=0.25)).result
-    assert [e.kind for e in large.effects] == [e.kind for e in usual.effects] == ["random_coefficients"]
-    assert large.ranking == usual.ranking
-    for name, value in usual.effects[0].parameters.items():
-        unit = 0.25 if value.unit == "s" else 1.0
-        assert large.effects[0].parameters[name].value == unit * value.value
-    assert large.gap is not None
-    assert usual.gap is not None
-    assert large.gap == usual.gap.times(16.0)
-    assert large.parameters["damping"].value == 256.0 / 16.0 * 0.25 * usual.parameters["damping"].value
-
-
 def _require_one_set_of_numbers(outcome):
     """The parameters that a result tells are those of the scenario that it writes."""
     scenario = outcome.scenario

@@ -7,7 +7,6 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.screening.screen import screen
 from stochfric_mb.discovery.stick_slip.screening.variance_components import randomness
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import assumed
-from stochfric_mb.discovery.stick_slip.simulation.scaling import Scaling
 from stochfric_mb.discovery.stick_slip.study import Study, study
 from stochfric_mb.effects import contract, make_effect
 from stochfric_mb.effects.kinds.friction_drift import friction
@@ -21,8 +20,7 @@ pytestmark = pytest.mark.slow
 def studied(form: str, design: str, folder) -> Study:
     write_record(Case(FORMS[form], design, 1.0), folder, 0)
     dataset = load_dataset(folder / "data")
-    size = Scaling.of_rig(dataset.scenario.mechanism)
-    return study(size.reduced(assumed(dataset)), size)
+    return study(assumed(dataset))
 
 
 @pytest.mark.parametrize(

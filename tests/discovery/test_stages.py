@@ -27,7 +27,6 @@ from stochfric_mb.discovery.stick_slip.screening.naming import with_candidate
 from stochfric_mb.discovery.stick_slip.screening.power import smallest
 from stochfric_mb.discovery.stick_slip.screening.screen import screen
 from stochfric_mb.discovery.stick_slip.simulation.delay_compensation import driven, with_delay, without_delay
-from stochfric_mb.discovery.stick_slip.simulation.scaling import USUAL
 from stochfric_mb.discovery.stick_slip.study import study
 from stochfric_mb.discovery.stick_slip.validation import Answer, explaining, fitted
 from stochfric_mb.discovery.stick_slip.workflow import recalibrated_model
@@ -45,7 +44,7 @@ def data():
 
 @pytest.fixture(scope="module")
 def slip_study(data):
-    return study(data, USUAL)
+    return study(data)
 
 
 @pytest.fixture(scope="module")
@@ -76,7 +75,7 @@ def test_a_mechanism_that_is_off_within_its_uncertainty_leaves_no_shape_to_the_s
     data = dataclasses.replace(data, scenario=dataclasses.replace(data.scenario, mechanism=stated, uncertainty=uncertainty))
 
     def score_of_shape() -> float:
-        slip_study = study(data, USUAL)
+        slip_study = study(data)
         return next(
             c.score
             for c in screen(slip_study.pool, slip_study.regression, slip_study.terms, slip_study.solution)
@@ -198,7 +197,7 @@ def test_the_belt_runs_as_stated_and_a_wrong_statement_is_seen(data, slip_study)
     wrong = dataclasses.replace(
         data.scenario, mechanism=dataclasses.replace(data.scenario.mechanism, belt_velocity=1.05 * 2.5e-3)
     )
-    seen = belt_speed(study(dataclasses.replace(data, scenario=wrong), USUAL))
+    seen = belt_speed(study(dataclasses.replace(data, scenario=wrong)))
     assert seen is not None
     assert seen.ratio == pytest.approx(1.0 / 1.05, rel=2e-3)
     assert seen.too_much
@@ -229,7 +228,7 @@ def test_advice_and_notes_speak_of_this_experiment(data, slip_study, decision):
     assert "belt speed" in next_experiment(decision, slip_study)
     gap = Gap("crps_one_cycle", "m", True, 2e-5, 1e-5, 1.2e-5, 4e-6)
     details = decision.details | {"parameters": {"moved_beyond_uncertainty": {"mass": 3.2}}}
-    sentences = notes(slip_study, dataclasses.replace(decision, details=details), gap, None, data)
+    sentences = notes(slip_study, dataclasses.replace(decision, details=details), slip_study.model, gap, None, data)
     assert any("mass is 3.2 stated standard deviations" in note for note in sentences)
     assert any("off by more" in note for note in sentences)
 
@@ -249,7 +248,7 @@ def test_what_would_have_been_named_is_small(slip_study):
 
 def test_runs_that_hardly_slip_are_refused_with_what_they_need(data):
     short = dataclasses.replace(data, runs=tuple(r.between(-1.0, 4.0, name=r.name, role=r.role) for r in data.runs))
-    assert study(short, USUAL) is None
+    assert study(short) is None
     where, needed = refusal(short)
     assert where.axis == "record"
     assert "12 stick-slip cycles" in needed

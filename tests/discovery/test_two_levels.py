@@ -4,7 +4,6 @@ import pytest
 
 from stochfric_mb.discovery.stick_slip.screening.screen import screen
 from stochfric_mb.discovery.stick_slip.screening.switching import levels_score
-from stochfric_mb.discovery.stick_slip.simulation.scaling import USUAL
 from stochfric_mb.discovery.stick_slip.study import study
 from tests.discovery.generator.case import Case
 from tests.discovery.net.rigs import belt_box
@@ -15,7 +14,7 @@ from tests.discovery.net.rigs import belt_box
     [("unknown.two_states", "one_free", True), ("second_mode.attached", "belt_speeds", False)],
 )
 def test_the_better_explanation_stands(form, design, switches):
-    result = study(belt_box(Case(form, design, 1.0, 17)), USUAL)
+    result = study(belt_box(Case(form, design, 1.0, 17)))
     levels = levels_score(result.regression, result.terms, result.solution)
     best = max(c.score for c in screen(result.pool, result.regression, result.terms, result.solution) if c.is_effect)
     assert (levels > best) == switches

@@ -5,7 +5,6 @@ import pytest
 from stochfric_mb import discover
 from stochfric_mb.discovery.stick_slip.decision.anonymous import anonymous, sentence_of
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import gap_of, held_out
-from stochfric_mb.discovery.stick_slip.simulation.scaling import USUAL
 from stochfric_mb.discovery.stick_slip.study import slips_of_run, study
 from stochfric_mb.discovery.stick_slip.workflow import recalibrated_model
 from tests.discovery.generator.case import Case
@@ -18,7 +17,7 @@ SEED = 21
 
 def term_of(case):
     dataset = belt_box(case)
-    result = study(dataset, USUAL)
+    result = study(dataset)
     plain = recalibrated_model(result.model, result)
     runs = held_out([slips_of_run(r, dataset, result) for r in dataset.test], phased=False)
     return anonymous(result, plain, runs), plain.model, runs

@@ -17,15 +17,18 @@ from stochfric_mb.errors import SimulationError
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference.augmented import Motion, Start, augmented_system
+from stochfric_mb.reference.augmented_model import TEMPERATURES
 from tests.unit.effects.examples import NOTHING, example
 
 BOX = BeltBox(mass=6.08, damping=0.768, stiffness=3956.0, normal_force=13.0, belt_velocity=2.5e-3)
 COULOMB = make_law("coulomb", mu_s=0.8, mu_k=0.46)
+WARM = np.linspace(0.0, 5.0, TEMPERATURES), np.full(TEMPERATURES, 30.0)
+"""A measured temperature [s, degC]."""
 MOVING = [k for k in EFFECTS if effect_class(k).group not in ("sensor", "randomness")]
 
 
 def _motion(*effects: Effect, box: BeltBox = BOX, count: int = 5000, start: Start | None = None) -> Motion:
-    return augmented_system(box, COULOMB, effects).march(start or Start(), 1.0e-3, count)
+    return augmented_system(box, COULOMB, effects, temperature=WARM).march(start or Start(), 1.0e-3, count)
 
 
 def _break_aways(motion: Motion) -> np.ndarray:
@@ -131,7 +134,7 @@ DISSIPATIVE = [
 @settings(max_examples=30, deadline=None)
 def test_friction_with_an_effect_never_drives(kind: str, speed: float, position: float, time: float) -> None:
     """While sliding, the friction force is along v_rel: F v_rel > 0."""
-    system = augmented_system(BOX, COULOMB, [example(kind)])
+    system = augmented_system(BOX, COULOMB, [example(kind)], temperature=WARM)
     start = Start(time=time, position=position, velocity=BOX.belt_velocity - speed)
     force = system.at(start).friction_force[0]
     assert force * speed > 0.0
@@ -171,7 +174,7 @@ def _energy(box: BeltBox, effect: Effect, state: Start) -> float:
 
 @pytest.mark.parametrize("kind", MOVING)
 def test_restart_goes_on_as_before(kind: str) -> None:
-    system = augmented_system(BOX, COULOMB, [example(kind)])
+    system = augmented_system(BOX, COULOMB, [example(kind)], temperature=WARM)
     whole = system.march(Start(), 1.0e-3, 3000)
     first = system.march(Start(), 1.0e-3, 1500)
     second = system.march(first.end, 1.0e-3, 1500)

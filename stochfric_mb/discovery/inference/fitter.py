@@ -19,8 +19,6 @@ Array = npt.NDArray[np.float64]
 DAMPING, LEAST_DAMPING, CHANGE = 1.0e-4, 1.0e-9, 10.0
 """Damping at the start and at least, over the curvature, and the factor by which it falls after a step that
 helped and rises after one that did not [-]."""
-TRIES = 6
-"""Times that damping is raised before a step is given up."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -55,7 +53,7 @@ def minimised(
         high: upper bounds, shape (p,).
         difference: step of the finite differences, in the numbers' own unit.
         evaluations: most iterations.
-        tolerance: relative fall of the cost below which it ends [-].
+        tolerance: relative fall of the cost, seen or promised by the slopes, below which it ends [-].
         outlying: residuals beyond this count by their size, not its square: the loss is C^2 (sqrt(1 + (r/C)^2) - 1).
     """
     x = np.clip(first, low, high)
@@ -69,16 +67,17 @@ def minimised(
         free = ~(((x <= low) & (gradient > 0.0)) | ((x >= high) & (gradient < 0.0)))
         matrix = (weighted.T @ weighted)[np.ix_(free, free)]
         size = np.diag(matrix) + 1.0e-300
-        for _ in range(TRIES):
+        while True:
             step = np.zeros(len(x))
             step[free] = -np.linalg.lstsq(matrix + np.diag(damping * size), gradient[free], rcond=1.0e-14)[0]
             trial = np.clip(x + step, low, high)
             new = errors(trial)
             after = _cost(new, outlying)
-            if after < cost:
+            promised = -float(gradient[free] @ step[free] + 0.5 * step[free] @ matrix @ step[free])
+            if after < cost or promised <= tolerance * cost:
                 break
             damping *= CHANGE
-        else:
+        if not after < cost:
             break
         fall, x, rest, cost = cost - after, trial, new, after
         damping = max(damping / CHANGE, LEAST_DAMPING)

@@ -21,12 +21,11 @@ from stochfric_mb.discovery.stick_slip.advice import SEEN_BY, constant_condition
 from stochfric_mb.discovery.stick_slip.records.calibration import Calibration, calibrate
 from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.preconditions import require_usable
-from stochfric_mb.discovery.stick_slip.records.slips import Slips, extract
+from stochfric_mb.discovery.stick_slip.records.slips import SETTLING, Slips, extract
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms, stated_terms
 from stochfric_mb.discovery.stick_slip.screening.waves import slow_frequencies, wave_columns
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import assumed, prior_model
-from stochfric_mb.discovery.stick_slip.simulation.scaling import Scaling
 from stochfric_mb.discovery.stick_slip.study import record_of
 from stochfric_mb.effects import effect_class, effect_kinds, kind_with_signature
 from stochfric_mb.effects.marks import WAVE, Hypothesis
@@ -42,10 +41,8 @@ LOOKED_AT = 6
 """Frequencies that stand for all: periodic effects are all alike."""
 PROBE = 0.5
 """Coefficient at which the size of a hypothesis is read off: below, the size may have reached a bound of fits."""
-SETTLING = 4.0
-"""Time that is simulated before a record [s], at least; so are `CYCLES`."""
 CYCLES = 3.0
-"""Times that the belt needs to stretch the spring to break-away, before a record [-]."""
+"""Times that the belt needs to stretch the spring to break-away, that are simulated before a record at least [-]."""
 SHARE_OF_TRAVEL = 1.0e-3
 """Noise of a sensor of which nobody said how good it is, over the motion that it sees [-]."""
 
@@ -87,9 +84,7 @@ class BeltPlan:
         run, measured = self._measured(run, seed)
         data = assumed(Dataset(title="", scenario_path=None, scenario=self.scenario, runs=(measured,)))
         require_usable(data)
-        size = Scaling.of_rig(self.scenario.mechanism)
-        reduced = size.reduced(data)
-        slips = extract(record_of(reduced.fit[0], reduced))
+        slips = extract(record_of(data.fit[0], data))
         if len(slips) < criteria.FEWEST_SLIPS:
             cycle = run.duration / max(len(slips), 1)
             raise InputError(
@@ -105,8 +100,7 @@ class BeltPlan:
         terms = stated_terms(pool, dict(assumed_uncertainty(self.scenario)))
         regression = Regression(pool)
         solution = regression.fit(terms)
-        size = Scaling.of_rig(self.scenario.mechanism)
-        forms = list(_forms(pool, regression, terms, solution, size))
+        forms = list(_forms(pool, regression, terms, solution))
         constant = constant_conditions(pool)
         blind = {
             kind: SEEN_BY.get(effect_class(kind).answers_to, f"another {effect_class(kind).answers_to}")
@@ -166,7 +160,7 @@ class BeltPlan:
         model = prior_model(self.scenario)
         system = augmented_system(box, model.law, model.effects, model.process, seed=seed + 1)
         loaded = CYCLES * model.law.mu_s * box.normal_force / (box.stiffness * abs(box.belt_velocity))
-        settling = max(SETTLING, loaded)
+        settling = max(SETTLING * math.sqrt(box.mass / box.stiffness), loaded)
         start = Start(-settling, 0.0, box.belt_velocity, stick=True)
         settled = system.march(start, step, round(settling * run.sample_rate)).end
         position = system.march(settled, step, round(run.duration * run.sample_rate)).position
@@ -197,18 +191,18 @@ class _Form:
     value: Callable[[float], tuple[str, float, dict[str, float | str], bool]]
 
 
-def _forms(pool: Pool, regression: Regression, terms: Terms, solution: Solution, size: Scaling) -> list[Signature]:
+def _forms(pool: Pool, regression: Regression, terms: Terms, solution: Solution) -> list[Signature]:
     """Return the forms of all effects that the slips could show."""
     families = hypotheses_in(pool)
     forms = [
-        _Form(kind, h.variant, h.columns, 0, len(ways), _value_of(kind, h, len(h.columns), size))
+        _Form(kind, h.variant, h.columns, 0, len(ways), _value_of(kind, h, len(h.columns)))
         for kind, ways in families.items()
         for h in ways
     ]
     for kind, wave in waves_in(pool).items():
         every = slow_frequencies(pool, wave.pace)
         for f in every[len(every) // (2 * LOOKED_AT) :: max(len(every) // LOOKED_AT, 1)]:
-            place = _wave_value(kind, wave.setting(float(f)), size)
+            place = _wave_value(kind, wave.setting(float(f)))
             forms.append(_Form(kind, WAVE, wave_columns(pool, wave, float(f), 1), 2, 3 * len(every), place))
     signatures: list[Signature] = []
     periodic = {f.kind for f in forms if f.signals}
@@ -239,15 +233,15 @@ def _signature(form: _Form, columns: Any, n: int, *, limited: bool) -> Signature
     return Signature(form.kind, name, unit, limit, beside, tuple(strength * s for s in signals), columns, at_most)
 
 
-def _value_of(kind: str, hypothesis: Hypothesis, n: int, size: Scaling) -> Any:
+def _value_of(kind: str, hypothesis: Hypothesis, n: int) -> Any:
     """Return strength -> name of the parameter that is the size, its value, those beside it [SI], and whether it is a bound."""
     fields = effect_class(kind).__dataclass_fields__
 
     def at(strength: float) -> tuple[str, float, dict[str, float | str]]:
         values = {k: v for k, v in hypothesis.start(strength * np.eye(n)[0]).items() if k in fields}
-        si = {k: v if isinstance(v, str) else float(v * size.of(fields[k].metadata["unit"])) for k, v in values.items()}
-        name = next(iter(si), "")
-        return name, float(si.pop(name, math.inf)), si
+        values = {k: v if isinstance(v, str) else float(v) for k, v in values.items()}
+        name = next(iter(values), "")
+        return name, float(values.pop(name, math.inf)), values
 
     def value(strength: float) -> tuple[str, float, dict[str, float | str], bool]:
         name, here, others = at(strength)
@@ -257,15 +251,9 @@ def _value_of(kind: str, hypothesis: Hypothesis, n: int, size: Scaling) -> Any:
     return value
 
 
-def _wave_value(kind: str, setting: float, size: Scaling) -> Any:
-    fields = effect_class(kind).__dataclass_fields__
-    where = "wavelength" if "wavelength" in fields else "frequency"
-
-    def value(strength: float) -> tuple[str, float, dict[str, float | str], bool]:
-        scale, place = (size.of(fields[k].metadata["unit"]) for k in ("amplitude", where))
-        return "amplitude", strength * scale, {where: setting * place}, False
-
-    return value
+def _wave_value(kind: str, setting: float) -> Any:
+    where = "wavelength" if "wavelength" in effect_class(kind).__dataclass_fields__ else "frequency"
+    return lambda strength: ("amplitude", strength, {where: setting}, False)  # pyright: ignore[reportUnknownLambdaType]
 
 
 def _scatter_signature(pool: Pool, regression: Regression, solution: Solution) -> Signature:

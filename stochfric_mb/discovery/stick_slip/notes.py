@@ -9,20 +9,24 @@ from stochfric_mb.discovery.result import Gap
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision
 from stochfric_mb.discovery.stick_slip.records.long_records import FORECAST, SIMULATED
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import NOT_STATED
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.measurement.dataset import Dataset
 
 
-def notes(study: Study, decision: Decision, gap: Gap | None, forces: Gap | None, given: Dataset) -> tuple[str, ...]:
+def notes(
+    study: Study, decision: Decision, model: Model, gap: Gap | None, forces: Gap | None, given: Dataset
+) -> tuple[str, ...]:
     """Return the notes of a result.
 
     Args:
         study: what the fit runs show.
         decision: what was decided, with the numbers behind it.
+        model: the augmented model.
         gap: errors of forecasts on the held-out runs.
         forces: errors of the forces of their slips.
-        given: the data set in SI units.
+        given: the data set as it was given, its uncertainties not assumed.
     """
     details: dict[str, Any] = decision.details
     beyond = details["parameters"]["moved_beyond_uncertainty"]
@@ -35,10 +39,20 @@ def notes(study: Study, decision: Decision, gap: Gap | None, forces: Gap | None,
         ),
         *(gap.notes if gap is not None else ()),
         *([details["unnamed_term"]] if "unnamed_term" in details else []),
+        *not_simulated(model),
         *_seen_in_forces(gap, forces),
         *(f"{name} is {abs(by):.2g} stated standard deviations off from what is stated" for name, by in beyond.items()),
         *([] if given.scenario.uncertainty else [NOT_STATED]),
     )
+
+
+def not_simulated(model: Model) -> list[str]:
+    """Return which effects read what a simulated belt-box does not have."""
+    return [
+        f"{effect.kind} reads a measured {effect.reads[0]}, which a simulated belt-box has not: it is not in augmented.toml"
+        for effect in model.effects
+        if effect.reads
+    ]
 
 
 def of_the_record(study: Study) -> list[str]:
@@ -54,8 +68,7 @@ def of_the_record(study: Study) -> list[str]:
         said.append(f"{study.outliers:.2e} of the samples were outliers and were replaced by a running median")
     colour = max((s.noise for s in study.pool.slips), key=lambda n: n.coloured)
     if colour.coloured > 0.0:
-        size = colour.coloured * study.size.length
-        said.append(f"the sensor's noise is coloured: {size:.2g} m with a memory of {colour.memory:.2f} a sample")
+        said.append(f"the sensor's noise is coloured: {colour.coloured:.2g} m with a memory of {colour.memory:.2f} a sample")
     if (most := max(map(len, study.pool.slips))) > SIMULATED:
         said.append(
             f"long records: all {len(study.pool.run)} slips count; what is simulated stands for {SIMULATED} slips in the "

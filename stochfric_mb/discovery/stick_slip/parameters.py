@@ -55,9 +55,8 @@ def effect_estimate(named: Named, fit: Fit | None, model: Model, study: Study) -
             ]
             deviation = float(deviations[0]) if deviations else model.measured.get(field.name, 0.0)
         deviation = drawn.get(field.name, deviation)
-        name = effect.unit_of(field.name)
-        unit = study.size.of(name)
-        parameters[field.name] = confidence_interval(value * unit, deviation * unit, name, about["low"], about["high"])
+        unit = effect.unit_of(field.name)
+        parameters[field.name] = confidence_interval(value, deviation, unit, about["low"], about["high"])
     evidence = named.evidence
     return EffectEstimate(named.kind, named.class_, Where(*effect.appears()), parameters, evidence.score, evidence.p_value)
 
@@ -79,9 +78,7 @@ def own_parameters(fit: Fit, model: Model, study: Study) -> dict[str, Interval]:
         stated = getattr(study.dataset.scenario.mechanism, one.name, 0.0) if one.name in CORRECTED else 1.0
         value = 1.0 + model.corrections[one.name] if one.name in CORRECTED else getattr(model.law, one.name)
         doubt = max(deviation, posterior) if data_share < criteria.DECIDED_BY_DATA else deviation
-        unit = UNITS.get(one.name, "-")
-        size = study.size.of(unit) * stated
-        rows[one.name] = confidence_interval(value * size, doubt * size, unit, low=0.0)
+        rows[one.name] = confidence_interval(value * stated, doubt * stated, UNITS.get(one.name, "-"), low=0.0)
     return rows
 
 

@@ -20,9 +20,9 @@ from stochfric_mb.discovery.stick_slip.screening.regression import Regression, S
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, windows_of
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import prior_model
-from stochfric_mb.discovery.stick_slip.simulation.scaling import Scaling
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset, Run
+from stochfric_mb.measurement.temperature import temperature_of
 
 RECALIBRATIONS = 2
 """Further calibrations at most."""
@@ -51,9 +51,7 @@ class Study:
     """Everything measured from the fit runs, before a decision."""
 
     dataset: Dataset
-    """The data set, in units of the rig's size."""
-    size: Scaling
-    """These units."""
+    """The data set."""
     model: Model
     """The model as stated, with mu_s and mu_k as stated."""
     uncertainty: Mapping[str, float]
@@ -93,11 +91,11 @@ def record_of(run: Run, dataset: Dataset) -> Record:
             "such as a column 'position [m]'"
         )
     mechanism = run.mechanism(dataset.scenario)
-    return make_record(run.name, run.time, run.channels["position"], mechanism)
+    return make_record(run.name, run.time, run.channels["position"], mechanism, temperature_of(run))
 
 
-def study(dataset: Dataset, size: Scaling, *, progress: Progress = lambda _: None) -> Study | None:
-    """Return what the fit runs of a data set in units of ``size`` tell; None where no run has slips enough to tell anything.
+def study(dataset: Dataset, *, progress: Progress = lambda _: None) -> Study | None:
+    """Return what the fit runs of a data set tell; None where no run has slips enough to tell anything.
 
     Raises:
         InputError: a run without a position, or one in which friction does not drive the box along with the belt.
@@ -113,7 +111,6 @@ def study(dataset: Dataset, size: Scaling, *, progress: Progress = lambda _: Non
     pool, solution = _calibrated(usable, dataset.scenario.uncertainty)
     return Study(
         dataset=dataset,
-        size=size,
         model=model,
         uncertainty=dataset.scenario.uncertainty,
         records=records,

@@ -131,7 +131,7 @@ def checked_on_held_out(answer: Answer, slip_study: Study, recalibrated: Fit, ru
         seen = compared(fewer.model, answer.model, runs)
         if seen is None or not (_refused(seen, last, fewer) or _closes_nothing(seen, last, fewer, answer, slip_study, runs)):
             break
-        dropped[last.kind] = {name: error * slip_study.size.length for name, error in dataclasses.asdict(seen).items()}
+        dropped[last.kind] = dataclasses.asdict(seen)
         answer = fewer
     answer = _with_strengths(answer, slip_study, recalibrated)
     if not dropped or last is None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 
+import numpy as np
+
 from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.result import Result
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
@@ -29,7 +31,6 @@ from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import (
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import assumed
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit, with_deviations
-from stochfric_mb.discovery.stick_slip.simulation.scaling import USUAL, Scaling
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study, slips_of_run, study
 from stochfric_mb.discovery.stick_slip.validation import Answer, checked_on_held_out, explaining, fitted
 from stochfric_mb.errors import SimulationError
@@ -49,9 +50,8 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
         InputError: a run without a position or that shows no friction, or a law that cannot be stated here.
     """
     require_usable(dataset)
-    size = Scaling.of_rig(dataset.scenario.mechanism)
-    given, dataset = dataset, size.reduced(assumed(dataset))
-    slip_study = study(dataset, size, progress=progress)
+    given, dataset = dataset, assumed(dataset)
+    slip_study = study(dataset, progress=progress)
     if slip_study is None:
         return _too_few(given)
     decision = decide(slip_study, channels=channels, progress=progress)
@@ -71,14 +71,7 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     kept = term if term is not None and term.carries_over else None
     models = (slip_study.model, recalibrated.model, answer.model if kept is None else kept.fit.model)
     result = _result(answer, kept, recalibrated, models, slip_study, runs, given)
-    restored = (size.restored(models[0]), size.restored(models[1]), size.restored(models[2]))
-    scenario = augmented_scenario(given, restored[2])
-    if not size.usual:
-        # what is shown is in SI units
-        slip_study = study(assumed(given), USUAL)
-        assert slip_study is not None  # the same slips, in other units
-        runs = held_out(_held_out_slips(given, slip_study), phased=phased(models[2]))
-    return Outcome(result, scenario, given, slip_study, answer.decision, restored, runs)
+    return Outcome(result, augmented_scenario(given, models[2]), given, slip_study, answer.decision, models, runs)
 
 
 def _answer(
@@ -111,10 +104,10 @@ def _result(
         models: stated, recalibrated and augmented model.
         study: what the fit runs show.
         runs: the held-out runs.
-        given: the data set in SI units.
+        given: the data set as it was given, its uncertainties not assumed.
     """
     decision = answer.decision
-    gap = gap_of(*models, runs).times(study.size.length) if sum(map(len, runs.second)) else None
+    gap = gap_of(*models, runs) if sum(map(len, runs.second)) else None
     forces = slip_force_gap(*models, runs.slips) if decision.named or kept is not None else None
     final = kept.fit if kept is not None else answer.fit if answer.fit is not None and decision.named else recalibrated
     own, unmeasured = own_parameters(final, models[2], study), not_measured(final)
@@ -132,7 +125,7 @@ def _result(
         not_identifiable=not_identifiable(study),
         next_experiment=next_experiment(decision, study),
         parameters=own,
-        notes=notes(study, decision, gap, forces, given),
+        notes=notes(study, decision, models[2], gap, forces, given),
         unnamed=effect_estimate(form, final, models[2], study) if form is not None else None,
         power=smallest(study) if decision.verdict == "none" else {},
         details=decision.details,
@@ -144,10 +137,13 @@ def _held_out_slips(dataset: Dataset, slip_study: Study) -> list[Slips]:
 
 
 def augmented_scenario(dataset: Dataset, model: Model) -> Scenario:
-    """Return the scenario with the model's corrections and effects; phases are those of the first held-out run."""
+    """Return the scenario with the model's corrections and effects; phases are those of the first held-out run.
+
+    A simulated belt-box has no measured temperature: it is at that at which the coefficients hold.
+    """
     scenario = dataset.scenario
     names = [r.name for r in (*dataset.test, *dataset.fit) if r.name in model.own]
-    effects = model.effects_in(names[0]) if names else model.effects
+    effects = tuple(e for e in (model.effects_in(names[0]) if names else model.effects) if not e.reads)
     random = any(e.coefficient_process() is not None for e in effects)
     return dataclasses.replace(
         scenario,
@@ -164,7 +160,9 @@ def recalibrated_model(model: Model, study: Study) -> Fit:
     stated = dataclasses.replace(deterministic(model), corrections=dict.fromkeys(CORRECTED, 0.0))
     mu_s, mu_k = (float(max(c, 1.0e-5)) for c in study.solution.coefficients[:2])
     shown = dataclasses.replace(stated, corrections=study.pool.slips[0].record.corrections).with_law(mu_s, mu_k)
-    fits = [refit(m, study.windows, study.uncertainty) for m in (shown, stated)]
+    # where errors are large their sizes, to which a fit keeps, lead it nowhere: squares do, and sizes from there
+    near = refit(shown, study.windows, study.uncertainty, typical=np.inf, evaluations=30).model
+    fits = [refit(m, study.windows, study.uncertainty) for m in (shown, stated, near)]
     fit = with_deviations(min(fits, key=lambda f: f.cost), study.windows, study.uncertainty)
     return dataclasses.replace(fit, model=dataclasses.replace(model, law=fit.model.law, corrections=fit.model.corrections))
 

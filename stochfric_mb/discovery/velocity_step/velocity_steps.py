@@ -13,16 +13,15 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint.fit.fitting import DIFFERENCE, TOLERANCE
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome
 from stochfric_mb.discovery.driven_joint.simulation.pictures import Picture, step_picture
-from stochfric_mb.discovery.inference.fitter import minimised
-from stochfric_mb.discovery.inference.free_parameter import INSIDE
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.inference.noise import independent_count, white_noise
 from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
-from stochfric_mb.discovery.velocity_step.laws import Law, Track, laws
-from stochfric_mb.effects import effect_class, effect_kinds, kind_with_signature, kinds_with, make_effect
+from stochfric_mb.discovery.velocity_step.law_fit import Fitted, fit, held_out_error, score_over
+from stochfric_mb.discovery.velocity_step.laws import Track, laws
+from stochfric_mb.discovery.velocity_step.smooth_law import NOWHERE, SmoothLaw, smooth_law
+from stochfric_mb.effects import Effect, effect_class, effect_kinds, kind_with_signature, kinds_with, make_effect
 from stochfric_mb.effects.traits import ANONYMOUS, LATE, MEMORY, MORE_DAMPING, RATE, SLOPE_IN_DISTANCE
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
@@ -42,31 +41,6 @@ PARTS = 12
 """Parts of an axis along which what is left of friction is looked at."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Fitted:
-    """A law with its numbers."""
-
-    law: Law
-    """The law."""
-    values: Array
-    """Its numbers."""
-    deviations: Array
-    """Their standard deviations."""
-    rest: list[Array]
-    """Residual in the fit runs [-]."""
-
-    @property
-    def rms(self) -> float:
-        """Root mean square of what is left [-]."""
-        return float(np.sqrt(np.mean(np.concatenate(self.rest) ** 2)))
-
-    @property
-    def kind(self) -> str:
-        """The effect that it is; friction that rises with the speed is viscous."""
-        rises = self.law.kind == kind_with_signature(RATE) and self.values[2] > 0.0
-        return kind_with_signature(MORE_DAMPING) if rises else self.law.kind
-
-
 def spring_slider_outcome(dataset: Dataset, progress: Callable[[str], None]) -> JointOutcome:
     """Return the result of a dataset of velocity steps.
 
@@ -80,9 +54,14 @@ def spring_slider_outcome(dataset: Dataset, progress: Callable[[str], None]) -> 
     plain = fits[0]
     best, scores = _best(fits)
     accepted = scores[best.kind] > criteria.NAMED
-    result = _result(dataset, tracks, plain, best if accepted else None, fits, scores)
-    picture = _picture(tracks, {"recalibrated": plain} | ({"augmented": best} if accepted else {}))
-    return JointOutcome(result, _augmented(dataset, best if accepted else plain), dataset, pictures=(picture,))
+    closest = best if accepted else plain
+    where = unexplained([t for t in tracks if t.run.role == "fit"], closest)
+    term = smooth_law(closest, tracks) if where is not None else None
+    result = _result(dataset, tracks, plain, closest, fits, scores, where, term)
+    kept = _kept(term)
+    augmented = {"augmented": kept.fitted} if kept is not None else {"augmented": best} if accepted else {}
+    picture = _picture(tracks, {"recalibrated": plain} | augmented)
+    return JointOutcome(result, _augmented(dataset, closest, kept), dataset, pictures=(picture,))
 
 
 def _fits(tracks: Sequence[Track], dataset: Dataset, progress: Callable[[str], None]) -> list[Fitted]:
@@ -93,7 +72,7 @@ def _fits(tracks: Sequence[Track], dataset: Dataset, progress: Callable[[str], N
     for law in laws(reference, dataset.scenario.mechanism.stiffness, dataset.scenario.law.mu_k, shortest):
         progress(law.kind or "constant friction")
         alike = next((f for f in fits if f.law.variant == "" and f.law.names == law.names), None)
-        fits.append(_fit(law, tracks, law.starts if alike is None else [alike.values]))
+        fits.append(fit(law, tracks, law.starts if alike is None else [alike.values]))
     return fits
 
 
@@ -101,7 +80,7 @@ def _best(fits: Sequence[Fitted]) -> tuple[Fitted, dict[str, float]]:
     """Return the law that is meant, and the best score of each kind."""
     plain = fits[0]
     n = max(sum(independent_count(r) for r in min(fits, key=lambda f: f.rms).rest), 4.0)
-    each = [_score(plain, f, n) for f in fits[1:]]
+    each = [score_over(plain, f, n, len(f.law.starts)) for f in fits[1:]]
     scores = {f.kind: max(s for s, g in zip(each, fits[1:], strict=True) if g.kind == f.kind) for f in fits[1:]}
     best = fits[1 + int(np.argmax(each))]
     # of laws that leave as much the simplest: what a few more numbers take off is real, perhaps, but no explanation
@@ -159,55 +138,32 @@ def _through(x: Array, half: int, interval: float, derivative: int) -> Array:
     return smooth(padded, half * interval, interval, derivative=derivative)[more - 1 : more - 1 + len(x)]
 
 
-def _fit(law: Law, tracks: Sequence[Track], starts: Sequence[Sequence[float] | Array]) -> Fitted:
-    fits = [_from(law, tracks, np.array(s), 6) for s in starts]
-    best = min(fits, key=lambda f: f.rms)
-    return _from(law, tracks, best.values, 30)
-
-
-def _from(law: Law, tracks: Sequence[Track], start: Array, evaluations: int) -> Fitted:
-    scale = np.array(law.scales)
-    fitted = [i for i, t in enumerate(tracks) if t.run.role == "fit"]
-
-    def errors(step: Array) -> Array:
-        predicted = law.predict(tracks, start + scale * step)
-        return np.concatenate([tracks[i].friction - predicted[i] for i in fitted])
-
-    low, high = (np.array(law.low) - start) / scale - INSIDE, np.full(len(start), np.inf)
-    minimum = minimised(
-        errors, np.zeros(len(start)), low, high, difference=DIFFERENCE, evaluations=evaluations, tolerance=TOLERANCE
-    )
-    jacobian, values = minimum.jacobian, start + scale * minimum.x
-    predicted = law.predict(tracks, values)
-    rest = [tracks[i].friction - predicted[i] for i in fitted]
-    n, total = sum(map(len, rest)), sum(independent_count(r) for r in rest)
-    variance = float(np.mean(errors(minimum.x) ** 2)) * n / max(total, 1.0)
-    covariance = np.linalg.pinv(jacobian.T @ jacobian, hermitian=True) * variance
-    return Fitted(law, values, np.sqrt(np.maximum(np.diag(covariance), 0.0)) * scale, rest)
-
-
-def _score(plain: Fitted, richer: Fitted, n: float) -> float:
-    p = len(richer.values) - len(plain.values)
-    return float(n * np.log((plain.rms / richer.rms) ** 2) - p * np.log(n) - 2.0 * np.log(len(richer.law.starts)))
-
-
-def _held_out(fitted: Fitted, tracks: Sequence[Track]) -> float:
-    predicted = fitted.law.predict(tracks, fitted.values)
-    rest = [t.friction - p for t, p in zip(tracks, predicted, strict=True) if t.run.role == "test"]
-    return float(np.sqrt(np.mean(np.concatenate(rest) ** 2)))
-
-
 def _result(
     dataset: Dataset,
     tracks: Sequence[Track],
     plain: Fitted,
-    best: Fitted | None,
+    closest: Fitted,
     fits: Sequence[Fitted],
     scores: dict[str, float],
+    where: Where | None,
+    term: SmoothLaw | None,
 ) -> Result:
-    gap = _gap(dataset, tracks, plain, best or plain)
-    where = unexplained([t for t in tracks if t.run.role == "fit"], best or plain)
-    effects = () if best is None or where is not None else (_estimate(plain, best, scores),)
+    """Return what is said of the runs.
+
+    Args:
+        dataset: the runs.
+        tracks: the same, as friction against motion.
+        plain: constant friction.
+        closest: the law that is named, or would be; constant friction where none is.
+        fits: all laws.
+        scores: of each kind.
+        where: where friction disagrees with it.
+        term: what then stands beside it without a name.
+    """
+    kept = _kept(term)
+    gap = _gap(dataset, tracks, plain, closest if kept is None else kept.fitted)
+    effects = () if closest is plain or where is not None else (_estimate(plain, closest, scores),)
+    of_term = {} if where is None else {"unnamed_term": NOWHERE if term is None else term.sentence}
     searched = {f.law.kind for f in fits} | {kind_with_signature(finding) for finding in (MORE_DAMPING, LATE)}
     return Result(
         verdict=_verdict(effects, where),
@@ -220,10 +176,17 @@ def _result(
         parameters=_numbers(plain),
         notes=(
             *gap.notes,
+            *of_term.values(),
             "the load point's speed is taken through a window; the machine's stiffness is fitted",
         ),
-        details={"laws": {f"{f.law.kind or 'constant'} {f.law.variant}".strip(): _facts(f, tracks) for f in fits}},
+        unnamed=_unnamed(kept) if kept is not None else None,
+        details={"laws": {f"{f.law.kind or 'constant'} {f.law.variant}".strip(): _facts(f, tracks) for f in fits}} | of_term,
     )
+
+
+def _kept(term: SmoothLaw | None) -> SmoothLaw | None:
+    """Return the term if it carries over."""
+    return term if term is not None and term.carries_over else None
 
 
 def _gap(dataset: Dataset, tracks: Sequence[Track], plain: Fitted, final: Fitted) -> Gap:
@@ -232,14 +195,14 @@ def _gap(dataset: Dataset, tracks: Sequence[Track], plain: Fitted, final: Fitted
     floor = float(np.sqrt(np.sum([white_noise(x) ** 2 * len(x) for x in test]) / sum(map(len, test))))
     stated = float(np.sqrt(np.mean(np.concatenate([x - dataset.scenario.law.mu_k for x in test]) ** 2)))
     source = "high-frequency content of the friction coefficient (third differences)"
-    before, after = _held_out(plain, tracks), _held_out(final, tracks)
+    before, after = held_out_error(plain, tracks), held_out_error(final, tracks)
     return Gap("friction_coefficient", "-", True, stated, before, after, floor, source)
 
 
 def _facts(fitted: Fitted, tracks: Sequence[Track]) -> dict[str, Any]:
     """Return errors and numbers of a law."""
     numbers = dict(zip(fitted.law.names, fitted.values.tolist(), strict=True))
-    return {"fit": fitted.rms, "held_out": _held_out(fitted, tracks), "numbers": numbers}
+    return {"fit": fitted.rms, "held_out": held_out_error(fitted, tracks), "numbers": numbers}
 
 
 def _verdict(effects: Sequence[EffectEstimate], where: Where | None) -> Literal["effect", "none", "unknown"]:
@@ -316,15 +279,33 @@ def _numbers(fitted: Fitted) -> dict[str, Interval]:
     return intervals
 
 
-def _augmented(dataset: Dataset, fitted: Fitted) -> Any:
-    """Return the scenario with the fitted law: static friction is the peak that a fast step gives, mu_0 + b."""
+def _augmented(dataset: Dataset, closest: Fitted, kept: SmoothLaw | None) -> Any:
+    """Return the scenario with the fitted law, and the term beside it: static friction is the peak of a fast step, mu_0 + b."""
     scenario = dataset.scenario
+    fitted = closest if kept is None else kept.law_alone(closest.law)
+    terms = () if kept is None else (_term(kept),)
     numbers = _numbers(fitted)
     mu = float(numbers["mu_0"].value)
     if fitted.law.kind != kind_with_signature(MEMORY):
-        return dataclasses.replace(scenario, law=dataclasses.replace(scenario.law, mu_s=mu, mu_k=mu))
+        return dataclasses.replace(scenario, law=dataclasses.replace(scenario.law, mu_s=mu, mu_k=mu), effects=terms)
     rise = max(numbers["evolution_effect"].value, 0.0)
     law = dataclasses.replace(scenario.law, mu_s=mu + rise, mu_k=mu)
     mechanism = dataclasses.replace(scenario.mechanism, stiffness=numbers["stiffness"].value)
     effect = make_effect(kind_with_signature(MEMORY), distance=numbers["distance"].value)
-    return dataclasses.replace(scenario, law=law, mechanism=mechanism, effects=(effect,))
+    return dataclasses.replace(scenario, law=law, mechanism=mechanism, effects=(effect, *terms))
+
+
+def _term(kept: SmoothLaw) -> Effect:
+    """Return the term without a name as an effect."""
+    changes = {name: float(x) for name, x in zip(kept.names, kept.fitted.values[-len(kept.names) :], strict=True)}
+    kind = kinds_with(ANONYMOUS)[0]
+    return make_effect(kind, axis=kept.axis, low=kept.low, high=kept.high, static_share=1.0, **changes)
+
+
+def _unnamed(kept: SmoothLaw) -> EffectEstimate:
+    """Return the term without a name for the result."""
+    effect = _term(kept)
+    numbers = {n: Interval(x, x, x, effect.unit_of(n)) for n, x in (("low", kept.low), ("high", kept.high))}
+    table = zip(kept.names, kept.fitted.values[-len(kept.names) :], kept.fitted.deviations[-len(kept.names) :], strict=True)
+    numbers |= {name: confidence_interval(value, deviation, "-") for name, value, deviation in table}
+    return EffectEstimate(effect.kind, (), Where(*effect.appears()), numbers, kept.score, None)

@@ -15,6 +15,9 @@ from stochfric_mb.effects.contract import DWELL, MU_S, Effect, parameter
 from stochfric_mb.effects.marks import Hypothesis, Slips
 from stochfric_mb.effects.traits import BETWEEN_POINTS, POSITIVE
 
+ONSETS = (0.765, 2.55, 7.65, 25.5)
+"""Dwells at which growth may set in, as angles of the natural oscillation [rad]."""
+
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class DwellAgeing(Effect):
@@ -47,10 +50,10 @@ class DwellAgeing(Effect):
             Hypothesis(
                 cls.kind,
                 [slips.column(slips.normal_force * np.log1p(slips.dwell / tau), None)],
-                (tau,),
+                (float(tau),),
                 lambda b, tau=tau: {"rate": float(b[0]), "time_constant": float(tau)},
             )
-            for tau in (0.03, 0.1, 0.3, 1.0)
+            for tau in np.array(ONSETS) / slips.slips[0].record.angular_frequency
         ]
 
 

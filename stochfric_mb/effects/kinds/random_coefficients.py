@@ -30,7 +30,7 @@ class RandomCoefficients(Effect):
     """Standard deviation of mu_s [-]."""
     sigma_k: float = parameter("-", "standard deviation of mu_k", scale=0.02, low=0.0)
     """Standard deviation of mu_k [-]."""
-    spacing: float = parameter("s", "distance between knots", scale=0.01, low=0.0, strict=True, default=0.01)
+    spacing: float = parameter("s", "distance between knots", scale=0.01, low=0.0, strict=True, default=0.01, optional=True)
     """Distance between knots [s]; not used by the others."""
 
     kind: ClassVar[str] = "random_coefficients"

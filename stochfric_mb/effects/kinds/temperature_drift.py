@@ -8,8 +8,12 @@ from __future__ import annotations
 import dataclasses
 from typing import ClassVar
 
+import numpy as np
+
 from stochfric_mb.effects.contract import MU_K, MU_S, TEMPERATURE, Effect, JointSignature, parameter
 from stochfric_mb.effects.joints import JointSpan
+from stochfric_mb.effects.marks import Hypothesis, Slips, apart, levels
+from stochfric_mb.effects.traits import COURSE_OF_RUN
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -31,11 +35,23 @@ class TemperatureDrift(Effect):
     equation: ClassVar[str] = "mu_k times 1 + rate (T - reference_temperature), mu_s by its share"
     source: ClassVar[str] = "Bittencourt and Gunnarsson 2012 (friction of robot joints)"
     group: ClassVar[str] = "friction varies"
+    traits: ClassVar[frozenset[str]] = frozenset({COURSE_OF_RUN})
     answers_to: ClassVar[str] = "temperature"
     shows_on: ClassVar[str] = "temperature"
     shows: ClassVar[str] = "friction changes with temperature"
     order: ClassVar[int] = 3
     reads: ClassVar[tuple[str, ...]] = ("temperature",)
+
+    @classmethod
+    def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
+        """Return friction in proportion to the measured temperature, where it changes."""
+        held, rubbing = levels(slips)
+        warm, warmer = slips.temperature(slips.onset_time), slips.temperature(slips.mean_time)
+        if warm is None or warmer is None or not np.ptp(warm):
+            return []
+        middle, width = float(np.median(warm)), float(np.ptp(warm))
+        static, kinetic = held * (warm - middle) / width, rubbing * (warmer - middle) / width
+        return apart(cls.kind, static, kinetic, slips, "rate", {"reference_temperature": middle}, 1.0 / width)
 
     @classmethod
     def at_joint(cls, span: JointSpan) -> JointSignature | None:

@@ -8,15 +8,27 @@ from __future__ import annotations
 import dataclasses
 from typing import ClassVar
 
-from stochfric_mb.effects.contract import MU_K, MU_S, NORMAL_FORCE, POSITION, SLIP, SPEED, TIME, Effect, choice, parameter
+from stochfric_mb.effects.contract import (
+    MU_K,
+    MU_S,
+    NORMAL_FORCE,
+    POSITION,
+    SLIP,
+    SPEED,
+    TEMPERATURE,
+    TIME,
+    Effect,
+    choice,
+    parameter,
+)
 from stochfric_mb.effects.traits import ANONYMOUS
 from stochfric_mb.errors import InputError
 
-AXES = {"speed": "m/s", "position": "m", "slip": "m", "time": "s", "load": "N"}
+AXES = {"speed": "m/s", "position": "m", "slip": "m", "time": "s", "load": "N", "temperature": "degC"}
 """Axis -> unit of its ends."""
 WORDS = {
     "speed": "relative velocity", "position": "position of the box", "slip": "distance slid since break-away",
-    "time": "time within the run", "load": "normal force",
+    "time": "time within the run", "load": "normal force", "temperature": "temperature",
 }  # fmt: skip
 """Axis -> its name for readers."""
 CHANGES = tuple(f"change_{i}" for i in range(1, 7))
@@ -32,7 +44,7 @@ def _change(knot: int) -> float:
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Unnamed(Effect):
-    """mu_k plus a table over speed, position, slip, time or load, and mu_s plus static_share times it.
+    """mu_k plus a table over speed, position, slip, time, load or temperature, and mu_s plus static_share times it.
 
     The table is linear between seven knots, evenly spaced from ``low`` to ``high``, 0 at the first and constant outside.
 
@@ -40,11 +52,12 @@ class Unnamed(Effect):
     """
 
     axis: str = choice("along what friction changes", tuple(AXES))
-    """Along what friction changes: "speed" past the counter-surface, "position", "slip" since break-away, "time" or "load"."""
+    """Along what friction changes: "speed" past the counter-surface, "position", "slip" since break-away, "time", "load" or
+    "temperature"."""
     low: float = parameter("-", "place of the first knot, in the unit of the axis", scale=0.0)
-    """Place of the first knot [m/s, m, s or N]."""
+    """Place of the first knot [m/s, m, s, N or degC]."""
     high: float = parameter("-", "place of the last knot, in the unit of the axis", scale=1.0)
-    """Place of the last knot [m/s, m, s or N], above ``low``."""
+    """Place of the last knot [m/s, m, s, N or degC], above ``low``."""
     static_share: float = parameter("-", "change of mu_s over that of mu_k", scale=1.0, default=0.0)
     """Change of mu_s over that of mu_k [-]: 0, mu_k alone; 1, both alike."""
     change_1: float = _change(1)
@@ -61,7 +74,9 @@ class Unnamed(Effect):
     """The same at the seventh knot [-]."""
 
     kind: ClassVar[str] = "unnamed"
-    equation: ClassVar[str] = "mu_k plus a table over speed, position, slip, time or load, mu_s plus static_share times it"
+    equation: ClassVar[str] = (
+        "mu_k plus a table over speed, position, slip, time, load or temperature, mu_s plus static_share times it"
+    )
     source: ClassVar[str] = "de Boor 1978, chapter III (broken lines)"
     group: ClassVar[str] = "friction varies"
     traits: ClassVar[frozenset[str]] = frozenset({ANONYMOUS})
@@ -69,6 +84,8 @@ class Unnamed(Effect):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        if self.axis == "temperature":  # one table of many: the kind itself reads nothing
+            object.__setattr__(self, "reads", ("temperature",))
         if self.high <= self.low:
             raise InputError(
                 f"unnamed.high = {self.high:g} is not above low = {self.low:g}; give the places of the last and first knot"
@@ -98,6 +115,8 @@ def friction(world, memory, rates, p):
         s = world[TIME]
     elif p[0] == 4.0:
         s = world[NORMAL_FORCE]
+    elif p[0] == 5.0:
+        s = world[TEMPERATURE]
     k = 6.0 * (s - p[1]) / (p[2] - p[1])
     change = p[4] * min(max(k, 0.0), 1.0)
     change += (p[5] - p[4]) * min(max(k - 1.0, 0.0), 1.0)

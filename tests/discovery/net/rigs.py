@@ -38,8 +38,15 @@ def grown(dataset: Dataset, size: Size) -> Dataset:
     }  # fmt: skip
     scenario = dataset.scenario
     mechanism = replace(scenario.mechanism, **{k: getattr(scenario.mechanism, k) * factor for k, factor in of.items()})
+    process = scenario.process
+    if process is not None:
+        process = replace(process, spacing=process.spacing * time)
     scenario = replace(
-        scenario, mechanism=mechanism, duration=scenario.duration * time, output_step=scenario.output_step * time
+        scenario,
+        process=process,
+        mechanism=mechanism,
+        duration=scenario.duration * time,
+        output_step=scenario.output_step * time,
     )
     units = {"position": length, "velocity": length / time, "friction_force": force}
     runs = tuple(

@@ -56,3 +56,12 @@ def test_the_minimum_is_that_of_scipy(outlying):
     assert minimum.cost == pytest.approx(exact.cost, rel=1e-9)  # of second order in the distance from the minimum
     np.testing.assert_allclose(minimum.x, exact.x, rtol=1e-4)  # slopes are differences: off by the step times the curvature
     np.testing.assert_allclose(np.abs(minimum.jacobian), np.abs(exact.jac), rtol=1e-2, atol=1e-4)
+
+
+def test_a_step_over_a_cliff_is_shortened_until_it_falls():
+    def errors(at):  # a simulation that slips no more beyond a twentieth, on the way to a minimum at ten
+        return np.where(np.abs(at) < 0.05, at - 10.0, 100.0)
+
+    low, high = np.full(1, -20.0), np.full(1, 20.0)
+    minimum = minimised(errors, np.zeros(1), low, high, difference=1e-3, evaluations=30, tolerance=1e-4)
+    assert 0.03 < minimum.x[0] < 0.05

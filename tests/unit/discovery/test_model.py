@@ -6,11 +6,13 @@ import pytest
 
 from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM
 from stochfric_mb.discovery.stick_slip.simulation.model import Model, adjusted, free_parameters
+from stochfric_mb.discovery.stick_slip.simulation.natural_units import NaturalUnits
 from stochfric_mb.effects import make_effect
 from stochfric_mb.laws import make_law
 
 UNCERTAINTY = {"stiffness": 0.02, "mass": 0.02, "damping": 0.3}
 RUNS = ("run_1.csv", "run_2.csv")
+RIG = NaturalUnits(force=13.0, length=3.3e-3, time=0.04)
 
 
 @pytest.fixture
@@ -23,32 +25,32 @@ def model() -> Model:
 
 
 def test_free_parameters_at_their_values_give_the_model_back(model):
-    free = free_parameters(model, UNCERTAINTY, RUNS)
+    free = free_parameters(model, UNCERTAINTY, RIG, RUNS)
     assert adjusted(model, free, [one.value for one in free]) == model
 
 
 def test_free_parameters_are_what_may_be_adjusted(model):
-    names = [(one.name, one.owner, one.run) for one in free_parameters(model, UNCERTAINTY, RUNS)]
+    names = [(one.name, one.owner, one.run) for one in free_parameters(model, UNCERTAINTY, RIG, RUNS)]
     stated = [(n, LAW, "") for n in ("mu_s", "mu_k")] + [(n, MECHANISM, "") for n in ("stiffness", "mass", "damping")]
     phases = [("phase", 1, run) for run in RUNS]
     assert names == [*stated, ("coefficient", 0, ""), ("amplitude", 1, ""), ("frequency", 1, ""), *phases]
 
 
 def test_what_is_certain_is_not_free(model):
-    names = {one.name for one in free_parameters(model, {"stiffness": 0.0, "damping": 0.3})}
+    names = {one.name for one in free_parameters(model, {"stiffness": 0.0, "damping": 0.3}, RIG)}
     assert not {"stiffness", "mass"} & names
     assert "damping" in names
 
 
 def test_moved_numbers_are_found_again(model):
-    free = free_parameters(model, UNCERTAINTY, RUNS)
+    free = free_parameters(model, UNCERTAINTY, RIG, RUNS)
     moved = [one.value + 0.1 * one.scale for one in free]
-    again = free_parameters(adjusted(model, free, moved), UNCERTAINTY, RUNS)
+    again = free_parameters(adjusted(model, free, moved), UNCERTAINTY, RIG, RUNS)
     assert [one.value for one in again] == pytest.approx(moved, rel=1e-12)
 
 
 def test_values_beyond_the_bounds_are_held(model):
-    free = free_parameters(model, UNCERTAINTY, RUNS)
+    free = free_parameters(model, UNCERTAINTY, RIG, RUNS)
     low = adjusted(model, free, [-1e9] * len(free))
     assert low.law.mu_s == pytest.approx(0.75 * model.law.mu_s)
     assert low.corrections["stiffness"] == pytest.approx(-3.0 * UNCERTAINTY["stiffness"])
@@ -56,7 +58,7 @@ def test_values_beyond_the_bounds_are_held(model):
 
 
 def test_kinetic_friction_never_exceeds_static(model):
-    free = free_parameters(model, UNCERTAINTY)
+    free = free_parameters(model, UNCERTAINTY, RIG)
     values = [{"mu_s": 0.65, "mu_k": 0.7}.get(one.name, one.value) for one in free]
     assert adjusted(model, free, values).law.mu_k == 0.65
 
@@ -72,5 +74,13 @@ def test_phases_along_the_belt_are_each_runs_own_those_along_the_stroke_are_not(
     law = make_law("coulomb", mu_s=0.8, mu_k=0.46)
     for axis, runs in (("belt", RUNS), ("position", ("",))):
         pattern = make_effect("position_dependent_friction", amplitude=0.1, wavelength=2e-3, axis=axis)
-        phases = [one.run for one in free_parameters(Model(law, {}, (pattern,)), UNCERTAINTY, RUNS) if one.name == "phase"]
+        phases = [one.run for one in free_parameters(Model(law, {}, (pattern,)), UNCERTAINTY, RIG, RUNS) if one.name == "phase"]
         assert phases == list(runs)
+
+
+def test_a_number_that_begins_at_zero_has_a_step_in_the_rigs_own_units():
+    spring = make_effect("nonlinear_stiffness", cubic=0.0, quadratic=0.0)
+    free = free_parameters(Model(make_law("coulomb", mu_s=0.8, mu_k=0.46), {}, (spring,)), UNCERTAINTY, RIG)
+    scales = {one.name: one.scale for one in free if one.owner == 0}
+    assert scales["cubic"] == pytest.approx(0.01 * RIG.force / RIG.length**3)
+    assert scales["quadratic"] == pytest.approx(0.01 * RIG.force / RIG.length**2)

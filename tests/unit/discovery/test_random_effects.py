@@ -37,9 +37,10 @@ def study(onset: np.ndarray, in_slip: np.ndarray | float = 0.0, jumps: int = 0) 
         onset_time=times,
         restick_time=times + 0.1,
         normal_force=np.full(N * RUNS, 13.0),
+        angular_frequency=25.0,
         per_run=lambda _: np.ones(N * RUNS),  # the belt's direction
     )
-    solution = SimpleNamespace(coefficients=np.array([0.6, 0.4]), scatter=np.log([0.3, 0.2, 0.01]))
+    solution = SimpleNamespace(coefficients=np.array([0.6, 0.4]), scatter=np.log(np.array([0.3, 0.2, 0.01]) / 13.0))
     return SimpleNamespace(
         pool=pool,
         solution=solution,
@@ -124,7 +125,7 @@ def called(levels: Switching = CALM, in_slip: float = 0.5, **changes: float) -> 
 @pytest.mark.parametrize(("coloured", "drawn"), [(20.0e-6, True), (400.0e-6, False)])
 def test_scatter_no_larger_than_slow_noise_of_the_sensor_is_no_friction(coloured, drawn):
     one = study(np.zeros(N * RUNS))
-    assert np.exp(one.solution.scatter[0]) / 4000.0 == pytest.approx(75.0e-6)  # the scatter, as motion of the spring
+    assert 13.0 * np.exp(one.solution.scatter[0]) / 4000.0 == pytest.approx(75.0e-6)  # the scatter, as motion of the spring
     one.pool.slips = [SimpleNamespace(onset_time=s.onset_time, noise=sensor(coloured, coloured)) for s in one.pool.slips]
     assert (random_effects(one, scatter(), CALM, one.solution, []) is not None) == drawn
 

@@ -16,20 +16,22 @@ NOISE = 5e-6
 GAIN = 1e-3
 """Change of a forecast with mu_s [m]."""
 COUNT = 20
+MOTION = np.linspace(0.0, 2.8e-3, N_OUTPUTS)
+"""What the box moves in a forecast [m]."""
 
 
 @pytest.fixture
 def windows():
     record = make_record("run", np.arange(1000) * 1e-3, np.zeros(1000), BOX)
     noise = NOISE * np.random.default_rng(3).standard_normal((COUNT, N_OUTPUTS))
-    return Windows(record, np.zeros((COUNT, 3)), noise, 1)
+    return Windows(record, np.zeros((COUNT, 3)), MOTION + noise, 1)
 
 
 def fitted(monkeypatch, windows, shown):
     """The deviation of mu_s by a fit's own differences, and by wide ones; forecasts are ``shown`` of mu_s and mu_k."""
 
     def forecasts(model, asked):
-        return np.full(asked.targets.shape, shown(model.law.mu_s, model.law.mu_k))
+        return np.full(asked.targets.shape, MOTION + shown(model.law.mu_s, model.law.mu_k))
 
     monkeypatch.setattr(refit, "forecasts", forecasts)
     fit = refit.refit(MODEL, [windows], {}, most=COUNT)

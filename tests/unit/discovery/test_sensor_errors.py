@@ -35,10 +35,11 @@ def slow():
 
 def test_covariance_is_what_the_features_of_a_record_scatter_by(slow):
     """All slips of the model are alike, so that what they scatter by is the noise."""
-    errors = errors_by_noise(SLOW, slow)
-    ratio = np.std(slow.features, axis=0) / np.sqrt(np.diag(errors.covariance))
-    # standard deviations of 45 slips, known to 1/sqrt(90) each, times four; tails are heavy
-    np.testing.assert_allclose(ratio, 1.0, atol=0.45)
+    records = [slow, *(recorded(SLOW, NOISE, seed) for seed in (2, 3, 4))]
+    ratios = [np.std(r.features, axis=0) / np.sqrt(np.diag(errors_by_noise(SLOW, r).covariance)) for r in records]
+    # deviations of some 37 slips are known to 1/sqrt(74) each; an edge missed by far in one slip makes that 0.25, of four
+    # records 0.13, and three of those
+    np.testing.assert_allclose(np.exp(np.mean(np.log(ratios), axis=0)), 1.0, atol=0.4)
 
 
 def test_a_slow_beginning_costs_more(slow):

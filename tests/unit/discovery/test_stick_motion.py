@@ -7,6 +7,7 @@ from stochfric_mb.discovery.stick_slip.records.stick_motion import without_patte
 
 RATE, PHASES, SAMPLES, PAUSE = 1000.0, 40, 600, 350
 FREQUENCY = 2.13
+NATURAL = 25.0
 
 
 def phases(values: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
@@ -31,14 +32,14 @@ def slow_noise(deviation: float, memory: float = 50.0) -> np.ndarray:
 
 
 def test_slow_noise_is_left_alone():
-    assert without_wave(*phases(slow_noise(4e-6))) is None
+    assert without_wave(*phases(slow_noise(4e-6)), NATURAL) is None
 
 
 def test_a_wave_is_taken_out_and_the_noise_stays():
     noise = 5e-6 * np.random.default_rng(2).standard_normal(PHASES * (SAMPLES + PAUSE))
     wave = 1e-5 * np.sin(2.0 * np.pi * FREQUENCY * np.arange(len(noise)) / RATE + 0.7)
     parts, times = phases(noise + wave)
-    left = without_wave(parts, times)
+    left = without_wave(parts, times, NATURAL)
     assert left is not None
     # at most a quarter of the grid's step, 1/(4 T), off: a phase error of pi/16 at the ends of the record leaves less than
     # 4 % of the wave's variance on average, 7e-12 m^2 at most of its 5e-11; the noise has 2.5e-11
@@ -58,9 +59,9 @@ def test_what_every_phase_repeats_is_taken_out_and_slow_noise_is_left_alone():
 
 def test_a_few_phases_tell_nothing():
     parts, times = phases(slow_noise(4e-6))
-    assert without_wave(parts[:5], times[:5]) is None
+    assert without_wave(parts[:5], times[:5], NATURAL) is None
 
 
 def test_a_record_too_short_for_two_slow_waves_is_left_alone():
     parts, times = phases(slow_noise(4e-6))
-    assert without_wave(parts, [t / 100.0 for t in times]) is None
+    assert without_wave(parts, [t / 100.0 for t in times], NATURAL) is None

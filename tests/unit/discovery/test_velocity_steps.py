@@ -50,3 +50,44 @@ def test_friction_that_is_constant_but_for_noise_is_none():
     result = spring_slider_outcome(dataclasses.replace(data, runs=runs), lambda _: None).result
     assert result.verdict == "none"
     assert result.where is None
+
+
+def along_the_way(seed):
+    """Velocity steps, each piece over the same way again, with friction that waves once along it."""
+    data, rng = slider(0.01, 0.015, 2), np.random.default_rng(seed)
+    runs = []
+    for run in data.runs:
+        way = run.channels["position"] - run.channels["position"][0]
+        friction = 0.6 + 0.05 * np.sin(2.0 * np.pi * way / 2.0e-4) + 2e-4 * rng.standard_normal(len(way))
+        runs.append(
+            dataclasses.replace(run, channels={"position": way}, covariates={"friction_coefficient": friction})
+        )  # fmt: skip
+    return dataclasses.replace(data, runs=tuple(runs))
+
+
+def test_what_comes_back_along_the_way_is_an_unnamed_term_of_the_model():
+    outcome = spring_slider_outcome(along_the_way(1), lambda _: None)
+    result = outcome.result
+    assert result.verdict == "unknown"
+    assert result.unnamed is not None
+    assert result.unnamed.where.axis == "position of the box"
+    assert any("is in augmented.toml" in note for note in result.notes)
+    # a line between knots a sixth of the wave apart misses h^2/8 of its curvature at most
+    bent = (np.pi / 3.0) ** 2 / 8.0 * 0.05
+    assert result.gap.augmented < bent < 0.5 * result.gap.recalibrated
+    term = outcome.scenario.effects[-1]
+    assert (term.kind, term.axis, term.static_share) == ("unnamed", "position", 1.0)
+
+
+def test_what_does_not_come_back_is_said_not_to_carry_over():
+    data = along_the_way(1)
+    away = tuple(
+        dataclasses.replace(run, covariates={"friction_coefficient": 1.2 - run.covariates["friction_coefficient"]})
+        if run.role == "test"
+        else run
+        for run in data.runs
+    )
+    result = spring_slider_outcome(dataclasses.replace(data, runs=away), lambda _: None).result
+    assert result.verdict == "unknown"
+    assert result.unnamed is None
+    assert any("does not carry over" in note for note in result.notes)

@@ -8,7 +8,7 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.record import make_record
 from stochfric_mb.discovery.stick_slip.records.slips import extract
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import waves_in
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Terms, stated_terms
+from stochfric_mb.discovery.stick_slip.screening.regression import START, Regression, Terms, stated_terms
 from stochfric_mb.discovery.stick_slip.screening.waves import _gains, best_wave, frequencies, wave_columns
 from stochfric_mb.effects import make_effect
 from stochfric_mb.laws import make_law
@@ -42,7 +42,7 @@ def entrained() -> tuple[Pool, Regression, Terms]:
 @pytest.mark.parametrize(("frequency", "harmonics"), [(0.31, 1), (0.31, 3), (FREQUENCY, 1)])
 def test_gain_is_that_of_the_regression(kind, frequency, harmonics, entrained):
     pool, regression, terms = entrained
-    scatter = np.array([-3.0, -3.0, -4.0])
+    scatter = START
     wave = waves_in(pool)[kind]
     quick = _gains(pool, wave, regression.parts(terms, scatter), np.array([frequency]), harmonics)[0]
     plain = regression.gains(terms, scatter, [wave_columns(pool, wave, frequency, harmonics)])[0]

@@ -128,7 +128,7 @@ def test_impacts_are_a_poisson_process() -> None:
         ("backlash", True, False),
         ("normal_load_ripple", True, False),
         ("stale_samples", False, True),
-        ("temperature_drift", False, True),
+        ("temperature_drift", True, True),
         ("effective_area", False, True),
         ("drive_gain_change", False, True),
         ("unnamed", False, False),

@@ -10,19 +10,9 @@ import numpy.typing as npt
 from stochfric_mb.discovery.driven_joint.balance.force_balance import distance_slid
 from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, narrowest
 from stochfric_mb.measurement.run import Run
+from stochfric_mb.measurement.temperature import temperature_of
 
 Array = npt.NDArray[np.float64]
-
-
-ZERO = 273.15
-"""0 degC [K]."""
-
-
-def temperature_of(run: Run) -> Array | None:
-    """Return the measured temperature [degC], shape (count,), whatever it was recorded in; None: there is none."""
-    if "temperature" not in run.channels:
-        return None
-    return run.channels["temperature"] - (ZERO if run.units.get("temperature") == "K" else 0.0)
 
 
 def known_temperature(run: Run) -> Array:

@@ -60,8 +60,11 @@ def anonymous(study: Study, recalibrated: Fit, runs: HeldOut) -> Anonymous | Non
 def sentence_of(term: Anonymous | None) -> str:
     """Return the sentence about it for a reader."""
     if term is None:
-        return "no smooth change of friction along speed, slip, position or time explains what is missing: it may be random"
+        return (
+            "no smooth change of friction along speed, slip, position, time or temperature explains what is missing: "
+            "it may be random"
+        )
     axis = term.named.where.axis
     if term.carries_over:
-        return f"an unnamed term along the {axis} is in augmented.toml: it makes forecasts of the held-out runs better"
+        return f"an unnamed term along the {axis} makes forecasts of the held-out runs better; it is in the augmented model"
     return f"an unnamed term along the {axis} explains the fit runs, but does not carry over to the held-out ones"

@@ -63,4 +63,4 @@ def belt_speed(study: Study) -> BeltSpeed | None:
     if abs(errors[worst]) < max(criteria.BELT_NOTED, criteria.BELT_DOUBT * doubts[worst]):
         return None
     run, stated = sticking.runs[worst]
-    return BeltSpeed(run, 1.0 + float(errors[worst]), stated * study.size.of("m/s"))
+    return BeltSpeed(run, 1.0 + float(errors[worst]), stated)

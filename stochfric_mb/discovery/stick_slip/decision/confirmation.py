@@ -15,12 +15,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from stochfric_mb.discovery.inference.fitter import minimised
-from stochfric_mb.discovery.inference.free_parameter import FreeParameter, steps_of
+from stochfric_mb.discovery.inference.free_parameter import LAW, FreeParameter, steps_of
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array, Record
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, features_near
 from stochfric_mb.discovery.stick_slip.simulation.auxiliary_state import auxiliary_state
 from stochfric_mb.discovery.stick_slip.simulation.model import TUNED, Model, adjusted, free_parameters
+from stochfric_mb.discovery.stick_slip.simulation.natural_units import NaturalUnits
 from stochfric_mb.discovery.stick_slip.simulation.strength import STRENGTHS
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.reference.augmented import Start
@@ -37,8 +38,11 @@ LEVELLINGS = 2
 """Times that mu_s and mu_k are moved to their places before a fit begins."""
 DIFFERENCE = 0.01
 """Step of the derivatives, over a natural step of each number [-]."""
-REMEMBERED = 5.0
-"""Length of the record that what effects with a motion of their own remember is computed from [s]."""
+REMEMBERED = 127.5
+"""Length of the record that what effects with a motion of their own remember is computed from, as an angle of the natural
+oscillation [rad]: 20 periods."""
+LEVEL_STEP = 0.0154
+"""Natural step of mu_s and mu_k [-]."""
 MISSED = 50.0
 """Deviation that counts for every feature where the candidate does not slip as the data do."""
 
@@ -95,7 +99,8 @@ def cases_of(pool: Pool, model: Model) -> list[Case]:
     points: dict[tuple[float, ...], list[int]] = {}
     for r, slips in enumerate(pool.slips):
         box = slips.record.mechanism
-        key = (round(box.belt_velocity, 9), round(box.normal_force, 6), box.excitation_amplitude, float(slips.record.direction))
+        point = (box.belt_velocity, box.normal_force, box.excitation_amplitude)
+        key = (*(float(f"{x:.9g}") for x in point), float(slips.record.direction))
         points.setdefault(key, []).append(r)
     cases: list[Case] = []
     for key, runs in points.items():
@@ -212,7 +217,7 @@ def predict(model: Model, case: Case) -> Array | None:
     ahead = max(margin * 1.2, 0.55 * case.onset[2])
     time, position = case.onset[0] - ahead, record.direction * (case.onset[1] - box.belt_velocity * ahead)
     system = model.system(record)
-    since = REMEMBERED if all(e.forgets for e in system.effects) else 0.0
+    since = REMEMBERED / record.angular_frequency if all(e.forgets for e in system.effects) else 0.0
     memory = auxiliary_state(system, record, np.array([time]), np.array([position]), since=since)
     start = Start(
         time - model.late, position, record.stated.belt_velocity, True, max(case.onset[2] - ahead, 0.0),
@@ -252,8 +257,7 @@ def confirm(
             frequency.
     """
     free = _free_in(candidate, cases, uncertainty, entrained=entrained)
-    load = cases[0].record.mechanism.normal_force
-    steps = steps_of(free, np.array([_step(k, load) for k in free]))
+    steps = steps_of(free, np.array([_step(k) for k in free]))
 
     def errors(step: Array) -> Array:
         values = steps.values(step)
@@ -294,11 +298,11 @@ def _free_in(
     candidate: Model, cases: Sequence[Case], uncertainty: Mapping[str, float], *, entrained: bool
 ) -> list[FreeParameter]:
     """Return what is fitted; of a wave to which the slips keep the phase, but not the frequency."""
-    last = len(candidate.effects) - 1
+    last, units = len(candidate.effects) - 1, NaturalUnits.of_run(cases[0].record)
     if not entrained:
-        return [k for k in free_parameters(candidate, uncertainty, []) if not k.run]
+        return [k for k in free_parameters(candidate, uncertainty, units) if not k.run]
     runs = list(dict.fromkeys(case.record.name for case in cases))
-    free = [k for k in free_parameters(candidate, uncertainty, runs) if not k.run or k.owner == last]
+    free = [k for k in free_parameters(candidate, uncertainty, units, runs) if not k.run or k.owner == last]
     return [k for k in free if k.owner != last or k.name not in TUNED]
 
 
@@ -334,8 +338,8 @@ def _starts(candidate: Model, free: Sequence[FreeParameter], scale: Array) -> li
     return starts + [np.where(along, (share - 1.0) * values / scale, 0.0) for share in (0.5, 0.2, 0.05)]
 
 
-def _step(one: FreeParameter, load: float) -> float:
-    return one.scale if one.owner >= 0 or one.name not in ("mu_s", "mu_k") else 0.2 / load
+def _step(one: FreeParameter) -> float:
+    return LEVEL_STEP if one.owner == LAW else one.scale
 
 
 def _error(model: Model, case: Case) -> Array:

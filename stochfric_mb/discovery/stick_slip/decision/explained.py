@@ -41,7 +41,7 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
         return None
     runs = HeldOut(study.pool.slips[:2], windows, windows)
     without, with_ = scores(recalibrated, runs), scores(augmented, runs)
-    before, unit = float(without.mean()), study.size.length
+    before = float(without.mean())
     if _unfelt(kinds, recalibrated, study, runs, before):
         return dataclasses.replace(decision, verdict="none", named=())
     try:
@@ -50,9 +50,9 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
         return taken_back(decision, f"comes closest, but its model cannot run by itself: {error}")
     if not kinds:
         floor = min(float(best.mean()), float(with_.mean()))
-        decision.details["explained"] = {"before": before * unit, "floor": floor * unit}
-        return _missed(decision, before * unit, floor * unit) if before - floor > criteria.NONE_MISSES * before else None
-    return _too_little(decision, _enough(decision, augmented), without, with_, best, unit)
+        decision.details["explained"] = {"before": before, "floor": floor}
+        return _missed(decision, before, floor) if before - floor > criteria.NONE_MISSES * before else None
+    return _too_little(decision, _enough(decision, augmented), without, with_, best)
 
 
 def _enough(decision: Decision, augmented: Model) -> float:
@@ -62,16 +62,15 @@ def _enough(decision: Decision, augmented: Model) -> float:
     return _least_share(augmented, {n.kind for n in decision.named})
 
 
-def _too_little(decision: Decision, enough: float, without: Array, with_: Array, best: Array, unit: float) -> Decision | None:
+def _too_little(decision: Decision, enough: float, without: Array, with_: Array, best: Array) -> Decision | None:
     """Return the decision without its names where forecasts show that these explain less than ``enough``; None if they do not.
 
     Args:
         decision: the decision.
         enough: share of the reducible error [-].
-        without: errors of the forecasts without the effects, in the rig's unit of length, shape (n,).
+        without: errors of the forecasts without the effects [m], shape (n,).
         with_: the same with them.
         best: what they would be if the model with the effects were true, shape (m,).
-        unit: that unit [m].
     """
     before, after = float(without.mean()), float(with_.mean())
     floor = min(float(best.mean()), after)
@@ -79,9 +78,7 @@ def _too_little(decision: Decision, enough: float, without: Array, with_: Array,
     left = with_ - (1.0 - enough) * without
     doubt = float(np.hypot(_error_of_mean(left), enough * _error_of_mean(best)))
     share = (before - after) / (before - floor) if before > floor else 1.0
-    decision.details["explained"] = {
-        "before": before * unit, "after": after * unit, "floor": floor * unit, "share": share, "doubt": doubt * unit,
-    }  # fmt: skip
+    decision.details["explained"] = {"before": before, "after": after, "floor": floor, "share": share, "doubt": doubt}
     why = f"comes closest, but explains only {max(share, 0.0):.0%} of what the runs show"
     return taken_back(decision, why) if float(left.mean()) - enough * floor > criteria.LACKS * doubt else None
 

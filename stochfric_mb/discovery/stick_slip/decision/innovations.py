@@ -12,16 +12,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, predict
-from stochfric_mb.discovery.stick_slip.records.calibration import Calibration
-from stochfric_mb.discovery.stick_slip.records.pool import Pool
+from stochfric_mb.discovery.stick_slip.records.calibration import LEAST_ERROR, Calibration
+from stochfric_mb.discovery.stick_slip.records.pool import LEAST_DWELL, Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.sensor_errors import errors_by_noise
 
 ANY = np.eye(N_FEATURES)
-LEAST_ERROR = 1.0e-4
-"""Error of the features that always remains, over the onset force [-]: it keeps a noiseless record's covariance invertible."""
 
 
 def left_over(pool: Pool, model: Model, *, anew: bool = False) -> Pool:
@@ -77,7 +75,7 @@ def predicted_features(slips: Slips, model: Model, dwell: Array, which: Sequence
         expected = slips.onset_time[i] + (typical - slips.onset_position[i]) / belt
         stuck = (typical - previous[i]) / belt if i else float(dwell[i])
         case = Case(
-            slips.record, (float(expected), typical, max(stuck, 0.02)),
+            slips.record, (float(expected), typical, max(stuck, LEAST_DWELL / slips.record.angular_frequency)),
             float(np.median(slips.restick_time - slips.onset_time)), slips.features[i], ANY, (slips.ridge, slips.firm),
             np.zeros(N_FEATURES),
         )  # fmt: skip

@@ -23,6 +23,9 @@ from stochfric_mb.effects.course import PIECES
 from stochfric_mb.effects.traits import BELT_RIPPLE, CLIPPED, CREEPING_ZERO, JUMP, LATE, STRAY, YIELDING
 from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
 
+LIMITS = (1.52e-3, 4.56e-3, 1.52e-2, 4.56e-2)
+"""Elastic limits at which fits of a yielding contact begin, over the deflection of the spring under the normal force [-]."""
+
 CREEP = {
     "creep_before": ("stick, before the break-away", "the box departs from the belt's motion before it breaks away"),
     "creep_after": ("stick, after the re-stick", "the box does not follow the belt at once when it sticks again"),
@@ -66,9 +69,9 @@ def _compliant(study: Study, model: Model) -> Model:
     place = len(model.effects) - 1
     first = model.effects[place]
     best: tuple[float, Model] | None = None
-    for limit in (5.0e-6, 1.5e-5, 5.0e-5, 1.5e-4):
+    for limit in study.records[0].deflection * np.array(LIMITS):
         for ratio in (0.05, 0.3):
-            effects = (*model.effects[:place], dataclasses.replace(first, elastic_limit=limit, damping_ratio=ratio))
+            effects = (*model.effects[:place], dataclasses.replace(first, elastic_limit=float(limit), damping_ratio=ratio))
             trial = dataclasses.replace(model, effects=effects)
             fit = refit(trial, study.windows, study.uncertainty, most=5, evaluations=4)
             if best is None or fit.cost < best[0]:
@@ -317,7 +320,6 @@ def _step_stays(study: Study, setting: dict[str, float]) -> bool:
 def _line(study: Study, details: dict[str, object]) -> Where | None:
     """Return where the noise has a line; None if it has none."""
     frequency, amplitude, strength = max((s.line for s in study.pool.slips), key=lambda line: line[2])
-    frequency, amplitude = frequency * study.size.of("Hz"), amplitude * study.size.length
     details["noise_line"] = {"frequency": frequency, "amplitude": amplitude, "strength": strength}
     variance = max(s.noise.deviation for s in study.pool.slips) ** 2
     if strength < criteria.LINE_STRENGTH or amplitude**2 / 2.0 < criteria.LOUD_LINE * max(variance - amplitude**2 / 2.0, 0.0):

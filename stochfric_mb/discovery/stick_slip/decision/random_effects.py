@@ -23,6 +23,9 @@ from stochfric_mb.numerics.robust import deviation
 
 UNSEEN = 1.5
 """Kicks from both sides, over those that are seen [-]."""
+PULSE, KNOTS_APART = 0.051, 0.255
+"""Duration of a kick and distance of the knots of a rough friction, as angles of the natural oscillation [rad]: too short for
+the motion to show."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -119,7 +122,12 @@ def kicks(study: Study) -> RandomEffects | None:
     return RandomEffects(
         kind_with_signature(KICKS),
         detected("kicks", share),
-        {"rate": unseen * share / cycle, "impulse": deviation, "mean": mean},
+        {
+            "rate": unseen * share / cycle,
+            "impulse": deviation,
+            "mean": mean,
+            "duration": PULSE / pool.angular_frequency,
+        },
     )
 
 
@@ -137,8 +145,7 @@ def random_effects(
     study: Study, scatter: Randomness, levels: Switching, solution: Solution, named: Sequence[str]
 ) -> RandomEffects | Where | None:
     """Return random friction, or where a scatter of no known kind lives, or None."""
-    load = float(np.median(study.pool.normal_force))
-    sigma_s, sigma_k, _ = np.exp(solution.scatter) / load
+    sigma_s, sigma_k, _ = np.exp(solution.scatter)
     mu_s, mu_k = study.solution.coefficients[:2]
     if not _scatters(study, scatter, solution, named, max(sigma_s, sigma_k) / mu_s):
         return None
@@ -151,18 +158,26 @@ def random_effects(
             return memory
     else:
         return None
-    return _drawn_anew(scatter, sigma_s, sigma_k, mu_k / mu_s)
+    return _drawn_anew(scatter, sigma_s, sigma_k, mu_k / mu_s, KNOTS_APART / study.pool.angular_frequency)
 
 
-def _drawn_anew(scatter: Randomness, sigma_s: float, sigma_k: float, ratio: float) -> RandomEffects | Where:
-    """Return coefficients that are drawn anew, or where a force is; ``ratio``: mu_k over mu_s [-]."""
+def _drawn_anew(scatter: Randomness, sigma_s: float, sigma_k: float, ratio: float, spacing: float) -> RandomEffects | Where:
+    """Return coefficients that are drawn anew, or where a force is.
+
+    Args:
+        scatter: what the scatter tells.
+        sigma_s: standard deviation of mu_s [-].
+        sigma_k: that of mu_k [-].
+        ratio: mu_k over mu_s [-].
+        spacing: distance of knots [s].
+    """
     # in stick and slip alike, a factor of both coefficients goes with them, a force does not
     if scatter.together > criteria.SCATTER_TOGETHER and sigma_k > sigma_s * np.sqrt(ratio):
         return Where("scatter, in stick and slip alike", "a force of irregular course acts in stick and slip alike")
     strongest = max(scatter.static, scatter.kinetic)
     within = scatter.within > criteria.SCATTER_CERTAIN and scatter.within > 0.05 * strongest
     values: dict[str, float | str] = {
-        "process": "knots" if within else "per_event", "sigma_s": float(sigma_s), "sigma_k": float(sigma_k)
+        "process": "knots" if within else "per_event", "sigma_s": float(sigma_s), "sigma_k": float(sigma_k), "spacing": spacing
     }  # fmt: skip
     return RandomEffects(kind_with_signature(DRAWN_ANEW), likely("scatter", strongest), values)
 

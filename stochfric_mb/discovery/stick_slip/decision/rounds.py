@@ -536,5 +536,5 @@ class _Search:
 
 
 def _scatter(solution: Solution) -> float:
-    """Return the variance of both forces of a slip about a fitted model [N^2]."""
+    """Return the variance of both forces of a slip about a fitted model, over the normal force [-]."""
     return float(np.exp(2.0 * solution.scatter[:2]).sum())

@@ -25,8 +25,10 @@ FINER = 4
 """Simulated steps in one sample: what is taken for the truth at a break-away must be sharper than a sample."""
 FEWEST = 15
 """Simulated slips below which the bias cannot be estimated."""
-UNKNOWN = np.array([0.03, 0.1, 0.2, 0.3, 0.3, 0.3, 0.3, 0.3])
-"""Standard deviations of the features [N] that are assumed in that case, for forces of about 10 N."""
+UNKNOWN = np.array([0.003, 0.01, 0.02, 0.03, 0.03, 0.03, 0.03, 0.03])
+"""Standard deviations of the features that are assumed in that case, over the force at break-away [-]."""
+LEAST_ERROR = 1.0e-4
+"""Error of the features that always remains, over the same [-]: it keeps a noiseless record's covariance invertible."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -66,9 +68,7 @@ def calibrate(slips: Slips, *, seed: int = 11) -> Calibration:
         true.append(truth)
     features, forces = np.concatenate(observed), np.concatenate(true)
     if len(features) < FEWEST:
-        return Calibration(
-            np.zeros(N_FEATURES), np.zeros((N_FEATURES, 2)), (static, kinetic), np.diag((UNKNOWN * static / 10.0) ** 2)
-        )
+        return Calibration(np.zeros(N_FEATURES), np.zeros((N_FEATURES, 2)), (static, kinetic), np.diag((UNKNOWN * static) ** 2))
     error = features.copy()
     error[:, :2] -= forces
     design = np.c_[np.ones(len(error)), forces - (static, kinetic)]
@@ -78,9 +78,8 @@ def calibrate(slips: Slips, *, seed: int = 11) -> Calibration:
     for _ in range(3):
         fitted = np.linalg.lstsq(design[kept], error[kept], rcond=None)[0]
         rest = error - design @ fitted
-        kept = (np.abs(rest) < 6.0 * deviation(rest, about=0.0, axis=0) + 1.0e-6).all(axis=1)
-    # a floor keeps a noiseless record's covariance invertible
-    covariance = np.cov(rest[kept].T) + (1.0e-4 * static) ** 2 * np.eye(N_FEATURES)
+        kept = (np.abs(rest) < 6.0 * deviation(rest, about=0.0, axis=0) + 1.0e-7 * static).all(axis=1)
+    covariance = np.cov(rest[kept].T) + (LEAST_ERROR * static) ** 2 * np.eye(N_FEATURES)
     return Calibration(fitted[0], fitted[1:].T, (static, kinetic), covariance)
 
 

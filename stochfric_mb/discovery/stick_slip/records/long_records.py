@@ -32,8 +32,9 @@ def middle(slips: Slips) -> Slips:
     span = arrays["onset_time"][0] - half, arrays["restick_time"][-1] + half
     rows = slice(*np.searchsorted(record.time, span))
     cut = dataclasses.replace(
-        record, time=record.time[rows], position=record.position[rows], raw=record.raw[rows], outlier=record.outlier[rows]
-    )
+        record, time=record.time[rows], position=record.position[rows], raw=record.raw[rows], outlier=record.outlier[rows],
+        temperature=None if record.temperature is None else record.temperature[rows],
+    )  # fmt: skip
     inside = (slips.stick.time >= span[0]) & (slips.stick.time <= span[1])
     samples = {f.name: getattr(slips.stick, f.name)[inside] for f in dataclasses.fields(slips.stick) if f.name != "bin_size"}
     return dataclasses.replace(slips, record=cut, stick=dataclasses.replace(slips.stick, **samples), **arrays)

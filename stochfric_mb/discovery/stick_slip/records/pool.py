@@ -13,6 +13,9 @@ from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, N_MOMENTS, Slips, legendre_coefficients
 from stochfric_mb.numerics.robust import deviation
 
+LEAST_DWELL = 0.255
+"""Shortest time in stick that is predicted, as an angle of the natural oscillation [rad]."""
+
 
 @dataclasses.dataclass(frozen=True)
 class Pool:
@@ -63,6 +66,11 @@ class Pool:
         return len(self.slips)
 
     @property
+    def angular_frequency(self) -> float:
+        """Natural angular frequency of the rig [rad/s]."""
+        return self.slips[0].record.angular_frequency
+
+    @property
     def relative_velocity(self) -> Array:
         """Speed of the box relative to the belt at the nodes [m/s], shape (n, N_NODES)."""
         return np.abs(self.belt_velocity[:, None] - self.node_velocity)
@@ -88,6 +96,17 @@ class Pool:
     def duration(self) -> float:
         """Length of the longest record [s]."""
         return max(float(s.record.time[-1] - s.record.time[0]) for s in self.slips)
+
+    def temperature(self, time: Array) -> Array | None:
+        """Return the measured temperature [degC] at times in the slips [s], shape (n,) or (n, m); None: a run has none."""
+        tables = [s.record.temperatures for s in self.slips]
+        values = np.zeros_like(time)
+        for run, table in enumerate(tables):
+            if table is None:
+                return None
+            mine = self.run == run
+            values[mine] = np.interp(time[mine], *table)
+        return values
 
     def per_run(self, value: Callable[[Slips], float]) -> Array:
         """Return a number of each run, repeated for its slips."""
@@ -149,7 +168,7 @@ def make_pool(slips: Sequence[Slips], calibrations: Sequence[Calibration]) -> Po
         direction=repeated(lambda s: s.record.direction),
         static=static,
         kinetic=repeated(lambda s: float(np.median(s.moments[:, 0]))),
-        dwell=np.maximum((typical_onset - last_restick) / belt, 0.01),
+        dwell=np.maximum((typical_onset - last_restick) / belt, repeated(lambda s: LEAST_DWELL / s.record.angular_frequency)),
     )
 
 

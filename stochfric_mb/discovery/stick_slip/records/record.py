@@ -15,6 +15,7 @@ from scipy.signal import lfilter, savgol_filter
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.reference.augmented_model import TEMPERATURES
 
 Array = npt.NDArray[np.float64]
 
@@ -95,6 +96,8 @@ class Record:
     """The mechanism as stated, not mirrored."""
     direction: int
     """-1 where the run was mirrored, otherwise 1."""
+    temperature: Array | None = None
+    """Measured temperature [degC]; None: none was."""
 
     @property
     def rate(self) -> float:
@@ -106,6 +109,11 @@ class Record:
         """Natural angular frequency sqrt(k/m) [rad/s]."""
         return math.sqrt(self.mechanism.stiffness / self.mechanism.mass)
 
+    @property
+    def deflection(self) -> float:
+        """Deflection N/k of the spring under the normal force [m]: the length that is the rig's own."""
+        return self.mechanism.normal_force / self.mechanism.stiffness
+
     @functools.cached_property
     def motion(self) -> tuple[Array, Array]:
         """Smoothed position [m] and velocity [m/s], shape (n,) each, not mirrored."""
@@ -113,6 +121,17 @@ class Record:
         step = 1.0 / self.rate
         smooth, velocity = (savgol_filter(self.position, width, 3, deriv=d, delta=step) for d in (0, 1))
         return self.direction * np.asarray(smooth, dtype=np.float64), self.direction * np.asarray(velocity, dtype=np.float64)
+
+    @functools.cached_property
+    def temperatures(self) -> tuple[Array, Array] | None:
+        """Times [s] and temperatures there [degC], means over as many even parts of the record, shape (TEMPERATURES,) each."""
+        if self.temperature is None:
+            return None
+        parts = np.array_split(np.arange(len(self.time)), TEMPERATURES)
+        middle = np.array([(p[0] + p[-1]) / 2.0 for p in parts]) / self.rate + self.time[0]
+        means = np.array([self.temperature[p].mean() for p in parts])
+        even = np.linspace(middle[0], middle[-1], TEMPERATURES)
+        return even, np.interp(even, middle, means)
 
     @property
     def corrections(self) -> dict[str, float]:
@@ -127,7 +146,7 @@ class Record:
 
     def showing(self, position: Array) -> Record:
         """Return the record as it would be had the sensor shown ``position`` [m], shape (n,), not mirrored."""
-        return make_record(self.name, self.time, position, self.stated).corrected(self.corrections)
+        return make_record(self.name, self.time, position, self.stated, self.temperature).corrected(self.corrections)
 
     def samples(self, angle: float) -> int:
         """Return how many samples the natural oscillation takes to turn by ``angle`` [rad]."""
@@ -139,7 +158,7 @@ class Record:
         return box.stiffness * box.excitation_amplitude * np.cos(box.excitation_angular_frequency * time)
 
 
-def make_record(name: str, time: Array, position: Array, mechanism: BeltBox) -> Record:
+def make_record(name: str, time: Array, position: Array, mechanism: BeltBox, temperature: Array | None = None) -> Record:
     """Return the cleaned record of one run.
 
     Args:
@@ -147,6 +166,7 @@ def make_record(name: str, time: Array, position: Array, mechanism: BeltBox) -> 
         time: uniform time [s], shape (n,); the record's excitation phase counts from its zero.
         position: position [m], shape (n,).
         mechanism: the mechanism under the run's operating conditions.
+        temperature: measured temperature [degC], shape (n,); None: none was.
     """
     direction = -1 if mechanism.belt_velocity < 0.0 else 1
     stated = mechanism
@@ -170,7 +190,8 @@ def make_record(name: str, time: Array, position: Array, mechanism: BeltBox) -> 
     # single samples alone: what lasts longer is motion
     crowd = np.convolve(outlier.astype(np.float64), np.ones(width), mode="same")
     outlier &= crowd <= width // 2
-    return Record(name, time, np.where(outlier, median, raw), raw, outlier, noise, mechanism, stated, direction)
+    cleaned = np.where(outlier, median, raw)
+    return Record(name, time, cleaned, raw, outlier, noise, mechanism, stated, direction, temperature)
 
 
 def _bend(motion: Array, turn: float, width: int) -> float:

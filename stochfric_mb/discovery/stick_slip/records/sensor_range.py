@@ -11,6 +11,9 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
 
+QUIETEST = 3.0e-7
+"""Noise that is always allowed, over the deflection of the spring under the normal force [-]."""
+
 
 @dataclasses.dataclass(frozen=True)
 class SensorRange:
@@ -60,7 +63,7 @@ def _end(slips: Slips, mirrored_side: int, side: int) -> _End:
     noise. A box that turns round smoothly is not level: if it seems to be in single visits, it is not in their mean.
     """
     record = slips.record
-    noise = max(slips.noise.deviation, 1.0e-9)
+    noise = max(slips.noise.deviation, QUIETEST * record.deflection)
     raw = mirrored_side * record.raw
     top = float(np.quantile(raw, 0.9995)) - 2.0 * noise
     cross = 8.0 * noise / record.mechanism.belt_velocity * record.rate

@@ -30,8 +30,8 @@ N_FEATURES = 1 + N_MOMENTS
 N_NODES = 32
 """Gauss nodes on a slip at which its trajectory is given."""
 NODES, WEIGHTS = legendre.leggauss(N_NODES)
-SETTLING = 4.0
-"""Time before a record that is simulated at least and not looked at [s]."""
+SETTLING = 102.0
+"""Angle of the natural oscillation before a record that is simulated at least and not looked at [rad]: 16 periods."""
 _DEGREE = 9
 _STIFF, _SOFT = 0.06, 3.0
 """Standard deviation of an edge's cubic term over half the record's range: for a constant force, or a changing one."""
@@ -119,10 +119,11 @@ class Slips:
     @property
     def settling(self) -> float:
         """Time [s] that a simulation of the run takes from the belt's zero to where its cycles are typical."""
+        least = SETTLING / self.record.angular_frequency
         if len(self) < 2:
-            return SETTLING
+            return least
         first = abs(float(np.median(self.onset_position))) / self.record.mechanism.belt_velocity
-        return max(SETTLING, first + 2.0 * float(np.median(np.diff(self.onset_time))))
+        return max(least, first + 2.0 * float(np.median(np.diff(self.onset_time))))
 
     @property
     def features(self) -> Array:
@@ -151,7 +152,7 @@ def extract(record: Record, *, ridge: float | None = None, noise: Noise | None =
     if noise is None:
         noise = noise_of(quiet, record.noise)
         if noise.coloured > 0.0:
-            calmer = without_wave(quiet, when) or quiet
+            calmer = without_wave(quiet, when, record.angular_frequency) or quiet
             noise = noise_of(without_pattern(calmer) or calmer, record.noise)
             # such noise can pass for a slip's first or last samples
             rough = list(_inside(record, slips_of(record, noise)))

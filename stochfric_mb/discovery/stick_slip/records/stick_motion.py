@@ -17,16 +17,17 @@ from stochfric_mb.discovery.stick_slip.records.record import Array
 
 STRIDE = 20
 """Samples that are averaged; the waves looked for are slower by far."""
-FASTEST = 5.0
-"""Highest frequency that is looked for [Hz]."""
+FASTEST = 1.23
+"""Highest frequency that is looked for, over the natural one [-]."""
 
 
-def without_wave(phases: Sequence[Array], times: Sequence[Array]) -> list[Array] | None:
+def without_wave(phases: Sequence[Array], times: Sequence[Array], natural: float) -> list[Array] | None:
     """Return the phases without the wave that is in them; None where there is none.
 
     Args:
         phases: residuals of stick phases [m], their mean and line taken out.
         times: time of their samples [s], alike.
+        natural: natural angular frequency of the rig [rad/s].
     """
     if len(phases) < criteria.FEWEST_PHASES:
         return None
@@ -34,7 +35,7 @@ def without_wave(phases: Sequence[Array], times: Sequence[Array]) -> list[Array]
     if len(means) < criteria.FEWEST_PHASES:
         return None
     duration = float(means[-1][0][-1] - means[0][0][0])
-    grid = np.arange(2.0 / duration, FASTEST, 1.0 / (4.0 * duration))
+    grid = np.arange(2.0 / duration, FASTEST * natural / (2.0 * np.pi), 1.0 / (4.0 * duration))
     if not grid.size:  # no wave as slow as that fits into the record twice
         return None
     # Gram matrix of cosine and sine, and their products with the phases, at each frequency
@@ -47,7 +48,7 @@ def without_wave(phases: Sequence[Array], times: Sequence[Array]) -> list[Array]
         ab += (cosine * sine).sum(axis=1)
         ar += cosine @ p
         br += sine @ p
-    determinant = np.maximum(aa * bb - ab**2, 1.0e-12 * np.maximum(aa, 1.0e-300) ** 2)
+    determinant = np.maximum(aa * bb - ab**2, 1.0e-12 * np.maximum(aa, 1.0e-150) ** 2)
     gains = (bb * ar**2 - 2.0 * ab * ar * br + aa * br**2) / determinant
     best = int(np.argmax(gains))
     if gains[best] < criteria.WAVE_EXPLAINED * sum(float(p @ p) for _, p in means):

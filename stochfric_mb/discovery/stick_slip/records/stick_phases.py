@@ -23,6 +23,8 @@ FINENESS = 4.0
 """Frequencies of a ripple are 1/(this times the length of the record) apart [-]."""
 STRETCH = 128.0
 """Cycles of the slips in the stretch of a long record in which a ripple is looked for first [-]."""
+HAT = 1.275
+"""Distance of the corners of a creep before a break-away or after a re-stick, as an angle of the natural oscillation [rad]."""
 WAVES_IN_A_SLIP = 2.0
 """Waves in the time of a slip up to which a ripple is looked for [-]."""
 
@@ -70,6 +72,7 @@ class _Phases:
     def rest(self, columns: Sequence[Array]) -> Array:
         """Return the values less the belt's line and the columns."""
         design = np.stack([self.line, *(self.centred(c) for c in columns)], axis=1)
+        design = design / np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
         return self.values - design @ np.linalg.lstsq(design, self.values, rcond=1.0e-9)[0]
 
 
@@ -152,14 +155,15 @@ def _yields(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tu
 def _creep(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> dict[str, float]:
     """Return the scores of other ways in which a stuck box, or its reading, may creep."""
 
-    def hats(column: Array, places: Sequence[float]) -> list[Array]:
-        return [np.clip(1.0 - np.abs(column - p) / 0.05, 0.0, 1.0) for p in places]
+    def hats(run: _Phases, column: Array, count: int) -> list[Array]:
+        turned = column * run.slips.record.angular_frequency / HAT
+        return [np.clip(1.0 - np.abs(turned - p), 0.0, 1.0) for p in range(count)]
 
     ways: dict[str, tuple[int, Callable[[_Phases], Sequence[Array]]]] = {
-        "creep_before": (4, lambda run: hats(run.samples.to_onset, (0.0, 0.05, 0.1, 0.15))),
+        "creep_before": (4, lambda run: hats(run, run.samples.to_onset, 4)),
         CREEPING_ZERO: (2, lambda run: [np.sqrt(run.samples.time - run.samples.time[0]), run.samples.time**2]),
         "yielding": (3, _yielding),
-        "creep_after": (3, lambda run: hats(run.samples.since_restick, (0.0, 0.05, 0.1))),
+        "creep_after": (3, lambda run: hats(run, run.samples.since_restick, 3)),
     }
     return {name: _gain(runs, rests, columns) - p * len(runs) * log_n for name, (p, columns) in ways.items()}
 
@@ -225,7 +229,7 @@ def _ringing(run: _Phases, frequency: float, ratio: float) -> list[Array]:
 def _yielding(run: _Phases) -> list[Array]:
     """Return powers of how far the spring has been loaded in the stick phase: a contact that yields lags more and more."""
     dwell = run.samples.since_restick + run.samples.to_onset
-    loaded = run.samples.since_restick / np.maximum(dwell, 1.0e-9)
+    loaded = run.samples.since_restick / dwell
     return [loaded * dwell, loaded**2 * dwell, loaded**4 * dwell]
 
 

@@ -16,13 +16,17 @@ from stochfric_mb.effects.marks import Columns, Hypothesis
 
 SOFTENING = "softening"
 """Competitor of effects that drift, in as few numbers as they."""
+STEPS_APART = 25.5
+"""Distance of the times at which a step is looked for, at least, as an angle of the natural oscillation [rad]: four periods."""
 SETTLING = np.geomspace(0.03, 1.0, 22)
 """Times in which its drift settles, over the length of the record [-]."""
 
 
 def step_times(pool: Pool) -> Array:
     """Return the times at which a step is looked for [s]."""
-    return np.arange(0.08 * pool.duration, 0.94 * pool.duration, max(1.0, pool.duration / 80.0))
+    return np.arange(
+        0.08 * pool.duration, 0.94 * pool.duration, max(STEPS_APART / pool.angular_frequency, pool.duration / 80.0)
+    )
 
 
 def steps(pool: Pool, run: int, *, multiplied: bool) -> list[Array]:

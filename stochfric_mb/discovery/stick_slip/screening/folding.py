@@ -62,7 +62,7 @@ def comes_back(study: Study, far: npt.NDArray[np.bool_]) -> Where | None:
     result = turn([travel[mine & far] for mine in rows], [float(np.ptp(travel[mine])) for mine in rows], spacing)
     if result is None or result[1] > criteria.FOLDED_BY_CHANCE:
         return None
-    length = study.size.length * result[0]
+    length = result[0]
     return Where(
         "belt position",
         f"slips stand out once in {length:.3g} m of belt travel, turn after turn: a joint or a bump of the belt, not kicks",

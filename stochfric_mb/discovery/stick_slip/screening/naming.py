@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
-from stochfric_mb.discovery.stick_slip.records.record import Array, corrections_of
+from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array, corrections_of
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
 from stochfric_mb.discovery.stick_slip.simulation.model import MOST_FREED, Model
 from stochfric_mb.effects import Effect, effect_class, kind_with_signature, make_effect
@@ -28,6 +28,7 @@ def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int)
         n_terms: coefficients of the regression before the candidate's own.
     """
     coefficients = candidate.solution.coefficients[n_terms:]
+    model = beside(model, candidate.solution.coefficients)
     if candidate.is_wave:
         return _periodic(model, candidate, pool, coefficients)
     if candidate.name == kind_with_signature(JUMP):
@@ -38,15 +39,30 @@ def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int)
             model = with_steps(model, table)
         return model
     values = candidate.hypothesis.start(coefficients)
-    # a fit begins where screening ended: coefficients and corrections belong to the effect's strength
-    mu_s, mu_k = (max(float(c), 1.0e-3) for c in candidate.solution.coefficients[:2])
-    corrections = corrections_of(candidate.solution.coefficients[2:5])
+    corrections = dict(model.corrections)
     for name in effect_class(candidate.name).frees:
         if name not in corrections:
             continue
         corrections[name] = float(np.clip(corrections[name] + values.pop(name), -MOST_FREED, MOST_FREED))
-    model = dataclasses.replace(model.with_law(mu_s, mu_k), corrections=corrections)
-    return model.plus(_bounded(candidate.name, values))
+    return dataclasses.replace(model, corrections=corrections).plus(_bounded(candidate.name, values))
+
+
+def beside(model: Model, coefficients: Array) -> Model:
+    """Return the model with the coefficients of friction and the mechanism that a regression estimates beside another term.
+
+    A fit begins where the regression ended: those estimated without the term hold a part of what it explains, and that part
+    would count twice.
+
+    Args:
+        model: the model so far.
+        coefficients: of the regression with the term, those of the stated model first.
+    """
+    mu_s, mu_k = (max(float(c), 1.0e-3) for c in coefficients[:2])
+    # what is left holds what the effects so far free of the mechanism no more
+    freed = {name for e in model.effects for name in e.frees}
+    held = np.array([model.corrections.get(name, 0.0) if name in freed else 0.0 for name in CORRECTED])
+    corrections = corrections_of(coefficients[2 : 2 + len(CORRECTED)] + held)
+    return dataclasses.replace(model.with_law(mu_s, mu_k), corrections=corrections)
 
 
 def with_steps(model: Model, steps: Mapping[str, tuple[float, float]], place: int | None = None) -> Model:
@@ -78,7 +94,7 @@ def _bounded(kind: str, values: Mapping[str, float | str]) -> Effect:
         if isinstance(value, str):
             kept[name] = value
             continue
-        inside = 1.0e-3 * about[name]["scale"] if about[name]["strict"] else 0.0
+        inside = 1.0e-3 * abs(value) if about[name]["strict"] else 0.0
         kept[name] = float(np.clip(value, about[name]["low"] + inside, about[name]["high"] - inside))
     return make_effect(kind, **kept)
 

@@ -8,7 +8,6 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
 from stochfric_mb.discovery.stick_slip.screening.waves import frequencies, wave_columns
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.effects import effect_class
 from stochfric_mb.effects.marks import Hypothesis
 
 LOOKED_AT = 12
@@ -41,17 +40,10 @@ def smallest(study: Study) -> dict[str, float]:
             strengths = needed * solution.deviations[study.terms.columns.shape[2] :]
             if kind in periodic:
                 # cosine and sine of every run share the evidence
-                best = min(best, float(np.median(strengths) / np.sqrt(study.pool.n_runs)) * _unit(study, kind, "amplitude"))
+                best = min(best, float(np.median(strengths) / np.sqrt(study.pool.n_runs)))
                 continue
             values = hypothesis.start(strengths)
-            name, value = next(iter(values.items()), ("", np.inf))
-            best = min(best, abs(value) * _unit(study, kind, name))
+            best = min(best, abs(next(iter(values.values()), np.inf)))
         if np.isfinite(best):
             numbers[kind] = best
     return numbers
-
-
-def _unit(study: Study, kind: str, name: str) -> float:
-    """Return the unit in which a parameter was studied, over its SI unit [-]."""
-    about = effect_class(kind).__dataclass_fields__.get(name)
-    return study.size.of(about.metadata["unit"]) if about is not None else 1.0

@@ -2,8 +2,8 @@
 
 The features of a slip scatter with covariance C_run (from calibration) plus what friction itself may scatter: sigma_s^2
 on the onset force, sigma_k^2 on the mean force in slip, and white scatter within the slip, sigma_w^2 (2 q + 1) on the
-coefficient of order q. Mass, stiffness and damping are regressors with the priors that the scenario states. Negative
-log likelihoods are up to a constant that all models share.
+coefficient of order q; all three over the median normal force. Mass, stiffness and damping are regressors with the priors
+that the scenario states. Negative log likelihoods are up to a constant that all models share.
 """
 
 from __future__ import annotations
@@ -17,8 +17,10 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, N_MOMENTS
 
-LOWEST, HIGHEST = -7.0, 1.0
-"""Range of the logarithm of the variance components [ln N]."""
+LOWEST, HIGHEST = -9.565, -1.565
+"""Range of the logarithms of the variance components, standard deviations over the normal force."""
+START = np.array([-5.565, -5.565, -6.565])
+"""Where the search for them begins: coefficients that scatter by 0.004."""
 _WHITE = 2.0 * np.arange(N_MOMENTS) + 1.0
 
 
@@ -56,7 +58,7 @@ class Solution:
     deviations: Array
     """Their standard deviations, shape (p,)."""
     scatter: Array
-    """Logarithms of sigma_s, sigma_k, sigma_w [ln N], shape (3,)."""
+    """Logarithms of sigma_s, sigma_k, sigma_w over the median normal force, shape (3,)."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -78,6 +80,7 @@ class Regression:
 
     def __init__(self, pool: Pool) -> None:
         self.pool = pool
+        self.load = float(np.median(pool.normal_force))
         self._rows = [np.flatnonzero(pool.kept & (pool.run == r)) for r in range(pool.n_runs)]
 
     @property
@@ -90,7 +93,8 @@ class Regression:
         target = self._white(terms.target(self.pool.features)[..., None], scatter)[:, 0]
         design = self._white(terms.columns, scatter)
         precision = 1.0 / terms.priors**2
-        scale = np.sqrt((design**2).sum(axis=0) + precision) + 1.0e-12
+        size = np.sqrt((design**2).sum(axis=0) + precision)
+        scale = np.where(size > 0.0, size, 1.0)  # what marks no slip has no size
         scaled = design / scale
         normal = scaled.T @ scaled + np.diag(precision / scale**2)
         # a touch of ridge keeps regressors that the data cannot separate from blowing up
@@ -103,7 +107,7 @@ class Regression:
 
     def fit(self, terms: Terms, start: Array | None = None) -> Solution:
         """Return the best coefficients and variance components, by coordinate search from ``start``."""
-        best = self.solve(terms, np.array([-3.0, -3.0, -4.0]) if start is None else start)
+        best = self.solve(terms, START if start is None else start)
         step = 1.0
         while step >= 0.12:
             improved = False
@@ -176,7 +180,7 @@ class Regression:
 
     def covariance(self, run: int, scatter: Array) -> Array:
         """Return the covariance of the features in a run [N^2], shape (N_FEATURES, N_FEATURES)."""
-        static, kinetic, white = np.exp(2.0 * np.asarray(scatter))
+        static, kinetic, white = (self.load * np.exp(np.asarray(scatter))) ** 2
         covariance = self.pool.calibrations[run].covariance.copy()
         covariance[0, 0] += static
         covariance[1, 1] += kinetic

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
-from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array, corrections_of
+from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.screening.naming import beside
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.effects import kinds_with, make_effect
@@ -80,12 +81,7 @@ def smooth_term(
     values = {f"change_{i}": float(table[i] - table[0]) for i in range(1, KNOTS)}
     share = 0.0 if axis.at_onset is None else 1.0
     term = make_effect(kinds_with(ANONYMOUS)[0], axis=axis.name, low=low, high=high, static_share=share, **values)
-    # coefficients and corrections belong to the table: a fit begins where the regression ended
-    mu_s, mu_k = max(float(numbers[0]), 1.0e-3), max(float(numbers[1] + table[0]), 1.0e-3)
-    freed = {name for e in model.effects for name in e.frees}
-    held = np.array([model.corrections.get(name, 0.0) if name in freed else 0.0 for name in CORRECTED])
-    corrections = corrections_of(numbers[2:5] + held)  # what is left holds what an effect frees no more
-    start = dataclasses.replace(model.with_law(mu_s, mu_k), corrections=corrections)
+    start = beside(model, np.r_[numbers[0], numbers[1] + table[0], numbers[2:]])
     return SmoothTerm(score, start.plus(term), best)
 
 
@@ -95,11 +91,14 @@ def axes_of(pool: Pool) -> list[Axis]:
     The last one is that of a named effect alone: any difference between runs may lie along their loads.
     """
     turned = pool.direction[:, None]
+    warm, warmer = pool.temperature(pool.onset_time), pool.temperature(pool.node_time)
+    measured = [] if warm is None or warmer is None or not np.ptp(warm) else [Axis("temperature", warm, warmer)]
     return [
         Axis("speed", None, pool.relative_velocity),
         Axis("slip", None, pool.slip_distance),
         Axis("position", pool.direction * pool.typical_onset, turned * pool.typical_position),
         Axis("time", pool.onset_time, pool.node_time),
+        *measured,
         Axis("load", pool.normal_force, np.repeat(pool.normal_force[:, None], pool.node_time.shape[1], axis=1)),
     ]
 

@@ -55,7 +55,7 @@ def _together(regression: Regression, rest: Array) -> float:
     pool = regression.pool
     parts = [rest[(pool.run == r) & pool.kept] for r in range(pool.n_runs)]
     first, second = np.concatenate([p - p.mean(axis=0) for p in parts if len(p)]).T
-    return float(first @ second / max(np.sqrt((first @ first) * (second @ second)), 1.0e-30))
+    return float(first @ second / (np.sqrt((first @ first) * (second @ second)) or 1.0))
 
 
 def _correlation(regression: Regression, rest: Array) -> float:
@@ -66,7 +66,7 @@ def _correlation(regression: Regression, rest: Array) -> float:
         if len(mine) < 4:
             continue
         mine = mine - mine.mean()
-        total += len(mine) * float(mine[1:] @ mine[:-1]) / max(float(mine @ mine), 1e-30)
+        total += len(mine) * float(mine[1:] @ mine[:-1]) / (float(mine @ mine) or 1.0)
         weight += len(mine)
     return total / max(weight, 1) * np.sqrt(max(weight, 1))
 
@@ -84,7 +84,7 @@ REMAINING = (1.0, 0.2, 0.02, 0.0)
 def _wander(regression: Regression, rest: Array, solution: Solution) -> tuple[float, float, float, str]:
     """Return (score, strength, correlation time, what wanders) of an Ornstein-Uhlenbeck process on the forces."""
     pool = regression.pool
-    static, kinetic = np.exp(2.0 * solution.scatter[:2])
+    static, kinetic = (regression.load * np.exp(solution.scatter[:2])) ** 2
     cycle = float(np.median([np.median(np.diff(s.onset_time)) for s in pool.slips]))
     runs: list[tuple[Array, dict[str, Array], Array, Array]] = []
     for r in range(pool.n_runs):

@@ -26,7 +26,7 @@ def delay_compensated(result: Study, delay: float) -> Study:
         delay: by how much the sensor is late [s].
     """
     runs = tuple(dataclasses.replace(run, time=run.time - delay) for run in result.dataset.runs)
-    again = study(dataclasses.replace(result.dataset, runs=runs), result.size)
+    again = study(dataclasses.replace(result.dataset, runs=runs))
     assert again is not None  # the same slips, at other times
     return again
 

@@ -23,6 +23,9 @@ N_OUTPUTS = 105
 """Compared samples in a forecast."""
 REACH = 1.05
 """Length of a forecast in typical cycles [-]."""
+SHORTEST_DWELL, MEAN_OVER = 0.51, 1.275
+"""Stick below which there is no forecast, and time to either side over which a start is averaged at most, as angles of the
+natural oscillation [rad]."""
 MEMBERS = 30
 """Members of the ensemble of a random model."""
 STAND_INS = 10
@@ -60,16 +63,19 @@ def windows_of(slips: Slips) -> Windows:
     n = len(slips)
     starts: list[tuple[float, float, float]] = []
     targets: list[Array] = []
-    cycle = float(np.median(np.diff(slips.onset_time))) if n > 1 else 1.0
+    if n < 2:
+        return Windows(record, np.zeros((0, 3)), np.zeros((0, N_OUTPUTS)), 1)
+    cycle = float(np.median(np.diff(slips.onset_time)))
     stride = max(round(REACH * cycle * record.rate / N_OUTPUTS), 1)
     dwells = slips.onset_time[1:] - slips.restick_time[:-1]
-    typical = float(np.median(dwells)) if n > 1 else 0.0
+    typical = float(np.median(dwells))
+    shortest, wide = (angle / record.angular_frequency for angle in (SHORTEST_DWELL, MEAN_OVER))
     # spread evenly over a long run
-    for i in np.unique(np.linspace(0, n - 2, min(n - 1, FORECAST)).astype(np.int64)) if n > 1 else ():
-        if dwells[i] < 0.3 * typical or dwells[i] < 0.02:
+    for i in np.unique(np.linspace(0, n - 2, min(n - 1, FORECAST)).astype(np.int64)):
+        if dwells[i] < max(0.3 * typical, shortest):
             continue
         dwell = 0.45 * typical if dwells[i] > 0.6 * typical else 0.5 * dwells[i]
-        half = max(int(min(0.05, 0.8 * dwell, 0.8 * (dwells[i] - dwell)) * record.rate), 1)
+        half = max(int(min(wide, 0.8 * dwell, 0.8 * (dwells[i] - dwell)) * record.rate), 1)
         middle = int(np.searchsorted(record.time, slips.restick_time[i] + dwell))
         last = middle + stride * N_OUTPUTS
         if last >= len(record.time) or middle - half < 0:

@@ -18,15 +18,12 @@ from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.discovery.stick_slip.screening.competitors import step_times, steps
 from stochfric_mb.discovery.stick_slip.screening.naming import with_steps
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, stated_terms
+from stochfric_mb.discovery.stick_slip.screening.regression import START, Regression, stated_terms
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, expected_scores, score, windows_of
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.phases import in_phase
 from stochfric_mb.discovery.stick_slip.simulation.scatter import simulated_slips
 from stochfric_mb.effects.traits import JUMP
-
-START = np.array([-3.0, -3.0, -4.0])
-"""Logarithms of the scatter at which a step is looked for [ln N]."""
 
 
 @dataclasses.dataclass(frozen=True)

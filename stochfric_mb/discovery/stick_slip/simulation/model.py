@@ -12,6 +12,7 @@ import numpy as np
 from stochfric_mb.coefficients import Process
 from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM, FreeParameter
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, LEAST_CORRECTION, Array, Record
+from stochfric_mb.discovery.stick_slip.simulation.natural_units import NaturalUnits, exponents
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects.contract import PHASES
 from stochfric_mb.laws import Law
@@ -20,7 +21,7 @@ from stochfric_mb.reference.augmented import AugmentedSystem, augmented_system
 
 NOT_FITTED = (
     "reference_load", "spacing", "fraction", "size", "time", "duration", "high", "low", "static_share", "share_below",
-    "shape_exponent", "adhesion",
+    "shape_exponent", "adhesion", "reference_temperature",
 )  # fmt: skip
 """Parameters of effects that forecasts cannot fit, or that are fixed by what they mean."""
 REACH = 0.25
@@ -28,8 +29,11 @@ REACH = 0.25
 MOST_FREED = 0.4
 """How far what an effect leaves open (`Effect.frees`) may be off [-]: whether an oscillator was weighed with the body, and at
 which deflection a spring was measured, nobody said."""
-SHORTEST_LIMIT = 1.0e-6
-"""Smallest elastic limit that a fit may reach [m]: a stiffer contact looks rigid and costs time."""
+SHORTEST_LIMIT = 3.04e-4
+"""Smallest elastic limit that a fit may reach, over the deflection of the spring under the normal force [-]: a stiffer contact
+looks rigid and costs time."""
+FROM_ZERO = 0.01
+"""Natural step of a number with a dimension that begins at 0, in the rig's own units [-]."""
 TUNED, TUNING = ("frequency", "wavelength"), 0.02
 """Parameters of effects that small changes of tell upon, and a natural step over their size [-]."""
 MOST_TUNED, FARTHEST = 2.0, 30.0
@@ -68,7 +72,13 @@ class Model:
     def system(self, record: Record, *, seed: int = 0, sample: int = 0) -> AugmentedSystem:
         """Return the simulator of a run; it moves as stated, not mirrored."""
         return augmented_system(
-            self.mechanism(record.stated), self.law, self.effects_in(record.name), self.process, seed=seed, sample=sample
+            self.mechanism(record.stated),
+            self.law,
+            self.effects_in(record.name),
+            self.process,
+            seed=seed,
+            sample=sample,
+            temperature=record.temperatures,
         )
 
     def with_law(self, mu_s: float, mu_k: float) -> Model:
@@ -95,12 +105,15 @@ class Model:
         return self.process is not None or any(e.random and e.group != "sensor" for e in self.effects)
 
 
-def free_parameters(model: Model, uncertainty: Mapping[str, float], runs: Sequence[str] = ()) -> list[FreeParameter]:
+def free_parameters(
+    model: Model, uncertainty: Mapping[str, float], units: NaturalUnits, runs: Sequence[str] = ()
+) -> list[FreeParameter]:
     """Return what may be adjusted in a model.
 
     Args:
         model: the model; its present values are the start.
         uncertainty: relative standard deviations of the mechanism's stated numbers.
+        units: the rig's own.
         runs: runs that have own parameters.
     """
     law = model.law
@@ -109,7 +122,7 @@ def free_parameters(model: Model, uncertainty: Mapping[str, float], runs: Sequen
         FreeParameter(LAW, "mu_s", law.mu_s, 0.02 * law.mu_s, law.mu_s * (1.0 - REACH), law.mu_s * (1.0 + REACH)),
         FreeParameter(LAW, "mu_k", law.mu_k, 0.02 * law.mu_s, 1.0e-5, most_kinetic),
         *(c for name in CORRECTED if (c := _correction(model, name, uncertainty.get(name, 0.0))) is not None),
-        *(p for i in range(len(model.effects)) for p in _of_effect(model, i, runs)),
+        *(p for i in range(len(model.effects)) for p in _of_effect(model, i, units, runs)),
     ]
 
 
@@ -124,7 +137,7 @@ def _correction(model: Model, name: str, deviation: float) -> FreeParameter | No
     return FreeParameter(MECHANISM, name, present, deviation or 0.01, max(LEAST_CORRECTION, -most), most, prior=prior)
 
 
-def _of_effect(model: Model, i: int, runs: Sequence[str]) -> Iterator[FreeParameter]:
+def _of_effect(model: Model, i: int, units: NaturalUnits, runs: Sequence[str]) -> Iterator[FreeParameter]:
     """Yield what may be adjusted in the i-th effect."""
     effect = model.effects[i]
     for field in dataclasses.fields(effect):
@@ -137,9 +150,18 @@ def _of_effect(model: Model, i: int, runs: Sequence[str]) -> Iterator[FreeParame
                 yield FreeParameter(i, name, own, 0.3, -np.inf, np.inf, run=run)
         else:
             # a frequency that is off by its share of a wave in the whole record changes everything
-            scale = TUNING * value if name in TUNED else max(abs(value), 0.05 * meta["scale"])
-            low, high = _bounds(name, value, meta)
+            scale = TUNING * value if name in TUNED else _step(value, effect.unit_of(name), meta, units)
+            low, high = _bounds(name, value, scale, meta, units)
+            if name in TUNED and effect.own_to_run:
+                low, high = _in_peak(name, value, units, low, high)
             yield FreeParameter(i, name, value, scale, low, high, nominal=value, prior=meta["fit_prior"])
+
+
+def _step(value: float, unit: str, about: Mapping[str, Any], units: NaturalUnits) -> float:
+    """Return the natural step of a number of an effect: its size, but for one about 0."""
+    if any(exponents(unit)):
+        return abs(value) or FROM_ZERO * units.of(unit)
+    return max(abs(value), 0.05 * about["scale"])
 
 
 def _stays(effect: Effect, name: str, value: float) -> bool:
@@ -153,18 +175,33 @@ def _stays(effect: Effect, name: str, value: float) -> bool:
     return False
 
 
-def _bounds(name: str, value: float, about: Mapping[str, Any]) -> tuple[float, float]:
+def _bounds(name: str, value: float, scale: float, about: Mapping[str, Any], units: NaturalUnits) -> tuple[float, float]:
     """Return the smallest and the largest value that a fit may give a parameter of an effect."""
-    inside = 1.0e-6 * about["scale"] if about["strict"] else 0.0
+    inside = 1.0e-6 * scale if about["strict"] else 0.0
     low, high = about["low"] + inside, about["high"] - inside
     if name == "elastic_limit":
-        return about["low"] + SHORTEST_LIMIT, about["high"] - SHORTEST_LIMIT
+        return SHORTEST_LIMIT * units.length, np.inf
     if (about["fit_low"], about["fit_high"]) != (about["low"], about["high"]):
         return min(value, max(about["fit_low"], low)), max(value, min(about["fit_high"], high))
     if about["strict"] and value > 0.0:
         most = MOST_TUNED if name in TUNED else FARTHEST
         return max(low, value / most), min(high, value * most)
     return low, high
+
+
+def _in_peak(name: str, value: float, units: NaturalUnits, low: float, high: float) -> tuple[float, float]:
+    """Return the bounds of a wave's frequency or length within its peak, a quarter of a wave in the record to either side.
+
+    Beyond it there are other peaks, of noise or of an alias, in which a fit to a few forecasts ends as well.
+    """
+    if units.duration <= 0.0:
+        return low, high
+    reach = 0.25 / units.duration
+    if name == "frequency":
+        return max(low, value - reach), min(high, value + reach)
+    number = units.belt_velocity / value
+    longest = units.belt_velocity / (number - reach) if number > reach else high
+    return max(low, units.belt_velocity / (number + reach)), min(high, longest)
 
 
 def _shared(name: str, value: float) -> bool:

@@ -12,15 +12,16 @@ from stochfric_mb.discovery.inference.free_parameter import FreeParameter, steps
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, forecasts
 from stochfric_mb.discovery.stick_slip.simulation.model import Model, adjusted, free_parameters
+from stochfric_mb.discovery.stick_slip.simulation.natural_units import NaturalUnits
 
 MOST_WINDOWS = 16
 """Forecasts a run that a fit uses, spread over the run."""
-UNIT = 1.0e-5
-"""Size of an error that counts fully [m]; larger ones count by their size, not its square."""
+UNIT = 3.6e-3
+"""Size of an error that counts fully, over what the box moves in a forecast [-]; larger ones count by size, not square."""
 TYPICAL = 2.0
 """Errors up to this many units count by their square [-]."""
-CLIP = 60.0
-"""Errors beyond this many units count as this many: a missed slip says no more than that."""
+CLIP = 0.5 / UNIT
+"""Errors beyond this many units, half of what the box moves, count as this many: a missed slip says no more than that."""
 DIFFERENCE = 0.01
 """Step of the derivatives in a fit, over a natural step of each number [-]."""
 LEAST_STEP, WIDEST = 1.0e-6, 30.0
@@ -71,6 +72,7 @@ def refit(
     only: Sequence[str] | None = None,
     evaluations: int = 14,
     most: int = MOST_WINDOWS,
+    typical: float = TYPICAL,
 ) -> Fit:
     """Return the model fitted to forecasts.
 
@@ -81,11 +83,12 @@ def refit(
         only: names of the parameters, of single runs, that may move; all of them if not given.
         evaluations: most Gauss-Newton steps.
         most: forecasts used in each run.
+        typical: errors up to this many units count by their square [-]; inf: all of them, where a fit begins far off.
     """
     misfit = _Misfit(model, windows, uncertainty, only, most)
     minimum = minimised(
         misfit.errors, np.zeros(len(misfit.free)), misfit.steps.low, misfit.steps.high, difference=DIFFERENCE,
-        evaluations=evaluations, tolerance=1.0e-4, outlying=TYPICAL,
+        evaluations=evaluations, tolerance=1.0e-4, outlying=typical,
     )  # fmt: skip
     values = misfit.steps.values(minimum.x)
     spread = misfit.spread(2.0 * minimum.cost)
@@ -208,8 +211,10 @@ class _Misfit:
     ) -> None:
         self.model = model
         self.windows = [thinned(w, most) for w in windows if len(w)]
+        units = NaturalUnits.of_run(windows[0].record)
+        self.unit = UNIT * float(np.median(np.concatenate([np.ptp(w.targets, axis=1) for w in windows])))
         runs = [w.record.name for w in self.windows]
-        self.free = [k for k in free_parameters(model, uncertainty, runs) if only is None or (k.name in only and k.run)]
+        self.free = [k for k in free_parameters(model, uncertainty, units, runs) if only is None or (k.name in only and k.run)]
         self.steps = steps_of(self.free)
 
     def errors(self, step: Array) -> Array:
@@ -217,7 +222,7 @@ class _Misfit:
         values = self.steps.values(step)
         trial = adjusted(self.model, self.free, values)
         parts = [
-            np.nan_to_num(np.clip((forecasts(trial, w) - w.targets) / UNIT, -CLIP, CLIP), nan=CLIP).ravel()
+            np.nan_to_num(np.clip((forecasts(trial, w) - w.targets) / self.unit, -CLIP, CLIP), nan=CLIP).ravel()
             for w in self.windows
         ]
         # priors enter as one observation each; its weight is that of a cycle's worth of independent errors

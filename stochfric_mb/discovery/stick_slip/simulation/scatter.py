@@ -99,7 +99,7 @@ def measured_slips(shown: Array, like: Slips, generator: np.random.Generator) ->
 def _deviation(values: Array) -> float:
     """Return the standard deviation of what lies within five robust deviations."""
     centre, spread = np.median(values), deviation(values)
-    inside = values[np.abs(values - centre) <= 5.0 * spread + 1.0e-12]
+    inside = values[np.abs(values - centre) <= 5.0 * spread]
     return float(inside.std())
 
 

@@ -1,0 +1,69 @@
+"""A measured temperature is an axis for slips: friction that follows it is named, and what has no name is a term along it."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from stochfric_mb.discovery import discover
+from stochfric_mb.discovery.stick_slip.screening.smooth_term import axes_of
+from stochfric_mb.effects import make_effect
+from stochfric_mb.laws import make_law
+from stochfric_mb.measurement.dataset import Dataset, Run
+from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.reference.augmented import Start, augmented_system
+from stochfric_mb.reference.augmented_model import TEMPERATURES
+from stochfric_mb.scenario import Scenario
+
+BOX = BeltBox(mass=6.08, damping=0.768, stiffness=3956.0, normal_force=13.0, belt_velocity=2.5e-3)
+LAW = make_law("coulomb", mu_s=0.8, mu_k=0.46)
+RATE, NOISE, STEP, LONG = -0.01, 2.0e-6, 1.0e-3, 40.0
+
+
+def warming(run: int):
+    """Times and temperatures of a run: it warms up and cools down again, at another pace in each."""
+    time = np.linspace(-5.0, LONG, TEMPERATURES)
+    return time, 25.0 + 5.0 * np.sin(2.0 * np.pi * time / (17.0 + 6.0 * run) + run)
+
+
+def record(run: int, role: str) -> Run:
+    drift = make_effect("temperature_drift", rate=RATE, reference_temperature=25.0)
+    system = augmented_system(BOX, LAW, [drift], temperature=warming(run))
+    settled = system.march(Start(-5.0, 0.0, BOX.belt_velocity, stick=True), STEP, round(5.0 / STEP)).end
+    position = system.march(settled, STEP, round(LONG / STEP)).position
+    rng = np.random.default_rng(run)
+    time = STEP * np.arange(len(position))
+    channels = {
+        "position": position + NOISE * rng.standard_normal(len(position)),
+        "temperature": np.interp(time, *warming(run)) + 0.05 * rng.standard_normal(len(position)),
+    }
+    return Run(name=f"run {run}", role=role, time=time, channels=channels, sample_interval=STEP)
+
+
+@pytest.fixture(scope="module")
+def dataset() -> Dataset:
+    runs = (record(0, "fit"), record(1, "fit"), record(2, "test"))
+    scenario = Scenario(mechanism=BOX, law=LAW, duration=LONG, output_step=STEP)
+    return Dataset(title="", scenario_path=None, scenario=scenario, runs=runs)
+
+
+def test_friction_that_follows_a_measured_temperature_is_named(dataset):
+    outcome = discover(dataset)
+    result = outcome.result
+    assert [e.kind for e in result.effects] == ["temperature_drift"]
+    rate, reference = (result.effects[0].parameters[name] for name in ("rate", "reference_temperature"))
+    true = RATE / (1.0 + RATE * (reference.value - 25.0))  # relative to friction at the reference temperature
+    assert rate.low < true < rate.high
+    assert rate.value == pytest.approx(true, rel=0.02)
+    assert result.gap.closed > 0.9
+    assert outcome.scenario.effects == ()  # a simulated belt-box has no measured temperature
+    assert any("reads a measured temperature" in note for note in result.notes)
+    assert "temperature" in [a.name for a in axes_of(outcome.study.pool)]
+
+
+def test_without_a_temperature_nothing_is_said_of_it(dataset):
+    runs = tuple(
+        dataclasses.replace(r, channels={"position": r.channels["position"]}) for r in dataset.runs
+    )  # fmt: skip
+    result = discover(dataclasses.replace(dataset, runs=runs)).result
+    assert "temperature_drift" not in [kind for kind, _ in result.ranking]
