@@ -19,6 +19,8 @@ Array = npt.NDArray[np.float64]
 DAMPING, LEAST_DAMPING, CHANGE = 1.0e-4, 1.0e-9, 10.0
 """Damping at the start and at least, over the curvature, and the factor by which it falls after a step that
 helped and rises after one that did not [-]."""
+STRAIGHT = 1.0e-6
+"""Fall of the cost over itself by a last step so short that the derivatives are as they were [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -28,7 +30,8 @@ class Minimum:
     x: Array
     """The numbers, shape (p,)."""
     jacobian: Array
-    """Derivatives of the residuals there, weighted as the loss weights them, shape (n, p)."""
+    """Derivatives of the residuals there or, if the last step changed next to nothing, where it began, weighted as the loss
+    weights them, shape (n, p)."""
     cost: float
     """Half the sum of squares, or of the loss."""
 
@@ -81,8 +84,10 @@ def minimised(
             break
         fall, x, rest, cost = cost - after, trial, new, after
         damping = max(damping / CHANGE, LEAST_DAMPING)
-        slopes = _slopes(errors, x, rest, low, high, difference)
-        if fall < tolerance * (cost + fall):
+        done = fall < tolerance * (cost + fall)
+        if not done or fall > STRAIGHT * (cost + fall):
+            slopes = _slopes(errors, x, rest, low, high, difference)
+        if done:
             break
     return Minimum(x, _weighted(slopes, rest, outlying)[0], cost)
 

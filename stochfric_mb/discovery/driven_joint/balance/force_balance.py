@@ -106,6 +106,22 @@ class ForceBalance:
             total += noise**2 * float(np.sum(np.convolve(spread, taps[: 2 * half + 1]) ** 2))
         return total / size**2
 
+    def with_more_drive(self, step: float) -> ForceBalance:
+        """Return the same motion with a larger drive, and the load that it makes; the balance itself stays.
+
+        Args:
+            step: by how much the drive is larger [N or N m].
+        """
+        if step not in self._moved:
+            load = self.load if self.load_by_drive is None else self.load + step * self.load_by_drive
+            drive = None if self.drive is None else self.drive + step
+            self._moved[step] = dataclasses.replace(self, load=load, drive=drive)
+        return self._moved[step]
+
+    @functools.cached_property
+    def _moved(self) -> dict[float, ForceBalance]:
+        return {}
+
     @functools.cached_property
     def travelled(self) -> Array:
         """Distance slid since the record began, whichever way [m or rad], shape (count,)."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -21,7 +21,6 @@ from stochfric_mb.discovery.driven_joint.fit.gains import predicted_rms
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import Start, tried, wave_starts
 from stochfric_mb.discovery.inference.paired import Paired
-from stochfric_mb.effects import Effect
 from stochfric_mb.effects.joints import JointSpan
 
 Array = npt.NDArray[np.float64]
@@ -92,6 +91,12 @@ class Selected:
         return (*(t.candidate.kind for t in self.effects), *(r.name for r in self.released))
 
 
+Beside = tuple[Hashable, ...]
+"""The effects of a model by kind and adjusted numbers, and what is believed of law and mechanism."""
+Fitted = list[tuple[Candidate, JointFit]]
+"""Candidates with their fits."""
+
+
 class Selector:
     """Selection at one joint."""
 
@@ -104,7 +109,7 @@ class Selector:
     ) -> None:
         self._balances, self._nuisances = list(balances), list(nuisances)
         self._without: frozenset[str] = frozenset()
-        self._first: list[tuple[Candidate, JointFit]] = []
+        self._known: dict[Beside, tuple[frozenset[str], Fitted]] = {}
         self._tell = progress or (lambda _: None)
         self._settings, self._smooth = settings_of(balances), SmoothDependences(balances)
         self.recalibrated, self._noise = settled(start, balances, nuisances, noise=_typical(balances))
@@ -181,19 +186,13 @@ class Selector:
             final = self._fit(dataclasses.replace(final.model, effects=others))
             effects = [t for i, t in enumerate(effects) if i != empty]
 
-    def _candidates(self, span: JointSpan, stated: Sequence[Effect]) -> list[Candidate]:
-        return [c for c in candidates(span, stated) if c.kind not in self._without]
-
     def first(self) -> Stage:
         """Return the first step alone."""
         return self._stage(self.recalibrated)
 
     def _stage(self, current: JointFit) -> Stage:
         span = span_of(self._balances, current.model.law.mu_k * current.model.load, current.model.load)
-        again = current is self.recalibrated and bool(self._first)
-        fits = [(c, f) for c, f in self._first if c.kind not in self._without] if again else self._fitted(current, span)
-        if current is self.recalibrated and not self._first:
-            self._first = fits
+        fits = self._fitted(current, span)
         trials = self._scored(current, fits)
         rivals = self._smooth.scores(current, trials[0].fit, self._noise)
         models = current.model, trials[0].fit.model
@@ -219,14 +218,25 @@ class Selector:
             )
         return Stage(current, tuple(trials), tuple(rivals), inside, repeats, enough)
 
-    def _fitted(self, current: JointFit, span: JointSpan) -> list[tuple[Candidate, JointFit]]:
-        """Return the candidates that the model does not have yet, fitted."""
-        fits: list[tuple[Candidate, JointFit]] = []
-        for candidate in self._candidates(span, current.model.effects):
-            self._tell(candidate.kind)
-            fitted = self._best(current, candidate)
-            fits += [(candidate, fitted)] if fitted is not None else []
-        return fits
+    def _fitted(self, current: JointFit, span: JointSpan) -> Fitted:
+        """Return the candidates that the model does not have yet, fitted; beside the same effects that is done once."""
+        beside = self._beside(current)
+        left_out, fits = self._known.get(beside, (frozenset[str](), None))
+        if fits is None or not left_out <= self._without:
+            fits = []
+            for candidate in candidates(span, current.model.effects):
+                if candidate.kind in self._without:
+                    continue
+                self._tell(candidate.kind)
+                fitted = self._best(current, candidate)
+                fits += [(candidate, fitted)] if fitted is not None else []
+            self._known[beside] = self._without, fits
+        return [(c, f) for c, f in fits if c.kind not in self._without]
+
+    def _beside(self, current: JointFit) -> Beside:
+        numbers = {(k.owner, k.name) for k in current.free}
+        forms = [(e.kind, *sorted(n for o, n in numbers if o == i)) for i, e in enumerate(current.model.effects)]
+        return *sorted(forms), *self._nuisances, current.model.level
 
     def _predicted_better(self, plain: JointModel, richer: JointModel) -> bool:
         """Return whether each half of the record, left out, is predicted better by the richer model by a material part."""
@@ -287,8 +297,7 @@ class Selector:
         others = tuple(e for e in final.model.effects if e is not own)
         without = self._fit(dataclasses.replace(final.model, effects=others))
         span = span_of(self._balances, without.model.law.mu_k * without.model.load, without.model.load)
-        choices = [c for c in self._candidates(span, others) if c.kind != own.kind]
-        fits = [(c, f) for c in choices if (f := self._best(without, c)) is not None]
+        fits = [(c, f) for c, f in self._fitted(without, span) if c.kind != own.kind]
         n = max(final.independent, 4.0)
         mine = evidence(without, final, final, self._settings)
         theirs = [(c.kind, c.parameters, evidence(without, f, final, self._settings)) for c, f in fits]

@@ -54,14 +54,18 @@ def chain(law: Law, effects: Sequence[Effect], load: float, *, contact: bool = F
         native = native_effect(type(effect))
         row[:] = native.surroundings, native.friction, len(parameters)
         parameters += list(effect.parameters())
-    loaded = [] if contact else [x for x in ordered if READS_LOAD in x.traits]
-    reference = next((x.reference_load for x in loaded), 0.0)  # type: ignore[attr-defined]
+    reference = 0.0 if contact else _reference(ordered)
     return Chain(np.array([law.mu_s, law.mu_k, load, reference]), calls, np.array([*parameters, 0.0]))
 
 
-def reads_drive(law: Law, effects: Sequence[Effect], load: float) -> bool:
+def _reference(effects: Sequence[Effect]) -> float:
+    """Return the reference load of the first of effects that reads the load, 0 if none does [N or N m]."""
+    return next((float(x.reference_load) for x in effects if READS_LOAD in x.traits), 0.0)  # type: ignore[attr-defined]
+
+
+def reads_drive(effects: Sequence[Effect]) -> bool:
     """Return whether forces in a joint depend on the load that it transmits, or on its drive."""
-    return bool(chain(law, effects, load).numbers[3] > 0.0) or any(READS_DRIVE in x.traits for x in effects)
+    return _reference(sorted(effects, key=lambda x: x.order)) > 0.0 or any(READS_DRIVE in x.traits for x in effects)
 
 
 def friction_along(balance: ForceBalance, law: Law, effects: Sequence[Effect], load: float) -> Array:

@@ -67,7 +67,7 @@ class JointModel:
         """Return friction at the centres of windows, and its change with the drive; corrections play no part in it."""
         friction = self.friction(balance)
         known = balance.load_by_drive is not None or balance.drive is not None
-        reads = known and reads_drive(self.law, self.effects, self.load)
+        reads = known and reads_drive(self.effects)
         return friction, self._friction_by_drive(balance, friction) if reads else None
 
     def remainder(self, balance: ForceBalance, nuisances: Sequence[Nuisance], forces: Forces | None = None) -> Array:
@@ -97,9 +97,7 @@ class JointModel:
     def _friction_by_drive(self, balance: ForceBalance, friction: Array) -> Array:
         """Return the change of friction with the driving force [-], shape (n_centres,)."""
         step = STEP * max(float(np.mean(balance.load)), self.load)
-        load = balance.load if balance.load_by_drive is None else balance.load + step * balance.load_by_drive
-        moved = dataclasses.replace(balance, load=load, drive=None if balance.drive is None else balance.drive + step)
-        return (self.friction(moved) - friction) / step
+        return (self.friction(balance.with_more_drive(step)) - friction) / step
 
 
 def change_of(by_drive: Array) -> Array:

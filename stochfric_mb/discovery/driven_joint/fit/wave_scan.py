@@ -9,7 +9,7 @@ Reference: J. D. Scargle, Astrophys. J. 263, 1982, 835-853, doi 10.1086/160554.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -119,16 +119,35 @@ def _along(scan: Scan, balance: ForceBalance) -> Array:
 def _sums(scan: Scan, balance: ForceBalance, rest: Array, basis: Array, numbers: Array) -> Array:
     """Return the sums of squares and products of cosine, sine and rest, shape (5, n_numbers)."""
     side = np.sign(balance.velocity[balance.window.centres][balance.sliding]) if scan.signed else np.ones(len(rest))
-    angle = 2.0 * np.pi * np.outer(_along(scan, balance), numbers)
-    c, s = side[:, None] * np.cos(angle), side[:, None] * np.sin(angle)
-    known_c, known_s = basis.T @ c, basis.T @ s
-    return np.stack([
-        np.sum(c * c, axis=0) - np.sum(known_c * known_c, axis=0),
-        np.sum(s * s, axis=0) - np.sum(known_s * known_s, axis=0),
-        np.sum(c * s, axis=0) - np.sum(known_c * known_s, axis=0),
-        c.T @ rest,
-        s.T @ rest,
-    ])  # fmt: skip
+    known = np.ascontiguousarray(basis.T)
+    parts: list[Array] = []
+    for cosine, sine in _waves(2.0 * np.pi * _along(scan, balance), numbers):
+        c, s = side[:, None] * cosine, side[:, None] * sine
+        known_c, known_s = known @ c, known @ s
+        parts.append(np.stack([
+            np.einsum("ij,ij->j", c, c) - np.sum(known_c * known_c, axis=0),
+            np.einsum("ij,ij->j", s, s) - np.sum(known_s * known_s, axis=0),
+            np.einsum("ij,ij->j", c, s) - np.sum(known_c * known_s, axis=0),
+            rest @ c,
+            rest @ s,
+        ]))  # fmt: skip
+    return np.concatenate(parts, axis=1)
+
+
+def _waves(angles: Array, numbers: Array) -> Iterator[tuple[Array, Array]]:
+    """Yield cosine and sine of angles times numbers, some equidistant numbers at a time, shape (n, n_some).
+
+    Sums of angles are products of few cosines and sines.
+    """
+    width = int(np.ceil(np.sqrt(len(numbers))))
+    fine = np.outer(angles, (numbers[1] - numbers[0]) * np.arange(width))
+    fine_c, fine_s = np.cos(fine), np.sin(fine)
+    for begin in range(0, len(numbers), width):
+        coarse = (angles * numbers[begin])[:, None]
+        coarse_c, coarse_s = np.cos(coarse), np.sin(coarse)
+        size = min(width, len(numbers) - begin)
+        c, s = fine_c[:, :size], fine_s[:, :size]
+        yield coarse_c * c - coarse_s * s, coarse_s * c + coarse_c * s
 
 
 def _solved(sums: Array) -> tuple[Array, Array, Array]:
