@@ -32,6 +32,7 @@ from numba.core.caching import FunctionCache, IndexDataCacheFile
 from numba.core.ccallback import CFunc
 from numba.core.registry import CPUDispatcher
 
+from stochfric_mb.linking import Part, StoredPart
 from stochfric_mb.sources import source_stamp
 
 
@@ -71,12 +72,13 @@ _OPTIONS = {"nopython": True, "error_model": "numpy", "nogil": True}
 class _Called(CPUDispatcher):
     """A function as compiled callers see it.
 
-    It has no wrappers for Python and C, and one version serves all the constants that are passed: both save much
-    compilation.
+    It has no wrappers for Python and C, no machine code of its own, and one version serves all the constants that are
+    passed: all three save much compilation.
     """
 
     def __init__(self, function: Callable[..., Any], options: dict[str, Any], parts: str) -> None:
-        super().__init__(function, targetoptions={**options, "no_cpython_wrapper": True, "no_cfunc_wrapper": True})
+        bare = {**options, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+        super().__init__(function, targetoptions=bare, pipeline_class=Part)
         self._cache = _cache(function, parts=parts, variant="merged" if options.get("forceinline") else "called")
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
@@ -127,6 +129,8 @@ class _SourceCache(FunctionCache):
 
     def __init__(self, function: Callable[..., Any], template: str, parts: str, variant: str) -> None:
         super().__init__(function)
+        if variant:
+            self._impl = StoredPart(function)
         file = inspect.getfile(function)
         stamp = source_stamp(*(name for name in (file, template, parts) if name)) + _engine_version(file)
         owner = f"{Path(parts).stem}." if parts else ""

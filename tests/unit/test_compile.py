@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 
 import stochfric_mb
+from stochfric_mb.compile import compiled
+from stochfric_mb.linking import StoredPart
 
 PACKAGE = Path(stochfric_mb.__file__).parent
 REPORT = """
@@ -24,7 +26,7 @@ def package(tmp_path):
     """A package with this one's compiler: ``caller`` uses ``called`` through ``between``, ``apart`` uses neither."""
     folder = tmp_path / "stochfric_mb"
     folder.mkdir()
-    for name in ("compile.py", "sources.py"):
+    for name in ("compile.py", "linking.py", "sources.py"):
         shutil.copy(PACKAGE / name, folder / name)
     texts = {
         "__init__": "",
@@ -157,3 +159,34 @@ def test_stored_code_that_cannot_be_read_is_made_anew(package, kind):
         path.write_bytes(path.read_bytes()[:-20])
     assert _run(package) == [2.0, 42.0, 0, 0]
     assert _run(package) == [2.0, 42.0, 1, 1]
+
+
+def test_what_compiled_code_alone_calls_has_no_machine_code_and_is_stored_without():
+    @compiled
+    def part(x):
+        return 3.0 * x
+
+    @compiled
+    def entry(x):
+        return part(x) + 1.0
+
+    assert entry(2.0) == 7.0
+    (as_part,) = part._called.overloads.values()
+    assert as_part.library.get_pointer_to_function(as_part.fndesc.mangled_name) == 0
+    payload = as_part._reduce()
+    again = StoredPart(part.py_func).rebuild(as_part.target_context, payload)
+    assert [f.name for f in again.library.get_defined_functions()] == [f.name for f in as_part.library.get_defined_functions()]
+
+
+def test_a_part_that_needs_objects_of_python_is_refused():
+    @compiled
+    def part(x):
+        print("x", x)
+        return x
+
+    @compiled
+    def entry(x):
+        return part(x)
+
+    with pytest.raises(TypeError, match="needs objects of Python"):
+        entry(1.0)
