@@ -12,7 +12,7 @@ from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
 from stochfric_mb.effects import make_effect
 from stochfric_mb.effects.contract import Scan
 from stochfric_mb.measurement import Dataset
-from tests.discovery.joints.test_parts import coulomb, pair
+from tests.discovery.joints.test_parts import coulomb, pair, sine_run, wave
 
 FREQUENCY, SPEED = 1.0, 0.5
 """Of a sine motion [Hz] and its largest speed [m/s]."""
@@ -46,6 +46,20 @@ def test_a_force_at_the_frequency_of_the_motion_is_sought_where_the_mass_is_beli
     starts = wave_starts(Scan("time", False, 0.5, 3.0, begin), seen, balances)
     assert starts[0].effect.frequency == pytest.approx(FREQUENCY, abs=1.0 / (time[-1]))  # as well as waves are told apart
     assert starts[0].effect.amplitude == pytest.approx(3.0, rel=0.2)  # friction takes some of it
+
+
+def test_a_wave_is_sought_in_the_runs_that_slide():
+    still = sine_run(wave, seed=3, gain=1.0e-9)
+    balances, seen = fitted(dataclasses.replace(pair(wave), runs=(sine_run(wave, seed=1), still)))
+    assert balances[0].sliding.any()
+    assert not balances[1].sliding.any()
+
+    def begin(number: float, a: float, b: float):
+        return make_effect("position_dependent_friction", amplitude=float(np.hypot(a, b)), wavelength=1.0 / number, phase=0.0)
+
+    starts = wave_starts(Scan("position", True, 5.0, 20.0, begin), seen, balances)
+    stroke = float(np.ptp(balances[0].position))
+    assert 1.0 / starts[0].effect.wavelength == pytest.approx(1.0 / 0.08, abs=0.5 / stroke)  # the wave of 0.08 m
 
 
 @pytest.mark.parametrize(("deviation", "imitates"), [(1.0e-3, False), (10.0, True)])

@@ -105,7 +105,7 @@ def with_phases(model: JointModel, balances: Sequence[ForceBalance]) -> JointMod
 
 
 def _length(scan: Scan, balances: Sequence[ForceBalance]) -> float:
-    values = [_along(scan, s) for s in balances]
+    values = [v for s in balances if len(v := _along(scan, s))]  # a joint may slide in some of the runs alone
     if scan.axis == "time":
         return max(float(np.ptp(v)) for v in values)
     return max(float(max(v.max() for v in values) - min(v.min() for v in values)), 1.0e-300)
