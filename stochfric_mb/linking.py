@@ -3,7 +3,7 @@
 numba optimises each function with all that it calls and makes machine code of it, and its callers do the same again: the
 deeper a function lies, the more often. A function that only compiled code calls needs neither. It stays intermediate code
 here (`Part`), which its callers link; what is called from outside is optimised with all its parts, once. A first run
-compiles in less than half of the time.
+compiles in about half of the time.
 """
 
 # pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownVariableType=false

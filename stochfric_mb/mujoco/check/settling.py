@@ -56,7 +56,7 @@ class Settled:
     """All steps."""
 
     def look(self, model: mujoco.MjModel) -> None:
-        """Add the contacts of this instant to the means over all instants looked at."""
+        """Add the contacts of this instant (or of the step just done, at its start or last stage) to the means over all."""
         now: dict[tuple[int, int], list[int]] = {}
         for i, (a, b) in enumerate(self.data.contact.geom.tolist()):
             if min(a, b) >= 0 and self.data.contact.efc_address[i] >= 0:
