@@ -15,6 +15,7 @@ from stochfric_mb.mujoco.attach import ConeWarning, add_friction
 from stochfric_mb.mujoco.callback import friction
 from stochfric_mb.mujoco.joints import Joint, Tendon
 from stochfric_mb.mujoco.pairs import ContactWarning
+from stochfric_mb.mujoco.plugin.configuration import PluginWarning
 from stochfric_mb.mujoco.plugin.options import IntegratorWarning
 from stochfric_mb.mujoco.plugin.sensor import add_sensor, register
 from stochfric_mb.mujoco.reading import Reading, readings
@@ -26,6 +27,7 @@ __all__ = [
     "ContactWarning",
     "IntegratorWarning",
     "Joint",
+    "PluginWarning",
     "Reading",
     "Tendon",
     "add_friction",

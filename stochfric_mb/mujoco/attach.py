@@ -13,7 +13,7 @@ from stochfric_mb.laws import Law
 from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
 from stochfric_mb.mujoco.joints import Joint, Tendon, element_of, load_of
 from stochfric_mb.mujoco.pairs import colliding_pairs, require_free, require_geoms, take_over, warn_of_filters
-from stochfric_mb.mujoco.plugin.configuration import MAX_SLOTS, configuration, require_slots
+from stochfric_mb.mujoco.plugin.configuration import MAX_SLOTS, configuration, enter, require_slots
 from stochfric_mb.mujoco.plugin.frictions import ANY, DOFS, KEYS, PAIRS, slot_of
 from stochfric_mb.mujoco.plugin.options import check_options, require_primal
 
@@ -70,6 +70,7 @@ def add_friction(
         IntegratorWarning: the ``discrete`` integrator, for a joint or tendon, or in ``explicit``.
         ConeWarning: the model's cones were pyramidal, and are elliptic from now on.
         ContactWarning: the geoms did not collide before, or flexible bodies keep MuJoCo's friction.
+        PluginWarning: MuJoCo would save the model without this friction, since another plugin's instance has no name.
     """
     if not isinstance(spec, mujoco.MjSpec):
         raise InputError(
@@ -122,9 +123,7 @@ def _enter(spec: mujoco.MjSpec, plugin: str, name: str, what: str, texts: dict[s
     if name in {p.name for p in spec.plugins}:
         raise InputError(f"the model has a plugin {name!r} already: this {what} has friction; build the spec anew to change it")
     slot_of(plugin)
-    made: Any = spec.add_plugin(name=name, plugin_name=plugin, active=True)
-    made.config = {key: texts[key] for key in KEYS[plugin] if texts.get(key)}
-    spec.activate_plugin(plugin)
+    enter(spec, plugin, name, {key: texts[key] for key in KEYS[plugin] if texts.get(key)})
     return name
 
 

@@ -16,8 +16,8 @@ from stochfric_mb.compile import compiled, native
 from stochfric_mb.mujoco.contact import replay, tracking
 from stochfric_mb.mujoco.memory import engine, table
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import RUNGE_KUTTA, data_at, model_at, record_view
+from stochfric_mb.numerics import memory as w
 from stochfric_mb.numerics.memory import function_at
 
 ROW = np.dtype([(f, np.int64) for f in ("model", "data", "state", "kept", "phase", "law")])

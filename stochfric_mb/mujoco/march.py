@@ -9,9 +9,9 @@ from stochfric_mb.mujoco.contact.kinematics import side
 from stochfric_mb.mujoco.contact.tracking import normal_force
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import contact_at, data_at
 from stochfric_mb.mujoco.plugin.sensor import report
+from stochfric_mb.numerics import memory as w
 
 COLUMNS = 7
 """Position, velocity, friction force along x, normal force, mu_s, mu_k, stick."""

@@ -48,6 +48,8 @@ class Reading:
     """Energy dissipated since the contact was made [J]."""
     converged: bool
     """Whether MuJoCo's solver ended within its limit of iterations in all steps so far."""
+    stable: bool
+    """Whether all explicit steps so far were within the stability limit of the law."""
 
 
 def readings(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, list[Reading]]:
@@ -121,4 +123,5 @@ def reading_of(model: mujoco.MjModel, state: Array, row: Any) -> Reading:
         stick_phases=int(row["events"]),
         dissipated=float(row["energy"]),
         converged=bool(header["unconverged"] == 0.0),
+        stable=bool(header["beyond"] == 0.0),
     )

@@ -9,7 +9,10 @@ from typing import Any
 import numba
 from llvmlite import ir
 from numba import types
+from numba.core import cgutils
 from numba.extending import intrinsic
+
+from stochfric_mb.compile import compiled
 
 carray: Any = numba.carray  # pyright: ignore[reportPrivateImportUsage]
 _LLVM: dict[Any, Any] = {
@@ -66,24 +69,29 @@ def _widened(builder: Any, value: Any, kind: Any) -> Any:
     return (builder.sext if kind.signed else builder.zext)(value, ir.IntType(64))
 
 
-def _load(kind: Any) -> Any:
+def _place(builder: Any, kind: Any, address: Any, *number: Any) -> Any:
+    pointer = builder.inttoptr(address, _LLVM[kind].as_pointer())
+    return builder.gep(pointer, number) if number else pointer
+
+
+def _load(kind: Any, *number: Any) -> Any:
     def generate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-        return _widened(builder, builder.load(builder.inttoptr(args[0], _LLVM[kind].as_pointer())), kind)
+        return _widened(builder, builder.load(_place(builder, kind, *args)), kind)
 
-    return instructions(_wide(kind)(types.intp), generate)
+    return instructions(_wide(kind)(types.intp, *number), generate)
 
 
-def _store(kind: Any) -> Any:
+def _store(kind: Any, *number: Any) -> Any:
     def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-        builder.store(args[1], builder.inttoptr(args[0], _LLVM[kind].as_pointer()))
+        builder.store(args[-1], _place(builder, kind, *args[:-1]))
         return context.get_dummy_value()
 
-    return instructions(types.void(types.intp, kind), generate)
+    return instructions(types.void(types.intp, *number, kind), generate)
 
 
 def _pointer(kind: Any) -> Any:
     def generate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-        return builder.inttoptr(args[0], _LLVM[kind].as_pointer())
+        return _place(builder, kind, args[0])
 
     return instructions(types.CPointer(kind)(types.intp), generate)
 
@@ -100,7 +108,39 @@ store_double = _store(types.float64)
 """Write at an address a double."""
 store_word = _store(types.int64)
 """Write at an address a 64-bit integer."""
+at, int_at, byte_at, word_at = (_load(kind, types.intp) for kind in (types.float64, types.int32, types.uint8, types.int64))
+"""Return, of (array, i), number ``i`` of the doubles, 32-bit integers, bytes, or 64-bit integers or pointers at an address."""
+put, put_word = (_store(kind, types.intp) for kind in (types.float64, types.int64))
+"""Write, of (array, i, value), number ``i`` of the doubles, or 64-bit integers or pointers at an address."""
 as_doubles = _pointer(types.float64)
 """Return an address as a pointer to doubles, for `carray`."""
 as_words = _pointer(types.int64)
 """Return an address as a pointer to 64-bit integers, for `carray`."""
+
+
+@compiled
+def vector(address, n):
+    """Return the ``n`` doubles at ``address`` as an array (a view)."""
+    return carray(as_doubles(address), n)
+
+
+def _copy(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+    source, target = (_place(builder, types.uint8, address) for address in args[:2])
+    cgutils.raw_memcpy(builder, target, source, args[2], 1)
+    return context.get_dummy_value()
+
+
+copy_bytes = instructions(types.void(types.intp, types.intp, types.intp), _copy)
+"""Copy from one address to another some bytes; the two must not overlap."""
+
+
+@intrinsic
+def c_string(typingctx, text):
+    """Return the address of a text, a constant in the source, as a C string."""
+    if not isinstance(text, types.StringLiteral):
+        return None
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return builder.ptrtoint(context.insert_const_string(builder.module, text.literal_value), ir.IntType(64))
+
+    return types.intp(text), generate

@@ -12,6 +12,7 @@ mujoco = pytest.importorskip("mujoco")
 import stochfric_mb.mujoco as engine  # noqa: E402
 from stochfric_mb.laws.coulomb import Coulomb  # noqa: E402
 from stochfric_mb.laws.elastic_stick import ElasticStick  # noqa: E402
+from stochfric_mb.laws.lugre import Lugre  # noqa: E402
 
 G = 9.81
 SCENE = """<mujoco><option timestep="1e-3" {options}/><worldbody><geom name="floor" type="plane" size="50 50 1"/>
@@ -142,3 +143,76 @@ def test_a_model_file_with_options_that_will_not_do(place, load, changes, said, 
     out = subprocess.run([sys.executable, "-c", code], check=False, capture_output=True, text=True)
     assert said in out.stderr
     assert (out.returncode != 0) == refused
+
+
+# --- what is not to pass in silence ----------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def said(tmp_path, monkeypatch):
+    """What MuJoCo warns of while it runs."""
+    monkeypatch.chdir(tmp_path)
+    texts, before = [], mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(texts.append)
+    yield texts
+    mujoco.set_mju_user_warning(before)
+
+
+FACES = """<mujoco><size memory="{memory}"/><option cone="elliptic"/><worldbody>
+<geom name="floor" type="box" size=".05 .05 .05" pos="0 0 -.05"/>
+<body pos="0 0 .0495"><freejoint/><geom name="box" type="box" size=".05 .05 .05" euler="0 0 1e-3"/></body>
+</worldbody></mujoco>"""
+
+
+def test_contacts_that_find_no_room_for_rows_are_left_alone(said):
+    """Eight contacts of two equal faces, four of them between the others: these bear nothing, and have no rows to say so in."""
+    dropped = 0
+    for memory in range(4000, 9000, 500):
+        spec = mujoco.MjSpec.from_string(FACES.format(memory=memory))
+        engine.add_friction(spec, ("box", "floor"), Coulomb(0.8, 0.5))
+        model = spec.compile()
+        data = mujoco.MjData(model)
+        try:
+            mujoco.mj_step(model, data)
+        except mujoco.FatalError:
+            continue  # no room for anything
+        dropped += data.ncon == 8 and data.contact.efc_address.max() < 0
+    assert dropped
+    assert any("arena memory" in text for text in said)
+
+
+PID = """<mujoco><option cone="elliptic"/><extension><plugin plugin="mujoco.pid">{instance}</plugin></extension>
+<worldbody><geom name="floor" type="plane" size="1 1 1"/><body pos="0 0 .05"><joint name="x" type="slide"/>
+<geom name="box" type="box" size=".05 .05 .05"/></body></worldbody>
+<actuator><plugin joint="x" plugin="mujoco.pid" {use}</actuator></mujoco>"""
+
+
+def test_beside_other_plugins_friction_is_saved_or_said_not_to_be():
+    gain = '<config key="kp" value="40"/>'
+    for named in (True, False):
+        instance, use = (f'<instance name="pid">{gain}</instance>', 'instance="pid"/>') if named else ("", f">{gain}</plugin>")
+        spec = mujoco.MjSpec.from_string(PID.format(instance=instance, use=use))
+        if named:
+            name = engine.add_friction(spec, ("box", "floor"), Coulomb(0.8, 0.5))
+        else:
+            with pytest.warns(engine.PluginWarning, match="to_xml leaves out"):
+                name = engine.add_friction(spec, ("box", "floor"), Coulomb(0.8, 0.5))
+        model = spec.compile()
+        assert name in engine.readings(model, mujoco.MjData(model))
+        assert (f'<instance name="{name}">' in spec.to_xml()) == named  # MuJoCo 4.0 stops at the first one without a name
+
+
+@pytest.mark.parametrize("mode", ["auto", "explicit"])
+@pytest.mark.parametrize("place", [("box", "floor"), engine.Joint("hinge")])
+def test_an_explicit_step_beyond_the_limit_of_its_law_is_said(said, place, mode):
+    load = 1.0 if isinstance(place, engine.Joint) else None
+    law = Lugre(0.8, 0.5) if mode == "auto" else ElasticStick(0.8, 0.5)
+    for dt, stable in ((1e-5, True), (1e-2, False)):
+        spec = mujoco.MjSpec.from_string(SCENE.format(ours=OURS, options='cone="elliptic"'))
+        spec.option.timestep = dt
+        name = engine.add_friction(spec, place, law, mode=mode, normal_force=load)
+        model = spec.compile()
+        data = mujoco.MjData(model)
+        mujoco.mj_step(model, data, nstep=3)
+        assert all(reading.stable == stable for reading in engine.readings(model, data)[name])
+        assert len(said) == (not stable)  # once

@@ -12,8 +12,8 @@ from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.mujoco.contact.kinematics import dot, put, turned
 from stochfric_mb.mujoco.contact.rows import is_sparse
 from stochfric_mb.mujoco.memory import engine
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import PGS
+from stochfric_mb.numerics import memory as w
 
 ALONG_NORMAL = 1.0e-6
 """Part of the direction in the tangent plane below which it has none, and friction is the same in all directions."""

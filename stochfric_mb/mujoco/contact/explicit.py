@@ -17,7 +17,7 @@ from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.laws.plane import length
 from stochfric_mb.mujoco.contact.face import predecessor
 from stochfric_mb.mujoco.contact.kinematics import (
-    add_rows,
+    add_forces,
     bodies_of,
     displacement,
     dot,
@@ -33,18 +33,20 @@ from stochfric_mb.mujoco.contact.law import call, coefficients, commit_slot
 from stochfric_mb.mujoco.contact.rows import rate_of, set_cap
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import ELLIPTIC, contact_at, data_at, model_at
+from stochfric_mb.numerics import memory as w
 
 GOLDEN = 0.6180339887498949
 """Golden ratio: its multiples spread evenly over their fractional parts."""
 SUDDEN = 0.05
 """Change of the normal force in a step, relative to it, with which explicit friction (one step late) will not do."""
-NO_LIMIT = 1.0e300
-"""Stands for infinity in states."""
 PYRAMIDAL = (
     "stochfric_mb: explicit friction on a contact that has MuJoCo's own friction with pyramidal cones, which cannot be taken "
     "out; give the pair condim 1, or the model cone='elliptic'"
+)
+BEYOND = (
+    "stochfric_mb: an explicit step is beyond the stability limit of its friction law, so that forces may be far off; give the "
+    "model a timestep below law.step_limit(normal_force, mass), or take a law that runs in mode 'solver', as elastic_stick"
 )
 OFF = 1.0e-12
 """Coefficient of friction that the engine's solver is given in an explicit step: none, to rounding."""
@@ -83,9 +85,8 @@ def tangent_mass(model, data, state, contact, slot, body, surface):
     rows = np.empty((4, nv)).ctypes.data if nv > s.MAX_ROW else s.header_record(state).rows.ctypes.data
     for j in range(2 * nv):
         w.put(rows, j, 0.0)
-    p = contact.pos
-    add_rows(m, d, slot, body, 1.0, p[0], p[1], p[2], rows)
-    add_rows(m, d, slot, surface, -1.0, p[0], p[1], p[2], rows)
+    add_forces(m, d, body, surface, contact.pos, slot.axis_1, 1.0, rows)
+    add_forces(m, d, body, surface, contact.pos, slot.axis_2, 1.0, rows + 8 * nv)
     engine.mj_solveM(model, data, rows + 16 * nv, rows, np.int32(2))
     a, b, c = 0.0, 0.0, 0.0
     for j in range(nv):
@@ -111,13 +112,13 @@ def sum_of_velocities(m, d):
 def begin(model, data, state, law):
     """Make the current slots for a step that starts now, at an accepted state.
 
-    Return whether explicit friction will do in this step: of `mode` auto, not at sudden loads and beyond the law's limit.
+    Return whether explicit friction will do in this step, see `will_do`.
     """
     m, d, header = model_at(model), data_at(data), s.header_record(state)
     known = int(header.n_committed) if header.advanced == d.time else 0
     t = header.instant
     body, surface = int(header.geom_body), int(header.geom_surface)
-    count, total, sudden, ordinal = 0, 0.0, False, 0
+    count, sudden, ordinal = 0, False, 0
     for i in range(d.ncon):
         contact = contact_at(d, i)
         ordinal = ordinal_after(d, i, ordinal)
@@ -126,22 +127,37 @@ def begin(model, data, state, law):
             continue
         s.require_room(header, count)
         slot = s.slot_at(state, 1, count)
-        total += track(model, data, state, contact, sign, ordinal, t, known, count)
+        track(model, data, state, contact, sign, ordinal, t, known, count)
         if header.mode == s.AUTO and header.advanced != s.UNSET:
             sudden = sudden or slot.live == 0.0 or is_sudden(m, d, contact, slot)
         count += 1
     header.n_current = count
-    star = body < 0 or surface < 0
-    pushed = known > 0 and was_pushed(m, d, header)
+    critical, beyond = critical_of(header, m.timestep), header.mode == s.AUTO and (count == 0 or sudden)
+    pushed, total, among = known > 0 and was_pushed(m, d, header), 0.0, 0
     for k in range(count):
         slot = s.slot_at(state, 1, k)
         if pushed and slot.live != 0.0 and length(slot.vx, slot.vy) > header.stick_speed:
             slot.live = -1.0  # it slides from here on, whatever it did before
-        pair, among = pair_total(state, k, count) if star else (total, count)
-        commit_slot(state, s.slot_address(state, 1, k), law, t, pair, among)
-    if header.mode != s.AUTO or header.rest == s.BRISTLE:
-        return True
-    return count > 0 and not sudden and not beyond_limit(m, state, count, total, star)
+        if k == 0 or body < 0 or surface < 0:
+            total, among = pair_total(state, k, count)
+        commit_slot(state, s.slot_address(state, 1, k), law, t, total, among)
+        beyond = beyond or total > critical * slot.felt
+    return will_do(header, beyond)
+
+
+@compiled
+def will_do(header, beyond):
+    """Return whether a step is explicit: of mode auto, unless it is ``beyond`` what that can do; otherwise always.
+
+    The first step that is beyond its law's limit all the same is warned of by MuJoCo, in ``mjData``'s life since its reset.
+    """
+    if header.mode == s.AUTO:
+        return not beyond
+    if beyond:
+        if header.beyond == 0.0:
+            engine.mju_warning(w.c_string(BEYOND))
+        header.beyond += 1.0
+    return True
 
 
 @compiled
@@ -166,22 +182,13 @@ def pair_total(state, k, count):
 
 
 @compiled
-def beyond_limit(m, state, count, total, star):
-    """Return whether the step is beyond half the law's explicit limit at one of the contacts."""
-    critical = critical_of(s.header_record(state), m.timestep)
-    for k in range(count):
-        if star:
-            total, _ = pair_total(state, k, count)
-        if total > critical * s.slot_at(state, 1, k).felt:
-            return True
-    return False
-
-
-@compiled
 def critical_of(header, step):
-    """Return the normal force over the mass [N/kg] at which ``step`` is half the law's limit, found once for each step."""
+    """Return the normal force over the mass [N/kg] at which ``step`` is the law's limit (of mode auto, half of it).
+
+    It is found once for each step.
+    """
     if header.critical_step != step:
-        header.critical, header.critical_step = critical_ratio(header, 2.0 * step), step
+        header.critical, header.critical_step = critical_ratio(header, 2.0 * step if header.mode == s.AUTO else step), step
     return header.critical
 
 
@@ -195,9 +202,9 @@ def critical_ratio(header, step):
             if k == 0:
                 return 0.0
             high = limits[k - 1]
-            part = math.log(high / step) / math.log(high / low) if high < NO_LIMIT else 1.0
+            part = math.log(high / step) / math.log(high / low) if high < s.NO_LIMIT else 1.0
             return 10.0 ** (k - 5 + part)
-    return NO_LIMIT
+    return s.NO_LIMIT
 
 
 @compiled
@@ -252,7 +259,7 @@ def fill(model, data, state, contact, sign, t, slot, old, known):
     put(slot.on_body, bx, by, bz)
     cx, cy, cz = to_body(d, surface, p[0], p[1], p[2])
     put(slot.on_surface, cx, cy, cz)
-    if header.needs_mass != 0.0 or (not known and header.mode == s.AUTO):
+    if header.needs_mass != 0.0 or not known:
         slot.felt = tangent_mass(model, data, state, contact, slot, body, surface)
     slot.mass = slot.felt if header.needs_mass != 0.0 else 0.0
 
@@ -263,9 +270,8 @@ def apply(model, data, state, law):
     m, d, header = model_at(model), data_at(data), s.header_record(state)
     starting = d.time == header.evaluated
     t = header.instant if starting else canonical_time(d.time, 0.5 * m.timestep)
-    target = d.qfrc_passive
     geom, other = int(header.geom_body), int(header.geom_surface)
-    k, last_body, last_surface, ordinal = 0, -1, -1, 0
+    k, ordinal = 0, 0
     for i in range(d.ncon):
         contact = contact_at(d, i)
         ordinal = ordinal_after(d, i, ordinal)
@@ -276,19 +282,11 @@ def apply(model, data, state, law):
         k += 1
         if number < 0:
             continue
-        body, surface = bodies_of(m, contact, sign)
-        if body != last_body or surface != last_surface:
-            if last_body >= 0:
-                push(model, data, header, last_body, last_surface, target)
-            clear_push(header, contact)
-            last_body, last_surface = body, surface
         if contact.dim > 2 and m.cone != ELLIPTIC:
             engine.mju_error(w.c_string(PYRAMIDAL))
         if contact.dim > 2 and contact.efc_address >= 0:
             set_cap(m, d, contact, OFF, 1.0, w.at(d.efc_R, contact.efc_address + 1))
-        apply_contact(model, data, state, contact, sign, body, surface, number, law.force, t, starting)
-    if last_body >= 0:
-        push(model, data, header, last_body, last_surface, target)
+        apply_contact(m, d, state, contact, sign, number, law.force, t, starting)
 
 
 @compiled
@@ -311,9 +309,10 @@ def slot_at_stage(model, data, state, law, contact, sign, ordinal, t, k):
 
 
 @compiled_inline
-def apply_contact(model, data, state, contact, sign, body, surface, number, force, t, starting):
-    """Add the friction force of one contact to the sum."""
-    m, d, header = model_at(model), data_at(data), s.header_record(state)
+def apply_contact(m, d, state, contact, sign, number, force, t, starting):
+    """Add the friction force of one contact."""
+    header = s.header_record(state)
+    body, surface = bodies_of(m, contact, sign)
     address = s.slot_address(state, 1, number)
     slot = s.slot_record(address)
     ux, uy, vx, vy, mu_s, mu_k = slot.ux, slot.uy, slot.vx, slot.vy, slot.mu_s, slot.mu_k
@@ -331,35 +330,5 @@ def apply_contact(model, data, state, contact, sign, body, surface, number, forc
         work = slot.work
         slot.energy += 0.5 * ((work[0] + fx) * work[2] + (work[1] + fy) * work[3])
         work[2], work[3] = 0.0, 0.0
-    e1, e2 = slot.axis_1, slot.axis_2
-    add_push(header, contact, fx * e1[0] + fy * e2[0], fx * e1[1] + fy * e2[1], fx * e1[2] + fy * e2[2])
-
-
-@compiled_inline
-def clear_push(header, contact):
-    """Start a sum of forces and torques about the contact's point."""
-    put(header.force, 0.0, 0.0, 0.0)
-    put(header.torque, 0.0, 0.0, 0.0)
-    put(header.point, contact.pos[0], contact.pos[1], contact.pos[2])
-
-
-@compiled_inline
-def add_push(header, contact, fx, fy, fz):
-    """Add a force on the body at the contact's point to the sum."""
-    f, q, p = header.force, header.torque, header.point
-    x, y, z = contact.pos[0] - p[0], contact.pos[1] - p[1], contact.pos[2] - p[2]
-    put(f, f[0] + fx, f[1] + fy, f[2] + fz)
-    put(q, q[0] + y * fz - z * fy, q[1] + z * fx - x * fz, q[2] + x * fy - y * fx)
-
-
-@compiled
-def push(model, data, header, body, surface, target):
-    """Add the generalised force of the sum on the body, and of its opposite on the surface."""
-    f, q, p = header.force, header.torque, header.point.ctypes.data
-    if body > 0:
-        engine.mj_applyFT(model, data, f.ctypes.data, q.ctypes.data, p, np.int32(body), target)
-    if surface > 0:
-        g, k = header.counter_force, header.counter_torque
-        put(g, -f[0], -f[1], -f[2])
-        put(k, -q[0], -q[1], -q[2])
-        engine.mj_applyFT(model, data, g.ctypes.data, k.ctypes.data, p, np.int32(surface), target)
+    add_forces(m, d, body, surface, contact.pos, slot.axis_1, fx, d.qfrc_passive)
+    add_forces(m, d, body, surface, contact.pos, slot.axis_2, fy, d.qfrc_passive)

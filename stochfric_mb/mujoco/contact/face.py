@@ -15,8 +15,8 @@ from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.laws.plane import length
 from stochfric_mb.mujoco.contact.kinematics import dot, put, side
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import contact_at
+from stochfric_mb.numerics import memory as w
 
 FLAT = 1.0 - 1.0e-6
 """Cosine between normals above which two contacts are of one face: they differ by less than 1.4 mrad."""
@@ -59,7 +59,7 @@ def rest_on_corners(d, body, surface):
 def is_between(d, i, first, last):
     """Return whether contact ``i`` lies on the line between two others from ``first`` to ``last`` that bear something."""
     contact = contact_at(d, i)
-    if contact.exclude != 0:
+    if contact.exclude != 0 or contact.efc_address < 0:  # the latter where rows found no room in MuJoCo's arena
         return False
     p = contact.pos
     for j in range(first, last):

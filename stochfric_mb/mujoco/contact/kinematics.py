@@ -6,8 +6,8 @@ import math
 
 from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.laws.plane import length
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import contact_at
+from stochfric_mb.numerics import memory as w
 
 JUMP = 10.0
 """A displacement this many times beyond what the velocities allow is a body that was moved, not a motion."""
@@ -155,25 +155,27 @@ def relative_velocity(m, d, contact, body, surface, sx, sy, sz):
 
 
 @compiled
-def add_rows(m, d, slot, body, sign, px, py, pz, rows):
-    """Add the velocity of the body's point at (px, py, pz), along both axes of a slot, per generalised velocity.
+def add_forces(m, d, body, surface, point, axis, force, target):
+    """Add the generalised force of a force [N] along an axis on the body at a point, and of its opposite on the surface."""
+    add_force(m, d, body, point, force * axis[0], force * axis[1], force * axis[2], target)
+    add_force(m, d, surface, point, -force * axis[0], -force * axis[1], -force * axis[2], target)
 
-    ``rows`` is the address of two rows of generalised coordinates. The same as MuJoCo's ``mj_jac`` projected.
-    """
+
+@compiled_inline
+def add_force(m, d, body, point, x, y, z, target):
+    """Add the generalised force of a force on a body at a point to the vector at ``target``, as ``mj_applyFT`` does."""
     while body > 0 and w.int_at(m.body_dofnum, body) == 0:
         body = w.int_at(m.body_parentid, body)
     if body == 0:
         return
     com = d.subtree_com + 24 * w.int_at(m.body_rootid, body)
-    rx, ry, rz = px - w.at(com, 0), py - w.at(com, 1), pz - w.at(com, 2)
-    e1, e2 = slot.axis_1, slot.axis_2
+    rx, ry, rz = point[0] - w.at(com, 0), point[1] - w.at(com, 1), point[2] - w.at(com, 2)
+    tx, ty, tz = ry * z - rz * y, rz * x - rx * z, rx * y - ry * x
     dof = w.int_at(m.body_dofadr, body) + w.int_at(m.body_dofnum, body) - 1
     while dof >= 0:
         c = d.cdof + 48 * dof
-        ax, ay, az = w.at(c, 0), w.at(c, 1), w.at(c, 2)
-        x, y, z = w.at(c, 3) + ay * rz - az * ry, w.at(c, 4) + az * rx - ax * rz, w.at(c, 5) + ax * ry - ay * rx
-        w.put(rows, dof, w.at(rows, dof) + sign * dot(e1, x, y, z))
-        w.put(rows, m.nv + dof, w.at(rows, m.nv + dof) + sign * dot(e2, x, y, z))
+        turning = w.at(c, 0) * tx + w.at(c, 1) * ty + w.at(c, 2) * tz
+        w.put(target, dof, w.at(target, dof) + turning + w.at(c, 3) * x + w.at(c, 4) * y + w.at(c, 5) * z)
         dof = w.int_at(m.dof_parentid, dof)
 
 

@@ -16,8 +16,8 @@ from stochfric_mb.mujoco.contact import solver
 from stochfric_mb.mujoco.contact.kinematics import ordinal_after, side
 from stochfric_mb.mujoco.contact.rows import is_sparse, rate_of
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import RUNGE_KUTTA, contact_at, data_at, model_at, record_view
+from stochfric_mb.numerics import memory as w
 
 KEPT = np.dtype([
     ("sign", np.float64), ("dim", np.float64), ("mu", np.float64), ("frame", np.float64, (9,)),

@@ -11,8 +11,8 @@ import math
 import mujoco
 
 from stochfric_mb.compile import compiled, compiled_inline
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import DISCRETE
+from stochfric_mb.numerics import memory as w
 
 RIGID = 0.25
 """Share of a stuck row's deflection that the solver takes back in one step, where the law is rigid: R K I = RIGID/h^2.

@@ -44,8 +44,8 @@ from stochfric_mb.mujoco.contact.rows import (
 )
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import DISCRETE, PGS, RUNGE_KUTTA, contact_at
+from stochfric_mb.numerics import memory as w
 from stochfric_mb.numerics.root import ROUNDING, bracket, is_wide, narrowed, trial
 
 SATURATED = 0.9999

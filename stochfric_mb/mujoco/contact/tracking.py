@@ -8,8 +8,8 @@ from stochfric_mb.mujoco.contact import explicit, solver
 from stochfric_mb.mujoco.contact.face import rest_on_corners
 from stochfric_mb.mujoco.contact.kinematics import ordinal_after, put, side
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import RUNGE_KUTTA, contact_at, data_at, model_at
+from stochfric_mb.numerics import memory as w
 
 
 @compiled
@@ -41,7 +41,7 @@ def starts(m, d, header):
 @compiled_inline
 def tries_explicit(m, d, header):
     """Return whether a step may be explicit: asked for, or (auto) of Runge-Kutta kind and not beyond it before."""
-    if header.mode == s.EXPLICIT or header.rest == s.BRISTLE:
+    if header.mode == s.EXPLICIT:
         return True
     if header.mode == s.SOLVER or header.rest == s.RIGID:
         return False

@@ -7,7 +7,7 @@ import math
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory import words as w
+from stochfric_mb.numerics import memory as w
 
 FRICTION_OF_JOINT, FRICTION_OF_TENDON = 1, 2
 """mjtConstraint."""

@@ -27,8 +27,8 @@ from stochfric_mb.mujoco.joint.coordinate import (
 )
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import RUNGE_KUTTA, data_at, model_at
+from stochfric_mb.numerics import memory as w
 
 STIFFER = 1.0e-4
 """Stuck rows' R over that which MuJoCo gives friction rows: (1 - d)/d times the mobility of a chain of light links lets it
@@ -58,14 +58,13 @@ def begin(model, data, state, law):
         header.load = resting_load(m, header)
     fill(model, data, state, slot, old, known)
     header.n_current, slot.normal = 1.0, header.load
-    header.solved = 0.0
-    if tracking.tries_explicit(m, d, header):
-        limit = explicit.critical_of(header, m.timestep)
-        if header.mode == s.EXPLICIT or header.rest == s.BRISTLE or header.load <= limit * slot.felt:
-            commit_slot(state, s.slot_address(state, 1, 0), law, header.instant, header.load, 1)
-            return
-    header.solved = 1.0
-    follow(m, d, state, law, slot, old, known)
+    beyond = header.load > explicit.critical_of(header, m.timestep) * slot.felt
+    if tracking.tries_explicit(m, d, header) and explicit.will_do(header, beyond):
+        header.solved = 0.0
+        commit_slot(state, s.slot_address(state, 1, 0), law, header.instant, header.load, 1)
+    else:
+        header.solved = 1.0
+        follow(m, d, state, law, slot, old, known)
 
 
 @compiled

@@ -37,13 +37,13 @@ def _external(name: str, result: Any, *arguments: Any) -> Any:
     return types.ExternalFunction(name, result(*arguments))
 
 
-mj_applyFT = _external("mj_applyFT", types.void, _I64, _I64, _I64, _I64, _I64, _I32, _I64)  # noqa: N816
 mj_solveM = _external("mj_solveM", types.void, _I64, _I64, _I64, _I64, _I32)  # noqa: N816
 mj_getPluginConfig = _external("mj_getPluginConfig", _I64, _I64, _I32, _I64)  # noqa: N816
 mj_forward = _external("mj_forward", types.void, _I64, _I64)
 mj_step = _external("mj_step", types.void, _I64, _I64)
 mj_rnePostConstraint = _external("mj_rnePostConstraint", types.void, _I64, _I64)  # noqa: N816
 mju_error = _external("mju_error", types.void, _I64)
+mju_warning = _external("mju_warning", types.void, _I64)
 
 
 def plugin_text(model: mujoco.MjModel | int, instance: int, key: str) -> str:

@@ -17,8 +17,8 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.laws.abi import MAX_STATE
 from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.mujoco.memory import engine, table
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import array_at, data_at, model_at, record_view
+from stochfric_mb.numerics import memory as w
 
 MAX_PARAMETERS, N_LIMITS, MAX_ROW = 16, 13, 32
 BODIES = 2**24
@@ -29,14 +29,16 @@ TOO_MANY = (
 NO_LAW = "stochfric_mb: these data are no simulation's, but a copy without plugins; make others with mujoco.MjData(model)"
 UNSET = -1.0e300
 """A time before all times."""
+NO_LIMIT = 1.0e300
+"""Stands for infinity in states, which engines and rollouts expect to be finite."""
 MODES = ("auto", "explicit", "solver")
 AUTO, EXPLICIT, SOLVER = range(3)
 """Values of a header's ``mode``."""
 PAIR, JOINT, TENDON = range(3)
 """Values of a header's ``place``."""
-RIGID, ELASTIC, CREEP, BRISTLE = range(4)
+RIGID, ELASTIC, CREEP = range(3)
 RESTS = ("rigid", "elastic", "creep", "bristle")
-"""Values of a header's ``rest``: the law's `Law.rest`."""
+"""Values of a header's ``rest``: the law's `Law.rest`. Laws with bristles of their own are explicit, see ``mode``."""
 
 
 def _record(*fields: str | tuple[str, int]) -> np.dtype[Any]:
@@ -50,7 +52,7 @@ HEADER = _record(
     "n_slots", "n_descriptor", "n_parameters",  # lengths
     "stick_speed", "peak_speed", "has_mode", "needs_mass", "rest",  # of the law
     "origin",  # displacement of a new contact [m]
-    "mode",  # asked for
+    "mode",  # asked for; of a law with bristles EXPLICIT
     "load", "radius",  # of a joint or tendon: given [N or N m], or the radius [m] at which its bearing's reaction rubs
     "across",  # anisotropic friction: the coefficients across ``direction`` over those along it
     ("direction", 3),  # in the body's frame
@@ -58,15 +60,15 @@ HEADER = _record(
     "n_committed", "n_current", "started",  # contacts in each block; 1 within a step
     "solved", "latched",  # 1 in a step in which friction is the engine's own; 1 where it stays so
     "unconverged",  # steps since the start in which MuJoCo's solver stopped at its limit of iterations
+    "beyond",  # explicit steps since the start beyond the law's limit
     "velocities", "finished",  # a sum that tells the velocities at the end of the last step, 1 if there is one
     "instant",  # canonical time [s] of the last evaluation at a step's start
     "path_time", "path_mu_s", "path_mu_k",  # last evaluation of a path along time
     "peak", "peak_mu_s", "peak_mu_k",  # last coefficient at the law's peak speed, and of what coefficients
-    "critical", "critical_step",  # normal force over mass [N/kg] where an explicit step [s] is at half its limit
+    "critical", "critical_step",  # normal force over mass [N/kg] at which an explicit step [s] is too long
     ("parameters", MAX_PARAMETERS),
     ("limits", N_LIMITS),  # step limits [s] at normal forces over mass of 1e-4, 1e-3, ... 1e8 N/kg
     ("cursor", CURSOR),
-    ("force", 3), ("torque", 3), ("point", 3), ("counter_force", 3), ("counter_torque", 3),  # room to work in
     ("output", MAX_STATE), ("rows", 4 * MAX_ROW),  # room to work in
 )  # fmt: skip
 SLOT = _record(

@@ -1,7 +1,7 @@
 """MuJoCo's structs by the names of their fields, laid out as the package says of itself, and checked against its bindings.
 
 In compiled code ``model_at(address).nv`` is the C expression ``model->nv``, and in Python ``record_at(MODEL, address).nv``. A
-pointer comes out as an address, for `words.at` and `array_at`.
+pointer comes out as an address, for `numerics.memory.at` and `array_at`.
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ from llvmlite import ir
 from numba import types
 
 from stochfric_mb.compile import compiled
-from stochfric_mb.mujoco.memory import words as w
+from stochfric_mb.numerics import memory as w
 from stochfric_mb.numerics.memory import instructions
 
 _SYMBOL = "stochfric_mb_mujoco_table"

@@ -9,10 +9,12 @@ from __future__ import annotations
 import hashlib
 import threading
 import tomllib
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import numpy as np
 import numpy.typing as npt
 
@@ -23,11 +25,13 @@ from stochfric_mb.laws.contract import Law
 from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
 from stochfric_mb.mujoco.memory import table
 from stochfric_mb.mujoco.memory.state import (
+    EXPLICIT,
     LAW,
     MAX_PARAMETERS,
     MODES,
     N_HEADER,
     N_LIMITS,
+    NO_LIMIT,
     RESTS,
     UNSET,
     header_of,
@@ -37,12 +41,27 @@ from stochfric_mb.scenario import law_from_dict, process_from_dict
 
 DEFAULT_SLOTS, MAX_SLOTS = 16, 1024
 """Contacts of an instance at a time: if nothing is said, and at most."""
-NO_LIMIT = 1.0e300
-"""Stands for infinity in states, which engines and rollouts expect to be finite."""
+UNNAMED = (
+    "the model has a plugin without an instance of its own name, and MuJoCo's to_xml leaves out what comes after such a one: "
+    "this friction is missing in a saved XML; write <extension><plugin ...><instance name=...> and name that instance"
+)
 RECORDED = ("law", "coefficients", "mode", "slots", "across", "direction", "normal_force", "radius")
 """Keys that make up a state's start; names and the address of the coefficient path do not."""
 _laws: dict[int, tuple[npt.NDArray[Any], npt.NDArray[np.float64]]] = {}
 _lock = threading.Lock()
+
+
+class PluginWarning(UserWarning):
+    """MuJoCo would save a model without its friction."""
+
+
+def enter(spec: mujoco.MjSpec, plugin: str, name: str, config: Mapping[str, str]) -> None:
+    """Enter an instance of one of this package's plugins into a spec; warn where MuJoCo would not save it."""
+    if not all(p.name for p in spec.plugins):
+        warnings.warn(UNNAMED, PluginWarning, stacklevel=4)
+    made: Any = spec.add_plugin(name=name, plugin_name=plugin, active=True)
+    made.config = config
+    spec.activate_plugin(plugin)
 
 
 def configuration(
@@ -90,7 +109,8 @@ def _record(friction: Friction, texts: Mapping[str, str]) -> npt.NDArray[np.floa
     record = np.zeros(N_HEADER + len(descriptor))
     record[:N_HEADER] = law_header(friction.law)
     header = header_of(record)
-    header.n_descriptor, header.mode, header.n_slots = len(descriptor), MODES.index(mode), 1
+    header.n_descriptor, header.n_slots = len(descriptor), 1
+    header.mode = MODES.index("explicit" if friction.law.rest == "bristle" else mode)
     record[N_HEADER:] = np.nan_to_num(descriptor, posinf=NO_LIMIT, neginf=-NO_LIMIT)
     for key, field in {"normal_force": "load", "radius": "radius"}.items():
         if texts.get(key):
@@ -101,7 +121,7 @@ def _record(friction: Friction, texts: Mapping[str, str]) -> npt.NDArray[np.floa
     if texts.get("across") or texts.get("direction"):
         direction: Any = tuple(_number(word) for word in texts.get("direction", "").split())
         anisotropy = Anisotropy(_number(texts.get("across") or "1"), direction)
-    if anisotropy.across != 1.0 and (mode == "explicit" or friction.law.rest == "bristle"):
+    if anisotropy.across != 1.0 and header.mode == EXPLICIT:
         raise InputError(
             f"across = {anisotropy.across:g}: friction that differs by direction is found by MuJoCo's solver; use mode "
             f"'solver' (not {mode!r}) and a law that runs in it (law {friction.law.kind!r} has rest {friction.law.rest!r})"

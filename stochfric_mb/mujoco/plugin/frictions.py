@@ -15,11 +15,11 @@ from stochfric_mb.mujoco.contact import tracking
 from stochfric_mb.mujoco.joint import friction as coordinates
 from stochfric_mb.mujoco.memory import engine, table
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import DATA, MODEL, array_at, data_at, model_at, record_at, struct, verify
 from stochfric_mb.mujoco.plugin import options
 from stochfric_mb.mujoco.plugin.configuration import law_of
 from stochfric_mb.mujoco.plugin.registration import register_plugin
+from stochfric_mb.numerics import memory as w
 
 PAIRS, DOFS = "stochfric.pair", "stochfric.dof"
 """Names of the plugins in MJCF."""
@@ -64,7 +64,7 @@ def _nstate(name: str, model: int, instance: int) -> int:
 def _init(name: str, model: int, data: int, instance: int) -> int:
     law = _law(name, model, instance)
     header = s.header_of(s.started(law))
-    steered = name == PAIRS and header.mode != s.EXPLICIT and header.rest != s.BRISTLE
+    steered = name == PAIRS and header.mode != s.EXPLICIT
     options.check_options(record_at(MODEL, model), steered=steered, coordinate=name == DOFS)
     if name == DOFS:
         _require_row(model, header)

@@ -23,21 +23,22 @@ from stochfric_mb.mujoco.contact import tracking
 from stochfric_mb.mujoco.joint import friction
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory import words as w
 from stochfric_mb.mujoco.memory.structs import DATA, MODEL, array_at, data_at, model_at, record_at
+from stochfric_mb.mujoco.plugin.configuration import enter
 from stochfric_mb.mujoco.plugin.frictions import DOFS, PAIRS, copy, slot_of
 from stochfric_mb.mujoco.plugin.registration import register_plugin
+from stochfric_mb.numerics import memory as w
 
 NAME = "stochfric.sensor"
 """Name of the plugin in MJCF."""
 ATTRIBUTES = ("friction", "contacts")
 """Configuration keys: name of the friction instance, number of contacts listed (0 if not given)."""
-FIELDS = ("force_x", "force_y", "force_z", "normal_force", "mu_s", "mu_k", "stick", "dissipated", "contacts")
+CONTACT_FIELDS = ("force_x", "force_y", "force_z", "normal_force", "mu_s", "mu_k", "stick", "dissipated")
+"""Numbers of each contact listed."""
+FIELDS = (*CONTACT_FIELDS, "contacts")
 """First numbers of a sensor: sums of the friction force on the body (world axes; along the coordinate for a joint or
 tendon) [N] and of the normal force [N], means of mu_s, mu_k and of the stick flag, sum of the dissipated energy [J] and
 number of the contacts there are."""
-CONTACT_FIELDS = ("force_x", "force_y", "force_z", "normal_force", "mu_s", "mu_k", "stick", "dissipated")
-"""Numbers of each contact listed."""
 MAX_CONTACTS, SHIFT = 64, 2**32
 
 
@@ -76,9 +77,7 @@ def add_sensor(spec: mujoco.MjSpec, friction: str, *, name: str = "", contacts: 
     instance = f"sensor_{name}"
     if name in {x.name for x in spec.sensors} or instance in {p.name for p in spec.plugins}:
         raise InputError(f"the model has a sensor {name!r} already; give another name")
-    plugin: Any = spec.add_plugin(name=instance, plugin_name=NAME, active=True)
-    plugin.config = {"friction": friction, "contacts": str(int(contacts))}
-    spec.activate_plugin(NAME)
+    enter(spec, NAME, instance, {"friction": friction, "contacts": str(int(contacts))})
     sensor: Any = spec.add_sensor(name=name, type=mujoco.mjtSensor.mjSENS_PLUGIN)
     sensor.plugin.name = instance
     sensor.plugin.plugin_name = NAME
