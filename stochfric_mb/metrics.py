@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import numpy.typing as npt
 
@@ -68,14 +70,22 @@ def break_aways(trajectory: Trajectory, law: Law, mechanism: BeltBox) -> Array:
     return np.array(times)
 
 
+def resolves_slips(trajectory: Trajectory, mechanism: BeltBox) -> bool:
+    """Return whether no slip fits between two samples: none is shorter than half a natural period, pi sqrt(m/k)."""
+    longest = float(np.diff(trajectory.time).max(initial=0.0))
+    return longest <= math.pi * math.sqrt(mechanism.mass / mechanism.stiffness)
+
+
 def period(trajectory: Trajectory, law: Law, mechanism: BeltBox) -> float:
-    """Return the mean interval between break-aways [s], NaN where there are fewer than two.
+    """Return the mean interval between break-aways [s], NaN where there are fewer than two, or samples may miss a slip.
 
     >>> from stochfric_mb import load_scenario, run
     >>> scenario = load_scenario("kang2015_table1", law="coulomb")
     >>> f"{period(run(scenario), scenario.law, scenario.mechanism):.3f} s"
     '0.992 s'
     """
+    if not resolves_slips(trajectory, mechanism):
+        return float("nan")
     times = break_aways(trajectory, law, mechanism)
     return float((times[-1] - times[0]) / (len(times) - 1)) if len(times) > 1 else float("nan")
 

@@ -252,5 +252,5 @@ def _sample(name: str, values: npt.ArrayLike) -> Array:
     if len(x) < 2:
         raise InputError(f"sample {name} has {len(x)} values; give at least 2")
     if not np.all(np.isfinite(x)):
-        raise InputError(f"value {int(np.argmax(~np.isfinite(x)))} of sample {name} is not finite; remove or mend it")
+        raise InputError(f"value {int(np.argmax(~np.isfinite(x)))} of sample {name} is not finite; remove or correct it")
     return x

@@ -38,6 +38,8 @@ TOLERANCE_SPRING = 1.0e-9
 """The same where a spring sticks: break-away from it is slow, so that small errors grow."""
 RESTART = 0.0051
 """First step after a switch, as an angle of the natural oscillation [rad]."""
+LOADED = 0.05
+"""Longest step in stick, over the time in which the belt loads the spring up to mu_s N, where nothing else is as quick [-]."""
 LAWS = ("coulomb", "elastic_stick", "stribeck")
 """Laws that the fast simulator knows."""
 
@@ -398,11 +400,9 @@ def _set_temperature(run: Any, effects: Sequence[Effect], temperature: tuple[Arr
 def _set_numerics(run: Any, mechanism: BeltBox, law: Law, effects: Sequence[Effect], path: CoefficientPath) -> None:
     m = augmented_model
     c = run.constants
-    fastest = max(
-        math.sqrt(mechanism.stiffness / mechanism.mass),
-        mechanism.damping / mechanism.mass,
-        mechanism.excitation_angular_frequency if mechanism.excitation_amplitude != 0.0 else 0.0,
-    )
+    natural = max(math.sqrt(mechanism.stiffness / mechanism.mass), mechanism.damping / mechanism.mass)
+    excited = mechanism.excitation_angular_frequency if mechanism.excitation_amplitude != 0.0 else 0.0
+    fastest = max(natural, excited)
     static = law.mu_s * mechanism.normal_force / mechanism.stiffness
     speed = static * math.sqrt(mechanism.stiffness / mechanism.mass) + abs(mechanism.belt_velocity)
     shortest = min((effect.shortest_time(abs(mechanism.belt_velocity)) for effect in effects), default=math.inf)
@@ -411,6 +411,11 @@ def _set_numerics(run: Any, mechanism: BeltBox, law: Law, effects: Sequence[Effe
     c[m.TOLERANCE] = (TOLERANCE_SPRING if c[m.LIMIT] > 0.0 else TOLERANCE) * static
     c[m.RESTART] = RESTART * math.sqrt(mechanism.mass / mechanism.stiffness)
     c[m.LONGEST_SLIDE] = min(0.25 / fastest, 0.1 * in_slip)
-    c[m.LONGEST_STICK] = min(0.1 / fastest, 0.05 * shortest)
     descriptor = path.descriptor
-    c[m.KNOTS] = descriptor[3] if descriptor[0] != 0.0 and descriptor[1] == TIME and descriptor[2] == 1.0 else 0.0
+    drawn = descriptor[0] != 0.0
+    c[m.KNOTS] = descriptor[3] if drawn and descriptor[1] == TIME and descriptor[2] == 1.0 else 0.0
+    c[m.LONGEST_STICK] = min(0.1 / fastest, 0.05 * shortest)
+    if not drawn and excited == 0.0 and mechanism.belt_velocity != 0.0:
+        # a stuck box knows no oscillation: nothing happens sooner than the belt loads the spring
+        loading = static / abs(mechanism.belt_velocity)
+        c[m.LONGEST_STICK] = min(max(0.1 / fastest, LOADED * loading), 0.05 * shortest)

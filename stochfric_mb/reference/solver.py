@@ -99,7 +99,7 @@ def solve(
         "seed": path.seed,
         "sample": path.sample,
         "law": law.kind,
-        "notes": ["dt = 0: the reference has no fixed step"],
+        "notes": ["the reference has no fixed step: dt is stored as 0"],
         "seconds_per_step": seconds / max(n_steps, 1),
         "n_steps": n_steps,
         "final_law_state": final,

@@ -1,15 +1,18 @@
 """What strangers' rigs brought: friction that is declared to scatter, kicks that a light rig hardly feels, a faster drive."""
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from stochfric_mb.discovery import discover
+from stochfric_mb.discovery.result import Result
 from tests.discovery.unseen_forms.forms import FORMS, Form, each_stick
-from tests.discovery.unseen_forms.friction_forms import viscous
-from tests.discovery.unseen_forms.motion import World
+from tests.discovery.unseen_forms.friction_forms import scaled, viscous
+from tests.discovery.unseen_forms.motion import State, World
 from tests.discovery.unseen_forms.records import Case, write_record
+from tests.discovery.unseen_forms.rigs import RIGS
 
 
 def drawn_anew(world: World, weakening: float) -> None:
@@ -29,12 +32,28 @@ def linear(world: World, _: float) -> None:
     viscous(world, lambda u: u, 0.35 * world.nominal.gap * world.nominal.normal_force)
 
 
-def said(form: Form, folder: Path, **changes: object) -> tuple[str, ...]:
-    """Return the names that discovery gives to a record of a form at one operating point."""
+def narrow_bump(world: World, strength: float) -> None:
+    """A bump of the belt of a quarter of a slip's length that comes back each nine slips."""
+    turn, width = 9.1 * world.nominal.slip_length, 0.25 * world.nominal.slip_length
+
+    def factor(s: State) -> object:
+        off = (s.travel - s.x + 0.5 * turn) % turn - 0.5 * turn
+        return 1.0 + 0.12 * strength * np.exp(-0.5 * (off / width) ** 2)
+
+    scaled(world, factor)
+
+
+def answered(form: Form, folder: Path, **changes: object) -> Result:
+    """Return what discovery says of a record of a form at one operating point."""
     parts = {"name": form.name, "apply": form.apply, "rig": form.rig, "options": form.options} | changes
     made = Form(truth=frozenset(), truth_one=frozenset(), designs=("one",), source="", **parts)
     write_record(Case(made, "one", 1.0), folder, 3)
-    result = discover(folder / "data").result
+    return discover(folder / "data").result
+
+
+def said(form: Form, folder: Path, **changes: object) -> tuple[str, ...]:
+    """Return the names that discovery gives to a record of a form at one operating point."""
+    result = answered(form, folder, **changes)
     return tuple(e.kind for e in result.effects) or (result.verdict,)
 
 
@@ -42,6 +61,16 @@ def said(form: Form, folder: Path, **changes: object) -> tuple[str, ...]:
 def test_a_declared_scatter_hides_no_effect_and_is_none(weakening, names, tmp_path):
     plain = FORMS["scatter_declared_per_stick"]
     assert said(plain, tmp_path, name="weakening", apply=lambda w, _: drawn_anew(w, weakening), rig="paper") == names
+
+
+@pytest.mark.parametrize("rig", ["paper", "small"])
+def test_a_narrow_bump_that_comes_back_each_turn_is_seen_as_what_it_is(rig, tmp_path):
+    result = answered(FORMS["position_bump"], tmp_path, name="narrow", apply=narrow_bump, rig=rig)
+    assert (result.verdict, result.effects) == ("unknown", ())
+    assert result.where is not None
+    assert result.where.axis == "belt position"
+    turn = float(re.search(r"once in ([\d.e-]+) m of belt travel", result.where.text)[1])
+    assert turn == pytest.approx(9.1 * RIGS[rig].slip_length, rel=0.05)
 
 
 def test_linear_viscous_friction_of_a_small_rig(tmp_path):

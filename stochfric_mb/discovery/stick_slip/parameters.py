@@ -77,7 +77,7 @@ def own_parameters(fit: Fit, model: Model, study: Study) -> dict[str, Interval]:
             continue
         stated = getattr(study.dataset.scenario.mechanism, one.name, 0.0) if one.name in CORRECTED else 1.0
         value = 1.0 + model.corrections[one.name] if one.name in CORRECTED else getattr(model.law, one.name)
-        doubt = max(deviation, posterior) if data_share < criteria.DECIDED_BY_DATA else deviation
+        doubt = posterior if data_share < criteria.DECIDED_BY_DATA else deviation
         rows[one.name] = confidence_interval(value * stated, doubt * stated, UNITS.get(one.name, "-"), low=0.0)
     return rows
 

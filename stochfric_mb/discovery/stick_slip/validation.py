@@ -8,9 +8,11 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.explained import explained_with_its_form, unexplained
 from stochfric_mb.discovery.stick_slip.decision.held_out_check import Comparison, compared, without_last
+from stochfric_mb.discovery.stick_slip.decision.random_effects import kicked
 from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, Named, of_wander
 from stochfric_mb.discovery.stick_slip.feature_skill import slip_force_gap
 from stochfric_mb.discovery.stick_slip.predictive_check import inadequate
+from stochfric_mb.discovery.stick_slip.screening.folding import comes_back
 from stochfric_mb.discovery.stick_slip.simulation.forecast import score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, deterministic, floor_of, mean_score, settled
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
@@ -89,6 +91,20 @@ def explaining(answer: Answer, slip_study: Study, recalibrated: Fit) -> Answer:
         if _poor(tried, slip_study, recalibrated) is None:
             return tried
     return Answer(poor, None, recalibrated.model)
+
+
+def with_bump(answer: Answer, selected: Decision, slip_study: Study) -> Answer:
+    """Return an answer whose effects were all taken back, with where slips come back with the belt, if they do.
+
+    Args:
+        answer: the answer.
+        selected: the decision before it was validated.
+        slip_study: what the fit runs show.
+    """
+    if answer.decision.verdict != "unknown" or not selected.named:
+        return answer
+    bump = comes_back(slip_study, kicked(slip_study), answer.decision.details)
+    return answer if bump is None else dataclasses.replace(answer, decision=dataclasses.replace(answer.decision, where=bump))
 
 
 def _poor(answer: Answer, slip_study: Study, recalibrated: Fit) -> Decision | None:

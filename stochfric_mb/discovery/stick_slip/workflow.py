@@ -32,7 +32,7 @@ from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import assumed
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit, with_deviations
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study, slips_of_run, study
-from stochfric_mb.discovery.stick_slip.validation import Answer, checked_on_held_out, explaining, fitted
+from stochfric_mb.discovery.stick_slip.validation import Answer, checked_on_held_out, explaining, fitted, with_bump
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
@@ -83,7 +83,8 @@ def _answer(
         answer = explaining(answer, study, recalibrated)
     progress("held-out runs")
     runs = held_out(slips, phased=phased(answer.model))
-    return checked_on_held_out(dataclasses.replace(answer, model=settled(answer.model, runs)), study, recalibrated, runs), runs
+    answer = checked_on_held_out(dataclasses.replace(answer, model=settled(answer.model, runs)), study, recalibrated, runs)
+    return with_bump(answer, decision, study), runs
 
 
 def _result(

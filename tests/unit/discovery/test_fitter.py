@@ -65,3 +65,13 @@ def test_a_step_over_a_cliff_is_shortened_until_it_falls():
     low, high = np.full(1, -20.0), np.full(1, 20.0)
     minimum = minimised(errors, np.zeros(1), low, high, difference=1e-3, evaluations=30, tolerance=1e-4)
     assert 0.03 < minimum.x[0] < 0.05
+
+
+def test_threads_change_nothing():
+    low, high = np.full(2, -5.0), np.full(2, 5.0)
+    one, several = (
+        minimised(rough, np.zeros(2), low, high, difference=0.01, evaluations=30, tolerance=1e-12, threads=threads)
+        for threads in (False, True)
+    )
+    assert one.x.tobytes() == several.x.tobytes()
+    assert one.jacobian.tobytes() == several.jacobian.tobytes()

@@ -42,10 +42,16 @@ def test_all_frequencies_of_a_short_record_are_looked_at():
     assert worth_a_look(lambda grid, stretch: grid, whole, duration=100.0, stretch=100.0, fineness=4.0) is whole
 
 
-def test_gains_of_waves_in_stick_are_those_of_least_squares():
+@pytest.mark.parametrize("samples", ["anywhere", "even", "some left out"])
+def test_gains_of_waves_in_stick_are_those_of_least_squares(samples):
     generator = np.random.default_rng(2)
     segment = np.repeat(np.arange(6), (20, 31, 25, 40, 22, 18))
     time = np.sort(generator.uniform(0.0, 10.0, len(segment)))
+    if samples != "anywhere":  # pauses between the phases
+        time = 0.05 * np.arange(len(segment)) + 0.618 * segment
+    if samples == "some left out":
+        kept = generator.uniform(size=len(segment)) > 0.1
+        segment, time = segment[kept], time[kept]
 
     def centred(column):
         means = np.bincount(segment, column) / np.bincount(segment)

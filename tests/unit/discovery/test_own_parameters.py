@@ -1,6 +1,7 @@
 """Parameters of mechanism and law: which the data tell, which only their prior does, and which are off from what is stated."""
 
 import dataclasses
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from stochfric_mb import load_scenario
 from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM, FreeParameter
 from stochfric_mb.discovery.result import Interval
-from stochfric_mb.discovery.stick_slip.parameters import moved, not_measured
+from stochfric_mb.discovery.stick_slip.parameters import moved, not_measured, own_parameters
 from stochfric_mb.discovery.stick_slip.simulation.refit import WIDEST, Fit, _with_priors
 from stochfric_mb.measurement.dataset import Dataset
 
@@ -36,6 +37,26 @@ def test_only_what_the_prior_made_is_named():
     nothing = np.zeros(4)
     fit = Fit(None, numbers, nothing, nothing, nothing, 0.0, data_share=np.array([0.9, 0.3, 0.1, 0.1]), posterior=nothing)
     assert not_measured(fit) == ["damping"]
+
+
+def test_an_interval_of_what_the_prior_made_is_no_wider_than_the_prior():
+    """Where the model does not explain the runs, slopes say nothing of numbers that the data do not tell."""
+    study = SimpleNamespace(dataset=Dataset(title="", scenario_path=None, scenario=load_scenario("kang2015_table1"), runs=()))
+    model = SimpleNamespace(corrections={"mass": 0.004})
+    numbers = [FreeParameter(MECHANISM, "mass", 0.0, 1.0, -1.0, 1.0)]
+    fit = Fit(
+        None,
+        numbers,
+        np.zeros(1),
+        np.array([0.063]),
+        np.zeros(1),
+        0.0,
+        data_share=np.array([0.08]),
+        posterior=np.array([0.0096]),
+    )
+    mass = own_parameters(fit, model, study)["mass"]
+    assert mass.value == pytest.approx(1.004 * 6.08)
+    assert (mass.high - mass.low) / 2.0 == pytest.approx(1.96 * 0.0096 * 6.08, rel=1e-3)
 
 
 def test_what_is_off_by_more_than_stated_is_pointed_out():

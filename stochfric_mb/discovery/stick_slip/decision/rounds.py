@@ -299,7 +299,11 @@ class _Search:
             return True
         sudden = self._sudden(candidates)
         # slips that stand out beside an effect in all the others are accidents, or edges that noise hides
-        return False if sudden is None or kicks(self.study) is not None else sudden
+        return (
+            False
+            if sudden is None or kicks(self.study) is not None
+            else comes_back(self.study, kicked(self.study), self.details) or sudden
+        )
 
     def _kicked_up(self, winner: Candidate) -> bool:
         """Return whether a winner stands on slips alone that kicks set apart: without them hardly anything speaks for it."""
@@ -349,7 +353,7 @@ class _Search:
         return self._shape_left() < criteria.FORM_MISSES
 
     def _beside_form(self, candidates: Sequence[Candidate]) -> list[Candidate]:
-        """Return the candidates that have evidence beside what all slips of a run share: the rest would mend a form."""
+        """Return the candidates that have evidence beside what all slips of a run share: the rest would correct a form."""
         alike = (SHAPES_SLIPS, BETWEEN_POINTS)
         candidates = [c for c in candidates if c.name not in SHAPES and not (c.any_shape or any(map(c.has, alike)))]
         beside = self.terms.plus(shared_by_runs(self.pool))
@@ -484,10 +488,6 @@ class _Search:
             self.model, self.stalled = fitted, stalled
             self._take_out()
 
-    def _bump(self, sudden: bool) -> Where | None:
-        """Return where slips that stand out come back with the belt, if nothing else is named; ``sudden``: whether some do."""
-        return comes_back(self.study, kicked(self.study)) if sudden and not self.named else None
-
     def by_chance(self) -> Decision:
         """Look for what is random, last of all."""
         self.details[SHAPE_LEFT] = self._shape_left()
@@ -505,9 +505,11 @@ class _Search:
                 return self._unknown(where, scatter)
             self.details["left_over"] = dataclasses.asdict(where)
         levels = switching(self.regression, self.regression.residuals(self.terms, self.solution))
-        if (bump := self._bump(kick is not None or levels.where is not None)) is not None:
-            return self._unknown(bump, scatter)
         result = kick or random_effects(self.study, scatter, levels, self.solution, kinds)
+        if not kinds and (result is not None or levels.where is not None):
+            bump = comes_back(self.study, kicked(self.study), self.details)
+            if bump is not None:
+                return self._unknown(bump, scatter)
         if isinstance(result, Where):
             left = min(_scatter(self.solution) / _scatter(self.study.solution), self._shape_left())
             if not self.named or (self.in_forces and left > criteria.LEFT_OVER):

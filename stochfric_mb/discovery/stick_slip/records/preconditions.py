@@ -33,7 +33,7 @@ def require_usable(dataset: Dataset) -> None:
                 f"run {run.name}: {1.0 / run.sample_interval:.4g} samples a second are {count:.3g} in a period of the natural "
                 f"oscillation ({natural:.3g} Hz by the stated mass and stiffness); at least "
                 f"{criteria.FEWEST_SAMPLES} are needed: sample at {math.ceil(criteria.FEWEST_SAMPLES * natural)} Hz or faster, "
-                "or mend mass and stiffness"
+                "or correct mass and stiffness"
             )
 
 
@@ -60,5 +60,5 @@ def require_driven(slips: Sequence[Slips], mu_s: float) -> None:
             if share > criteria.MOST_FRICTION * max(1.0, mu_s):
                 raise InputError(
                     f"run {one.record.name}: friction {when} comes out at {share:.3g} times the normal force, with mu_s stated "
-                    f"as {mu_s:.3g}; count the position from where the spring is unstressed, or mend normal_force"
+                    f"as {mu_s:.3g}; count the position from where the spring is unstressed, or correct normal_force"
                 )

@@ -14,6 +14,7 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.frequency_search import worth_a_look
+from stochfric_mb.discovery.inference.threads import CORES, in_threads
 from stochfric_mb.discovery.stick_slip.records.record import Array, Noise
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, StickSamples
 from stochfric_mb.discovery.stick_slip.records.stick_waves import wave_gains
@@ -207,8 +208,9 @@ def _ripple_gains(
     gains = np.zeros(len(grid))
     for run, rest in zip(runs, rests, strict=True):
         n = int(np.searchsorted(run.samples.time, run.samples.time[0] + stretch, "right"))
-        line = run.line / np.sqrt(run.line @ run.line)
-        gain = wave_gains(grid, run.samples.time[:n], run.samples.segment[:n], line[:n], rest[:n])
+        seen = run.samples.time[:n], run.samples.segment[:n], run.line[:n], rest[:n]
+        parts = np.array_split(grid, CORES)
+        gain = np.concatenate(in_threads(lambda some, seen=seen: wave_gains(some, *seen), parts))
         gains += gain if plain else gain * noise_ratio(run.slips.noise, grid / run.slips.record.rate)
     return gains
 

@@ -12,45 +12,56 @@ import numpy as np
 
 from stochfric_mb.compile import compiled
 
+SPACED = 1.0e-9
+"""Share by which two distances between samples may differ to be the same [-]: a hundred such steps turn a wave by 1e-7."""
+
 
 @compiled
 def wave_gains(grid, time, segment, line, rest):
     """Return the fall of chi^2 by a cosine and a sine of each frequency, shape (len(grid),).
 
-    Both are taken less their mean in each phase, and less their part along the line.
+    Both are taken less their mean in each phase, and less their part along the line. Samples of a phase are evenly spaced but
+    where some are left out: from one to the next the wave is turned by a constant angle, which costs no cosine.
 
     Args:
         grid: frequencies [Hz], shape (f,).
         time: times of the samples [s], shape (n,).
         segment: number of each sample's phase, rising, shape (n,).
-        line: unit vector of the belt's line, shape (n,), less its mean in each phase.
-        rest: what the line leaves of the samples, shape (n,), likewise.
+        line: vector of the belt's line, shape (n,).
+        rest: what the line leaves of the samples, shape (n,).
     """
     n = len(time)
     gains = np.zeros(len(grid))
-    a, b = np.empty(n), np.empty(n)
     for i in range(len(grid)):
         pace = 2.0 * math.pi * grid[i]
+        spacing, turn_a, turn_b = 0.0, 1.0, 0.0
+        aa = bb = ab = la = lb = ll = ar = br = lr = 0.0
         first = 0
         while first < n:
-            last, total_a, total_b = first, 0.0, 0.0
+            last, a, b = first, 0.0, 0.0
+            sum_a = sum_b = sum_l = sum_r = 0.0
             while last < n and segment[last] == segment[first]:
-                a[last], b[last] = math.cos(pace * time[last]), math.sin(pace * time[last])
-                total_a, total_b = total_a + a[last], total_b + b[last]
+                if last > first and abs(time[last] - time[last - 1] - spacing) <= SPACED * spacing:
+                    a, b = a * turn_a - b * turn_b, b * turn_a + a * turn_b
+                else:
+                    a, b = math.cos(pace * time[last]), math.sin(pace * time[last])
+                    ahead = time[last + 1] - time[last] if last + 1 < n and segment[last + 1] == segment[first] else 0.0
+                    if abs(ahead - spacing) > SPACED * spacing and ahead > 0.0:
+                        spacing, turn_a, turn_b = ahead, math.cos(pace * ahead), math.sin(pace * ahead)
+                x, r = line[last], rest[last]
+                sum_a, sum_b, sum_l, sum_r = sum_a + a, sum_b + b, sum_l + x, sum_r + r
+                aa, bb, ab = aa + a * a, bb + b * b, ab + a * b
+                la, lb, ll = la + x * a, lb + x * b, ll + x * x
+                ar, br, lr = ar + a * r, br + b * r, lr + x * r
                 last += 1
-            for j in range(first, last):
-                a[j] -= total_a / (last - first)
-                b[j] -= total_b / (last - first)
+            m = last - first
+            aa, bb, ab = aa - sum_a * sum_a / m, bb - sum_b * sum_b / m, ab - sum_a * sum_b / m
+            la, lb, ll = la - sum_l * sum_a / m, lb - sum_l * sum_b / m, ll - sum_l * sum_l / m
+            ar, br, lr = ar - sum_a * sum_r / m, br - sum_b * sum_r / m, lr - sum_l * sum_r / m
             first = last
-        along_a = along_b = 0.0
-        for j in range(n):
-            along_a += line[j] * a[j]
-            along_b += line[j] * b[j]
-        aa = bb = ab = ar = br = 0.0
-        for j in range(n):
-            x, y = a[j] - line[j] * along_a, b[j] - line[j] * along_b
-            aa, bb, ab = aa + x * x, bb + y * y, ab + x * y
-            ar, br = ar + x * rest[j], br + y * rest[j]
+        if ll > 0.0:
+            aa, bb, ab = aa - la * la / ll, bb - lb * lb / ll, ab - la * lb / ll
+            ar, br = ar - la * lr / ll, br - lb * lr / ll
         determinant = aa * bb - ab * ab
         if determinant > 1.0e-9 * aa * bb:
             gains[i] = (bb * ar * ar - 2.0 * ab * ar * br + aa * br * br) / determinant

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 from stochfric_mb.discovery.inference.fitter import minimised
 from stochfric_mb.discovery.inference.free_parameter import FreeParameter, steps_of
+from stochfric_mb.discovery.inference.threads import in_threads
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, forecasts
 from stochfric_mb.discovery.stick_slip.simulation.model import Model, adjusted, free_parameters
@@ -88,7 +90,7 @@ def refit(
     misfit = _Misfit(model, windows, uncertainty, only, most)
     minimum = minimised(
         misfit.errors, np.zeros(len(misfit.free)), misfit.steps.low, misfit.steps.high, difference=DIFFERENCE,
-        evaluations=evaluations, tolerance=1.0e-4, outlying=typical,
+        evaluations=evaluations, tolerance=1.0e-4, outlying=typical, threads=True,
     )  # fmt: skip
     values = misfit.steps.values(minimum.x)
     spread = misfit.spread(2.0 * minimum.cost)
@@ -127,27 +129,29 @@ def with_deviations(fit: Fit, windows: Sequence[Windows], uncertainty: Mapping[s
     weight = (1.0 + (here / TYPICAL) ** 2) ** -0.75  # of the loss: SciPy scales its Jacobian so
     spread = misfit.spread(2.0 * fit.cost)
     alone = {(k.name, k.owner, k.run): a for k, a in zip(fit.free, fit.alone, strict=True)}
-    slopes = np.zeros((len(here), len(misfit.free)))
-    for j, one in enumerate(misfit.free):
+
+    def slope(j: int) -> Array:
+        one = misfit.free[j]
         first = alone[one.name, one.owner, one.run] / one.scale
 
-        def change(step: float, j: int = j) -> Array:
+        def change(step: float) -> Array:
             at = np.zeros(len(misfit.free))
             at[j] = step
             return weight * (misfit.errors(at) - here) / np.sqrt(spread)
 
         sides = [
-            sign * _slope(lambda h, sign=sign, change=change: change(sign * h), first, min(WIDEST, sign * float(bound)))
+            sign * _slope(lambda h, sign=sign: change(sign * h), first, min(WIDEST, sign * float(bound)))
             for sign, bound in ((-1.0, misfit.steps.low[j]), (1.0, misfit.steps.high[j]))
         ]
         down, up = (float(np.linalg.norm(side)) for side in sides)
         if min(down, up) == 0.0:  # a bound, or nothing to be seen there
-            slopes[:, j] = sides[0] + sides[1]
-        elif max(down, up) > ALIKE * min(down, up):
+            return sides[0] + sides[1]
+        if max(down, up) > ALIKE * min(down, up):
             # a jump on one side says nothing of the other
-            slopes[:, j] = sides[0] if down < up else sides[1]
-        else:
-            slopes[:, j] = 0.5 * (sides[0] + sides[1])
+            return sides[0] if down < up else sides[1]
+        return 0.5 * (sides[0] + sides[1])
+
+    slopes = np.stack(in_threads(slope, range(len(misfit.free))), axis=1)
     steps = misfit.steps
     data = slopes[: len(here) - len(misfit.free)]  # the last rows are the priors
     data_share, posterior = _with_priors(data, steps.scale / steps.prior)
@@ -216,17 +220,24 @@ class _Misfit:
         runs = [w.record.name for w in self.windows]
         self.free = [k for k in free_parameters(model, uncertainty, units, runs) if only is None or (k.name in only and k.run)]
         self.steps = steps_of(self.free)
+        # numbers of a single run are nothing to the others, whose forecasts stay as they were
+        self._seen_by = [np.array([k.run in ("", run) for k in self.free], dtype=bool) for run in runs]
+        most = 2 + sum(not k.run for k in self.free)
+        self._missed = [functools.lru_cache(most)(functools.partial(self._missed_in, w)) for w in self.windows]
 
     def errors(self, step: Array) -> Array:
         """Return the errors of all forecasts, then how far priors are missed, in units of `UNIT` and of their deviations."""
         values = self.steps.values(step)
-        trial = adjusted(self.model, self.free, values)
-        parts = [
-            np.nan_to_num(np.clip((forecasts(trial, w) - w.targets) / self.unit, -CLIP, CLIP), nan=CLIP).ravel()
-            for w in self.windows
-        ]
+        parts = [missed(*values[seen]) for missed, seen in zip(self._missed, self._seen_by, strict=True)]
         # priors enter as one observation each; its weight is that of a cycle's worth of independent errors
         return np.concatenate([*parts, 3.0 * self.steps.surprise(values)])
+
+    def _missed_in(self, windows: Windows, *values: float) -> Array:
+        """Return the errors of a run's forecasts with the ``values`` of the numbers that it depends on."""
+        free = [k for k in self.free if k.run in ("", windows.record.name)]
+        trial = adjusted(self.model, free, np.array(values))
+        errors = (forecasts(trial, windows) - windows.targets) / self.unit
+        return np.nan_to_num(np.clip(errors, -CLIP, CLIP), nan=CLIP).ravel()
 
     def spread(self, squares: float) -> float:
         """Return the variance that errors count with, from their robust sum of squares."""
