@@ -47,7 +47,7 @@ def require_number(
     >>> require_number("mu_k", -0.1, low=0.0)
     Traceback (most recent call last):
     ...
-    stochfric_mb.errors.InputError: mu_k = -0.1 - is out of range: mu_k must be >= 0
+    stochfric_mb.errors.InputError: mu_k = -0.1 is out of range: mu_k must be >= 0
 
     Args:
         name: what the message calls the value.
@@ -63,16 +63,22 @@ def require_number(
     """
     # most are floats: protocols are slow to ask
     if type(value) is not float and (not isinstance(value, SupportsFloat) or type(value).__name__ in ("bool", "bool_")):
-        raise InputError(f"{name} = {value!r} is not a number; give a number in [{unit}]")
+        raise InputError(f"{name} = {value!r} is not a number; give a number{_in(unit)}")
     try:
         number = float(value)
     except OverflowError:
         number = math.inf
     if not math.isfinite(number):
-        raise InputError(f"{name} = {number} is not finite; give a finite number in [{unit}]")
+        raise InputError(f"{name} = {number} is not finite; give a finite number{_in(unit)}")
     if number < low or number <= above or number > high or number >= below:
-        raise InputError(f"{name} = {number:g} {unit} is out of range: {name} must be {_range(low, high, above, below)}")
+        shown = f"{number:g}" if unit == "-" else f"{number:g} {unit}"
+        raise InputError(f"{name} = {shown} is out of range: {name} must be {_range(low, high, above, below)}")
     return number
+
+
+def _in(unit: str) -> str:
+    """Return " in [unit]"; nothing for a number without unit."""
+    return "" if unit == "-" else f" in [{unit}]"
 
 
 def require_text(name: str, value: object) -> str:

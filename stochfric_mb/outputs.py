@@ -57,6 +57,8 @@ def claimed(path: Path) -> Generator[None]:
     try:
         lock.acquire()
     except Timeout:
+        if not Path(lock.lock_file).exists():  # nor can it be made here: not all folders take new files
+            raise InputError(f"{path.parent} is not a folder that can be written; give another place for {path.name}") from None
         raise InputError(f"another command is writing to {path}; wait for it, or give another name") from None
     try:
         yield

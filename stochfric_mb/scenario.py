@@ -414,7 +414,7 @@ def process_from_dict(table: Mapping[str, Any], output_step: float, folder: Path
     for key, value in table.items():
         if key == "process":
             continue
-        require_name(f"key coefficients. (process {cls.kind})", key, [*fields, "distribution"])
+        require_name(f"key of process {cls.kind} in [coefficients]:", key, ["process", *fields, "distribution"])
         if key.startswith("distribution"):
             values[key] = _distribution(value, folder)
         else:
@@ -458,7 +458,7 @@ def _read_column(path: Path, column: Any) -> tuple[float, ...]:
             values.append(float(row[name]))
         except (TypeError, ValueError):
             raise InputError(
-                f"{path}, row {number}: {row[name]!r} in column {name!r} is not a number; remove or mend the row"
+                f"{path}, row {number}: {row[name]!r} in column {name!r} is not a number; remove or correct the row"
             ) from None
     return tuple(values)
 

@@ -80,7 +80,7 @@ def read_trajectory(path: str | Path) -> Trajectory:
         if name not in columns:
             raise InputError(f"{path}: column {name!r} is missing; a trajectory has {', '.join(COLUMNS)}")
         if (bad := np.flatnonzero(~np.isfinite(columns[name]))).size:
-            raise InputError(f"{path}, sample {bad[0] + 1}: {name} is not finite; remove or mend the sample")
+            raise InputError(f"{path}, sample {bad[0] + 1}: {name} is not finite; remove or correct the sample")
     if (bad := np.flatnonzero(np.diff(columns["time"]) <= 0.0)).size:
         raise InputError(f"{path}, sample {bad[0] + 2}: time does not grow; sort the samples and remove repeated ones")
     more = {name: columns[name] for name in MORE_COLUMNS if name in columns}

@@ -77,7 +77,10 @@ def init(mechanism: str, measured: str | None, out: str, force: bool) -> None:
     for line in said:
         say(line)
     say(f"{target / 'scenario.toml'}: replace every number marked EXAMPLE by your rig's")
-    say(f"{target / 'dataset.toml'}: check what is marked GUESS")
+    todo = (
+        "check what is marked GUESS" if "# GUESS" in runs else "name your files" if measured is None else "add your other files"
+    )
+    say(f"{target / 'dataset.toml'}: {todo}")
     say(f"Then: stochfric discover {target} --dry-run --out {target}_raw")
 
 

@@ -95,7 +95,7 @@ class Lines(Display):
     def stage(self, name: str, duration: float) -> Callable[[float], None]:
         """Begin the run ``name`` over ``duration`` [s]; return what is called with the simulated time [s]."""
         self.note(name)
-        return self._now_and_then(duration, lambda t: f"{name}: {t:.3g} / {duration:g} s simulated")
+        return self._now_and_then(duration, lambda t: f"{name}: {t:.3g} / {duration:g} s simulated", begin=0.0)
 
     def count(self, name: str, total: int) -> Callable[[int], None]:
         """Begin to count ``name`` up to ``total``; return what is called with how many are done."""
@@ -107,17 +107,20 @@ class Lines(Display):
         if spent >= self._patience:
             click.echo(f"[{spent:.0f} s] {text}", err=True)
 
-    def _now_and_then(self, total: float, text: Callable[[Any], str]) -> Callable[[Any], None]:
-        said = time.monotonic()
+    def _now_and_then(self, total: float, text: Callable[[Any], str], begin: float | None = None) -> Callable[[Any], None]:
+        """Return what says now and then how far it is; ``begin``: where it begins, if its first call does not say so."""
+        said = began = time.monotonic()
         first: tuple[float, float] | None = None
 
         def advance(value: Any) -> None:
             nonlocal said, first
             now = time.monotonic()
-            first = (now, value) if first is None else first
+            known = (began, begin) if first is None and begin is not None else None
+            first = first or (now, value)
             if now - said >= EVERY:
                 said = now
-                spent, new = now - first[0], value - first[1]
+                since, before = known or first
+                spent, new = now - since, value - before
                 self.note(text(value) + (f", about {_in_words(spent / new * (total - value))} left" if new > 0 else ""))
 
         return advance

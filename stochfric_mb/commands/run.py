@@ -71,23 +71,30 @@ def _load(scenario: str, law: str | None, overrides: tuple[str, ...]) -> Scenari
 
 def _facts(out: str, scenario: Scenario, trajectory: Trajectory) -> dict[str, Any]:
     """Return what there is to say of a trajectory."""
-    from stochfric_mb.metrics import period, stick_fraction
+    from stochfric_mb.metrics import period, resolves_slips, stick_fraction
 
     about = trajectory.attributes
     interval = period(trajectory, scenario.law, scenario.mechanism)
-    kept = ("law", "engine", "version", "dt", "seed", "notes")
+    kept = ("law", "engine", "version", "dt", "seed")
+    notes = [*about["notes"]]
+    if not resolves_slips(trajectory, scenario.mechanism):
+        notes.append(
+            f"slips may fall between samples {scenario.output_step:g} s apart: lower simulation.output_step for a period"
+        )
     return {"out": out, "n_samples": len(trajectory.time), "duration": scenario.duration, **{k: about[k] for k in kept}} | {
         "stick_fraction": stick_fraction(trajectory, scenario.law, scenario.mechanism),
         "period": interval if math.isfinite(interval) else None,
+        "notes": notes,
     }
 
 
 def _summary(facts: Mapping[str, Any], scenario: Scenario) -> str:
     interval = facts["period"]
+    step = f", dt {facts['dt']:g} s" if facts["dt"] else ""  # the reference has none
     lines = [
         f"{facts['out']}: {facts['n_samples']} samples over {scenario.duration:g} s, law {facts['law']}, "
-        f"{facts['engine']} {facts['version']}, dt {facts['dt']:g} s, seed {facts['seed']}",
+        f"{facts['engine']} {facts['version']}{step}, seed {facts['seed']}",
         f"stick fraction {facts['stick_fraction']:.4f}, "
-        + ("no period: fewer than two break-aways" if interval is None else f"period {interval:.6f} s"),
+        + ("no period: fewer than two break-aways are seen" if interval is None else f"period {interval:.6f} s"),
     ]
     return "\n".join([*lines, *(f"Note: {note}" for note in facts["notes"])])

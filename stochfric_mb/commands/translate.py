@@ -31,7 +31,9 @@ SCHEMA = "stochfric.dialect/1"
     shell_complete=completion.laws,
     help="Our law: in the place of the scenario's, or to which a dialect is translated.",
 )
-@click.option("--normal-force", type=float, metavar="N", help="Normal force [N]; default: the scenario's, or 1.")
+@click.option(
+    "--normal-force", type=float, metavar="N", help="Normal force [N, at a hinge N m]; default: the scenario's, or 1."
+)
 @click.option("--speeds", default="1e-5,0.1", show_default=True, metavar="LOW,HIGH", help="Speeds to be met [m/s].")
 @click.option("-o", "--out", metavar="FILE", help="TOML file to write: the dialect's parameters, or a friction file.")
 @click.option("--force", is_flag=True, help="Replace what is at --out.")
@@ -41,6 +43,7 @@ def translate(
     """Translate SOURCE: a friction file or a scenario to a DIALECT, or a dialect's file (stochfric.dialect/1) to our law."""
     import tomli_w
 
+    from stochfric_mb.errors import InputError
     from stochfric_mb.outputs import check_target, whole_file
 
     if out is not None:
@@ -48,10 +51,15 @@ def translate(
     tables = _dialect_file(source)
     if tables is None:
         result, content = _to(source, dialect, law, normal_force, _speeds(speeds))
+    elif dialect is not None:
+        raise InputError(
+            f"--to {dialect}: {source} holds the friction of another code, which is translated to our laws; leave --to out, "
+            f"and translate the result (--out) to {dialect}"
+        )
     else:
         result, content = _from(tables, law, normal_force, _speeds(speeds))
     answer(lambda: _numbers(result, back=tables is not None) | {"out": out})
-    say(_text(result, back=tables is not None))
+    say(_text(result, back=tables is not None, load=content.get("normal_force")))
     if out is not None:
         with whole_file(Path(out), replace=force) as temporary:
             temporary.write_text(tomli_w.dumps(content), encoding="utf-8")
@@ -96,7 +104,8 @@ def _to(source: str, dialect: str | None, law: str | None, normal_force: float |
     cls = DIALECTS[require_name("dialect", dialect, DIALECTS)]
     exported = load_exported(source, law=law)
     box = exported.mechanism
-    n = normal_force if normal_force is not None else 1.0 if box is None else box.normal_force
+    stated = 1.0 if exported.load is None else exported.load
+    n = stated if normal_force is None else normal_force
     require_number("--normal-force", n, above=0.0, unit="N")
     mass = 1.0 if box is None else box.mass
     translation = to_dialect(exported.inner, cls, speed, normal_force=n, mass=mass, process=exported.process)
@@ -106,14 +115,17 @@ def _to(source: str, dialect: str | None, law: str | None, normal_force: float |
 def _from(tables: dict[str, Any], law: str | None, normal_force: float | None, speed: Any) -> Any:
     from stochfric_mb.dialects import DIALECTS
     from stochfric_mb.dialects.translation import from_dialect
-    from stochfric_mb.errors import require_name, require_number
+    from stochfric_mb.errors import InputError, require_name, require_number
     from stochfric_mb.export.exported import SCHEMA as FRICTION
     from stochfric_mb.laws import LAWS
 
     for key in tables:
         require_name("key of a dialect's file", key, ("schema", "dialect", "normal_force", "parameters"))
     cls = DIALECTS[require_name("dialect", str(tables.get("dialect")), DIALECTS)]
-    given = cls.from_dict(dict(tables.get("parameters", {})))
+    parameters = tables.get("parameters", {})
+    if not isinstance(parameters, dict):
+        raise InputError(f"parameters = {parameters!r} is not a table; write [parameters] and one parameter a line")
+    given = cls.from_dict(cast(dict[str, Any], parameters))
     n = require_number(
         "normal_force", tables.get("normal_force", 1.0) if normal_force is None else normal_force, above=0.0, unit="N"
     )
@@ -135,15 +147,16 @@ def _numbers(translation: Translated, *, back: bool) -> dict[str, Any]:
     }
 
 
-def _text(translation: Translated, *, back: bool) -> str:
-    """Return the result in words."""
+def _text(translation: Translated, *, back: bool, load: float | None) -> str:
+    """Return the result in words; ``load``: the normal force at which a law was translated."""
     ours = {k: v for k, v in translation.law.to_dict().items() if k != "kind"}
     theirs = translation.dialect.to_dict()
     name = f"law {translation.law.kind}"
     source, result = (translation.dialect.title, name) if back else (name, translation.dialect.title)
     shown = ours if back else theirs
     equation = translation.law.equation if back else translation.dialect.equation
-    lines = [f"From {source} to {result}", f"  {equation}", *(f"  {k} = {_number(v)}" for k, v in shown.items())]
+    at = "" if load is None else f", at normal_force = {load:g}"
+    lines = [f"From {source} to {result}{at}", f"  {equation}", *(f"  {k} = {_number(v)}" for k, v in shown.items())]
     snippet = getattr(translation.dialect, "snippet", None)
     if snippet is not None and not back:
         lines.append(f"  {snippet()}")

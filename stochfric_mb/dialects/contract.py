@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, ClassVar
+from typing import Any, ClassVar, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.dialects.curve import Curve
-from stochfric_mb.errors import require_fields, require_number
+from stochfric_mb.errors import InputError, require_fields, require_number, require_text
 
 Array = npt.NDArray[np.float64]
 
@@ -73,4 +73,16 @@ class Dialect:
             InputError: an unknown or missing parameter, or one that is not a number.
         """
         require_fields(f"dialect {cls.kind}", cls, values)
-        return cls(**{k: v if isinstance(v, list | str) else require_number(k, v) for k, v in values.items()})
+        kinds = {f.name: str(f.type) for f in dataclasses.fields(cls)}
+        return cls(**{key: _checked(key, kinds[key], value) for key, value in values.items()})
+
+
+def _checked(key: str, kind: str, value: Any) -> Any:
+    """Return a parameter once it is of its kind: a number, a list of numbers, or a text."""
+    if kind == "float":
+        return require_number(key, value)
+    if kind == "str":
+        return require_text(key, value)
+    if not isinstance(value, list):
+        raise InputError(f"{key} = {value!r} is not a list of numbers; write such as {key} = [0.0, 0.1]")
+    return [require_number(f"{key}[{i}]", v) for i, v in enumerate(cast("list[Any]", value))]

@@ -15,7 +15,7 @@ from stochfric_mb.effects.carry import running_law
 from stochfric_mb.effects.combine import combined_process, moving, on_sensor
 from stochfric_mb.errors import InputError, require_name
 from stochfric_mb.laws import Law
-from stochfric_mb.mechanisms import BeltBox
+from stochfric_mb.mechanisms import BeltBox, Mjcf
 from stochfric_mb.scenario import SCHEMA as SCENARIO
 from stochfric_mb.scenario import law_from_dict, load_any_scenario, process_from_dict
 
@@ -41,6 +41,8 @@ class Exported:
     """The belt-box that it belongs to; None: a friction element alone."""
     effects: tuple[Effect, ...] = ()
     """The effects that act on the motion."""
+    load: float | None = None
+    """The normal force that the scenario states [N, at a hinge N m]; None: it states none, or several."""
     title: str = ""
     """A line for people."""
     notes: tuple[str, ...] = ()
@@ -120,7 +122,15 @@ def exported_scenario(scenario: Any) -> Exported:
         notes += more
     for effect in effects:
         _check_carried(effect, belt_box=mechanism is not None)
-    return Exported(law, process, mechanism, effects, scenario.title, tuple(notes))
+    return Exported(law, process, mechanism, effects, _load(scenario.mechanism), scenario.title, tuple(notes))
+
+
+def _load(mechanism: Any) -> float | None:
+    """Return the one load on which friction acts [N, at a hinge N m]; None where there are several."""
+    if isinstance(mechanism, Mjcf):
+        loads = set(mechanism.friction.values())
+        return loads.pop() if len(loads) == 1 else None
+    return mechanism.normal_force
 
 
 def _check_carried(effect: Effect, *, belt_box: bool) -> None:

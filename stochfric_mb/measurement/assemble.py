@@ -220,6 +220,6 @@ def _require_finite(name: str, values: Array, places: Places) -> None:
     if bad.size:
         n = f" ({bad.size} such rows)" if bad.size > 1 else ""
         raise InputError(
-            f"{places.at(int(bad[0]))}: {name} is missing or not finite{n}; remove or mend the row, or cut it away with "
+            f"{places.at(int(bad[0]))}: {name} is missing or not finite{n}; remove or correct the row, or cut it away with "
             "time_range"
         )

@@ -125,7 +125,7 @@ def _require_usable(driver: Array, terms: Sequence[Term]) -> None:
         if values.shape != driver.shape or values.ndim != 1:
             raise InputError(f"{name} has shape {values.shape} but the driver {driver.shape}; give signals of one length")
         if not np.isfinite(values).all():
-            raise InputError(f"{name} is not finite everywhere; remove or mend the samples")
+            raise InputError(f"{name} is not finite everywhere; remove or correct the samples")
         if np.ptp(values) == 0.0:
             raise InputError(f"{name} is constant: it has no delay; leave it out, a constant is always among the terms")
 

@@ -53,7 +53,7 @@ def require_growing(time: Array, places: Places) -> None:
     """
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
-        raise InputError(f"{places.at(bad[0])}: time is {time[bad[0]]}, a missing value; remove the row or mend it")
+        raise InputError(f"{places.at(bad[0])}: time is {time[bad[0]]}, a missing value; remove the row or correct it")
     steps = np.diff(time)
     bad = np.flatnonzero(steps <= 0.0)
     if not bad.size:

@@ -14,6 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
+from stochfric_mb.discovery.stick_slip.screening.folding import TURN
 from stochfric_mb.discovery.stick_slip.simulation.forecast import N_OUTPUTS, REACH
 from stochfric_mb.effects import effect_kinds
 from stochfric_mb.report.discovery_evidence import PLACES, Evidence, LeftOver, band
@@ -59,7 +60,7 @@ def figures(content: Mapping[str, Any], evidence: Evidence | None) -> dict[str, 
     if content["ranking"]:
         wanted["ranking"] = functools.partial(_ranking, content)
     if (gap := content[content["leading"]]) is not None:
-        wanted["gap"] = functools.partial(_gap, gap)
+        wanted["gap"] = functools.partial(_gap, gap, added=bool(content["effects"] or content["unnamed"]))
     return {name: svg(draw) for name, draw in wanted.items()}
 
 
@@ -164,7 +165,12 @@ def _left_over(evidence: Evidence) -> Figure:
 
 
 def _repeated(content: Mapping[str, Any]) -> tuple[str, float] | None:
-    """Return how the first periodic effect repeats: along "belt" with its wavelength [m], or in "time" with its period [s]."""
+    """Return how the first periodic effect repeats: along "belt" with its wavelength [m], or in "time" with its period [s].
+
+    Slips that come back each turn of the belt repeat with it, although no effect is named.
+    """
+    if (travel := content["details"].get(TURN)) is not None:
+        return "belt", float(travel)
     for effect in content["effects"]:
         numbers = effect["parameters"]
         if (wavelength := numbers.get("wavelength", {}).get("value")) and effect["kind"] == "position_dependent_friction":
@@ -280,8 +286,9 @@ def _ranking(content: Mapping[str, Any]) -> Figure:
     return figure
 
 
-def _gap(gap: Mapping[str, Any]) -> Figure:
-    names = ["baseline", "recalibrated", "augmented"]
+def _gap(gap: Mapping[str, Any], *, added: bool) -> Figure:
+    """Draw the errors on held-out runs; ``added``: whether the last model has more than the stated one."""
+    names = ["baseline", "recalibrated", *(["augmented"] if added else [])]
     shown = {"m": (1.0e6, "µm"), "-": (100.0, "%")} if gap["metric"] != "crps_slip_forces" else {}
     scale, unit = shown.get(gap["unit"], (1.0, gap["unit"]))
     figure, (axes,) = new_figure(4.8, 2.5)
@@ -299,7 +306,7 @@ def _gap(gap: Mapping[str, Any]) -> Figure:
     else:
         axes.set_xlim(0.0, 1.2 * finite.max())
     axes.axvline(floor, color=COLOURS["floor"], linewidth=1.6, linestyle="--", label=LABELS["floor"])
-    axes.set_yticks(range(3), [labels[n].replace(" the ", "\nthe ") for n in reversed(names)])
+    axes.set_yticks(range(len(names)), [labels[n].replace(" the ", "\nthe ") for n in reversed(names)])
     axes.set(xlabel=f"error of the forecast [{unit}]")
     axes.grid(visible=False, axis="y")
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper right")

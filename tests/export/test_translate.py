@@ -1,5 +1,6 @@
 """Friction in the words of other codes: equations, fits, losses, and the way back."""
 
+import json
 import math
 import tomllib
 
@@ -15,6 +16,7 @@ from stochfric_mb.dialects.simscape import Simscape
 from stochfric_mb.dialects.thresholds import Adams, Recurdyn
 from stochfric_mb.dialects.translation import from_dialect, to_dialect
 from stochfric_mb.laws import LAWS, make_law
+from stochfric_mb.scenario import load_any_scenario
 
 V = speeds(1.0e-5, 0.1)
 N = 13.0
@@ -146,6 +148,43 @@ def test_the_command_goes_there_and_back(tmp_path):
 def test_bad_input_is_refused(words, message):
     done = invoke("translate", *words)
     assert done.exit_code == 2
+    assert message in done.output
+
+
+@pytest.mark.parametrize(
+    ("words", "loss"),
+    [
+        (("emps",), 0.03 * 932.0),
+        (("emps", "--normal-force", "10"), 0.3),
+        (("swing_up_ddp",), None),
+        (("two_joint_arm",), None),
+    ],
+)
+def test_the_load_is_the_scenarios(words, loss):
+    scenario = load_any_scenario(words[0])
+    done = invoke("translate", *words, "--to", "mujoco", "--json")
+    if loss is None:
+        of = getattr(scenario.mechanism, "normal_force", 1.0)
+        loss = of * scenario.law.mu_k
+    assert json.loads(done.stdout)["dialect"]["frictionloss"] == pytest.approx(loss)
+
+
+@pytest.mark.parametrize(
+    ("dialect", "parameters", "words", "message"),
+    [
+        ("physx", "parameters = 3", (), "is not a table"),
+        ("physx", '[parameters]\nstaticFriction = "high"\ndynamicFriction = 0.4', (), "'high' is not a number"),
+        ("modelica", "[parameters]\nspeed = 0.1\nmu = [0.4]\npeak = 0.5", (), "speed"),
+        ("modelica", '[parameters]\nspeed = ["a"]\nmu = [0.4]\npeak = 0.5', (), "speed"),
+        ("bam", "[parameters]\nmodel = 3\nfriction_base = 1\nfriction_viscous = 0", (), "model = 3 is not a text"),
+        ("physx", "[parameters]\nstaticFriction = 0.5\ndynamicFriction = 0.4", ("--to", "mujoco"), "leave --to out"),
+    ],
+)
+def test_a_dialects_file_that_cannot_be_read_says_why(tmp_path, dialect, parameters, words, message):
+    file = tmp_path / "theirs.toml"
+    file.write_text(f'schema = "stochfric.dialect/1"\ndialect = "{dialect}"\n{parameters}\n', encoding="utf-8")
+    done = invoke("translate", file, *words)
+    assert done.exit_code == 2, done.exception
     assert message in done.output
 
 

@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import pytest
+from filelock import Timeout
 
 from stochfric_mb import InputError
 from stochfric_mb.outputs import check_target, claimed, whole_file, whole_folder
@@ -75,6 +76,12 @@ def test_a_claimed_target_is_refused_and_free_again_afterwards(tmp_path):
     with claimed(target):
         pass
     assert list(tmp_path.iterdir()) == []  # neither the lock nor the folder made for it
+
+
+def test_a_folder_that_takes_no_new_files_is_not_another_command(tmp_path, monkeypatch):
+    monkeypatch.setattr("filelock.FileLock.acquire", lambda lock: (_ for _ in ()).throw(Timeout(lock.lock_file)))
+    with pytest.raises(InputError, match="not a folder that can be written"), claimed(tmp_path / "run.nc"):
+        pass
 
 
 def test_the_claim_of_a_killed_process_ends_with_it(tmp_path):

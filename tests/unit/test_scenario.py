@@ -75,6 +75,7 @@ def tables(**changes):
         ({"law__form": "x"}, "unknown parameter of law elastic_stick"),
         ({"coefficients__process": "knot"}, "did you mean 'knots'"),
         ({"coefficients": {"process": "knots", "sigma_s": 0.1, "sigma_k": 0.1}}, "coefficients.spacing is missing"),
+        ({"coefficients__kind": "knots"}, r"unknown key of process knots in \[coefficients\]: 'kind'. Known: "),
         ({"simulation__output_step": 0.003}, "does not divide duration"),
         ({"simulation__duration": -1.0}, "simulation.duration must be > 0"),
         ({"schema": "stochfric.scenario/2"}, "this version reads"),

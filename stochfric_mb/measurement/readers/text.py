@@ -55,7 +55,7 @@ def read(path: Path, *, skip_rows: int = 0) -> Table:
     comments = [line.lstrip().lstrip(COMMENT) for _, line in kept if line.lstrip().startswith(COMMENT)]
     rows = [(number, line) for number, line in kept if not line.lstrip().startswith(COMMENT)]
     if not rows:
-        raise InputError(f"{path}: no rows after skip_rows = {skip_rows}; lower it or mend the file")
+        raise InputError(f"{path}: no rows after skip_rows = {skip_rows}; lower it or correct the file")
     dialect = _dialect(path, [line for _, line in rows])
     first = _fields(rows[0][1], dialect)
     is_header = all(_number(field, dialect) is None for field in first)
@@ -71,8 +71,8 @@ def read(path: Path, *, skip_rows: int = 0) -> Table:
         header = [*header, ""]  # rows end with a delimiter, the header does not
     if header and len(header) != width:
         raise InputError(
-            f"{path}: {len(header)} names in the header, line {rows[0][0]}, but {width} columns in line {body[0][0]}; mend the "
-            "header, or leave out the lines before it with skip_rows"
+            f"{path}: {len(header)} names in the header, line {rows[0][0]}, but {width} columns in line {body[0][0]}; correct "
+            "the header, or leave out the lines before it with skip_rows"
         )
     values = _values(path, body, width, dialect)
     names, units = _names(path, header, width)
@@ -245,7 +245,7 @@ def _slow_values(path: Path, body: list[tuple[int, str]], width: int, dialect: D
     for i, (number, line) in enumerate(body):
         fields = _fields(line, dialect)
         if len(fields) != width:
-            raise InputError(f"{path}, line {number}: {len(fields)} columns instead of {width}; remove or mend the line")
+            raise InputError(f"{path}, line {number}: {len(fields)} columns instead of {width}; remove or correct the line")
         for j, field in enumerate(fields):
             result = _number(field, dialect)
             if result is not None:
@@ -256,5 +256,5 @@ def _slow_values(path: Path, body: list[tuple[int, str]], width: int, dialect: D
         values[:, j] -= values[0, j]
     for j, (number, field) in words.items():
         if np.isfinite(values[:, j]).any():
-            raise InputError(f"{path}, line {number}, column {j + 1}: {field!r} is not a number; remove or mend the line")
+            raise InputError(f"{path}, line {number}, column {j + 1}: {field!r} is not a number; remove or correct the line")
     return values

@@ -43,6 +43,15 @@ def test_json_is_all_that_is_on_stdout(tmp_path):
     assert (content["n_samples"], content["engine"], content["period"]) == (51, "reference", None)
 
 
+def test_no_period_is_told_of_samples_between_which_slips_fall(tmp_path):
+    """Cycles of 1.02 s at a sample a second: every sample finds the box stuck or not, and their changes have a period."""
+    steps = ("--set", "simulation.duration=200", "--set", "simulation.output_step=1")
+    done = invoke("run", "kang2015_table1", "--law", "coulomb", *steps, "-o", tmp_path / "run.csv", "--json")
+    content = json.loads(done.stdout)
+    assert content["period"] is None
+    assert any("slips may fall between samples 1 s apart" in note for note in content["notes"])
+
+
 def test_how_a_command_speaks_is_no_part_of_the_command_line():
     @click.command()
     @spoken
@@ -122,14 +131,15 @@ def test_lines_of_progress_wait_and_are_rare(monkeypatch, capsys):
     ]
 
 
+@pytest.mark.parametrize("told_at", [(0.0, 10.0), (10.0,)])
 @pytest.mark.parametrize(("duration", "left"), [(964.0, "40 min"), (1.0e4, "7 h"), (1.0e6, "29 days")])
-def test_a_run_that_would_take_days_says_so_after_ten_seconds(monkeypatch, capsys, duration, left):
+def test_a_run_that_would_take_days_says_so_after_ten_seconds(monkeypatch, capsys, duration, left, told_at):
     now = 0.0
     monkeypatch.setattr(progress.time, "monotonic", lambda: now)
     advance = progress.Lines(0.0).stage("exudyn", duration)
-    advance(0.0)
-    now = 10.0
-    advance(4.0)
+    for told in told_at:
+        now = told
+        advance(0.4 * told)
     assert capsys.readouterr().err.splitlines()[-1].endswith(f"simulated, about {left} left")
 
 

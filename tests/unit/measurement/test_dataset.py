@@ -239,7 +239,7 @@ def broken(sample, value):
         ({"time__s": broken(9, 0.2), "position__m": POSITION}, r"line 11: time falls from 0\.258 s to 0\.2 s; sort the rows"),
         ({"time__s": broken(9, TIME[8]), "position__m": POSITION}, r"line 11: time stamp 0\.258 s is there twice; remove"),
         ({"time__s": broken(9, np.nan), "position__m": POSITION}, r"line 11: time is nan, a missing value"),
-        ({"time__s": TIME, "position__m": broken(9, np.inf)}, r"line 11: position is missing or not finite; remove or mend"),
+        ({"time__s": TIME, "position__m": broken(9, np.inf)}, r"line 11: position is missing or not finite; remove or correct"),
         ({"time__s": TIME[:29], "position__m": POSITION[:29]}, r"29 samples; at least 30 are needed"),
         (
             {"time__s": TIME + (TIME > 0.29) + (TIME > 0.33), "position__m": POSITION},

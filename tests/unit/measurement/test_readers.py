@@ -90,7 +90,7 @@ def test_text_missing_values_are_nan(tmp_path):
         ("t,x\n0.0,1\n0.1,1.2.3\n0.2,3\n", r"run\.csv, line 3, column 2: '1\.2\.3' is not a number"),
         ("t,x\n" + "0,1\n" * 50 + "0.1\n", r"run\.csv, line 52: 1 columns instead of 2"),
         ("t,x\n0.1\n" + "0,1\n" * 50, r"run\.csv, line 2: 1 columns instead of 2"),
-        ("t,x,y\n0,1\n1,2\n", r"3 names in the header, line 1, but 2 columns in line 2; mend .* skip_rows"),
+        ("t,x,y\n0,1\n1,2\n", r"3 names in the header, line 1, but 2 columns in line 2; correct .* skip_rows"),
         ("Logger\nserial,7\nt,x\n" + "0,1\n" * 50, r"1 names in the header, line 1, but 2 columns .* skip_rows"),
         ("x,x\n0,1\n1,2\n", r"column 'x' is there 2 times"),
         ("hello\nworld\n", r"no table of at least two columns"),

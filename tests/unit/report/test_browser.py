@@ -35,7 +35,7 @@ def browser():
 def _pages():
     for name, result in RESULTS.items():
         content, _, drawn = written(outcome_of(result))
-        yield name, page(content, drawn, records=[RECORD]), content
+        yield name, page(content, drawn, records=3 * [RECORD]), content
     yield "records", render("records.html", title="Rig", refused="too few samples", records=[RECORD], lines=["a line"]), {}
 
 
@@ -171,6 +171,16 @@ def test_records_are_drawn_before_anything_is_inferred(opened, name):
 
 def _brightness(colour):
     return sum(map(float, colour.partition("(")[2].rstrip(")").split(",")[:3]))
+
+
+def test_what_is_folded_away_is_printed(opened):
+    shown, _, _ = opened("none", 1200, "light")
+    seen = "all => all.map(one => one.checkVisibility({contentVisibilityAuto: true}))"
+    inner = "details > :not(summary)"
+    assert not any(shown.eval_on_selector_all(inner, seen))
+    shown.emulate_media(media="print")
+    assert len(shown.eval_on_selector_all(inner, seen)) > 0
+    assert all(shown.eval_on_selector_all(inner, seen))
 
 
 def test_the_result_itself_is_json():
