@@ -16,7 +16,7 @@ from stochfric_mb.discovery.stick_slip.decision.choice import IN_TIME, REFIT_WIN
 from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, cases_of, confirm
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.decision.kinematics import delay_deviation, kinematics, with_kinematic
-from stochfric_mb.discovery.stick_slip.decision.random_effects import kicked, kicks, random_effects, stray
+from stochfric_mb.discovery.stick_slip.decision.random_effects import RandomEffects, kicked, kicks, random_effects, stray
 from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_step, steady
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array, corrections_of
 from stochfric_mb.discovery.stick_slip.screening.folding import comes_back
@@ -504,22 +504,31 @@ class _Search:
             if not self.named:
                 return self._unknown(where, scatter)
             self.details["left_over"] = dataclasses.asdict(where)
+        result = self._random(scatter, kick)
+        if isinstance(result, Where):
+            return self._unknown(result, scatter)
+        if result is not None:
+            self.named.append(Named(result.kind, (), result.evidence, _shown_by(result.kind), self._timed()))
+            self.model = self.model.plus(make_effect(result.kind, **result.values))
+        verdict = "effect" if self.named else "none"
+        return Decision(verdict, tuple(self.named), None, self._timed(), self.ranking, scatter, self.details, self.form)
+
+    def _random(self, scatter: Randomness, kick: RandomEffects | None) -> RandomEffects | Where | None:
+        """Return the random effect that the slips show, or where they scatter in a way that none explains."""
+        kinds = [n.kind for n in self.named]
         levels = switching(self.regression, self.regression.residuals(self.terms, self.solution))
         result = kick or random_effects(self.study, scatter, levels, self.solution, kinds)
         if not kinds and (result is not None or levels.where is not None):
             bump = comes_back(self.study, kicked(self.study), self.details)
             if bump is not None:
-                return self._unknown(bump, scatter)
-        if isinstance(result, Where):
-            left = min(_scatter(self.solution) / _scatter(self.study.solution), self._shape_left())
-            if not self.named or (self.in_forces and left > criteria.LEFT_OVER):
-                return self._unknown(result, scatter)
-            self.details["left_over"] = dataclasses.asdict(result)
-        elif result is not None:
-            self.named.append(Named(result.kind, (), result.evidence, _shown_by(result.kind), self._timed()))
-            self.model = self.model.plus(make_effect(result.kind, **result.values))
-        verdict = "effect" if self.named else "none"
-        return Decision(verdict, tuple(self.named), None, self._timed(), self.ranking, scatter, self.details, self.form)
+                return bump
+        if not isinstance(result, Where):
+            return result
+        left = min(_scatter(self.solution) / _scatter(self.study.solution), self._shape_left())
+        if not self.named or (self.in_forces and left > criteria.LEFT_OVER):
+            return result
+        self.details["left_over"] = dataclasses.asdict(result)
+        return None
 
     def _timed(self) -> Model:
         """Return the model so far with the sensor's delay, if the records were put on time."""
