@@ -51,7 +51,7 @@ def minimised(
     outlying: float = np.inf,
     threads: bool = False,
 ) -> Minimum:
-    """Return where the sum of squares is smallest.
+    """Return where the sum of squares is smallest; where it or its slopes are no numbers, the last point at which they were.
 
     Args:
         errors: from numbers, shape (p,), to residuals, shape (n,).
@@ -71,6 +71,8 @@ def minimised(
     slopes = anew(x, rest)
     damping = DAMPING
     for _ in range(evaluations):
+        if not (np.isfinite(cost) and np.isfinite(slopes).all()):
+            break
         weighted, pull = _weighted(slopes, rest, outlying)
         gradient = weighted.T @ pull
         free = ~(((x <= low) & (gradient > 0.0)) | ((x >= high) & (gradient < 0.0)))
@@ -83,7 +85,7 @@ def minimised(
             new = errors(trial)
             after = _cost(new, outlying)
             promised = -float(gradient[free] @ step[free] + 0.5 * step[free] @ matrix @ step[free])
-            if after < cost or promised <= tolerance * cost:
+            if after < cost or not promised > tolerance * cost:
                 break
             damping *= CHANGE
         if not after < cost:
@@ -123,7 +125,8 @@ def _slopes(
         moved[j] += difference if at[j] + difference <= high[j] else -difference
         if moved[j] < low[j]:  # the bounds are closer together than the step, which is then what fits between them
             moved[j] = high[j] if high[j] - at[j] > at[j] - low[j] else low[j]
-        return (errors(moved) - here) / (moved[j] - at[j])
+        with np.errstate(invalid="ignore"):  # errors that are infinite have no slopes
+            return (errors(moved) - here) / (moved[j] - at[j])
 
     columns = in_threads(column, range(len(at))) if threads else [column(j) for j in range(len(at))]
     return np.stack(columns, axis=1) if columns else np.zeros((len(here), 0))

@@ -75,3 +75,32 @@ def test_threads_change_nothing():
     )
     assert one.x.tobytes() == several.x.tobytes()
     assert one.jacobian.tobytes() == several.jacobian.tobytes()
+
+
+def fitted(errors, first):
+    low, high = np.full(2, -5.0), np.full(2, 5.0)
+    return minimised(errors, np.array(first), low, high, difference=0.01, evaluations=30, tolerance=1e-9)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_a_cost_that_is_no_number_ends_the_fit_where_it_began(bad):
+    minimum = fitted(lambda at: np.array([bad, at[1] - 2.0]), [0.0, 0.0])
+    assert minimum.x.tolist() == [0.0, 0.0]
+    assert not np.isfinite(minimum.cost)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_slopes_that_are_no_numbers_end_it_too(bad):
+    def errors(x):
+        return np.array([x[0] - 3.0, x[1] - 2.0 if x[1] == 0.0 else bad])
+
+    assert fitted(errors, [0.0, 0.0]).x.tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_steps_to_where_the_cost_is_no_number_are_shortened(bad):
+    def errors(x):  # the first step, to 3.5, is too long
+        return np.array([np.sqrt(x[0]) - 1.5 if x[0] < 3.0 else bad, x[1] - 2.0])
+
+    minimum = fitted(errors, [1.0, 0.0])
+    assert minimum.x == pytest.approx([2.25, 2.0], abs=1e-3)

@@ -126,6 +126,8 @@ def fit(
     # priors enter the information as they did the fit, with the weight of one window at ``noise``
     information = jacobian[:n].T @ jacobian[:n] / (result.rms**2 * inflation + 1.0e-300)
     information += np.diag((scale / steps.prior) ** 2)
+    if not np.isfinite(information).all():  # the model is no number somewhere: nothing is known of its own
+        return dataclasses.replace(result, covariance=np.full_like(result.covariance, np.inf))
     covariance = np.linalg.pinv(information, hermitian=True) * np.outer(scale, scale)
     return dataclasses.replace(result, covariance=covariance)
 
