@@ -22,14 +22,17 @@ PITCHES = (2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12)
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class DriveGainChange(Effect):
-    """Drive times 1 + rate tau (1 - exp(-t/tau)) + per_kelvin (T - reference_temperature) + ripple cos(2 pi x/pitch + phase).
+    """Drive times 1 + grown, a change in time, with temperature and along the stroke.
 
-    tau = time_constant, 1 + rate t for an infinite one. Magnets weaken as they warm up, supplies sag, and the phases of a motor
-    are not equally strong.
+    grown = rate tau (1 - exp(-t/tau)) + per_kelvin (T - reference_temperature) + ripple cos(2 pi x/pitch + phase) + change +
+    slope x + curvature x^2, tau = time_constant, and rate t for an infinite one. Magnets weaken as they warm up, supplies sag,
+    the phases of a motor are not equally strong, and a coil leaves its magnet to either end of the stroke. What it lacks on
+    average then is the change at x = 0: without one mass and friction would have to take that up.
 
     References: T. Sebastian, IEEE Trans. Ind. Appl. 31, 1995, 353-357 (magnets); M. Gautier, S. Briot, J. Dyn. Sys., Meas.,
-    Control 136, 2014, doi 10.1115/1.4027506 (drive gains of robots); R. Krishnan, Electric Motor Drives,
-    Prentice Hall 2001, chapter 9 (torque per current along the turn).
+    Control 136, 2014, doi 10.1115/1.4027506 (drive gains of robots); R. Krishnan, Electric Motor Drives, Prentice Hall 2001,
+    chapter 9 (torque per current along the turn); W. Klippel, J. Audio Eng. Soc. 54, 2006, 907-939 (force per current of a
+    coil along its stroke, a polynomial).
     """
 
     rate: float = parameter("1/s", "relative rate of change at t = 0", scale=1.0e-2, default=0.0)
@@ -48,11 +51,17 @@ class DriveGainChange(Effect):
     """Wavelength of that wave [m]."""
     phase: float = parameter("rad", "phase of that wave at x = 0", scale=1.0, default=0.0)
     """Its phase at x = 0 [rad]."""
+    change: float = parameter("-", "relative change at x = 0", scale=0.02, default=0.0)
+    """Relative change at x = 0, waves apart [-]."""
+    slope: float = parameter("1/m", "relative change along the stroke at x = 0", scale=1.0, default=0.0)
+    """Relative change along the stroke at x = 0 [1/m]."""
+    curvature: float = parameter("1/m^2", "relative change by the square of the position", scale=10.0, default=0.0)
+    """Relative change by the square of the position [1/m^2]."""
 
     kind: ClassVar[str] = "drive_gain_change"
     equation: ClassVar[str] = (
         "drive times 1 + rate tau (1 - exp(-t/tau)) + per_kelvin (T - reference_temperature) + "
-        "ripple cos(2 pi x/pitch + phase), tau = time_constant"
+        "ripple cos(2 pi x/pitch + phase) + change + slope x + curvature x^2, tau = time_constant"
     )
     source: ClassVar[str] = "Sebastian 1995 (magnets); Gautier and Briot 2014"
     group: ClassVar[str] = "mechanism"
@@ -78,7 +87,13 @@ class DriveGainChange(Effect):
         times = [part * span.duration for part in SETTLED]
         settles = tuple(cls(rate=size / time, time_constant=time) for time in times for size in (0.05, -0.05))
         waves = tuple(cls(ripple=0.05, pitch=part * span.stroke, phase=0.7) for part in PITCHES)
-        forms = [JointSignature((fades,), "time", 1), JointSignature(settles, "time", 1), JointSignature(waves, "position", 3)]
+        curve = cls(change=-0.05, slope=0.1 / span.stroke, curvature=-0.2 / span.stroke**2)
+        forms = [
+            JointSignature((fades,), "time", 1),
+            JointSignature(settles, "time", 1),
+            JointSignature(waves, "position", 3),
+            JointSignature((curve,), "position", 3),
+        ]
         if span.temperature is not None:
             middle, width = span.temperature
             warm = cls(per_kelvin=0.01 / width, reference_temperature=middle)
@@ -90,6 +105,7 @@ def surroundings(world, memory, rates, p):
     """Add what the drive gives beyond what is stated."""
     grown = p[0] * (world[TIME] if p[1] > 1.0e300 else -p[1] * math.expm1(-world[TIME] / p[1]))
     grown += p[2] * (world[TEMPERATURE] - p[3])
+    grown += p[7] + (p[8] + p[9] * world[POSITION]) * world[POSITION]
     if p[4] != 0.0:
         grown += p[4] * math.cos(2.0 * math.pi * world[POSITION] / p[5] + p[6])
     world[LOAD] += grown * world[DRIVE]

@@ -5,10 +5,14 @@ import dataclasses
 import numpy as np
 import pytest
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.carry_over import _waves
-from tests.discovery.joints.test_parts import coulomb, grease, pair
+from stochfric_mb.discovery.driven_joint.decision.selection import Selector
+from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
+from stochfric_mb.measurement import Dataset
+from tests.discovery.joints.test_parts import coulomb, grease, pair, scenario, sine_run
 
 
 def test_a_sweep_is_flatter_than_noise_and_noise_is_not():
@@ -33,6 +37,16 @@ def test_speed_and_place_together_are_no_dependence_on_either():
     result = joint_outcome(pair(lambda q, v: coulomb(q, v) + 22.0 * v * q)).result
     assert result.verdict == "unknown"
     assert any("position times speed and direction" in note for note in result.notes) or "position" in result.where.axis
+
+
+@pytest.mark.parametrize(("held_out", "verdict"), [(12.0, "none"), (2.0, "unknown")])
+def test_a_model_that_leaves_more_than_the_drive_holds_is_not_the_whole_truth(held_out, verdict):
+    # the fit runs are explained to the noise either way; inertia alone moves the drive by 4 N (rms)
+    runs = [sine_run(lambda q, v: 12.0 * np.sign(v), seed=i) for i in (1, 2)]
+    runs.append(sine_run(lambda q, v: held_out * np.sign(v), seed=3, role="test", start=20.0))
+    result = joint_outcome(Dataset(title="", scenario_path=None, scenario=scenario(), runs=tuple(runs))).result
+    assert result.verdict == verdict
+    assert verdict == "none" or result.where.axis == "run"
 
 
 def test_each_by_itself_is_no_interaction():
@@ -87,3 +101,44 @@ def test_a_gain_that_waves_along_the_stroke_has_its_name():
     assert named.kind == "drive_gain_change"
     assert abs(named.parameters["ripple"].value) == pytest.approx(0.2, rel=0.05)
     assert named.parameters["pitch"].value == pytest.approx(0.15, rel=0.02)
+
+
+@pytest.mark.parametrize("loss", [0.2, 0.45])
+@pytest.mark.parametrize("believed", [{"mass": 0.05, "offset": 0.1}, {"mass": 0.02, "offset": 0.1, "mu_k": 0.1}])
+def test_a_gain_that_falls_to_both_ends_is_neither_a_payload_nor_a_spring(loss, believed):
+    def leaving(run):
+        """The drive that is recorded where a coil leaves its magnet: 1 - loss (q/0.13)^2 of it act, no less at the ends."""
+        fallen = np.minimum((run.channels["position"] / 0.13) ** 2, 1.2)
+        return dataclasses.replace(run, channels=run.channels | {"force": run.channels["force"] / (1.0 - loss * fallen)})
+
+    measured = pair(coulomb)
+    scenario = dataclasses.replace(measured.scenario, uncertainty=believed)
+    measured = dataclasses.replace(measured, scenario=scenario, runs=tuple(map(leaving, measured.runs)))
+    result = joint_outcome(measured).result
+    (named,) = result.effects
+    assert named.kind == "drive_gain_change"
+    assert named.parameters["curvature"].value == pytest.approx(-loss / 0.13**2, rel=0.03)
+    assert abs(named.parameters["change"].value) < 0.01
+    assert result.gap.closed > 0.98
+
+
+@pytest.mark.parametrize(("masses", "foretold"), [((4.0, 4.0, 4.0, 4.0), True), ((2.0, 4.0, 2.0, 4.0), False)])
+def test_a_mass_beyond_its_belief_has_to_hold_in_runs_that_were_left_out(masses, foretold):
+    runs = [sine_run(coulomb, mass=m, seed=i) for i, m in enumerate(masses)]
+    source = source_of(Dataset(title="", scenario_path=None, scenario=scenario(), runs=tuple(runs)))
+    balances, nuisances = source.balances("", "fit", 0.0), source.nuisances("")
+    selector = Selector(balances, nuisances, prior_model(scenario(), "", nuisances, source.places[0][1]))
+    current = selector.recalibrated
+    (freed,) = selector._freed(current)
+    assert freed.number.name == "mass"
+    assert freed.number.score > criteria.NAMED
+    assert selector._foretells(current, freed) == foretold
+
+
+def test_a_number_at_the_end_of_its_range_stands_for_something_else():
+    # inertia that is not there at all: a mass of 0 explains it best, and is no payload
+    measured = pair(coulomb, mass=-0.5)
+    source = source_of(measured)
+    balances, nuisances = source.balances("", "fit", 0.0), source.nuisances("")
+    selector = Selector(balances, nuisances, prior_model(measured.scenario, "", nuisances, source.places[0][1]))
+    assert "mass" not in [f.number.name for f in selector._freed(selector.recalibrated)]

@@ -47,13 +47,27 @@ def with_idle(place: PlaceOutcome) -> PlaceOutcome:
 
 
 def lacks(dataset: Dataset, place: PlaceOutcome) -> bool:
-    """Return whether a place leaves more than noise explains, where the noise of its records can tell, or is mistimed.
+    """Return whether a place leaves more than noise explains, where the noise of its records can tell, is mistimed or off.
 
     Slow and prescribed, without a mass, motion shows the noise of a force sensor alone: what friction itself does is far above
     that.
     """
     mistimed = place.timing is not None and place.timing.puzzling
-    return mistimed or (getattr(dataset.scenario.mechanism, "mass", 1.0) > 0.0 and above_floor(place))
+    noisy = getattr(dataset.scenario.mechanism, "mass", 1.0) > 0.0 and above_floor(place)
+    return mistimed or noisy or foretells_nothing(place)
+
+
+def foretells_nothing(place: PlaceOutcome) -> bool:
+    """Return whether held-out drives are further from the final model than from their mean over the fit runs, noise apart.
+
+    What differs from run to run, however alike the windows within each are, is then more than the model explains.
+    """
+    fit, test = ([s.drive[s.window.centres][s.sliding] for s in of if s.drive is not None] for of in (place.fit, place.test))
+    if len(fit) < len(place.fit) or len(test) < len(place.test):  # a place without a drive of its own
+        return False
+    off = np.concatenate(test) - np.mean(np.concatenate(fit))
+    error = place.scores["augmented"].sliding
+    return bool(np.ptp(np.concatenate(test)) > 0.0 and error > FLOOR * place.floor and error**2 > np.mean(off**2))
 
 
 def above_floor(place: PlaceOutcome) -> bool:

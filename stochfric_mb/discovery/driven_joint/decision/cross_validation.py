@@ -65,9 +65,14 @@ def compared(
     nuisances: Sequence[Nuisance],
     noise: float,
     parts: Sequence[Masks],
+    beliefs: Sequence[Nuisance] | None = None,
 ) -> Paired:
-    """Return what ``richer`` is worth on each of the ``parts``, fitted without it; ``noise`` is as of `fit`."""
-    errors = np.array([[_error(m, balances, nuisances, noise, part) for m in (plain, richer)] for part in parts])
+    """Return what ``richer`` is worth on each of the ``parts``, fitted without it; ``noise`` is as of `fit`.
+
+    ``beliefs`` are the numbers of the mechanism with their priors in the richer model; None: as in the plain one.
+    """
+    both = (plain, nuisances), (richer, nuisances if beliefs is None else beliefs)
+    errors = np.array([[_error(m, balances, believed, noise, part) for m, believed in both] for part in parts])
     return paired(*errors.T)
 
 

@@ -13,10 +13,12 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalan
 from stochfric_mb.discovery.driven_joint.decision.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.fit.beliefs import Belief, beliefs
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, settled
-from stochfric_mb.discovery.inference.free_parameter import MECHANISM
+from stochfric_mb.discovery.inference.free_parameter import MECHANISM, FreeParameter
 
 Array = npt.NDArray[np.float64]
 
+AT_AN_END = 1.0e-3
+"""Distance from the end of its range at which a number has reached it, over its stated standard deviation [-]: rounding."""
 UNDRIVEN = 1.0e-9
 """Part of the balance that the mechanism's own terms must leave for a drive to be in it [-]: rounding leaves less."""
 
@@ -83,12 +85,22 @@ def beyond_beliefs(
             continue
         model, wide = belief.given_up(current.model, nuisances)
         fitted, _ = settled(model, balances, wide, noise=noise)
-        if abs(belief.off(fitted.model)) < criteria.MOST_OFF:
+        if abs(belief.off(fitted.model)) < criteria.MOST_OFF or _at_an_end(belief, fitted):
             continue
         cost = np.log(max(fitted.independent, 4.0)) + 2.0 * np.log(len(believed))
         score = evidence(current, fitted, fitted, settings) - float(cost)
         freed.append(Freed(Released(belief, score, current.rms, fitted.rms), fitted, wide))
     return sorted(freed, key=lambda f: -f.number.score)
+
+
+def _at_an_end(belief: Belief, fitted: JointFit) -> bool:
+    """Return whether a number is as far as it can be at all, a mass of 0 for instance: there it stands for something else."""
+    one, value = next((k, x) for k, x in zip(fitted.free, fitted.values, strict=True) if _is(k, belief))
+    return min(value - one.low, one.high - value) < AT_AN_END * belief.deviation
+
+
+def _is(one: FreeParameter, belief: Belief) -> bool:
+    return (one.owner, one.name) == (belief.owner, belief.name)
 
 
 def _driven(balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]) -> bool:

@@ -159,17 +159,27 @@ class Selector:
     def _released(self, current: JointFit, stage: Stage) -> tuple[Released, JointFit] | None:
         """Return the number that is off by more than its uncertainty, if that explains more than any effect.
 
-        It is a finding of its own, a payload for instance: within its belief it would hide behind what it cannot explain.
+        It is a finding of its own, a payload for instance: within its belief it would hide behind what it cannot explain. As
+        effects do, it has to foretell parts of the record that were left out.
         """
-        freed = self._freed(current)
         # a prior is given up only where it explains more than any effect that leaves it alone
-        if not freed or freed[0].number.score < max(criteria.NAMED, stage.trials[0].score + criteria.TIE):
+        freed, enough = self._freed(current), max(criteria.NAMED, stage.trials[0].score + criteria.TIE)
+        best = next((f for f in freed if f.number.score >= enough and self._foretells(current, f)), None)
+        if best is None:
             return None
-        best, others = freed[0], [f.number for f in freed[1:]]
+        others = [f.number for f in freed if f is not best]
         least = max(best.number.score - criteria.TIE, criteria.STANDS_IN * best.number.score)
         self._nuisances, self._noise = best.nuisances, prior_weight(best.fit)
         released = dataclasses.replace(best.number, alike=tuple(r.name for r in others if r.score > least))
         return released, self._fit(best.fit.model)
+
+    def _foretells(self, current: JointFit, freed: Freed) -> bool:
+        """Return whether a number beyond its belief predicts parts that were left out better, by a material part."""
+        noise = min(self._noise, prior_weight(freed.fit))
+        models = current.model, freed.fit.model
+        parts = witnesses(self._balances)
+        seen = compared(*models, self._balances, self._nuisances, noise, parts, freed.nuisances)
+        return seen.rms_gain > criteria.MATERIAL and seen.share_better >= criteria.BETTER
 
     def _freed(self, current: JointFit) -> list[Freed]:
         beside = len(current.model.effects) > len(self.recalibrated.model.effects)
@@ -245,15 +255,15 @@ class Selector:
         return min(s.rms_gain for s in seen) > criteria.MATERIAL
 
     def _best(self, current: JointFit, candidate: Candidate) -> JointFit | None:
-        """Return the best fit with a candidate; None: nothing is left that a wave of it would explain."""
+        """Return the best fit with a candidate; None: it is no number, or nothing is left for a wave."""
         starts = [Start(e) for e in candidate.starts]
         if len(starts) > 2:
             starts.sort(key=lambda s: predicted_rms(current.model, s.effect, self._balances, current))
         waves = wave_starts(candidate.scan, current, self._balances) if candidate.scan is not None else []
         fits = [self._fit(s.added_to(current.model)) for s in (*starts[:2], *waves)]
-        if not fits:
+        best = min((f for f in fits if np.isfinite(f.rms)), key=lambda f: f.rms, default=None)
+        if best is None:
             return None
-        best = min(fits, key=lambda f: f.rms)
         return settled(best.model, self._balances, self._nuisances, noise=self._noise, fitted=best)[0]
 
     def _scored(self, current: JointFit, fits: Sequence[tuple[Candidate, JointFit]]) -> list[Trial]:
