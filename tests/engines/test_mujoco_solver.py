@@ -41,18 +41,25 @@ HEIGHTS = """<mujoco><option cone="elliptic" integrator="{integrator}"/><size me
 </worldbody></mujoco>"""
 
 
-def energy_gained(kind, seed, *, integrator="Euler", bumps=0.3):
-    """Return the most energy [J] above the start's that a 1 kg box ever has on a random height field, thrown at 1 m/s."""
+def box_on_bumps(kind, seed, integrator, bumps=0.3, dt=2e-3):
+    """Return a model and data of a 1 kg box over a random height field, thrown at 1 m/s."""
     spec = mujoco.MjSpec.from_string(HEIGHTS.format(integrator=integrator))
     if kind:
         engine.add_friction(spec, ("box", "ground"), law(kind, 0.9, 0.9), slots=256)
     model = spec.compile()
+    model.opt.timestep = dt
     model.hfield_data[:] = np.random.default_rng(seed).uniform(0, bumps, model.nhfielddata)
     data = mujoco.MjData(model)
     data.qvel[0] = 1.0
     mujoco.mj_forward(model, data)
+    return model, data
+
+
+def energy_gained(kind, seed, *, integrator="Euler", bumps=0.3, dt=2e-3):
+    """Return the most energy [J] above the start's that the box ever has."""
+    model, data = box_on_bumps(kind, seed, integrator, bumps, dt)
     start, most = energy(model, data), 0.0
-    for _ in range(750):
+    for _ in range(round(1.5 / dt)):
         mujoco.mj_step(model, data)
         most = max(most, energy(model, data) - start)
     assert not data.warning.number[4:].any()  # no bad state
@@ -65,11 +72,47 @@ def test_a_box_gains_no_energy_on_bumpy_ground(kind, seed):
     assert energy_gained(kind, seed) <= 1.01 * energy_gained("", seed)
 
 
-@pytest.mark.parametrize("integrator", ["RK4", "implicitfast"])
+@pytest.mark.parametrize("integrator", ["RK4", "implicit", "implicitfast", "discrete"])
 def test_nor_with_other_integrators_or_on_flat_height_fields(integrator):
-    assert energy_gained("coulomb", 0, integrator=integrator) <= 1.01 * energy_gained("", 0, integrator=integrator)
+    for seed in range(10):
+        native = 1.01 * energy_gained("", seed, integrator=integrator)
+        for kind in (*LAWS, "havsin"):
+            assert energy_gained(kind, seed, integrator=integrator) <= native
     flat = energy_gained("coulomb", 0, integrator=integrator, bumps=0.0)
     assert flat <= 1.01 * energy_gained("", 0, integrator=integrator, bumps=0.0)
+
+
+def test_a_wedged_box_is_not_thrown_out():
+    """Once a contact on which hardly anything bore took its deflection from rounding errors, with 1e10 N; and contacts that
+    slid while others of the box held were lifted off, by 8 J.
+    """
+    assert energy_gained("coulomb", 14, dt=1e-3) <= 1.01 * energy_gained("", 14, dt=1e-3)
+    assert energy_gained("coulomb", 156) <= 1.01 * energy_gained("", 156)
+
+
+def friction_gave(kind, seed, integrator):
+    """Return the energy [J] that friction has given a box in those steps in which it gave any."""
+    model, data = box_on_bumps(kind, seed, integrator)
+    given = 0.0
+    for _ in range(750):
+        before = data.qvel.copy()
+        mujoco.mj_step(model, data)
+        rows = data.efc_J.reshape(data.nefc, model.nv) @ (0.5 * (before + data.qvel))
+        friction = [data.efc_force[r + k] * rows[r + k] for r in data.contact.efc_address if r >= 0 for k in (1, 2)]
+        given += max(0.0, model.opt.timestep * sum(friction))
+    return given
+
+
+@pytest.mark.parametrize("kind", [*LAWS, "havsin"])
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast"])
+def test_friction_itself_gives_no_energy_on_bumpy_ground(kind, integrator):
+    """What the box gets back after an impact is what MuJoCo's normal forces give, of contacts that it had pressed together.
+
+    Elastic stick stores mu N e_lim/2 = 5e-3 J at 1000 N. Native friction gives up to 4 J: its contacts creep under load.
+    """
+    gave = [friction_gave(kind, seed, integrator) for seed in range(10)]
+    assert max(gave) < 2e-3  # [J]
+    assert friction_gave("", 2, integrator) > 1.0
 
 
 # --- robots ---------------------------------------------------------------------------------------------------------

@@ -34,7 +34,8 @@ CORNERS = 4
 NO_FACE = -1.0
 """Value of a slot's ``face`` before its face is known."""
 WIDE = 2.0
-"""Radii of gyration of a face, from its centre, beyond which its turn says nothing of a contact that comes up there."""
+"""Radii of gyration of a face's load, from its centre, beyond which its turn says nothing of a contact: of one that comes up
+there, or bears so little that the turn is a quotient of rounding errors."""
 
 
 @compiled_inline
@@ -194,7 +195,7 @@ def make_rigid(state, first, count):
         if slot.slides == 0.0 and slot.face == first:
             p = slot.place
             a, b = dot(e, p[0] - o[0], p[1] - o[1], p[2] - o[2]) - ca, dot(f, p[0] - o[0], p[1] - o[1], p[2] - o[2]) - cb
-            far = length(a, b) if slot.given < 0.0 else 0.0
+            far = length(a, b)
             turn = theta * radius / far if far > radius else theta
             u, v = za - turn * b, zb + turn * a
             put(slot.z, u * e[0] + v * f[0], u * e[1] + v * f[1], u * e[2] + v * f[2])

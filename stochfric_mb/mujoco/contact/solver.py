@@ -5,9 +5,10 @@ the velocity alone, and creeps); their cap is mu_s N. *Sliding* rows ask for the
 coefficient at the speed at hand as cap. The solver's solution says when a contact switches: a force at its cap ends
 stick, one below it ends slip.
 
-Two terms make the step first order in everything. The elliptic cone of a sliding contact asks its normal row for
+Two terms make the step first order in everything. The elliptic cone of a contact at its cap asks its normal row for
 a + mu abs(a_t - aref_t) instead of a (MuJoCo's computation chapter, elliptic cones), which lifts sliding bodies off; that
-is taken out of the normal row's reference, with the last step's a_t. And integrators with implicit
+is taken out of the normal row's reference, with the last step's a_t. Of a stuck contact only the part beyond mu N R_t is, from
+where on the cone does so. And integrators with implicit
 damping move a contact otherwise than the solver foresaw; a stuck row is told the difference of the last step.
 
 The discrete integrator, which alone solves with the damping of joints and actuators, makes its references anew after the
@@ -165,7 +166,7 @@ def follow(m, d, state, law, contact, sign, ordinal, known, k):
     if number < 0:
         born(header, slot, speed)
     else:
-        slot.given, slot.events, slot.energy = old.given, old.events, old.energy
+        slot.given, slot.events, slot.energy, slot.saturated = old.given, old.events, old.energy, old.saturated
         slot.creep, slot.creep_share, slot.creep_slope, slot.fluidity = 0.0, 0.0, 0.0, 0.0
         put(slot.pull, old.pull[0], old.pull[1], old.pull[2])
         move(m, d, header, contact, slot, old, body, surface)
@@ -334,7 +335,7 @@ def steer(m, d, state, law, contact, sign, address, since):
     if slot.slides != 0.0:
         let_slide(m, d, state, law, contact, slot, vx, vy, vz)
     else:
-        hold(m, d, state, law, contact, sign, slot, x, y, z)
+        hold(m, d, state, law, contact, sign, slot, x, y, z, vx, vy, vz)
 
 
 @compiled
@@ -353,12 +354,21 @@ def let_slide(m, d, state, law, contact, slot, vx, vy, vz):
     elif m.solver != PGS:
         set_reference(d, first + 1, 1.0 / h, 0.0, 0.0)
         set_reference(d, first + 2, 1.0 / h, 0.0, 0.0)
-        stiffness = w.at(d.efc_KBIP, 4 * first) * w.at(d.efc_KBIP, 4 * first + 2)
-        if lift > 0.0 and stiffness > 0.0:
-            w.put(d.efc_pos, first, contact.dist + lift / stiffness)
+        if take_out(d, contact, lift):
             resistance = keep_normal(m, d, first, cap)
     set_cap(m, d, contact, cap, slot.across, resistance)
     slot.cap = cap
+
+
+@compiled
+def take_out(d, contact, lift):
+    """Let a contact's normal row ask for less, by ``lift`` [m/s^2], if that is positive; return whether it does."""
+    first = contact.efc_address
+    stiffness = w.at(d.efc_KBIP, 4 * first) * w.at(d.efc_KBIP, 4 * first + 2)
+    if lift > 0.0 and stiffness > 0.0:
+        w.put(d.efc_pos, first, contact.dist + lift / stiffness)
+        return True
+    return False
 
 
 @compiled
@@ -402,8 +412,8 @@ def spring_and_cap(state, law, slot, resistance, h):
 
 
 @compiled_inline
-def hold(m, d, state, law, contact, sign, slot, x, y, z):
-    """Steer a stuck contact that has moved by (x, y, z) [m] since the step's start."""
+def hold(m, d, state, law, contact, sign, slot, x, y, z, vx, vy, vz):
+    """Steer a stuck contact that has moved by (x, y, z) [m] since the step's start, and now moves by (vx, vy, vz) [m/s]."""
     f, first = contact.frame, contact.efc_address
     weight = max(slot.weight, LIGHTEST)  # so contacts share a load by their normal forces
     resistance, stiffness, slot.cap = spring_and_cap(state, law, slot, slot.resistance / weight, m.timestep)
@@ -416,6 +426,11 @@ def hold(m, d, state, law, contact, sign, slot, x, y, z):
         resistance = resistance if m.solver != PGS else w.at(d.efc_R, first + 1)
         rate, part = 1.0 / m.timestep, sign / stiffness
         x, y, z = sign * x + part * slot.lead[0], sign * y + part * slot.lead[1], sign * z + part * slot.lead[2]
+        if slot.saturated != 0.0 and m.solver != PGS:
+            a, k = slot.a, sign * stiffness
+            wanted = a[0] + rate * vx + k * x, a[1] + rate * vy + k * y, a[2] + rate * vz + k * z
+            excess = size(stretch_of(s.header_record(state)), slot.side, wanted) - slot.cap * slot.given * resistance
+            take_out(d, contact, slot.cap * excess)
         set_reference(d, first + 1, rate, stiffness, x * f[3] + y * f[4] + z * f[5])
         set_reference(d, first + 2, rate, stiffness, x * f[6] + y * f[7] + z * f[8])
     set_cap(m, d, contact, slot.cap, slot.across, resistance)
