@@ -182,7 +182,7 @@ def learn(m, d, state, current):
     slot.loose = slot.saturated
     slot.foreseen = 1.0 if slot.slides == 0.0 and not saturated and m.integrator != RUNGE_KUTTA and place >= 0 else 0.0
     if slot.foreseen != 0.0:
-        slot.a[0] = w.at(d.efc_R, place) * force - w.at(d.efc_aref, place)
+        slot.a[0] = -along_row(m, d, header, d.qacc)
 
 
 @compiled
