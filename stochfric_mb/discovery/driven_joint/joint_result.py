@@ -48,6 +48,8 @@ class PlaceOutcome:
     """The recalibrated model without the identified delay; None: there is none."""
     idle: str = ""
     """Why the selected effects are not named; empty: they are."""
+    curve: tuple[str, ...] = ()
+    """Effects that draw one curve along conditions that went together, and are not named for that."""
     unnamed: float | None = None
     """Evidence for a term without a name that carries over to held-out runs; it is the last effect of the final model."""
     timing: Timing | None = None

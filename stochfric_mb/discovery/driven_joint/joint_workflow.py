@@ -14,7 +14,7 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalan
 from stochfric_mb.discovery.driven_joint.balance.late_channel import brought_forward, late_channel
 from stochfric_mb.discovery.driven_joint.balance.readings import Readings, mended
 from stochfric_mb.discovery.driven_joint.balance.timing import NAMED, Timing
-from stochfric_mb.discovery.driven_joint.decision.adequacy import inadequate
+from stochfric_mb.discovery.driven_joint.decision.adequacy import drawn_by_two, inadequate
 from stochfric_mb.discovery.driven_joint.decision.carry_over import with_idle, with_unnamed
 from stochfric_mb.discovery.driven_joint.decision.selection import Stage
 from stochfric_mb.discovery.driven_joint.decision.verdict import verdict
@@ -194,8 +194,8 @@ def _adequate(
     without = frozenset[str]()
     for _ in range(ANSWERS - 1):
         place = seen[0][0]
-        if not inadequate(place) or place.again is None:
-            break
+        if not inadequate(place) or place.again is None or drawn_by_two(place):
+            break  # without one of two effects that draw one curve the other would be named by chance
         stages += place.selected.stages
         without |= {place.selected.named[0]}
         other = place.again(without)

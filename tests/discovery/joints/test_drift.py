@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery.driven_joint import joint_outcome
+from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, one_curve
 from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import balance_of
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import Dataset, Run
@@ -106,6 +107,24 @@ def test_what_rose_together_is_said_by_itself():
     assert {result.effects[0].kind, *result.effects[0].equivalent_to} == drift
     said = " ".join(result.notes)
     assert "time and temperature are confounded here: one explains 100 %" in said
+
+
+@pytest.mark.parametrize("warmth", [apart, with_time])
+def test_a_curve_that_takes_two_of_them_is_neither(warmth):
+    # by time and by the distance slid, which grew together in each run: a curve along both, drawn by two effects
+    result = joint_outcome(data(lambda t, s, warm: 2.0 * (1.0 - 0.04 * t) * (1.0 + 0.1 * s), warmth)).result
+    assert result.verdict == "unknown"
+    assert result.where.axis == "time"
+    assert "friction drift and distance drift are candidates" in result.where.text
+    assert any("went together" in note for note in result.notes)
+
+
+def test_effects_of_conditions_that_did_not_go_together_are_no_curve():
+    kinds = ["friction_drift", "viscous_friction", "temperature_drift"]
+    clocks, others = Confounded("time", "temperature", 0.9), Confounded("time", "speed", 0.7)
+    assert one_curve(kinds, [clocks, others]) == ("friction_drift", "temperature_drift")
+    assert one_curve(kinds, [others, dataclasses.replace(clocks, explained=0.7)]) == ()
+    assert one_curve(["friction_drift", "payload"], [clocks]) == ()
 
 
 def test_nothing_hidden_nothing_found():

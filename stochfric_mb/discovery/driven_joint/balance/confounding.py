@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 from collections.abc import Sequence
 
 import numpy as np
@@ -105,6 +106,21 @@ def stand_ins(kind: str, pairs: Sequence[Confounded]) -> tuple[str, ...]:
     if not own or own in CLOCKS:
         return ()
     return tuple(k for k in effect_kinds() if k != kind and effect_class(k).answers_to in others)
+
+
+def one_curve(kinds: Sequence[str], pairs: Sequence[Confounded]) -> tuple[str, ...]:
+    """Return the first two of ``kinds`` that answer to conditions which went together; empty: there are none.
+
+    One curve along both conditions is then drawn with two effects: that it takes two of them says that neither has its form,
+    and the share of each is what their forms make of it.
+
+    Args:
+        kinds: kinds of the selected effects.
+        pairs: conditions that went together.
+    """
+    together = [{p.first, p.second} for p in pairs if p.explained >= TOGETHER]
+    couples = itertools.combinations([k for k in kinds if k in effect_kinds()], 2)
+    return next((c for c in couples if {effect_class(k).answers_to for k in c} in together), ())
 
 
 def by_clock(kind: str) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.driven_joint.balance.confounding import confounded, one_curve
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNED
 from stochfric_mb.discovery.driven_joint.fit.beliefs import beliefs
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
@@ -12,17 +13,26 @@ from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, closed_
 def inadequate(place: PlaceOutcome) -> str:
     """Return why what was selected at a place does not stand; empty if it does, or if nothing was.
 
-    It does not where it explains no more than it leaves on the held-out runs, where a number that is believed has to go as far
-    as beliefs allow for it, and where more than noise is left, which plainly depends on conditions that are not its own.
+    It does not where two effects draw one curve, where it explains no more than it leaves on the held-out runs, where a number
+    that is believed has to go as far as beliefs allow for it, and where more than noise is left, which plainly depends on
+    conditions that are not its own.
     """
     kinds = ", ".join(place.selected.named)
     if not kinds or place.forecasts is not None or (place.random is not None and place.random.named):
         return ""
+    why = " and ".join(drawn_by_two(place))
+    if why:
+        return f"{kinds} explains the record, but {why} answer to conditions that went together: one curve, and not named"
     why = _lost(place)
     if why:
         return f"{kinds} explains the fit runs, but not the held-out ones ({why}), and is not named"
     why = _at_bound(place) or _plainly_left(place)
     return f"{kinds} explains much of the record, but {why}, and is not named" if why else ""
+
+
+def drawn_by_two(place: PlaceOutcome) -> tuple[str, ...]:
+    """Return the two effects of a place that answer to conditions which went together; empty: there are none."""
+    return one_curve([t.candidate.kind for t in place.selected.effects], confounded(place.fit))
 
 
 def _lost(place: PlaceOutcome) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint.decision.adequacy import inadequate
+from stochfric_mb.discovery.driven_joint.decision.adequacy import drawn_by_two, inadequate
 from stochfric_mb.discovery.driven_joint.decision.evidence import settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
@@ -33,7 +33,7 @@ def with_idle(place: PlaceOutcome) -> PlaceOutcome:
     """Return the outcome at a place with why its effects are not named; the model without it, where no delay is."""
     reason = inadequate(place)
     if not reason or place.late:
-        return dataclasses.replace(place, idle=reason)
+        return dataclasses.replace(place, idle=reason, curve=drawn_by_two(place) if reason else ())
     plain = dataclasses.replace(
         place.selected,
         final=place.selected.recalibrated,
@@ -43,18 +43,18 @@ def with_idle(place: PlaceOutcome) -> PlaceOutcome:
         nuisances=place.nuisances,
     )
     scores = place.scores | {"augmented": place.scores["recalibrated"]}
-    return dataclasses.replace(place, selected=plain, scores=scores, idle=reason)
+    return dataclasses.replace(place, selected=plain, scores=scores, idle=reason, curve=drawn_by_two(place))
 
 
 def lacks(dataset: Dataset, place: PlaceOutcome) -> bool:
-    """Return whether a place leaves more than noise explains, where the noise of its records can tell, is mistimed or off.
+    """Return whether a place is mistimed, a curve of two effects, or leaves more than noise explains, if its noise can tell.
 
     Slow and prescribed, without a mass, motion shows the noise of a force sensor alone: what friction itself does is far above
     that.
     """
     mistimed = place.timing is not None and place.timing.puzzling
     noisy = getattr(dataset.scenario.mechanism, "mass", 1.0) > 0.0 and above_floor(place)
-    return mistimed or noisy or foretells_nothing(place)
+    return mistimed or noisy or bool(place.curve) or foretells_nothing(place)
 
 
 def foretells_nothing(place: PlaceOutcome) -> bool:

@@ -18,7 +18,7 @@ from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
-from stochfric_mb.effects import Effect, effect_kinds, kind_with_signature, kinds_with, words_of
+from stochfric_mb.effects import Effect, effect_class, effect_kinds, kind_with_signature, kinds_with, words_of
 from stochfric_mb.effects.traits import ANONYMOUS, BELT, DRAWN_ANEW, LATE, MORE_DAMPING, OTHER_AREA, REPEATED_READING, STRAY
 from stochfric_mb.measurement.dataset import Dataset
 
@@ -60,7 +60,10 @@ def verdict(
     where = None
     if unknown is not None:
         axis = unknown.selected.unknown or _axis(unknown)
-        where = Where(axis, f"What is missing depends on {axis}{_at(unknown)}; no known effect explains it.")
+        why = "no known effect explains it"
+        if unknown.curve:
+            axis, why = _curve(unknown.curve)
+        where = Where(axis, f"What is missing depends on {axis}{_at(unknown)}; {why}.")
     nameless = places[0] if places[0].unnamed is not None else None
     return Result(
         verdict=kind,
@@ -83,6 +86,15 @@ def verdict(
         unnamed=_unnamed(nameless) if nameless is not None else None,
         details=_details(places, pairs),
     )
+
+
+def _curve(kinds: Sequence[str]) -> tuple[str, str]:
+    """Return the axis of a curve that two effects would draw, and why neither is named."""
+    axes = [effect_class(k).answers_to for k in kinds]
+    names = " and ".join(map(words_of, kinds))
+    return axes[
+        0
+    ], f"{axes[0]} and {axes[1]} went together, so that {names} are candidates that these records cannot decide between"
 
 
 def _late_column(channel: tuple[str, Timing] | None) -> list[EffectEstimate]:
