@@ -36,7 +36,7 @@ limit: explicit step limit of our law [s]; -: could not be measured, see notes i
 @click.argument("model", metavar="MODEL", type=click.Path())
 @click.option("--keyframe", metavar="NAME", help="Keyframe to start from, by name or number; default: the initial state.")
 @click.option("--settle", type=float, default=2.0, show_default=True, metavar="S", help="Time left to itself first [s].")
-@click.option("--duration", type=float, default=0.5, show_default=True, metavar="S", help="Time of each hold [s].")
+@click.option("--duration", type=float, metavar="S", help="Time of each hold [s].  [default: 0.5, at most 500 steps]")
 @click.option(
     "--law", shell_complete=completion.laws, default="elastic_stick", show_default=True, metavar="KIND", help="Our law."
 )
@@ -48,7 +48,7 @@ def check(
     model: str,
     keyframe: str | None,
     settle: float,
-    duration: float,
+    duration: float | None,
     law: str,
     mu_k_ratio: float,
     most: int,

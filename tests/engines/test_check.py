@@ -258,6 +258,30 @@ def test_a_load_that_a_neighbour_carries():
     assert "no break-away up to 140 % of the limit" in rows[1].ours.notes  # the hinge holds 1 N m, the load is 0.84
 
 
+@pytest.mark.parametrize("side", [-2.0, 2.0])
+def test_a_joint_is_probed_in_the_direction_of_its_load(side):
+    """Against it, friction at its limit once read as a load of -100 %, and slides as -1e7 % of what was due."""
+    text = HINGE.format(more="").replace("hinge", "slide").replace("0 0 0", f"0 {side} 0", 1)
+    row = only(checked(text.replace('frictionloss="1"', 'frictionloss="4"')))
+    for findings in (row.native, row.ours):
+        assert findings.own.load == pytest.approx(0.5, abs=0.01)
+        assert findings.break_away.share == pytest.approx(1.0, abs=0.03)
+        assert findings.slide.deceleration == pytest.approx(findings.slide.expected, rel=0.05)
+
+
+def test_what_swings_by_itself_is_not_probed():
+    text = HINGE.format(more="").replace("0 0 0", "0 0 -9.81", 1).replace('frictionloss="1"', 'frictionloss=".02"')
+    row = only(checked(text, settle=0.2))
+    assert "not at rest: moves by up to" in row.advice
+    assert row.native is None
+
+
+def test_short_steps_make_short_holds():
+    assert checked(SMOOTH, settle=0.1).duration == 0.5
+    short = SMOOTH.replace("<worldbody>", '<option timestep="1e-4"/><worldbody>')
+    assert checked(short, settle=0.1).duration == pytest.approx(0.05)
+
+
 def test_what_slides_already_is_not_held():
     text = HINGE.format(more="").replace("hinge", "slide").replace('gravity="0 0 0"', 'gravity="0 9.81 0"')
     row = only(checked(text, settle=0.2, duration=0.1))

@@ -8,6 +8,7 @@ import math
 from collections.abc import Callable
 
 import mujoco
+import numpy as np
 
 from stochfric_mb.errors import InputError, SimulationError
 from stochfric_mb.laws import Law, make_law
@@ -16,14 +17,23 @@ from stochfric_mb.mujoco.attach import add_friction
 from stochfric_mb.mujoco.check.advice import SLIDING, advice
 from stochfric_mb.mujoco.check.findings import SHARES, Findings, Row
 from stochfric_mb.mujoco.check.loading import copied
-from stochfric_mb.mujoco.check.probes import BREAK_AWAY_TIME, LOST, OVERLOAD, TOUCHING, Drift, Probe, Record, Slide, started
+from stochfric_mb.mujoco.check.probes import (
+    BREAK_AWAY_TIME,
+    EXCESS,
+    LOST,
+    OVERLOAD,
+    TOUCHING,
+    UNSTEADY,
+    Drift,
+    Probe,
+    Record,
+    Slide,
+    started,
+)
 from stochfric_mb.mujoco.check.sites import ContactPair, Site, kick, touches
 from stochfric_mb.mujoco.memory.state import header_of
 from stochfric_mb.mujoco.pairs import take_over
 from stochfric_mb.mujoco.reading import instances, state_of
-
-UNSTEADY = 0.5
-"""Relative spread of the normal force above which a contact is not at rest."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -63,7 +73,7 @@ class Bench:
             if not math.isfinite(sliding):
                 raise SimulationError("cannot slide: other constraints, or no freedom along the surface")
             record = probe.run(self.duration)
-            _require_steady(record)
+            _require_steady(record, self.duration / sliding, site.unit)
         except SimulationError as error:
             return dataclasses.replace(row, problem=str(error), advice=f"not probed: {error}")
         limit, normal = float(record.column("limit").mean()), float(record.column("normal").mean())
@@ -189,8 +199,13 @@ def _mode(probe: Probe, record: Record) -> str:
     return "solver" if header_of(state).solved else "explicit"
 
 
-def _require_steady(record: Record) -> None:
-    """Refuse a contact that flickers, bears nothing or is shaken.
+def _require_steady(record: Record, motion: float, unit: str) -> None:
+    """Refuse a contact that flickers, bears nothing or is shaken, and a site that moves though friction could hold it.
+
+    Args:
+        record: the site left to itself.
+        motion: time over the mass that slides, by which a force sets it in motion [s/kg].
+        unit: of its displacement.
 
     Raises:
         SimulationError: says why.
@@ -203,3 +218,8 @@ def _require_steady(record: Record) -> None:
     if limit.std() > UNSTEADY * limit.mean():
         spread = 100.0 * limit.std() / limit.mean()
         raise SimulationError(f"not at rest: the normal force varies by {spread:.0f} %")
+    half = len(limit) // 2
+    speed = float(np.abs(record.column("velocity")[half:]).max())
+    load = float(record.column("resistance")[half:].mean() / limit[half:].mean())
+    if speed > EXCESS * float(limit.mean()) * motion and load < SLIDING:
+        raise SimulationError(f"not at rest: moves by up to {speed:.2g} {unit}/s under {100.0 * load:.0f} % of its limit")

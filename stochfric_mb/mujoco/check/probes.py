@@ -37,6 +37,8 @@ SLIDE_SPEED = 0.05
 """Least speed of a slide [m/s or rad/s]; far above the velocities at which coefficients fall."""
 TOUCHING = 0.9
 """Share of samples in contact below which a contact flickers."""
+UNSTEADY = 0.5
+"""Relative change of the normal force above which a contact is not at rest, and a slide says nothing of friction at rest."""
 LOST = "the contact is lost"
 
 
@@ -233,10 +235,14 @@ class Probe:
         last = int(np.flatnonzero(record.following - record.following[0] > -0.9 * speed)[-1])
         if last < SLIDE_STEPS // 2:
             return None, record, "stops within a few steps"
-        if record.touching < 0.5 or not without.samples[last].touching:
-            return None, record, LOST
         pressing = float(without.column("limit")[: last + 1].mean()) or limit
         lost = without.following - record.following
         touching = float(record.column("touching")[: last + 1].mean())
         deceleration = (lost[last] - lost[FIRST_SLIDE_STEP]) / ((last - FIRST_SLIDE_STEP) * step)
-        return Slide(float(deceleration), pressing / mass, mass, touching), record, ""
+        if record.touching < 0.5 or not without.samples[last].touching:
+            why = LOST
+        elif abs(pressing - limit) > UNSTEADY * limit:
+            why = f"the normal force is {100.0 * pressing / limit:.0f} % of that at rest"
+        else:
+            why = "" if deceleration >= 0.0 else "the body's other motion outweighs friction"
+        return None if why else Slide(float(deceleration), pressing / mass, mass, touching), record, why

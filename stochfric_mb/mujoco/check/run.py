@@ -22,13 +22,16 @@ from stochfric_mb.mujoco.check.search import find_sites
 from stochfric_mb.mujoco.check.settling import Stage
 from stochfric_mb.mujoco.check.settling import settle as leave_alone
 
+HOLD, MOST_STEPS = 0.5, 500
+"""Time of a hold [s], and most steps of one: a model with short steps is small and fast, and a check should take seconds."""
+
 
 def check(
     model: str | Path | mujoco.MjSpec,
     *,
     keyframe: str | None = None,
     settle: float = 2.0,
-    duration: float = 0.5,
+    duration: float | None = None,
     law: str = "elastic_stick",
     mu_k_ratio: float = 1.0,
     most: int = 12,
@@ -40,7 +43,7 @@ def check(
         model: an MJCF, URDF or MJB file, or a spec (which is left as it is).
         keyframe: name or number of the keyframe to start from.
         settle: time that the model is left to itself first [s].
-        duration: time of a hold [s].
+        duration: time of a hold [s]; `HOLD`, but at most `MOST_STEPS` steps, if not given.
         law: kind of our law.
         mu_k_ratio: its mu_k over mu_s [-], in [0, 1]; mu_s is the model's coefficient.
         most: most contact pairs that are probed, the most loaded first.
@@ -51,11 +54,14 @@ def check(
         SimulationError: the model breaks before anything is probed.
     """
     require_number("settle", settle, low=0.0, unit="s")
-    require_number("duration", duration, above=0.0, unit="s")
+    if duration is not None:
+        require_number("duration", duration, above=0.0, unit="s")
     require_number("mu_k_ratio", mu_k_ratio, low=0.0, high=1.0)
     make_law(law, mu_s=1.0, mu_k=mu_k_ratio)
     with _quiet() as said:
         spec, compiled, invented = load(model)
+        if duration is None:
+            duration = min(HOLD, MOST_STEPS * float(compiled.opt.timestep))
         settled = leave_alone(compiled, keyframe, settle, stage)
         result, notes = find_sites(compiled, settled, most)
         own = paired(spec, [site for site, problem in result if not problem])

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import dataclasses
+import math
+
 import mujoco
 import numpy as np
 import numpy.typing as npt
@@ -57,7 +60,7 @@ def find_sites(model: mujoco.MjModel, settled: Settled, most: int) -> tuple[list
             f"MuJoCo's solver stopped at option.iterations = {model.opt.iterations} in {settled.unconverged} of "
             f"{settled.steps} steps of settling, with forces that are not the solution, friction's too; raise it"
         )
-    return sites + [(site, "") for site in _losses(model)], notes
+    return sites + [(site, "") for site in _losses(model, data)], notes
 
 
 def _never_met(model: mujoco.MjModel, settled: Settled, owned: list[tuple[int, int]]) -> list[str]:
@@ -109,9 +112,9 @@ def _along(model: mujoco.MjModel, data: mujoco.MjData, contacts: list[Touch], lo
     return np.linalg.eigh(plane)[1][:, -1] @ frame[1:]
 
 
-def _losses(model: mujoco.MjModel) -> list[Site]:
-    """Return the joints and tendons with frictionloss."""
-    sites: list[Site] = []
+def _losses(model: mujoco.MjModel, data: mujoco.MjData) -> list[Site]:
+    """Return the joints and tendons with frictionloss, to be probed in the direction of the load that is there."""
+    sites: list[Coordinate] = []
     for dof in np.flatnonzero(model.dof_frictionloss > 0.0):
         joint = int(model.dof_jntid[dof])
         place, kind = int(dof - model.jnt_dofadr[joint]), mujoco.mjtJoint(model.jnt_type[joint])
@@ -123,4 +126,5 @@ def _losses(model: mujoco.MjModel) -> list[Site]:
     for tendon in np.flatnonzero(model.tendon_frictionloss > 0.0).tolist():
         name = name_in(model, TENDON, tendon)
         sites.append(Coordinate(name, (name,), "tendon", "m", tendon, float(model.tendon_frictionloss[tendon])))
-    return sites
+    loads = [site.sample(model, data).resistance for site in sites]
+    return [dataclasses.replace(site, along=math.copysign(1.0, load)) for site, load in zip(sites, loads, strict=True)]

@@ -153,6 +153,8 @@ class Coordinate:
     """The degree of freedom, or the tendon."""
     loss: float
     """Its frictionloss [N or N m]."""
+    along: float = 1.0
+    """Direction of the probe: 1, or -1 against the coordinate."""
     instance: str = ""
     """Friction instance of this package that acts here; empty: the model's own friction."""
 
@@ -168,6 +170,7 @@ class Coordinate:
             force = sum(reading.force[0] for reading in readings(model, data)[self.instance])
         else:
             force = float(data.efc_force[(data.efc_type == int(kind)) & (data.efc_id == self.number)].sum())
+        row, force = self.along * row, self.along * force
         velocity = float(row @ (data.qvel if qvel is None else qvel))
         return Sample(self.loss, self.loss, -force, velocity, force * velocity, True, row)
 

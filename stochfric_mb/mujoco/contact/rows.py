@@ -11,7 +11,7 @@ import math
 import mujoco
 
 from stochfric_mb.compile import compiled, compiled_inline
-from stochfric_mb.mujoco.memory.structs import DISCRETE
+from stochfric_mb.mujoco.memory.structs import DISCRETE, PGS
 from stochfric_mb.numerics import memory as w
 
 RIGID = 0.25
@@ -49,14 +49,28 @@ def is_sparse(m):
 
 
 @compiled_inline
-def set_resistance(d, row, resistance):
-    """Give a row its R, and its D = 1/R, wherever the solver looks for them."""
+def set_resistance(m, d, row, resistance):
+    """Give a row its R, and its D = 1/R, wherever the solver looks for them: PGS in its matrix J M^-1 J' + R."""
+    if m.solver == PGS:
+        place = place_on_diagonal(m, d, row)
+        w.put(d.efc_AR, place, w.at(d.efc_AR, place) + resistance - w.at(d.efc_R, row))
     w.put(d.efc_R, row, resistance)
     w.put(d.efc_D, row, 1.0 / resistance)
     if d.nisland > 0:
         other = w.int_at(d.map_efc2iefc, row)
         w.put(d.iefc_R, other, resistance)
         w.put(d.iefc_D, other, 1.0 / resistance)
+
+
+@compiled
+def place_on_diagonal(m, d, row):
+    """Return where the diagonal element of a row stands in the matrix of PGS."""
+    if not is_sparse(m):
+        return row * d.nefc + row
+    place = w.int_at(d.efc_AR_rowadr, row)
+    while w.int_at(d.efc_AR_colind, place) != row:
+        place += 1
+    return place
 
 
 @compiled_inline
@@ -154,7 +168,8 @@ def set_cap(m, d, contact, cap, across, resistance):
     if m.integrator == DISCRETE:  # it makes these rows later, and mu with them
         return
     contact.mu = cap * math.sqrt(resistance / w.at(d.efc_R, row))
-    set_resistance(d, row + 1, resistance)
-    set_resistance(d, row + 2, resistance / (across * across))  # a cone is circular where R_j friction_j^2 is the same for all
+    set_resistance(m, d, row + 1, resistance)
+    # a cone is circular where R_j friction_j^2 is the same for all
+    set_resistance(m, d, row + 2, resistance / (across * across))
     for j in range(2, contact.dim - 1):
-        set_resistance(d, row + 1 + j, resistance * (cap / friction[j]) ** 2)
+        set_resistance(m, d, row + 1 + j, resistance * (cap / friction[j]) ** 2)

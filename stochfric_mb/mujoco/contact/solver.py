@@ -13,8 +13,7 @@ damping move a contact otherwise than the solver foresaw; a stuck row is told th
 
 The discrete integrator, which alone solves with the damping of joints and actuators, makes its references anew after the
 passive stage. There a stuck row takes its deflection back through the surface's velocity, which it reads then (`set_target`);
-R stays MuJoCo's, so all laws at rest are as rigid as that. PGS holds the
-rows' R in a matrix of its own, made before the passive stage, and does not converge on stiff sliding rows, so sliding contacts
+R stays MuJoCo's, so all laws at rest are as rigid as that. PGS does not converge on stiff sliding rows, so sliding contacts
 keep MuJoCo's own reference there, which lifts bodies a little.
 """
 
@@ -381,25 +380,26 @@ def keep_normal(m, d, first, cap):
     normal, tangent = resistances(m, d, first)
     if 4.0 * cap * cap * tangent > normal:
         tangent = 0.25 * normal / (cap * cap)
-    set_resistance(d, first, normal - cap * cap * tangent)
+    set_resistance(m, d, first, normal - cap * cap * tangent)
     return tangent
 
 
 @compiled_inline
-def spring_and_cap(state, law, slot, resistance, h):
+def spring_and_cap(m, state, law, slot, resistance):
     """Return R [1/kg] and K I [1/s^2] of a stuck row that has R = ``resistance``, and its cap [-].
 
     Rigid laws get the stiffest spring that suits the step, elastic ones their own, where a step can follow it: it would not
     take back more than all of the deflection at once. A law that creeps at rest is that rigid
-    spring in series with a damper, of the force over the speed at which the law has it.
+    spring in series with a damper, of the force over the speed at which the law has it. Noslip iterations find the force as if
+    R were 0, so all laws are rigid with them.
     """
-    header = s.header_record(state)
-    stiffness, cap = RIGID / (h * h), slot.mu_s
+    header, h = s.header_record(state), m.timestep
+    stiffness, cap, compliant = RIGID / (h * h), slot.mu_s, m.noslip_iterations == 0
     just_stuck, slot.springs = slot.springs == JUST_STUCK, 0.0
     if header.rest == s.CREEP:
         cap = peak_coefficient(state, law, slot)
-        resistance += slot.fluidity / h
-    elif header.rest == s.ELASTIC:
+        resistance += slot.fluidity / h if compliant else 0.0
+    elif header.rest == s.ELASTIC and compliant:
         weight = max(slot.weight, LIGHTEST)  # contacts of one face share what they hold together, by their normal forces
         k, c, limit = spring_at(state, law, slot, slot.given / weight)
         if k > 0.0:
@@ -416,14 +416,13 @@ def hold(m, d, state, law, contact, sign, slot, x, y, z, vx, vy, vz):
     """Steer a stuck contact that has moved by (x, y, z) [m] since the step's start, and now moves by (vx, vy, vz) [m/s]."""
     f, first = contact.frame, contact.efc_address
     weight = max(slot.weight, LIGHTEST)  # so contacts share a load by their normal forces
-    resistance, stiffness, slot.cap = spring_and_cap(state, law, slot, slot.resistance / weight, m.timestep)
+    resistance, stiffness, slot.cap = spring_and_cap(m, state, law, slot, slot.resistance / weight)
     x, y, z = x + slot.z[0], y + slot.z[1], z + slot.z[2]
     if m.integrator == DISCRETE:
         part = sign * weight * RIGID / m.timestep
         u, v = part * (x * f[3] + y * f[4] + z * f[5]), part * (x * f[6] + y * f[7] + z * f[8])
         set_target(m, contact, slot, u, v)
     else:
-        resistance = resistance if m.solver != PGS else w.at(d.efc_R, first + 1)
         rate, part = 1.0 / m.timestep, sign / stiffness
         x, y, z = sign * x + part * slot.lead[0], sign * y + part * slot.lead[1], sign * z + part * slot.lead[2]
         if slot.saturated != 0.0 and m.solver != PGS:

@@ -136,8 +136,8 @@ def steer(m, d, state, law, since):
         slot.cap = call_slide(law.slide, abs(v), slot.mu_s, slot.mu_k, header.parameters.ctypes.data)
         set_reference(d, place, 1.0 / h, 0.0, 0.0)
     else:
-        resistance, stiffness, slot.cap = solver.spring_and_cap(state, law, slot, STIFFER * w.at(d.efc_R, place), h)
-        set_resistance(d, place, resistance)
+        resistance, stiffness, slot.cap = solver.spring_and_cap(m, state, law, slot, STIFFER * w.at(d.efc_R, place))
+        set_resistance(m, d, place, resistance)
         set_reference(d, place, 1.0 / h, stiffness, -(slot.z[0] + z + slot.lead[0] / stiffness))
     set_limit(d, place, slot.cap * slot.given)
 

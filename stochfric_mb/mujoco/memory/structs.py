@@ -38,8 +38,8 @@ _DATA = (
     "time", "ncon", "contact", "nefc", "nisland", "solver_niter", "cvel", "subtree_com", "xpos", "xmat", "xaxis", "cdof",
     "qpos", "qvel", "qacc", "qacc_warmstart", "ctrl", "qfrc_passive", "plugin_state", "plugin_data", "sensordata", "ten_J",
     "ten_length", "efc_type", "efc_id", "efc_J", "efc_J_rownnz", "efc_J_rowadr", "efc_J_colind", "efc_pos", "efc_margin",
-    "efc_frictionloss", "efc_diagA", "efc_KBIP", "efc_D", "efc_R", "efc_force", "map_efc2iefc",
-    "iefc_frictionloss", "iefc_D", "iefc_R", "cfrc_int",
+    "efc_frictionloss", "efc_diagA", "efc_KBIP", "efc_D", "efc_R", "efc_AR", "efc_AR_rowadr", "efc_AR_colind", "efc_force",
+    "map_efc2iefc", "iefc_frictionloss", "iefc_D", "iefc_R", "cfrc_int",
 )  # fmt: skip
 _CONTACT = (
     "dist", "pos", "frame", "includemargin", "friction", "surfacevel", "solref", "solreffriction", "solimp", "mu", "dim",
