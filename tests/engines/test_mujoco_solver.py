@@ -199,6 +199,51 @@ def test_a_step_is_as_continuous_as_natively(name):
     assert jumps("coulomb").max() <= 100.0 * max(jumps("").max(), 1e-9)
 
 
+WHEEL = """<body pos="{x} {y} -.05"><joint type="slide" axis="0 0 1" stiffness="800" damping="30"
+range="-.05 .05" limited="true"/><geom type="sphere" size=".01" mass=".1" contype="0" conaffinity="0"/>
+<body><joint name="wheel_{i}" axis="0 1 0" damping=".001"/>
+<geom type="ellipsoid" size=".1 .04 .1" mass=".5" condim="4"/></body></body>"""
+WHEELS = "".join(WHEEL.format(i=i, x=0.25 * a, y=0.2 * b) for i, (a, b) in enumerate(SIDES))
+DRIVES = "".join(f'<motor joint="wheel_{i}" gear="3"/>' for i in range(4))
+VEHICLE = f"""<mujoco><size memory="64M"/><asset><hfield name="h" nrow="40" ncol="40" size="4 4 .25 .1"/></asset><worldbody>
+<geom name="floor" type="hfield" hfield="h"/><body pos="0 0 .45"><freejoint/><geom type="box" size=".3 .15 .05" mass="5"/>
+{WHEELS}</body></worldbody><actuator>{DRIVES}</actuator></mujoco>"""
+
+
+@pytest.mark.parametrize("kind", LAWS)
+def test_a_vehicle_on_rough_ground(kind):
+    """Four wheels on springs, condim 4: energy as natively where it comes to rest, bounds and continuity where it drives."""
+    models = [with_friction(mujoco.MjSpec.from_string(VEHICLE), k, 0) for k in ("", kind)]
+    most, jumps = [], []
+    for model in models:
+        model.hfield_data[:] = np.random.default_rng(1).uniform(0, 0.4, model.nhfielddata)
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        energies = [energy(model, data)]
+        for _ in range(750):
+            mujoco.mj_step(model, data)
+            energies.append(energy(model, data))
+        most.append(max(energies) - energies[0])
+        worst = 0.0
+        for i, driven in enumerate(thrashed(model, 1.0)):
+            if i % 5 == 0:
+                ends = np.zeros((2, model.nv))
+                for end, change in zip(ends, (0.0, 1e-12), strict=True):
+                    copy = mujoco.MjData(model)
+                    mujoco.mj_copyData(copy, model, driven)
+                    copy.qvel[0] += change
+                    mujoco.mj_step(model, copy)
+                    end[:] = copy.qvel
+                worst = max(worst, np.abs(ends[1] - ends[0]).max())
+            for rows in engine.readings(model, driven).values():
+                for reading in rows:
+                    assert np.linalg.norm(reading.force) <= reading.mu_s * reading.normal_force * (1.0 + 1e-6) + 1e-9
+                    assert not reading.stick or math.hypot(*reading.velocity) < 1e-3
+        jumps.append(worst)
+    assert most[1] <= 1.01 * most[0]
+    assert jumps[1] <= 100.0 * jumps[0]
+
+
 # --- the belt-box ---------------------------------------------------------------------------------------------------
 
 
