@@ -167,18 +167,19 @@ class Probe:
         return Record([*samples, self.site.sample(model, data)], step, data, np.array(followed))
 
     def _step(self, data: mujoco.MjData) -> Sample:
-        """Advance by one step, and return what the site did at its start.
+        """Advance by one step, and return what the site did at its start, with the mean velocity of the step.
 
-        An integrator of one stage leaves contacts, Jacobians and forces as they were there. RK4 leaves those of its last stage.
+        An integrator of one stage leaves contacts, Jacobians and forces as they were there, and that velocity is the one on which
+        its forces work. RK4 leaves those of its last stage.
         """
         if self.model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
             mujoco.mj_forward(self.model, data)
             sample = self.site.sample(self.model, data)
             mujoco.mj_step(self.model, data)
             return sample
-        velocity = data.qvel.copy()
+        before = data.qvel.copy()
         mujoco.mj_step(self.model, data)
-        return self.site.sample(self.model, data, velocity)
+        return self.site.sample(self.model, data, 0.5 * (before + data.qvel))
 
     def hold(self, force: float) -> tuple[Drift | None, Record]:
         """Return the drift under a force that rises to ``force`` [N or N m] and stays; None if the contact is lost."""
