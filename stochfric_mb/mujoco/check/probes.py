@@ -169,8 +169,8 @@ class Probe:
     def _step(self, data: mujoco.MjData) -> Sample:
         """Advance by one step, and return what the site did at its start, with the mean velocity of the step.
 
-        An integrator of one stage leaves contacts, Jacobians and forces as they were there, and that velocity is the one on which
-        its forces work. RK4 leaves those of its last stage.
+        An integrator of one stage leaves contacts, Jacobians and forces as they were there, and they work on that velocity. RK4
+        leaves those of its last stage.
         """
         if self.model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
             mujoco.mj_forward(self.model, data)
