@@ -37,6 +37,7 @@ ERRORS = "Engine minus reference: position, period, stick fraction, coefficients
 @click.option(
     "--convergence/--no-convergence", default=True, show_default=True, help="Measure the error at four steps as well."
 )
+@click.option("--however-long", is_flag=True, help="Go on also where an engine would take more than a day.")
 @click.option("-o", "--out", required=True, metavar="DIR", help="Folder for compare.json, report.html and plots.")
 def compare(
     scenario: str,
@@ -47,6 +48,7 @@ def compare(
     force: bool,
     engines: str | None,
     convergence: bool,
+    however_long: bool,
     out: str,
 ) -> None:
     """Compare engines with the reference on SCENARIO (a TOML file or the name of a bundled one) and write a report."""
@@ -69,7 +71,7 @@ def compare(
 
             def stage(name: str, duration: float) -> Callable[[float], None]:
                 wait_for(name)
-                return shown.stage(name, duration)
+                return shown.run(name, duration, however_long=however_long)
 
             result = library.compare(problem, engines=names, seed=seed, dt=dt, convergence=convergence, stage=stage)
         shown.note("drawing the report")

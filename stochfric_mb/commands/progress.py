@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from stochfric_mb.commands.speech import Speech, speech
+from stochfric_mb.errors import InputError
 
 REFRESH = 0.05
 """Least time between two updates of a bar [s]."""
@@ -21,6 +22,27 @@ PATIENCE = 2.0
 """Time for which a command off a terminal says nothing of its progress [s]: short ones stay silent."""
 EVERY = 10.0
 """Least time between two lines on one stage off a terminal [s]."""
+SURE, DAY = 30.0, 86400.0
+"""Time of simulating from which on its end can be told, and the longest a run may take unless it is told to [s]."""
+
+
+class _Left:
+    """How long a count still takes, by its pace since the first value."""
+
+    def __init__(self) -> None:
+        self.since: tuple[float, float] | None = None
+
+    def __call__(self, value: float, total: float) -> float | None:
+        """Return the time left [s]; None where nothing tells it yet."""
+        now = time.monotonic()
+        self.since = self.since or (now, value)
+        spent, new = now - self.since[0], value - self.since[1]
+        return spent / new * (total - value) if new > 0.0 and spent > 0.0 else None
+
+    @property
+    def spent(self) -> float:
+        """Return the time since the first value [s]."""
+        return 0.0 if self.since is None else time.monotonic() - self.since[0]
 
 
 class Display:
@@ -30,6 +52,24 @@ class Display:
         """Show runs on ``progress``."""
         self._progress = progress
         self._finish: Callable[[], None] = lambda: None
+
+    def run(self, name: str, duration: float, *, however_long: bool = False) -> Callable[[float], None]:
+        """Begin a run as `stage`; one that would take over a day stops with an error unless ``however_long``."""
+        advance = self.stage(name, duration)
+        if however_long:
+            return advance
+        left = _Left()
+
+        def within_a_day(t: float) -> None:
+            seconds = left(t, duration)
+            if seconds is not None and seconds > DAY and left.spent > SURE:
+                raise InputError(
+                    f"{name}: {t:.3g} of {duration:g} s are simulated, and the rest takes about {_in_words(seconds)}: shorten "
+                    "simulation.duration, take a longer step (--dt), or give --however-long"
+                )
+            advance(t)
+
+        return within_a_day
 
     def stage(self, name: str, duration: float) -> Callable[[float], None]:
         """Begin the run ``name`` over ``duration`` [s]; return what is called with the simulated time [s].
@@ -64,14 +104,11 @@ class Display:
         self._finish()
         progress = self._progress
         task = progress.add_task(name, total=None, detail="loading and compiling", left="")
-        first: tuple[float, int] | None = None
+        time_left = _Left()
 
         def advance(done: int) -> None:
-            nonlocal first
-            now = time.monotonic()
-            first = (now, done) if first is None else first
-            spent, new = now - first[0], done - first[1]
-            rate = f", {new / spent:.3g} {name}/s, {spent / new * (total - done):.0f} s left" if new and spent > 0.0 else ""
+            left = time_left(done, total)
+            rate = f", {(total - done) / left:.3g} {name}/s, {left:.0f} s left" if left else ""
             progress.update(task, total=total, completed=done, detail=f"{done} / {total}{rate}")
 
         self._finish = functools.partial(progress.stop_task, task)
@@ -95,7 +132,7 @@ class Lines(Display):
     def stage(self, name: str, duration: float) -> Callable[[float], None]:
         """Begin the run ``name`` over ``duration`` [s]; return what is called with the simulated time [s]."""
         self.note(name)
-        return self._now_and_then(duration, lambda t: f"{name}: {t:.3g} / {duration:g} s simulated", begin=0.0)
+        return self._now_and_then(duration, lambda t: f"{name}: {t:.3g} / {duration:g} s simulated")
 
     def count(self, name: str, total: int) -> Callable[[int], None]:
         """Begin to count ``name`` up to ``total``; return what is called with how many are done."""
@@ -107,21 +144,19 @@ class Lines(Display):
         if spent >= self._patience:
             click.echo(f"[{spent:.0f} s] {text}", err=True)
 
-    def _now_and_then(self, total: float, text: Callable[[Any], str], begin: float | None = None) -> Callable[[Any], None]:
-        """Return what says now and then how far it is; ``begin``: where it begins, if its first call does not say so."""
-        said = began = time.monotonic()
-        first: tuple[float, float] | None = None
+    def _now_and_then(self, total: float, text: Callable[[Any], str]) -> Callable[[Any], None]:
+        """Return what says now and then how far it is."""
+        said = time.monotonic()
+        time_left = _Left()
 
         def advance(value: Any) -> None:
-            nonlocal said, first
+            nonlocal said
             now = time.monotonic()
-            known = (began, begin) if first is None and begin is not None else None
-            first = first or (now, value)
+            first = time_left.since is None
+            left = time_left(value, total)
             if now - said >= EVERY:
-                said = now
-                since, before = known or first
-                spent, new = now - since, value - before
-                self.note(text(value) + (f", about {_in_words(spent / new * (total - value))} left" if new > 0 else ""))
+                said = now - (EVERY - PATIENCE if first else 0.0)  # what comes before the first value tells nothing of the pace
+                self.note(text(value) + ("" if left is None else f", about {_in_words(left)} left"))
 
         return advance
 

@@ -34,11 +34,20 @@ Example:
     metavar="|".join(ENGINES),
     help="What computes it.",
 )
+@click.option("--however-long", is_flag=True, help="Go on also where the run would take more than a day.")
 @click.option(
     "-o", "--out", required=True, metavar="FILE", help="What to write: .nc, .csv or .parquet. Missing folders are made."
 )
 def run(
-    scenario: str, seed: int, dt: float | None, law: str | None, overrides: tuple[str, ...], force: bool, engine: str, out: str
+    scenario: str,
+    seed: int,
+    dt: float | None,
+    law: str | None,
+    overrides: tuple[str, ...],
+    force: bool,
+    engine: str,
+    however_long: bool,
+    out: str,
 ) -> None:
     """Simulate one trajectory of SCENARIO (a TOML file or the name of a bundled one) and write it to a file."""
     from stochfric_mb.commands.progress import display
@@ -54,7 +63,7 @@ def run(
         module = adapter(engine, effects=problem.effects)
         if dt is not None:
             problem.dividing_step(dt)
-        progress = shown.stage(engine, problem.duration)
+        progress = shown.run(engine, problem.duration, however_long=however_long)
         trajectory = module.simulate(problem, seed=seed, dt=dt, progress=progress)
         shown.note(f"writing {out}")
         write_trajectory(trajectory, out, scenario=problem, force=force)

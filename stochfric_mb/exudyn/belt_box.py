@@ -26,8 +26,8 @@ from stochfric_mb.trajectory import Trajectory
 
 CARRIES_EFFECTS = True
 HOOK = "{} user function, PostStep commit"
-CHUNK = 200
-"""Outputs between two progress reports, at most."""
+CHUNK, STEPS = 200, 20_000
+"""Outputs and steps between two progress reports, at most."""
 
 
 @dataclasses.dataclass
@@ -132,7 +132,7 @@ def integrate(
     times = scenario.output_times()
     rows = built.contact.record(times)
     if progress is not None:
-        mbs.SetPreStepUserFunction(_reporter(progress, scenario, installed(mbs, "PreStep")))
+        mbs.SetPreStepUserFunction(_reporter(progress, scenario, built.dt, installed(mbs, "PreStep")))
     begin = time.perf_counter()
     solve_dynamic(mbs, silent_settings(built.dt, scenario.duration), solver=solver, locate=locate)
     seconds = time.perf_counter() - begin
@@ -200,10 +200,10 @@ def _check_step(scenario: Scenario, law: Law, dt: float, *, explicit: bool) -> N
 
 
 def _reporter(
-    progress: Callable[[float], None], scenario: Scenario, other: Callable[..., bool] | None
+    progress: Callable[[float], None], scenario: Scenario, dt: float, other: Callable[..., bool] | None
 ) -> Callable[[Any, float], bool]:
     """Return a PreStep function that reports at least a hundred times, and calls the one that was there."""
-    due, interval = [0.0], min(0.01 * scenario.duration, CHUNK * scenario.output_step)
+    due, interval = [0.0], min(0.01 * scenario.duration, CHUNK * scenario.output_step, STEPS * dt)
 
     def report(mbs: Any, t: float) -> bool:
         if t >= due[0]:

@@ -16,12 +16,23 @@ from stochfric_mb.exudyn.reactions import find_reactions
 
 CONTRACTIVITY = 1.0e-3
 """Most that Newton's iterations may leave of a residual with an old Jacobian; 1e-2 to 1e-5 cost the same."""
+MOST_STEPS = 2**31 - 1
+"""Steps that Exudyn counts in one run; with more of them it never takes the first."""
 SAME_TIME = 1.0e-9
 """What the time at which a run stopped may differ from the start of the one that goes on [s]: sums of steps are rounded."""
 
 
 def silent_settings(dt: float, duration: float, start: float = 0.0) -> Any:
-    """Return simulation settings for fixed steps that write no solution file and print nothing; sensors store every step."""
+    """Return simulation settings for fixed steps that write no solution file and print nothing; sensors store every step.
+
+    Raises:
+        InputError: there are more steps than Exudyn counts.
+    """
+    if duration / dt > MOST_STEPS:
+        raise InputError(
+            f"exudyn: {duration:g} s are {duration / dt:.3g} steps of dt = {dt:g} s, over the {MOST_STEPS} that it counts: "
+            "shorten the duration or raise dt"
+        )
     settings = exudyn.SimulationSettings()
     settings.solution.file.write = False
     settings.solution.sensors.writePeriod = dt

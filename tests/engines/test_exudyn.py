@@ -224,6 +224,11 @@ def test_a_step_that_does_not_fit_is_refused(dt: float) -> None:
         simulate(scenario(), dt=dt)
 
 
+def test_more_steps_than_exudyn_counts_are_refused() -> None:
+    with pytest.raises(InputError, match=r"exudyn: 300000 s are 3e\+09 steps of dt = 0\.0001 s, over the 2147483647"):
+        simulate(load_scenario("kang2015_table1", overrides=("simulation.duration=3e5", "simulation.output_step=1")))
+
+
 def test_a_step_over_several_knots_is_refused() -> None:
     process = Knots(sigma_s=0.015, sigma_k=0.023, spacing=1e-4)
     with pytest.raises(InputError, match="knot spacing"):

@@ -13,6 +13,8 @@ import stochfric_mb.mujoco as engine  # noqa: E402
 from stochfric_mb.laws.coulomb import Coulomb  # noqa: E402
 from stochfric_mb.laws.elastic_stick import ElasticStick  # noqa: E402
 from stochfric_mb.laws.lugre import Lugre  # noqa: E402
+from stochfric_mb.mujoco import belt_box  # noqa: E402
+from stochfric_mb.scenario import load_scenario  # noqa: E402
 
 G = 9.81
 SCENE = """<mujoco><option timestep="1e-3" {options}/><worldbody><geom name="floor" type="plane" size="50 50 1"/>
@@ -216,3 +218,11 @@ def test_an_explicit_step_beyond_the_limit_of_its_law_is_said(said, place, mode)
         mujoco.mj_step(model, data, nstep=3)
         assert all(reading.stable == stable for reading in engine.readings(model, data)[name])
         assert len(said) == (not stable)  # once
+
+
+def test_a_search_for_the_rest_position_is_no_step(said):
+    scenario = load_scenario("kang2015_table1")
+    model = belt_box.build(scenario, seed=1)
+    data = belt_box.start(model, scenario.mechanism)  # tries heights at which the box presses 4000 times as hard
+    mujoco.mj_step(model, data, nstep=3)
+    assert not said

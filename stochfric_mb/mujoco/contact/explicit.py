@@ -147,17 +147,23 @@ def begin(model, data, state, law):
 
 @compiled
 def will_do(header, beyond):
-    """Return whether a step is explicit: of mode auto, unless it is ``beyond`` what that can do; otherwise always.
-
-    The first step that is beyond its law's limit all the same is warned of by MuJoCo, in ``mjData``'s life since its reset.
-    """
+    """Return whether a step is explicit: of mode auto, unless it is ``beyond`` what that can do; otherwise always."""
     if header.mode == s.AUTO:
         return not beyond
-    if beyond:
+    header.too_long = 1.0 if beyond else 0.0
+    return True
+
+
+@compiled
+def count_beyond(header):
+    """Count an accepted step that was beyond its law's limit; MuJoCo warns of the first one since the data's reset.
+
+    Evaluations that make no step, as in a search for a rest position, may be anywhere.
+    """
+    if header.too_long != 0.0:
         if header.beyond == 0.0:
             engine.mju_warning(w.c_string(BEYOND))
         header.beyond += 1.0
-    return True
 
 
 @compiled

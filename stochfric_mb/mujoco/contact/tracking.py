@@ -81,6 +81,7 @@ def close(model, data, state):
         header.velocities, header.finished = explicit.sum_of_velocities(m, d), 1.0
     header.latched = 1.0 if header.solved != 0.0 and header.n_committed > 0.0 else 0.0
     header.unconverged += 1.0 if stopped_early(model, data) else 0.0
+    explicit.count_beyond(header)
     header.advanced, header.started = d.time, 0.0
 
 

@@ -197,5 +197,6 @@ def finish(model, data, state):
     if header.radius > 0.0:
         header.load = bearing_load(model, data, m, d, header)
     header.unconverged += 1.0 if tracking.stopped_early(model, data) else 0.0
+    explicit.count_beyond(header)
     header.latched = header.solved
     header.n_committed, header.advanced, header.started = 1.0, d.time, 0.0

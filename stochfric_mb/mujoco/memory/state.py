@@ -60,7 +60,7 @@ HEADER = _record(
     "n_committed", "n_current", "started",  # contacts in each block; 1 within a step
     "solved", "latched",  # 1 in a step in which friction is the engine's own; 1 where it stays so
     "unconverged",  # steps since the start in which MuJoCo's solver stopped at its limit of iterations
-    "beyond",  # explicit steps since the start beyond the law's limit
+    "too_long", "beyond",  # 1 in an explicit step beyond the law's limit; such steps since the start
     "velocities", "finished",  # a sum that tells the velocities at the end of the last step, 1 if there is one
     "instant",  # canonical time [s] of the last evaluation at a step's start
     "path_time", "path_mu_s", "path_mu_k",  # last evaluation of a path along time

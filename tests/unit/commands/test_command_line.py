@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import click
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
@@ -13,6 +14,7 @@ from stochfric_mb.__main__ import COMMANDS, main
 from stochfric_mb.commands import progress
 from stochfric_mb.commands.options import command_line
 from stochfric_mb.commands.speech import Speech, spoken
+from stochfric_mb.errors import InputError
 
 RUN = ["run", "kang2015_table1", "--set", "simulation.duration=0.05"]
 
@@ -131,7 +133,7 @@ def test_lines_of_progress_wait_and_are_rare(monkeypatch, capsys):
     ]
 
 
-@pytest.mark.parametrize("told_at", [(0.0, 10.0), (10.0,)])
+@pytest.mark.parametrize("told_at", [(0.0, 10.0), (10.0, 12.0)])
 @pytest.mark.parametrize(("duration", "left"), [(964.0, "40 min"), (1.0e4, "7 h"), (1.0e6, "29 days")])
 def test_a_run_that_would_take_days_says_so_after_ten_seconds(monkeypatch, capsys, duration, left, told_at):
     now = 0.0
@@ -141,6 +143,24 @@ def test_a_run_that_would_take_days_says_so_after_ten_seconds(monkeypatch, capsy
         now = told
         advance(0.4 * told)
     assert capsys.readouterr().err.splitlines()[-1].endswith(f"simulated, about {left} left")
+
+
+@pytest.mark.parametrize("shown", [progress.Lines(0.0), progress.Silence()])
+@pytest.mark.parametrize(("however_long", "pace"), [(False, 0.4), (True, 0.4), (False, 4.0e3)])
+def test_a_run_of_days_stops_unless_it_is_meant(monkeypatch, shown, however_long, pace):
+    now = 0.0
+    monkeypatch.setattr(progress.time, "monotonic", lambda: now)
+    advance = shown.run("exudyn", 1.0e6, however_long=however_long)
+    for now in np.arange(50.0, 80.1, 1.0):  # compiling took 50 s, which count for nothing
+        advance(pace * (now - 50.0))
+    now = 81.0
+    if however_long or pace > 1.0:
+        advance(pace * 31.0)
+        return
+    with pytest.raises(
+        InputError, match=r"the rest takes about 29 days: shorten simulation.duration, .* or give --however-long"
+    ):
+        advance(pace * 31.0)
 
 
 def test_silence_is_silent(capsys):
