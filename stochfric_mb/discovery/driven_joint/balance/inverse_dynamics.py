@@ -215,18 +215,28 @@ def transmitted_load(run: Run, joint: Joint, window: Window) -> tuple[Array, Arr
     The load is the channel ``normal_force``, or the force of the pressure on the piston, or the size of the driving torque:
     then it changes with the drive that it is asked to explain.
     """
-    if "normal_force" in run.channels:
-        return np.abs(window.through(run.channels["normal_force"])), None
-    if isinstance(joint, PrismaticJoint):
-        if joint.piston_area > 0.0:
-            return joint.piston_area * np.abs(window.through(run.channels["pressure"])), None
-        return np.zeros(len(run.time)), None
+    known = measured_load(run, joint)
+    if known is not None:
+        return np.abs(window.through(known)), None
+    assert isinstance(joint, HingePendulum)
     if joint.torque_gain:
         torque = joint.torque_gain * window.through(run.channels["voltage"])
         torque = torque - joint.damping * window.through(position_of(run), 1)
     else:
         torque = window.through(run.channels["torque"])
     return np.abs(torque), np.sign(torque)
+
+
+def measured_load(run: Run, joint: Joint) -> Array | None:
+    """Return the load that a joint transmits beyond its stated load, either sign [N or N m], shape (count,).
+
+    None: it is the size of the driving torque, and was not measured apart from that.
+    """
+    if "normal_force" in run.channels:
+        return run.channels["normal_force"]
+    if isinstance(joint, HingePendulum):
+        return None
+    return joint.piston_area * _channel(run, "pressure") if joint.piston_area > 0.0 else np.zeros(len(run.time))
 
 
 def _channel(run: Run, name: str) -> Array:

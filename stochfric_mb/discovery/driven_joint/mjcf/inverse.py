@@ -14,7 +14,7 @@ the normal force is part of the balance (`mjcf_pairs`). What other places take o
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -59,6 +59,8 @@ class MjcfSource(Rig):
 
     known: dict[str, JointModel] = dataclasses.field(default_factory=dict[str, JointModel])
     """Place -> the identified model of its friction, which other places are then judged beside."""
+    loads: Mapping[str, Array] = dataclasses.field(default_factory=dict[str, Array])
+    """Run -> load that its joint transmits where that was measured apart from the drive [N or N m], shape (count,)."""
 
     @property
     def places(self) -> list[tuple[str, float]]:

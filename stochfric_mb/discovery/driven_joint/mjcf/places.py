@@ -57,6 +57,7 @@ class LossPlace:
         self._travelled = source.travelled(run, name)
         self._slip = source.slip(run, name)
         self._temperature = known_temperature(run)
+        self._loads = source.loads.get(run.name)
 
     def _seen(self, data: Any) -> tuple[float, float]:
         if self._joint:
@@ -78,8 +79,8 @@ class LossPlace:
         if side != self._side:
             self._turned, self._side = q, side
         drive = forces.get(self.name, float(drives[self.name][sample]) if self.name in drives else 0.0)
-        # the load that friction knows of is that of the drive as stated, as in the fits
-        load = abs(drive / self._gain - self._damping * v)
+        # the load that friction knows of is that of the drive as stated, as in the fits, unless it was measured
+        load = abs(drive / self._gain - self._damping * v if self._loads is None else float(self._loads[sample]))
         links = self._links
         against = side * float(
             resistance(

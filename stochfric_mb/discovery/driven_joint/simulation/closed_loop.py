@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.discovery.driven_joint.balance.conditions import known_temperature
-from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import position_of
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import measured_load, position_of
 from stochfric_mb.discovery.driven_joint.fit.friction_along import chain, resistance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.effects import contract as e
@@ -30,6 +30,7 @@ def closed_loop(
 ) -> tuple[Array, Array]:
     """Return output [V or N] and position [m] that the joint and its controller give for the reference of a run, shape (n,).
 
+    Load and pressure are those that were measured, where they were: what presses on a seal is no part of what is simulated.
     Semi-implicit Euler with friction that holds: where the friction available can stop the mass within a step, it does.
 
     Args:
@@ -46,11 +47,13 @@ def closed_loop(
     q = position_of(run)
     temperature = known_temperature(run)
     pressure = run.channels.get("pressure", np.zeros(len(q)))
-    value = {
-        name: model.nuisances.get(name, float(getattr(joint, name))) for name in ("mass", "damping", "offset", "force_gain")
-    }
+    load = measured_load(run, joint)
+    assert load is not None
+    names = ("mass", "damping", "offset", "force_gain", "piston_area")
+    value = {name: model.nuisances.get(name, float(getattr(joint, name))) for name in names}
     links = chain(model.law, model.effects_in(run.name), model.load)
-    plant = np.array([value["mass"], value["damping"], value["offset"], value["force_gain"] if joint.force_gain else 1.0])
+    plant = np.array([value["mass"], value["damping"], value["force_gain"] if joint.force_gain else 1.0])
+    pushed = value["offset"] + value["piston_area"] * pressure
     loop = np.array([controller.position_gain, controller.velocity_gain, controller.limit])
     start = float(np.polyfit(np.arange(FIRST), q[:FIRST], 2)[2])
     # the voltage that the controller gave tells the velocity that it saw
@@ -61,7 +64,7 @@ def closed_loop(
     voltage, position = np.empty(len(q)), np.empty(len(q))
     _march(
         links.numbers, links.calls, links.parameters, plant, loop, reference, added, float(run.time[0]), run.sample_interval,
-        start, rate, before, temperature, pressure, voltage, position,
+        start, rate, before, temperature, pressure, np.abs(load), pushed, voltage, position,
     )  # fmt: skip
     return voltage, position
 
@@ -95,12 +98,12 @@ def controller_output(run: Run, joint: PrismaticJoint) -> Array:
 
 @compiled
 def _march(
-    numbers, calls, parameters, plant, loop, reference, added, start, interval, q, v, travelled, temperature, pressure,
-    voltage, position,
+    numbers, calls, parameters, plant, loop, reference, added, start, interval, q, v, travelled, temperature, pressure, load,
+    pushed, voltage, position,
 ):  # fmt: skip
     world = np.zeros(e.WORLD)
     memory = np.zeros(8)
-    mass, damping, offset, gain = plant[0], plant[1], plant[2], plant[3]
+    mass, damping, gain = plant[0], plant[1], plant[2]
     h = interval / FINER
     turned = q
     before = np.sign(v)
@@ -110,15 +113,15 @@ def _march(
         voltage[i], position[i] = u, q
         for k in range(FINER):
             t = start + i * interval + k * h
-            known = gain * u - offset - damping * v
+            known = gain * u - pushed[i] - damping * v
             side = (
                 np.sign(v) if v != 0.0 else np.sign(known + world[e.LOAD])
             )  # at rest the other forces are those of a moment ago
             if side not in (0.0, before):
                 turned, before = q, side
             friction = resistance(
-                numbers, calls, parameters, world, memory, t, q, v, 0.0, abs(q - turned), side, travelled, temperature[i], 1.0,
-                gain * u, pressure[i],
+                numbers, calls, parameters, world, memory, t, q, v, load[i], abs(q - turned), side, travelled, temperature[i],
+                1.0, gain * u, pressure[i],
             )  # fmt: skip
             v += h * (known - friction) / mass
             if v * side < 0.0:  # friction stops a mass, it does not turn it

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import measured_load
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
@@ -95,5 +96,7 @@ def as_mjcf(dataset: Dataset, model: JointModel) -> tuple[Any, Models]:
     )
     scenario = dataclasses.replace(dataset.scenario, mechanism=place, controller=None)
     compiled = mujoco.MjModel.from_xml_string(plain_mjcf(dataclasses.replace(mechanism, damping=0.0)))
+    known = {run.name: measured_load(run, stated) for run in dataset.runs}
     source = MjcfSource(dataclasses.replace(dataset, scenario=scenario), place, mujoco, compiled, (JOINT,), ())
+    source = dataclasses.replace(source, loads={name: load for name, load in known.items() if load is not None})
     return source, {JOINT: dataclasses.replace(model, nuisances={})}
