@@ -177,7 +177,7 @@ def compare(
     if not names:
         raise InputError(
             "no engine to compare with the reference; give at least one of mujoco, exudyn, pymunk, "
-            "or install them: pip install 'stochfric_mb[all]'"
+            "or install them, in a clone of this package: pip install '.[all]'"
         )
     for name in (*names, "reference"):
         adapter(name, effects=scenario.effects)

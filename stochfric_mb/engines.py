@@ -57,8 +57,10 @@ class Engine:
 
     @property
     def remedy(self) -> str:
-        """What to give ``pip install`` where the engine is missing."""
-        return self.distribution or f"'stochfric_mb[{self.extra or self.name}]'"
+        """What to do where the engine is missing."""
+        if self.distribution:
+            return f"run: pip install {self.distribution}"
+        return f"in a clone of this package run: pip install '.[{self.extra or self.name}]'"
 
     @property
     def version(self) -> str | None:
@@ -144,7 +146,7 @@ def adapter(name: str, *, effects: Sequence[Effect] = ()) -> Any:
     """
     engine = ENGINES[require_name("engine", name, ENGINES)]
     if not engine.installed:
-        raise MissingEngineError(f"engine {name!r} is not installed; run: pip install {engine.remedy}")
+        raise MissingEngineError(f"engine {name!r} is not installed; {engine.remedy}")
     module = importlib.import_module(engine.adapter)
     if not effects:
         return module

@@ -224,7 +224,8 @@ def _pyarrow() -> Any:
         importlib.import_module("pyarrow.parquet")
     except ImportError:
         raise MissingEngineError(
-            "Parquet files need pyarrow, which is not installed; run: pip install 'stochfric_mb[parquet]', or write .nc or .csv"
+            "Parquet files need pyarrow, which is not installed; in a clone of this package run: pip install '.[parquet]', "
+            "or write .nc or .csv"
         ) from None
     return arrow
 

@@ -84,7 +84,9 @@ def compile_library(
         SimulationError: the compiler reports an error in the sources.
     """
     if importlib.util.find_spec("ziglang") is None:
-        raise MissingEngineError("compiling C needs ziglang, which is not installed; run: pip install 'stochfric_mb[fmi]'")
+        raise MissingEngineError(
+            "compiling C needs ziglang, which is not installed; in a clone of this package run: pip install '.[fmi]'"
+        )
     command = [sys.executable, "-m", "ziglang", "cc", "-target", target.triple, *FLAGS, *flags, "-shared"]
     command += ["-s"] if target.ending != ".dylib" else ["-Wl,-S"]
     command += ["-fPIC"] if target.ending != ".dll" else []

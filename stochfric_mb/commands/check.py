@@ -64,7 +64,7 @@ def check(
     _require_model(model)
     target = check_target(Path(out) / "check.json" if Path(out).is_dir() else out, force=force)
     if not ENGINES["mujoco"].installed:
-        raise MissingEngineError("mujoco is not installed; run: pip install 'stochfric_mb[mujoco]'")
+        raise MissingEngineError("mujoco is not installed; in a clone of this package run: pip install '.[mujoco]'")
     with display() as shown, claimed(target):
         shown.note("loading mujoco")
         probe = importlib.import_module("stochfric_mb.mujoco.check").check

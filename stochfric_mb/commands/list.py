@@ -105,7 +105,7 @@ def _engines() -> None:
     print_table(head, rows, title="Engines")
     for engine in ENGINES.values():
         if not engine.installed:
-            say(f"{engine.name} is not installed; run: pip install {engine.remedy}")
+            say(f"{engine.name} is not installed; {engine.remedy}")
 
 
 def _scenarios() -> None:

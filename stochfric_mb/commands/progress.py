@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import io
 import math
+import sys
 import time
 from collections.abc import Callable, Generator
 from typing import Any
@@ -179,9 +181,18 @@ class Silence(Lines):
 
 @contextlib.contextmanager
 def display() -> Generator[Display]:
-    """Give the display of one command: bars on a terminal, lines elsewhere and with ``-v``, nothing with ``-q``."""
+    """Give the display of one command: bars on a terminal, lines elsewhere and with ``-v``, nothing with ``-q``.
+
+    What engines print meanwhile goes to stderr, too, and nowhere with ``-q``: stdout is the command's.
+    """
     console = Console(stderr=True)
     how = speech()
+    with contextlib.redirect_stdout(io.StringIO() if how is Speech.QUIET else sys.stderr):
+        yield from _shown(console, how)
+
+
+def _shown(console: Console, how: Speech) -> Generator[Display]:
+    """Give the display for a way of speaking."""
     if how is Speech.QUIET:
         yield Silence()
         return

@@ -85,7 +85,9 @@ def mjcf(scenario: Scenario[Any]) -> str:
     try:
         mujoco: Any = importlib.import_module("mujoco")
     except ImportError:
-        raise MissingEngineError("an MJCF export needs MuJoCo; run: pip install 'stochfric_mb[mujoco]'") from None
+        raise MissingEngineError(
+            "an MJCF export needs MuJoCo; in a clone of this package run: pip install '.[mujoco]'"
+        ) from None
     attach: Any = importlib.import_module("stochfric_mb.mujoco")
     mechanism = scenario.mechanism
     if isinstance(mechanism, Mjcf):

@@ -41,7 +41,7 @@ def connect(scheduler: Any) -> tuple[Any, bool]:
     try:
         from distributed import Client
     except ImportError:
-        raise MissingEngineError("a scheduler needs Dask; run: pip install 'stochfric_mb[cluster]'") from None
+        raise MissingEngineError("a scheduler needs Dask; in a clone of this package run: pip install '.[cluster]'") from None
     if isinstance(scheduler, Client):
         return scheduler, False
     try:

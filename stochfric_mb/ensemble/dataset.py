@@ -64,7 +64,9 @@ def ensemble_ending(path: str | Path) -> str:
             f"{path}: ending {ending!r} is unknown; an ensemble is written as .nc (NetCDF), or .zarr if it is large"
         )
     if ending == ZARR and importlib.util.find_spec("zarr") is None:
-        raise MissingEngineError(f"{path} needs zarr, which is not installed; run: pip install 'stochfric_mb[cluster]'")
+        raise MissingEngineError(
+            f"{path} needs zarr, which is not installed; in a clone of this package run: pip install '.[cluster]'"
+        )
     return ending
 
 

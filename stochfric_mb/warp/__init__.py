@@ -7,7 +7,7 @@ from stochfric_mb.errors import MissingEngineError
 try:
     import mujoco_warp as _mujoco_warp
 except ImportError as error:
-    raise MissingEngineError("MuJoCo Warp is not installed; run pip install 'stochfric_mb[warp]'") from error
+    raise MissingEngineError("MuJoCo Warp is not installed; in a clone of this package run: pip install '.[warp]'") from error
 
 from stochfric_mb.warp.attach import add_friction
 from stochfric_mb.warp.domain import Domain, Spread

@@ -253,7 +253,7 @@ def test_without_the_extra_the_command_says_what_to_install(tmp_path, monkeypatc
     monkeypatch.setattr("importlib.util.find_spec", lambda name, *a: None if name == "ziglang" else result(name, *a))
     done = invoke("export", "fmu", "kang2015_table1", "--platforms", "x86_64-linux", "--out", tmp_path / "x.fmu")
     assert done.exit_code == 2
-    assert "pip install 'stochfric_mb[fmi]'" in done.output
+    assert "pip install '.[fmi]'" in done.output
     assert list(tmp_path.iterdir()) == []
 
 

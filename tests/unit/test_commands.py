@@ -191,7 +191,7 @@ def test_missing_engine_says_what_to_install(monkeypatch, tmp_path):
     monkeypatch.setitem(engines.ENGINES, "mujoco", absent)
     ran = []
     monkeypatch.setattr("stochfric_mb.reference.simulate", lambda *a, **k: ran.append(a))
-    remedy = "pip install 'stochfric_mb[mujoco]'"
+    remedy = "pip install '.[mujoco]'"
     failing(invoke("run", SCENARIO, "--engine", "mujoco", "--out", tmp_path / "run.nc"), remedy)
     failing(invoke("compare", SCENARIO, "--engines", "mujoco", "--out", tmp_path / "out"), remedy)
     assert ran == []

@@ -89,6 +89,6 @@ def read_table(path: Path, *, skip_rows: int = 0) -> Table:
 def missing(library: str, what: str, extra: str = "measured") -> MissingEngineError:
     """Return the error for a reader whose library is not installed."""
     return MissingEngineError(
-        f"{what} files are read by {library}, which is not installed; run: pip install 'stochfric_mb[{extra}]', "
-        "or convert the file to CSV"
+        f"{what} files are read by {library}, which is not installed; in a clone of this package run: "
+        f"pip install '.[{extra}]', or convert the file to CSV"
     )

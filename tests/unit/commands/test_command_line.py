@@ -163,6 +163,15 @@ def test_a_run_of_days_stops_unless_it_is_meant(monkeypatch, shown, however_long
         advance(pace * 31.0)
 
 
+@pytest.mark.parametrize("quiet", [False, True])
+def test_what_engines_print_is_not_on_stdout(monkeypatch, capsys, quiet):
+    monkeypatch.setattr(progress, "speech", lambda: Speech.QUIET if quiet else Speech.JSON)
+    with progress.display():
+        print("banner")
+    shown = capsys.readouterr()
+    assert (shown.out, shown.err) == ("", "" if quiet else "banner\n")
+
+
 def test_silence_is_silent(capsys):
     progress.Silence().note("anything")
     assert capsys.readouterr().err == ""

@@ -302,7 +302,7 @@ def test_no_such_file_and_no_such_reader(tmp_path):
 def test_missing_library_says_what_to_install(tmp_path, monkeypatch, ending, library):
     monkeypatch.setitem(__import__("sys").modules, library, None)
     (tmp_path / f"run{ending}").write_bytes(b"x")
-    with pytest.raises(MissingEngineError, match=r"pip install 'stochfric_mb\[(measured|parquet)\]'"):
+    with pytest.raises(MissingEngineError, match=r"pip install '\.\[(measured|parquet)\]'"):
         read_table(tmp_path / f"run{ending}")
 
 

@@ -38,7 +38,9 @@ def mjcf_balances(dataset: Dataset) -> MjcfSource:
     try:
         mujoco: Any = importlib.import_module("mujoco")
     except ImportError:
-        raise MissingEngineError("mechanism 'mjcf' needs MuJoCo; run: pip install 'stochfric_mb[mujoco]'") from None
+        raise MissingEngineError(
+            "mechanism 'mjcf' needs MuJoCo; in a clone of this package run: pip install '.[mujoco]'"
+        ) from None
     mechanism: Mjcf = dataset.scenario.mechanism
     model = without_friction(mujoco, mechanism)
     names = [mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, i) for i in range(model.njnt)]
