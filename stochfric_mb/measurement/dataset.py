@@ -136,10 +136,11 @@ def _pieces(entry: RunEntry, model: Scenario[Any]) -> list[Run]:
         if not 0 < len(error.pieces) <= MOST_PIECES:
             raise
         note = f"samples are missing: {len(error.pieces)} pieces between the gaps are runs of their own"
-        return [
-            _with_note(assemble(dataclasses.replace(entry, name=name, time_range=span), rotational=rotational), note)
-            for name, span in ((f"{entry.name}, piece {i}", span) for i, span in enumerate(error.pieces, start=1))
+        first, *others = [
+            assemble(dataclasses.replace(entry, name=f"{entry.name}, piece {i}", time_range=span), rotational=rotational)
+            for i, span in enumerate(error.pieces, start=1)
         ]
+        return [_with_note(first, note), *others]
 
 
 def _with_note(run: Run, note: str) -> Run:

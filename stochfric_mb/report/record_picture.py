@@ -27,6 +27,8 @@ MOST_RUNS = 6
 """Runs that a page shows."""
 SHOWN = ("position", "velocity", "force", "torque", "friction_force")
 """Channels of which the first that was measured is drawn."""
+SAME_SPEED = 0.1
+"""Difference from the usual speed in stick up to which a record's beginning or end is stick as well [-]."""
 STICK, SLIP = "#56b4e9", "#d55e00"
 """Colours of the phases (Okabe and Ito's)."""
 
@@ -60,7 +62,7 @@ def record(time: Array, values: Array, label: str, slips: Sequence[tuple[int, in
 
 def _draw(time: Array, values: Array, label: str, slips: Sequence[tuple[int, int]]) -> Figure:
     figure, (axes,) = new_figure(9.2, 2.6)
-    _shade(axes, time, slips)
+    _shade(axes, time, values, slips)
     axes.plot(*_thinned(time, values), color="#1f2933", linewidth=0.9, label=label.partition(" [")[0] if slips else None)
     axes.set(xlabel="time [s]", ylabel=label, xlim=(float(time[0]), float(time[-1])))
     axes.grid(visible=False, axis="x")
@@ -69,16 +71,28 @@ def _draw(time: Array, values: Array, label: str, slips: Sequence[tuple[int, int
     return figure
 
 
-def _shade(axes: Axes, time: Array, slips: Sequence[tuple[int, int]]) -> None:
+def _shade(axes: Axes, time: Array, values: Array, slips: Sequence[tuple[int, int]]) -> None:
     """Shade what lies between slips as stick, the slips as slip."""
-    if not slips:
-        return
-    ends = [(float(time[i]), float(time[j])) for i, j in slips]
-    sticks = [(before[1], after[0]) for before, after in itertools.pairwise(ends)]
     across = axes.get_xaxis_transform()
-    for spans, colour, word in ((sticks, STICK, "stick"), (ends, SLIP, "slip")):
-        bars = [(low, high - low) for low, high in spans]
+    for spans, colour, word in ((_sticks(time, values, slips), STICK, "stick"), (slips, SLIP, "slip")):
+        bars = [(float(time[i]), float(time[j] - time[i])) for i, j in spans]
+        if not bars:
+            continue
         axes.broken_barh(bars, (0.0, 1.0), transform=across, facecolor=colour, alpha=0.22, linewidth=0.0, label=word)
+
+
+def _sticks(time: Array, values: Array, slips: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
+    """Return both ends of each stick phase: between slips, and before and after them where the box moves as it does there."""
+    between = [(before[1], after[0]) for before, after in itertools.pairwise(slips)]
+    if not between:
+        return []
+    usual = float(np.median([(values[j] - values[i]) / (time[j] - time[i]) for i, j in between]))
+    ends = [(0, slips[0][0]), (slips[-1][1], len(time) - 1)]
+    return between + [
+        (i, j)
+        for i, j in ends
+        if i < j and abs(np.polyfit(time[i : j + 1], values[i : j + 1], 1)[0] - usual) < SAME_SPEED * abs(usual)
+    ]
 
 
 def _thinned(time: Array, values: Array) -> tuple[Array, Array]:

@@ -166,7 +166,7 @@ def _claim(name: str, portraits: list[Portrait], settings: Settings, seed: int) 
         wide = spread(turns(p, p.stochastic, p.discarded, end), settings, seed)
         alone = turns(p, p.deterministic, p.discarded, end).spread()
         outcomes[p.law] = _wider(wide, alone)
-        spreads.append(f"{p.law} {1e6 * wide.value:.3g} against {1e6 * alone:.2g} um ({outcomes[p.law]})")
+        spreads.append(f"{p.law} {1e6 * wide.value:.3g} against {1e6 * alone:.3g} um ({outcomes[p.law]})")
         first = spread(turns(p, p.stochastic, 0.0, PAPER_DURATION), settings, seed)
         first_alone = turns(p, p.deterministic, 0.0, PAPER_DURATION).spread()
         with_transient.append(
