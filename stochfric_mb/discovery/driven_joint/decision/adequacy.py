@@ -38,10 +38,11 @@ def drawn_by_two(place: PlaceOutcome) -> tuple[str, ...]:
 def _lost(place: PlaceOutcome) -> str:
     """Return what held-out runs say against the selected effects; empty: nothing."""
     before, after = (place.scores[k] for k in ("recalibrated", "augmented"))
-    pairs = ((before.forward, after.forward), (before.loop, after.loop))
-    ahead = [(b, a) for b, a in pairs if a is not None and b is not None]
-    lost = [f"simulated, it is off by {a:.3g} for {b:.3g}" for b, a in ahead if not a < criteria.FAR_AHEAD * b]
-    gains = [closed_share(before.sliding, after.sliding, place.floor), *(closed_share(b, a, 0.0) for b, a in ahead)]
+    nothing = 1.0 + criteria.CLOSES_NOTHING  # a controller keeps the motion on its course: where a run starts decides nothing
+    pairs = ((before.forward, after.forward, criteria.FAR_AHEAD), (before.loop, after.loop, nothing))
+    ahead = [(b, a, most) for b, a, most in pairs if a is not None and b is not None]
+    lost = [f"simulated, it is off by {a:.3g} for {b:.3g}" for b, a, most in ahead if not a < most * b]
+    gains = [closed_share(before.sliding, after.sliding, place.floor), *(closed_share(b, a, 0.0) for b, a, _ in ahead)]
     if not lost and max(gains) >= criteria.EXPLAINED_HELD_OUT:
         return ""
     return lost[0] if lost else f"it explains {max(100.0 * max(gains), 0.0):.0f} % of the squared error there"
