@@ -86,7 +86,7 @@ def test_unknown_ending_lists_the_endings(trajectory, tmp_path):
 
 def test_parquet_without_pyarrow_names_the_extra(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "pyarrow", None)
-    with pytest.raises(MissingEngineError, match=r"stochfric_mb\[parquet\]"):
+    with pytest.raises(MissingEngineError, match=r"pip install .\.\[parquet\]."):
         trajectory_ending("run.parquet")
 
 
