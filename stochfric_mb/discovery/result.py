@@ -86,7 +86,7 @@ class Gap:
     @property
     def notes(self) -> tuple[str, ...]:
         """What must be said where the effects do not bring the model closer to the held-out runs."""
-        if self.augmented <= self.recalibrated:
+        if self.augmented <= (1.0 + criteria.CLOSES_NOTHING) * self.recalibrated:
             return ()
         unit = "" if self.unit == "-" else f" {self.unit}"
         return (

@@ -249,6 +249,4 @@ def _run_notes(dataset: Dataset) -> list[str]:
     for run in dataset.runs:
         for note in run.notes:
             groups.setdefault(note.partition(" (")[0], []).append(f"{run.name}: {note}")
-    return [
-        notes[0] if len(notes) == 1 else f"{len(notes)} runs: {kind} (such as {notes[0]})" for kind, notes in groups.items()
-    ]
+    return [notes[0] if len(notes) == 1 else f"{len(notes)} runs, such as {notes[0]}" for notes in groups.values()]

@@ -118,7 +118,8 @@ class StepPlan:
         tracks = [track_of(run, data) for run in data.runs]
         reference = float(np.median(tracks[0].speed))
         shortest = 2.0 * min(float(np.median(t.speed)) * t.run.sample_interval for t in tracks)
-        known = laws(reference, self.scenario.mechanism.stiffness, self.scenario.law.mu_k, shortest)
+        way = float(np.ptp(np.concatenate([t.slid for t in tracks])))
+        known = laws(reference, self.scenario.mechanism.stiffness, self.scenario.law.mu_k, shortest, way)
         rest = [t.friction - float(np.mean(t.friction)) for t in tracks]
         study = _Study(
             tracks,

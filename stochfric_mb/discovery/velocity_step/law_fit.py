@@ -63,7 +63,7 @@ def fit_from(law: Law, tracks: Sequence[Track], start: Array, evaluations: int) 
         predicted = law.predict(tracks, start + scale * step)
         return np.concatenate([tracks[i].friction - predicted[i] for i in fitted])
 
-    low, high = (np.array(law.low) - start) / scale - INSIDE, np.full(len(start), np.inf)
+    low, high = (np.array(law.low) - start) / scale - INSIDE, (np.array(law.high) - start) / scale + INSIDE
     minimum = minimised(
         errors, np.zeros(len(start)), low, high, difference=DIFFERENCE, evaluations=evaluations, tolerance=TOLERANCE
     )

@@ -16,6 +16,8 @@ from stochfric_mb.measurement.run import Run
 
 Array = npt.NDArray[np.float64]
 
+SETTLING = (0.03, 0.1, 0.3)
+"""Lengths in which a drift settles where its fits begin, over the whole displacement [-]."""
 MEMORY_STARTS = [(b, d, k) for b in (0.01, -0.01) for d in (1.0, 10.0, 100.0) for k in (0.3, 3.0)]
 """Starts of the memory law: evolution effect b, distance D, and stiffness, the last two over the stated ones."""
 
@@ -52,20 +54,26 @@ class Law:
     """Natural steps."""
     low: tuple[float, ...]
     """Smallest values."""
+    high: tuple[float, ...]
+    """Largest values."""
     predict: Callable[[Sequence[Track], Array], list[Array]]
     """Tracks and numbers -> friction coefficients."""
     variant: str = ""
     """Which of several forms of that effect it is."""
 
 
-def laws(reference: float, stiffness: float, mu: float, shortest: float) -> list[Law]:
+def laws(reference: float, stiffness: float, mu: float, shortest: float, way: float) -> list[Law]:
     """Return what is fitted: constant friction, drift with displacement, dependence on speed, and memory.
+
+    A machine in which all of friction deflects the spring by no more than the shortest distance looks rigid: no fit makes it
+    stiffer.
 
     Args:
         reference: speed v_0 at which mu_0 holds [m/s].
         stiffness: stated stiffness [1/m].
         mu: stated friction coefficient [-].
         shortest: least distance D that shows, that of the usual motion in two samples [m].
+        way: displacement of the load point in all runs [m].
     """
 
     def constant(tracks: Sequence[Track], p: Array) -> list[Array]:
@@ -73,6 +81,9 @@ def laws(reference: float, stiffness: float, mu: float, shortest: float) -> list
 
     def drift(tracks: Sequence[Track], p: Array) -> list[Array]:
         return [p[0] + p[1] * t.slid for t in tracks]
+
+    def settling(tracks: Sequence[Track], p: Array) -> list[Array]:
+        return [p[0] + p[1] * (1.0 - np.exp(-np.maximum(t.slid, 0.0) / np.exp(p[2]))) for t in tracks]
 
     def speed(tracks: Sequence[Track], p: Array) -> list[Array]:
         return [p[0] + p[1] * t.slid + p[2] * np.log(t.speed / reference) for t in tracks]
@@ -83,33 +94,39 @@ def laws(reference: float, stiffness: float, mu: float, shortest: float) -> list
     def memory(tracks: Sequence[Track], p: Array, *, state: int = AGEING) -> list[Array]:
         return [p[0] + p[1] * t.slid + m for t, m in zip(tracks, _remembered(tracks, p[2:], reference, state), strict=True)]
 
-    least = float(np.log(shortest))
+    least, stiffest = float(np.log(shortest)), float(np.log(max(mu, 0.01) / shortest))
+    free = np.inf
     numbers = ("mu_0", "slope", "direct_effect", "evolution_effect", "log_distance", "log_stiffness", "log_state")
     memories = {"": memory} | {
         name: functools.partial(memory, state=state) for name, state in (("slip law", SLIP), ("quadratic law", QUADRATIC))
     }
 
     return [
-        Law("", ("mu_0",), ("-",), ((mu,),), (0.01,), (0.0,), constant),
+        Law("", ("mu_0",), ("-",), ((mu,),), (0.01,), (0.0,), (free,), constant),
         Law(
             kind_with_signature(SLOPE_IN_DISTANCE), ("mu_0", "slope"), ("-", "1/m"), ((mu, 0.0),),
-            (0.01, 1.0), (0.0, -np.inf), drift,
+            (0.01, 1.0), (0.0, -free), (free, free), drift,
+        ),
+        Law(
+            kind_with_signature(SLOPE_IN_DISTANCE), ("mu_0", "change", "log_distance"), ("-", "-", "-"),
+            tuple((mu, size, float(np.log(part * way))) for size in (0.01, -0.01) for part in SETTLING),
+            (0.01, 0.01, 0.3), (0.0, -free, least), (free, free, float(np.log(way))), settling, "running-in",
         ),
         Law(
             kind_with_signature(RATE), ("mu_0", "slope", "a_minus_b"), ("-", "1/m", "-"), ((mu, 0.0, 0.0),),
-            (0.01, 1.0, 0.001), (0.0, -np.inf, -np.inf), speed,
+            (0.01, 1.0, 0.001), (0.0, -free, -free), (free, free, free), speed,
         ),
         Law(
             kind_with_signature(RATE), ("mu_0", "slope", "direct_effect", "log_stiffness"), ("-", "1/m", "-", "-"),
             tuple((mu, 0.0, 0.005, float(np.log(stiffer * stiffness))) for stiffer in (0.3, 1.0, 3.0)),
-            (0.01, 1.0, 0.002, 0.3), (0.0, -np.inf, 1.0e-4, -np.inf), pulled, "through the spring",
+            (0.01, 1.0, 0.002, 0.3), (0.0, -free, 1.0e-4, -free), (free, free, free, stiffest), pulled, "through the spring",
         ),
         *(
             Law(
                 kind_with_signature(MEMORY), numbers, ("-", "1/m", "-", "-", "-", "-", "-"),
                 tuple(memory_start(mu, stiffness, *start) for start in MEMORY_STARTS),
-                (0.01, 1.0, 0.002, 0.002, 0.3, 0.3, 0.3), (0.0, -np.inf, 1.0e-4, -np.inf, least, -np.inf, -np.inf),
-                predict, variant,
+                (0.01, 1.0, 0.002, 0.002, 0.3, 0.3, 0.3), (0.0, -free, 1.0e-4, -free, least, -free, -free),
+                (free, free, free, free, free, stiffest, free), predict, variant,
             )
             for variant, predict in memories.items()
         ),

@@ -115,7 +115,7 @@ def _with_table(law: Law, place: Callable[[Track], Array], knots: Array) -> Law:
     more = KNOTS - 1
     return Law(
         kinds_with(ANONYMOUS)[0], (*law.names, *(f"change_{i}" for i in range(1, KNOTS))), (*law.units, *("-",) * more), (),
-        (*law.scales, *(STEP,) * more), (*law.low, *(-np.inf,) * more), predict,
+        (*law.scales, *(STEP,) * more), (*law.low, *(-np.inf,) * more), (*law.high, *(np.inf,) * more), predict,
     )  # fmt: skip
 
 

@@ -69,7 +69,8 @@ def _fits(tracks: Sequence[Track], dataset: Dataset, progress: Callable[[str], N
     reference = float(np.median(tracks[0].speed))
     shortest = 2.0 * min(float(np.median(t.speed)) * t.run.sample_interval for t in tracks)
     fits: list[Fitted] = []
-    for law in laws(reference, dataset.scenario.mechanism.stiffness, dataset.scenario.law.mu_k, shortest):
+    way = float(np.ptp(np.concatenate([t.slid for t in tracks])))
+    for law in laws(reference, dataset.scenario.mechanism.stiffness, dataset.scenario.law.mu_k, shortest, way):
         progress(law.kind or "constant friction")
         alike = next((f for f in fits if f.law.variant == "" and f.law.names == law.names), None)
         fits.append(fit(law, tracks, law.starts if alike is None else [alike.values]))
@@ -268,6 +269,8 @@ def _numbers(fitted: Fitted) -> dict[str, Interval]:
     intervals: dict[str, Interval] = {}
     law = fitted.law
     for name, value, deviation, unit, low in zip(law.names, fitted.values, fitted.deviations, law.units, law.low, strict=True):
+        if deviation == 0.0:  # nothing in these data depends on it
+            continue
         number = confidence_interval(value, deviation, unit, low)
         if name.startswith("log_"):
             middle, least, most = (float(np.exp(min(x, 700.0))) for x in (number.value, number.low, number.high))
@@ -283,16 +286,27 @@ def _augmented(dataset: Dataset, closest: Fitted, kept: SmoothLaw | None) -> Any
     """Return the scenario with the fitted law, and the term beside it: static friction is the peak of a fast step, mu_0 + b."""
     scenario = dataset.scenario
     fitted = closest if kept is None else kept.law_alone(closest.law)
-    terms = () if kept is None else (_term(kept),)
-    numbers = _numbers(fitted)
-    mu = float(numbers["mu_0"].value)
+    terms: tuple[Effect, ...] = () if kept is None else (_term(kept),)
+    numbers = dict(zip(fitted.law.names, fitted.values.tolist(), strict=True))
+    mu = numbers["mu_0"]
+    if fitted.law.kind == kind_with_signature(SLOPE_IN_DISTANCE):
+        terms = (_drift(numbers), *terms)
     if fitted.law.kind != kind_with_signature(MEMORY):
         return dataclasses.replace(scenario, law=dataclasses.replace(scenario.law, mu_s=mu, mu_k=mu), effects=terms)
-    rise = max(numbers["evolution_effect"].value, 0.0)
+    rise = max(numbers["evolution_effect"], 0.0)
     law = dataclasses.replace(scenario.law, mu_s=mu + rise, mu_k=mu)
-    mechanism = dataclasses.replace(scenario.mechanism, stiffness=numbers["stiffness"].value)
-    effect = make_effect(kind_with_signature(MEMORY), distance=numbers["distance"].value)
+    mechanism = dataclasses.replace(scenario.mechanism, stiffness=float(np.exp(numbers["log_stiffness"])))
+    effect = make_effect(kind_with_signature(MEMORY), distance=float(np.exp(numbers["log_distance"])))
     return dataclasses.replace(scenario, law=law, mechanism=mechanism, effects=(effect, *terms))
+
+
+def _drift(numbers: Mapping[str, float]) -> Effect:
+    """Return a drift with the displacement as an effect, from the numbers of its law: straight, or one that settles."""
+    kind, mu = kind_with_signature(SLOPE_IN_DISTANCE), numbers["mu_0"]
+    if "slope" in numbers:
+        return make_effect(kind, rate=numbers["slope"] / mu)
+    distance = float(np.exp(numbers["log_distance"]))
+    return make_effect(kind, rate=numbers["change"] / (mu * distance), settling_distance=distance)
 
 
 def _term(kept: SmoothLaw) -> Effect:

@@ -15,7 +15,7 @@ import numpy as np
 from stochfric_mb.effects.contract import BELT_VELOCITY, MU_K, MU_S, TRAVELLED, VELOCITY, Effect, JointSignature, parameter
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Hypothesis, Slips, drifting
-from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, WANDERS_ALIKE
+from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, SLOPE_IN_DISTANCE, WANDERS_ALIKE
 
 PACES_DIFFER = 1.1
 """Ratio of the distances slid in a time from which on they differ between runs [-]."""
@@ -46,6 +46,7 @@ class DistanceDrift(Effect):
     source: ClassVar[str] = "Blau 2005 (running-in of frictional contacts)"
     group: ClassVar[str] = "friction varies"
     traits: ClassVar[frozenset[str]] = frozenset({COURSE_OF_RUN, WANDERS_ALIKE, DRIFTS})
+    signatures: ClassVar[tuple[str, ...]] = (SLOPE_IN_DISTANCE,)
     answers_to: ClassVar[str] = "distance"
     shows_on: ClassVar[str] = "slid distance"
     shows: ClassVar[str] = "friction drifts with the distance slid"

@@ -13,7 +13,7 @@ from stochfric_mb.effects.contract import MU_K, MU_S, TIME, Array, JointSignatur
 from stochfric_mb.effects.course import COARSER, Course, sized, splines
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, Hypothesis, Slips, drifting, levels
-from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, SLOPE_IN_DISTANCE, WANDERS_ALIKE
+from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, WANDERS_ALIKE
 
 SHARES = (1.0, 0.0, 0.5, 2.0)
 """Shares of the change that mu_s takes, of courses of any shape [-]."""
@@ -46,7 +46,6 @@ class FrictionDrift(Course):
     source: ClassVar[str] = "Blau 2005 (running-in of frictional contacts)"
     group: ClassVar[str] = "friction varies"
     traits: ClassVar[frozenset[str]] = frozenset({COURSE_OF_RUN, WANDERS_ALIKE, DRIFTS})
-    signatures: ClassVar[tuple[str, ...]] = (SLOPE_IN_DISTANCE,)
     answers_to: ClassVar[str] = "time"
     shows_on: ClassVar[str] = "time"
     shows: ClassVar[str] = "friction drifts in the course of a run"

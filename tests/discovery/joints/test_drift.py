@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery.driven_joint import joint_outcome
-from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, one_curve
+from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_state, one_curve
 from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import balance_of
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import Dataset, Run
@@ -125,6 +125,15 @@ def test_effects_of_conditions_that_did_not_go_together_are_no_curve():
     assert one_curve(kinds, [clocks, others]) == ("friction_drift", "temperature_drift")
     assert one_curve(kinds, [others, dataclasses.replace(clocks, explained=0.7)]) == ()
     assert one_curve(["friction_drift", "payload"], [clocks]) == ()
+
+
+def test_a_state_stands_before_the_clock_that_went_together_with_it():
+    """Slides that are thrown slow down alike in each run: a law of speed holds in all of them, a clock would begin anew."""
+    thrown, others = Confounded("speed", "time", 0.98), Confounded("position", "time", 0.7)
+    rivals = ["velocity_weakening", "position_dependent_friction", "distance_drift", "drive_gain_change"]
+    assert by_state("friction_drift", rivals, [thrown, others]) == ["velocity_weakening"]
+    assert by_state("friction_drift", rivals, [others]) == []
+    assert by_state("velocity_weakening", ["friction_drift"], [thrown]) == []
 
 
 def test_nothing_hidden_nothing_found():

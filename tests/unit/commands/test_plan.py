@@ -158,9 +158,9 @@ def test_velocity_steps_are_planned(tmp_path):
         done = invoke("plan", "rock_basalt", "--run", steps + noise, "--no-extra", "--out", tmp_path / noise)
         assert done.exit_code == 0, done.output
         limits[noise] = _limits(tmp_path / noise)[1]
-    assert set(limits["2e-4"]) == {"friction_drift", "velocity_weakening", "viscous_friction", "frictional_lag"}
+    assert set(limits["2e-4"]) == {"distance_drift", "velocity_weakening", "viscous_friction", "frictional_lag"}
     # what a law adds is in proportion to its size, but for a memory that the spring shields
-    for kind in ("friction_drift", "velocity_weakening"):
+    for kind in ("distance_drift", "velocity_weakening"):
         assert limits["2e-4"][kind]["value"] == pytest.approx(2.0 * limits["1e-4"][kind]["value"], rel=0.05)
     assert limits["2e-4"]["frictional_lag"]["beside"] == {"distance": pytest.approx(0.1 * 20.0 * 3e-6)}
 

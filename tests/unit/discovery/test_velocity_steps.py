@@ -3,6 +3,7 @@
 import dataclasses
 
 import numpy as np
+import pytest
 
 from stochfric_mb.discovery.velocity_step.laws import Track, laws, memory_start
 from stochfric_mb.discovery.velocity_step.velocity_steps import spring_slider_outcome, track_of
@@ -13,10 +14,12 @@ def test_constant_friction_and_drift_are_what_they_say():
     data = slider(0.01, 0.015, 2)
     tracks = [track_of(r, data) for r in data.runs]
     assert all(isinstance(t, Track) and np.all(t.speed > 0.0) for t in tracks)
-    constant, drift, *_ = laws(1e-5, 1e4, 0.6, 1e-9)
+    constant, drift, running_in, *_ = laws(1e-5, 1e4, 0.6, 1e-9, 1e-3)
     np.testing.assert_array_equal(constant.predict(tracks, np.array([0.6]))[0], 0.6)
     shown = drift.predict(tracks, np.array([0.6, 2.0]))[0]
     np.testing.assert_allclose(shown, 0.6 + 2.0 * tracks[0].slid)
+    settled = running_in.predict(tracks, np.array([0.6, -0.1, np.log(1.0e-9)]))[0]  # at once: all of the change
+    np.testing.assert_allclose(settled[tracks[0].slid > 1.0e-7], 0.5, rtol=1.0e-12)
     assert len(memory_start(0.6, 1e4, 0.01, 1.0, 1.0)) == 7
 
 
@@ -24,6 +27,34 @@ def test_a_law_is_named_without_a_chance_that_nobody_counted():
     result = spring_slider_outcome(slider(0.01, 0.015, 2), lambda _: None).result
     assert [e.kind for e in result.effects] == ["frictional_lag"]
     assert result.effects[0].p_value is None
+
+
+def test_friction_that_runs_in_drifts_and_settles():
+    """A polish that is worn in: friction falls by 0.1 over a tenth of the way and stays, whatever the speed."""
+    data = slider(1.0e-4, 1.0e-4, 2)  # next to nothing of the speed's
+    worn = []
+    first = min(float(r.channels["position"].min()) for r in data.runs)
+    way = max(float(r.channels["position"].max()) for r in data.runs) - first
+    for run in data.runs:
+        slid = run.channels["position"] - first
+        friction = run.covariates["friction_coefficient"] - 0.1 * (1.0 - np.exp(-slid / (0.1 * way)))
+        worn.append(dataclasses.replace(run, covariates=run.covariates | {"friction_coefficient": friction}))
+    outcome = spring_slider_outcome(dataclasses.replace(data, runs=tuple(worn)), lambda _: None)
+    assert [e.kind for e in outcome.result.effects] == ["distance_drift"]
+    numbers = outcome.result.effects[0].parameters
+    added = outcome.scenario.effects[0]
+    assert added.kind == "distance_drift"
+    assert added.rate * added.settling_distance * outcome.scenario.law.mu_k == pytest.approx(numbers["change"].value)
+    for name, true in (("change", -0.1), ("distance", 0.1 * way)):  # four standard deviations: chance does that once in 16000
+        one = numbers[name]
+        assert abs(one.value - true) < (one.high - one.low) * 4.0 / (2.0 * 1.96)
+
+
+def test_numbers_on_which_nothing_depends_are_left_out():
+    result = spring_slider_outcome(slider(0.01, 0.015, 2), lambda _: None).result
+    for one in result.effects[0].parameters.values():
+        assert one.low < one.value < one.high
+        assert abs(one.value) < 1.0e12
 
 
 def test_friction_that_no_law_follows_is_unknown_and_says_where():

@@ -108,6 +108,24 @@ def stand_ins(kind: str, pairs: Sequence[Confounded]) -> tuple[str, ...]:
     return tuple(k for k in effect_kinds() if k != kind and effect_class(k).answers_to in others)
 
 
+def by_state(kind: str, others: Sequence[str], pairs: Sequence[Confounded]) -> list[str]:
+    """Return those of ``others`` that hold whenever a speed, place or load comes back, where ``kind`` follows the clock.
+
+    Where the clock went together with that condition, an effect of the clock supposes besides that every run begins anew as
+    the others did.
+
+    Args:
+        kind: an effect.
+        others: effects that explain as much.
+        pairs: conditions that went together.
+    """
+    if not by_clock(kind):
+        return []
+    own = effect_class(kind).answers_to
+    together = [{p.first, p.second} for p in pairs if p.explained >= TOGETHER]
+    return [k for k in others if not by_clock(k) and {own, effect_class(k).answers_to} in together]
+
+
 def one_curve(kinds: Sequence[str], pairs: Sequence[Confounded]) -> tuple[str, ...]:
     """Return the first two of ``kinds`` that answer to conditions which went together; empty: there are none.
 

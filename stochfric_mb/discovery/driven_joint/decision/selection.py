@@ -10,6 +10,7 @@ import numpy.typing as npt
 from scipy.stats import f as fisher
 
 from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_state, confounded
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate, candidates, span_of
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes, witnesses
@@ -111,7 +112,7 @@ class Selector:
         self._without: frozenset[str] = frozenset()
         self._known: dict[Beside, tuple[frozenset[str], Fitted]] = {}
         self._tell = progress or (lambda _: None)
-        self._settings, self._smooth = settings_of(balances), SmoothDependences(balances)
+        self._settings, self._smooth, self._pairs = settings_of(balances), SmoothDependences(balances), confounded(balances)
         self.recalibrated, self._noise = settled(start, balances, nuisances, noise=_typical(balances))
         self._begin = self._noise, self._nuisances
 
@@ -271,7 +272,7 @@ class Selector:
         best = min((f for _, f in fits), key=lambda f: f.rms)
         n = max(best.independent, 4.0)
         trials = [self._trial(current, c, f, best, n, len(fits)) for c, f in fits]
-        return simplest_first(sorted(trials, key=lambda t: -t.score))
+        return simplest_first(sorted(trials, key=lambda t: -t.score), self._pairs)
 
     def _trial(self, current: JointFit, candidate: Candidate, fitted: JointFit, best: JointFit, n: float, kinds: int) -> Trial:
         waves = tried(candidate.scan, self._balances) if candidate.scan is not None else 0.0
@@ -333,16 +334,23 @@ class Selector:
         return (axis, gain) if gain > criteria.MATERIAL else ("", 0.0)
 
 
-def simplest_first(trials: list[Trial]) -> list[Trial]:
+def simplest_first(trials: list[Trial], pairs: Sequence[Confounded] = ()) -> list[Trial]:
     """Return trials, best first, with the one of fewest numbers in front among those as good as the best.
 
     A wave far longer than the stroke is a constant force with three numbers. Of forms of one effect with as many numbers it is
-    the one that the effect gives first, which assumes least.
+    the one that the effect gives first, which assumes least. An effect of the clock stands behind one of a state that went
+    together with it.
+
+    Args:
+        trials: candidates.
+        pairs: conditions that went together.
     """
     tied = [t for t in trials if t.score > max(trials[0].score - criteria.TIE, 0.0)]
     if not tied:
         return trials
-    best = min(tied, key=lambda t: (t.candidate.parameters, -t.score)).candidate
+    by_size = sorted(tied, key=lambda t: (t.candidate.parameters, -t.score))
+    states = by_state(by_size[0].candidate.kind, [t.candidate.kind for t in tied], pairs)
+    best = next((t for t in by_size if t.candidate.kind in states), by_size[0]).candidate
     alike = [t for t in tied if (t.candidate.kind, t.candidate.parameters) == (best.kind, best.parameters)]
     first = min(alike, key=lambda t: t.candidate.form)
     return [first, *(t for t in trials if t is not first)]

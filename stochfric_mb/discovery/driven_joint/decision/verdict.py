@@ -312,10 +312,10 @@ def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
         first, second = worst[0].first, worst[0].second
         return f"Vary {first} and {second} apart: repeat the experiment with the {second} that each {first} has not had yet."
     same = [
-        (t.candidate.kind, tuple(map(_beyond, e)))
+        (t.candidate.kind, others)
         for p in places
         for t, e in zip(p.selected.effects, p.selected.equivalents, strict=True)
-        if e
+        if (others := tuple(k for k in map(_beyond, e) if k != t.candidate.kind))
     ]
     if same:
         kind, others = same[0]
