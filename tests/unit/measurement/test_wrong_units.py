@@ -81,6 +81,33 @@ def test_a_stated_number_in_another_unit(tmp_path, motion, truth, key, value, me
         _load(tmp_path, motion, _stated(truth, **{key: value}))
 
 
+def test_a_number_of_one_run_in_another_unit_is_named_where_it_stands(tmp_path, motion, truth):
+    time, position = motion
+    csv(tmp_path / "run.csv", time__s=time, position__m=position)
+    (tmp_path / "dataset.toml").write_text(
+        'schema = "stochfric.dataset/1"\ntitle = "t"\nscenario = "kang2015_table1"\n'
+        '[[runs]]\nfile = "run.csv"\nrole = "fit"\nset = { belt_velocity = 2.5 }\n'
+        '[[runs]]\nfile = "run.csv"\nrole = "test"\n'
+    )
+    with pytest.raises(InputError, match=r"^set.belt_velocity of run .* = 2.5 m/s .* write belt_velocity = 0.0025"):
+        load_dataset(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "changes", "message"),
+    [
+        ("belt_velocity__m/s", 2.5e-3, {"belt_velocity": 2.5}, r"belt_velocity is 0.0025 m/s, but .*mechanism.* = 2.5 m/s"),
+        ("normal_force__N", 0.013, {}, r"normal_force is 0.013 N, but .*mechanism.normal_force = 13 N: correct the one"),
+    ],
+)
+def test_a_column_that_contradicts_what_is_stated(tmp_path, motion, truth, column, value, changes, message):
+    values = np.full(motion[0].size, value)
+    with pytest.raises(InputError, match=message):  # discovery takes the stated number, and would not look at the column
+        _load(tmp_path, motion, _stated(truth, **changes), **{column: values})
+    name = column.partition("__")[0]
+    assert _load(tmp_path, motion, truth, **{column: np.full(values.size, 1.2 * getattr(truth.mechanism, name))}).fit
+
+
 @pytest.mark.parametrize("factor", [0.7, 1.4])
 @pytest.mark.parametrize("key", ["belt_velocity", "stiffness", "mass", "normal_force"])
 def test_numbers_that_are_merely_wrong_are_left_to_discovery(tmp_path, motion, truth, key, factor):
