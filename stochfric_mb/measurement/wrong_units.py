@@ -181,6 +181,11 @@ def _in_unit(run: Run, joint: PrismaticJoint | HingePendulum, name: str, factor:
         really = _unit_of(STATED_UNITS[name], 1.0 / factor)
         return f"{name} in {stated_in} is in {really}: write {name} = {value / factor:.6g} ({si})" if really != si else ""
     column = "position" if name == "angle" else name
+    if column in ("force", "torque") and column not in run.channels:  # a drive in volts, through the stated gain
+        gain = "torque_gain" if isinstance(joint, HingePendulum) else "force_gain"
+        label, value = run.file_units.get("voltage", ""), float(getattr(joint, gain))
+        place = f"column voltage [{label}] with {gain} = {value:g} in {stated_in}"
+        return f"{place} is {_times(factor)} what fits: correct one of them"
     label, sizes = run.file_units.get(column, ""), CHANNEL_UNITS[name]
     really = _unit_of(sizes, sizes.get(label, 1.0) / factor)
     if really == label or abs(math.log10(sizes[really] * factor / sizes.get(label, 1.0))) > 0.01:  # no unit has this size

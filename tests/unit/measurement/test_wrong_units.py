@@ -220,6 +220,14 @@ def test_units_at_a_driven_joint_by_force_over_acceleration(tmp_path, slide, sca
     assert all(remedy in text for remedy in remedies), text
 
 
+def test_a_drive_in_volts_is_named_with_its_gain(tmp_path, slide):
+    time, position, force = slide
+    (tmp_path / "scenario.toml").write_text(JOINT.format(mass="4.0\nforce_gain = 20.0"))
+    file = csv(tmp_path / "run.csv", time__s=time, position__m=position, voltage__mV=force / 20.0)
+    with pytest.raises(InputError, match=r"column voltage \[mV\] times force_gain = 20 in .* is 1/1000 of what fits"):
+        load_dataset(file, tmp_path / "scenario.toml")
+
+
 @pytest.fixture(scope="module")
 def swing():
     """An arm of 1.1 kg at 0.4 m in gravity, a bearing with 0.6 N m of friction, and the torque that its motion takes [N m]."""
