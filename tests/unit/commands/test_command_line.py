@@ -30,6 +30,16 @@ def test_a_mistyped_command_is_answered_with_the_nearest(typed, meant):
     assert f"unknown command {typed!r}; did you mean {meant!r}? Known: " in done.stderr
 
 
+def test_a_reader_of_stdout_may_stop_early():
+    code = "from stochfric_mb.__main__ import main; main(['list', 'laws'])"
+    environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
+    done = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment)
+    assert done.stdout is not None
+    done.stdout.close()
+    _, said = done.communicate()
+    assert b"Broken pipe" not in said
+
+
 def test_quiet_prints_nothing_but_errors(tmp_path):
     done = invoke(*RUN, "-o", tmp_path / "run.nc", "-q")
     assert (done.exit_code, done.stdout, done.stderr) == (0, "", "")
