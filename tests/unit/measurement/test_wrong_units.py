@@ -139,6 +139,14 @@ def test_dead_channels(tmp_path, motion, truth):
         _load(tmp_path, (motion[0], zero), truth)
 
 
+def test_a_channel_that_freezes_in_a_run_is_noted(tmp_path, motion, truth):
+    time, position = motion
+    frozen = np.where(time < 6.0, position, position[6000])
+    run = _load(tmp_path, (time, frozen), truth).fit[0]
+    assert "from 6 to 20 s (70% of the run)" in str(run.notes), run.notes
+    assert not any("stays at" in note for note in _load(tmp_path, motion, truth).fit[0].notes)
+
+
 def test_a_velocity_that_is_not_the_rate_of_the_position(tmp_path, motion, truth):
     rate = np.gradient(*motion[::-1])
     smooth = np.convolve(rate, np.ones(15) / 15.0, mode="same")
@@ -224,7 +232,7 @@ def test_a_drive_in_volts_is_named_with_its_gain(tmp_path, slide):
     time, position, force = slide
     (tmp_path / "scenario.toml").write_text(JOINT.format(mass="4.0\nforce_gain = 20.0"))
     file = csv(tmp_path / "run.csv", time__s=time, position__m=position, voltage__mV=force / 20.0)
-    with pytest.raises(InputError, match=r"column voltage \[mV\] times force_gain = 20 in .* is 1/1000 of what fits"):
+    with pytest.raises(InputError, match=r"column voltage \[mV\] with force_gain = 20 in .* is 1/1000 of what fits"):
         load_dataset(file, tmp_path / "scenario.toml")
 
 
