@@ -75,6 +75,8 @@ class Commands(click.Group):
                 return super().invoke(ctx)
             except StochfricError as error:
                 raise Failure(str(error)) from error
+            except BrokenPipeError:  # the reader of stdout has seen enough (`stochfric list laws | head`): click ends quietly
+                raise
             except OSError as error:
                 raise Failure(f"{error.filename or 'file'}: {error.strerror or error}") from error
             except KeyboardInterrupt:

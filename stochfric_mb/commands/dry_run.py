@@ -20,6 +20,9 @@ SECONDS_A_SLIP = (0.025, 0.2)
 SECONDS = (2.0, 10.0)
 """Time that is added to it [s]."""
 
+OFF_SPEED = 0.1
+"""Distance of the stuck speed from the belt's from which it is told [-]: this look sees it to some per cent."""
+
 
 def dry_run(dataset: str, scenario: str | None, out: str, *, force: bool) -> None:
     """Read a dataset, draw its raw records and say what a discovery would do with them, and how long that takes."""
@@ -33,7 +36,7 @@ def dry_run(dataset: str, scenario: str | None, out: str, *, force: bool) -> Non
         except InputError as error:
             raise with_records(dataset, scenario, target, error) from None
         runs, refused = _facts(data), _refusal(data)
-        lines = [*(_line(run) for run in runs), *_plan(data, runs)]
+        lines = [*(_line(run) for run in runs), *_off_speed(data), *_plan(data, runs)]
         with whole_folder(target, replace=force) as folder:
             draw(data, folder, lines, refused)
     answer({"out": str(target), "runs": runs, "refused": refused})
@@ -100,10 +103,30 @@ def _line(run: dict[str, Any]) -> str:
     return f"{run['name']}: {use}, {run['seconds']:.4g} s at {run['rate']:.4g} Hz{slips}; {channels}{notes}"
 
 
+def _off_speed(data: Dataset) -> list[str]:
+    """Return what is said of a belt rig's runs whose stuck box moves at another speed than the belt is stated to."""
+    from stochfric_mb.measurement.scales import stuck_speed
+    from stochfric_mb.mechanisms import BeltBox
+
+    said: list[str] = []
+    for run in data.runs:
+        box, position = run.mechanism(data.scenario), run.channels.get("position")
+        if not isinstance(box, BeltBox) or position is None or box.belt_velocity == 0.0:
+            continue
+        stick = stuck_speed(position, run.sample_interval)
+        if stick is not None and abs(abs(stick[0] / box.belt_velocity) - 1.0) > OFF_SPEED:
+            said.append(
+                f"{run.name}: the stuck box moves at about {abs(stick[0]):.2g} m/s, but belt_velocity = "
+                f"{box.belt_velocity:.3g} m/s is stated: no effect would be named; measure the belt's speed and state it"
+            )
+    return said
+
+
 def _plan(data: Dataset, runs: list[dict[str, Any]]) -> list[str]:
     """Return what a discovery would do."""
     kind = data.scenario.mechanism.kind
-    said = f"Would search {_searched(kind)} in {len(data.fit)} runs and score on {len(data.test)}, {kind}"
+    fit = f"{len(data.fit)} run" + ("s" if len(data.fit) > 1 else "")
+    said = f"Would search {_searched(kind)} in {fit} and score on {len(data.test)}, {kind}"
     from stochfric_mb.discovery.criteria import FEWEST_OF_RUN, FEWEST_SLIPS
     from stochfric_mb.discovery.stick_slip.records.long_records import SIMULATED
 
@@ -136,12 +159,12 @@ def _searched(mechanism: str) -> str:
 def _refusal(data: Dataset) -> str:
     """Return why a discovery would refuse the records; empty if it would not."""
     from stochfric_mb.discovery.driven_joint import joint_workflow
-    from stochfric_mb.discovery.stick_slip.records import preconditions
+    from stochfric_mb.discovery.stick_slip import study
     from stochfric_mb.mechanisms import BeltBox
 
     sticks = isinstance(data.scenario.mechanism, BeltBox)
     try:
-        (preconditions if sticks else joint_workflow).require_usable(data)
+        (study if sticks else joint_workflow).require_usable(data)
     except InputError as error:
         return str(error)
     return ""

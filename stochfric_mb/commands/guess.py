@@ -11,7 +11,7 @@ from stochfric_mb.measurement.table import Table
 
 SYNONYMS: dict[str, tuple[str, ...]] = {
     "time": ("t", "time", "timestamp", "seconds", "zeit", "temps", "sec"),
-    "position": ("x", "q", "pos", "position", "displacement", "disp", "displ", "angle", "theta", "weg", "stroke"),
+    "position": ("x", "q", "pos", "position", "displacement", "disp", "displ", "angle", "theta", "phi", "weg", "stroke"),
     "velocity": ("v", "qd", "dq", "vel", "velocity", "speed", "rate", "omega"),
     "force": ("f", "force", "load", "kraft", "thrust"),
     "torque": ("tau", "torque", "moment", "trq"),
@@ -24,6 +24,8 @@ SYNONYMS: dict[str, tuple[str, ...]] = {
     "pressure": ("p", "pressure"),
 }
 """Quantity -> words in headers that may mean it."""
+ELECTRIC = ("voltage", "current")
+"""Quantities whose units, at the end of a name, are no one's else: ``tau_s`` may be a shoulder's, not in seconds."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,18 +70,38 @@ def _column(free: list[str], quantity: str, number: int, *, has_header: bool) ->
         return str(number) if str(number) in free and number < 2 else None
     exact = [name for name in free if _plain(name) == quantity]
     alike = [
-        name for name in free if known_name(name) in (None, quantity) and _words(name) & set(SYNONYMS.get(quantity, ()))
+        name
+        for name in free
+        if known_name(name) in (None, quantity)
+        and _words(name) & set(SYNONYMS.get(quantity, ()))
+        and not _electric(name, quantity)
     ]  # a column that names another known quantity is that one
     return next(iter(exact + alike), None)
 
 
 def _unit(name: str, quantity: str, rotational: bool | None) -> str:
-    """Return the unit that a name ends in, such as ``t_ms``, or the SI unit."""
+    """Return the unit that a name ends in, such as ``t_ms`` or ``v_mm_s``, or the SI unit."""
     if quantity not in KNOWN:
         return ""  # a ratio, such as the coefficient of friction
-    si = KNOWN[quantity].units_of(rotational)[0]
-    last = re.split(r"[^A-Za-z/]+", name)[-1]
-    return last if last in KNOWN[quantity].also else si
+    return _ending(name, _units(quantity)) or KNOWN[quantity].units_of(rotational)[0]
+
+
+def _electric(name: str, quantity: str) -> bool:
+    """Return whether a name ends in volts or amperes and the quantity is no such: ``u_V`` is no velocity."""
+    return quantity not in ELECTRIC and bool(_ending(name, [unit for known in ELECTRIC for unit in _units(known)]))
+
+
+def _units(quantity: str) -> tuple[str, ...]:
+    """Return the units that a quantity may have, along a line and about an axis."""
+    return (*KNOWN[quantity].units_of(None), *KNOWN[quantity].also)
+
+
+def _ending(name: str, units: Iterable[str]) -> str:
+    """Return the longest of the units in which a name ends behind a divider; empty if it ends in none."""
+    parts = re.split(r"[^A-Za-z0-9]+", name)
+    written = {unit: [part for part in re.split(r"[^A-Za-z0-9]+", unit) if part] for unit in units}
+    fits = [u for u, words in written.items() if len(parts) > len(words) and parts[-len(words) :] in (words, ["".join(words)])]
+    return max(fits, key=len, default="")
 
 
 def _plain(name: str) -> str:

@@ -9,6 +9,7 @@ from typing import Any, cast
 
 import click
 
+from stochfric_mb.commands.options import Names
 from stochfric_mb.commands.speech import answer, say, spoken
 from stochfric_mb.errors import InputError
 
@@ -60,12 +61,15 @@ UNCERTAINTY: dict[str, dict[str, float]] = {
 
 @click.command(epilog=EXAMPLE)
 @spoken
-@click.argument("mechanism", type=click.Choice(list(CHANNELS)))
+@click.argument("mechanism", metavar="MECHANISM", type=Names("mechanism", list(CHANNELS)))
 @click.option("--from", "measured", type=click.Path(), metavar="FILE", help="Measured file: its columns are guessed.")
 @click.option("-o", "--out", required=True, metavar="DIR", help="Folder for scenario.toml and dataset.toml.")
 @click.option("--force", is_flag=True, help="Replace what is at --out.")
 def init(mechanism: str, measured: str | None, out: str, force: bool) -> None:
-    """Write a commented scenario.toml and dataset.toml for a rig of your own, to fill in."""
+    """Write a commented scenario.toml and dataset.toml for a rig of your own, to fill in.
+
+    MECHANISM: belt_box, prismatic_joint, hinge_pendulum, spring_slider or mjcf.
+    """
     from stochfric_mb.outputs import check_target, whole_folder
 
     target = check_target(out, force=force, marker=MARKER)

@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from stochfric_mb.commands.options import Names
 from stochfric_mb.commands.speech import answer, say, spoken
 
 EXAMPLE = """\b
@@ -20,7 +21,7 @@ Cards = list[tuple[str, list[tuple[str, str]]]]
 
 @click.command("list", epilog=EXAMPLE)
 @spoken
-@click.argument("what", type=click.Choice(["scenarios", "laws", "processes", "effects", "engines"]))
+@click.argument("what", type=Names("list", ["scenarios", "laws", "processes", "effects", "engines"]))
 def list_(what: str) -> None:
     """List what there is: bundled scenarios, laws, processes, effects or engines, with equation and source."""
     _LISTS[what]()

@@ -14,6 +14,22 @@ from stochfric_mb.engines import ENGINES
 from stochfric_mb.errors import InputError, require_name
 
 
+class Names(click.Choice[str]):
+    """One of a few names; what is mistyped is answered with the nearest, as commands are."""
+
+    def __init__(self, what: str, names: list[str]) -> None:
+        """Keep what the names are of, for messages."""
+        super().__init__(names)
+        self.what = what
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return the name once it is one of those known."""
+        try:
+            return require_name(self.what, str(value), map(str, self.choices))
+        except InputError as error:
+            raise click.UsageError(str(error), ctx) from None
+
+
 def scenario_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Return ``command`` with SCENARIO, --seed, --dt, --law, --set and --force."""
     for option in (

@@ -19,6 +19,11 @@ from stochfric_mb.measurement.units import to_si
 
 Array = npt.NDArray[np.float64]
 
+MOVING = ("position", "velocity", "acceleration", "force", "torque")
+"""Channels that stay at one number to the last digit only at rest, or when they are dead."""
+FROZEN = 0.2
+"""Share of the run from which that is told [-]."""
+
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class RunEntry:
@@ -88,6 +93,7 @@ def assemble(entry: RunEntry, *, rotational: bool | None) -> Run:
         channels = {k: np.interp(grid.time, time, v) for k, v in channels.items()}
         covariates = {k: np.interp(grid.time, time, v) for k, v in covariates.items()}
     notes += [f"{k} is constant ({v[0]:g} {units[k]})" for k, v in channels.items() if v.size and np.ptp(v) == 0.0]
+    notes += [said for k, v in channels.items() if (said := _frozen(k, v, grid.time, units[k]))]
     return Run(
         name=entry.name,
         role=entry.role,
@@ -101,6 +107,23 @@ def assemble(entry: RunEntry, *, rotational: bool | None) -> Run:
         sample_interval=grid.interval,
         source=str(entry.file),
         notes=tuple(notes),
+    )
+
+
+def _frozen(name: str, values: Array, time: Array, unit: str) -> str:
+    """Return what is said of a channel that moves, and stays at one number for much of the run; nothing where it does not."""
+    if name not in MOVING or values.size < 2 or np.ptp(values) == 0.0:
+        return ""
+    changes = np.flatnonzero(np.diff(values)) + 1
+    edges = np.concatenate(([0], changes, [values.size]))
+    longest = int(np.argmax(np.diff(edges)))
+    first, last = int(edges[longest]), int(edges[longest + 1]) - 1
+    share = (last - first) / (values.size - 1)
+    if share < FROZEN:
+        return ""
+    return (
+        f"{name} stays at {values[first]:g} {unit} from {time[first]:.4g} to {time[last]:.4g} s ({share:.0%} of the run): at "
+        "rest, or a dead channel; cut that away with time_range if it is dead"
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.measurement.scales import FACTORS, Array, Cause, Shown, inertia, likeliest, shown
+from stochfric_mb.measurement.scales import FACTORS, SPEED_FITS, Array, Cause, Shown, inertia, likeliest, shown
 from stochfric_mb.measurement.smoothing import smooth
 from stochfric_mb.mechanisms import BeltBox, HingePendulum, PrismaticJoint
 from stochfric_mb.scenario import Scenario
@@ -74,6 +74,8 @@ def require_plausible(run: Run, scenario: Scenario[Any], stated_in: str) -> None
         cause = likeliest(seen)
         if cause is not None:
             raise InputError(_wrong_unit(run, mechanism, seen, cause, stated_in))
+    if isinstance(mechanism, BeltBox):
+        _require_as_stated(run, mechanism, stated_in)
 
 
 def _require_alive(run: Run) -> None:
@@ -118,6 +120,26 @@ def _require_rate(run: Run) -> None:
         )
 
 
+def _require_as_stated(run: Run, box: BeltBox, stated_in: str) -> None:
+    """Require that columns of belt speed and normal force are of the size stated: discovery takes the stated numbers."""
+    for name in ("belt_velocity", "normal_force"):
+        stated = abs(float(getattr(box, name)))
+        if name not in run.channels or stated == 0.0:
+            continue
+        seen = abs(float(np.median(run.channels[name])))
+        if seen == 0.0 or abs(math.log10(seen / stated)) > SPEED_FITS:
+            unit = run.units.get(name, "")
+            raise InputError(
+                f"{run.source}: the median of column {name} is {seen:.4g} {unit}, but {_stated_as(run, name, stated_in)} = "
+                f"{stated:.4g} {unit}: correct the one that is wrong, or give the column's unit in units = {{ {name} = ... }}"
+            )
+
+
+def _stated_as(run: Run, name: str, stated_in: str) -> str:
+    """Return the key that states a number of the mechanism, and where."""
+    return f"set.{name} of run {run.name}" if name in run.settings else f"{stated_in}: mechanism.{name}"
+
+
 def _require_inertia(run: Run, joint: PrismaticJoint | HingePendulum, mu_k: float, stated_in: str) -> None:
     """Require that force over acceleration is of the size of the stated mass, where one wrong unit explains that it is not."""
     hinge = isinstance(joint, HingePendulum)
@@ -159,6 +181,11 @@ def _in_unit(run: Run, joint: PrismaticJoint | HingePendulum, name: str, factor:
         really = _unit_of(STATED_UNITS[name], 1.0 / factor)
         return f"{name} in {stated_in} is in {really}: write {name} = {value / factor:.6g} ({si})" if really != si else ""
     column = "position" if name == "angle" else name
+    if column in ("force", "torque") and column not in run.channels:  # a drive in volts, through the stated gain
+        gain = "torque_gain" if isinstance(joint, HingePendulum) else "force_gain"
+        label, value = run.file_units.get("voltage", ""), float(getattr(joint, gain))
+        place = f"column voltage [{label}] with {gain} = {value:g} in {stated_in}"
+        return f"{place} is {_times(factor)} what fits: correct one of them"
     label, sizes = run.file_units.get(column, ""), CHANNEL_UNITS[name]
     really = _unit_of(sizes, sizes.get(label, 1.0) / factor)
     if really == label or abs(math.log10(sizes[really] * factor / sizes.get(label, 1.0))) > 0.01:  # no unit has this size
@@ -180,9 +207,9 @@ def _wrong_unit(run: Run, box: BeltBox, seen: Shown, cause: Cause, stated_in: st
         sizes = STATED_UNITS[cause.name]
         really = _unit_of(sizes, 1.0 / cause.factor)
         si = next(iter(sizes))
-        key = f"set.{cause.name}" if cause.name in run.settings else f"mechanism.{cause.name}"
         remedy = f"write {cause.name} = {value / cause.factor:.6g} ({si})"
-        place = f"{stated_in}: {key} = {value:g} {si} (run {run.name})"
+        seen_in = "" if cause.name in run.settings else f" (run {run.name})"
+        place = f"{_stated_as(run, cause.name, stated_in)} = {value:g} {si}{seen_in}"
     return f"{place} is {_times(cause.factor)} what fits: {_evidence(seen)}. It is probably in {really}; {remedy}"
 
 

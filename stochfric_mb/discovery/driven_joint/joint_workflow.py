@@ -17,6 +17,7 @@ from stochfric_mb.discovery.driven_joint.balance.timing import NAMED, Timing
 from stochfric_mb.discovery.driven_joint.decision.adequacy import drawn_by_two, inadequate
 from stochfric_mb.discovery.driven_joint.decision.carry_over import with_idle, with_unnamed
 from stochfric_mb.discovery.driven_joint.decision.selection import Stage
+from stochfric_mb.discovery.driven_joint.decision.signs import require_dissipation
 from stochfric_mb.discovery.driven_joint.decision.verdict import verdict
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
@@ -131,7 +132,8 @@ def require_usable(dataset: Dataset) -> None:
     """Return if friction can be estimated from the runs of a dataset.
 
     Raises:
-        InputError: another mechanism, a missing channel or model file, or a joint that hardly slides.
+        InputError: another mechanism, a missing channel or model file, a joint that hardly slides, or a drive whose sign is
+            wrong.
     """
     if isinstance(dataset.scenario.mechanism, SpringSlider):
         from stochfric_mb.discovery.velocity_step.velocity_steps import track_of
@@ -140,7 +142,10 @@ def require_usable(dataset: Dataset) -> None:
             track_of(run, dataset)
         return
     _require_controller(dataset.scenario)
-    _require_sliding_at_places(dataset, source_of(dataset))
+    source = source_of(dataset)
+    _require_sliding_at_places(dataset, source)
+    for name, _ in source.places:
+        require_dissipation(dataset, name, source.balances(name, "fit", stated_delay(dataset.scenario)))
 
 
 def _require_sliding_at_places(dataset: Dataset, source: Any) -> None:

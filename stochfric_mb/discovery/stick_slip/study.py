@@ -9,9 +9,9 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.stick_slip.records import preconditions
 from stochfric_mb.discovery.stick_slip.records.calibration import calibrate
 from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
-from stochfric_mb.discovery.stick_slip.records.preconditions import require_driven
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Record, corrections_of, make_record
 from stochfric_mb.discovery.stick_slip.records.sensor_range import SensorRange, sensor_range
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, extract
@@ -103,10 +103,9 @@ def study(dataset: Dataset, *, progress: Progress = lambda _: None) -> Study | N
     model = prior_model(dataset.scenario)
     progress("slips")
     records = tuple(record_of(run, dataset) for run in dataset.fit)
-    usable = [s for s in map(extract, records) if len(s) >= criteria.FEWEST_OF_RUN]
-    if sum(map(len, usable)) < criteria.FEWEST_SLIPS:
+    usable = _usable(records, dataset)
+    if not usable:
         return None
-    require_driven(usable, dataset.scenario.law.mu_s)
     progress("calibration")
     pool, solution = _calibrated(usable, dataset.scenario.uncertainty)
     return Study(
@@ -122,6 +121,30 @@ def study(dataset: Dataset, *, progress: Progress = lambda _: None) -> Study | N
         range=sensor_range(pool.slips),
         outliers=float(np.mean(np.concatenate([r.outlier for r in records]))),
     )
+
+
+def _usable(records: Sequence[Record], dataset: Dataset) -> list[Slips]:
+    """Return the slips of the records that have enough of them; none where all have too few.
+
+    Raises:
+        InputError: a record in which friction does not drive the box along with the belt.
+    """
+    usable = [s for s in map(extract, records) if len(s) >= criteria.FEWEST_OF_RUN]
+    if sum(map(len, usable)) < criteria.FEWEST_SLIPS:
+        return []
+    preconditions.require_driven(usable, dataset.scenario.law.mu_s)
+    return usable
+
+
+def require_usable(dataset: Dataset) -> None:
+    """Return if discovery would not refuse the runs of a belt-box.
+
+    Raises:
+        InputError: a belt at rest, too few samples, a run without a position, or one in which friction does not drive the box
+            along with the belt.
+    """
+    preconditions.require_usable(dataset)
+    _usable([record_of(run, dataset) for run in dataset.fit], dataset)
 
 
 def _calibrated(slips: Sequence[Slips], uncertainty: Mapping[str, float]) -> tuple[Pool, Solution]:

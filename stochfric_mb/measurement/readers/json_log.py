@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import json
 import math
 from collections.abc import Mapping
@@ -14,6 +15,9 @@ from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.quantities import split_header
 from stochfric_mb.measurement.readers.arrays import table_of
 from stochfric_mb.measurement.table import Array, Table
+
+PEEKED = 65536
+"""Bytes of a large file that are looked at before all of it is read."""
 
 
 def read(path: Path, *, skip_rows: int = 0) -> Table:
@@ -46,6 +50,10 @@ def read(path: Path, *, skip_rows: int = 0) -> Table:
 
 def _loaded(path: Path) -> Any:
     try:
+        with path.open("rb") as file:
+            start = codecs.getincrementaldecoder("utf-8-sig")().decode(file.read(PEEKED))
+        if len(start) > PEEKED // 4 and start.lstrip()[:1] not in ("{", "["):  # a short file is read, and told more of
+            raise InputError(f"{path}: not JSON: it begins with {start[:20]!r}, not with {{ or [")
         text = path.read_text(encoding="utf-8-sig")
         if path.suffix.lower() == ".jsonl":
             return [json.loads(line) for line in text.splitlines() if line.strip()]

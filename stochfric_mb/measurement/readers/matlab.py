@@ -16,6 +16,10 @@ from stochfric_mb.measurement.table import Table
 
 _V73_OFFSET = 512
 """MATLAB writes its own text before the HDF5 content [bytes]."""
+_ENDS_5 = slice(126, 128)
+"""Where a file of versions 5 to 7.2 says its byte order, by the letters MI [bytes]."""
+_MOST_4 = 5000
+"""Bound of the type number with which a file of version 4 begins (MOPT: at most 4052)."""
 
 
 def read(path: Path, *, skip_rows: int = 0) -> Table:
@@ -24,6 +28,8 @@ def read(path: Path, *, skip_rows: int = 0) -> Table:
     Raises:
         InputError: not a MATLAB file.
     """
+    if not (_is_v73(path) or _may_be_older(path)):
+        raise InputError(f"{path}: not a MATLAB file: it begins like none of the versions 4 to 7.3")
     items = [(n.replace("/", "."), v) for n, v, _ in arrays_in(path)] if _is_v73(path) else list(_version_5(path))
     return table_of(path, items, skip_rows=skip_rows)
 
@@ -32,6 +38,13 @@ def _is_v73(path: Path) -> bool:
     with path.open("rb") as file:
         start = file.read(_V73_OFFSET + len(SIGNATURE))
     return start.startswith(SIGNATURE) or start[_V73_OFFSET:] == SIGNATURE
+
+
+def _may_be_older(path: Path) -> bool:
+    """Return whether a file begins like version 4 to 7.2: SciPy reads all of another before it says so."""
+    with path.open("rb") as file:
+        start = file.read(_ENDS_5.stop)
+    return start[_ENDS_5] in (b"MI", b"IM") or any(int.from_bytes(start[:4], order) < _MOST_4 for order in ("little", "big"))
 
 
 def _version_5(path: Path) -> Iterator[tuple[str, Any]]:

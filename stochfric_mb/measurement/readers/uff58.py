@@ -15,6 +15,8 @@ from stochfric_mb.measurement.table import Table
 
 FUNCTION = 58
 """Type of the data sets that hold functions."""
+PEEKED = 65536
+"""Bytes of a file in which its first data set must begin."""
 TIME = 17
 """Code of time among the kinds of data on the abscissa."""
 KINDS = {5: "temperature", 8: "position", 9: "force", 11: "velocity", 12: "acceleration", 13: "force", 15: "pressure"}
@@ -35,6 +37,9 @@ def read(path: Path, *, skip_rows: int = 0) -> Table:
         pyuff: Any = importlib.import_module("pyuff")
     except ImportError:
         raise missing("pyuff", "UFF") from None
+    with path.open("rb") as start:
+        if all(line.strip() != b"-1" for line in start.read(PEEKED).splitlines()):
+            raise InputError(f"{path}: not a universal file: no data set begins with a line -1")
     try:
         file = pyuff.UFF(str(path))
         chosen = [i for i, kind in enumerate(file.get_set_types()) if int(kind) == FUNCTION]

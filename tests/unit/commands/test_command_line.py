@@ -1,5 +1,6 @@
 """Quiet, verbose, JSON, completion, hints: the command line as a script and a hurried user meet it."""
 
+import errno
 import json
 import os
 import subprocess
@@ -12,6 +13,7 @@ from click.testing import CliRunner
 
 from stochfric_mb.__main__ import COMMANDS, main
 from stochfric_mb.commands import progress
+from stochfric_mb.commands.list import _LISTS
 from stochfric_mb.commands.options import command_line
 from stochfric_mb.commands.speech import Speech, spoken
 from stochfric_mb.errors import InputError
@@ -28,6 +30,23 @@ def test_a_mistyped_command_is_answered_with_the_nearest(typed, meant):
     done = invoke(typed)
     assert done.exit_code == 2
     assert f"unknown command {typed!r}; did you mean {meant!r}? Known: " in done.stderr
+
+
+@pytest.mark.parametrize(("typed", "meant"), [(("list", "law"), "laws"), (("init", "belt_bx", "--out", "rig"), "belt_box")])
+def test_a_mistyped_name_is_answered_with_the_nearest(typed, meant):
+    done = invoke(*typed)
+    assert done.exit_code == 2
+    assert f"{typed[1]!r}; did you mean {meant!r}? Known: " in done.stderr
+
+
+def test_a_reader_of_stdout_may_stop_early(monkeypatch):
+    def closed():
+        raise BrokenPipeError(errno.EPIPE, "Broken pipe")
+
+    monkeypatch.setitem(_LISTS, "laws", closed)
+    done = invoke("list", "laws")
+    assert done.exit_code == 1
+    assert not done.stderr
 
 
 def test_quiet_prints_nothing_but_errors(tmp_path):

@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -132,7 +133,7 @@ output_step = 1.0e-3
         (
             "prismatic_joint",
             "mass = 95.0\nnormal_force = 932.0",
-            "kinds of effects in 1 runs and score on 1, prismatic_joint",
+            "kinds of effects in 1 run and score on 1, prismatic_joint",
             "has no force (it has position)",
         ),
         ("spring_slider", "stiffness = 2000.0", "Would search friction with memory", "neither friction_coefficient"),
@@ -158,3 +159,40 @@ def test_too_few_slips_are_said(tmp_path, motion):
     assert "too few slips to judge friction by in run (first two thirds), run (last third): each run needs 12" in " ".join(
         done.output.split()
     )
+
+
+@pytest.mark.parametrize(
+    ("sign", "zero", "words"), [(-1.0, 0.0, "sign = { position = -1 }"), (1.0, 0.05, "spring is unstressed")]
+)
+def test_a_position_that_discovery_refuses_is_refused(tmp_path, motion, sign, zero, words):
+    file = _write(tmp_path / "run.csv", dataclasses.replace(motion, position=sign * motion.position + zero))
+    done = invoke("discover", file, "--scenario", "kang2015_table1", "--dry-run", "--out", tmp_path / "raw")
+    assert done.exit_code == 2
+    assert words in " ".join(done.stderr.split())
+
+
+def test_a_belt_off_its_stated_speed_is_said(tmp_path, motion):
+    (tmp_path / "rig.toml").write_text(
+        (Path(__file__).parents[3] / "models" / "belt_box" / "kang2015_table1.toml").read_text().replace("2.5e-3", "2.0e-3")
+    )
+    file = _write(tmp_path / "run.csv", motion)
+    done = invoke("discover", file, "--scenario", tmp_path / "rig.toml", "--dry-run", "--out", tmp_path / "raw")
+    assert done.exit_code == 0
+    assert "but belt_velocity = 0.002 m/s is stated: no effect would be named" in " ".join(done.output.split())
+
+
+@pytest.mark.parametrize(("factor", "words"), [(-1.0, "give sign = { force = -1 }"), (0.0, "force is 0 in all samples")])
+def test_a_drive_that_is_dead_or_turned_round_is_refused(tmp_path, factor, words):
+    numbers = "mass = 4.2\nnormal_force = 300.0\ndamping = 60.0"
+    (tmp_path / "rig.toml").write_text(JOINT.format(kind="prismatic_joint", numbers=numbers))
+    time = np.arange(12000) / 500.0
+    waves = [(0.05, 1.4, 1.0), (0.025, 3.8, 2.0), (0.0125, 8.6, 3.0)]
+    position = sum(a * np.sin(w * time + p) for a, w, p in waves)
+    velocity = sum(a * w * np.cos(w * time + p) for a, w, p in waves)
+    acceleration = sum(-a * w**2 * np.sin(w * time + p) for a, w, p in waves)
+    force = factor * (4.2 * acceleration + 60.0 * velocity + 9.0 * np.sign(velocity))
+    columns = np.column_stack([time, position, force])
+    np.savetxt(tmp_path / "run.csv", columns, header="time [s],position [m],force [N]", comments="", delimiter=",")
+    done = invoke("discover", tmp_path / "run.csv", "--scenario", tmp_path / "rig.toml", "--dry-run", "--out", tmp_path / "raw")
+    assert done.exit_code == 2
+    assert words in " ".join(done.stderr.split())

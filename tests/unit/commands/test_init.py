@@ -135,3 +135,18 @@ def test_a_column_is_guessed_as_what_its_name_says_and_what_is_missing_is_said(t
     done = invoke("init", "prismatic_joint", "--from", log, "--out", tmp_path / "joint")
     assert "force or voltage: no column looks like it" in done.output
     assert "column 'friction_force'" not in done.output  # what drives a joint is not its friction
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "header", "units"),
+    [
+        ("belt_box", "t,pos_mm,v_mm_s,belt_mm_s", {"time": "s", "position": "mm", "velocity": "mm/s", "belt_velocity": "mm/s"}),
+        ("belt_box", "t,x,u_V", {"time": "s", "position": "m"}),  # volts are no velocity
+        ("hinge_pendulum", "t,phi_deg,tau_s,u_V", {"time": "s", "position": "deg", "torque": "N m", "voltage": "V"}),
+    ],
+)
+def test_units_are_guessed_from_the_ends_of_names(tmp_path, mechanism, header, units):
+    columns = [TIME, *(0.001 * i * np.sin(7.0 * TIME) for i in range(1, header.count(",") + 1))]
+    file = _csv(tmp_path / "log.csv", header, *columns)
+    invoke("init", mechanism, "--from", file, "--out", tmp_path / "rig")
+    assert tomllib.loads((tmp_path / "rig" / "dataset.toml").read_text())["runs"][0]["units"] == units

@@ -29,7 +29,7 @@ def only(folder, run=FIT):
 
 
 def test_a_dataset(rig):
-    csv(rig / "slow.csv", time__ms=1e3 * TIME, position__mm=1e3 * POSITION, humidity=TIME, normal_force__kN=0.001 + 0.0 * TIME)
+    csv(rig / "slow.csv", time__ms=1e3 * TIME, position__mm=1e3 * POSITION, humidity=TIME, normal_force__kN=0.013 + 0.0 * TIME)
     slow = 'file = "slow.csv"\nrole = "test"\nset = { belt_velocity = 1e-3 }'
     shutil.copy(bundled_scenarios()["kang2015_table1"], rig / "scenario.toml")
     data = load_dataset(dataset(rig, FIT, slow, scenario="scenario.toml"))
@@ -38,11 +38,11 @@ def test_a_dataset(rig):
     np.testing.assert_array_equal(fit.channels["position"], POSITION)
     np.testing.assert_allclose(test.channels["position"], POSITION, rtol=1e-15)
     np.testing.assert_allclose(test.time, TIME, rtol=1e-12)
-    np.testing.assert_allclose(test.channels["normal_force"], 1.0, rtol=1e-12)
+    np.testing.assert_allclose(test.channels["normal_force"], 13.0, rtol=1e-12)
     np.testing.assert_array_equal(test.covariates["humidity"], TIME)
     assert test.units == {"position": "m", "normal_force": "N", "humidity": ""}
     assert test.sample_interval == pytest.approx(1e-3, rel=1e-12)
-    assert test.notes == ("normal_force is constant (1 N)",)
+    assert test.notes == ("normal_force is constant (13 N)",)
     assert fit.mechanism(data.scenario) == data.scenario.mechanism
     assert test.mechanism(data.scenario) == dataclasses.replace(data.scenario.mechanism, belt_velocity=1e-3)
 

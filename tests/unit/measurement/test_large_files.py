@@ -29,10 +29,20 @@ print(words[words.index("VmHWM:") + 1])
 
 
 @pytest.mark.parametrize(
-    ("content", "message"), [(b"1.0,", "its first line is longer"), (b"\x00\x01\xff\x7f", "not a text file")]
+    ("ending", "content", "message"),
+    [
+        ("csv", b"1.0,", "its first line is longer"),
+        ("csv", b"\x00\x01\xff\x7f", "not a text file"),
+        ("json", b"1.0,", "not JSON"),
+        ("json", b"\x00\x01\xff\x7f", "not JSON"),
+        ("mat", b"\x30\x91\xff\x7f", "not a MATLAB file"),
+        ("uff", b"\x00\x01\xff\x7f", "not a universal file"),
+    ],
 )
-def test_200_megabytes_that_are_no_table_are_refused_in_little_time_and_memory(tmp_path, content, message):
-    file = tmp_path / "log.csv"
+def test_200_megabytes_that_are_no_table_are_refused_in_little_time_and_memory(tmp_path, ending, content, message):
+    if ending == "uff":
+        pytest.importorskip("pyuff", reason="pyuff reads universal files")
+    file = tmp_path / f"log.{ending}"
     with file.open("wb") as target:
         for _ in range(200):
             target.write(content * 2**18)

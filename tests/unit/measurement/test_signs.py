@@ -49,7 +49,8 @@ def test_belt_velocity_as_measured_counts(tmp_path, scenario, trajectory):
         friction_force__N=trajectory.friction_force,
         **{"belt_velocity__m/s": np.full(n, -0.5)},
     )
-    run = load_dataset(tmp_path / "run.csv", scenario).fit[0]
+    forwards = dataclasses.replace(scenario, mechanism=dataclasses.replace(scenario.mechanism, belt_velocity=0.5))
+    run = load_dataset(tmp_path / "run.csv", forwards).fit[0]
     assert any("brings in energy" in note for note in run.notes)
 
 

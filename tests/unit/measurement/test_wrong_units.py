@@ -81,6 +81,33 @@ def test_a_stated_number_in_another_unit(tmp_path, motion, truth, key, value, me
         _load(tmp_path, motion, _stated(truth, **{key: value}))
 
 
+def test_a_number_of_one_run_in_another_unit_is_named_where_it_stands(tmp_path, motion, truth):
+    time, position = motion
+    csv(tmp_path / "run.csv", time__s=time, position__m=position)
+    (tmp_path / "dataset.toml").write_text(
+        'schema = "stochfric.dataset/1"\ntitle = "t"\nscenario = "kang2015_table1"\n'
+        '[[runs]]\nfile = "run.csv"\nrole = "fit"\nset = { belt_velocity = 2.5 }\n'
+        '[[runs]]\nfile = "run.csv"\nrole = "test"\n'
+    )
+    with pytest.raises(InputError, match=r"^set.belt_velocity of run .* = 2.5 m/s .* write belt_velocity = 0.0025"):
+        load_dataset(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "changes", "message"),
+    [
+        ("belt_velocity__m/s", 2.5e-3, {"belt_velocity": 2.5}, r"belt_velocity is 0.0025 m/s, but .*mechanism.* = 2.5 m/s"),
+        ("normal_force__N", 0.013, {}, r"normal_force is 0.013 N, but .*mechanism.normal_force = 13 N: correct the one"),
+    ],
+)
+def test_a_column_that_contradicts_what_is_stated(tmp_path, motion, truth, column, value, changes, message):
+    values = np.full(motion[0].size, value)
+    with pytest.raises(InputError, match=message):  # discovery takes the stated number, and would not look at the column
+        _load(tmp_path, motion, _stated(truth, **changes), **{column: values})
+    name = column.partition("__")[0]
+    assert _load(tmp_path, motion, truth, **{column: np.full(values.size, 1.2 * getattr(truth.mechanism, name))}).fit
+
+
 @pytest.mark.parametrize("factor", [0.7, 1.4])
 @pytest.mark.parametrize("key", ["belt_velocity", "stiffness", "mass", "normal_force"])
 def test_numbers_that_are_merely_wrong_are_left_to_discovery(tmp_path, motion, truth, key, factor):
@@ -110,6 +137,14 @@ def test_dead_channels(tmp_path, motion, truth):
         _load(tmp_path, motion, truth, **{"velocity__m/s": zero})
     with pytest.raises(InputError, match=r"run.csv: position is 0 m in all 20001 samples: a dead channel.*leave the run out"):
         _load(tmp_path, (motion[0], zero), truth)
+
+
+def test_a_channel_that_freezes_in_a_run_is_noted(tmp_path, motion, truth):
+    time, position = motion
+    frozen = np.where(time < 6.0, position, position[6000])
+    run = _load(tmp_path, (time, frozen), truth).fit[0]
+    assert "from 6 to 20 s (70% of the run)" in str(run.notes), run.notes
+    assert not any("stays at" in note for note in _load(tmp_path, motion, truth).fit[0].notes)
 
 
 def test_a_velocity_that_is_not_the_rate_of_the_position(tmp_path, motion, truth):
@@ -191,6 +226,14 @@ def test_units_at_a_driven_joint_by_force_over_acceleration(tmp_path, slide, sca
     assert text.startswith(f"{file}: the force is ")
     assert text.count("write ") == len(remedies)
     assert all(remedy in text for remedy in remedies), text
+
+
+def test_a_drive_in_volts_is_named_with_its_gain(tmp_path, slide):
+    time, position, force = slide
+    (tmp_path / "scenario.toml").write_text(JOINT.format(mass="4.0\nforce_gain = 20.0"))
+    file = csv(tmp_path / "run.csv", time__s=time, position__m=position, voltage__mV=force / 20.0)
+    with pytest.raises(InputError, match=r"column voltage \[mV\] with force_gain = 20 in .* is 1/1000 of what fits"):
+        load_dataset(file, tmp_path / "scenario.toml")
 
 
 @pytest.fixture(scope="module")

@@ -35,25 +35,39 @@ def sign_notes(dataset: Dataset, place: str, load: float, balances: Sequence[For
     Raises:
         InputError: friction brings in energy in a run.
     """
-    for balance in balances:
-        _require_dissipation(balance, _remedy(dataset, place))
+    require_dissipation(dataset, place, balances)
     return _fits_turned(dataset, place, load, balances)
 
 
-def _require_dissipation(balance: ForceBalance, remedy: str) -> None:
-    """Return if friction, as inverse dynamics has it, takes energy out of the motion of a run.
+def require_dissipation(dataset: Dataset, place: str, balances: Sequence[ForceBalance]) -> None:
+    """Return if friction, as inverse dynamics has it, takes energy out of the motion of runs; arguments as of `sign_notes`.
 
     Raises:
-        InputError: it feeds the motion.
+        InputError: it feeds the motion of a run: the drive is dead, or its sign is wrong.
     """
+    turned = f"the sign of the driving force, or of the position, is wrong; {_remedy(dataset, place)}"
+    for balance in balances:
+        _require_dissipation(balance, _dead_drive(dataset, balance.run) or turned)
+
+
+def _dead_drive(dataset: Dataset, run: str) -> str:
+    """Return what is said of a drive that never changes in a run; nothing where it changes, or where joints have their own."""
+    if isinstance(dataset.scenario.mechanism, Mjcf):
+        return ""
+    channels = next((r.channels for r in dataset.runs if r.name == run), {})
+    dead = [k for k in DRIVES if k in channels and np.ptp(channels[k]) == 0.0]
+    value = channels[dead[0]][0] + 0.0 if dead else 0.0
+    return f"{dead[0]} is {value:g} in all samples: repair a dead channel, or leave the run out" if dead else ""
+
+
+def _require_dissipation(balance: ForceBalance, cause: str) -> None:
     resistance, velocity = balance.driven[balance.sliding], balance.velocity[balance.window.centres][balance.sliding]
     if len(resistance) < 2 * SEGMENTS:
         return
     wrong = probable_sign_error(-(resistance - np.median(resistance)), velocity)
     if wrong is not None:
         raise InputError(
-            f"run {balance.run!r}: friction brings in energy ({100 * wrong.created:.0f} % of what it exchanges): the sign of "
-            f"the driving force, or of the position, is wrong; {remedy}"
+            f"run {balance.run!r}: friction brings in energy ({100 * wrong.created:.0f} % of what it exchanges): {cause}"
         )
 
 
