@@ -529,6 +529,20 @@ def test_noslip_iterations_do_no_harm(integrator, kind):
         assert abs(data.qpos[0] - start) < 1e-10
 
 
+@pytest.mark.parametrize(
+    "option", [("integrator", mujoco.mjtIntegrator.mjINT_DISCRETE), ("solver", mujoco.mjtSolver.mjSOL_PGS)]
+)
+def test_noslip_iterations_that_let_go_early_are_warned_of(option):
+    """With these two a box on an incline breaks away at 32 to 35 degrees; mu_s 0.8 holds it up to 38.66."""
+    spec = scene()
+    spec.option.noslip_iterations = 3
+    setattr(spec.option, *option)
+    with pytest.warns(engine.IntegratorWarning, match="noslip_iterations = 3 .* break away below mu_s N"):
+        engine.add_friction(spec, ("box", "floor"), law("coulomb"))
+    with pytest.warns(engine.IntegratorWarning, match="use noslip_iterations 0"):
+        mujoco.MjData(spec.compile())  # and where a model with friction is loaded
+
+
 @pytest.mark.parametrize("jacobian", ["DENSE", "SPARSE"])
 @pytest.mark.parametrize("kind", LAWS)
 def test_a_box_breaks_away_with_pgs_too(jacobian, kind):
