@@ -44,7 +44,7 @@ from stochfric_mb.mujoco.contact.rows import (
 )
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory.structs import DISCRETE, PGS, RUNGE_KUTTA, contact_at
+from stochfric_mb.mujoco.memory.structs import DISCRETE, ELLIPTIC, PGS, RUNGE_KUTTA, contact_at
 from stochfric_mb.numerics import memory as w
 from stochfric_mb.numerics.root import ROUNDING, bracket, is_wide, narrowed, trial
 
@@ -62,6 +62,10 @@ FRICTIONLESS = (
     "stochfric_mb: a contact of a pair with friction has condim 1, so MuJoCo's solver has no friction for the law to steer; "
     "give the pair condim 3"
 )
+PYRAMIDAL = (
+    "stochfric_mb: option.cone has been made pyramidal, whose coefficients are fixed before friction can set them; make it "
+    "elliptic (model.opt.cone = mujoco.mjtCone.mjCONE_ELLIPTIC)"
+)
 UNKNOWN = -1.0
 """Value of ``given`` of a contact that has just come up, before it has a share of its face."""
 JUST_STUCK = -1.0
@@ -75,6 +79,8 @@ def evaluate(m, d, state, law, starting):
     since = d.time - header.evaluated
     body, surface = int(header.geom_body), int(header.geom_surface)
     if starting:
+        if m.cone != ELLIPTIC:  # since the data were made, which refused it
+            engine.mju_error(w.c_string(PYRAMIDAL))
         begin(m, d, state, law)
     k, ordinal = 0, 0
     for i in range(d.ncon):
