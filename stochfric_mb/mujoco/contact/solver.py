@@ -158,7 +158,7 @@ def follow(m, d, state, law, contact, sign, ordinal, known, k):
     put(slot.w, wx, wy, wz)
     put(slot.normal_axis, contact.frame[0], contact.frame[1], contact.frame[2])
     put(slot.place, contact.pos[0], contact.pos[1], contact.pos[2])
-    slot.resistance = resistances(m, d, contact.efc_address)[1] if m.integrator != DISCRETE else math.inf
+    slot.resistance = resistances(m, d, contact.efc_address)[1] if m.integrator != DISCRETE else s.NO_LIMIT
     put(slot.mean, wx / 6.0, wy / 6.0, wz / 6.0)
     slot.vx, slot.vy = dot(slot.axis_1, wx, wy, wz), dot(slot.axis_2, wx, wy, wz)
     mobility = w.at(m.body_invweight0, 2 * body) + w.at(m.body_invweight0, 2 * surface)
