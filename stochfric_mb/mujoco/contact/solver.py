@@ -26,7 +26,7 @@ from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.laws.abi import call_slide, call_spring
 from stochfric_mb.laws.plane import length
 from stochfric_mb.mujoco.contact.directions import force_stretch_of, product, size, stretch_of, turn
-from stochfric_mb.mujoco.contact.face import predecessor, share_out
+from stochfric_mb.mujoco.contact.face import match, share_out
 from stochfric_mb.mujoco.contact.kinematics import bodies_of, dot, ordinal_after, put, set_axes, side, spin
 from stochfric_mb.mujoco.contact.law import coefficients
 from stochfric_mb.mujoco.contact.rows import (
@@ -108,6 +108,7 @@ def begin(m, d, state, law):
     """Make the current slots for a step that starts now."""
     header = s.header_record(state)
     known = int(header.n_committed) if header.advanced == d.time else 0
+    match(d, state, known, True)
     header.n_current = 0.0
     ordinal = 0
     for i in range(d.ncon):
@@ -146,7 +147,7 @@ def measure_velocity(m, d, contact, sign):
 def follow(m, d, state, law, contact, sign, ordinal, known, k):
     """Fill the current slot ``k`` from a contact and what it was a step ago; decide whether it sticks or slides."""
     header, slot = s.header_record(state), s.slot_at(state, 1, k)
-    number = predecessor(state, known, contact, k)
+    number = int(slot.continues) if known > 0 else -1
     old = s.slot_at(state, 0, max(number, 0))
     h = m.timestep
     body, surface = bodies_of(m, contact, sign)
