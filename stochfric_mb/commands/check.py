@@ -97,7 +97,7 @@ def _show(content: Mapping[str, Any]) -> None:
         seen = f"No pair that touches within {content['settle']:g} s, no joint and no tendon has friction"
         say(f"{seen}: nothing to check (see --settle and --keyframe)")
     else:
-        print_table(HEAD, [line for row in rows for line in _lines(row)], title=TITLE)
+        print_table(HEAD, [line for row in rows for line in _lines(row)], title=TITLE, whole=True)
         say(LEGEND)
         print_cards([(row["name"], [(row["kind"], row["advice"])]) for row in rows], title="What to change")
         _show_imports(rows)

@@ -13,6 +13,8 @@ from stochfric_mb.commands.speech import speaks
 
 WIDTH = 100
 """Width of a table where stdout is no terminal."""
+WIDEST = 10_000
+"""Width of a table that is not to be broken, at most."""
 
 
 def _console() -> Console:
@@ -21,8 +23,11 @@ def _console() -> Console:
     return console if console.is_terminal else Console(width=WIDTH)
 
 
-def print_table(head: Sequence[str], rows: Sequence[Sequence[str]], *, title: str | None = None) -> None:
-    """Print a table; its first column is never broken, the others fold."""
+def print_table(head: Sequence[str], rows: Sequence[Sequence[str]], *, title: str | None = None, whole: bool = False) -> None:
+    """Print a table; its first column is never broken, the others fold.
+
+    A ``whole`` table, of names and numbers, is as wide as they are where stdout is no terminal: none of them is broken there.
+    """
     if not speaks():
         return
     console = _console()
@@ -33,6 +38,8 @@ def print_table(head: Sequence[str], rows: Sequence[Sequence[str]], *, title: st
         table.add_column(Text(name), no_wrap=number == 0, overflow="fold")
     for row in rows:
         table.add_row(*map(Text, row))
+    if whole and not console.is_terminal:
+        console.width = max(WIDTH, console.measure(table, options=console.options.update(max_width=WIDEST)).maximum)
     console.print(table)
 
 

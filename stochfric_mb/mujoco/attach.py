@@ -67,7 +67,8 @@ def add_friction(
             passive forces or, for a joint or tendon, frictionloss off.
 
     Warns:
-        IntegratorWarning: the ``discrete`` integrator, for a joint or tendon, or in ``explicit``.
+        IntegratorWarning: the ``discrete`` integrator, for a joint or tendon, or in ``explicit``; noslip iterations with it or
+            with PGS.
         ConeWarning: the model's cones were pyramidal, and are elliptic from now on.
         ContactWarning: the geoms did not collide before, or flexible bodies keep MuJoCo's friction.
         PluginWarning: MuJoCo would save the model without this friction, since another plugin's instance has no name.

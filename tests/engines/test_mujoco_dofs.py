@@ -300,3 +300,52 @@ def test_a_bad_configuration_in_xml_is_refused(changes, message):
     with pytest.raises(ValueError, match=r"plugin stochfric\.dof: InputError") as refusal:
         spec.compile()
     assert message in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("body", "rest", "load"),
+    [
+        ("", "", 2.0 * 9.81),
+        ('gravcomp="1"', "", 2.0 * 9.81),  # MuJoCo's reaction does not know it; the bearing bears nothing
+        ("", '<actuator><motor site="s" gear="0 0 1 0 0 0" ctrlrange="50 50"/></actuator>', 2.0 * 9.81),  # nor this one
+        ("", "{tendon}<actuator><motor tendon='t' gear='-1'/></actuator>", 50.0 - 2.0 * 9.81),
+        ("", "{tendon}", 2.0 * 9.81),
+    ],
+)
+def test_what_a_reaction_knows(body, rest, load):
+    """As docs/mujoco_joints.md says; 50 N pull up through the axis of 2 kg."""
+    tendon = '<tendon><spatial name="t"><site site="a"/><site site="s"/></spatial></tendon>'
+    bearing = mujoco.MjSpec.from_string(
+        f'<mujoco><worldbody><site name="a" pos="0 0 2"/><body pos="0 0 1" {body}><joint name="a" axis="0 1 0"/>'
+        f'<geom size=".1" mass="2"/><site name="s"/></body></worldbody>{rest.format(tendon=tendon)}</mujoco>'
+    )
+    name = engine.add_friction(bearing, engine.Joint("a"), STIFF, normal_force="reaction", radius=0.01)
+    model = bearing.compile()
+    data = mujoco.MjData(model)
+    data.ctrl[:] = 50.0
+    mujoco.mj_step(model, data, nstep=20)
+    assert engine.readings(model, data)[name][0].normal_force == pytest.approx(0.01 * load, rel=1e-9)
+
+
+@pytest.mark.parametrize("integrator", ["Euler", "implicit", "implicitfast"])
+@pytest.mark.parametrize("ratio", [1.0, 5.0, 50.0])
+def test_a_damped_joint_holds(integrator, ratio):
+    """These integrators take damping implicitly. Above h c/m = 4 what the solver had not foreseen, told a step late, shook."""
+    damped = mujoco.MjSpec.from_string(
+        f'<mujoco><option timestep="2e-3" integrator="{integrator}" gravity="0 0 0"/><worldbody><body>'
+        f'<joint name="a" damping="{ratio * 0.01 / 2e-3}" armature=".01"/><geom size=".01" mass="1e-9"/></body>'
+        "</worldbody></mujoco>"
+    )
+    engine.add_friction(damped, engine.Joint("a"), make_law("coulomb", mu_s=0.5, mu_k=0.4), normal_force=4.0)
+    model = damped.compile()
+    data = mujoco.MjData(model)
+    for k in range(200):
+        data.qfrc_applied[0] = 0.9 * 2.0 * k / 200
+        mujoco.mj_step(model, data)
+    mujoco.mj_step(model, data, nstep=100)
+    start = float(data.qpos[0])
+    mujoco.mj_step(model, data, nstep=2000)
+    assert abs(data.qpos[0] - start) < 1e-12  # 6e-3 rad before, natively 0.1
+    data.qfrc_applied[0] = 1.02 * 2.0
+    mujoco.mj_step(model, data, nstep=100)
+    assert data.qpos[0] - start > 1e-5

@@ -405,6 +405,25 @@ def test_pyramidal_cones_become_elliptic_with_a_word():
     assert spec.option.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
 
 
+def test_pyramidal_cones_of_a_compiled_model_stop_it():
+    """Its data were made with elliptic cones. A sliding box left its way by 56 mm in 254, and readings had no normal force."""
+    spec = scene()
+    engine.add_friction(spec, ("box", "floor"), law("coulomb"))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data)
+    model.opt.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
+    with pytest.raises(mujoco.FatalError, match="made pyramidal"):
+        mujoco.mj_step(model, data)
+    bare = scene().compile()
+    data = mujoco.MjData(bare)
+    with engine.friction(bare, data, {("box", "floor"): law("coulomb")}):
+        mujoco.mj_step(bare, data, nstep=10)
+        bare.opt.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
+        with pytest.raises(mujoco.FatalError, match="made pyramidal"):
+            mujoco.mj_step(bare, data)
+
+
 def test_a_compiled_model_is_no_spec():
     with pytest.raises(InputError, match=r"use friction\(model, data"):
         engine.add_friction(scene().compile(), ("box", "floor"), law("coulomb"))
@@ -529,6 +548,43 @@ def test_noslip_iterations_do_no_harm(integrator, kind):
         assert abs(data.qpos[0] - start) < 1e-10
 
 
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "discrete"])
+@pytest.mark.parametrize("kind", [*LAWS, "havsin"])
+def test_a_box_that_tumbles_stays_in_its_plane_of_symmetry(integrator, kind):
+    """It slides on an edge and tips over; two contacts become four. Once the first of them took what was nearer to others."""
+    for dt, pitch, speed, spin in (
+        (1e-3, 60.0, 3.0, 15.0),
+        (2e-3, 60.0, 3.0, 15.0),
+        (2e-3, 80.0, 6.0, 0.0),
+        (5e-3, 60.0, 1.0, 15.0),
+    ):
+        spec = mujoco.MjSpec.from_string(
+            f'<mujoco><option cone="elliptic" timestep="{dt}" integrator="{integrator}"/><worldbody>'
+            f'<geom name="floor" type="plane" size="9 9 1"/><body pos="0 0 .2" euler="0 {pitch} 0"><freejoint/>'
+            '<geom name="box" type="box" size=".1 .06 .08" mass="1"/></body></worldbody></mujoco>'
+        )
+        engine.add_friction(spec, ("box", "floor"), law(kind))
+        model = spec.compile()
+        data = mujoco.MjData(model)
+        data.qvel[0], data.qvel[4] = speed, spin
+        mujoco.mj_step(model, data, nstep=round(1.2 / dt))
+        assert abs(data.qpos[1]) < 1e-6  # 6e-5 to 5e-4 before; with implicitfast 1e-8, from the solver's tolerance
+
+
+@pytest.mark.parametrize(
+    "option", [("integrator", mujoco.mjtIntegrator.mjINT_DISCRETE), ("solver", mujoco.mjtSolver.mjSOL_PGS)]
+)
+def test_noslip_iterations_that_let_go_early_are_warned_of(option):
+    """With these two a box on an incline breaks away at 32 to 35 degrees; mu_s 0.8 holds it up to 38.66."""
+    spec = scene()
+    spec.option.noslip_iterations = 3
+    setattr(spec.option, *option)
+    with pytest.warns(engine.IntegratorWarning, match="noslip_iterations = 3 .* break away below mu_s N"):
+        engine.add_friction(spec, ("box", "floor"), law("coulomb"))
+    with pytest.warns(engine.IntegratorWarning, match="use noslip_iterations 0"):
+        mujoco.MjData(spec.compile())  # and where a model with friction is loaded
+
+
 @pytest.mark.parametrize("jacobian", ["DENSE", "SPARSE"])
 @pytest.mark.parametrize("kind", LAWS)
 def test_a_box_breaks_away_with_pgs_too(jacobian, kind):
@@ -573,6 +629,21 @@ def test_the_state_of_random_coefficients_is_finite(process):
         mujoco.mj_getState(model, data, full, mujoco.mjtState.mjSTATE_INTEGRATION)
         assert np.isfinite(full).all()
         mujoco.mj_step(model, data, nstep=50)
+
+
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "RK4", "discrete"])
+@pytest.mark.parametrize("kind", [*LAWS, "havsin"])
+def test_so_is_that_of_each_integrator_and_law(integrator, kind):
+    """With ``discrete`` each contact kept an infinity; differences of states, as of rollouts, were NaN."""
+    spec = scene()
+    spec.option.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator.upper()}")
+    engine.add_friction(spec, ("box", "floor"), law(kind))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.qvel[0] = 0.1  # slides, then sticks
+    for _ in range(40):
+        mujoco.mj_step(model, data, nstep=2)
+        assert np.isfinite(data.plugin_state).all()
 
 
 PAGES = {

@@ -15,7 +15,7 @@ import numpy as np
 from stochfric_mb.coefficients.path import canonical_time
 from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.laws.plane import length
-from stochfric_mb.mujoco.contact.face import predecessor
+from stochfric_mb.mujoco.contact.face import match
 from stochfric_mb.mujoco.contact.kinematics import (
     add_forces,
     bodies_of,
@@ -119,13 +119,13 @@ def begin(model, data, state, law):
     t = header.instant
     body, surface = int(header.geom_body), int(header.geom_surface)
     count, sudden, ordinal = 0, False, 0
+    match(d, state, known, False)
     for i in range(d.ncon):
         contact = contact_at(d, i)
         ordinal = ordinal_after(d, i, ordinal)
         sign = side(contact, body, surface)
         if sign == 0:
             continue
-        s.require_room(header, count)
         slot = s.slot_at(state, 1, count)
         track(model, data, state, contact, sign, ordinal, t, known, count)
         if header.mode == s.AUTO and header.advanced != s.UNSET:
@@ -218,7 +218,7 @@ def track(model, data, state, contact, sign, ordinal, t, known, k):
     """Fill the current slot ``k`` from a contact; return its normal force [N]. ``known`` committed slots count."""
     m, d = model_at(model), data_at(data)
     slot = s.slot_at(state, 1, k)
-    number = predecessor(state, known, contact, k)
+    number = int(slot.continues)
     old = s.slot_at(state, 0, max(number, 0))
     normal_force = old.normal if number >= 0 else predicted_normal_force(m, d, contact)
     fill(model, data, state, contact, sign, t, slot, old, number >= 0 and old.live != 0.0)

@@ -31,6 +31,8 @@ FAR = 1.0e3
 """Position of a normal row [m] at which it bears nothing."""
 CORNERS = 4
 """Most contacts as which a face counts: as stiff as so many are, of MuJoCo's own R, it stays with more of them."""
+LEFT, TAKEN = -1.0, -2.0
+"""Values of ``continues`` of a slot that has not found another one, and of a committed slot that one continues."""
 NO_FACE = -1.0
 """Value of a slot's ``face`` before its face is known."""
 WIDE = 2.0
@@ -79,35 +81,57 @@ def is_between(d, i, first, last):
 
 
 @compiled
-def predecessor(state, known, contact, k):
-    """Return the number of the committed slot that a contact, in current slot ``k``, continues; -1 if there is none.
+def match(d, state, known, with_rows):
+    """Let the current contacts continue committed slots of the same geoms; a current slot notes which, -1 for none.
 
-    It is the nearest one of the same geoms, of those that no current slot before continues.
+    A contact and a slot belong together that are each other's nearest of those left over: so it depends on where contacts
+    are alone, not on their order, which MuJoCo changes. ``with_rows`` leaves out contacts without rows.
     """
-    slot, p = s.slot_at(state, 1, k), contact.pos
-    number, nearest = -1, math.inf
-    if k < known and is_of_geoms(s.slot_at(state, 0, k), contact) and not is_continued(state, k, k):
-        q = s.slot_at(
-            state, 0, (k + 1) % known
-        ).place  # mostly contacts keep their order, and hardly move beside their distance
-        number, nearest = k, squared_distance(p, s.slot_at(state, 0, k).place)
-        if nearest < CLOSE * squared_distance(p, q):
-            slot.continues = k
-            return k
+    header, count = s.header_record(state), 0
     for j in range(known):
-        old = s.slot_at(state, 0, j)
-        if is_of_geoms(old, contact):
-            distance = squared_distance(p, old.place)
-            if distance < nearest and not is_continued(state, j, k):
-                number, nearest = j, distance
-    slot.continues = number
+        s.slot_at(state, 0, j).continues = LEFT
+    for i in range(d.ncon):
+        contact = contact_at(d, i)
+        if side(contact, int(header.geom_body), int(header.geom_surface)) != 0 and (contact.efc_address >= 0 or not with_rows):
+            s.require_room(header, count)
+            slot, p = s.slot_at(state, 1, count), contact.pos
+            slot.geom_1, slot.geom_2, slot.continues = contact.geom[0] + 1.0, contact.geom[1] + 1.0, LEFT
+            put(slot.place, p[0], p[1], p[2])
+            count += 1
+    for k in range(min(count, known)):  # mostly contacts keep their order, and hardly move beside their distance
+        slot, old = s.slot_at(state, 1, k), s.slot_at(state, 0, k)
+        apart = squared_distance(slot.place, s.slot_at(state, 0, (k + 1) % known).place)
+        if is_of_geoms(slot, old) and squared_distance(slot.place, old.place) < CLOSE * apart:
+            slot.continues, old.continues = k, TAKEN
+    changed = known > 0
+    while changed:
+        changed = False
+        for k in range(count):
+            if s.slot_at(state, 1, k).continues == LEFT:
+                j = nearest(state, 1, k, known)
+                if j >= 0 and nearest(state, 0, j, count) == k:
+                    s.slot_at(state, 1, k).continues, s.slot_at(state, 0, j).continues = j, TAKEN
+                    changed = True
+
+
+@compiled
+def nearest(state, block, k, count):
+    """Return which of the first ``count`` slots of the other block that are left over is nearest to slot ``k``, -1 for none."""
+    slot = s.slot_at(state, block, k)
+    number, least = -1, math.inf
+    for j in range(count):
+        other = s.slot_at(state, 1 - block, j)
+        if other.continues == LEFT and is_of_geoms(slot, other):
+            distance = squared_distance(slot.place, other.place)
+            if distance < least:
+                number, least = j, distance
     return number
 
 
 @compiled_inline
-def is_of_geoms(slot, contact):
-    """Return whether a slot is of a contact between the same two geoms."""
-    return slot.geom_1 == contact.geom[0] + 1 and slot.geom_2 == contact.geom[1] + 1
+def is_of_geoms(slot, other):
+    """Return whether two slots are of contacts between the same two geoms."""
+    return slot.geom_1 == other.geom_1 and slot.geom_2 == other.geom_2
 
 
 @compiled_inline
@@ -115,15 +139,6 @@ def squared_distance(a, b):
     """Return the square of the distance between two points [m^2]."""
     x, y, z = a[0] - b[0], a[1] - b[1], a[2] - b[2]
     return x * x + y * y + z * z
-
-
-@compiled
-def is_continued(state, number, count):
-    """Return whether one of the first current slots continues a committed one."""
-    i = 0
-    while i < count and s.slot_at(state, 1, i).continues != number:
-        i += 1
-    return i < count
 
 
 @compiled_inline

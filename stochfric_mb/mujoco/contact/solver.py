@@ -26,7 +26,7 @@ from stochfric_mb.compile import compiled, compiled_inline
 from stochfric_mb.laws.abi import call_slide, call_spring
 from stochfric_mb.laws.plane import length
 from stochfric_mb.mujoco.contact.directions import force_stretch_of, product, size, stretch_of, turn
-from stochfric_mb.mujoco.contact.face import predecessor, share_out
+from stochfric_mb.mujoco.contact.face import match, share_out
 from stochfric_mb.mujoco.contact.kinematics import bodies_of, dot, ordinal_after, put, set_axes, side, spin
 from stochfric_mb.mujoco.contact.law import coefficients
 from stochfric_mb.mujoco.contact.rows import (
@@ -44,7 +44,7 @@ from stochfric_mb.mujoco.contact.rows import (
 )
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory.structs import DISCRETE, PGS, RUNGE_KUTTA, contact_at
+from stochfric_mb.mujoco.memory.structs import DISCRETE, ELLIPTIC, PGS, RUNGE_KUTTA, contact_at
 from stochfric_mb.numerics import memory as w
 from stochfric_mb.numerics.root import ROUNDING, bracket, is_wide, narrowed, trial
 
@@ -62,6 +62,10 @@ FRICTIONLESS = (
     "stochfric_mb: a contact of a pair with friction has condim 1, so MuJoCo's solver has no friction for the law to steer; "
     "give the pair condim 3"
 )
+PYRAMIDAL = (
+    "stochfric_mb: option.cone has been made pyramidal, whose coefficients are fixed before friction can set them; make it "
+    "elliptic (model.opt.cone = mujoco.mjtCone.mjCONE_ELLIPTIC)"
+)
 UNKNOWN = -1.0
 """Value of ``given`` of a contact that has just come up, before it has a share of its face."""
 JUST_STUCK = -1.0
@@ -75,6 +79,8 @@ def evaluate(m, d, state, law, starting):
     since = d.time - header.evaluated
     body, surface = int(header.geom_body), int(header.geom_surface)
     if starting:
+        if m.cone != ELLIPTIC:  # since the data were made, which refused it
+            engine.mju_error(w.c_string(PYRAMIDAL))
         begin(m, d, state, law)
     k, ordinal = 0, 0
     for i in range(d.ncon):
@@ -102,6 +108,7 @@ def begin(m, d, state, law):
     """Make the current slots for a step that starts now."""
     header = s.header_record(state)
     known = int(header.n_committed) if header.advanced == d.time else 0
+    match(d, state, known, True)
     header.n_current = 0.0
     ordinal = 0
     for i in range(d.ncon):
@@ -140,7 +147,7 @@ def measure_velocity(m, d, contact, sign):
 def follow(m, d, state, law, contact, sign, ordinal, known, k):
     """Fill the current slot ``k`` from a contact and what it was a step ago; decide whether it sticks or slides."""
     header, slot = s.header_record(state), s.slot_at(state, 1, k)
-    number = predecessor(state, known, contact, k)
+    number = int(slot.continues) if known > 0 else -1
     old = s.slot_at(state, 0, max(number, 0))
     h = m.timestep
     body, surface = bodies_of(m, contact, sign)
@@ -152,7 +159,7 @@ def follow(m, d, state, law, contact, sign, ordinal, known, k):
     put(slot.w, wx, wy, wz)
     put(slot.normal_axis, contact.frame[0], contact.frame[1], contact.frame[2])
     put(slot.place, contact.pos[0], contact.pos[1], contact.pos[2])
-    slot.resistance = resistances(m, d, contact.efc_address)[1] if m.integrator != DISCRETE else math.inf
+    slot.resistance = resistances(m, d, contact.efc_address)[1] if m.integrator != DISCRETE else s.NO_LIMIT
     put(slot.mean, wx / 6.0, wy / 6.0, wz / 6.0)
     slot.vx, slot.vy = dot(slot.axis_1, wx, wy, wz), dot(slot.axis_2, wx, wy, wz)
     mobility = w.at(m.body_invweight0, 2 * body) + w.at(m.body_invweight0, 2 * surface)

@@ -7,6 +7,7 @@ coordinate. A load that is the joint's own reaction is that of the step before.
 
 from __future__ import annotations
 
+import mujoco
 import numpy as np
 
 from stochfric_mb.coefficients.path import canonical_time
@@ -21,18 +22,23 @@ from stochfric_mb.mujoco.joint.coordinate import (
     along_row,
     bearing_load,
     friction_row,
+    is_tendon,
     position_of,
     resting_load,
     set_limit,
 )
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory.structs import RUNGE_KUTTA, data_at, model_at
+from stochfric_mb.mujoco.memory.structs import DISCRETE, EULER, RUNGE_KUTTA, data_at, model_at
 from stochfric_mb.numerics import memory as w
 
 STIFFER = 1.0e-4
 """Stuck rows' R over that which MuJoCo gives friction rows: (1 - d)/d times the mobility of a chain of light links lets it
 sag by milliradians within a step; a friction row of its own, unlike a cone, has nothing that would lose by less."""
+
+NO_DAMPING = int(mujoco.mjtDisableBit.mjDSBL_DAMPER)
+EXPLICIT_DAMPING = NO_DAMPING | int(mujoco.mjtDisableBit.mjDSBL_EULERDAMP)
+"""Options without dampers, and those with which Euler takes damping explicitly."""
 
 
 @compiled
@@ -122,6 +128,22 @@ def follow(m, d, state, law, slot, old, known):
 
 
 @compiled
+def undamped_part(m, header, slot):
+    """Return the part of the solver's acceleration that is left where the integrator takes the joint's damping implicitly.
+
+    That is 1/(1 + h c/m). A stuck row asks for what is to be left. What other damping leaves out is known a step late
+    (`lead`), which beyond h c/m = 4 would shake: the roots of v' = v + g s, z' = z + v', s' = (1 - g) s - v' - z'/4, with
+    g = 1/(1 + h c/m) and time in steps, are then outside the unit circle.
+    """
+    if is_tendon(header) or m.integrator in (RUNGE_KUTTA, DISCRETE):
+        return 1.0
+    if m.disableflags & (EXPLICIT_DAMPING if m.integrator == EULER else NO_DAMPING) or slot.felt <= 0.0:
+        return 1.0
+    damping = w.at(m.dof_damping, w.int_at(m.jnt_dofadr, int(header.geom_surface)))
+    return 1.0 / (1.0 + m.timestep * damping / slot.felt)
+
+
+@compiled
 def steer(m, d, state, law, since):
     """Write the largest force of the coordinate's friction row and its reference, ``since`` [s] after the step's start."""
     header, slot, h = s.header_record(state), s.slot_at(state, 1, 0), m.timestep
@@ -137,8 +159,9 @@ def steer(m, d, state, law, since):
         set_reference(d, place, 1.0 / h, 0.0, 0.0)
     else:
         resistance, stiffness, slot.cap = solver.spring_and_cap(m, state, law, slot, STIFFER * w.at(d.efc_R, place))
-        set_resistance(m, d, place, resistance)
-        set_reference(d, place, 1.0 / h, stiffness, -(slot.z[0] + z + slot.lead[0] / stiffness))
+        part = undamped_part(m, header, slot)
+        set_resistance(m, d, place, resistance / part)
+        set_reference(d, place, 1.0 / (h * part), stiffness / part, -(slot.z[0] + z + slot.lead[0] / stiffness))
     set_limit(d, place, slot.cap * slot.given)
 
 
@@ -182,7 +205,7 @@ def learn(m, d, state, current):
     slot.loose = slot.saturated
     slot.foreseen = 1.0 if slot.slides == 0.0 and not saturated and m.integrator != RUNGE_KUTTA and place >= 0 else 0.0
     if slot.foreseen != 0.0:
-        slot.a[0] = -along_row(m, d, header, d.qacc)
+        slot.a[0] = -undamped_part(m, header, slot) * along_row(m, d, header, d.qacc)
 
 
 @compiled

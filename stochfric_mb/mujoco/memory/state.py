@@ -73,7 +73,7 @@ HEADER = _record(
 )  # fmt: skip
 SLOT = _record(
     "geom_1", "geom_2", "ordinal",  # key within a step: geoms plus 1, number among equals
-    "continues",  # number of the committed slot that it goes on from, -1 if it is new
+    "continues",  # number of the committed slot that it goes on from, -1 if it is new; see `contact.face`
     "bodies",  # number of the two bodies, see `BODIES`
     "live",  # 1 if it has a law state, 0 not yet, -1 where it was given another velocity
     "normal", "mass", "felt",  # normal force [N], mass felt by the law, by this contact alone [kg]

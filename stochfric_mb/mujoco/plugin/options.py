@@ -37,7 +37,7 @@ class IntegratorWarning(UserWarning):
 
 
 def check_options(option: Any, *, steered: bool = True, coordinate: bool = False) -> None:
-    """Refuse what switches friction off, and warn of ``discrete`` where it makes the references anew that friction needs.
+    """Refuse what switches friction off, and warn of ``discrete`` and noslip iterations where friction is inaccurate with them.
 
     Args:
         option: ``option`` of a spec, ``opt`` of a model, or a model's record.
@@ -57,6 +57,24 @@ def check_options(option: Any, *, steered: bool = True, coordinate: bool = False
             "with it as with native friction, and explicit friction is inaccurate; use Euler, implicitfast, implicit or RK4",
             IntegratorWarning,
             stacklevel=3,
+        )
+    if steered and not coordinate:
+        _warn_of_noslip(option)
+
+
+def _warn_of_noslip(option: Any) -> None:
+    """Warn where noslip iterations let a body break away early.
+
+    A box on an incline, mu_s 0.8 (38.66 degrees), at 1, 2 and 5 ms: 31.9 to 32.8 degrees with ``discrete`` and any solver,
+    32.7 to 34.8 with PGS, 38.7 with the others.
+    """
+    if option.noslip_iterations > 0 and (option.solver == PGS or option.integrator == DISCRETE):
+        what = "the PGS solver" if option.solver == PGS else "the discrete integrator"
+        warnings.warn(
+            f"noslip_iterations = {option.noslip_iterations} with {what}: bodies on several contacts break away below mu_s N "
+            "(a box at 32 instead of 38.66 degrees); use noslip_iterations 0: stuck contacts do not creep without them",
+            IntegratorWarning,
+            stacklevel=4,
         )
 
 

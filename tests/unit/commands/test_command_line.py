@@ -16,6 +16,7 @@ from stochfric_mb.commands import progress
 from stochfric_mb.commands.list import _LISTS
 from stochfric_mb.commands.options import command_line
 from stochfric_mb.commands.speech import Speech, spoken
+from stochfric_mb.commands.tables import print_table
 from stochfric_mb.errors import InputError
 
 RUN = ["run", "kang2015_table1", "--set", "simulation.duration=0.05"]
@@ -230,3 +231,12 @@ def test_no_formula_is_cut_at_80_columns():
     done = subprocess.run([sys.executable, "-c", code], env=os.environ | forced, capture_output=True, text=True, check=True)
     assert "velocity_weakening" in done.stdout
     assert "…" not in done.stdout
+
+
+def test_numbers_of_a_whole_table_are_not_broken(capsys):
+    """Beside the geoms' long names of a fruit fly's model, -0.0048 stood in two lines, and so did heads."""
+    head, row = ("site", *7 * ["deceleration"]), ("tarsal_claw_T1_left_collision - floor", *7 * ["-0.0048 %"])
+    print_table(head, [row], whole=True)
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert [*head] in lines
+    assert " ".join(row).split() in lines
