@@ -29,7 +29,7 @@ from stochfric_mb.mujoco.joint.coordinate import (
 )
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
-from stochfric_mb.mujoco.memory.structs import DISCRETE, EULER, RUNGE_KUTTA, data_at, model_at
+from stochfric_mb.mujoco.memory.structs import DAMPING, DISCRETE, EULER, N_BIAS, N_GEAR, RUNGE_KUTTA, data_at, model_at
 from stochfric_mb.numerics import memory as w
 
 STIFFER = 1.0e-4
@@ -37,6 +37,8 @@ STIFFER = 1.0e-4
 sag by milliradians within a step; a friction row of its own, unlike a cone, has nothing that would lose by less."""
 
 NO_DAMPING = int(mujoco.mjtDisableBit.mjDSBL_DAMPER)
+AT_JOINT = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
+AFFINE = int(mujoco.mjtBias.mjBIAS_AFFINE)
 EXPLICIT_DAMPING = NO_DAMPING | int(mujoco.mjtDisableBit.mjDSBL_EULERDAMP)
 """Options without dampers, and those with which Euler takes damping explicitly."""
 
@@ -139,8 +141,22 @@ def undamped_part(m, header, slot):
         return 1.0
     if m.disableflags & (EXPLICIT_DAMPING if m.integrator == EULER else NO_DAMPING) or slot.felt <= 0.0:
         return 1.0
-    damping = w.at(m.dof_damping, w.int_at(m.jnt_dofadr, int(header.geom_surface)))
+    number = int(header.geom_surface)
+    damping = w.at(m.dof_damping, w.int_at(m.jnt_dofadr, number))
+    if m.integrator != EULER:  # which takes that of actuators explicitly
+        damping += servo_damping(m, number)
     return 1.0 / (1.0 + m.timestep * damping / slot.felt)
+
+
+@compiled
+def servo_damping(m, joint):
+    """Return the damping [N s/m or N m s/rad] that actuators at a joint have by their own kv."""
+    total = 0.0
+    for i in range(m.nu):
+        at_joint = w.int_at(m.actuator_trntype, i) in AT_JOINT and w.int_at(m.actuator_trnid, 2 * i) == joint
+        if at_joint and w.int_at(m.actuator_biastype, i) == AFFINE:
+            total -= w.at(m.actuator_biasprm, N_BIAS * i + DAMPING) * w.at(m.actuator_gear, N_GEAR * i) ** 2
+    return max(total, 0.0)
 
 
 @compiled

@@ -32,7 +32,8 @@ _MODEL = (
     "pair_geom1", "pair_geom2", "pair_dim", "ten_J_rownnz", "ten_J_rowadr", "ten_J_colind", "plugin", "plugin_stateadr",
     "sensor_plugin", "sensor_adr", "opt.timestep", "opt.integrator", "opt.disableflags", "opt.cone", "opt.iterations",
     "opt.jacobian", "opt.solver", "opt.gravity", "nu", "actuator_biasprm", "actuator_gear",
-    "actuator_acc0", "dof_damping", "dof_invweight0", "opt.impratio", "opt.noslip_iterations", "flg_surfacevel",
+    "actuator_acc0", "actuator_trntype", "actuator_trnid", "actuator_biastype", "dof_damping", "dof_invweight0", "opt.impratio",
+    "opt.noslip_iterations", "flg_surfacevel",
 )  # fmt: skip
 _DATA = (
     "time", "ncon", "contact", "nefc", "nisland", "solver_niter", "cvel", "subtree_com", "xpos", "xmat", "xaxis", "cdof",
@@ -50,6 +51,9 @@ EULER, RUNGE_KUTTA, IMPLICIT, IMPLICITFAST, DISCRETE = range(5)
 """mjtIntegrator."""
 PGS, ELLIPTIC = 0, 1
 """One of mjtSolver, one of mjtCone."""
+
+N_BIAS, DAMPING, N_GEAR = int(mujoco.mjNBIAS), 2, 6
+"""Numbers of an actuator's bias, the place of minus kv among them, numbers of its gear."""
 
 
 class Plugin(ctypes.Structure):

@@ -12,7 +12,19 @@ import mujoco
 import numpy as np
 
 from stochfric_mb.errors import InputError
-from stochfric_mb.mujoco.memory.structs import DISCRETE, ELLIPTIC, EULER, MODEL, PGS, RUNGE_KUTTA, array_at, record_at
+from stochfric_mb.mujoco.memory.structs import (
+    DAMPING,
+    DISCRETE,
+    ELLIPTIC,
+    EULER,
+    MODEL,
+    N_BIAS,
+    N_GEAR,
+    PGS,
+    RUNGE_KUTTA,
+    array_at,
+    record_at,
+)
 
 NO_PASSIVE_FORCES = int(mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER)
 """With both of these disabled, MuJoCo leaves out all passive forces."""
@@ -22,10 +34,10 @@ SWITCHED_OFF = (
     "friction too; enable one of them (and set stiffness or damping to 0 instead)"
 )
 """What is said of that."""
-N_BIAS, DAMPING, N_GEAR = int(mujoco.mjNBIAS), 2, 6
-"""Numbers of an actuator's bias, the place of minus kv among them, numbers of its gear."""
 STIFF = 1.0
 """Step times damping over mass [-] above which a step with implicit damping is another one than the solver foresaw."""
+SHAKES = 4.0
+"""The same above which the difference, told to stuck rows a step late, shakes them at any step (see `joint.friction`)."""
 LONG, LONG_STAGES = 4.0e-3, 2.0e-3
 """Steps [s], and those with RK4, above which stuck contacts slip by it: on a servo table that shakes at 1 Hz with 2 m/s^2 by
 1 um at 2 ms, 30 um at 5 ms, .4 mm at 10 ms, with the fourth power of the step, and alike for all dampings above `STIFF`. With
@@ -103,8 +115,8 @@ def warn_of_stiff_damping(model: int) -> None:
     if ratio > 0.0:
         warnings.warn(
             f"timestep = {record_at(MODEL, model).timestep:g} s with h kv/m = {ratio:.3g} of an actuator or joint: contacts "
-            "that it carries slip while stuck, by tenths of a millimetre at 10 ms where it shakes them; use implicitfast with "
-            "a timestep of 2 ms, or integrator discrete",
+            "that it carries slip while stuck, by tenths of a millimetre at 10 ms where it shakes them; use integrator "
+            f"discrete, or implicitfast with a timestep of at most 2 ms and h kv/m of at most {SHAKES:g}",
             IntegratorWarning,
             stacklevel=3,
         )
@@ -113,11 +125,12 @@ def warn_of_stiff_damping(model: int) -> None:
 def stiff_damping(model: int) -> float:
     """Return the largest h c/m [-] of a model's joints and actuators with kv, if stuck contacts slip by it; otherwise 0."""
     m = record_at(MODEL, model)
-    if m.integrator == DISCRETE or m.timestep <= (LONG_STAGES if m.integrator == RUNGE_KUTTA else LONG):
+    if m.integrator == DISCRETE:
         return 0.0
     ratios = array_at(m.dof_damping, m.nv) * array_at(m.dof_invweight0, m.nv)
     if m.integrator != EULER:
         moved = np.abs(array_at(m.actuator_gear, N_GEAR * m.nu)[::N_GEAR]) * array_at(m.actuator_acc0, m.nu)
         ratios = np.append(ratios, -array_at(m.actuator_biasprm, N_BIAS * m.nu)[DAMPING::N_BIAS] * moved)
     ratio = float(m.timestep * ratios.max(initial=0.0))
-    return ratio if ratio > STIFF else 0.0
+    long = m.timestep > (LONG_STAGES if m.integrator == RUNGE_KUTTA else LONG)
+    return ratio if ratio > (STIFF if long else SHAKES) else 0.0
