@@ -23,13 +23,14 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.preconditions import require_usable
 from stochfric_mb.discovery.stick_slip.records.slips import SETTLING, Slips, extract
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
+from stochfric_mb.discovery.stick_slip.screening.power import simulated_limit
 from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms, stated_terms
 from stochfric_mb.discovery.stick_slip.screening.waves import slow_frequencies, wave_columns
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import assumed, prior_model
 from stochfric_mb.discovery.stick_slip.study import record_of
 from stochfric_mb.effects import effect_class, effect_kinds, kind_with_signature
 from stochfric_mb.effects.marks import WAVE, Hypothesis
-from stochfric_mb.effects.traits import DRAWN_ANEW
+from stochfric_mb.effects.traits import DRAWN_ANEW, SHAPES_SLIPS
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
@@ -189,13 +190,15 @@ class _Form:
     """How many of the columns are the effect at its phases, 0: the first one is the effect."""
     grid: int
     value: Callable[[float], tuple[str, float, dict[str, float | str], bool]]
+    least: float = 0.0
+    """Coefficient from which simulating the effect confirms it; 0 where it is not simulated."""
 
 
 def _forms(pool: Pool, regression: Regression, terms: Terms, solution: Solution) -> list[Signature]:
     """Return the forms of all effects that the slips could show."""
     families = hypotheses_in(pool)
     forms = [
-        _Form(kind, h.variant, h.columns, 0, len(ways), _value_of(kind, h, len(h.columns)))
+        _Form(kind, h.variant, h.columns, 0, len(ways), _value_of(kind, h, len(h.columns)), _least(pool, terms, h))
         for kind, ways in families.items()
         for h in ways
     ]
@@ -217,6 +220,12 @@ def _forms(pool: Pool, regression: Regression, terms: Terms, solution: Solution)
     return signatures
 
 
+def _least(pool: Pool, terms: Terms, hypothesis: Hypothesis) -> float:
+    """Return the coefficient from which simulating an effect confirms it, 0 for one that is not simulated."""
+    simulated = SHAPES_SLIPS in effect_class(hypothesis.kind).traits
+    return simulated_limit(pool, terms, hypothesis) if simulated else 0.0
+
+
 def _signature(form: _Form, columns: Any, n: int, *, limited: bool) -> Signature | None:
     """Return a form at its limit; without ``limited`` as what another effect may be taken for: it has no limit of its own."""
     needed = criteria.NAMED + columns.shape[1] * math.log(n) + 2.0 * math.log(form.grid)
@@ -226,7 +235,7 @@ def _signature(form: _Form, columns: Any, n: int, *, limited: bool) -> Signature
     raw = float(sum(np.sum(np.square(c)) for c in form.columns))
     if evidence <= 1.0e-9 * raw:
         return None
-    strength = math.sqrt(needed / evidence)
+    strength = max(math.sqrt(needed / evidence), form.least)
     name, value, beside, at_most = form.value(strength)
     limit = abs(value) if limited and name else math.inf
     unit = effect_class(form.kind).__dataclass_fields__[name].metadata["unit"] if name else "-"

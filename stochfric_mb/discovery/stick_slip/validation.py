@@ -47,8 +47,11 @@ def _fit(decision: Decision, slip_study: Study, recalibrated: Fit) -> Fit:
     calm = deterministic(model)
     if not calm.effects:
         return _joined(model, recalibrated, slip_study)
+    windows, uncertainty = slip_study.windows, slip_study.uncertainty
+    further = None if decision.seen is None else decision.seen.of(calm)
     starts = (calm, dataclasses.replace(calm, law=recalibrated.model.law, corrections=recalibrated.model.corrections))
-    fit = min((refit(m, slip_study.windows, slip_study.uncertainty, evaluations=25) for m in starts), key=lambda f: f.cost)
+    fits = [refit(m, windows, uncertainty, evaluations=25, further=further, weigh=calm) for m in starts]
+    fit = min(fits, key=lambda f: f.objective)
     if model.process is not None:
         # a fit to single draws of a scatter follows the draws: the estimate from the slips stands where it forecasts better
         unmoved = refit(calm, slip_study.windows, slip_study.uncertainty, evaluations=0)
@@ -57,7 +60,7 @@ def _fit(decision: Decision, slip_study: Study, recalibrated: Fit) -> Fit:
             unmoved,
             key=lambda f: sum(float(score(_joined(model, f, slip_study).model, w).sum()) for w in slip_study.windows),
         )
-    return _joined(model, with_deviations(fit, slip_study.windows, slip_study.uncertainty), slip_study)
+    return _joined(model, with_deviations(fit, windows, uncertainty, further=further), slip_study)
 
 
 def _joined(model: Model, fit: Fit, slip_study: Study) -> Fit:

@@ -10,15 +10,17 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.fitter import minimised
 from stochfric_mb.discovery.inference.free_parameter import LAW, FreeParameter, steps_of
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array, Record
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, features_near
+from stochfric_mb.discovery.stick_slip.screening.regression import Terms
 from stochfric_mb.discovery.stick_slip.simulation.auxiliary_state import auxiliary_state
 from stochfric_mb.discovery.stick_slip.simulation.model import TUNED, Model, adjusted, free_parameters
 from stochfric_mb.discovery.stick_slip.simulation.natural_units import NaturalUnits
@@ -96,19 +98,22 @@ class Confirmed:
 
 def cases_of(pool: Pool, model: Model) -> list[Case]:
     """Return the slips to be predicted: one an operating point, a few where an excitation makes them differ."""
+    cases: list[Case] = []
+    for excitation, runs, rows in _points(pool):
+        cases += _forced(pool, model, rows) if excitation else [_free(pool, model, rows, runs)]
+    return cases
+
+
+def _points(pool: Pool) -> list[tuple[float, list[int], np.ndarray]]:
+    """Return the amplitude of the excitation, the runs and the slips of each operating point that has three slips."""
     points: dict[tuple[float, ...], list[int]] = {}
     for r, slips in enumerate(pool.slips):
         box = slips.record.mechanism
         point = (box.belt_velocity, box.normal_force, box.excitation_amplitude)
         key = (*(float(f"{x:.9g}") for x in point), float(slips.record.direction))
         points.setdefault(key, []).append(r)
-    cases: list[Case] = []
-    for key, runs in points.items():
-        rows = np.flatnonzero(pool.kept & np.isin(pool.run, runs))
-        if len(rows) < 3:
-            continue
-        cases += _forced(pool, model, rows) if key[2] else [_free(pool, model, rows, runs)]
-    return cases
+    every = [(key[2], runs, np.flatnonzero(pool.kept & np.isin(pool.run, runs))) for key, runs in points.items()]
+    return [one for one in every if len(one[2]) >= 3]
 
 
 def _free(pool: Pool, model: Model, rows: np.ndarray, runs: Sequence[int]) -> Case:
@@ -192,8 +197,7 @@ def _case(
     covariance: Array,
 ) -> Case:
     load = slips.record.mechanism.normal_force
-    floor = (FLOOR * 0.5 * load * np.r_[0.2, 0.5, np.ones(N_FEATURES - 2)]) ** 2
-    whitening = np.asarray(np.linalg.inv(np.linalg.cholesky(covariance + np.diag(floor))), dtype=np.float64)
+    whitening = np.asarray(np.linalg.inv(np.linalg.cholesky(covariance + np.diag(_floor(load)))), dtype=np.float64)
     case = Case(slips.record, onset, length, features, whitening, (slips.ridge, slips.firm), np.zeros(N_FEATURES))
     plain = model.with_law(features[0] / load, min(features[1], 0.99 * features[0]) / load)
     predicted = predict(plain.bare(slips.record), case)
@@ -202,6 +206,44 @@ def _case(
     truth = np.zeros(N_FEATURES)
     truth[0], truth[1] = plain.law.mu_s * load, plain.law.mu_k * load
     return dataclasses.replace(case, offset=predicted - truth)
+
+
+def evidence_in_medians(pool: Pool, terms: Terms, column: Array) -> float:
+    """Return by how much a unit of a change lowers the misfit of simulated slips, beyond what the stated model imitates [-].
+
+    What is simulated are medians, one slip an operating point, and their errors have a floor: many slips see a weak effect
+    that their medians do not.
+
+    Args:
+        pool: the slips.
+        terms: the stated model.
+        column: the change for a unit [N], shape (n, N_FEATURES).
+    """
+    signal: list[Array] = []
+    stated: list[Array] = []
+    for _, runs, rows in _points(pool):
+        load = pool.slips[runs[0]].record.mechanism.normal_force
+        covariance = _of_median(pool.calibrations[runs[0]].covariance, pool.features[rows]) + np.diag(_floor(load))
+        whitening = np.linalg.inv(np.linalg.cholesky(covariance))
+        signal.append(whitening @ column[rows].mean(axis=0))
+        stated.append(whitening @ terms.columns[rows].mean(axis=0))
+    if not signal:
+        return 0.0
+    known = np.concatenate([*stated, np.diag(1.0 / terms.priors)])
+    seen = np.concatenate([*signal, np.zeros(len(terms.priors))])
+    size = np.linalg.norm(known, axis=0)
+    left = seen - known @ (np.linalg.lstsq(known / size, seen, rcond=1.0e-10)[0] / size)
+    return float(left @ left)
+
+
+def evidence_needed(numbers: int) -> float:
+    """Return by how much an effect of so many numbers must lower the misfit of simulated slips to be followed up [-]."""
+    return criteria.FOLLOWED_UP + numbers * float(np.log(60.0))
+
+
+def _floor(load: float) -> Array:
+    """Return the variance of the features that is always allowed [N^2], shape (N_FEATURES,)."""
+    return np.asarray((FLOOR * 0.5 * load * np.r_[0.2, 0.5, np.ones(N_FEATURES - 2)]) ** 2, dtype=np.float64)
 
 
 def predict(model: Model, case: Case) -> Array | None:
@@ -236,6 +278,24 @@ def predict(model: Model, case: Case) -> Array | None:
     time = start.time + model.late + np.arange(1, count + 1) / record.rate
     simulated = dataclasses.replace(record, time=time, position=position, raw=position, outlier=np.zeros(count, dtype=bool))
     return features_near(simulated, case.onset[0], ridge=case.ridges[0], firm=case.ridges[1])
+
+
+@dataclasses.dataclass(frozen=True)
+class SeenInSlips:
+    """What a model misses of the slips that simulated ones are compared with, for a fit beside forecasts."""
+
+    kinds: tuple[str, ...]
+    """Effects that the slips were simulated with."""
+    cases: tuple[Case, ...]
+    """The slips."""
+
+    def of(self, model: Model) -> Callable[[Model], Array] | None:
+        """Return the function from models to errors, in their standard deviations; None for a model of other effects."""
+        return self.errors if tuple(e.kind for e in model.effects) == self.kinds else None
+
+    def errors(self, model: Model) -> Array:
+        """Return the errors of a model, shape (N_FEATURES * len(cases),)."""
+        return np.concatenate([_error(model, case) for case in self.cases])
 
 
 def confirm(

@@ -13,7 +13,7 @@ from stochfric_mb.discovery.inference.false_alarms import Evidence, likely
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.choice import IN_TIME, REFIT_WINDOWS, SHAPES, Chosen, choose
-from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, cases_of, confirm
+from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, SeenInSlips, cases_of, confirm
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.decision.kinematics import delay_deviation, kinematics, with_kinematic
 from stochfric_mb.discovery.stick_slip.decision.random_effects import RandomEffects, kicked, kicks, random_effects, stray
@@ -98,6 +98,8 @@ class Decision:
     """Numbers behind it."""
     form: Named | None = None
     """The unnamed term of the model that carries what the form of the first effect leaves along the effect's own axis."""
+    seen: SeenInSlips | None = None
+    """The slips that the effects were simulated with, where they were."""
 
 
 def decide(study: Study, *, channels: Channels = EVERYTHING, progress: Progress = lambda _: None) -> Decision:
@@ -195,7 +197,7 @@ class _Search:
         self.terms: Terms = study.terms
         self.solution: Solution = study.solution
         self.ranking: tuple[tuple[str, float], ...] = ()
-        self.stalled = self.any_shape = self.course = False
+        self.stalled = self.any_shape = self.course = self.simulated = False
         self.in_forces = not named
         self.kept: list[Array] = []
         self.cases: list[Case] = []
@@ -244,7 +246,7 @@ class _Search:
             return outcome
         if outcome is None or not self._stands_alone(outcome, candidates):
             return False
-        self.confirmed = outcome.confirmed
+        self.confirmed, self.simulated = outcome.confirmed, self.simulated or outcome.simulated
         return self._add(outcome) and not self.stalled
 
     def _screened(self, round_: int) -> list[Candidate]:
@@ -453,18 +455,25 @@ class _Search:
     def _refitted(self, without: Model) -> bool:
         """Fit the model to forecasts; go back to the one ``without`` its last effect if that forecasts as well."""
         # a simulated fit knows the features alone, whose bias by noise is that of the stated model
-        fit = refit(self.model, self.study.windows, self.study.uncertainty, most=REFIT_WINDOWS, evaluations=20)
+        windows, uncertainty, seen = self.study.windows, self.study.uncertainty, self._seen()
+        further = None if seen is None else seen.of(self.model)
+        fit = refit(self.model, windows, uncertainty, most=REFIT_WINDOWS, evaluations=20, further=further)
         least = (1.0 - criteria.CLOSES_NOTHING) * cost_of(without, self.study.windows, most=REFIT_WINDOWS)
         idle = bool(self.named) and fit.cost > least
         self.model = without if idle else fit.model
         return not idle
+
+    def _seen(self) -> SeenInSlips | None:
+        """Return the slips with which the effects were simulated; None where none were."""
+        known = self.confirmed if self.simulated else None
+        return None if known is None else SeenInSlips(known.kinds, tuple(self.cases))
 
     def _put_on_time(self) -> None:
         """Go on with the records put on time, by the delay that their forecasts show."""
         fit = refit(self.model, self.study.windows, self.study.uncertainty, most=REFIT_WINDOWS, evaluations=20)
         self.model, self.late = without_delay(fit.model), fit.model.late
         self.study = delay_compensated(self.study, self.late)
-        self.cases, self.confirmed = [], None
+        self.cases, self.confirmed, self.simulated = [], None, False
         self._take_out()
 
     def _take_out(self) -> None:
@@ -511,7 +520,8 @@ class _Search:
             self.named.append(Named(result.kind, (), result.evidence, _shown_by(result.kind), self._timed()))
             self.model = self.model.plus(make_effect(result.kind, **result.values))
         verdict = "effect" if self.named else "none"
-        return Decision(verdict, tuple(self.named), None, self._timed(), self.ranking, scatter, self.details, self.form)
+        model = self._timed()
+        return Decision(verdict, tuple(self.named), None, model, self.ranking, scatter, self.details, self.form, self._seen())
 
     def _random(self, scatter: Randomness, kick: RandomEffects | None) -> RandomEffects | Where | None:
         """Return the random effect that the slips show, or where they scatter in a way that none explains."""

@@ -5,20 +5,38 @@ from __future__ import annotations
 import numpy as np
 
 from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.stick_slip.decision.confirmation import evidence_in_medians, evidence_needed
+from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
+from stochfric_mb.discovery.stick_slip.screening.regression import Terms
 from stochfric_mb.discovery.stick_slip.screening.waves import frequencies, wave_columns
 from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.effects import effect_class
 from stochfric_mb.effects.marks import Hypothesis
+from stochfric_mb.effects.traits import SHAPES_SLIPS
 
 LOOKED_AT = 12
 """Frequencies that stand for all: periodic effects are all alike."""
+
+
+def simulated_limit(pool: Pool, terms: Terms, hypothesis: Hypothesis) -> float:
+    """Return the coefficient from which simulating an effect that shapes every slip alike confirms it.
+
+    Args:
+        pool: the slips.
+        terms: the stated model.
+        hypothesis: the effect.
+    """
+    evidence = evidence_in_medians(pool, terms, hypothesis.columns[0])
+    return float(np.sqrt(evidence_needed(len(hypothesis.columns) + len(hypothesis.setting)) / max(evidence, 1.0e-300)))
 
 
 def smallest(study: Study) -> dict[str, float]:
     """Return effect -> the smallest value of its first parameter that would have been named, in that parameter's unit.
 
     To first order: the score 2 delta log L - p ln n - 2 ln(grid) reaches the naming score where the coefficient is
-    sqrt(score + penalties) of its standard deviations. Of the hypotheses of a kind the most sensitive one counts.
+    sqrt(score + penalties) of its standard deviations, and, where simulated slips decide, their misfit falls by enough. Of the
+    hypotheses of a kind the most sensitive one counts.
     """
     regression = study.regression
     numbers: dict[str, float] = {}
@@ -38,6 +56,8 @@ def smallest(study: Study) -> dict[str, float]:
             solution = regression.solve(study.terms.plus(hypothesis.columns), study.solution.scatter)
             needed = np.sqrt(criteria.NAMED + p * np.log(regression.n) + 2.0 * np.log(grid[kind]))
             strengths = needed * solution.deviations[study.terms.columns.shape[2] :]
+            if SHAPES_SLIPS in effect_class(kind).traits and strengths[0] > 0.0:
+                strengths = strengths * max(1.0, simulated_limit(study.pool, study.terms, hypothesis) / strengths[0])
             if kind in periodic:
                 # cosine and sine of every run share the evidence
                 best = min(best, float(np.median(strengths) / np.sqrt(study.pool.n_runs)))

@@ -34,6 +34,11 @@ MOST_STEPS = 10
 """Steps that are tried for such a slope."""
 LEAST_CURVATURE = 1.0e-8
 """Smallest information on a combination of numbers, over that on single ones, that counts [-]."""
+INDEPENDENT = 6
+"""Independent numbers in a forecast: its errors hang together."""
+
+Further = Callable[[Model], Array]
+"""From a model to the errors of what else the runs show, in its standard deviations."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,7 +56,9 @@ class Fit:
     alone: Array
     """What they would be if the others were known, shape (len(free),)."""
     cost: float
-    """Robust sum of squares at the end [-]."""
+    """Robust sum of squares of forecasts and priors at the end [-]."""
+    objective: float = 0.0
+    """The same with what else the runs show, which the fit made as small as it could; equal to `cost` where that is all."""
     data_share: Array = dataclasses.field(default_factory=lambda: np.zeros(0))
     """Share of what is known of each number that the forecasts tell, the rest being its prior [-], 0 .. 1, shape (len(free),);
     empty before `with_deviations`."""
@@ -75,8 +82,10 @@ def refit(
     evaluations: int = 14,
     most: int = MOST_WINDOWS,
     typical: float = TYPICAL,
+    further: Further | None = None,
+    weigh: Model | None = None,
 ) -> Fit:
-    """Return the model fitted to forecasts.
+    """Return the model fitted to forecasts, and to what else the runs show: log likelihoods add.
 
     Args:
         model: where the fit starts.
@@ -86,8 +95,12 @@ def refit(
         evaluations: most Gauss-Newton steps.
         most: forecasts used in each run.
         typical: errors up to this many units count by their square [-]; inf: all of them, where a fit begins far off.
+        further: errors of what else the runs show.
+        weigh: model whose forecasts tell how much an independent number of theirs errs, and so what else weighs; that where
+            the fit starts if not given.
     """
     misfit = _Misfit(model, windows, uncertainty, only, most)
+    misfit.beside(further, weigh or model)
     minimum = minimised(
         misfit.errors, np.zeros(len(misfit.free)), misfit.steps.low, misfit.steps.high, difference=DIFFERENCE,
         evaluations=evaluations, tolerance=1.0e-4, outlying=typical, threads=True,
@@ -97,14 +110,19 @@ def refit(
     size = np.sqrt((minimum.jacobian**2).sum(axis=0))
     alone = misfit.steps.scale * np.sqrt(spread) / np.maximum(size, np.sqrt(spread) / WIDEST)
     deviations = misfit.steps.scale * _deviations(minimum.jacobian, spread)
-    return Fit(adjusted(model, misfit.free, values), misfit.free, values, deviations, alone, float(minimum.cost))
+    cost = float(minimum.cost) if further is None else _robust(misfit.alone(minimum.x))
+    return Fit(adjusted(model, misfit.free, values), misfit.free, values, deviations, alone, cost, float(minimum.cost))
 
 
 def cost_of(model: Model, windows: Sequence[Windows], *, most: int = MOST_WINDOWS) -> float:
     """Return the robust sum of squares that a model as it is leaves of forecasts [-]; compare with `Fit.cost`."""
     misfit = _Misfit(model, windows, {}, (), most)
-    squares = (misfit.errors(np.zeros(0)) / TYPICAL) ** 2
-    return float(TYPICAL**2 * np.sum(np.sqrt(1.0 + squares) - 1.0))
+    return _robust(misfit.errors(np.zeros(0)))
+
+
+def _robust(errors: Array) -> float:
+    """Return half the sum of squares of errors, of those beyond `TYPICAL` by size [-]."""
+    return float(TYPICAL**2 * np.sum(np.sqrt(1.0 + (errors / TYPICAL) ** 2) - 1.0))
 
 
 def likelihood_ratio(fit: Fit, fewer: Fit, windows: Sequence[Windows]) -> float:
@@ -112,7 +130,14 @@ def likelihood_ratio(fit: Fit, fewer: Fit, windows: Sequence[Windows]) -> float:
     return 2.0 * (fewer.cost - fit.cost) / _Misfit(fit.model, windows, {}, (), MOST_WINDOWS).spread(2.0 * fit.cost)
 
 
-def with_deviations(fit: Fit, windows: Sequence[Windows], uncertainty: Mapping[str, float], *, most: int = MOST_WINDOWS) -> Fit:
+def with_deviations(
+    fit: Fit,
+    windows: Sequence[Windows],
+    uncertainty: Mapping[str, float],
+    *,
+    most: int = MOST_WINDOWS,
+    further: Further | None = None,
+) -> Fit:
     """Return the fit with standard deviations from differences as wide as what the forecasts leave open.
 
     A fit's own differences are small. Where errors jump as a number is changed, a slip missed or a gap's edge passed, or do
@@ -123,8 +148,10 @@ def with_deviations(fit: Fit, windows: Sequence[Windows], uncertainty: Mapping[s
         windows: the forecasts it was made to.
         uncertainty: relative standard deviations of the stated numbers.
         most: forecasts used in each run.
+        further: errors of what else the runs show, as in the fit.
     """
     misfit = _Misfit(fit.model, windows, uncertainty, None, most)
+    misfit.beside(further, fit.model)
     here = misfit.errors(np.zeros(len(misfit.free)))
     weight = (1.0 + (here / TYPICAL) ** 2) ** -0.75  # of the loss: SciPy scales its Jacobian so
     spread = misfit.spread(2.0 * fit.cost)
@@ -224,26 +251,48 @@ class _Misfit:
         self._seen_by = [np.array([k.run in ("", run) for k in self.free], dtype=bool) for run in runs]
         most = 2 + sum(not k.run for k in self.free)
         self._missed = [functools.lru_cache(most)(functools.partial(self._missed_in, w)) for w in self.windows]
+        self._further: Further | None = None
+        self._weight, self._repeats = 0.0, 0
 
-    def errors(self, step: Array) -> Array:
-        """Return the errors of all forecasts, then how far priors are missed, in units of `UNIT` and of their deviations."""
+    def beside(self, further: Further | None, model: Model) -> None:
+        """Let what else the runs show count, an independent number of it as much as one of a model's forecasts."""
+        if further is None:
+            return
+        errors = [self._error_of(model, w) for w in self.windows]
+        count = sum(map(len, errors))
+        self._weight = float(np.sqrt(max(2.0 * _robust(np.concatenate(errors)) / max(count, 1), 1.0e-12)))
+        self._repeats = max(round(count / max(INDEPENDENT * sum(map(len, self.windows)), 1)), 1)
+        self._further = further
+
+    def alone(self, step: Array) -> Array:
+        """Return the errors of forecasts and priors."""
         values = self.steps.values(step)
         parts = [missed(*values[seen]) for missed, seen in zip(self._missed, self._seen_by, strict=True)]
         # priors enter as one observation each; its weight is that of a cycle's worth of independent errors
         return np.concatenate([*parts, 3.0 * self.steps.surprise(values)])
 
+    def errors(self, step: Array) -> Array:
+        """Return the errors of what else the runs show, of forecasts, and of priors, in units of `UNIT` and of deviations."""
+        errors = self.alone(step)
+        if self._further is None:
+            return errors
+        model = adjusted(self.model, self.free, self.steps.values(step))
+        return np.concatenate([np.repeat(self._weight * self._further(model), self._repeats), errors])
+
     def _missed_in(self, windows: Windows, *values: float) -> Array:
         """Return the errors of a run's forecasts with the ``values`` of the numbers that it depends on."""
         free = [k for k in self.free if k.run in ("", windows.record.name)]
-        trial = adjusted(self.model, free, np.array(values))
-        errors = (forecasts(trial, windows) - windows.targets) / self.unit
+        return self._error_of(adjusted(self.model, free, np.array(values)), windows)
+
+    def _error_of(self, model: Model, windows: Windows) -> Array:
+        """Return the errors of a model's forecasts, shape (targets,)."""
+        errors = (forecasts(model, windows) - windows.targets) / self.unit
         return np.nan_to_num(np.clip(errors, -CLIP, CLIP), nan=CLIP).ravel()
 
     def spread(self, squares: float) -> float:
         """Return the variance that errors count with, from their robust sum of squares."""
         count = sum(w.targets.size for w in self.windows)
-        # the errors of one forecast hang together: a forecast counts as about six independent numbers
-        inflation = count / max(6 * sum(map(len, self.windows)), 1)
+        inflation = count / max(INDEPENDENT * sum(map(len, self.windows)), 1)
         return max(squares / max(count, 1), 1.0e-12) * inflation
 
 
