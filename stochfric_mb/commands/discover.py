@@ -95,6 +95,7 @@ def write(outcome: Outcome, folder: Path, command: str) -> dict[str, Any]:
 
 def _show(content: Mapping[str, Any]) -> None:
     from stochfric_mb.commands.tables import print_table
+    from stochfric_mb.report.discovery import METRICS
 
     names = ", ".join(e["kind"] for e in content["effects"])
     say(f"Verdict: {content['verdict']}" + (f" ({names})" if names else ""))
@@ -115,7 +116,9 @@ def _show(content: Mapping[str, Any]) -> None:
         stages = ("baseline", "recalibrated", "augmented", "floor")
         rows = [[f"{gap[stage]:.3g}" if gap[stage] is not None else "-" for stage in stages]]
         rows[0].append("-" if gap["closed"] is None else f"{100.0 * gap['closed']:.3g} %")
-        print_table(("as stated", *stages[1:], "closed"), rows, title=f"{gap['metric']} on held-out runs, in {gap['unit']}")
+        what = METRICS.get(gap["metric"], gap["metric"])
+        title = f"{what[0].upper()}{what[1:]}, on held-out runs, in {gap['unit']} ({gap['metric']})"
+        print_table(("as stated", *stages[1:], "closed"), rows, title=title)
     for note in content["notes"]:
         say(f"Note: {note}")
     say(f"Next experiment: {content['next_experiment']}")

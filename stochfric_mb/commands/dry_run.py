@@ -141,7 +141,7 @@ def _plan(data: Dataset, runs: list[dict[str, Any]]) -> list[str]:
     if few:
         said += f"; too few slips to judge friction by in {', '.join(few)}: each run needs {least}"
     low, high = (a + b * simulated + beyond for a, b in zip(SECONDS, SECONDS_A_SLIP, strict=True))
-    return [said, f"Expected time: {low:.0f} to {high:.0f} s of one processor, beside compiling at the first use"]
+    return [said, f"Expected time: {low:.0f} to {high:.0f} s of one processor, plus compiling on first use"]
 
 
 def _searched(mechanism: str) -> str:

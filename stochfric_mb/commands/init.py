@@ -105,7 +105,7 @@ def scenario_text(mechanism: str) -> str:
     lines += ["", "[law]", 'kind = "coulomb"']
     lines += ["mu_s = 0.5  # EXAMPLE. Static coefficient of friction [-]", "mu_k = 0.4  # EXAMPLE. Kinetic one [-]"]
     lines += ["", "[uncertainty]  # relative standard deviations: how well you know each number"]
-    lines += [f"{name} = {value:g}  # EXAMPLE" for name, value in UNCERTAINTY[mechanism].items()]
+    lines += [f"{name} = {value:g}  # EXAMPLE: {100.0 * value:g} %" for name, value in UNCERTAINTY[mechanism].items()]
     lines += ["", "[simulation]", "duration = 10.0  # s", "output_step = 1.0e-3  # s, divides the duration"]
     return "\n".join(lines) + "\n"
 

@@ -13,7 +13,7 @@ from stochfric_mb.errors import InputError, require_name
 from stochfric_mb.measurement.quantities import KNOWN, known_name, split_header
 from stochfric_mb.measurement.readers import read_table
 from stochfric_mb.measurement.run import Role, Run
-from stochfric_mb.measurement.sampling import Places, require_growing, uniform_grid
+from stochfric_mb.measurement.sampling import FROZEN, Places, longest_still, require_growing, uniform_grid
 from stochfric_mb.measurement.table import Table
 from stochfric_mb.measurement.units import to_si
 
@@ -21,8 +21,6 @@ Array = npt.NDArray[np.float64]
 
 MOVING = ("position", "velocity", "acceleration", "force", "torque")
 """Channels that stay at one number to the last digit only at rest, or when they are dead."""
-FROZEN = 0.2
-"""Share of the run from which that is told [-]."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -114,10 +112,7 @@ def _frozen(name: str, values: Array, time: Array, unit: str) -> str:
     """Return what is said of a channel that moves, and stays at one number for much of the run; nothing where it does not."""
     if name not in MOVING or values.size < 2 or np.ptp(values) == 0.0:
         return ""
-    changes = np.flatnonzero(np.diff(values)) + 1
-    edges = np.concatenate(([0], changes, [values.size]))
-    longest = int(np.argmax(np.diff(edges)))
-    first, last = int(edges[longest]), int(edges[longest + 1]) - 1
+    first, last = longest_still(values)
     share = (last - first) / (values.size - 1)
     if share < FROZEN:
         return ""

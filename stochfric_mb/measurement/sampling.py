@@ -18,6 +18,8 @@ GAP = 4.0
 MIN_SAMPLES, MIN_PIECE = 30, 50
 """Fewest samples of a run that was recorded as such, and of a piece that is cut out of one: a slide one way says its friction
 with 30, a piece of a longer motion with fewer than 50 holds neither a noise level nor one cycle."""
+FROZEN = 0.2
+"""Share of a run in which a channel that moves stays at one number, from which on it may be dead [-]."""
 
 
 class GapError(InputError):
@@ -147,3 +149,10 @@ def _rounded_up(value: float) -> float:
     """Return ``value`` to two digits, not below it."""
     unit = 10.0 ** (np.floor(np.log10(value)) - 1)
     return float(np.ceil(value / unit - 1.0e-9) * unit)
+
+
+def longest_still(values: Array) -> tuple[int, int]:
+    """Return the first and the last sample of the longest stretch in which values, float64[n], stay at one number."""
+    edges = np.concatenate(([0], np.flatnonzero(np.diff(values)) + 1, [len(values)]))
+    longest = int(np.argmax(np.diff(edges)))
+    return int(edges[longest]), int(edges[longest + 1]) - 1

@@ -9,6 +9,7 @@ import numpy as np
 
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
+from stochfric_mb.measurement.sampling import FROZEN, longest_still
 from stochfric_mb.measurement.scales import FACTORS, SPEED_FITS, Array, Cause, Shown, inertia, likeliest, shown
 from stochfric_mb.measurement.smoothing import smooth
 from stochfric_mb.mechanisms import BeltBox, HingePendulum, PrismaticJoint
@@ -37,6 +38,8 @@ RATE_FITS = 5.0
 """Largest factor between them: filters and lag cost less, the nearest wrong unit is off by 6 (rpm for rad/s: 9.5)."""
 MASS_FITS = 1.5
 """|log10| of force over acceleration over the stated mass from which units are looked at: payloads double a mass."""
+STILL = 20.0
+"""Steps of a sensor by which the belt runs on while a dead position stays at one number."""
 SAME_FACTOR = math.log10(2.0)
 """Largest difference of its log10 from that of a factor between units: what a stated mass may be wrong by besides."""
 FRICTION_FITS = 1.0
@@ -76,6 +79,7 @@ def require_plausible(run: Run, scenario: Scenario[Any], stated_in: str) -> None
             raise InputError(_wrong_unit(run, mechanism, seen, cause, stated_in))
     if isinstance(mechanism, BeltBox):
         _require_as_stated(run, mechanism, stated_in)
+        _require_riding(run, mechanism)
 
 
 def _require_alive(run: Run) -> None:
@@ -85,6 +89,24 @@ def _require_alive(run: Run) -> None:
         raise InputError(_dead(run, "position", position, "the run"))
     if velocity is not None and np.ptp(velocity) == 0.0 and not _moves_at(position, float(velocity[0]), run.sample_interval):
         raise InputError(_dead(run, "velocity", velocity, "the column"))
+
+
+def _require_riding(run: Run, box: BeltBox) -> None:
+    """Require that a position does not stay at one number while the belt runs on by many steps of the sensor."""
+    position = run.channels.get("position")
+    if position is None or position.size < 2:
+        return
+    first, last = longest_still(position)
+    changes = np.abs(np.diff(position))
+    travel = abs(box.belt_velocity) * (last - first) * run.sample_interval
+    steps = travel / float(changes[changes > 0.0].min(initial=math.inf))
+    if steps > STILL and last - first >= FROZEN * (position.size - 1):  # a clipped sensor stays for parts of cycles
+        a, b = (float(run.time[i]) for i in (first, last))
+        raise InputError(
+            f"{run.source}: position stays at {position[first]:g} {run.units.get('position', '')} from {a:.4g} to {b:.4g} s, "
+            f"while the belt runs on by {travel:.3g} m: the channel is dead there; leave it out, such as "
+            f"time_range = [{run.time[0]:.4g}, {a:.4g}]"
+        )
 
 
 def _dead(run: Run, name: str, values: Array, what: str) -> str:

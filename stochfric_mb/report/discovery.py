@@ -17,11 +17,12 @@ from stochfric_mb.report.page import unit as raised
 
 CAPTIONS = {
     "cycles": "Left: held-out cycles from the middle of a stick phase on, measured and forecast. Right: error of the "
-    "forecasts; line: median, area: the middle nine tenths of all cycles. Dotted: the error that a random model expects.",
+    "forecasts; line: median, area: the middle nine tenths of all cycles. Dotted, if drawn: the error that a random model "
+    "predicts.",
     "map": "Measured friction force minus the model's, one column a slip. Horizontal stripes: every slip is off alike. "
     "Vertical stripes: the slips differ. Pale: explained.",
-    "left_over": "The same residual slip by slip, against time and against the position on the belt. A pattern is missing from "
-    "the model.",
+    "left_over": "The same residual slip by slip, against time and against the position on the belt. Any pattern here is "
+    "something that the model lacks.",
     "folded": "The same residual of the first run, folded at the estimated wavelength or period.",
     "friction": "Friction force against sliding velocity. Lines: the fitted laws, in one slip of the first run. Dots: the law "
     "plus the median of its residual in the measured slips, without their ends; area: the middle nine tenths. At rest: the "

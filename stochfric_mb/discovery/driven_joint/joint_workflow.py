@@ -244,7 +244,7 @@ def _require_sliding(balances: Sequence[ForceBalance], name: str, role: str) -> 
         where = f"joint {name!r}" if name else "the joint"
         raise InputError(
             f"{where} slides one way in only {windows} windows of the runs with role {role!r} ({runs}); at least {FEWEST} are "
-            "needed: record longer or livelier motion, or check the unit of position"
+            "needed: record longer or livelier motion, or check the units of position and load"
         )
 
 

@@ -140,11 +140,22 @@ def test_dead_channels(tmp_path, motion, truth):
 
 
 def test_a_channel_that_freezes_in_a_run_is_noted(tmp_path, motion, truth):
-    time, position = motion
-    frozen = np.where(time < 6.0, position, position[6000])
-    run = _load(tmp_path, (time, frozen), truth).fit[0]
+    time, _ = motion
+    force = np.where(time < 6.0, np.sin(time), np.sin(6.0))
+    run = _load(tmp_path, motion, truth, force__N=force).fit[0]
     assert "from 6 to 20 s (70% of the run)" in str(run.notes), run.notes
     assert not any("stays at" in note for note in _load(tmp_path, motion, truth).fit[0].notes)
+
+
+def test_a_position_that_freezes_while_the_belt_runs_on(tmp_path, motion, truth):
+    time, position = motion
+    frozen = np.where(time < 6.0, position, position[6000])
+    with pytest.raises(InputError, match=r"position stays at .* from 6 to 20 s, while the belt runs on by 0.035 m.*time_range"):
+        _load(tmp_path, (time, frozen), truth)
+    clipped = np.minimum(position, np.quantile(position, 0.6))  # four tenths of the samples, but no cycle in a whole
+    assert _load(tmp_path, (time, clipped), truth).fit
+    coarse = 4.0e-4 * np.round(position / 4.0e-4)  # a sixth of a second of the belt
+    assert _load(tmp_path, (time, coarse), truth).fit
 
 
 def test_a_velocity_that_is_not_the_rate_of_the_position(tmp_path, motion, truth):

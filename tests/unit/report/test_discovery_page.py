@@ -207,7 +207,7 @@ def test_what_is_named_equivalent_blind_and_next_is_told():
         "these data cannot distinguish it from viscous friction",
         "0.0512 (0.0490 to 0.0534)",
         "mu_k(v) = mu_k + amplitude exp(-(abs(v)/decay_velocity)^shape_exponent)",
-        "however strong they are: dwell ageing",
+        "are not looked for in this mechanism: dwell ageing",
         "a run at 2 belt speeds.",
         "8.3e-06 of the samples were outliers.",
         "belt_velocity = ",
@@ -257,7 +257,7 @@ def test_parameters_are_those_of_the_model_with_the_effects(outcome):
         assert table["", name]["source"] == ("prior" if name in about["not_measured"] else "fit")
         assert bool(table["", name]["moved"]) == (name in about["moved_beyond_uncertainty"])
         assert f'<data value="{number["value"]!r}">' in rows[name]
-        assert ("prior" in rows[name]) == (name in about["not_measured"])
+        assert ("your stated value" in rows[name]) == (name in about["not_measured"])
         assert ("stated standard deviations off" in rows[name]) == (
             name in about["moved_beyond_uncertainty"] and name not in about["not_measured"]
         )

@@ -345,7 +345,8 @@ def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
         for kind in _imitated(place):
             names = ", ".join(n.name for n in place.nuisances)
             remarks.append(
-                f"{words_of(kind)} cannot be distinguished from a correction of {names} here{_at(place)}: any of it is in them"
+                f"{words_of(kind)} cannot be distinguished from a correction of {names} here{_at(place)}: any of it is "
+                "included in these numbers"
             )
         remarks += _between_settings(place)
         if place.random is not None and place.random.low > 0.0 and not place.random.accounted:
