@@ -73,6 +73,23 @@ def by_temperature(t, s, warm):
     return 2.0 * (1.0 - 0.03 * (warm - 30.0))
 
 
+def test_a_curved_dependence_on_temperature():
+    """Friction that thins out as it warms, a parabola over the temperatures measured."""
+
+    def thinning(t, s, warm):
+        return 2.0 * (1.0 - 0.02 * (warm - 30.0) + 0.004 * (warm - 30.0) ** 2)
+
+    effects = joint_outcome(data(thinning, apart)).result.effects
+    assert [e.kind for e in effects] == ["temperature_drift"]
+    numbers = effects[0].parameters
+    rate, bend = numbers["rate"], numbers["curvature"]
+    about = numbers["reference_temperature"].value - 30.0
+    level = 1.0 - 0.02 * about + 0.004 * about**2
+    # 0.02 N of noise leave a hundredth of the change
+    assert bend.value == pytest.approx(0.004 / level, rel=0.05)
+    assert rate.value == pytest.approx((-0.02 + 0.008 * about) / level, rel=0.05, abs=5.0e-4)
+
+
 @pytest.mark.parametrize(
     ("friction", "kind", "rate", "unit"),
     [
