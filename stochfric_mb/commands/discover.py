@@ -116,8 +116,9 @@ def _show(content: Mapping[str, Any]) -> None:
         stages = ("baseline", "recalibrated", "augmented", "floor")
         rows = [[f"{gap[stage]:.3g}" if gap[stage] is not None else "-" for stage in stages]]
         rows[0].append("-" if gap["closed"] is None else f"{100.0 * gap['closed']:.3g} %")
-        what = METRICS.get(gap["metric"], gap["metric"])
-        title = f"{what[0].upper()}{what[1:]}, on held-out runs, in {gap['unit']} ({gap['metric']})"
+        metric = str(gap["metric"])
+        what = METRICS.get(metric, metric)
+        title = f"{what[0].upper()}{what[1:]}, on held-out runs, in {gap['unit']} ({metric})"
         print_table(("as stated", *stages[1:], "closed"), rows, title=title)
     for note in content["notes"]:
         say(f"Note: {note}")

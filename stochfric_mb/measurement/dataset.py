@@ -78,6 +78,8 @@ def _described(path: Path, scenario: str | Path | Scenario[Any] | None, plausibl
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: not a TOML file: {error}") from None
+    if "mechanism" in tables:
+        raise InputError(f"{path} is a scenario, not a dataset; give a measured file or a dataset.toml, with --scenario {path}")
     try:
         entries = run_entries(tables, path.parent)
         model, source = _scenario(_named(tables, path.parent) if scenario is None else scenario)

@@ -174,7 +174,7 @@ def _step_run(limit, multiple, role, seed):
 
     way = np.concatenate([[0.0], np.cumsum(speed(time))[:-1]]) / run.sample_rate
     changes = {
-        "friction_drift": lambda: size * way,
+        "distance_drift": lambda: size * way,
         "velocity_weakening": lambda: -size * np.log(speed(time) / run.slow_speed),
         "viscous_friction": lambda: size * np.log(speed(time) / run.slow_speed),
         "frictional_lag": lambda: _remembering(time, lambda t: float(speed(t)), size, limit.beside["distance"]),
@@ -187,7 +187,7 @@ def _step_run(limit, multiple, role, seed):
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("kind", ["friction_drift", "velocity_weakening", "viscous_friction", "frictional_lag"])
+@pytest.mark.parametrize("kind", ["distance_drift", "velocity_weakening", "viscous_friction", "frictional_lag"])
 def test_limits_of_a_spring_slider(kind):
     scenario = any_scenario_from_dict(SLIDER)
     plan = planned(scenario, [SLIDER_RUN], extra=False)

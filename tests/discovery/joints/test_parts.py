@@ -133,8 +133,11 @@ def test_the_augmented_scenario_reads_back():
 def test_a_missing_channel_is_named():
     run = sine_run(coulomb)
     bare = dataclasses.replace(run, channels={"position": run.channels["position"]})
-    with pytest.raises(InputError, match="has no force"):
+    with pytest.raises(InputError, match=r"has no force .*columns = \{ force = ... \}$"):
         balance_of(bare, scenario())
+    volts = dataclasses.replace(run, channels=bare.channels | {"voltage": run.channels["force"]})
+    with pytest.raises(InputError, match=r"has no force .*or state mechanism.force_gain \[N/V\]"):
+        balance_of(volts, scenario())
 
 
 def settings(friction, zero):

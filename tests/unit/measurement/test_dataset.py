@@ -216,6 +216,9 @@ def test_paths(rig):
         load_dataset(rig)
     with pytest.raises(InputError, match="no such file; give a folder"):
         load_dataset(rig / "none")
+    (rig / "scenario.toml").write_text('schema = "stochfric.scenario/1"\n[mechanism]\nkind = "belt_box"\n')
+    with pytest.raises(InputError, match=r"scenario.toml is a scenario, not a dataset; .* --scenario"):
+        load_dataset(rig / "scenario.toml")
     with pytest.raises(InputError, match="a measured file alone says nothing about the rig; give --scenario"):
         load_dataset(rig / "run.csv")
     with pytest.raises(InputError, match=r"40 samples in its last third.*at least 50"):

@@ -27,6 +27,8 @@ from stochfric_mb.scenario import Scenario
 Array = npt.NDArray[np.float64]
 Joint = PrismaticJoint | HingePendulum
 
+GAINS = {"force": "N/V", "torque": "N m/V"}
+"""Drive that a voltage may stand for -> unit of its gain."""
 UNITS = {
     "prismatic_joint": {"mass": "kg", "damping": "N s/m", "offset": "N", "piston_area": "m^2", "force_gain": "N/V"},
     "hinge_pendulum": {"mass": "kg", "inertia": "kg m^2", "damping": "N m s/rad", "offset": "N m", "torque_gain": "N m/V"},
@@ -242,5 +244,8 @@ def measured_load(run: Run, joint: Joint) -> Array | None:
 def _channel(run: Run, name: str) -> Array:
     if name not in run.channels:
         given = ", ".join(run.channels)
-        raise InputError(f"run {run.name!r} has no {name} (it has {given}); name its column with columns = {{ {name} = ... }}")
+        remedy = f"name its column with columns = {{ {name} = ... }}"
+        if name in GAINS and "voltage" in run.channels:
+            remedy += f", or state mechanism.{name}_gain [{GAINS[name]}], by which the voltage drives"
+        raise InputError(f"run {run.name!r} has no {name} (it has {given}); {remedy}")
     return run.channels[name]
