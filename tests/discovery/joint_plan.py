@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator
 from .joint_generator.case import Case
 from .joint_generator.forms import FORMS
 from .joint_generator.unseen import UNSEEN
+from .joint_generator.unseen_fourth import UNSEEN_FOURTH
 from .joint_generator.unseen_second import UNSEEN_SECOND
 from .joint_generator.unseen_third import UNSEEN_THIRD
 
@@ -55,7 +56,7 @@ UNSEEN_SECOND_PAIRS = (
     "payload.counterweight+position_dependent_friction.worn_rack",
 )
 
-SERIES = {1: (UNSEEN, UNSEEN_PAIRS), 2: (UNSEEN_SECOND, UNSEEN_SECOND_PAIRS), 3: (UNSEEN_THIRD, ())}
+SERIES = {1: (UNSEEN, UNSEEN_PAIRS), 2: (UNSEEN_SECOND, UNSEEN_SECOND_PAIRS), 3: (UNSEEN_THIRD, ()), 4: (UNSEEN_FOURTH, ())}
 """Sets of forms for a report, with their pairs."""
 
 

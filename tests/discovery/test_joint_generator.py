@@ -17,6 +17,7 @@ from tests.discovery.joint_generator.integrator import simulate
 from tests.discovery.joint_generator.motion import MOTIONS
 from tests.discovery.joint_generator.plant import ARM, CHAIN, FACTOR_ON_SPEED, MASS_OF_TIME, ONE_WAY_AT, plain_plant
 from tests.discovery.joint_generator.unseen import UNSEEN
+from tests.discovery.joint_generator.unseen_fourth import UNSEEN_FOURTH
 from tests.discovery.joint_generator.unseen_second import UNSEEN_SECOND
 from tests.discovery.joint_generator.unseen_third import UNSEEN_THIRD
 
@@ -200,10 +201,10 @@ def test_a_slider_without_memory_follows_the_logarithm_of_speed():
     assert record["friction_coefficient"][-1] == pytest.approx(0.6 + 0.005 * math.log(10.0), abs=1e-6)
 
 
-@pytest.mark.parametrize("name", [*FORMS, *UNSEEN, *UNSEEN_SECOND, *UNSEEN_THIRD])
+@pytest.mark.parametrize("name", [*FORMS, *UNSEEN, *UNSEEN_SECOND, *UNSEEN_THIRD, *UNSEEN_FOURTH])
 def test_every_form_changes_what_is_recorded(name):
     """With the same seed: another record than the one without the effect, apart from nulls."""
-    form = (FORMS | UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD)[name]
+    form = (FORMS | UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD | UNSEEN_FOURTH)[name]
     if form.designs[0] in ("slider", "thrown"):
         return
     made = make(Case(name, form.designs[0], 1.0, 1))
@@ -227,11 +228,15 @@ def test_every_form_changes_what_is_recorded(name):
 
 @pytest.mark.parametrize(
     "name",
-    [name for name, form in (UNSEEN_SECOND | UNSEEN_THIRD).items() if form.kind != "none" and form.designs[0] in JOINTS],
+    [
+        name
+        for name, form in (UNSEEN_SECOND | UNSEEN_THIRD | UNSEEN_FOURTH).items()
+        if form.kind != "none" and form.designs[0] in JOINTS
+    ],
 )
 def test_a_form_of_half_strength_is_visible(name):
     """A fit of the believed balance, its numbers within their uncertainty, is worse by six standard deviations or more."""
-    made = make(Case(name, (UNSEEN_SECOND | UNSEEN_THIRD)[name].designs[0], 0.5, 1))
+    made = make(Case(name, (UNSEEN_SECOND | UNSEEN_THIRD | UNSEEN_FOURTH)[name].designs[0], 0.5, 1))
     plain, noise = replace(made, effects=()), made.nominal.sensor.drive
     # noise of a block as the fit without the effect shows it: some 150 blocks in each of two runs or more
     noise *= math.sqrt(misfit(plain, noise) / 300.0)
@@ -240,7 +245,7 @@ def test_a_form_of_half_strength_is_visible(name):
 
 BRIEF = {
     name: form.designs[0]
-    for name, form in (UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD).items()
+    for name, form in (UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD | UNSEEN_FOURTH).items()
     if form.designs[0] in ("slider", "thrown")
 }
 
@@ -276,7 +281,7 @@ def test_plan_has_every_form_in_all_its_mechanisms():
     assert len(FORMS) >= 60
 
 
-@pytest.mark.parametrize(("series", "least", "of_each"), [(1, 60, 18), (2, 60, 18), (3, 32, 8)])
+@pytest.mark.parametrize(("series", "least", "of_each"), [(1, 60, 18), (2, 60, 18), (3, 32, 8), (4, 21, 5)])
 def test_forms_of_the_report_are_in_no_plan_for_tuning(series, least, of_each):
     forms, _ = joint_plan.SERIES[series]
     assert not {part.name for case in joint_plan.cases(range(2)) for part in case.parts} & set(forms)
@@ -289,7 +294,10 @@ def test_forms_of_the_report_are_in_no_plan_for_tuning(series, least, of_each):
     assert {case.design for case in cases} == {*JOINTS, "slider", "thrown"}
 
 
-@pytest.mark.parametrize(("series", "earlier"), [(2, FORMS | UNSEEN), (3, FORMS | UNSEEN | UNSEEN_SECOND)])
+@pytest.mark.parametrize(
+    ("series", "earlier"),
+    [(2, FORMS | UNSEEN), (3, FORMS | UNSEEN | UNSEEN_SECOND), (4, FORMS | UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD)],
+)
 def test_a_later_set_shares_no_form_and_has_both_strengths(series, earlier):
     assert not set(joint_plan.SERIES[series][0]) & set(earlier)
     strengths = {}

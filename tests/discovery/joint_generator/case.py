@@ -15,6 +15,7 @@ from .integrator import simulate
 from .motion import MOTIONS
 from .plant import PRESSURE, Array, Plant, plain_plant
 from .unseen import UNSEEN
+from .unseen_fourth import UNSEEN_FOURTH
 from .unseen_second import UNSEEN_SECOND
 from .unseen_third import UNSEEN_THIRD
 
@@ -50,7 +51,7 @@ class Case:
     @property
     def parts(self) -> tuple[Form, ...]:
         """The forms."""
-        known = FORMS | UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD
+        known = FORMS | UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD | UNSEEN_FOURTH
         for name in self.forms.split("+"):
             if name not in known:
                 raise SystemExit(f"form {name!r} is unknown; known: {', '.join(known)}")

@@ -74,13 +74,11 @@ class Rig:
         """Duration of a stick-slip cycle of the undamped rig [s]."""
         return self.slip_length / self.belt_velocity + np.pi / self.pulsation
 
-    def drawn(
-        self, rng: np.random.Generator, *, at_limits: bool = False, uncertainty: Mapping[str, float] = UNCERTAINTY
-    ) -> Rig:
-        """Return the true rig: each number within 1.5 of its standard deviations, or all of them at 2, up or down."""
+    def drawn(self, rng: np.random.Generator, *, at_limits: float = 0.0, uncertainty: Mapping[str, float] = UNCERTAINTY) -> Rig:
+        """Return the true rig: each number within 1.5 of its standard deviations, or 2 `at_limits` of them off, up or down."""
         z = {key: float(np.clip(rng.standard_normal(), -1.5, 1.5)) for key in uncertainty}
         if at_limits:
-            z = {key: 2.0 if value > 0.0 else -2.0 for key, value in z.items()}
+            z = {key: 2.0 * at_limits if value > 0.0 else -2.0 * at_limits for key, value in z.items()}
         return dataclasses.replace(self, **{key: getattr(self, key) * (1.0 + sd * z[key]) for key, sd in uncertainty.items()})
 
 
