@@ -67,8 +67,8 @@ def lanchester_damper(w: World, a: float) -> None:
 
 @form(UNKNOWN, source="Reid 1956 (a spring whose layers rub by how far it is bent)")
 def spring_rubs_as_it_bends(w: World, a: float) -> None:
-    k, share, slow = 0.1 * a * w.rig.stiffness, 1.0, 0.2 * w.nominal.belt_velocity
-    w.load = lambda s: -share * k * np.abs(s.x) * np.tanh(s.v / slow)
+    k, slow = 0.04 * a * w.rig.stiffness, 0.2 * w.nominal.belt_velocity
+    w.load = lambda s: -k * np.abs(s.x) * np.tanh(s.v / slow)
 
 
 @form(
