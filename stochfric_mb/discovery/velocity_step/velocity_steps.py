@@ -174,7 +174,7 @@ def _result(
         gap=gap,
         not_identifiable=tuple(k for k in effect_kinds() if k not in (*searched, *kinds_with(ANONYMOUS))),
         next_experiment="Steps down as well as up, and hold tests: they separate ageing with time from slip with distance.",
-        parameters=_numbers(plain),
+        parameters=_of_the_rig(closest if kept is None else kept.law_alone(closest.law)),
         notes=(
             *gap.notes,
             *of_term.values(),
@@ -263,6 +263,11 @@ def _estimate(plain: Fitted, best: Fitted, scores: dict[str, float]) -> EffectEs
     axes = {MEMORY: "distance since a change of speed", SLOPE_IN_DISTANCE: "displacement", RATE: "speed", MORE_DAMPING: "speed"}
     axis = next(axes[finding] for finding in effect_class(kind).signatures if finding in axes)
     return EffectEstimate(kind, same, Where(axis, text), _numbers(best), scores[kind], None)
+
+
+def _of_the_rig(fitted: Fitted) -> dict[str, Interval]:
+    """Return what stands in the augmented scenario's own law and mechanism: the coefficient, and a memory's stiffness."""
+    return {name: number for name, number in _numbers(fitted).items() if name in ("mu_0", "stiffness")}
 
 
 def _numbers(fitted: Fitted) -> dict[str, Interval]:

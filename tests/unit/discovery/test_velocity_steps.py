@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
+from stochfric_mb.discovery.driven_joint.simulation.pictures import step_picture
 from stochfric_mb.discovery.velocity_step.laws import Track, laws, memory_start
 from stochfric_mb.discovery.velocity_step.velocity_steps import spring_slider_outcome, track_of
 from tests.discovery.net.joints import slider
@@ -48,6 +49,20 @@ def test_friction_that_runs_in_drifts_and_settles():
     for name, true in (("change", -0.1), ("distance", 0.1 * way)):  # four standard deviations: chance does that once in 16000
         one = numbers[name]
         assert abs(one.value - true) < (one.high - one.low) * 4.0 / (2.0 * 1.96)
+
+
+def test_numbers_of_the_rig_are_those_beside_the_effect():
+    result = spring_slider_outcome(slider(0.01, 0.015, 2), lambda _: None).result
+    assert set(result.parameters) == {"mu_0", "stiffness"}
+    for name, number in result.parameters.items():
+        assert number == result.effects[0].parameters[name]
+
+
+def test_lines_break_between_records():
+    time = np.r_[0.0, 1.0, 2.0, 0.0, 1.0]
+    (panel,) = step_picture(time, {"augmented": 0.1 * time})[2]["panels"]
+    x, y = (np.array(panel["series"][0][axis]) for axis in ("x", "y"))
+    assert np.isnan(x).tolist() == np.isnan(y).tolist() == [False, False, False, True, False, False]
 
 
 def test_numbers_on_which_nothing_depends_are_left_out():
