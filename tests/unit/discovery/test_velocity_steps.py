@@ -58,6 +58,13 @@ def test_numbers_of_the_rig_are_those_beside_the_effect():
         assert number == result.effects[0].parameters[name]
 
 
+def test_what_shows_in_the_first_samples_alone_is_no_law():
+    """The spring takes up a direct effect of 1e-4 at the start: a law of it predicts the held-out runs no better."""
+    result = spring_slider_outcome(slider(1.0e-4, 0.0, 1), lambda _: None).result
+    assert result.verdict == "none"
+    assert result.gap.augmented == result.gap.recalibrated
+
+
 def test_lines_break_between_records():
     time = np.r_[0.0, 1.0, 2.0, 0.0, 1.0]
     (panel,) = step_picture(time, {"augmented": 0.1 * time})[2]["panels"]
