@@ -24,8 +24,13 @@ def test_constant_friction_and_drift_are_what_they_say():
     assert len(memory_start(0.6, 1e4, 0.01, 1.0, 1.0)) == 7
 
 
-def test_a_law_is_named_without_a_chance_that_nobody_counted():
-    result = spring_slider_outcome(slider(0.01, 0.015, 2), lambda _: None).result
+@pytest.fixture(scope="module")
+def remembering():
+    return spring_slider_outcome(slider(0.01, 0.015, 2), lambda _: None).result
+
+
+def test_a_law_is_named_without_a_chance_that_nobody_counted(remembering):
+    result = remembering
     assert [e.kind for e in result.effects] == ["frictional_lag"]
     assert result.effects[0].p_value is None
 
@@ -51,11 +56,10 @@ def test_friction_that_runs_in_drifts_and_settles():
         assert abs(one.value - true) < (one.high - one.low) * 4.0 / (2.0 * 1.96)
 
 
-def test_numbers_of_the_rig_are_those_beside_the_effect():
-    result = spring_slider_outcome(slider(0.01, 0.015, 2), lambda _: None).result
-    assert set(result.parameters) == {"mu_0", "stiffness"}
-    for name, number in result.parameters.items():
-        assert number == result.effects[0].parameters[name]
+def test_numbers_of_the_rig_are_those_beside_the_effect(remembering):
+    assert set(remembering.parameters) == {"mu_0", "stiffness"}
+    for name, number in remembering.parameters.items():
+        assert number == remembering.effects[0].parameters[name]
 
 
 def test_what_shows_in_the_first_samples_alone_is_no_law():
@@ -72,9 +76,8 @@ def test_lines_break_between_records():
     assert np.isnan(x).tolist() == np.isnan(y).tolist() == [False, False, False, True, False, False]
 
 
-def test_numbers_on_which_nothing_depends_are_left_out():
-    result = spring_slider_outcome(slider(0.01, 0.015, 2), lambda _: None).result
-    for one in result.effects[0].parameters.values():
+def test_numbers_on_which_nothing_depends_are_left_out(remembering):
+    for one in remembering.effects[0].parameters.values():
         assert one.low < one.value < one.high
         assert abs(one.value) < 1.0e12
 
