@@ -19,7 +19,8 @@ SECONDS_A_SLIP = (0.025, 0.2)
 """Processor time of a discovery, least and most, measured on simulated belt rigs with one effect or none [s]."""
 SECONDS = (2.0, 10.0)
 """Time that is added to it [s]."""
-
+SECONDS_A_JOINT = (2.0, 20.0)
+"""Processor time of a discovery for each joint, least and most of nine tenths of 103 generated records [s]."""
 OFF_SPEED = 0.1
 """Distance of the stuck speed from the belt's from which it is told [-]: this look sees it to some per cent."""
 
@@ -129,7 +130,11 @@ def _plan(data: Dataset, runs: list[dict[str, Any]]) -> list[str]:
     said = f"Would search {_searched(kind)} in {fit} and score on {len(data.test)}, {kind}"
     from stochfric_mb.discovery.criteria import FEWEST_OF_RUN, FEWEST_SLIPS
     from stochfric_mb.discovery.stick_slip.records.long_records import SIMULATED
+    from stochfric_mb.mechanisms import BeltBox
 
+    if kind != BeltBox.kind:
+        joints = len(getattr(data.scenario.mechanism, "friction", ())) or 1
+        return [said, _expected(*(joints * seconds for seconds in SECONDS_A_JOINT))]
     counts = [run["slips"] or 0 for run in runs]
     if not sum(counts):
         return [said]
@@ -141,7 +146,12 @@ def _plan(data: Dataset, runs: list[dict[str, Any]]) -> list[str]:
     if few:
         said += f"; too few slips to judge friction by in {', '.join(few)}: each run needs {least}"
     low, high = (a + b * simulated + beyond for a, b in zip(SECONDS, SECONDS_A_SLIP, strict=True))
-    return [said, f"Expected time: {low:.0f} to {high:.0f} s of one processor, plus compiling on first use"]
+    return [said, _expected(low, high)]
+
+
+def _expected(low: float, high: float) -> str:
+    """Return what is said of the time that a discovery takes [s]."""
+    return f"Expected time: {low:.0f} to {high:.0f} s of one processor, plus compiling on first use"
 
 
 def _searched(mechanism: str) -> str:

@@ -150,10 +150,9 @@ def _with_note(run: Run, note: str) -> Run:
 
 
 def _checked(run: Run, scenario: Scenario[Any], stated_in: str) -> Run:
-    """Return the run once it is plausible, with a note if its friction force seems to have the wrong sign."""
-    require_plausible(run, scenario, stated_in)
-    error = run_sign_error(run, scenario)
-    return run if error is None else dataclasses.replace(run, notes=(*run.notes, str(error)))
+    """Return the run once it is plausible, with notes if it hardly fits the model, or its friction has the wrong sign."""
+    doubts = (require_plausible(run, scenario, stated_in), run_sign_error(run, scenario))
+    return dataclasses.replace(run, notes=(*run.notes, *(str(doubt) for doubt in doubts if doubt)))
 
 
 def _scenario(source: str | Path | Scenario[Any]) -> tuple[Scenario[Any], Path | None]:

@@ -56,8 +56,8 @@ HALF_WIDTH = 8
 """Half the length of the window through which a velocity is taken from a position [samples]."""
 
 
-def require_plausible(run: Run, scenario: Scenario[Any], stated_in: str) -> None:
-    """Return if nothing in a record contradicts what is physical.
+def require_plausible(run: Run, scenario: Scenario[Any], stated_in: str) -> str:
+    """Return what of a record does not fit the model although no single unit explains it, empty if all fits.
 
     Args:
         run: the record, in SI units.
@@ -65,9 +65,10 @@ def require_plausible(run: Run, scenario: Scenario[Any], stated_in: str) -> None
         stated_in: where the model is stated, for messages.
 
     Raises:
-        InputError: a dead channel, a velocity that is not the rate of the position, or a wrong unit; names file, column,
-            factor and remedy.
+        InputError: a dead channel, a velocity that is not the rate of the position, a wrong unit, or a damping with which
+            nothing slips again; names file, column or key, factor and remedy.
     """
+    doubt = ""
     _require_alive(run)
     _require_rate(run)
     mechanism = run.mechanism(scenario)
@@ -77,9 +78,27 @@ def require_plausible(run: Run, scenario: Scenario[Any], stated_in: str) -> None
         cause = likeliest(seen)
         if cause is not None:
             raise InputError(_wrong_unit(run, mechanism, seen, cause, stated_in))
+        _require_swinging(run, mechanism, stated_in)
+        if not seen.fits():
+            doubt = f"the record does not fit the stated model: {_evidence(seen)}; two units or numbers may be wrong"
     if isinstance(mechanism, BeltBox):
         _require_as_stated(run, mechanism, stated_in)
         _require_riding(run, mechanism)
+    return doubt
+
+
+def _require_swinging(run: Run, box: BeltBox, stated_in: str) -> None:
+    """Require damping below the critical one of a box that sticks and slips.
+
+    Overdamped, m x'' + c x' + k x = mu_k N goes to rest without turning back: it never reaches the belt's speed again.
+    """
+    critical = 2.0 * math.sqrt(box.stiffness * box.mass)
+    if box.damping >= critical:
+        raise InputError(
+            f"{_stated_as(run, 'damping', stated_in)} = {box.damping:g} N s/m is {box.damping / critical:.3g} times the "
+            f"critical damping 2 sqrt(k m) = {critical:.3g} N s/m, with which a box does not stick again after a slip; run "
+            f"{run.name} sticks and slips: correct damping, mass or stiffness"
+        )
 
 
 def _require_alive(run: Run) -> None:

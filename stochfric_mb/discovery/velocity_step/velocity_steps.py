@@ -52,8 +52,9 @@ def spring_slider_outcome(dataset: Dataset, progress: Callable[[str], None]) -> 
     tracks = [dataclasses.replace(t, slid=t.slid - offset) for t in tracks]
     fits = _fits(tracks, dataset, progress)
     plain = fits[0]
-    best, scores = _best(fits)
-    accepted = scores[best.kind] > criteria.NAMED
+    best, own, scores = _best(fits)
+    before, after = held_out_error(plain, tracks), held_out_error(best, tracks)
+    accepted = own > criteria.NAMED and after < (1.0 - criteria.CLOSES_NOTHING) * before
     closest = best if accepted else plain
     where = unexplained([t for t in tracks if t.run.role == "fit"], closest)
     term = smooth_law(closest, tracks) if where is not None else None
@@ -77,17 +78,16 @@ def _fits(tracks: Sequence[Track], dataset: Dataset, progress: Callable[[str], N
     return fits
 
 
-def _best(fits: Sequence[Fitted]) -> tuple[Fitted, dict[str, float]]:
-    """Return the law that is meant, and the best score of each kind."""
+def _best(fits: Sequence[Fitted]) -> tuple[Fitted, float, dict[str, float]]:
+    """Return the law that is meant, its score, and the best score of each kind."""
     plain = fits[0]
     n = max(sum(independent_count(r) for r in min(fits, key=lambda f: f.rms).rest), 4.0)
     each = [score_over(plain, f, n, len(f.law.starts)) for f in fits[1:]]
     scores = {f.kind: max(s for s, g in zip(each, fits[1:], strict=True) if g.kind == f.kind) for f in fits[1:]}
     best = fits[1 + int(np.argmax(each))]
     # of laws that leave as much the simplest: what a few more numbers take off is real, perhaps, but no explanation
-    return min(
-        (f for f in fits[1:] if f.rms <= best.rms / (1.0 - criteria.MATERIAL)), key=lambda f: (len(f.values), f.rms)
-    ), scores
+    alike = [(f, s) for f, s in zip(fits[1:], each, strict=True) if f.rms <= best.rms / (1.0 - criteria.MATERIAL)]
+    return *min(alike, key=lambda fit: (len(fit[0].values), fit[0].rms)), scores
 
 
 def _picture(tracks: Sequence[Track], models: Mapping[str, Fitted]) -> Picture:
@@ -174,7 +174,7 @@ def _result(
         gap=gap,
         not_identifiable=tuple(k for k in effect_kinds() if k not in (*searched, *kinds_with(ANONYMOUS))),
         next_experiment="Steps down as well as up, and hold tests: they separate ageing with time from slip with distance.",
-        parameters=_numbers(plain),
+        parameters=_of_the_rig(closest if kept is None else kept.law_alone(closest.law)),
         notes=(
             *gap.notes,
             *of_term.values(),
@@ -263,6 +263,11 @@ def _estimate(plain: Fitted, best: Fitted, scores: dict[str, float]) -> EffectEs
     axes = {MEMORY: "distance since a change of speed", SLOPE_IN_DISTANCE: "displacement", RATE: "speed", MORE_DAMPING: "speed"}
     axis = next(axes[finding] for finding in effect_class(kind).signatures if finding in axes)
     return EffectEstimate(kind, same, Where(axis, text), _numbers(best), scores[kind], None)
+
+
+def _of_the_rig(fitted: Fitted) -> dict[str, Interval]:
+    """Return what stands in the augmented scenario's own law and mechanism: the coefficient, and a memory's stiffness."""
+    return {name: number for name, number in _numbers(fitted).items() if name in ("mu_0", "stiffness")}
 
 
 def _numbers(fitted: Fitted) -> dict[str, Interval]:

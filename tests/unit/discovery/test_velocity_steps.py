@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
+from stochfric_mb.discovery.driven_joint.simulation.pictures import step_picture
 from stochfric_mb.discovery.velocity_step.laws import Track, laws, memory_start
 from stochfric_mb.discovery.velocity_step.velocity_steps import spring_slider_outcome, track_of
 from tests.discovery.net.joints import slider
@@ -23,8 +24,13 @@ def test_constant_friction_and_drift_are_what_they_say():
     assert len(memory_start(0.6, 1e4, 0.01, 1.0, 1.0)) == 7
 
 
-def test_a_law_is_named_without_a_chance_that_nobody_counted():
-    result = spring_slider_outcome(slider(0.01, 0.015, 2), lambda _: None).result
+@pytest.fixture(scope="module")
+def remembering():
+    return spring_slider_outcome(slider(0.01, 0.015, 2), lambda _: None).result
+
+
+def test_a_law_is_named_without_a_chance_that_nobody_counted(remembering):
+    result = remembering
     assert [e.kind for e in result.effects] == ["frictional_lag"]
     assert result.effects[0].p_value is None
 
@@ -50,9 +56,28 @@ def test_friction_that_runs_in_drifts_and_settles():
         assert abs(one.value - true) < (one.high - one.low) * 4.0 / (2.0 * 1.96)
 
 
-def test_numbers_on_which_nothing_depends_are_left_out():
-    result = spring_slider_outcome(slider(0.01, 0.015, 2), lambda _: None).result
-    for one in result.effects[0].parameters.values():
+def test_numbers_of_the_rig_are_those_beside_the_effect(remembering):
+    assert set(remembering.parameters) == {"mu_0", "stiffness"}
+    for name, number in remembering.parameters.items():
+        assert number == remembering.effects[0].parameters[name]
+
+
+def test_what_shows_in_the_first_samples_alone_is_no_law():
+    """The spring takes up a direct effect of 1e-4 at the start: a law of it predicts the held-out runs no better."""
+    result = spring_slider_outcome(slider(1.0e-4, 0.0, 1), lambda _: None).result
+    assert result.verdict == "none"
+    assert result.gap.augmented == result.gap.recalibrated
+
+
+def test_lines_break_between_records():
+    time = np.r_[0.0, 1.0, 2.0, 0.0, 1.0]
+    (panel,) = step_picture(time, {"augmented": 0.1 * time})[2]["panels"]
+    x, y = (np.array(panel["series"][0][axis]) for axis in ("x", "y"))
+    assert np.isnan(x).tolist() == np.isnan(y).tolist() == [False, False, False, True, False, False]
+
+
+def test_numbers_on_which_nothing_depends_are_left_out(remembering):
+    for one in remembering.effects[0].parameters.values():
         assert one.low < one.value < one.high
         assert abs(one.value) < 1.0e12
 

@@ -158,6 +158,19 @@ def test_a_position_that_freezes_while_the_belt_runs_on(tmp_path, motion, truth)
     assert _load(tmp_path, (time, coarse), truth).fit
 
 
+def test_a_damping_with_which_nothing_slips_again(tmp_path, motion, truth):
+    with pytest.raises(InputError, match=r"mechanism.damping = 768 N s/m is 2.48 times the critical damping .* = 310 N s/m"):
+        _load(tmp_path, motion, _stated(truth, damping=768.0))
+    assert _load(tmp_path, motion, _stated(truth, damping=300.0)).fit
+
+
+def test_two_wrong_units_are_a_note(tmp_path, motion, truth):
+    """Positions in mm and a stiffness in N/mm: their ratio is right, and no single unit explains the belt's speed."""
+    run = _load(tmp_path, motion, _stated(truth, stiffness=3.956), scale=1e3).fit[0]
+    assert any("moves at 1.01e+03 times the belt's speed" in n and "two units or numbers may" in n for n in run.notes)
+    assert not any("may be wrong" in n for n in _load(tmp_path, motion, truth).fit[0].notes)
+
+
 def test_a_velocity_that_is_not_the_rate_of_the_position(tmp_path, motion, truth):
     rate = np.gradient(*motion[::-1])
     smooth = np.convolve(rate, np.ones(15) / 15.0, mode="same")

@@ -47,9 +47,14 @@ def friction_picture(
 
 
 def step_picture(time: Array, series: dict[str, Array]) -> Picture:
-    """Return the friction coefficient against time, shape (n,) each: the data and the models."""
+    """Return the friction coefficient against time, shape (n,) each: the data and the models.
+
+    Lines break where time steps back: there another record begins.
+    """
     some = np.unique(np.linspace(0, len(time) - 1, min(2 * MOST, len(time))).round().astype(int))
-    drawn = [_points(n, time[some], y[some], "points" if n == "data" else "line") for n, y in series.items()]
+    begins = np.flatnonzero(np.diff(time[some]) < 0.0) + 1
+    x = np.insert(time[some], begins, np.nan)
+    drawn = [_points(n, x, np.insert(y[some], begins, np.nan), "points" if n == "data" else "line") for n, y in series.items()]
     panel = {"x": "time [s]", "y": "friction coefficient", "series": drawn}
     return "Velocity steps", "All runs, those that were held out included.", {"panels": [panel]}
 
