@@ -30,6 +30,8 @@ from stochfric_mb.reference.augmented import Start
 
 FLOOR = 1.0e-3
 """Error of the features that is always allowed, over the normal force [-]: numerics are never discovered."""
+PENALTY = float(np.log(60.0))
+"""Evidence that each number of a candidate costs [-]: BIC's for 60 observations, whatever the record's length."""
 LOOKED_AT = 120
 """Most slips looked at at an operating point with a known excitation."""
 PART, MOST_PARTS = 0.3, 4
@@ -93,7 +95,7 @@ class Confirmed:
 
     def scaled(self, spread: float) -> float:
         """Return the criterion with chi^2 in units of ``spread``, what the forms of all candidates miss [-]."""
-        return self.chi2 / spread + self.n_parameters * np.log(60.0)
+        return self.chi2 / spread + self.n_parameters * PENALTY
 
 
 def cases_of(pool: Pool, model: Model) -> list[Case]:
@@ -238,7 +240,7 @@ def evidence_in_medians(pool: Pool, terms: Terms, column: Array) -> float:
 
 def evidence_needed(numbers: int) -> float:
     """Return by how much an effect of so many numbers must lower the misfit of simulated slips to be followed up [-]."""
-    return criteria.FOLLOWED_UP + numbers * float(np.log(60.0))
+    return criteria.FOLLOWED_UP + numbers * PENALTY
 
 
 def _floor(load: float) -> Array:
