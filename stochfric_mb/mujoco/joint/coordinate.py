@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from stochfric_mb.compile import compiled
 from stochfric_mb.mujoco.memory import engine
 from stochfric_mb.mujoco.memory import state as s
+from stochfric_mb.mujoco.memory.structs import RUNGE_KUTTA
 from stochfric_mb.numerics import memory as w
 
 FRICTION_OF_JOINT, FRICTION_OF_TENDON = 1, 2
@@ -59,13 +62,50 @@ def position_of(m, d, header):
 @compiled
 def friction_row(m, d, header):
     """Return the coordinate's friction row of MuJoCo's constraints, -1 if there is none (asleep, or frictionloss 0)."""
-    number = int(header.geom_surface)
-    kind = FRICTION_OF_TENDON if is_tendon(header) else FRICTION_OF_JOINT
-    place = number if is_tendon(header) else w.int_at(m.jnt_dofadr, number)
-    for i in range(d.nefc):
+    number, tendon = int(header.geom_surface), is_tendon(header)
+    kind = FRICTION_OF_TENDON if tendon else FRICTION_OF_JOINT
+    place = number if tendon else w.int_at(m.jnt_dofadr, number)
+    # they stand in the order of the coordinates, tendons last, so a joint's row is no further on than its place
+    last = d.nf - 1 if tendon else min(place, d.nf - 1)
+    for i in range(d.ne + last, d.ne - 1, -1):
         if w.int_at(d.efc_type, i) == kind and w.int_at(d.efc_id, i) == place:
             return i
     return -1
+
+
+@compiled
+def mobility(m, d, header):
+    """Return the mobility [1/kg or 1/(kg m^2)] of the coordinate, J M^-1 J' of its row.
+
+    With MuJoCo's M = L' D L that is the square of D^(-1/2) L'^-1 J', whose entries are those of the row and of what bears it.
+    """
+    part, total = np.zeros(m.nv), 0.0
+    add_row(m, d, header, 1.0, part.ctypes.data)
+    for i in range(m.nv - 1, -1, -1):
+        if part[i] != 0.0:
+            first = w.int_at(m.M_rowadr, i)
+            for k in range(first, first + w.int_at(m.M_rownnz, i) - 1):
+                part[w.int_at(m.M_colind, k)] -= w.at(d.qLD, k) * part[i]
+            total += part[i] * part[i] * w.at(d.qLDiagInv, i)
+    return total
+
+
+@compiled
+def locked_mobility(m, d, header):
+    """Return the mobility [1/kg or 1/(kg m^2)] of the coordinate where all others are locked, the sum of J_j^2/M_jj."""
+    number = int(header.geom_surface)
+    if not is_tendon(header):
+        return 1.0 / inertia(m, d, w.int_at(m.jnt_dofadr, number))
+    first, total = w.int_at(m.ten_J_rowadr, number), 0.0
+    for j in range(first, first + w.int_at(m.ten_J_rownnz, number)):
+        total += w.at(d.ten_J, j) ** 2 / inertia(m, d, w.int_at(m.ten_J_colind, j))
+    return total
+
+
+@compiled
+def inertia(m, d, dof):
+    """Return the inertia [kg or kg m^2] of all that a degree of freedom moves, the diagonal element of M."""
+    return w.at(d.M, w.int_at(m.M_rowadr, dof) + w.int_at(m.M_rownnz, dof) - 1)
 
 
 @compiled
@@ -82,7 +122,8 @@ def bearing_load(model, data, m, d, header):
 
     The reaction is the force between the joint's two bodies; along a slide joint's axis it is no load.
     """
-    engine.mj_rnePostConstraint(model, data)
+    if not d.flg_rnepost or m.integrator == RUNGE_KUTTA:  # it is of the first stage there, where a sensor has asked for it
+        engine.mj_rnePostConstraint(model, data)
     number = int(header.geom_surface)
     f, e = d.cfrc_int + 48 * w.int_at(m.jnt_bodyid, number) + 24, d.xaxis + 24 * number
     x, y, z = w.at(f, 0), w.at(f, 1), w.at(f, 2)

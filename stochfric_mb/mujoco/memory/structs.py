@@ -33,14 +33,14 @@ _MODEL = (
     "sensor_plugin", "sensor_adr", "opt.timestep", "opt.integrator", "opt.disableflags", "opt.cone", "opt.iterations",
     "opt.jacobian", "opt.solver", "opt.gravity", "nu", "actuator_biasprm", "actuator_gear",
     "actuator_acc0", "actuator_trntype", "actuator_trnid", "actuator_biastype", "dof_damping", "dof_invweight0", "opt.impratio",
-    "opt.noslip_iterations", "flg_surfacevel",
+    "opt.noslip_iterations", "flg_surfacevel", "M_rownnz", "M_rowadr", "M_colind",
 )  # fmt: skip
 _DATA = (
-    "time", "ncon", "contact", "nefc", "nisland", "solver_niter", "cvel", "subtree_com", "xpos", "xmat", "xaxis", "cdof",
-    "qpos", "qvel", "qacc", "qacc_warmstart", "ctrl", "qfrc_passive", "plugin_state", "plugin_data", "sensordata", "ten_J",
-    "ten_length", "efc_type", "efc_id", "efc_J", "efc_J_rownnz", "efc_J_rowadr", "efc_J_colind", "efc_pos", "efc_margin",
-    "efc_frictionloss", "efc_diagA", "efc_KBIP", "efc_D", "efc_R", "efc_AR", "efc_AR_rowadr", "efc_AR_colind", "efc_force",
-    "map_efc2iefc", "iefc_frictionloss", "iefc_D", "iefc_R", "cfrc_int",
+    "time", "ncon", "contact", "ne", "nf", "nefc", "nisland", "solver_niter", "cvel", "subtree_com", "xpos", "xmat", "xaxis",
+    "cdof", "qpos", "qvel", "qacc", "qacc_warmstart", "ctrl", "qfrc_passive", "plugin_state", "plugin_data", "sensordata",
+    "ten_J", "ten_length", "efc_type", "efc_id", "efc_J", "efc_J_rownnz", "efc_J_rowadr", "efc_J_colind", "efc_pos",
+    "efc_margin", "efc_frictionloss", "efc_diagA", "efc_KBIP", "efc_D", "efc_R", "efc_AR", "efc_AR_rowadr", "efc_AR_colind",
+    "efc_force", "map_efc2iefc", "iefc_frictionloss", "iefc_D", "iefc_R", "cfrc_int", "flg_rnepost", "M", "qLD", "qLDiagInv",
 )  # fmt: skip
 _CONTACT = (
     "dist", "pos", "frame", "includemargin", "friction", "surfacevel", "solref", "solreffriction", "solimp", "mu", "dim",
