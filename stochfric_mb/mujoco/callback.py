@@ -22,14 +22,14 @@ from stochfric_mb.errors import InputError, SimulationError
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
-from stochfric_mb.mujoco.callback_steps import BEFORE, CAPACITY, ROWS, callback
+from stochfric_mb.mujoco.callback_steps import BEFORE, CAPACITY, ROW, ROWS, callback
 from stochfric_mb.mujoco.contact import replay
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory.engine import library
 from stochfric_mb.mujoco.memory.structs import DISCRETE, record_at
 from stochfric_mb.mujoco.pairs import ContactWarning, condim_of, require_pair
 from stochfric_mb.mujoco.plugin.configuration import configuration, law_of, require_slots
-from stochfric_mb.mujoco.plugin.frictions import ANY, PAIRS, slot_of
+from stochfric_mb.mujoco.plugin.frictions import ANY
 from stochfric_mb.mujoco.plugin.options import (
     NO_PASSIVE_FORCES,
     SWITCHED_OFF,
@@ -100,31 +100,29 @@ class friction:  # noqa: N801  (a context, used like a function)
             require_primal(model.opt)
         self._model, self._data = model, data
         self._states: dict[tuple[str, str], Array] = {}
-        self._kept: dict[tuple[str, str], Array] = {}
-        self._laws: dict[tuple[str, str], int] = {}
+        self._kept = np.zeros((len(pairs), replay.room(require_slots(slots), int(model.nv))))
+        self._rows, self._places = np.zeros(len(pairs), ROW), np.zeros(0, dtype=int)
         for contact, (names, law) in enumerate(pairs.items()):
-            address = {"seed": seed, "sample": sample, "contact": contact}
-            options: Any = {"mode": mode, "slots": require_slots(slots), "anisotropy": directed.get(names, ISOTROPIC)}
-            prepared = law_of(configuration(as_friction(law), **address, **options), (s.PAIR, *_geoms_of(model, names)))
-            self._states[names] = s.started(prepared, **address)
-            self._kept[names] = np.zeros(replay.room(slots, int(model.nv)))
-            self._laws[names] = prepared.ctypes.data
-        self._places: list[int] = []
+            options: Any = {"mode": mode, "slots": slots, "anisotropy": directed.get(names, ISOTROPIC)}
+            texts = configuration(as_friction(law), seed=seed, sample=sample, contact=contact, **options)
+            prepared = law_of(texts, (s.PAIR, *_geoms_of(model, names)))
+            state = self._states[names] = np.zeros(int(prepared["n_all"][0]))
+            s.restart(prepared.ctypes.data, state.ctypes.data)
+            header = s.header_of(state)
+            header.seed, header.sample, header.contact = seed, sample, contact
+            addresses = data._address, state.ctypes.data, self._kept[contact].ctypes.data
+            self._rows[contact] = (0, *addresses, 0, prepared.ctypes.data)
 
     def __enter__(self) -> friction:
         """Switch this friction on in place of the pairs' own."""
-        slot_of(PAIRS)
-        callback()
+        ours, pointer = callback().address, _installed()
         with _lock:
             _require_free(self._model, self._data, self._states)
-            for names, state in self._states.items():
-                place = int(np.flatnonzero(ROWS["model"] == 0)[0])
-                row = ROWS[place]
-                row["data"], row["state"], row["phase"] = self._data._address, state.ctypes.data, 0
-                row["kept"], row["law"] = self._kept[names].ctypes.data, self._laws[names]
-                row["model"] = self._model._address  # last: a row with a model is complete
-                self._places.append(place)
-            _install()
+            self._places = np.flatnonzero(ROWS["model"] == 0)[: len(self._rows)]
+            ROWS[self._places] = self._rows
+            ROWS["model"][self._places] = self._model._address  # last: a row with a model is complete
+            if pointer.value != ours:
+                BEFORE[0], pointer.value = pointer.value or 0, ours
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
@@ -136,8 +134,11 @@ class friction:  # noqa: N801  (a context, used like a function)
         """
         with _lock:
             ROWS["model"][self._places] = 0
-            self._places = []
-            replaced = _uninstall()
+            self._places = self._places[:0]
+            pointer = _installed()
+            replaced = pointer.value != callback().address
+            if not replaced and not ROWS["model"].any():
+                pointer.value = int(BEFORE[0]) or None
         if error is not None:
             return
         for names, met in self.touched().items():
@@ -192,16 +193,6 @@ def _require_free(model: mujoco.MjModel, data: mujoco.MjData, states: Mapping[tu
         raise InputError(f"more than {CAPACITY} pairs at a time; leave other friction contexts first")
 
 
-def _install() -> None:
-    pointer = ctypes.c_void_p.in_dll(library(), "mjcb_passive")
-    if pointer.value != callback():
-        BEFORE[0], pointer.value = pointer.value or 0, callback()
-
-
-def _uninstall() -> bool:
-    """Put the earlier callback back after the last context; return whether ours was not in its place."""
-    pointer = ctypes.c_void_p.in_dll(library(), "mjcb_passive")
-    replaced = pointer.value != callback()
-    if not replaced and not ROWS["model"].any():
-        pointer.value = int(BEFORE[0]) or None
-    return replaced
+def _installed() -> ctypes.c_void_p:
+    """Return MuJoCo's ``mjcb_passive`` itself: what is written to its ``value`` is installed."""
+    return ctypes.c_void_p.in_dll(library(), "mjcb_passive")

@@ -56,6 +56,10 @@ done:
 """
 _alive: list[Any] = []
 _lock = threading.RLock()
+_TABLE = ctypes.POINTER(Plugin)
+_register = ctypes.CFUNCTYPE(ctypes.c_int, _TABLE)(("mjp_registerPlugin", mujoco_library()))
+_at_slot = ctypes.CFUNCTYPE(_TABLE, ctypes.c_int)(("mjp_getPluginAtSlot", mujoco_library()))
+_by_name = ctypes.CFUNCTYPE(_TABLE, ctypes.c_char_p, ctypes.c_void_p)(("mjp_getPlugin", mujoco_library()))
 
 
 def register_plugin(
@@ -80,20 +84,13 @@ def register_plugin(
     Raises:
         MissingEngineError: this MuJoCo build has another struct layout than this package knows.
     """
-    plugin = Plugin()
-    library = mujoco_library()
-    library.mjp_defaultPlugin(ctypes.byref(plugin))
-    plugin.name = name.encode()
-    plugin.nattribute = len(attributes)
-    plugin.attributes = (ctypes.c_char_p * len(attributes))(*[key.encode() for key in attributes])
-    plugin.capabilityflags = int(capability)
-    plugin.needstage = stage
+    keys = (ctypes.c_char_p * len(attributes))(*[key.encode() for key in attributes])
+    plugin = Plugin(name.encode(), len(attributes), keys, int(capability), stage)
     entered: list[Any] = []
     for callback, function in first.items():
         setattr(plugin, callback, guarded(name, FIRST[callback], functools.partial(_call, entered, compiled, function)))
     _alive.append(plugin)
-    library.mjp_registerPlugin.argtypes = [ctypes.c_void_p]
-    slot = library.mjp_registerPlugin(ctypes.byref(plugin))
+    slot = _register(plugin)
     entered.append(_entered(slot, plugin))
     return slot
 
@@ -152,17 +149,11 @@ def _call(
 
 def _entered(slot: int, mine: Plugin) -> Any:
     """Return MuJoCo's own copy of a plugin: `Plugin` is written by hand, and must be what the library has."""
-    library = mujoco_library()
-    library.mjp_getPluginAtSlot.restype = ctypes.POINTER(Plugin)
-    library.mjp_getPluginAtSlot.argtypes = [ctypes.c_int]
-    other = library.mjp_getPlugin
-    other.restype = ctypes.POINTER(Plugin)
-    other.argtypes = [ctypes.c_char_p, ctypes.POINTER(ctypes.c_int)]
-    result = library.mjp_getPluginAtSlot(slot)
+    result = _at_slot(slot)
     same = bool(result) and all(
         getattr(result.contents, field[0]) == getattr(mine, field[0]) for field in Plugin._fields_ if field[0] != "attributes"
     )
-    bundled = other(b"mujoco.elasticity.cable", None) or other(b"mujoco.pid", None)
+    bundled = _by_name(b"mujoco.elasticity.cable", None) or _by_name(b"mujoco.pid", None)
     if bundled:
         texts = [bundled.contents.attributes[i] for i in range(bundled.contents.nattribute)]
         same = same and all(isinstance(t, bytes) and t.isascii() for t in texts)
