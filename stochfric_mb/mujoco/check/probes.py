@@ -86,8 +86,8 @@ class Record:
     """Step [s]."""
     end: mujoco.MjData
     """Where the model was at the end."""
-    following: Array
-    """Velocity of the motion that `Probe.run` followed [m/s or rad/s], shape (n,)."""
+    velocities: list[Array]
+    """The generalised velocities at the start and after each step, each of shape (nv,)."""
 
     def column(self, name: str) -> Array:
         """Return one of `Sample`'s numbers over time."""
@@ -134,7 +134,6 @@ class Probe:
         duration: float,
         load: Callable[[float], float] = lambda t: 0.0,
         change: Array | None = None,
-        follow: Array | None = None,
     ) -> Record:
         """Return what the site does in ``duration`` [s], which becomes one of the records.
 
@@ -142,7 +141,6 @@ class Probe:
             duration: simulated time [s].
             load: the probe's force [N or N m] at a time since the start [s].
             change: added to qvel at the start.
-            follow: row of generalised velocities whose product with qvel is recorded.
 
         Raises:
             SimulationError: the state is not finite.
@@ -154,8 +152,7 @@ class Probe:
         applied = data.qfrc_applied.copy()
         step = float(model.opt.timestep)
         row, samples = self.site.sample(model, data).row, list[Sample]()
-        follow = np.zeros(model.nv) if follow is None else follow
-        followed = [follow @ data.qvel]
+        velocities = [data.qvel.copy()]
         for i in range(max(LEAST_STEPS, round(duration / step))):
             data.qfrc_applied[:] = applied + load(i * step) * row
             samples.append(self._step(data))
@@ -164,9 +161,9 @@ class Probe:
                     f"the state broke {(i + 1) * step:.3g} s after the start of a probe; use a smaller timestep"
                 )
             row = samples[-1].row
-            followed.append(follow @ data.qvel)
+            velocities.append(data.qvel.copy())
         mujoco.mj_forward(model, data)
-        self.records.append(Record([*samples, self.site.sample(model, data)], step, data, np.array(followed)))
+        self.records.append(Record([*samples, self.site.sample(model, data)], step, data, velocities))
         return self.records[-1]
 
     def _step(self, data: mujoco.MjData) -> Sample:
@@ -236,12 +233,13 @@ class Probe:
         steps = int(np.clip(speed / (2.0 * rate * step), SLIDE_STEPS, MOST_SLIDE_STEPS))
         momentum = np.zeros(self.model.nv)
         mujoco.mj_mulM(self.model, data, momentum, unit)
-        record, without = (p.run(steps * step, change=speed * unit, follow=momentum / mass) for p in (self, bare))
-        last = int(np.flatnonzero(record.following - record.following[0] > -0.9 * speed)[-1])
+        record, without = (p.run(steps * step, change=speed * unit) for p in (self, bare))
+        with_it, alone = (np.array([(momentum / mass) @ v for v in r.velocities]) for r in (record, without))
+        last = int(np.flatnonzero(with_it - with_it[0] > -0.9 * speed)[-1])
         if last < SLIDE_STEPS // 2:
             return None, "stops within a few steps"
         pressing = float(without.column("limit")[: last + 1].mean()) or limit
-        lost = without.following - record.following
+        lost = alone - with_it
         touching = float(record.column("touching")[: last + 1].mean())
         deceleration = (lost[last] - lost[FIRST_SLIDE_STEP]) / ((last - FIRST_SLIDE_STEP) * step)
         if record.touching < 0.5 or not without.samples[last].touching:

@@ -162,12 +162,12 @@ def state_address(model, data, instance):
 
 
 @compiled
-def law_address(data, instance):
-    """Return the address of an instance's `LAW`; stop with MuJoCo's error if there is none, as in copies for display."""
+def law_in(data, instance):
+    """Return an instance's `LAW`; stop with MuJoCo's error if there is none, as in copies for display."""
     address = table.address_of(w.word_at(data_at(data).plugin_data, instance))
     if address == 0:
         engine.mju_error(w.c_string(NO_LAW))
-    return address
+    return law_at(address)
 
 
 @compiled

@@ -174,13 +174,11 @@ def number_in(text):
 
 
 def _compute_pair(model, data, instance, capability):
-    law = s.law_at(s.law_address(data, instance))
-    tracking.evaluate(model, data, s.state_address(model, data, instance), law)
+    tracking.evaluate(model, data, s.state_address(model, data, instance), s.law_in(data, instance))
 
 
 def _compute_dof(model, data, instance, capability):
-    law = s.law_at(s.law_address(data, instance))
-    coordinates.evaluate(model, data, s.state_address(model, data, instance), law)
+    coordinates.evaluate(model, data, s.state_address(model, data, instance), s.law_in(data, instance))
 
 
 def _advance_pair(model, data, instance):

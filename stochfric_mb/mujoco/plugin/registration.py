@@ -86,12 +86,22 @@ def register_plugin(
     """
     keys = (ctypes.c_char_p * len(attributes))(*[key.encode() for key in attributes])
     plugin = Plugin(name.encode(), len(attributes), keys, int(capability), stage)
-    entered: list[Any] = []
+
+    def call(function: Callable[..., int], *arguments: Any) -> int:
+        """Call one of the Python functions, once MuJoCo's table holds the compiled ones."""
+        with _lock:
+            for callback, source in compiled.items():
+                if not getattr(entered, callback):
+                    made = native(source, COMPILED[callback])
+                    _alive.append(made)
+                    setattr(entered, callback, made.address)
+        return function(*arguments)
+
     for callback, function in first.items():
-        setattr(plugin, callback, guarded(name, FIRST[callback], functools.partial(_call, entered, compiled, function)))
+        setattr(plugin, callback, guarded(name, FIRST[callback], functools.partial(call, function)))
     _alive.append(plugin)
     slot = _register(plugin)
-    entered.append(_entered(slot, plugin))
+    entered = _entered(slot, plugin)
     return slot
 
 
@@ -129,22 +139,6 @@ def guarded(name: str, kind: Any, function: Callable[..., int]) -> int:
     engine.finalize_object()
     _alive.extend([text, made, engine])
     return engine.get_function_address("guarded")
-
-
-def _call(
-    entered: list[Any],
-    compiled: Mapping[str, Callable[..., Any]],
-    function: Callable[..., int],
-    *arguments: Any,
-) -> int:
-    """Call one of the Python functions, once MuJoCo's table holds the compiled ones."""
-    with _lock:
-        for callback, source in compiled.items():
-            if not getattr(entered[0], callback):
-                made = native(source, COMPILED[callback])
-                _alive.append(made)
-                setattr(entered[0], callback, made.address)
-    return function(*arguments)
 
 
 def _entered(slot: int, mine: Plugin) -> Any:
