@@ -28,16 +28,9 @@ from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory.engine import library
 from stochfric_mb.mujoco.memory.structs import DISCRETE, record_at
 from stochfric_mb.mujoco.pairs import ContactWarning, condim_of, require_pair
+from stochfric_mb.mujoco.plugin import options
 from stochfric_mb.mujoco.plugin.configuration import configuration, law_of, require_slots
 from stochfric_mb.mujoco.plugin.frictions import ANY
-from stochfric_mb.mujoco.plugin.options import (
-    NO_PASSIVE_FORCES,
-    SWITCHED_OFF,
-    check_options,
-    require_elliptic,
-    require_primal,
-    warn_of_stiff_damping,
-)
 from stochfric_mb.mujoco.reading import Reading, readings_of
 from stochfric_mb.mujoco.states import touched
 
@@ -77,7 +70,7 @@ class friction:  # noqa: N801  (a context, used like a function)
                 cones, passive forces that are disabled, the ``discrete`` integrator, or a law that cannot run in this mode.
 
         Warns:
-            IntegratorWarning: damping and a long step let stuck contacts slip, see `warn_of_stiff_damping`.
+            IntegratorWarning: damping and a long step let stuck contacts slip, see `options.warn_of_stiff_damping`.
         """
         if not isinstance(model, mujoco.MjModel):
             raise InputError(f"model is a {type(model).__name__}; compile it first, or use add_friction(spec, ...)")
@@ -85,31 +78,32 @@ class friction:  # noqa: N801  (a context, used like a function)
             raise InputError(f"pairs is a {type(pairs).__name__}; write {{(body's geom, counter-surface's geom): law, ...}}")
         if data.model is not model and data.model._address != model._address:
             raise InputError("data belongs to another model; pass the model that it was made with")
-        check_options(model.opt)
-        require_elliptic(model.opt)
+        options.check_options(model.opt)
+        options.require_elliptic(model.opt)
         if model.opt.integrator == DISCRETE:
             raise InputError(
                 "integrator discrete leaves nothing of its constraints to a context, which finds a step's forces when the next "
                 "one begins; use add_friction(spec, ...), or Euler, implicitfast, implicit or RK4"
             )
-        warn_of_stiff_damping(model._address)
+        options.warn_of_stiff_damping(model._address)
         directed = dict(anisotropy or {})
         for names in directed.keys() - pairs.keys():
             raise InputError(f"anisotropy of {names!r}, which is none of the pairs {list(pairs)}; name one of them")
         if directed:
-            require_primal(model.opt)
+            options.require_primal(model.opt)
         self._model, self._data = model, data
         self._states: dict[tuple[str, str], Array] = {}
         self._kept = np.zeros((len(pairs), replay.room(require_slots(slots), int(model.nv))))
         self._rows, self._places = np.zeros(len(pairs), ROW), np.zeros(0, dtype=int)
         for contact, (names, law) in enumerate(pairs.items()):
-            options: Any = {"mode": mode, "slots": slots, "anisotropy": directed.get(names, ISOTROPIC)}
-            texts = configuration(as_friction(law), seed=seed, sample=sample, contact=contact, **options)
+            address: Any = {"seed": seed, "sample": sample, "contact": contact}
+            anisotropic = directed.get(names, ISOTROPIC)
+            texts = configuration(as_friction(law), **address, slots=slots, mode=mode, anisotropy=anisotropic)
             prepared = law_of(texts, (s.PAIR, *_geoms_of(model, names)))
             state = self._states[names] = np.zeros(int(prepared["n_all"][0]))
             s.restart(prepared.ctypes.data, state.ctypes.data)
-            header = s.header_of(state)
-            header.seed, header.sample, header.contact = seed, sample, contact
+            for key, number in address.items():
+                s.header_of(state)[key] = number
             addresses = data._address, state.ctypes.data, self._kept[contact].ctypes.data
             self._rows[contact] = (0, *addresses, 0, prepared.ctypes.data)
 
@@ -144,8 +138,8 @@ class friction:  # noqa: N801  (a context, used like a function)
         for names, met in self.touched().items():
             if not met and s.header_of(self._states[names]).evaluated != s.UNSET:
                 warnings.warn(f"geoms {names!r} never touched, so they had no friction", ContactWarning, stacklevel=2)
-        if self._model.opt.disableflags & NO_PASSIVE_FORCES == NO_PASSIVE_FORCES:
-            raise SimulationError(f"passive forces were disabled while friction(...) was active: {SWITCHED_OFF}")
+        if self._model.opt.disableflags & options.NO_PASSIVE_FORCES == options.NO_PASSIVE_FORCES:
+            raise SimulationError(f"passive forces were disabled while friction(...) was active: {options.SWITCHED_OFF}")
         if replaced:
             raise SimulationError(
                 "mjcb_passive was replaced while friction(...) was active, which switched the friction off; set your callback "
