@@ -14,7 +14,7 @@ from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
 from stochfric_mb.mujoco.joints import Joint, Tendon, element_of, load_of
 from stochfric_mb.mujoco.pairs import colliding_pairs, require_free, require_geoms, take_over, warn_of_filters
 from stochfric_mb.mujoco.plugin.configuration import MAX_SLOTS, configuration, enter, require_slots
-from stochfric_mb.mujoco.plugin.frictions import ANY, DOFS, KEYS, PAIRS, slot_of
+from stochfric_mb.mujoco.plugin.frictions import ANY, DOFS, KEYS, PAIRS
 from stochfric_mb.mujoco.plugin.options import check_options, require_primal
 
 
@@ -123,7 +123,6 @@ def _enter(spec: mujoco.MjSpec, plugin: str, name: str, what: str, texts: dict[s
     """
     if name in {p.name for p in spec.plugins}:
         raise InputError(f"the model has a plugin {name!r} already: this {what} has friction; build the spec anew to change it")
-    slot_of(plugin)
     enter(spec, plugin, name, {key: texts[key] for key in KEYS[plugin] if texts.get(key)})
     return name
 

@@ -19,9 +19,7 @@ from stochfric_mb.friction import Friction
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.mujoco.attach import add_friction
 from stochfric_mb.mujoco.march import COLUMNS, march
-from stochfric_mb.mujoco.memory.engine import plugin_text
 from stochfric_mb.mujoco.memory.state import header_of
-from stochfric_mb.mujoco.plugin.configuration import friction_of
 from stochfric_mb.mujoco.reading import diverged, state_of
 from stochfric_mb.scenario import Scenario, scenario_folders
 from stochfric_mb.trajectory import Trajectory
@@ -189,10 +187,9 @@ def _require_sane(data: mujoco.MjData, rows: Array, done: int, scenario: Scenari
 
 def trajectory_of(model: mujoco.MjModel, state: Array, rows: Array, scenario: Scenario, seconds: float) -> Trajectory:
     """Return the rows of `march` and the law instance's own state as a trajectory."""
-    header, law = header_of(state), friction_of(plugin_text(model, FRICTION, "law"), "").law
-    dt = float(model.opt.timestep)
+    header, dt = header_of(state), float(model.opt.timestep)
     address: dict[str, int] = {"seed": int(header.seed), "sample": int(header.sample)}
-    _, notes = running_law(scenario.law, scenario.mechanism, scenario.effects, dt, substitute=True, **address)
+    law, notes = running_law(scenario.law, scenario.mechanism, scenario.effects, dt, substitute=True, **address)
     n_steps = (scenario.n_outputs - 1) * round(scenario.output_step / dt)
     trajectory = Trajectory(
         time=scenario.output_times(),

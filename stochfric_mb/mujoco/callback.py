@@ -22,22 +22,15 @@ from stochfric_mb.errors import InputError, SimulationError
 from stochfric_mb.friction import Friction, as_friction
 from stochfric_mb.laws import Law
 from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
-from stochfric_mb.mujoco.callback_steps import BEFORE, CAPACITY, ROWS, callback
+from stochfric_mb.mujoco.callback_steps import BEFORE, CAPACITY, ROW, ROWS, callback
 from stochfric_mb.mujoco.contact import replay
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory.engine import library
 from stochfric_mb.mujoco.memory.structs import DISCRETE, record_at
 from stochfric_mb.mujoco.pairs import ContactWarning, condim_of, require_pair
+from stochfric_mb.mujoco.plugin import options
 from stochfric_mb.mujoco.plugin.configuration import configuration, law_of, require_slots
-from stochfric_mb.mujoco.plugin.frictions import ANY, PAIRS, slot_of
-from stochfric_mb.mujoco.plugin.options import (
-    NO_PASSIVE_FORCES,
-    SWITCHED_OFF,
-    check_options,
-    require_elliptic,
-    require_primal,
-    warn_of_stiff_damping,
-)
+from stochfric_mb.mujoco.plugin.frictions import ANY
 from stochfric_mb.mujoco.reading import Reading, readings_of
 from stochfric_mb.mujoco.states import touched
 
@@ -77,7 +70,7 @@ class friction:  # noqa: N801  (a context, used like a function)
                 cones, passive forces that are disabled, the ``discrete`` integrator, or a law that cannot run in this mode.
 
         Warns:
-            IntegratorWarning: damping and a long step let stuck contacts slip, see `warn_of_stiff_damping`.
+            IntegratorWarning: damping and a long step let stuck contacts slip, see `options.warn_of_stiff_damping`.
         """
         if not isinstance(model, mujoco.MjModel):
             raise InputError(f"model is a {type(model).__name__}; compile it first, or use add_friction(spec, ...)")
@@ -85,46 +78,45 @@ class friction:  # noqa: N801  (a context, used like a function)
             raise InputError(f"pairs is a {type(pairs).__name__}; write {{(body's geom, counter-surface's geom): law, ...}}")
         if data.model is not model and data.model._address != model._address:
             raise InputError("data belongs to another model; pass the model that it was made with")
-        check_options(model.opt)
-        require_elliptic(model.opt)
+        options.check_options(model.opt)
+        options.require_elliptic(model.opt)
         if model.opt.integrator == DISCRETE:
             raise InputError(
                 "integrator discrete leaves nothing of its constraints to a context, which finds a step's forces when the next "
                 "one begins; use add_friction(spec, ...), or Euler, implicitfast, implicit or RK4"
             )
-        warn_of_stiff_damping(model._address)
+        options.warn_of_stiff_damping(model._address)
         directed = dict(anisotropy or {})
         for names in directed.keys() - pairs.keys():
             raise InputError(f"anisotropy of {names!r}, which is none of the pairs {list(pairs)}; name one of them")
         if directed:
-            require_primal(model.opt)
+            options.require_primal(model.opt)
         self._model, self._data = model, data
         self._states: dict[tuple[str, str], Array] = {}
-        self._kept: dict[tuple[str, str], Array] = {}
-        self._laws: dict[tuple[str, str], int] = {}
+        self._kept = np.zeros((len(pairs), replay.room(require_slots(slots), int(model.nv))))
+        self._rows, self._places = np.zeros(len(pairs), ROW), np.zeros(0, dtype=int)
         for contact, (names, law) in enumerate(pairs.items()):
-            address = {"seed": seed, "sample": sample, "contact": contact}
-            options: Any = {"mode": mode, "slots": require_slots(slots), "anisotropy": directed.get(names, ISOTROPIC)}
-            prepared = law_of(configuration(as_friction(law), **address, **options), (s.PAIR, *_geoms_of(model, names)))
-            self._states[names] = s.started(prepared, **address)
-            self._kept[names] = np.zeros(replay.room(slots, int(model.nv)))
-            self._laws[names] = prepared.ctypes.data
-        self._places: list[int] = []
+            address: Any = {"seed": seed, "sample": sample, "contact": contact}
+            anisotropic = directed.get(names, ISOTROPIC)
+            texts = configuration(as_friction(law), **address, slots=slots, mode=mode, anisotropy=anisotropic)
+            prepared = law_of(texts, (s.PAIR, *_geoms_of(model, names)))
+            state = self._states[names] = np.zeros(int(prepared["n_all"][0]))
+            s.restart(prepared.ctypes.data, state.ctypes.data)
+            for key, number in address.items():
+                s.header_of(state)[key] = number
+            addresses = data._address, state.ctypes.data, self._kept[contact].ctypes.data
+            self._rows[contact] = (0, *addresses, 0, prepared.ctypes.data)
 
     def __enter__(self) -> friction:
         """Switch this friction on in place of the pairs' own."""
-        slot_of(PAIRS)
-        callback()
+        ours, pointer = callback().address, _installed()
         with _lock:
             _require_free(self._model, self._data, self._states)
-            for names, state in self._states.items():
-                place = int(np.flatnonzero(ROWS["model"] == 0)[0])
-                row = ROWS[place]
-                row["data"], row["state"], row["phase"] = self._data._address, state.ctypes.data, 0
-                row["kept"], row["law"] = self._kept[names].ctypes.data, self._laws[names]
-                row["model"] = self._model._address  # last: a row with a model is complete
-                self._places.append(place)
-            _install()
+            self._places = np.flatnonzero(ROWS["model"] == 0)[: len(self._rows)]
+            ROWS[self._places] = self._rows
+            ROWS["model"][self._places] = self._model._address  # last: a row with a model is complete
+            if pointer.value != ours:
+                BEFORE[0], pointer.value = pointer.value or 0, ours
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
@@ -136,15 +128,18 @@ class friction:  # noqa: N801  (a context, used like a function)
         """
         with _lock:
             ROWS["model"][self._places] = 0
-            self._places = []
-            replaced = _uninstall()
+            self._places = self._places[:0]
+            pointer = _installed()
+            replaced = pointer.value != callback().address
+            if not replaced and not ROWS["model"].any():
+                pointer.value = int(BEFORE[0]) or None
         if error is not None:
             return
         for names, met in self.touched().items():
             if not met and s.header_of(self._states[names]).evaluated != s.UNSET:
                 warnings.warn(f"geoms {names!r} never touched, so they had no friction", ContactWarning, stacklevel=2)
-        if self._model.opt.disableflags & NO_PASSIVE_FORCES == NO_PASSIVE_FORCES:
-            raise SimulationError(f"passive forces were disabled while friction(...) was active: {SWITCHED_OFF}")
+        if self._model.opt.disableflags & options.NO_PASSIVE_FORCES == options.NO_PASSIVE_FORCES:
+            raise SimulationError(f"passive forces were disabled while friction(...) was active: {options.SWITCHED_OFF}")
         if replaced:
             raise SimulationError(
                 "mjcb_passive was replaced while friction(...) was active, which switched the friction off; set your callback "
@@ -192,16 +187,6 @@ def _require_free(model: mujoco.MjModel, data: mujoco.MjData, states: Mapping[tu
         raise InputError(f"more than {CAPACITY} pairs at a time; leave other friction contexts first")
 
 
-def _install() -> None:
-    pointer = ctypes.c_void_p.in_dll(library(), "mjcb_passive")
-    if pointer.value != callback():
-        BEFORE[0], pointer.value = pointer.value or 0, callback()
-
-
-def _uninstall() -> bool:
-    """Put the earlier callback back after the last context; return whether ours was not in its place."""
-    pointer = ctypes.c_void_p.in_dll(library(), "mjcb_passive")
-    replaced = pointer.value != callback()
-    if not replaced and not ROWS["model"].any():
-        pointer.value = int(BEFORE[0]) or None
-    return replaced
+def _installed() -> ctypes.c_void_p:
+    """Return MuJoCo's ``mjcb_passive`` itself: what is written to its ``value`` is installed."""
+    return ctypes.c_void_p.in_dll(library(), "mjcb_passive")

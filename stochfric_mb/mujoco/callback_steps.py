@@ -21,7 +21,7 @@ from stochfric_mb.numerics import memory as w
 from stochfric_mb.numerics.memory import function_at
 
 ROW = np.dtype([(f, np.int64) for f in ("model", "data", "state", "kept", "phase", "law")])
-"""A context's pair: addresses of model, data, state, kept rows and law, evaluations since the step began."""
+"""A context's pair: addresses of model, data, state and kept rows, evaluations since the step began, address of the law."""
 CAPACITY = 256
 """Most pairs at a time, all contexts together."""
 BEFORE, ROWS = np.zeros(1, dtype=np.int64), np.zeros(CAPACITY, dtype=ROW)
@@ -33,17 +33,14 @@ FOREIGN = (
     "stochfric_mb: friction(model, data, ...) covers that one MjData only; copies, rollout and Batch need the friction in the "
     "model: add_friction(spec, ...)"
 )
-_alive: list[Any] = []
 
 
 @functools.cache
-def callback() -> int:
-    """Return the address of the compiled callback."""
-    made = native(_passive, types.void(types.intp, types.intp))
-    _alive.append(made)
+def callback() -> Any:
+    """Return the compiled callback; ``.address`` is its pointer."""
     table.enter(BEFORE_KEY, BEFORE.ctypes.data)
     table.enter(ROWS_KEY, ROWS.ctypes.data)
-    return made.address
+    return native(_passive, types.void(types.intp, types.intp))
 
 
 def _passive(model, data):

@@ -102,27 +102,20 @@ def _passes_filters(model: mujoco.MjModel, a: int, b: int) -> bool:
 
 def warn_of_filters(spec: mujoco.MjSpec, body: str, surface: str) -> None:
     """Warn where two geoms collide only because a pair of them is made now, or where flexible bodies are left out."""
+    said = ""
     if ANY in (body, surface):
         if spec.flexes:
-            warnings.warn(
-                f"friction ({body!r}, {surface!r}) is for geoms: contacts of the model's flexible bodies keep MuJoCo's own "
-                "friction",
-                ContactWarning,
-                stacklevel=3,
-            )
-        return
-    a, b = spec.geom(body), spec.geom(surface)
-    if any({p.geomname1, p.geomname2} == {body, surface} for p in spec.pairs):
-        return
-    excluded = any({x.bodyname1, x.bodyname2} == {a.parent.name, b.parent.name} for x in spec.excludes)
-    if excluded or not (a.contype & b.conaffinity or b.contype & a.conaffinity):
-        why = "are excluded from colliding" if excluded else "do not collide by contype and conaffinity"
-        warnings.warn(
-            f"geoms {body!r} and {surface!r} {why}; as a pair with friction they do from now on: choose other geoms if that is "
-            "not what you want",
-            ContactWarning,
-            stacklevel=3,
-        )
+            flexible = "contacts of the model's flexible bodies keep MuJoCo's own friction"
+            said = f"friction ({body!r}, {surface!r}) is for geoms: {flexible}"
+    elif not any({p.geomname1, p.geomname2} == {body, surface} for p in spec.pairs):
+        a, b = spec.geom(body), spec.geom(surface)
+        excluded = any({x.bodyname1, x.bodyname2} == {a.parent.name, b.parent.name} for x in spec.excludes)
+        if excluded or not (a.contype & b.conaffinity or b.contype & a.conaffinity):
+            why = "are excluded from colliding" if excluded else "do not collide by contype and conaffinity"
+            remedy = "choose other geoms if that is not what you want"
+            said = f"geoms {body!r} and {surface!r} {why}; as a pair with friction they do from now on: {remedy}"
+    if said:
+        warnings.warn(said, ContactWarning, stacklevel=3)
 
 
 def require_free(spec: mujoco.MjSpec, pairs: list[tuple[str, str]]) -> None:
@@ -147,8 +140,8 @@ def _carrier(spec: mujoco.MjSpec, geom: Any) -> Any:
     return body
 
 
-def take_over(spec: mujoco.MjSpec, body: str, surface: str, mu_s: float) -> Any:
-    """Make the two geoms an explicit pair with sliding friction ``mu_s`` and otherwise the contact that they had; return it.
+def take_over(spec: mujoco.MjSpec, body: str, surface: str, mu_s: float) -> None:
+    """Make the two geoms an explicit pair with sliding friction ``mu_s`` and otherwise the contact that they had.
 
     In a model that has lost this package's plugin (``MjSpec.attach`` leaves it behind), the pair has MuJoCo's own friction.
     """
@@ -164,4 +157,3 @@ def take_over(spec: mujoco.MjSpec, body: str, surface: str, mu_s: float) -> Any:
         made.adhesion = sum(g.adhesion for g in chosen)
     made.condim = max(3, made.condim)
     made.friction = [mu_s, mu_s, *made.friction[2:]]
-    return made

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.errors import InputError, require_name
-from stochfric_mb.laws import law_class, make_law
+from stochfric_mb.laws import Law, make_law
 from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory.engine import plugin_text
 from stochfric_mb.mujoco.plugin.configuration import friction_of, law_header
@@ -29,9 +29,8 @@ def state_index(model: mujoco.MjModel, instance: str, name: str) -> int:
     Raises:
         InputError: unknown instance or name; lists the known ones.
     """
-    number = _instance(model, instance)
-    known = _known(model, number)
-    return int(model.plugin_stateadr[number]) + known[require_name("number", name, known)]
+    first, _, known, _ = _instance(model, instance)
+    return first + known[require_name("number", name, known)]
 
 
 def set_friction(
@@ -49,9 +48,7 @@ def set_friction(
         InputError: unknown instance or name; a seed, sample or contact that is not an integer in [0, 2^32); a load that is not
             positive; or parameters that the law refuses. Nothing is set then.
     """
-    number = _instance(model, instance)
-    first, known = int(model.plugin_stateadr[number]), _known(model, number)
-    size = int(model.plugin_statenum[number])
+    first, size, known, law = _instance(model, instance)
     new = np.array(states[..., first : first + size])
     for name, value in values.items():
         place = known[require_name("number", name, known)]
@@ -62,16 +59,16 @@ def set_friction(
             raise InputError(f"normal_force = {value!r} must be positive [N or N m]; choose loads above 0")
         new[..., place] = numbers
     if values.keys() - {*_ADDRESS, "normal_force"}:
-        _renew_law(new.reshape(-1, size), friction_of(plugin_text(model, number, "law"), "").law.kind)
+        _renew_law(new.reshape(-1, size), law)
     new[..., s.place("cursor")] = 0.0  # the knots at hand belong to another address
     new[..., s.place("path_time")] = s.UNSET
     states[..., first : first + size] = new
     return states
 
 
-def _renew_law(states: npt.NDArray[np.float64], kind: str) -> None:
+def _renew_law(states: npt.NDArray[np.float64], law: Law) -> None:
     """Check the parameters of each state as the law itself does, and set what follows from them."""
-    fields = dataclasses.fields(law_class(kind))
+    fields = dataclasses.fields(law)
     first = s.place("parameters")
     rows, which = np.unique(states[:, first : first + len(fields)], axis=0, return_inverse=True)
     for i, row in enumerate(rows):
@@ -79,7 +76,7 @@ def _renew_law(states: npt.NDArray[np.float64], kind: str) -> None:
             f.name: f.metadata["choices"][int(x)] if "choices" in f.metadata else float(x)
             for f, x in zip(fields, row, strict=True)
         }
-        header = s.header_of(law_header(make_law(kind, **numbers)))
+        header = s.header_of(law_header(make_law(law.kind, **numbers)))
         for k in np.flatnonzero(which.reshape(-1) == i):
             state = states[k]
             mine = s.header_of(state)
@@ -100,15 +97,12 @@ def touched(state: npt.NDArray[np.float64]) -> bool:
     return bool(header.path_time != s.UNSET or header.n_current or header.n_committed)
 
 
-def _instance(model: mujoco.MjModel, name: str) -> int:
+def _instance(model: mujoco.MjModel, name: str) -> tuple[int, int, dict[str, int], Law]:
+    """Return the place and the length of an instance's state, the places in it of what can be set, and the model's law."""
     names = instances(model)
-    return names[require_name("friction instance", name, names)]
-
-
-def _known(model: mujoco.MjModel, number: int) -> dict[str, int]:
-    """Return the places in an instance's state of the numbers that can be set."""
-    law = friction_of(plugin_text(model, number, "law"), "").law
-    fields = [f.name for f in dataclasses.fields(law)]
-    loads = ("normal_force",) if number in instances(model, DOFS).values() else ()
-    known = {name: s.place(name) for name in _ADDRESS} | {name: s.place("load") for name in loads}
-    return known | {field: s.place("parameters") + i for i, field in enumerate(fields)}
+    number = names[require_name("friction instance", name, names)]
+    law = friction_of(plugin_text(model._address, number, "law"), "").law
+    fields = (*_ADDRESS, "load") if number in instances(model, DOFS).values() else _ADDRESS
+    known = {"normal_force" if field == "load" else field: s.place(field) for field in fields}
+    known |= {field.name: s.place("parameters") + i for i, field in enumerate(dataclasses.fields(law))}
+    return int(model.plugin_stateadr[number]), int(model.plugin_statenum[number]), known, law

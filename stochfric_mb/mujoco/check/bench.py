@@ -14,22 +14,11 @@ from stochfric_mb.errors import InputError, SimulationError
 from stochfric_mb.laws import Law, make_law
 from stochfric_mb.mujoco import joints
 from stochfric_mb.mujoco.attach import add_friction
+from stochfric_mb.mujoco.check import probes
 from stochfric_mb.mujoco.check.advice import SLIDING, advice
 from stochfric_mb.mujoco.check.findings import SHARES, Findings, Row
 from stochfric_mb.mujoco.check.loading import copied
-from stochfric_mb.mujoco.check.probes import (
-    BREAK_AWAY_TIME,
-    EXCESS,
-    LOST,
-    OVERLOAD,
-    TOUCHING,
-    UNSTEADY,
-    Drift,
-    Probe,
-    Record,
-    Slide,
-    started,
-)
+from stochfric_mb.mujoco.check.probes import BREAK_AWAY_TIME, Drift, Probe, Record, started
 from stochfric_mb.mujoco.check.sites import ContactPair, Site, kick, touches
 from stochfric_mb.mujoco.memory.state import header_of
 from stochfric_mb.mujoco.pairs import take_over
@@ -77,7 +66,7 @@ class Bench:
         except SimulationError as error:
             return dataclasses.replace(row, problem=str(error), advice=f"not probed: {error}")
         limit, normal = float(record.column("limit").mean()), float(record.column("normal").mean())
-        native, problem, _ = self._findings(probe, site, limit, sliding, 1.0, advance)
+        native, problem = self._findings(probe, site, limit, sliding, 1.0, advance)
         mu_s = site.mu if isinstance(site, ContactPair) else 1.0
         law = make_law(self.law, mu_s=mu_s, mu_k=self.mu_k_ratio * mu_s)
         mobility = site.mobility(self.model, data)
@@ -86,8 +75,11 @@ class Bench:
         try:
             own = self._with_ours(site, law)
             half = 0.5 * self.probe_time()
-            ours, why, mode = self._findings(own, site, limit, sliding, self.mu_k_ratio, lambda t: advance(half + t))
-        except (InputError, ValueError) as error:
+            ours, why = self._findings(own, site, limit, sliding, self.mu_k_ratio, lambda t: advance(half + t))
+            if ours is not None:
+                state = state_of(own.model, own.records[0].end, instances(own.model)[own.site.instance])
+                mode = "solver" if header_of(state).solved else "explicit"
+        except ValueError as error:
             why = str(error)
         row = dataclasses.replace(
             row, problem=problem, native=native, ours=ours, ours_problem=why, law=law, mass=mass, limit=limit,
@@ -97,54 +89,42 @@ class Bench:
 
     def _findings(
         self, probe: Probe, original: Site, limit: float, mass: float, ratio: float, advance: Callable[[float], None]
-    ) -> tuple[Findings | None, str, str]:
-        """Return what all probes find with one friction, or why they could not run; and the mode of a friction of ours."""
+    ) -> tuple[Findings | None, str]:
+        """Return what all probes find with one friction, or why they could not run."""
         notes: list[str] = []
         try:
-            own, record = probe.hold(0.0)
+            own = probe.hold(0.0)
             if own is None:
-                return None, LOST, ""
-            mode = _mode(probe, record)
-            probe, carried, records = dataclasses.replace(probe, state=record.end), own.load * limit, [record]
+                return None, probes.LOST
+            carried, rest = own.load * limit, probe.records[-1]
+            probe = dataclasses.replace(probe, state=rest.end, records=[rest])
             held: list[Drift | None] = []
             for share in SHARES:
-                advance(len(records) * self.duration)
+                advance(len(probe.records) * self.duration)
                 if share * limit <= carried:
                     held.append(None)
                     continue
-                result, record = probe.hold(share * limit - carried)
-                held.append(result)
-                if result is None:
+                held.append(probe.hold(share * limit - carried))
+                if held[-1] is None:
                     notes.append(f"the contact is lost at {100.0 * share:.0f} % of the limit")
-                records.append(record)
-            broken, record = probe.break_away(carried, limit, mass)
-            records.append(record)
-            slide, why = self._slide(probe, original, limit, ratio, records)
+            broken = probe.break_away(carried, limit, mass)
+            slide, why = None, "a contact's friction can be removed only in a model that comes as XML"
+            if (bare := self._without_friction(original)) is not None:
+                slide, why = probe.slide(Probe(bare, probe.state, original, self.duration), limit, ratio)
         except SimulationError as error:
-            return None, str(error), ""
+            return None, str(error)
         if own.load >= SLIDING:
             notes.append("slides in the given state: nothing to hold")
         if slide is not None and slide.touching < 1.0:
             notes.append(f"hops: touches in {100.0 * slide.touching:.0f} % of the slide")
         if broken is None:
-            notes.append(f"no break-away up to {100.0 * OVERLOAD:.0f} % of the limit")
+            notes.append(f"no break-away up to {100.0 * probes.OVERLOAD:.0f} % of the limit")
         if why:
             notes.append(f"no slide: {why}")
-        energies = [r.integral("power") for r in records]
+        energies = [r.integral("power") for r in probe.records]
         created, dissipated = max(0.0, *(float(e.max()) for e in energies)), -sum(float(e[-1]) for e in energies)
         advance(0.5 * self.probe_time())
-        return Findings(own, tuple(held), broken, slide, created, dissipated, tuple(notes)), "", mode
-
-    def _slide(
-        self, probe: Probe, original: Site, limit: float, ratio: float, records: list[Record]
-    ) -> tuple[Slide | None, str]:
-        bare = self._without_friction(original)
-        if bare is None:
-            return None, "a contact's friction can be removed only in a model that comes as XML"
-        slide, record, why = probe.slide(dataclasses.replace(probe, model=bare, site=original), limit)
-        if record is not None:
-            records.append(record)
-        return (dataclasses.replace(slide, expected=ratio * slide.expected) if slide is not None else None), why
+        return Findings(own, tuple(held), broken, slide, created, dissipated, tuple(notes)), ""
 
     def _without_friction(self, site: Site) -> mujoco.MjModel | None:
         """Return the model without the site's friction, None if it cannot be had."""
@@ -191,14 +171,6 @@ def paired(spec: mujoco.MjSpec | None, sites: list[Site]) -> mujoco.MjModel | No
     return changed.compile()
 
 
-def _mode(probe: Probe, record: Record) -> str:
-    """Return how a friction of ours ran in the end: solver or explicit; empty for the model's own."""
-    if not probe.site.instance:
-        return ""
-    state = state_of(probe.model, record.end, instances(probe.model)[probe.site.instance])
-    return "solver" if header_of(state).solved else "explicit"
-
-
 def _require_steady(record: Record, motion: float, unit: str) -> None:
     """Refuse a contact that flickers, bears nothing or is shaken, and a site that moves though friction could hold it.
 
@@ -210,16 +182,16 @@ def _require_steady(record: Record, motion: float, unit: str) -> None:
     Raises:
         SimulationError: says why.
     """
-    if record.touching < TOUCHING:
+    if record.touching < probes.TOUCHING:
         raise SimulationError(f"flickers: touches in {100.0 * record.touching:.0f} % of the steps")
     limit = record.column("limit")
     if limit.mean() <= 0.0:
         raise SimulationError("carries no normal force")
-    if limit.std() > UNSTEADY * limit.mean():
+    if limit.std() > probes.UNSTEADY * limit.mean():
         spread = 100.0 * limit.std() / limit.mean()
         raise SimulationError(f"not at rest: the normal force varies by {spread:.0f} %")
     half = len(limit) // 2
     speed = float(np.abs(record.column("velocity")[half:]).max())
     load = float(record.column("resistance")[half:].mean() / limit[half:].mean())
-    if speed > EXCESS * float(limit.mean()) * motion and load < SLIDING:
+    if speed > probes.EXCESS * float(limit.mean()) * motion and load < SLIDING:
         raise SimulationError(f"not at rest: moves by up to {speed:.2g} {unit}/s under {100.0 * load:.0f} % of its limit")

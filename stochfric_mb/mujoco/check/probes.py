@@ -69,7 +69,7 @@ class Slide:
     deceleration: float
     """Difference between the accelerations without and with the site's friction [m/s^2 or rad/s^2]."""
     expected: float
-    """Limit force over the sliding mass [m/s^2 or rad/s^2], with the static coefficient."""
+    """Force of sliding friction over the sliding mass [m/s^2 or rad/s^2]."""
     mass: float
     """The mass that slides with the site [kg or kg m^2]."""
     touching: float
@@ -86,8 +86,8 @@ class Record:
     """Step [s]."""
     end: mujoco.MjData
     """Where the model was at the end."""
-    following: Array
-    """Velocity of the motion that `Probe.run` followed [m/s or rad/s], shape (n,)."""
+    velocities: list[Array]
+    """The generalised velocities at the start and after each step, each of shape (nv,)."""
 
     def column(self, name: str) -> Array:
         """Return one of `Sample`'s numbers over time."""
@@ -126,21 +126,21 @@ class Probe:
     """The site."""
     duration: float
     """Time of a hold [s]."""
+    records: list[Record] = dataclasses.field(default_factory=list[Record])
+    """What its runs recorded, in their order."""
 
     def run(
         self,
         duration: float,
         load: Callable[[float], float] = lambda t: 0.0,
         change: Array | None = None,
-        follow: Array | None = None,
     ) -> Record:
-        """Return what the site does in ``duration`` [s].
+        """Return what the site does in ``duration`` [s], which becomes one of the records.
 
         Args:
             duration: simulated time [s].
             load: the probe's force [N or N m] at a time since the start [s].
             change: added to qvel at the start.
-            follow: row of generalised velocities whose product with qvel is recorded.
 
         Raises:
             SimulationError: the state is not finite.
@@ -152,8 +152,7 @@ class Probe:
         applied = data.qfrc_applied.copy()
         step = float(model.opt.timestep)
         row, samples = self.site.sample(model, data).row, list[Sample]()
-        follow = np.zeros(model.nv) if follow is None else follow
-        followed = [follow @ data.qvel]
+        velocities = [data.qvel.copy()]
         for i in range(max(LEAST_STEPS, round(duration / step))):
             data.qfrc_applied[:] = applied + load(i * step) * row
             samples.append(self._step(data))
@@ -162,9 +161,10 @@ class Probe:
                     f"the state broke {(i + 1) * step:.3g} s after the start of a probe; use a smaller timestep"
                 )
             row = samples[-1].row
-            followed.append(follow @ data.qvel)
+            velocities.append(data.qvel.copy())
         mujoco.mj_forward(model, data)
-        return Record([*samples, self.site.sample(model, data)], step, data, np.array(followed))
+        self.records.append(Record([*samples, self.site.sample(model, data)], step, data, velocities))
+        return self.records[-1]
 
     def _step(self, data: mujoco.MjData) -> Sample:
         """Advance by one step, and return what the site did at its start, with the mean velocity of the step.
@@ -181,15 +181,15 @@ class Probe:
         mujoco.mj_step(self.model, data)
         return self.site.sample(self.model, data, 0.5 * (before + data.qvel))
 
-    def hold(self, force: float) -> tuple[Drift | None, Record]:
+    def hold(self, force: float) -> Drift | None:
         """Return the drift under a force that rises to ``force`` [N or N m] and stays; None if the contact is lost."""
         record = self.run(self.duration, lambda t: force * min(1.0, t / (RISE * self.duration)))
         if record.touching < TOUCHING:
-            return None, record
+            return None
         limit, load, speed = (record.column(c)[len(record.samples) // 2 :].mean() for c in ("limit", "resistance", "velocity"))
-        return Drift(float(load / limit) if limit > 0.0 else 0.0, float(speed)), record
+        return Drift(float(load / limit) if limit > 0.0 else 0.0, float(speed))
 
-    def break_away(self, carried: float, limit: float, mass: float) -> tuple[BreakAway | None, Record]:
+    def break_away(self, carried: float, limit: float, mass: float) -> BreakAway | None:
         """Return the friction force that was reached when a rising load set the site in motion; None if it never did.
 
         In motion is a site that is faster than `EXCESS` of its limit would make its mass in the duration of a hold.
@@ -203,13 +203,13 @@ class Probe:
         record = self.run(span, lambda t: (OVERLOAD * limit - carried) * t / span)
         moving = np.flatnonzero(record.column("velocity") > EXCESS * limit / mass * self.duration)
         if not len(moving):
-            return None, record
+            return None
         window = min(max(3, int(AVERAGED * len(record.samples))), moving[0] + 1)
         force = np.convolve(record.column("resistance")[: moving[0] + 1], np.ones(window) / window, "valid")
         first = int(np.argmax(force >= 0.98 * force.max())) + window // 2
-        return BreakAway(float(force.max() / limit), float(record.integral("velocity")[first])), record
+        return BreakAway(float(force.max() / limit), float(record.integral("velocity")[first]))
 
-    def slide(self, bare: Probe, limit: float) -> tuple[Slide | None, Record | None, str]:
+    def slide(self, bare: Probe, limit: float, ratio: float) -> tuple[Slide | None, str]:
         """Return the deceleration by friction, or why there is none.
 
         The site is kicked, and the momentum of the kick's own motion is followed, (M unit) . qvel over the mass of it: a body
@@ -218,26 +218,28 @@ class Probe:
         Args:
             bare: the same without the site's friction.
             limit: mean limit [N or N m].
+            ratio: mu_k over mu_s [-].
         """
         data = started(self.model, self.state)
         sample = self.site.sample(self.model, data)
         if not sample.touching:
-            return None, None, LOST
+            return None, LOST
         unit, mass = kick(self.model, data, sample.row)
         if not np.isfinite(mass):
-            return None, None, "other constraints forbid sliding"
+            return None, "other constraints forbid sliding"
         step = float(self.model.opt.timestep)
         rate = limit / mass
         speed = max(2.0 * SLIDE_STEPS * step * rate, SLIDE_SPEED)
         steps = int(np.clip(speed / (2.0 * rate * step), SLIDE_STEPS, MOST_SLIDE_STEPS))
         momentum = np.zeros(self.model.nv)
         mujoco.mj_mulM(self.model, data, momentum, unit)
-        record, without = (p.run(steps * step, change=speed * unit, follow=momentum / mass) for p in (self, bare))
-        last = int(np.flatnonzero(record.following - record.following[0] > -0.9 * speed)[-1])
+        record, without = (p.run(steps * step, change=speed * unit) for p in (self, bare))
+        with_it, alone = (np.array([(momentum / mass) @ v for v in r.velocities]) for r in (record, without))
+        last = int(np.flatnonzero(with_it - with_it[0] > -0.9 * speed)[-1])
         if last < SLIDE_STEPS // 2:
-            return None, record, "stops within a few steps"
+            return None, "stops within a few steps"
         pressing = float(without.column("limit")[: last + 1].mean()) or limit
-        lost = without.following - record.following
+        lost = alone - with_it
         touching = float(record.column("touching")[: last + 1].mean())
         deceleration = (lost[last] - lost[FIRST_SLIDE_STEP]) / ((last - FIRST_SLIDE_STEP) * step)
         if record.touching < 0.5 or not without.samples[last].touching:
@@ -246,4 +248,4 @@ class Probe:
             why = f"the normal force is {100.0 * pressing / limit:.0f} % of that at rest"
         else:
             why = "" if deceleration >= 0.0 else "the body's other motion outweighs friction"
-        return None if why else Slide(float(deceleration), pressing / mass, mass, touching), record, why
+        return None if why else Slide(float(deceleration), ratio * (pressing / mass), mass, touching), why

@@ -46,18 +46,16 @@ mju_error = _external("mju_error", types.void, _I64)
 mju_warning = _external("mju_warning", types.void, _I64)
 
 
-def plugin_text(model: mujoco.MjModel | int, instance: int, key: str) -> str:
-    """Return a configuration value of a plugin instance, "" if there is none; a model may be given by its address."""
-    function = library().mj_getPluginConfig
-    function.restype = ctypes.c_char_p
-    function.argtypes = [ctypes.c_void_p, ctypes.c_int, ctypes.c_char_p]
-    address = model if isinstance(model, int) else model._address
-    return (function(address, instance, key.encode()) or b"").decode()
+_text = ctypes.CFUNCTYPE(ctypes.c_char_p, ctypes.c_void_p, ctypes.c_int, ctypes.c_char_p)(("mj_getPluginConfig", library()))
+_number = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_int, ctypes.c_char_p)(("mj_name2id", library()))
+
+
+def plugin_text(model: int, instance: int, key: str) -> str:
+    """Return a configuration value of a plugin instance of the model at an address, "" if there is none."""
+    return (_text(model, instance, key.encode()) or b"").decode()
 
 
 def id_in(model: int, kind: mujoco.mjtObj, name: str, default: int) -> int:
     """Return the id of an object in the model at an address, ``default`` if there is none of that name."""
-    function = library().mj_name2id
-    function.restype, function.argtypes = ctypes.c_int, [ctypes.c_void_p, ctypes.c_int, ctypes.c_char_p]
-    number = int(function(model, int(kind), name.encode()))
+    number = _number(model, int(kind), name.encode())
     return number if number >= 0 else default

@@ -17,7 +17,7 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.laws.abi import MAX_STATE
 from stochfric_mb.laws.contract import GUARDS
 from stochfric_mb.mujoco.memory import engine, table
-from stochfric_mb.mujoco.memory.structs import array_at, data_at, model_at, record_view
+from stochfric_mb.mujoco.memory.structs import data_at, model_at, record_view
 from stochfric_mb.numerics import memory as w
 
 MAX_PARAMETERS, N_LIMITS, MAX_ROW = 16, 13, 32
@@ -49,7 +49,7 @@ HEADER = _record(
     "place",  # PAIR, JOINT or TENDON
     "geom_body", "geom_surface",  # geoms, -1 for any; of a joint or tendon its number, twice
     "seed", "sample", "contact",  # address of the coefficient path
-    "n_slots", "n_descriptor", "n_parameters",  # lengths
+    "n_slots", "n_descriptor",  # lengths
     "stick_speed", "peak_speed", "has_mode", "needs_mass", "rest",  # of the law
     "origin",  # displacement of a new contact [m]
     "mode",  # asked for; of a law with bristles EXPLICIT
@@ -132,18 +132,6 @@ def header_of(state: Array) -> Any:
     return state[:N_HEADER].view(HEADER).view(np.recarray)[0]
 
 
-def started(law: npt.NDArray[Any], **address: int) -> Array:
-    """Return the state that an instance with this `LAW` begins with; ``address`` is seed, sample and contact."""
-    state = np.zeros(int(law["n_all"][0]))
-    start = array_at(int(law["start"][0]), int(law["n_start"][0]))
-    state[:N_HEADER] = start[:N_HEADER]
-    header = header_of(state)
-    state[descriptor_place(header) :] = start[N_HEADER:]
-    for name, number in address.items():
-        header[name] = number
-    return state
-
-
 def slots_of(state: Array, *, committed: bool) -> npt.NDArray[Any]:
     """Return the committed or the current contacts of an instance's state (a view), fields by index: that is fast."""
     header = state[:N_HEADER].view(HEADER)[0]
@@ -157,9 +145,14 @@ def descriptor_place(header: Any) -> int:
 
 
 @compiled
-def state_size(n_descriptor, n_slots):
-    """Return the length of an instance's state [doubles]."""
-    return N_HEADER + n_descriptor + 2 * n_slots * N_SLOT
+def restart(address, state):
+    """Begin the state at an address anew, as the `LAW` at another one has it; seed, sample and contact are 0 then."""
+    law = law_at(address)
+    n_descriptor = law.n_start - N_HEADER
+    w.copy_bytes(law.start, state, 8 * N_HEADER)
+    for j in range(N_HEADER, law.n_all - n_descriptor):
+        w.put(state, j, 0.0)
+    w.copy_bytes(law.start + 8 * N_HEADER, state + 8 * (law.n_all - n_descriptor), 8 * n_descriptor)
 
 
 @compiled
@@ -169,12 +162,12 @@ def state_address(model, data, instance):
 
 
 @compiled
-def law_address(data, instance):
-    """Return the address of an instance's `LAW`; stop with MuJoCo's error if there is none, as in copies for display."""
+def law_in(data, instance):
+    """Return an instance's `LAW`; stop with MuJoCo's error if there is none, as in copies for display."""
     address = table.address_of(w.word_at(data_at(data).plugin_data, instance))
     if address == 0:
         engine.mju_error(w.c_string(NO_LAW))
-    return address
+    return law_at(address)
 
 
 @compiled

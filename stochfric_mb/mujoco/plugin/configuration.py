@@ -23,20 +23,8 @@ from stochfric_mb.friction import Friction
 from stochfric_mb.laws.abi import MAX_STATE, native_law
 from stochfric_mb.laws.contract import Law
 from stochfric_mb.mujoco.anisotropy import ISOTROPIC, Anisotropy
+from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory import table
-from stochfric_mb.mujoco.memory.state import (
-    EXPLICIT,
-    LAW,
-    MAX_PARAMETERS,
-    MODES,
-    N_HEADER,
-    N_LIMITS,
-    NO_LIMIT,
-    RESTS,
-    UNSET,
-    header_of,
-    state_size,
-)
 from stochfric_mb.scenario import law_from_dict, process_from_dict
 
 DEFAULT_SLOTS, MAX_SLOTS = 16, 1024
@@ -106,12 +94,12 @@ def _record(friction: Friction, texts: Mapping[str, str]) -> npt.NDArray[np.floa
     mode = texts.get("mode") or "auto"
     _require_runnable(friction.law, mode)
     descriptor = friction.path(0).descriptor
-    record = np.zeros(N_HEADER + len(descriptor))
-    record[:N_HEADER] = law_header(friction.law)
-    header = header_of(record)
+    record = np.zeros(s.N_HEADER + len(descriptor))
+    record[: s.N_HEADER] = law_header(friction.law)
+    header = s.header_of(record)
     header.n_descriptor, header.n_slots = len(descriptor), 1
-    header.mode = MODES.index("explicit" if friction.law.rest == "bristle" else mode)
-    record[N_HEADER:] = np.nan_to_num(descriptor, posinf=NO_LIMIT, neginf=-NO_LIMIT)
+    header.mode = s.MODES.index("explicit" if friction.law.rest == "bristle" else mode)
+    record[s.N_HEADER :] = np.nan_to_num(descriptor, posinf=s.NO_LIMIT, neginf=-s.NO_LIMIT)
     for key, field in {"normal_force": "load", "radius": "radius"}.items():
         if texts.get(key):
             header[field] = require_number(f"plugin key {key}", _number(texts[key]), above=0.0)
@@ -121,7 +109,7 @@ def _record(friction: Friction, texts: Mapping[str, str]) -> npt.NDArray[np.floa
     if texts.get("across") or texts.get("direction"):
         direction: Any = tuple(_number(word) for word in texts.get("direction", "").split())
         anisotropy = Anisotropy(_number(texts.get("across") or "1"), direction)
-    if anisotropy.across != 1.0 and header.mode == EXPLICIT:
+    if anisotropy.across != 1.0 and header.mode == s.EXPLICIT:
         raise InputError(
             f"across = {anisotropy.across:g}: friction that differs by direction is found by MuJoCo's solver; use mode "
             f"'solver' (not {mode!r}) and a law that runs in it (law {friction.law.kind!r} has rest {friction.law.rest!r})"
@@ -159,14 +147,14 @@ def law_of(texts: Mapping[str, str], place: tuple[int, int, int]) -> npt.NDArray
         if key not in _laws:
             friction = friction_of(texts["law"], texts.get("coefficients", ""))
             start = _record(friction, texts)
-            header = header_of(start)
+            header = s.header_of(start)
             header.place, header.geom_body, header.geom_surface = place
-            law = np.zeros(1, LAW)
+            law = np.zeros(1, s.LAW)
             functions = native_law(friction.law.kind)
             for name in ("init", "force", "commit", "guards", "slide", "spring", "n_state"):
                 law[name] = getattr(functions, name)
             law["key"], law["start"], law["n_start"] = key, start.ctypes.data, len(start)
-            law["n_all"] = state_size(int(header.n_descriptor), int(header.n_slots))
+            law["n_all"] = s.descriptor_place(header) + int(header.n_descriptor)
             _laws[key] = law, start
             table.enter(key, law.ctypes.data)
         return _laws[key][0]
@@ -174,28 +162,27 @@ def law_of(texts: Mapping[str, str], place: tuple[int, int, int]) -> npt.NDArray
 
 def law_header(law: Law) -> npt.NDArray[np.float64]:
     """Return the numbers of a header with what a law alone decides."""
-    numbers = np.zeros(N_HEADER)
-    header = header_of(numbers)
+    numbers = np.zeros(s.N_HEADER)
+    header = s.header_of(numbers)
     parameters = law.parameters()
-    header.n_parameters = len(parameters)
     header.stick_speed, header.peak_speed = law.stick_speed, law.peak_speed
     header.has_mode, header.needs_mass = law.state_names[:1] == ("mode",), law.needs_effective_mass
-    header.rest = RESTS.index(law.rest)
-    limits = [law.step_limit(10.0**k, 1.0) for k in range(-4, N_LIMITS - 4)]
-    header.limits[:] = np.nan_to_num(limits, posinf=NO_LIMIT)
+    header.rest = s.RESTS.index(law.rest)
+    limits = [law.step_limit(10.0**k, 1.0) for k in range(-4, s.N_LIMITS - 4)]
+    header.limits[:] = np.nan_to_num(limits, posinf=s.NO_LIMIT)
     header.parameters[: len(parameters)] = parameters
-    header.advanced = header.evaluated = header.path_time = UNSET
+    header.advanced = header.evaluated = header.path_time = s.UNSET
     header.across = 1.0
     return numbers
 
 
 def _require_runnable(law: Law, mode: str) -> None:
     """Refuse a law that cannot run in this engine, or not in the mode asked for."""
-    require_name("mode", mode, MODES)
-    if len(law.parameters()) > MAX_PARAMETERS or len(law.state_names) > MAX_STATE:
+    require_name("mode", mode, s.MODES)
+    if len(law.parameters()) > s.MAX_PARAMETERS or len(law.state_names) > MAX_STATE:
         raise InputError(
             f"law {law.kind!r} has {len(law.parameters())} parameters and {len(law.state_names)} state entries; "
-            f"at most {MAX_PARAMETERS} and {MAX_STATE} fit"
+            f"at most {s.MAX_PARAMETERS} and {MAX_STATE} fit"
         )
 
     if law.needs_holding_force and mode == "explicit":

@@ -63,7 +63,7 @@ def _nstate(name: str, model: int, instance: int) -> int:
 
 def _init(name: str, model: int, data: int, instance: int) -> int:
     law = _law(name, model, instance)
-    header = s.header_of(s.started(law))
+    header = record_at(s.HEADER, law["start"][0])
     steered = name == PAIRS and header.mode != s.EXPLICIT
     options.check_options(record_at(MODEL, model), steered=steered, coordinate=name == DOFS)
     if name == DOFS:
@@ -156,12 +156,7 @@ def _reset(model, state, plugin_data, instance):
     address = table.address_of(plugin_data)
     if address == 0:
         return
-    law = s.law_at(address)
-    n_descriptor = law.n_start - s.N_HEADER
-    w.copy_bytes(law.start, state, 8 * s.N_HEADER)
-    for j in range(s.N_HEADER, law.n_all - n_descriptor):
-        w.put(state, j, 0.0)
-    w.copy_bytes(law.start + 8 * s.N_HEADER, state + 8 * (law.n_all - n_descriptor), 8 * n_descriptor)
+    s.restart(address, state)
     header = s.header_record(state)
     header.seed = number_in(engine.mj_getPluginConfig(model, instance, w.c_string("seed")))
     header.sample = number_in(engine.mj_getPluginConfig(model, instance, w.c_string("sample")))
@@ -179,13 +174,11 @@ def number_in(text):
 
 
 def _compute_pair(model, data, instance, capability):
-    law = s.law_at(s.law_address(data, instance))
-    tracking.evaluate(model, data, s.state_address(model, data, instance), law)
+    tracking.evaluate(model, data, s.state_address(model, data, instance), s.law_in(data, instance))
 
 
 def _compute_dof(model, data, instance, capability):
-    law = s.law_at(s.law_address(data, instance))
-    coordinates.evaluate(model, data, s.state_address(model, data, instance), law)
+    coordinates.evaluate(model, data, s.state_address(model, data, instance), s.law_in(data, instance))
 
 
 def _advance_pair(model, data, instance):

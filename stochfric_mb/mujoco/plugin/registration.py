@@ -56,6 +56,10 @@ done:
 """
 _alive: list[Any] = []
 _lock = threading.RLock()
+_TABLE = ctypes.POINTER(Plugin)
+_register = ctypes.CFUNCTYPE(ctypes.c_int, _TABLE)(("mjp_registerPlugin", mujoco_library()))
+_at_slot = ctypes.CFUNCTYPE(_TABLE, ctypes.c_int)(("mjp_getPluginAtSlot", mujoco_library()))
+_by_name = ctypes.CFUNCTYPE(_TABLE, ctypes.c_char_p, ctypes.c_void_p)(("mjp_getPlugin", mujoco_library()))
 
 
 def register_plugin(
@@ -80,21 +84,24 @@ def register_plugin(
     Raises:
         MissingEngineError: this MuJoCo build has another struct layout than this package knows.
     """
-    plugin = Plugin()
-    library = mujoco_library()
-    library.mjp_defaultPlugin(ctypes.byref(plugin))
-    plugin.name = name.encode()
-    plugin.nattribute = len(attributes)
-    plugin.attributes = (ctypes.c_char_p * len(attributes))(*[key.encode() for key in attributes])
-    plugin.capabilityflags = int(capability)
-    plugin.needstage = stage
-    entered: list[Any] = []
+    keys = (ctypes.c_char_p * len(attributes))(*[key.encode() for key in attributes])
+    plugin = Plugin(name.encode(), len(attributes), keys, int(capability), stage)
+
+    def call(function: Callable[..., int], *arguments: Any) -> int:
+        """Call one of the Python functions, once MuJoCo's table holds the compiled ones."""
+        with _lock:
+            for callback, source in compiled.items():
+                if not getattr(entered, callback):
+                    made = native(source, COMPILED[callback])
+                    _alive.append(made)
+                    setattr(entered, callback, made.address)
+        return function(*arguments)
+
     for callback, function in first.items():
-        setattr(plugin, callback, guarded(name, FIRST[callback], functools.partial(_call, entered, compiled, function)))
+        setattr(plugin, callback, guarded(name, FIRST[callback], functools.partial(call, function)))
     _alive.append(plugin)
-    library.mjp_registerPlugin.argtypes = [ctypes.c_void_p]
-    slot = library.mjp_registerPlugin(ctypes.byref(plugin))
-    entered.append(_entered(slot, plugin))
+    slot = _register(plugin)
+    entered = _entered(slot, plugin)
     return slot
 
 
@@ -134,35 +141,13 @@ def guarded(name: str, kind: Any, function: Callable[..., int]) -> int:
     return engine.get_function_address("guarded")
 
 
-def _call(
-    entered: list[Any],
-    compiled: Mapping[str, Callable[..., Any]],
-    function: Callable[..., int],
-    *arguments: Any,
-) -> int:
-    """Call one of the Python functions, once MuJoCo's table holds the compiled ones."""
-    with _lock:
-        for callback, source in compiled.items():
-            if not getattr(entered[0], callback):
-                made = native(source, COMPILED[callback])
-                _alive.append(made)
-                setattr(entered[0], callback, made.address)
-    return function(*arguments)
-
-
 def _entered(slot: int, mine: Plugin) -> Any:
     """Return MuJoCo's own copy of a plugin: `Plugin` is written by hand, and must be what the library has."""
-    library = mujoco_library()
-    library.mjp_getPluginAtSlot.restype = ctypes.POINTER(Plugin)
-    library.mjp_getPluginAtSlot.argtypes = [ctypes.c_int]
-    other = library.mjp_getPlugin
-    other.restype = ctypes.POINTER(Plugin)
-    other.argtypes = [ctypes.c_char_p, ctypes.POINTER(ctypes.c_int)]
-    result = library.mjp_getPluginAtSlot(slot)
+    result = _at_slot(slot)
     same = bool(result) and all(
         getattr(result.contents, field[0]) == getattr(mine, field[0]) for field in Plugin._fields_ if field[0] != "attributes"
     )
-    bundled = other(b"mujoco.elasticity.cable", None) or other(b"mujoco.pid", None)
+    bundled = _by_name(b"mujoco.elasticity.cable", None) or _by_name(b"mujoco.pid", None)
     if bundled:
         texts = [bundled.contents.attributes[i] for i in range(bundled.contents.nattribute)]
         same = same and all(isinstance(t, bytes) and t.isascii() for t in texts)

@@ -69,7 +69,6 @@ def add_sensor(spec: mujoco.MjSpec, friction: str, *, name: str = "", contacts: 
     Raises:
         InputError: no such friction instance, a name that is taken, or too many contacts.
     """
-    register()
     require_name("friction", friction, [p.name for p in spec.plugins if p.plugin_name in (PAIRS, DOFS)])
     if int(contacts) != contacts or not 0 <= contacts <= MAX_CONTACTS:
         raise InputError(f"contacts = {contacts!r} must be a whole number from 0 to {MAX_CONTACTS}")
