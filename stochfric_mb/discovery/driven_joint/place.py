@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.balance.timing import LEAST_SAMPLES, Timing, timing
 from stochfric_mb.discovery.driven_joint.decision.selection import Selected, Selector
@@ -25,7 +25,6 @@ from stochfric_mb.discovery.driven_joint.simulation.augmented import stated_scat
 from stochfric_mb.discovery.driven_joint.simulation.scores import closed_share, noise_floor, score
 from stochfric_mb.discovery.driven_joint.source import prior_model
 from stochfric_mb.discovery.inference.noise import independent_count
-from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.mechanisms import PrismaticJoint
 from stochfric_mb.numerics.robust import deviation
 
@@ -39,11 +38,9 @@ HELD = 4
 class _Asked:
     """A place, and how it is seen."""
 
-    dataset: Dataset
-    source: Any
+    source: Balances
     name: str
     load: float
-    base: float
     tell: Progress
     timing: Timing | None
     selectors: dict[float, Selector] = dataclasses.field(default_factory=dict[float, Selector])
@@ -52,47 +49,39 @@ class _Asked:
     def selector(self, delay: float, start: JointModel, how: str) -> Selector:
         """Return the selection with a delay compensated."""
         if delay not in self.selectors:
-            balances, where = self.source.balances(self.name, "fit", delay), f"{self.name}: " if self.name else ""
-            nuisances = self.source.nuisances(self.name)
-            self.selectors[delay] = Selector(balances, nuisances, start, lambda text: self.tell(where + text + how))
+            balances, nuisances = self.source.balances(self.name, "fit", delay), self.source.nuisances(self.name)
+            self.selectors[delay] = Selector(balances, nuisances, start, lambda text: self.say(text + how))
         return self.selectors[delay]
+
+    def say(self, text: str) -> None:
+        """Say what is being done at the place."""
+        self.tell(f"{self.name}: {text}" if self.name else text)
 
 
 def place_outcome(
-    dataset: Dataset,
-    tell: Progress,
-    source: Any,
-    name: str,
-    load: float,
-    base: float,
-    notes: list[str],
-    *,
-    timed: bool = True,
+    source: Balances, tell: Progress, name: str, load: float, notes: list[str], *, timed: bool = True
 ) -> PlaceOutcome:
     """Return the outcome at a place.
 
     Args:
-        dataset: the dataset.
-        tell: called with what is being done.
         source: balances of the dataset.
+        tell: called with what is being done.
         name: the place.
         load: its stated load [N or N m].
-        base: delay of all positions that is known [s].
         notes: what the reader should know is added to these.
         timed: whether a delay is looked for.
     """
-    balances = source.balances(name, "fit", base)
-    notes += sign_notes(dataset, name, load, balances)
-    late = _timing(dataset, tell, source, name, base, balances) if timed else None
-    return _answered(_Asked(dataset, source, name, load, base, tell, late), frozenset())
+    balances = source.balances(name, "fit", source.stated_delay)
+    notes += sign_notes(source.dataset, name, load, balances)
+    late = _timing(source, tell, name, balances) if timed else None
+    return _answered(_Asked(source, name, load, tell, late), frozenset())
 
 
 def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
     """Return the outcome at a place, without some kinds and numbers."""
-    dataset, source, name, tell, base, timing = asked.dataset, asked.source, asked.name, asked.tell, asked.base, asked.timing
-    scenario, nuisances = dataset.scenario, source.nuisances(name)
+    source, name, timing, base = asked.source, asked.name, asked.timing, asked.source.stated_delay
+    dataset, scenario, nuisances = source.dataset, source.dataset.scenario, source.nuisances(name)
     stated = prior_model(scenario, name, nuisances, asked.load)
-    where = f"{name}: " if name else ""
     undelayed = None
     shortest = LEAST_SAMPLES * dataset.fit[0].sample_interval
     if timing is not None and abs(timing.seconds) <= shortest:  # how signals are sampled and held
@@ -110,7 +99,7 @@ def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
             undelayed, selected, fit_balances = selected.recalibrated.model, late, balances
     delay = base + (timing.seconds if timing is not None and timing.named else 0.0)
     test_balances = source.balances(name, "test", delay)
-    tell(f"{where}held-out runs")
+    asked.say("held-out runs")
     scores = {
         label: score(model, test_balances, nuisances, dataset.test, scenario)
         for label, model in _models(stated, selected).items()
@@ -133,39 +122,36 @@ def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
         models = (stated, runs.believed), (selected.recalibrated.model, runs.believed), (final, runs.foreseen)
         each = [crps_of(m, test_balances, nuisances, noise, sigma) for m, sigma in models]
         forecasts = Forecasts(*(score for score, _ in each), floor=each[-1][1])
-    seen = tuple(fit_balances), tuple(test_balances)
     return PlaceOutcome(
-        name,
-        selected,
-        tuple(nuisances),
-        stated,
-        *seen,
-        scores,
-        floor,
-        thing,
-        random,
-        runs,
-        forecasts,
-        undelayed,
+        place=name,
+        selected=selected,
+        nuisances=tuple(nuisances),
+        stated=stated,
+        fit=tuple(fit_balances),
+        test=tuple(test_balances),
+        scores=scores,
+        floor=floor,
+        thing=thing,
+        random=random,
+        runs=runs,
+        forecasts=forecasts,
+        undelayed=undelayed,
         timing=timing,
         again=lambda more: _answered(asked, without | more),
     )
 
 
-def _timing(
-    dataset: Dataset, tell: Progress, source: Any, name: str, base: float, balances: Sequence[ForceBalance]
-) -> Timing | None:
+def _timing(source: Balances, tell: Progress, name: str, balances: Sequence[ForceBalance]) -> Timing | None:
     """Return by how much the motion at a place may come late; None: it does not, or nothing could be late."""
-    mechanism = dataset.scenario.mechanism
+    mechanism, base = source.dataset.scenario.mechanism, source.stated_delay
     if isinstance(mechanism, PrismaticJoint) and mechanism.mass <= 0.0:
         return None  # a slow prescribed motion has no inertia by which it could be late
     tell("timing")
-    half_width = float(np.median([s.window.half_width for s in balances]))
     return timing(
         lambda d, w: source.balances(name, "fit", base + d, w),
         source.nuisances(name),
-        dataset.fit[0].sample_interval,
-        half_width,
+        source.dataset.fit[0].sample_interval,
+        float(np.median([s.window.half_width for s in balances])),
     )
 
 

@@ -16,18 +16,16 @@ from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Mjcf
 
 
-def late_channel(dataset: Dataset, source: Any, places: Sequence[PlaceOutcome], base: float) -> tuple[str, Timing] | None:
+def late_channel(source: Any, places: Sequence[PlaceOutcome]) -> tuple[str, Timing] | None:
     """Return the position column that is late by itself, and by how much; None: none is.
 
     It is asked for where several joints are measured and most is left above the noise.
 
     Args:
-        dataset: the dataset.
-        source: its balances.
+        source: the balances of a dataset.
         places: the outcomes without a delay of one column.
-        base: stated delay of all positions [s].
     """
-    mechanism = dataset.scenario.mechanism
+    dataset, mechanism = source.dataset, source.dataset.scenario.mechanism
     columns = [c for c in mechanism.positions.values() if isinstance(c, str)] if isinstance(mechanism, Mjcf) else []
     worst = max(places, key=lambda p: p.selected.final.rms / p.floor)
     if len(columns) < 2 or (1.0 - MATERIAL) * worst.selected.final.rms <= worst.floor or any(p.late for p in places):
@@ -38,7 +36,7 @@ def late_channel(dataset: Dataset, source: Any, places: Sequence[PlaceOutcome], 
 
     def made(column: str, delay: float) -> list[ForceBalance]:
         moved = brought_forward(dataset, column, delay)
-        return dataclasses.replace(source, dataset=moved, remembered={}).balances(name, "fit", base, width)
+        return dataclasses.replace(source, dataset=moved, remembered={}).balances(name, "fit", source.stated_delay, width)
 
     seen = [(c, of_channel(lambda d, c=c: made(c, d), worst.nuisances, interval, width)) for c in columns]
     named = [(c, t) for c, t in seen if t is not None]

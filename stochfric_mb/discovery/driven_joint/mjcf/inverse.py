@@ -19,23 +19,21 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.conditions import known_factors, temperature_through
 from stochfric_mb.discovery.driven_joint.balance.force_balance import (
     ForceBalance,
     Nuisance,
-    distance_slid,
+    balance_along,
     least_speed,
     slides,
     slipped,
 )
-from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, chosen_window, narrowest
+from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, narrowest, window_of
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import by_mass, effective_inertia, inverse
 from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import over_samples
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import drive_of, in_si, position_of_joint
 from stochfric_mb.discovery.driven_joint.mjcf.motion import Path, Rig
 from stochfric_mb.discovery.inference.noise import white_noise
-from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import ProportionalDerivative
 
@@ -85,27 +83,10 @@ class MjcfSource(Rig):
         others = [p for p, _ in self.places if p != place]
         return any(p in self.tendons for p in ((place, *others) if others else ()))
 
-    def balances(self, place: str, role: str, delay: float, samples: int | None = None) -> list[ForceBalance]:
-        """Return the runs of a role as balances of one place; arguments as of `balance.balance_of`."""
-        runs = self.dataset.fit if role == "fit" else self.dataset.test
-        return [self._balance(run, place, delay, samples) for run in runs]
-
     def window(self, run: Run, place: str, samples: int | None = None) -> Window:
-        """Return the window through which a place is seen in a run.
-
-        Raises:
-            InputError: the run is too short.
-        """
-        h, count = run.sample_interval, len(run.time)
+        """Return the window through which a place is seen in a run."""
         friction = self.dataset.scenario.law.mu_k * self.mechanism.friction[place]
-        window = (
-            Window(samples * h, h, count) if samples is not None else chosen_window(h, count, self._noise(run, place), friction)
-        )
-        if len(window.centres) < 8:
-            raise InputError(
-                f"run {run.name!r}: {count} samples are too few for windows of {window.half_width:.3g} s; record longer"
-            )
-        return window
+        return window_of(run, self._noise(run, place), friction, samples)
 
     def _noise(self, run: Run, place: str) -> dict[int, float]:
         """Return the noise of the balance of a place: derivative -> standard deviation."""
@@ -123,7 +104,8 @@ class MjcfSource(Rig):
             self.remembered[key] = noise
         return self.remembered[key]
 
-    def _balance(self, run: Run, place: str, delay: float, samples: int | None) -> ForceBalance:
+    def balance(self, run: Run, place: str, delay: float, samples: int | None) -> ForceBalance:
+        """Return a run as a balance of a place."""
         window = self.window(run, place, samples)
         at = window.centres
         motion, needed, mass = self._dynamics(run, window)
@@ -151,30 +133,21 @@ class MjcfSource(Rig):
             if path.normal_weights is None:  # a measured force is taken out of the balance; another one is solved with friction
                 left = left + normal[at, None] * path.part
             sliding &= normal[at] > LIFTED * self.mechanism.friction[place]
-        noise = self._noise(run, place)
-        before = float(self.travelled(run, place)[0])
-        travelled = before + distance_slid(path.velocity, window)
-        return ForceBalance(
-            run=run.name,
-            role=run.role,
-            place=place if len(self.mechanism.friction) > 1 else "",
+        return balance_along(
+            run,
+            window,
+            path.position,
+            path.velocity,
+            least,
             unit="N m" if self._rotates(place) else "N",
-            window=window,
-            time=run.time,
-            position=path.position,
-            velocity=path.velocity,
             load=load,
-            slip=slipped(path.position, path.velocity, least),
+            load_by_drive=path.load_by_drive,
             driven=own + np.sum(weights * left, axis=1),
             columns=columns,
             sliding=sliding,
-            noise=float(np.hypot(window.gain(0) * noise[0], window.gain(2) * noise[2])),
-            factors=known_factors(run, window, path.position, path.velocity, load, travelled),
-            white=noise,
-            before=before,
-            temperature=temperature_through(run, window),
+            white=self._noise(run, place),
+            before=float(self.travelled(run, place)[0]),
             normal_force=normal,
-            load_by_drive=path.load_by_drive,
             drive=window.sampled(drive_of(run, self.mechanism, place), delay) if place in self.mechanism.drives else None,
         )
 
@@ -227,9 +200,12 @@ class MjcfSource(Rig):
                 path = self.path(run, name, window)
                 model = self.known.get(name, JointModel(self.dataset.scenario.law, (), {}, load))
                 least = self._least(run, name, window, path)
-                balance = _motion(run, window, path, least)
-                force = model.friction(balance)
-                taken += force[:, None] * path.direction
+                none = np.zeros(len(window.centres))
+                motion = balance_along(
+                    run, window, path.position, path.velocity, least,
+                    unit="", load=path.load, driven=none, columns={}, sliding=none > 0.0,
+                )  # fmt: skip
+                taken += model.friction(motion)[:, None] * path.direction
         return taken
 
     def _others_slide(self, run: Run, place: str, window: Window) -> npt.NDArray[np.bool_]:
@@ -256,13 +232,3 @@ class MjcfSource(Rig):
 
 def _level(signal: Array) -> float:
     return white_noise(signal) if np.ptp(signal) else 0.0
-
-
-def _motion(run: Run, window: Window, path: Path, least: float) -> ForceBalance:
-    """Return a balance of the motion along a place alone."""
-    none = np.zeros(len(window.centres))
-    return ForceBalance(
-        run=run.name, role=run.role, place="", unit="", window=window, time=run.time, position=path.position,
-        velocity=path.velocity, load=path.load, slip=slipped(path.position, path.velocity, least), driven=none, columns={},
-        sliding=none > 0.0, noise=0.0, factors={},
-    )  # fmt: skip

@@ -11,13 +11,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.conditions import distance_before
-from stochfric_mb.discovery.driven_joint.balance.force_balance import distance_slid, integrated
+from stochfric_mb.discovery.driven_joint.balance.balances import Balances
+from stochfric_mb.discovery.driven_joint.balance.force_balance import distance_before, distance_slid, integrated
 from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, narrowest
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import tendon_along
 from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import geom_numbers, line, pair_along, two_forces
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import drive_of, position_of_joint
-from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Mjcf
 
@@ -47,11 +46,9 @@ class Path:
 
 
 @dataclasses.dataclass(frozen=True)
-class Rig:
+class Rig(Balances):
     """A model and the records of it."""
 
-    dataset: Dataset
-    """The dataset."""
     mechanism: Mjcf
     """Its mechanism."""
     mujoco: Any

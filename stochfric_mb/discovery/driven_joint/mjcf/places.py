@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.conditions import known_temperature
+from stochfric_mb.discovery.driven_joint.balance.force_balance import known_temperature
 from stochfric_mb.discovery.driven_joint.balance.weak_form import narrowest
 from stochfric_mb.discovery.driven_joint.fit.friction_along import chain, resistance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel

@@ -25,11 +25,6 @@ def stated_scatter(scenario: Scenario[Any], process: str) -> float:
     return float(np.sqrt(sum(e["sigma_k"] ** 2 for e in declared if e["process"] == process)))
 
 
-def stated_delay(scenario: Scenario[Any]) -> float:
-    """Return by how much the scenario says that positions are late [s]."""
-    return sum(e.late for e in scenario.effects)
-
-
 def augmented(
     scenario: Scenario[Any], places: Sequence[PlaceOutcome], timing: Timing | None, readings: Sequence[Effect] = ()
 ) -> Scenario[Any]:
@@ -46,7 +41,7 @@ def augmented(
         sigma, process = max(drawn)  # a model has one such process
         sigma_s = sigma * model.law.mu_s / model.law.mu_k
         effects.append(make_effect(kind_with_signature(DRAWN_ANEW), process=process, sigma_s=sigma_s, sigma_k=sigma))
-    delay = stated_delay(scenario) + (timing.seconds if timing is not None and timing.named else 0.0)
+    delay = sum(e.late for e in scenario.effects) + (timing.seconds if timing is not None and timing.named else 0.0)
     if delay > 0.0:  # one that comes before has no effect of its own, and stays a finding
         effects.append(make_effect(kind_with_signature(LATE), delay=delay))
     return dataclasses.replace(

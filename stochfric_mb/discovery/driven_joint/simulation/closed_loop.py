@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.compile import compiled
-from stochfric_mb.discovery.driven_joint.balance.conditions import known_temperature
-from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import measured_load, position_of
+from stochfric_mb.discovery.driven_joint.balance.force_balance import known_temperature
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import channel, drive_channel, measured_load, position_of
 from stochfric_mb.discovery.driven_joint.fit.friction_along import chain, resistance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.effects import contract as e
@@ -85,15 +85,8 @@ def signals_of(run: Run, controller: Cascade) -> tuple[Array, Array]:
 
 
 def controller_output(run: Run, joint: PrismaticJoint) -> Array:
-    """Return what the controller gave, shape (n,): a voltage [V] where the joint has a force gain, else the force [N].
-
-    Raises:
-        InputError: the run has no such channel.
-    """
-    name = "voltage" if joint.force_gain else "force"
-    if name not in run.channels:
-        raise InputError(f"run {run.name!r} has no {name}, which its controller gives; name its column with columns")
-    return run.channels[name]
+    """Return what the controller gave, shape (n,): a voltage [V] where the joint has a force gain, else the force [N]."""
+    return channel(run, drive_channel(joint)[0])
 
 
 @compiled
