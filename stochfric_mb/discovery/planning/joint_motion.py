@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import drive_channel
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import inverse
 from stochfric_mb.discovery.planning.planned_run import PlannedRun
 from stochfric_mb.errors import InputError, require_name
@@ -48,21 +49,17 @@ def measured_at_joint(run: PlannedRun, joint: PrismaticJoint | HingePendulum, fr
         friction: Coulomb friction [N or N m].
         seed: of the noise.
     """
-    time, generator = _clock(run), np.random.default_rng(seed)
-    q, velocity, acceleration = _motion_of(run, joint.initial_position).at(time)
+    generator = np.random.default_rng(seed)
+    q, velocity, acceleration = _motion_of(run, joint.initial_position).at(run.time)
     drive = joint.damping * velocity + joint.offset + friction * np.sign(velocity)
     if isinstance(joint, PrismaticJoint):
-        drive, name, gain = drive + joint.mass * acceleration, "force", joint.force_gain
+        drive = drive + joint.mass * acceleration
     else:
         inertia = joint.mass * joint.length**2 + joint.inertia
         drive = drive + inertia * acceleration + joint.mass * joint.gravity * joint.length * np.sin(q)
-        name, gain = "torque", joint.torque_gain
     drive = drive + (run.force_noise or 0.0) * generator.standard_normal(len(q))
-    channels = {
-        "position": q + (run.noise or 0.0) * generator.standard_normal(len(q)),
-        "voltage" if gain else name: drive / (gain or 1.0),
-    }
-    return _run(run, time, channels)
+    name, factor = drive_channel(joint)
+    return run.record({"position": q + (run.noise or 0.0) * generator.standard_normal(len(q)), name: drive / factor})
 
 
 def measured_in_model(run: PlannedRun, source: Any, place: str, mu_k: float, seed: int) -> Run:
@@ -78,7 +75,7 @@ def measured_in_model(run: PlannedRun, source: Any, place: str, mu_k: float, see
     Raises:
         InputError: the motion leaves a joint's range.
     """
-    mechanism, model, time = source.mechanism, source.model, _clock(run)
+    mechanism, model, time = source.mechanism, source.model, run.time
     own = source.names.index(place)
     moved = [n for i, n in enumerate(source.names) if _is_measured(mechanism, n) and model.jnt_type[i] == model.jnt_type[own]]
     moved.sort(key=lambda n: n != place)
@@ -100,7 +97,7 @@ def measured_in_model(run: PlannedRun, source: Any, place: str, mu_k: float, see
             first, *others = drive.columns
             channels[first] = (force + noise[1] * generator.standard_normal(len(time))) / drive.gain
             channels |= {other: np.ones(len(time)) for other in others}
-    return _run(run, time, channels)
+    return run.record(channels)
 
 
 def require_plannable(mechanism: Mjcf, place: str) -> None:
@@ -150,13 +147,3 @@ def _motion_in_range(run: PlannedRun, model: Any, number: int, turn: int) -> Har
 
 def _motion_of(run: PlannedRun, centre: float, turn: float = 0.0) -> Harmonic:
     return Harmonic(centre, float(run.stroke or 0.0), float(run.period or 1.0), turn)
-
-
-def _clock(run: PlannedRun) -> Array:
-    return np.asarray(np.arange(round(run.duration * run.sample_rate)) / run.sample_rate, dtype=np.float64)
-
-
-def _run(run: PlannedRun, time: Array, channels: dict[str, Array]) -> Run:
-    return Run(
-        name=run.name, role="fit", time=time, channels=channels, settings=run.settings, sample_interval=1.0 / run.sample_rate
-    )

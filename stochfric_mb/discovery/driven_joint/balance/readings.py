@@ -14,13 +14,13 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_columns, with_column
 from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.effects import Effect, kind_with_signature, make_effect
 from stochfric_mb.effects.traits import REPEATED_READING
 from stochfric_mb.effects.traits import STRAY as STRAY_READING
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.mechanisms import Mjcf
 from stochfric_mb.numerics.robust import deviation
 
 Array = npt.NDArray[np.float64]
@@ -80,7 +80,7 @@ def mended(dataset: Dataset) -> tuple[Dataset, Readings]:
     samples, duration = 0, 0.0
     for given in dataset.runs:
         run = given
-        for name in _positions(dataset):
+        for name in position_columns(dataset.scenario.mechanism):
             values = run.channels.get(name, run.covariates.get(name))
             if values is None or len(values) < FEW or np.ptp(values) == 0.0:
                 continue
@@ -92,7 +92,7 @@ def mended(dataset: Dataset) -> tuple[Dataset, Readings]:
             better = without(values, held, off)
             away.append((values - better)[off])
             if held or off.any():
-                run = _with(run, name, better)
+                run = with_column(run, name, better)
         runs.append(run)
     distances = np.concatenate([*away, np.zeros(0)])
     readings = Readings(
@@ -157,16 +157,3 @@ def without(values: Array, held: Sequence[tuple[int, int]], off: Mask) -> Array:
         curve = np.polynomial.Polynomial.fit(known.astype(np.float64), values[known], CURVE)
         better[start:end] = curve(gap.astype(np.float64))
     return better
-
-
-def _positions(dataset: Dataset) -> tuple[str, ...]:
-    """Return the names of the columns that hold measured positions."""
-    mechanism = dataset.scenario.mechanism
-    if isinstance(mechanism, Mjcf):
-        return tuple(dict.fromkeys(x for x in mechanism.positions.values() if isinstance(x, str)))
-    return ("position",)
-
-
-def _with(run: Run, name: str, values: Array) -> Run:
-    where = "channels" if name in run.channels else "covariates"
-    return dataclasses.replace(run, **{where: {**getattr(run, where), name: values}})

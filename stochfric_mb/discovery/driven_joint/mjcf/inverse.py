@@ -30,7 +30,6 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import (
 from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, narrowest, window_of
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import by_mass, effective_inertia, inverse
-from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import over_samples
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import drive_of, in_si, position_of_joint
 from stochfric_mb.discovery.driven_joint.mjcf.motion import Path, Rig
 from stochfric_mb.discovery.inference.noise import white_noise
@@ -139,7 +138,7 @@ class MjcfSource(Rig):
             path.position,
             path.velocity,
             least,
-            unit="N m" if self._rotates(place) else "N",
+            unit="N m" if self.rotates(place) else "N",
             load=load,
             load_by_drive=path.load_by_drive,
             driven=own + np.sum(weights * left, axis=1),
@@ -157,7 +156,7 @@ class MjcfSource(Rig):
         if rows is None:
             measured = in_si(run, self.mechanism.pairs[place].normal_force, "normal_force")
             return np.maximum(window.through(measured), 0.0)
-        return over_samples(np.maximum(np.sum(rows * left, axis=1), 0.0), window.centres, len(run.time))
+        return np.interp(np.arange(len(run.time)), window.centres, np.maximum(np.sum(rows * left, axis=1), 0.0))
 
     def _least(self, run: Run, place: str, window: Window, path: Path) -> float:
         """Return the speed above which a place surely slides [m/s or rad/s]."""
@@ -171,7 +170,8 @@ class MjcfSource(Rig):
         path = self.path(run, place, narrow)
         return slipped(path.position, path.velocity, self._least(run, place, narrow, path))
 
-    def _rotates(self, place: str) -> bool:
+    def rotates(self, place: str) -> bool:
+        """Return whether friction in a place acts about an axis."""
         if place not in self.names:
             return False
         return bool(self.model.jnt_type[self.names.index(place)] == self.mujoco.mjtJoint.mjJNT_HINGE)

@@ -14,7 +14,8 @@ from typing import Any
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import scale_masses
 from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import geom_numbers, reach_out
 from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
-from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_of_joint, require_loops
+from stochfric_mb.discovery.driven_joint.mjcf.joint_loops import require_loops
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_of_joint
 from stochfric_mb.errors import InputError, MissingEngineError, require_name
 from stochfric_mb.laws.elastic_stick import ElasticStick
 from stochfric_mb.measurement.dataset import Dataset

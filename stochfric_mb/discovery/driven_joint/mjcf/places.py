@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import dataclasses
 import importlib
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -15,12 +14,11 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import known_temperature
 from stochfric_mb.discovery.driven_joint.balance.weak_form import narrowest
-from stochfric_mb.discovery.driven_joint.fit.friction_along import chain, resistance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import geom_numbers, touch
 from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import in_si
-from stochfric_mb.effects.contract import LOAD, WORLD
+from stochfric_mb.discovery.driven_joint.simulation.friction_function import FrictionAt
 from stochfric_mb.measurement.run import Run
 
 Array = npt.NDArray[np.float64]
@@ -42,21 +40,45 @@ def place_of(
     return LossPlace(source, name, load, model, run)
 
 
-class LossPlace:
+class _Place:
+    """Friction in one place while the model runs, and what it remembers of the way there."""
+
+    def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run, *, contact: bool) -> None:
+        self.name, self._load = name, load
+        self._friction = FrictionAt(model.law, model.effects_in(run.name), load, contact=contact)
+        self._turned, self._side = 0.0, 0.0
+        # conditions as they were: what drifts changes little by an error of the simulation
+        self._travelled, self._slip, self._temperature = (
+            source.travelled(run, name),
+            source.slip(run, name),
+            known_temperature(run),
+        )
+
+    def _begin(self, q: float, side: float, sample: int) -> None:
+        """Begin in the middle of a stroke as the record has it."""
+        self._side, self._turned = side, q - side * float(self._slip[sample])
+
+    def _available(self, t: float, q: float, v: float, sample: int, **more: float) -> tuple[float, float]:
+        """Return the friction that is available now, and what else pushes along the place [N or N m]."""
+        side = 1.0 if v > 0.0 else -1.0 if v < 0.0 else self._side
+        if side != self._side:
+            self._turned, self._side = q, side
+        available, pushed = self._friction(
+            t, q, v, side, slip=abs(q - self._turned), travelled=self._travelled[sample], temperature=self._temperature[sample],
+            **more,
+        )  # fmt: skip
+        return max(available, LEAST), pushed
+
+
+class LossPlace(_Place):
     """Friction in one joint or tendon while the model runs: what is available there is MuJoCo's ``frictionloss``."""
 
     def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> None:
-        self._source, self.name, self._links = source, name, chain(model.law, model.effects_in(run.name), load)
+        super().__init__(source, name, load, model, run, contact=False)
         self._joint = name in source.names
         self._number = (source.names if self._joint else source.tendons).index(name)
-        self._world, self._memory = np.zeros(WORLD), np.zeros(8)
         self._gain = model.nuisances.get("gain", 1.0)
         self._damping = source.mechanism.damping.get(name, 0.0)
-        self._turned, self._side = 0.0, 0.0
-        # conditions as they were: what drifts changes little by an error of the simulation
-        self._travelled = source.travelled(run, name)
-        self._slip = source.slip(run, name)
-        self._temperature = known_temperature(run)
         self._loads = source.loads.get(run.name)
 
     def _seen(self, data: Any) -> tuple[float, float]:
@@ -67,86 +89,54 @@ class LossPlace:
     def start(self, data: Any, sample: int) -> None:
         """Begin where the model is, in the middle of a stroke as the record has it."""
         q, v = self._seen(data)
-        self._side = 1.0 if v >= 0.0 else -1.0
-        self._turned = q - self._side * self._slip[sample]
+        self._begin(q, 1.0 if v >= 0.0 else -1.0, sample)
 
-    def set(
-        self, model: Any, data: Any, t: float, forces: Mapping[str, float], drives: Mapping[str, Array], sample: int
-    ) -> float:
+    def set(self, model: Any, data: Any, t: float, drive: float, sample: int) -> float:
         """Give the engine the friction that is available now; returns what else pushes along the place [N or N m]."""
         q, v = self._seen(data)
-        side = 1.0 if v > 0.0 else -1.0 if v < 0.0 else self._side
-        if side != self._side:
-            self._turned, self._side = q, side
-        drive = forces.get(self.name, float(drives[self.name][sample]) if self.name in drives else 0.0)
+        stated = drive / self._gain
         # the load that friction knows of is that of the drive as stated, as in the fits, unless it was measured
-        load = abs(drive / self._gain - self._damping * v if self._loads is None else float(self._loads[sample]))
-        links = self._links
-        against = side * float(
-            resistance(
-                links.numbers, links.calls, links.parameters, self._world, self._memory, t, q, v, load,
-                abs(q - self._turned), side, self._travelled[sample], self._temperature[sample], 1.0, drive / self._gain, 0.0,
-            )
-        )  # fmt: skip
-        pushed = float(self._world[LOAD])
+        load = abs(stated - self._damping * v if self._loads is None else float(self._loads[sample]))
+        available, pushed = self._available(t, q, v, sample, load=load, drive=stated)
         loss = model.dof_frictionloss if self._joint else model.tendon_frictionloss
-        loss[self._number] = max(against + side * pushed, LEAST)
+        loss[self._number] = available
         return pushed
 
 
-class PairPlace:
+class PairPlace(_Place):
     """Friction in a pair while the model runs: our plugin's coefficients are what is available over the normal force."""
 
     def __init__(
         self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run, directions: PairDirections
     ) -> None:
-        self.name, self._load, self._directions = name, load, directions
-        self._links = chain(model.law, model.effects_in(run.name), load, contact=True)
-        self._more = model.law.mu_s / model.law.mu_k
-        self._world, self._memory = np.zeros(WORLD), np.zeros(8)
-        self._travelled = source.travelled(run, name)
-        self._slip = source.slip(run, name)
-        self._temperature = known_temperature(run)
+        super().__init__(source, name, load, model, run, contact=True)
+        self._directions, self._more = directions, model.law.mu_s / model.law.mu_k
         path = source.path(run, name, narrowest(run))
         self._position, self._direction = path.position, np.sign(path.velocity)
         measured = source.mechanism.pairs[name].normal_force
         self._measured = in_si(run, measured, "normal_force") if measured else None
-        self._turned, self._side, self._at = 0.0, 0.0, 0.0
+        self._at = 0.0
         self._attach: Any = importlib.import_module("stochfric_mb.mujoco")
         self._slots: _Slots | None = None
 
     def start(self, data: Any, sample: int) -> None:
         """Begin where the model is, in the middle of a stroke as the record has it."""
-        self._at, self._side = float(self._position[sample]), float(self._direction[sample])
-        self._turned = self._at - self._side * float(self._slip[sample])
+        self._at = float(self._position[sample])
+        self._begin(self._at, float(self._direction[sample]), sample)
 
-    def set(
-        self, model: Any, data: Any, t: float, forces: Mapping[str, float], drives: Mapping[str, Array], sample: int
-    ) -> float:
+    def set(self, model: Any, data: Any, t: float, drive: float, sample: int) -> float:
         """Give the plugin the coefficients that friction has now; returns what else pushes along the pair [N]."""
-        readings = self._attach.readings(model, data)
-        instance, contacts = next(iter(readings.items()))
+        instance, contacts = next(iter(self._attach.readings(model, data).items()))
         pressed = sum(c.normal_force for c in contacts)
         if pressed < LOOSE * self._load:
             return 0.0
         v = float(self._directions(self.name) @ data.qvel)
         self._at += v * model.opt.timestep
-        side = 1.0 if v > 0.0 else -1.0 if v < 0.0 else self._side
-        if side != self._side:
-            self._turned, self._side = self._at, side
         normal = pressed if self._measured is None else max(float(self._measured[sample]), 0.0)
-        links = self._links
-        against = side * float(
-            resistance(
-                links.numbers, links.calls, links.parameters, self._world, self._memory, t, self._at, v, normal,
-                abs(self._at - self._turned), side, self._travelled[sample], self._temperature[sample], normal / self._load,
-                0.0, 0.0,
-            )
-        )  # fmt: skip
-        pushed = float(self._world[LOAD])
-        mu = max(against + side * pushed, LEAST) / pressed
+        available, pushed = self._available(t, self._at, v, sample, load=normal, pressed=normal / self._load)
         if self._slots is None:
             self._slots = _Slots.of(self._attach, model, data, instance)
+        mu = available / pressed
         self._slots.write(data, self._more * mu, mu)
         return pushed
 
@@ -192,8 +182,7 @@ class PairDirections:
         """Return how a pair slides with each joint, shape (n_joints,); zeros where it does not touch."""
         if pair not in self._known:
             seen = touch(self._source.mujoco, self._model, self._data, *self._geoms[pair])
-            still = np.zeros(self._model.nv)
-            self._known[pair] = still if seen is None else self._source.line(pair) @ seen.axes.T @ seen.slide
+            self._known[pair] = np.zeros(self._model.nv) if seen is None else self._source.line(pair) @ seen.slide
         return self._known[pair]
 
     def forget(self) -> None:

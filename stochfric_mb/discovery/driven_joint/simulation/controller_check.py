@@ -11,11 +11,12 @@ import numpy.typing as npt
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import position_of
 from stochfric_mb.discovery.driven_joint.balance.weak_form import narrowest
-from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import column, position_of_joint
+from stochfric_mb.discovery.driven_joint.mjcf.joint_loops import joint_loops
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_of_joint
 from stochfric_mb.discovery.driven_joint.simulation.closed_loop import controller_output, signals_of
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.mechanisms import Cascade, JointLoop, Mjcf, PrismaticJoint, ProportionalDerivative
+from stochfric_mb.mechanisms import Cascade, Mjcf, PrismaticJoint
 
 Array = npt.NDArray[np.float64]
 
@@ -64,24 +65,13 @@ def _loops(dataset: Dataset, run: Run) -> Iterator[tuple[Law, Array, Array, Arra
     controller, joint = dataset.scenario.controller, run.mechanism(dataset.scenario)
     if isinstance(controller, Cascade) and isinstance(joint, PrismaticJoint):
         reference, added = signals_of(run, controller)
-
         law = functools.partial(_cascade, controller, added)
         yield law, reference, position_of(run), controller_output(run, joint)
-    elif isinstance(controller, ProportionalDerivative) and isinstance(joint, Mjcf):
-        for name, loop in controller.joints.items():
-            factor = run.constants[loop.factor] if loop.factor else 1.0
-            more = column(run, loop.added) if loop.added else np.zeros(len(run.time))
-
-            recorded = column(run, joint.drives[name].columns[0])
-            law = functools.partial(_single, loop, factor, more)
-            yield law, column(run, loop.reference), position_of_joint(run, joint, name), recorded
+    elif isinstance(joint, Mjcf):
+        for name, loop in joint_loops(run, joint, controller).items():
+            yield loop.output, loop.reference, position_of_joint(run, joint, name), loop.recorded
 
 
 def _cascade(controller: Cascade, added: Array, reference: Array, position: Array, velocity: Array) -> Array:
     u = controller.velocity_gain * (controller.position_gain * (reference - position) - velocity) + added
     return np.clip(u, -controller.limit, controller.limit)
-
-
-def _single(loop: JointLoop, factor: float, added: Array, reference: Array, position: Array, velocity: Array) -> Array:
-    u = factor * (loop.position_gain * (reference - position) - loop.velocity_gain * velocity) + added
-    return np.clip(u, -loop.limit, loop.limit)

@@ -12,7 +12,8 @@ from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import drive_c
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
-from stochfric_mb.discovery.driven_joint.simulation.scores import loop_floor
+from stochfric_mb.discovery.driven_joint.simulation.closed_loop import controller_output
+from stochfric_mb.discovery.driven_joint.simulation.scores import drive_floor
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.mechanisms import HingePendulum, Mjcf, PrismaticJoint
 from stochfric_mb.mechanisms.mjcf_parts import Drive
@@ -38,10 +39,11 @@ def simulated(
     mechanism = dataset.scenario.mechanism
     floor = None
     if dataset.scenario.controller is not None and not isinstance(mechanism, Mjcf):
-        return list(places), loop_floor(dataset.test, mechanism)
+        return list(places), drive_floor([controller_output(r, mechanism) for r in dataset.test])
     if not isinstance(mechanism, Mjcf) and not _moves_freely(dataset):
         return list(places), None
-    from stochfric_mb.discovery.driven_joint.mjcf.forward import drive_floor, forward
+    from stochfric_mb.discovery.driven_joint.mjcf.forward import forward
+    from stochfric_mb.discovery.driven_joint.mjcf.joint_loops import joint_loops
 
     base = source.stated_delay
     delay = base + places[0].late
@@ -61,7 +63,8 @@ def simulated(
             seen = forward(*as_mjcf(dataset, next(iter(models.values()))), late)
         scores[label] = dataclasses.replace(scores[label], loop=seen.drive, forward=seen.position)
     if dataset.scenario.controller is not None:
-        floor = drive_floor(source)
+        loops = [joint_loops(run, mechanism, dataset.scenario.controller) for run in dataset.test]
+        floor = drive_floor([loop.recorded for of in loops for loop in of.values()])
     return [dataclasses.replace(places[0], scores=scores), *places[1:]], floor
 
 

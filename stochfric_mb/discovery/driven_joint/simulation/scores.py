@@ -80,9 +80,8 @@ def loop_error(model: JointModel, runs: Sequence[Run], scenario: Scenario, befor
     return float(np.sqrt(wrong / right))
 
 
-def loop_floor(runs: Sequence[Run], joint: PrismaticJoint) -> float:
-    """Return the noise of what the controller gave over its size [-], from third differences."""
-    given = [controller_output(r, joint) for r in runs]
+def drive_floor(given: Sequence[Array]) -> float:
+    """Return the noise of what controllers gave over its size [-], from third differences."""
     noise = sum(white_noise(u) ** 2 * len(u) for u in given)
     return float(np.sqrt(noise / sum(float(np.sum(u**2)) for u in given)))
 
