@@ -13,7 +13,7 @@ import numpy.typing as npt
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.balance.late_channel import brought_forward, late_channel
-from stochfric_mb.discovery.driven_joint.balance.readings import Readings, mended
+from stochfric_mb.discovery.driven_joint.balance.readings import mended
 from stochfric_mb.discovery.driven_joint.balance.timing import NAMED
 from stochfric_mb.discovery.driven_joint.decision.adequacy import drawn_by_two, inadequate
 from stochfric_mb.discovery.driven_joint.decision.carry_over import with_idle, with_unnamed
@@ -21,7 +21,6 @@ from stochfric_mb.discovery.driven_joint.decision.selection import Stage
 from stochfric_mb.discovery.driven_joint.decision.signs import require_dissipation
 from stochfric_mb.discovery.driven_joint.decision.verdict import verdict
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
-from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome, PlaceOutcome
 from stochfric_mb.discovery.driven_joint.place import place_outcome, share_by_delay
 from stochfric_mb.discovery.driven_joint.simulation.augmented import augmented
@@ -30,6 +29,7 @@ from stochfric_mb.discovery.driven_joint.simulation.pictures import friction_pic
 from stochfric_mb.discovery.driven_joint.simulation.resimulation import simulated
 from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
 from stochfric_mb.discovery.result import Result
+from stochfric_mb.effects import Effect
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.mechanisms import Cascade, Mjcf, PrismaticJoint, ProportionalDerivative, SpringSlider
@@ -74,8 +74,8 @@ def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> Join
         dataset, better = (
             dataclasses.replace(x, scenario=dataclasses.replace(x.scenario, controller=None)) for x in (dataset, better)
         )
-    if not (readings.effects and _quieter(dataset, better)):
-        better, readings = dataset, Readings()
+    if not (readings and _quieter(dataset, better)):
+        better, readings = dataset, ()
     return _outcome(source_of(better), tell, readings, notes)
 
 
@@ -139,7 +139,7 @@ def require_usable(dataset: Dataset) -> None:
         require_dissipation(dataset, name, source.balances(name, "fit", source.stated_delay))
 
 
-def _outcome(source: Balances, tell: Progress, readings: Readings, said: Sequence[str]) -> JointOutcome:
+def _outcome(source: Balances, tell: Progress, readings: Sequence[Effect], said: Sequence[str]) -> JointOutcome:
     _require_sliding(source)
     notes = [*said]
     places = _places(source, tell, notes)
@@ -160,18 +160,9 @@ def _outcome(source: Balances, tell: Progress, readings: Readings, said: Sequenc
     places = [with_idle(p) for p in places]
     places[0] = with_unnamed(dataset, places[0])
     notes += _run_notes(dataset)
-    result = verdict(dataset, places, notes, floor, readings.effects, channel)
-    pictures = tuple(
-        friction_picture(
-            p.place and f"{p.thing} {p.place}",
-            p.test,
-            p.nuisances,
-            p.selected.recalibrated.model,
-            with_phases(p.selected.final.model, p.test),
-        )
-        for p in places
-    )
-    scenario = augmented(dataset.scenario, places, timing, readings.effects)
+    result = verdict(dataset, places, notes, floor, readings, channel)
+    pictures = tuple(map(friction_picture, places))
+    scenario = augmented(dataset.scenario, places, timing, readings)
     return JointOutcome(result, scenario, dataset, places=tuple(places), pictures=pictures)
 
 

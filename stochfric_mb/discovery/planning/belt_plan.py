@@ -57,14 +57,14 @@ class BeltPart(Part):
     calibration: Calibration
     """Errors of their features."""
 
-    def facts(self) -> dict[str, Any]:
-        """Return what there is to say of it."""
-        return super().facts() | {"slips": len(self.slips)}
-
 
 @dataclasses.dataclass(frozen=True)
 class BeltPlan(RigPlan):
     """Planned runs of a belt-box."""
+
+    def facts(self, part: BeltPart) -> dict[str, Any]:
+        """Return what there is to say of a planned run."""
+        return super().facts(part) | {"slips": len(part.slips)}
 
     def part(self, run: PlannedRun, seed: int) -> BeltPart:
         """Return a planned run, simulated and taken through discovery's extraction.

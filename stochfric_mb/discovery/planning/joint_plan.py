@@ -36,20 +36,15 @@ FEWEST_CYCLES = 3.0
 """Strokes there and back below which a run says too little [-]."""
 
 
-class JointPart(Part):
-    """One planned run of a joint."""
-
-    shown = ("force_noise", "stroke", "period")
-
-
 @dataclasses.dataclass(frozen=True)
 class JointPlan(RigPlan):
     """Planned runs of a driven joint."""
 
+    shown = ("force_noise", "stroke", "period")
     place: str = ""
     """Joint of a MuJoCo model; empty: the mechanism is one joint."""
 
-    def part(self, run: PlannedRun, seed: int) -> JointPart:
+    def part(self, run: PlannedRun, seed: int) -> Part:
         """Return a planned run, simulated.
 
         Raises:
@@ -74,10 +69,10 @@ class JointPlan(RigPlan):
         force_noise = SHARE_OF_FRICTION * friction if run.force_noise is None else run.force_noise
         stated = dataclasses.replace(run, noise=noise, force_noise=force_noise)
         if isinstance(joint, Mjcf):
-            return JointPart(stated, measured_in_model(stated, self._source(()), self.place, self.scenario.law.mu_k, seed))
-        return JointPart(stated, measured_at_joint(stated, joint, friction, seed))
+            return Part(stated, measured_in_model(stated, self._source(()), self.place, self.scenario.law.mu_k, seed))
+        return Part(stated, measured_at_joint(stated, joint, friction, seed))
 
-    def signatures(self, parts: Sequence[JointPart]) -> tuple[list[Signature], dict[str, str]]:
+    def signatures(self, parts: Sequence[Part]) -> tuple[list[Signature], dict[str, str]]:
         """Return what effects would leave in some runs, and effect -> what would show it, for those that leave nothing."""
         source, name, load = self._source([p.measured for p in parts]), self.place, self._load
         balances, nuisances = source.balances(name, "fit", 0.0), source.nuisances(name)

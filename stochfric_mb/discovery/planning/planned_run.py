@@ -70,7 +70,7 @@ class PlannedRun:
         )  # fmt: skip
 
 
-KEYS = ("duration", "sample_rate", "noise", "force_noise", "stroke", "period", "slow_speed", "fast_speed")
+KEYS = tuple(f.name for f in dataclasses.fields(PlannedRun) if f.name not in ("name", "settings"))
 """Numbers of a planned run; others are numbers of the mechanism."""
 
 

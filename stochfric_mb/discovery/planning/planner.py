@@ -14,6 +14,7 @@ from stochfric_mb.discovery.planning.joint_motion import require_plannable
 from stochfric_mb.discovery.planning.joint_plan import JointPlan
 from stochfric_mb.discovery.planning.plan_result import ExtraRun, Limit, Pair, Plan
 from stochfric_mb.discovery.planning.planned_run import KEYS, PlannedRun
+from stochfric_mb.discovery.planning.rig_plan import RigPlan
 from stochfric_mb.discovery.planning.signature import Apart, Signature, best_of_each, confused_pairs
 from stochfric_mb.discovery.planning.step_plan import StepPlan
 from stochfric_mb.effects import effect_class
@@ -75,7 +76,7 @@ def planned(
         further.append(_extra(text, run, runs[0], now, more, rig.apart, pairs))
     best = now.best
     return Plan(
-        runs=tuple(p.facts() for p in parts),
+        runs=tuple(map(rig.facts, parts)),
         limits=tuple(_limit(rig, s) for s in best.values()),
         unseen=now.unseen,
         no_limit=tuple(k for k in rig.no_limit if k not in best and k not in now.unseen),
@@ -86,13 +87,13 @@ def planned(
     )
 
 
-def _limit(rig: Any, best: Signature) -> Limit:
+def _limit(rig: RigPlan, best: Signature) -> Limit:
     fields = effect_class(best.kind).__dataclass_fields__
     units = {k: rig.unit(str(fields[k].metadata.get("unit", "-"))) for k, v in best.beside.items() if not isinstance(v, str)}
     return Limit(best.kind, best.parameter, rig.unit(best.unit), best.limit, dict(best.beside), units, best.at_most)
 
 
-def _rig(scenario: Scenario[Any], joint: str | None) -> Any:
+def _rig(scenario: Scenario[Any], joint: str | None) -> RigPlan:
     mechanism: Any = scenario.mechanism
     if joint is not None and not isinstance(mechanism, Mjcf):
         raise InputError(f"joint = {joint!r}: mechanism {mechanism.kind!r} has one joint; leave it out")
@@ -129,7 +130,7 @@ def _extra(
     )
 
 
-def _notes(rig: Any, runs: Sequence[PlannedRun], parts: Sequence[Any]) -> list[str]:
+def _notes(rig: RigPlan, runs: Sequence[PlannedRun], parts: Sequence[Any]) -> list[str]:
     return [
         f"{part.run.name}: the noise of the {what} is not stated; {getattr(part.run, key):.3g} {rig.unit(unit)} is assumed"
         for run, part in zip(runs, parts, strict=True)

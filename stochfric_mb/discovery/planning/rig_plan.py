@@ -26,15 +26,6 @@ class Part:
     measured: Run
     """What would be measured with the stated model."""
 
-    shown: ClassVar[tuple[str, ...]] = ()
-    """Numbers of a run of this rig that are said beside those of any run."""
-
-    def facts(self) -> dict[str, Any]:
-        """Return what there is to say of it."""
-        run = self.run
-        about = {"name": run.name, "seconds": run.duration, "sample_rate": run.sample_rate, "noise": run.noise}
-        return about | {key: getattr(run, key) for key in self.shown} | {"set": dict(run.settings)}
-
 
 @dataclasses.dataclass(frozen=True)
 class RigPlan(abc.ABC):
@@ -42,6 +33,15 @@ class RigPlan(abc.ABC):
 
     scenario: Scenario[Any]
     """The stated model."""
+
+    shown: ClassVar[tuple[str, ...]] = ()
+    """Numbers of a planned run that are said beside those of any rig."""
+
+    def facts(self, part: Any) -> dict[str, Any]:
+        """Return what there is to say of a planned run."""
+        run = part.run
+        about = {"name": run.name, "seconds": run.duration, "sample_rate": run.sample_rate, "noise": run.noise}
+        return about | {key: getattr(run, key) for key in self.shown} | {"set": dict(run.settings)}
 
     @property
     def rotational(self) -> bool:

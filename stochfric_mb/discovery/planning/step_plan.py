@@ -53,17 +53,13 @@ class LawSignature(Signature):
     """Independent samples [-]."""
 
 
-class StepPart(Part):
-    """One planned run of a spring slider."""
-
-    shown = ("force_noise", "slow_speed", "fast_speed", "period")
-
-
 @dataclasses.dataclass(frozen=True)
 class StepPlan(RigPlan):
     """Planned runs of a spring slider."""
 
-    def part(self, run: PlannedRun, seed: int) -> StepPart:
+    shown = ("force_noise", "slow_speed", "fast_speed", "period")
+
+    def part(self, run: PlannedRun, seed: int) -> Part:
         """Return a planned run, simulated.
 
         Raises:
@@ -85,9 +81,9 @@ class StepPlan(RigPlan):
         noise = 0.0 if run.noise is None else run.noise
         force_noise = SHARE_OF_FRICTION * self._friction if run.force_noise is None else run.force_noise
         stated = dataclasses.replace(run, noise=noise, force_noise=force_noise)
-        return StepPart(stated, self._measured(stated, slow, fast, period, seed))
+        return Part(stated, self._measured(stated, slow, fast, period, seed))
 
-    def signatures(self, parts: Sequence[StepPart]) -> tuple[list[LawSignature], dict[str, str]]:
+    def signatures(self, parts: Sequence[Part]) -> tuple[list[LawSignature], dict[str, str]]:
         """Return what the laws would leave in some runs; none of them is out of sight where the speed steps."""
         data = Dataset(title="", scenario_path=None, scenario=self.scenario, runs=tuple(p.measured for p in parts))
         tracks = [track_of(run, data) for run in data.runs]

@@ -17,8 +17,9 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.fit.fitting import independent_count
+from stochfric_mb.discovery.driven_joint.fit.gains import left_by
 from stochfric_mb.discovery.inference.intervals import confidence_interval
+from stochfric_mb.discovery.inference.noise import independent_count
 from stochfric_mb.errors import InputError
 
 Array = npt.NDArray[np.float64]
@@ -149,8 +150,7 @@ def _left(balances: Sequence[ForceBalance], names: Sequence[str], generous: bool
     """Return the mean square that a friction law leaves, and the number of independent windows."""
     columns = np.concatenate([_columns(s, names, generous)[s.sliding] for s in balances])
     driven = np.concatenate([s.driven[s.sliding] for s in balances])
-    scaled = columns / np.maximum(np.linalg.norm(columns, axis=0), 1.0e-300)
-    rest = driven - scaled @ np.linalg.lstsq(scaled, driven, rcond=1.0e-10)[0]
+    rest = left_by(columns, driven)
     ends = np.cumsum([int(s.sliding.sum()) for s in balances])[:-1]
     return float(np.mean(rest**2)), max(sum(independent_count(r) for r in np.split(rest, ends)), 4.0)
 

@@ -14,7 +14,7 @@ the normal force is part of the balance (`mjcf_pairs`). What other places take o
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 import numpy.typing as npt
@@ -40,10 +40,8 @@ Array = npt.NDArray[np.float64]
 
 CORRECTED = {"mass": "-", "armature": "-", "gain": "-", "damping": "-", "offset": "N or N m"}
 """What data may correct: factors on masses, armature, drive and damping of the joint, and an offset of its drive."""
-OF_TENDONS = ("mass", "armature", "gain", "offset")
-"""The same at a tendon, which has no damping of its own here."""
-OF_PAIRS = ("mass", "armature", "offset")
-"""The same at a pair, which nothing drives but through the joints."""
+NOT_OF_TENDONS, NOT_OF_PAIRS = ("damping",), ("damping", "gain")
+"""A tendon has no damping of its own here, and nothing drives a pair but through the joints."""
 LIFTED = 0.05
 """Normal force over the stated one below which a pair is not taken to slide on its surface [-]."""
 HELD = 0.5
@@ -67,15 +65,13 @@ class MjcfSource(Rig):
     def nuisances(self, place: str) -> list[Nuisance]:
         """Return what data may correct, with its priors; a stated value of 1 is a factor."""
         spread = self.dataset.scenario.uncertainty
+        missing = NOT_OF_PAIRS if place in self.mechanism.pairs else NOT_OF_TENDONS if place in self.tendons else ()
         nuisances: list[Nuisance] = []
         for name, unit in CORRECTED.items():
-            if spread.get(name, 0.0) > 0.0 and name in self._corrected(place):
+            if spread.get(name, 0.0) > 0.0 and name not in missing:
                 value, low = (0.0, -np.inf) if name == "offset" else (1.0, 0.0)
                 nuisances.append(Nuisance(name, value, spread[name], unit, low))
         return nuisances
-
-    def _corrected(self, place: str) -> Sequence[str]:
-        return OF_PAIRS if place in self.mechanism.pairs else OF_TENDONS if place in self.tendons else tuple(CORRECTED)
 
     def coupled(self, place: str) -> bool:
         """Return whether friction elsewhere enters the balance of a place."""
@@ -115,7 +111,8 @@ class MjcfSource(Rig):
         left = others - needed - damped
         for name, offset in self.mechanism.offset.items():
             left = left - offset * self.path(run, name, window).direction
-        left = left - self._friction_elsewhere(run, place, window)
+        taken, known = self._elsewhere(run, place, window)
+        left = left - taken
         own_damping = damped + self.model.dof_damping * motion[1]
         least = self._least(run, place, window, path)
         columns = {
@@ -125,7 +122,7 @@ class MjcfSource(Rig):
             "damping": np.sum(weights * own_damping, axis=1),
             "offset": np.ones(len(at)),
         }
-        sliding = slides(window, path.velocity, least) & self._others_slide(run, place, window)
+        sliding = slides(window, path.velocity, least) & known
         load, normal = path.load, None
         if path.part is not None:
             load = normal = self._normal_force(run, place, window, left)
@@ -190,32 +187,27 @@ class MjcfSource(Rig):
                 others += seen[:, None] * self.path(run, name, window).direction
         return own, others
 
-    def _friction_elsewhere(self, run: Run, place: str, window: Window) -> Array:
-        """Return what friction in other places takes of the joints' forces, shape (n_centres, n_joints)."""
-        taken = np.zeros((len(window.centres), len(self.names)))
-        if not self.coupled(place):
-            return taken
-        for name, load in self.places:
-            if name != place:
-                path = self.path(run, name, window)
-                model = self.known.get(name, JointModel(self.dataset.scenario.law, (), {}, load))
-                least = self._least(run, name, window, path)
-                none = np.zeros(len(window.centres))
-                motion = balance_along(
-                    run, window, path.position, path.velocity, least,
-                    unit="", load=path.load, driven=none, columns={}, sliding=none > 0.0,
-                )  # fmt: skip
-                taken += model.friction(motion)[:, None] * path.direction
-        return taken
+    def _elsewhere(self, run: Run, place: str, window: Window) -> tuple[Array, npt.NDArray[np.bool_]]:
+        """Return what friction in other places takes of the joints' forces, shape (n_centres, n_joints), and where it is known.
 
-    def _others_slide(self, run: Run, place: str, window: Window) -> npt.NDArray[np.bool_]:
-        """Return at which centres friction that enters from other places is known, since they slide, too."""
-        known = np.ones(len(window.centres), dtype=bool)
-        if self.coupled(place):
-            for name, _ in self.places:
-                path = self.path(run, name, window)
-                known &= slides(window, path.velocity, self._least(run, name, window, path))
-        return known
+        It is known where they slide, too.
+        """
+        n = len(window.centres)
+        taken, known = np.zeros((n, len(self.names))), np.ones(n, dtype=bool)
+        for name, load in self.places if self.coupled(place) else ():
+            path = self.path(run, name, window)
+            least = self._least(run, name, window, path)
+            sliding = slides(window, path.velocity, least)
+            known &= sliding
+            if name == place:
+                continue
+            model = self.known.get(name, JointModel(self.dataset.scenario.law, (), {}, load))
+            motion = balance_along(
+                run, window, path.position, path.velocity, least,
+                unit="", load=path.load, driven=np.zeros(n), columns={}, sliding=sliding,
+            )  # fmt: skip
+            taken += model.friction(motion)[:, None] * path.direction
+        return taken, known
 
     def _dynamics(self, run: Run, window: Window) -> tuple[tuple[Array, Array, Array], Array, Array]:
         """Return motion at the centres, forces that it needs, and their change with a factor on all masses.

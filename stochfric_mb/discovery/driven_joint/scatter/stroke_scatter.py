@@ -7,12 +7,13 @@ Strokes of one run in one direction share a mean (`between_groups`).
 from __future__ import annotations
 
 import dataclasses
+import itertools
 from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance, stretches
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.scatter.between_groups import CoefficientScatter, Labels, estimated, means_of
 from stochfric_mb.discovery.driven_joint.scatter.stroke_coefficients import Stroke, dependence, strokes_of, variances
@@ -82,7 +83,7 @@ def stroke_scatter(
     reversals: list[tuple[float, float]] = []
     for i, balance in enumerate(balances):
         rest = model.remainder(balance, nuisances)
-        reversals += _across(rest, np.flatnonzero(np.diff(np.r_[0, balance.sliding.astype(np.int8), 0])))
+        reversals += _across(rest, stretches(balance.sliding))
         own = strokes_of(rest, dependence(model, balance), balance, 2 * APART)
         strokes += own
         settings += [2 * i + int(s.forward) for s in own]
@@ -106,13 +107,13 @@ def stroke_scatter(
     )
 
 
-def _across(rest: Array, edges: npt.NDArray[np.int64]) -> list[tuple[float, float]]:
+def _across(rest: Array, slid: Sequence[tuple[int, int]]) -> list[tuple[float, float]]:
     """Return what is left at the end of each stroke and at the start of the next one, where a stroke follows soon."""
-    items: list[tuple[float, float]] = []
-    for end, start in zip(edges[1:-1:2], edges[2::2], strict=True):
-        if start - end <= REVERSAL * APART:
-            items.append((float(rest[max(end - 2 * APART, 0) : end].mean()), float(rest[start : start + 2 * APART].mean())))
-    return items
+    return [
+        (float(rest[max(end - 2 * APART, 0) : end].mean()), float(rest[start : start + 2 * APART].mean()))
+        for (_, end), (start, _) in itertools.pairwise(slid)
+        if start - end <= REVERSAL * APART
+    ]
 
 
 def _correlation(pairs: Sequence[tuple[float, float]]) -> float:
