@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from typing import Any
 
@@ -19,25 +18,18 @@ from stochfric_mb.mechanisms import HingePendulum, Mjcf, PrismaticJoint
 Array = npt.NDArray[np.float64]
 
 
-@dataclasses.dataclass(frozen=True)
-class Harmonic:
-    """q = centre + stroke/2 sin(2 pi (t/period + turn))."""
+def harmonic(run: PlannedRun, centre: float, turn: float = 0.0) -> tuple[Array, Array, Array]:
+    """Return position, velocity and acceleration along q = centre + stroke/2 sin(2 pi (t/period + turn)), shape (n,) each.
 
-    centre: float
-    """Middle of the stroke [m or rad]."""
-    stroke: float
-    """Distance between the turning points [m or rad]."""
-    period: float
-    """Time there and back [s]."""
-    turn: float = 0.0
-    """Part of the period by which it is ahead [-]."""
-
-    def at(self, time: Array) -> tuple[Array, Array, Array]:
-        """Return position, velocity and acceleration, shape (n,) each."""
-        rate = 2.0 * math.pi / self.period
-        phase = rate * time + 2.0 * math.pi * self.turn
-        away, velocity = 0.5 * self.stroke * np.sin(phase), 0.5 * self.stroke * rate * np.cos(phase)
-        return self.centre + away, velocity, -(rate**2) * away
+    Args:
+        run: the planned run, with its stroke and period.
+        centre: middle of the stroke [m or rad].
+        turn: part of the period by which it is ahead [-].
+    """
+    half, rate = 0.5 * (run.stroke or 0.0), 2.0 * math.pi / (run.period or 1.0)
+    phase = rate * run.time + 2.0 * math.pi * turn
+    away = half * np.sin(phase)
+    return centre + away, half * rate * np.cos(phase), -(rate**2) * away
 
 
 def measured_at_joint(run: PlannedRun, joint: PrismaticJoint | HingePendulum, friction: float, seed: int) -> Run:
@@ -50,7 +42,7 @@ def measured_at_joint(run: PlannedRun, joint: PrismaticJoint | HingePendulum, fr
         seed: of the noise.
     """
     generator = np.random.default_rng(seed)
-    q, velocity, acceleration = _motion_of(run, joint.initial_position).at(run.time)
+    q, velocity, acceleration = harmonic(run, joint.initial_position)
     drive = joint.damping * velocity + joint.offset + friction * np.sign(velocity)
     if isinstance(joint, PrismaticJoint):
         drive = drive + joint.mass * acceleration
@@ -80,7 +72,7 @@ def measured_in_model(run: PlannedRun, source: Any, place: str, mu_k: float, see
     moved = [n for i, n in enumerate(source.names) if _is_measured(mechanism, n) and model.jnt_type[i] == model.jnt_type[own]]
     moved.sort(key=lambda n: n != place)
     motions = [
-        _motion_in_range(run, model, i, moved.index(n)).at(time) if n in moved else _rest(mechanism, model, i, n, len(time))
+        _in_range(run, model, i, moved.index(n)) if n in moved else _rest(mechanism, model, i, n, len(time))
         for i, n in enumerate(source.names)
     ]
     q, v, a = (np.stack(rows, axis=1) for rows in zip(*motions, strict=True))
@@ -134,16 +126,9 @@ def _rest(mechanism: Mjcf, model: Any, number: int, name: str, n: int) -> tuple[
     return np.full(n, model.qpos0[number] if isinstance(given, str) else given), np.zeros(n), np.zeros(n)
 
 
-def _motion_in_range(run: PlannedRun, model: Any, number: int, turn: int) -> Harmonic:
+def _in_range(run: PlannedRun, model: Any, number: int, turn: int) -> tuple[Array, Array, Array]:
     low, high = (float(x) for x in model.jnt_range[number])
-    limited = bool(model.jnt_limited[number])
-    motion = _motion_of(run, 0.5 * (low + high) if limited else float(model.qpos0[number]), 0.25 * turn)
-    if limited and motion.stroke > high - low:
-        raise InputError(
-            f"{run.name}: stroke = {motion.stroke:g} is more than the range of a joint, {low:g} to {high:g}; plan less"
-        )
-    return motion
-
-
-def _motion_of(run: PlannedRun, centre: float, turn: float = 0.0) -> Harmonic:
-    return Harmonic(centre, float(run.stroke or 0.0), float(run.period or 1.0), turn)
+    limited, stroke = bool(model.jnt_limited[number]), run.stroke or 0.0
+    if limited and stroke > high - low:
+        raise InputError(f"{run.name}: stroke = {stroke:g} is more than the range of a joint, {low:g} to {high:g}; plan less")
+    return harmonic(run, 0.5 * (low + high) if limited else float(model.qpos0[number]), 0.25 * turn)

@@ -25,7 +25,7 @@ from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
 from stochfric_mb.discovery.driven_joint.mjcf.joint_loops import joint_loops
 from stochfric_mb.discovery.driven_joint.mjcf.loaded_model import without_friction
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import corrected, drive_of, position_of_joint
-from stochfric_mb.discovery.driven_joint.mjcf.places import PairDirections, place_of
+from stochfric_mb.discovery.driven_joint.mjcf.places import pair_direction, place_of
 from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
 from stochfric_mb.measurement.run import Run
 
@@ -98,7 +98,6 @@ class _Plant:
         model.dof_solref[:], model.tendon_solref_fri[:] = reference, reference
         model.dof_solimp[:], model.tendon_solimp_fri[:] = HARD, HARD
         self._model, self._data = model, mujoco.MjData(model)
-        self._directions = PairDirections(source, model, self._data)
         # through the narrowest window: velocities to start from
         narrow = narrowest(run)
         self._state = tuple(source.joints(run, narrow, d) for d in (0, 1))
@@ -117,7 +116,7 @@ class _Plant:
         """Return positions, shape (n, n_joints), and what each controller gives, shape (n,)."""
         mujoco, model, data, run = self._source.mujoco, self._model, self._data, self._run
         n, h = self.end - self.start, run.sample_interval
-        places = [place_of(self._source, p, load, self._models[p], run, self._directions) for p, load in self._source.places]
+        places = [place_of(self._source, p, load, self._models[p], run) for p, load in self._source.places]
         period = getattr(self._source.dataset.scenario.controller, "period", 0.0)
         hold = max(1, round(period / h * self._steps)) if period > 0.0 else 1
         drives = {p: self._late(drive_of(run, self._mechanism, p)) for p in self._mechanism.drives}
@@ -146,7 +145,6 @@ class _Plant:
                 for place in places:
                     self._push(place.name, place.set(model, data, now, applied.get(place.name, 0.0), self.start + i))
                 mujoco.mj_step(model, data)
-                self._directions.forget()
         return positions, given
 
     def _late(self, drive: Array) -> Array:
@@ -161,7 +159,6 @@ class _Plant:
         if sample > self.start:  # what is held by a contact has found its place
             data.qpos[stays], data.qvel[stays] = before[0][stays], before[1][stays]
         mujoco.mj_forward(self._model, data)
-        self._directions.forget()
 
     def _push(self, place: str, force: float) -> None:
         """Add a force along a joint, tendon or pair."""
@@ -170,7 +167,7 @@ class _Plant:
         if place in self._source.names:
             self._data.qfrc_applied[self._source.names.index(place)] += force
         elif place in self._source.mechanism.pairs:
-            self._data.qfrc_applied[:] += force * self._directions(place)
+            self._data.qfrc_applied[:] += force * pair_direction(self._source, self._model, self._data, place)
         else:
             self._data.qfrc_applied[:] += force * tendon_row(self._model, self._data, self._source.tendons.index(place))
 

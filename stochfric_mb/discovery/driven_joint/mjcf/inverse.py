@@ -85,19 +85,16 @@ class MjcfSource(Rig):
 
     def _noise(self, run: Run, place: str) -> dict[int, float]:
         """Return the noise of the balance of a place: derivative -> standard deviation."""
-        key = ("noise", run.name, place)
-        if key not in self.remembered:
-            narrow = narrowest(run)
-            weights = np.abs(self.path(run, place, narrow).weights).mean(axis=0)
-            inertia = effective_inertia(self.mujoco, self.model)
-            noise: dict[int, float] = {0: 0.0, 2: 0.0}
-            for weight, size, joint in zip(weights, inertia, self.names, strict=True):
-                noise[0] = float(np.hypot(noise[0], weight * _level(drive_of(run, self.mechanism, joint))))
-                noise[2] = float(np.hypot(noise[2], weight * size * _level(position_of_joint(run, self.mechanism, joint))))
-            if place in self.tendons:
-                noise[0] = float(np.hypot(noise[0], _level(drive_of(run, self.mechanism, place))))
-            self.remembered[key] = noise
-        return self.remembered[key]
+        return self._once(("noise", run.name, place), lambda: self._noise_anew(run, place))
+
+    def _noise_anew(self, run: Run, place: str) -> dict[int, float]:
+        weights = np.abs(self.path(run, place, narrowest(run)).weights).mean(axis=0)
+        inertia = weights * effective_inertia(self.mujoco, self.model)
+        drives = [w * _level(drive_of(run, self.mechanism, n)) for w, n in zip(weights, self.names, strict=True)]
+        if place in self.tendons:
+            drives.append(_level(drive_of(run, self.mechanism, place)))
+        positions = [m * _level(position_of_joint(run, self.mechanism, n)) for m, n in zip(inertia, self.names, strict=True)]
+        return {0: float(np.linalg.norm(drives)), 2: float(np.linalg.norm(positions))}
 
     def balance(self, run: Run, place: str, delay: float, samples: int | None) -> ForceBalance:
         """Return a run as a balance of a place."""
@@ -214,12 +211,13 @@ class MjcfSource(Rig):
 
         Each is of shape (n_centres, n_joints); the motion is positions, rates and accelerations.
         """
-        key = ("dynamics", run.name, window.half_width)
-        if key not in self.remembered:
+
+        def anew() -> tuple[tuple[Array, Array, Array], Array, Array]:
             q, v, a = (self.joints(run, window, d)[window.centres] for d in (0, 1, 2))
             needed = inverse(self.mujoco, self.model, (q, v, a))
-            self.remembered[key] = (q, v, a), needed, by_mass(self.mujoco, self.model, (q, v, a), needed)
-        return self.remembered[key]
+            return (q, v, a), needed, by_mass(self.mujoco, self.model, (q, v, a), needed)
+
+        return self._once(("dynamics", run.name, window.half_width), anew)
 
 
 def _level(signal: Array) -> float:

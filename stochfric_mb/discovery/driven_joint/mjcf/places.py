@@ -15,7 +15,7 @@ import numpy.typing as npt
 from stochfric_mb.discovery.driven_joint.balance.force_balance import known_temperature
 from stochfric_mb.discovery.driven_joint.balance.weak_form import narrowest
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
-from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import geom_numbers, touch
+from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import touch
 from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import in_si
 from stochfric_mb.discovery.driven_joint.simulation.friction_function import FrictionAt
@@ -31,13 +31,9 @@ LOOSE = 1.0e-3
 """Normal force over the stated one below which a pair is left as it is [-]."""
 
 
-def place_of(
-    source: MjcfSource, name: str, load: float, model: JointModel, run: Run, directions: PairDirections
-) -> LossPlace | PairPlace:
+def place_of(source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> LossPlace | PairPlace:
     """Return friction in a joint, tendon or pair, for one run."""
-    if name in source.mechanism.pairs:
-        return PairPlace(source, name, load, model, run, directions)
-    return LossPlace(source, name, load, model, run)
+    return (PairPlace if name in source.mechanism.pairs else LossPlace)(source, name, load, model, run)
 
 
 class _Place:
@@ -106,11 +102,9 @@ class LossPlace(_Place):
 class PairPlace(_Place):
     """Friction in a pair while the model runs: our plugin's coefficients are what is available over the normal force."""
 
-    def __init__(
-        self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run, directions: PairDirections
-    ) -> None:
+    def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> None:
         super().__init__(source, name, load, model, run, contact=True)
-        self._directions, self._more = directions, model.law.mu_s / model.law.mu_k
+        self._source, self._more = source, model.law.mu_s / model.law.mu_k
         path = source.path(run, name, narrowest(run))
         self._position, self._direction = path.position, np.sign(path.velocity)
         measured = source.mechanism.pairs[name].normal_force
@@ -130,7 +124,7 @@ class PairPlace(_Place):
         pressed = sum(c.normal_force for c in contacts)
         if pressed < LOOSE * self._load:
             return 0.0
-        v = float(self._directions(self.name) @ data.qvel)
+        v = float(pair_direction(self._source, model, data, self.name) @ data.qvel)
         self._at += v * model.opt.timestep
         normal = pressed if self._measured is None else max(float(self._measured[sample]), 0.0)
         available, pushed = self._available(t, self._at, v, sample, load=normal, pressed=normal / self._load)
@@ -169,22 +163,7 @@ class _Slots:
         data.plugin_state[self.places] = values
 
 
-class PairDirections:
-    """How the pairs of a model slide with its joints in the state that it is in, worked out once for each state."""
-
-    def __init__(self, source: MjcfSource, model: Any, data: Any) -> None:
-        self._source, self._model, self._data = source, model, data
-        pairs = source.mechanism.pairs
-        self._geoms = {name: geom_numbers(source.mujoco, model, pair) for name, pair in pairs.items()}
-        self._known: dict[str, Array] = {}
-
-    def __call__(self, pair: str) -> Array:
-        """Return how a pair slides with each joint, shape (n_joints,); zeros where it does not touch."""
-        if pair not in self._known:
-            seen = touch(self._source.mujoco, self._model, self._data, *self._geoms[pair])
-            self._known[pair] = np.zeros(self._model.nv) if seen is None else self._source.line(pair) @ seen.slide
-        return self._known[pair]
-
-    def forget(self) -> None:
-        """Say that the state has changed."""
-        self._known.clear()
+def pair_direction(source: MjcfSource, model: Any, data: Any, pair: str) -> Array:
+    """Return how a pair slides with each joint in the present state, shape (n_joints,); zeros where it does not touch."""
+    seen = touch(source.mujoco, model, data, *source.geoms[pair])
+    return np.zeros(model.nv) if seen is None else source.line(pair) @ seen.slide
