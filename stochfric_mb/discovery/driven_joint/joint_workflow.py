@@ -28,7 +28,6 @@ from stochfric_mb.discovery.driven_joint.simulation.controller_check import cont
 from stochfric_mb.discovery.driven_joint.simulation.pictures import friction_picture
 from stochfric_mb.discovery.driven_joint.simulation.resimulation import simulated
 from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
-from stochfric_mb.discovery.result import Result
 from stochfric_mb.effects import Effect
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
@@ -43,11 +42,6 @@ ANSWERS = 3
 """Answers that are tried, each without what led those before it: the held-out runs judge so many, and no more."""
 CONTROLLED = {Cascade.kind: PrismaticJoint.kind, ProportionalDerivative.kind: Mjcf.kind}
 """Controller -> the mechanism that it drives."""
-
-
-def discover_joint(dataset: Dataset, *, progress: Progress | None = None) -> Result:
-    """Return what the data of a driven joint say that its model lacks; see `joint_outcome`."""
-    return joint_outcome(dataset, progress=progress).result
 
 
 def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> JointOutcome:

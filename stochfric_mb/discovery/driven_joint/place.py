@@ -22,7 +22,7 @@ from stochfric_mb.discovery.driven_joint.scatter.run_scatter import Forecasts, c
 from stochfric_mb.discovery.driven_joint.scatter.stroke_coefficients import dependence
 from stochfric_mb.discovery.driven_joint.scatter.stroke_scatter import stroke_scatter
 from stochfric_mb.discovery.driven_joint.simulation.augmented import stated_scatter
-from stochfric_mb.discovery.driven_joint.simulation.scores import closed_share, noise_floor, score
+from stochfric_mb.discovery.driven_joint.simulation.scores import closed_share, noise_floor, rms, score
 from stochfric_mb.discovery.driven_joint.source import prior_model
 from stochfric_mb.discovery.inference.noise import independent_count
 from stochfric_mb.mechanisms import PrismaticJoint
@@ -113,7 +113,8 @@ def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
     random = None if selected.unknown else stroke_scatter(final, fit_balances, nuisances, stated_scatter(scenario, "per_event"))
     noise = floor = noise_floor(final, test_balances, nuisances)
     if random is not None and random.accounted:
-        floor = float(np.hypot(floor, random.sigma * _rms_dependence(final, test_balances)))
+        along = np.concatenate([dependence(final, s)[s.sliding] for s in test_balances])
+        floor = float(np.hypot(floor, random.sigma * rms(along)))
     kinds = {"tendon": getattr(scenario.mechanism, "tendons", ()), "pair": getattr(scenario.mechanism, "pairs", ())}
     thing = next((kind for kind, names in kinds.items() if name in names), "joint")
     runs = None if selected.unknown else run_scatter(final, fit_balances, nuisances, stated_scatter(scenario, "per_run"))
@@ -178,7 +179,7 @@ def _better(
     if more < 0 and gain > np.log(1.0 - criteria.MATERIAL):
         gain = max(gain, 0.0)  # effects that leave less by no material part explain no more than the delay, which is simpler
     stated = fit(plain.recalibrated.model, balances[0], nuisances, noise=prior_weight(plain.recalibrated))
-    sizes = _rms, lambda rest: deviation(rest, about=0.0)
+    sizes = rms, lambda rest: deviation(rest, about=0.0)
     shares = [share_by_delay(stated, after, balances[-1], nuisances, size) for size in sizes]
     evidence = 2.0 * n * gain + before.strain - after.strain - more * np.log(n)
     return float(evidence), min(shares) >= criteria.EXPLAINED_BY_DELAY
@@ -193,16 +194,12 @@ def _refitted(selected: Selected, balances: Sequence[ForceBalance]) -> JointFit:
     return fit(selected.final.model, balances, selected.nuisances, noise=prior_weight(selected.final))
 
 
-def _rms(values: Array) -> float:
-    return float(np.sqrt(np.mean(values**2)))
-
-
 def share_by_delay(
     plain: JointFit,
     late: JointFit,
     balances: Sequence[ForceBalance],
     nuisances: Sequence[Nuisance],
-    size: Callable[[Array], float] = _rms,
+    size: Callable[[Array], float] = rms,
 ) -> float:
     """Return the share of what stands above the noise that a delay, with what was selected beside it, closes [-].
 
@@ -222,8 +219,3 @@ def _models(stated: JointModel, selected: Selected) -> dict[str, JointModel]:
     models = {"baseline": stated, "recalibrated": selected.recalibrated.model}
     models |= {f"with {t.candidate.kind}": t.fit.model for t in selected.effects}
     return models | {"augmented": selected.final.model}
-
-
-def _rms_dependence(model: JointModel, balances: Sequence[ForceBalance]) -> float:
-    """Return the change of friction with mu_k, rms over the windows of sliding [N or N m]."""
-    return float(np.sqrt(np.mean(np.concatenate([dependence(model, s)[s.sliding] for s in balances]) ** 2)))

@@ -149,9 +149,9 @@ class BeltPlan(RigPlan):
         start = Start(-settling, 0.0, box.belt_velocity, stick=True)
         settled = system.march(start, step, round(settling * run.sample_rate)).end
         position = system.march(settled, step, round(run.duration * run.sample_rate)).position
-        noise = run.noise if run.noise is not None else SHARE_OF_TRAVEL * float(np.ptp(position))
-        position = position + noise * np.random.default_rng(seed).standard_normal(len(position))
-        return dataclasses.replace(run, noise=noise), run.record({"position": position})
+        run = run.with_noise(SHARE_OF_TRAVEL * float(np.ptp(position)))
+        position = position + (run.noise or 0.0) * np.random.default_rng(seed).standard_normal(len(position))
+        return run, run.record({"position": position})
 
 
 @dataclasses.dataclass(frozen=True)

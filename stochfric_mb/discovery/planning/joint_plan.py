@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate, candidates, span_of
 from stochfric_mb.discovery.driven_joint.decision.selection import SIZES, Selector
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
@@ -65,9 +66,7 @@ class JointPlan(RigPlan):
         if getattr(joint, "piston_area", 0.0):
             raise InputError(f"{run.name}: a pressure cannot be planned; leave piston_area out of the scenario for the plan")
         friction = self.scenario.law.mu_k * self._load
-        noise = SHARE_OF_STROKE * run.stroke if run.noise is None else run.noise
-        force_noise = SHARE_OF_FRICTION * friction if run.force_noise is None else run.force_noise
-        stated = dataclasses.replace(run, noise=noise, force_noise=force_noise)
+        stated = run.with_noise(SHARE_OF_STROKE * run.stroke, SHARE_OF_FRICTION * friction)
         if isinstance(joint, Mjcf):
             return Part(stated, measured_in_model(stated, self._source(()), self.place, self.scenario.law.mu_k, seed))
         return Part(stated, measured_at_joint(stated, joint, friction, seed))
@@ -92,9 +91,6 @@ class JointPlan(RigPlan):
     @property
     def rotational(self) -> bool:
         """Whether friction acts about an axis."""
-        joint = self.scenario.mechanism
-        if not isinstance(joint, Mjcf):
-            return joint.rotational
         return self._source(()).rotates(self.place)
 
     @property
@@ -109,7 +105,7 @@ class JointPlan(RigPlan):
         joint = self.scenario.mechanism
         return joint.friction[self.place] if isinstance(joint, Mjcf) else joint.normal_force
 
-    def _source(self, runs: Sequence[Run]) -> Any:
+    def _source(self, runs: Sequence[Run]) -> Balances:
         """Return the force balances of runs; a controller would ask for columns that are not planned."""
         scenario = dataclasses.replace(self.scenario, controller=None)
         return source_of(Dataset(title="", scenario_path=None, scenario=scenario, runs=tuple(runs)))

@@ -62,6 +62,11 @@ class PlannedRun:
         """Time of its samples [s], shape (n,)."""
         return np.asarray(np.arange(round(self.duration * self.sample_rate)) / self.sample_rate, dtype=np.float64)
 
+    def with_noise(self, noise: float, force_noise: float | None = None) -> PlannedRun:
+        """Return it with its noise stated: these numbers where it was not."""
+        noise = noise if self.noise is None else self.noise
+        return dataclasses.replace(self, noise=noise, force_noise=force_noise if self.force_noise is None else self.force_noise)
+
     def record(self, channels: Mapping[str, Array], covariates: Mapping[str, Array] | None = None) -> Run:
         """Return it as measured, columns of shape (n,) given."""
         return Run(

@@ -78,9 +78,7 @@ class StepPlan(RigPlan):
             )
         if run.stroke is not None or run.settings:
             raise InputError(f"{run.name}: at a spring slider plan slow_speed, fast_speed, period, duration and noise")
-        noise = 0.0 if run.noise is None else run.noise
-        force_noise = SHARE_OF_FRICTION * self._friction if run.force_noise is None else run.force_noise
-        stated = dataclasses.replace(run, noise=noise, force_noise=force_noise)
+        stated = run.with_noise(0.0, SHARE_OF_FRICTION * self._friction)
         return Part(stated, self._measured(stated, slow, fast, period, seed))
 
     def signatures(self, parts: Sequence[Part]) -> tuple[list[LawSignature], dict[str, str]]:

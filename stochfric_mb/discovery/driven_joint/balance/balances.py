@@ -32,6 +32,10 @@ class Balances(abc.ABC):
         """Return what data may correct, with its priors."""
 
     @abc.abstractmethod
+    def rotates(self, place: str) -> bool:
+        """Return whether friction in a place acts about an axis."""
+
+    @abc.abstractmethod
     def balance(self, run: Run, place: str, delay: float, samples: int | None) -> ForceBalance:
         """Return a run as a balance of a place; arguments as of `balances`."""
 

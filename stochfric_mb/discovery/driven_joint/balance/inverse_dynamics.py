@@ -79,6 +79,10 @@ class PlainBalances(Balances):
                 nuisances.append(Nuisance(name, value, deviation, unit, 0.0 if name in POSITIVE else -np.inf))
         return nuisances
 
+    def rotates(self, place: str) -> bool:
+        """Return whether the joint is a hinge."""
+        return self.dataset.scenario.mechanism.rotational
+
     def balance(self, run: Run, place: str, delay: float, samples: int | None) -> ForceBalance:
         """Return a run as a balance."""
         return balance_of(run, self.dataset.scenario, delay=delay, samples=samples, runs=self.dataset.runs)

@@ -55,7 +55,7 @@ def geom_numbers(mujoco: Any, model: Any, pair: Pair) -> tuple[int, int]:
     return body, surface
 
 
-def reach_out(mujoco: Any, model: Any) -> None:
+def reach_out(model: Any) -> None:
     """Let geoms touch across the noise of measured positions; forces of contacts are of no use in this model then."""
     model.geom_margin[:] = 0.5 * REACH * model.stat.extent
     model.pair_margin[:] = REACH * model.stat.extent

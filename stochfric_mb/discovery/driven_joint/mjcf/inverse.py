@@ -111,7 +111,7 @@ class MjcfSource(Rig):
         taken, known = self._elsewhere(run, place, window)
         left = left - taken
         own_damping = damped + self.model.dof_damping * motion[1]
-        least = self._least(run, place, window, path)
+        least = self._least(run, window, path)
         columns = {
             "mass": np.sum(weights * mass, axis=1),
             "armature": np.sum(weights * (self.model.dof_armature * motion[2]), axis=1),
@@ -152,7 +152,7 @@ class MjcfSource(Rig):
             return np.maximum(window.through(measured), 0.0)
         return np.interp(np.arange(len(run.time)), window.centres, np.maximum(np.sum(rows * left, axis=1), 0.0))
 
-    def _least(self, run: Run, place: str, window: Window, path: Path) -> float:
+    def _least(self, run: Run, window: Window, path: Path) -> float:
         """Return the speed above which a place surely slides [m/s or rad/s]."""
         each = [_level(position_of_joint(run, self.mechanism, n)) for n in self.names]
         seen = float(np.linalg.norm(np.abs(path.direction).mean(axis=0) * each))
@@ -162,7 +162,7 @@ class MjcfSource(Rig):
         """Return the distance since a place last reversed or rested in a run [m or rad], shape (count,)."""
         narrow = narrowest(run)
         path = self.path(run, place, narrow)
-        return slipped(path.position, path.velocity, self._least(run, place, narrow, path))
+        return slipped(path.position, path.velocity, self._least(run, narrow, path))
 
     def rotates(self, place: str) -> bool:
         """Return whether friction in a place acts about an axis."""
@@ -193,7 +193,7 @@ class MjcfSource(Rig):
         taken, known = np.zeros((n, len(self.names))), np.ones(n, dtype=bool)
         for name, load in self.places if self.coupled(place) else ():
             path = self.path(run, name, window)
-            least = self._least(run, name, window, path)
+            least = self._least(run, window, path)
             sliding = slides(window, path.velocity, least)
             known &= sliding
             if name == place:

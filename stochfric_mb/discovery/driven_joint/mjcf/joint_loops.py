@@ -7,7 +7,6 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import column, product
 from stochfric_mb.errors import InputError
-from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import JointLoop, Mjcf, ProportionalDerivative
 
@@ -18,6 +17,15 @@ class RunLoop:
     """The controller of one joint in one run."""
 
     def __init__(self, run: Run, mechanism: Mjcf, joint: str, loop: JointLoop) -> None:
+        if joint not in mechanism.drives or joint not in mechanism.positions:
+            raise InputError(
+                f"controller.joints.{joint}: {joint!r} has no drive that a controller could give; add mechanism.drives.{joint}"
+            )
+        if loop.factor and loop.factor not in run.constants:
+            given = ", ".join(run.constants) or "none"
+            raise InputError(
+                f"run {run.name!r} has no constant {loop.factor!r} for controller.joints.{joint}.factor (it has: {given})"
+            )
         drive = mechanism.drives[joint]
         self._loop, self._factor = loop, run.constants[loop.factor] if loop.factor else 1.0
         self._added = column(run, loop.added) if loop.added else np.zeros(len(run.time))
@@ -36,29 +44,10 @@ class RunLoop:
 
 
 def joint_loops(run: Run, mechanism: Mjcf, controller: object) -> dict[str, RunLoop]:
-    """Return joint -> its controller in a run."""
-    loops = controller.joints if isinstance(controller, ProportionalDerivative) else {}
-    return {joint: RunLoop(run, mechanism, joint, loop) for joint, loop in loops.items()}
-
-
-def require_loops(dataset: Dataset) -> None:
-    """Return if the controller of an MJCF model, if any, can be simulated in the held-out runs.
+    """Return joint -> its controller in a run.
 
     Raises:
-        InputError: a joint has no drive, or a run lacks the reference or the factor.
+        InputError: a joint has no drive, or the run lacks a column or the factor.
     """
-    controller, mechanism = dataset.scenario.controller, dataset.scenario.mechanism
-    if not isinstance(controller, ProportionalDerivative):
-        return
-    for joint, loop in controller.joints.items():
-        if joint not in mechanism.drives or joint not in mechanism.positions:
-            raise InputError(
-                f"controller.joints.{joint}: {joint!r} has no drive that a controller could give; add mechanism.drives.{joint}"
-            )
-        for run in dataset.test:
-            column(run, loop.reference)
-            if loop.factor and loop.factor not in run.constants:
-                given = ", ".join(run.constants) or "none"
-                raise InputError(
-                    f"run {run.name!r} has no constant {loop.factor!r} for controller.joints.{joint}.factor (it has: {given})"
-                )
+    loops = controller.joints if isinstance(controller, ProportionalDerivative) else {}
+    return {joint: RunLoop(run, mechanism, joint, loop) for joint, loop in loops.items()}

@@ -78,11 +78,8 @@ def column(run: Run, name: str) -> Array:
     Raises:
         InputError: it has none of that name.
     """
-    for columns in (run.channels, run.covariates):
-        if name in columns:
-            return columns[name]
-    require_name(f"column of run {run.name} (for the mechanism)", name, [*run.channels, *run.covariates])
-    raise AssertionError  # require_name has raised
+    known = {**run.covariates, **run.channels}
+    return known[require_name(f"column of run {run.name} (for the mechanism)", name, known)]
 
 
 def position_columns(mechanism: Any) -> tuple[str, ...]:
