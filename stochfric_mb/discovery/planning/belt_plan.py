@@ -30,7 +30,7 @@ from stochfric_mb.discovery.stick_slip.screening.waves import slow_frequencies, 
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import assumed, prior_model
 from stochfric_mb.discovery.stick_slip.study import record_of
 from stochfric_mb.effects import effect_class, effect_kinds, kind_with_signature
-from stochfric_mb.effects.marks import WAVE, Hypothesis
+from stochfric_mb.effects.marks import Hypothesis
 from stochfric_mb.effects.traits import DRAWN_ANEW, SHAPES_SLIPS
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
@@ -159,40 +159,41 @@ class _Form:
     """A hypothesis or a wave before the terms of the stated model are taken out."""
 
     kind: str
-    variant: str
     columns: Sequence[Any]
-    signals: int
-    """How many of the columns are the effect at its phases, 0: the first one is the effect."""
     grid: int
     value: Callable[[float], tuple[str, float, dict[str, float | str], bool]]
+    limited: bool = True
+    """Whether it has a limit of its own; if not, it is what another effect may be taken for."""
     least: float = 0.0
     """Coefficient from which simulating the effect confirms it; 0 where it is not simulated."""
+    wave: bool = False
+    """Whether columns are the effect at its phases in turn; if not, the first one is the effect."""
 
 
 def _forms(pool: Pool, regression: Regression, terms: Terms, solution: Solution) -> list[Signature]:
     """Return the forms of all effects that the slips could show."""
-    families = hypotheses_in(pool)
-    forms = [
-        _Form(kind, h.variant, h.columns, 0, len(ways), _value_of(kind, h, len(h.columns)), _least(pool, terms, h))
-        for kind, ways in families.items()
-        for h in ways
-    ]
+    periodic: list[_Form] = []
     for kind, wave in waves_in(pool).items():
         every = slow_frequencies(pool, wave.pace)
         for f in every[len(every) // (2 * LOOKED_AT) :: max(len(every) // LOOKED_AT, 1)]:
             place = _wave_value(kind, wave.setting(float(f)))
-            forms.append(_Form(kind, WAVE, wave_columns(pool, wave, float(f), 1), 2, 3 * len(every), place))
-    signatures: list[Signature] = []
-    periodic = {f.kind for f in forms if f.signals}
-    plainest = {kind: ways[0].variant for kind, ways in families.items()}
-    for form in forms:
-        columns = regression.beyond(terms, solution.scatter, form.columns)
-        other = not form.signals and (form.kind in periodic or form.variant != plainest[form.kind])
-        signature = _signature(form, columns, regression.n, limited=not other)
-        if signature is not None:
-            signatures.append(signature)
-    signatures.append(_scatter_signature(pool, regression, solution))
-    return signatures
+            periodic.append(_Form(kind, wave_columns(pool, wave, float(f), 1), 3 * len(every), place, wave=True))
+    known = {f.kind for f in periodic}
+    plain = [
+        _Form(
+            kind,
+            h.columns,
+            len(ways),
+            _value_of(kind, h, len(h.columns)),
+            limited=kind not in known and h.variant == ways[0].variant,
+            least=_least(pool, terms, h),
+        )
+        for kind, ways in hypotheses_in(pool).items()
+        for h in ways
+    ]
+    forms = [(f, regression.beyond(terms, solution.scatter, f.columns)) for f in (*plain, *periodic)]
+    signatures = [s for f, columns in forms if (s := _signature(f, columns, regression.n)) is not None]
+    return [*signatures, _scatter_signature(pool, regression, solution)]
 
 
 def _least(pool: Pool, terms: Terms, hypothesis: Hypothesis) -> float:
@@ -201,10 +202,10 @@ def _least(pool: Pool, terms: Terms, hypothesis: Hypothesis) -> float:
     return simulated_limit(pool, terms, hypothesis) if simulated else 0.0
 
 
-def _signature(form: _Form, columns: Any, n: int, *, limited: bool) -> Signature | None:
-    """Return a form at its limit; without ``limited`` as what another effect may be taken for: it has no limit of its own."""
+def _signature(form: _Form, columns: Any, n: int) -> Signature | None:
+    """Return a form at its limit; None: the numbers of the stated model imitate it."""
     needed = needed_for_a_name(columns.shape[1], n, form.grid)
-    plain = (columns[:, :1],) if not form.signals else (columns[:, 0::2], columns[:, 1::2])
+    plain = (columns[:, 0::2], columns[:, 1::2]) if form.wave else (columns[:, :1],)
     signals = [c.sum(axis=1) for c in plain]
     evidence = float(np.mean([s @ s for s in signals]))
     raw = float(sum(np.sum(np.square(c)) for c in form.columns))
@@ -212,7 +213,7 @@ def _signature(form: _Form, columns: Any, n: int, *, limited: bool) -> Signature
         return None
     strength = max(math.sqrt(needed / evidence), form.least)
     name, value, beside, at_most = form.value(strength)
-    limit = abs(value) if limited and name else math.inf
+    limit = abs(value) if form.limited and name else math.inf
     unit = effect_class(form.kind).__dataclass_fields__[name].metadata["unit"] if name else "-"
     return Signature(form.kind, name, unit, limit, beside, tuple(strength * s for s in signals), columns, at_most)
 
