@@ -27,7 +27,7 @@ from stochfric_mb.discovery.driven_joint.simulation.augmented import augmented
 from stochfric_mb.discovery.driven_joint.simulation.controller_check import controller_misfit, disbelieved
 from stochfric_mb.discovery.driven_joint.simulation.pictures import friction_picture
 from stochfric_mb.discovery.driven_joint.simulation.resimulation import simulated
-from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
+from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.effects import Effect
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
@@ -76,13 +76,12 @@ def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> Join
 def _quieter(given: Dataset, better: Dataset) -> bool:
     """Return whether the balance of a place errs less, by a material part, with wrong readings replaced, seen alike."""
     as_given, repaired = (source_of(x) for x in (given, better))
-    for name, load in as_given.places:
+    for name in as_given.places:
         before = as_given.balances(name, "fit", as_given.stated_delay)
         width = round(float(np.median([s.window.half_width / s.window.interval for s in before])))
-        nuisances = as_given.nuisances(name)
-        model = prior_model(given.scenario, name, nuisances, load)
+        nuisances, model = as_given.nuisances(name), as_given.stated(name)
         seen = [s.balances(name, "fit", s.stated_delay, width) for s in (as_given, repaired)]
-        raw, replaced = (fit(model, s, nuisances, noise=model.law.mu_k * load).rms for s in seen)
+        raw, replaced = (fit(model, s, nuisances, noise=model.law.mu_k * model.load).rms for s in seen)
         if replaced < (1.0 - criteria.MATERIAL) * raw:
             return True
     return False
@@ -129,7 +128,7 @@ def require_usable(dataset: Dataset) -> None:
     _require_controller(dataset.scenario)
     source = source_of(dataset)
     _require_sliding(source)
-    for name, _ in source.places:
+    for name in source.places:
         require_dissipation(dataset, name, source.balances(name, "fit", source.stated_delay))
 
 
@@ -189,19 +188,19 @@ def _places(source: Any, tell: Progress, notes: list[str], *, timed: bool = True
 
     Where friction in one enters another's balance they are judged anew beside the one with the most evidence.
     """
-    places = [place_outcome(source, tell, name, load, notes, timed=timed) for name, load in source.places]
-    names = [(name, load) for name, load in source.places if source.coupled(name)]
+    places = [place_outcome(source, tell, name, notes, timed=timed) for name in source.places]
+    names = [name for name in source.places if source.coupled(name)]
     if not names or not any(p.selected.effects for p in places):
         return places
-    outcomes = {name: place for (name, _), place in zip(source.places, places, strict=True)}
+    outcomes = dict(zip(source.places, places, strict=True))
     first = min(outcomes, key=lambda name: _evidence(outcomes[name]))
     source.known.update({name: p.selected.recalibrated.model for name, p in outcomes.items()})
     source.known[first] = outcomes[first].selected.final.model
-    for name, load in names:
+    for name in names:
         if name != first:
-            outcomes[name] = place_outcome(source, tell, name, load, [])
+            outcomes[name] = place_outcome(source, tell, name, [])
             source.known[name] = outcomes[name].selected.final.model
-    return [outcomes[name] for name, _ in source.places]
+    return list(outcomes.values())
 
 
 def _require_sliding(source: Balances) -> None:
@@ -210,7 +209,7 @@ def _require_sliding(source: Balances) -> None:
     Raises:
         InputError: one hardly does.
     """
-    for (name, _), role in itertools.product(source.places, ("fit", "test")):
+    for name, role in itertools.product(source.places, ("fit", "test")):
         balances = source.balances(name, role, source.stated_delay)
         windows = sum(int(s.sliding.sum()) for s in balances)
         if windows < FEWEST:

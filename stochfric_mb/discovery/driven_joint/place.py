@@ -23,7 +23,6 @@ from stochfric_mb.discovery.driven_joint.scatter.stroke_coefficients import depe
 from stochfric_mb.discovery.driven_joint.scatter.stroke_scatter import stroke_scatter
 from stochfric_mb.discovery.driven_joint.simulation.augmented import stated_scatter
 from stochfric_mb.discovery.driven_joint.simulation.scores import closed_share, noise_floor, rms, score
-from stochfric_mb.discovery.driven_joint.source import prior_model
 from stochfric_mb.discovery.inference.noise import independent_count
 from stochfric_mb.mechanisms import PrismaticJoint
 from stochfric_mb.numerics.robust import deviation
@@ -40,7 +39,6 @@ class _Asked:
 
     source: Balances
     name: str
-    load: float
     tell: Progress
     timing: Timing | None
     selectors: dict[float, Selector] = dataclasses.field(default_factory=dict[float, Selector])
@@ -58,30 +56,27 @@ class _Asked:
         self.tell(f"{self.name}: {text}" if self.name else text)
 
 
-def place_outcome(
-    source: Balances, tell: Progress, name: str, load: float, notes: list[str], *, timed: bool = True
-) -> PlaceOutcome:
+def place_outcome(source: Balances, tell: Progress, name: str, notes: list[str], *, timed: bool = True) -> PlaceOutcome:
     """Return the outcome at a place.
 
     Args:
         source: balances of the dataset.
         tell: called with what is being done.
         name: the place.
-        load: its stated load [N or N m].
         notes: what the reader should know is added to these.
         timed: whether a delay is looked for.
     """
     balances = source.balances(name, "fit", source.stated_delay)
-    notes += sign_notes(source.dataset, name, load, balances)
+    notes += sign_notes(source.dataset, name, balances)
     late = _timing(source, tell, name, balances) if timed else None
-    return _answered(_Asked(source, name, load, tell, late), frozenset())
+    return _answered(_Asked(source, name, tell, late), frozenset())
 
 
 def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
     """Return the outcome at a place, without some kinds and numbers."""
     source, name, timing, base = asked.source, asked.name, asked.timing, asked.source.stated_delay
     dataset, scenario, nuisances = source.dataset, source.dataset.scenario, source.nuisances(name)
-    stated = prior_model(scenario, name, nuisances, asked.load)
+    stated = source.stated(name)
     undelayed = None
     shortest = LEAST_SAMPLES * dataset.fit[0].sample_interval
     if timing is not None and abs(timing.seconds) <= shortest:  # how signals are sampled and held

@@ -33,7 +33,6 @@ from stochfric_mb.effects import effect_class, effect_kinds, kind_with_signature
 from stochfric_mb.effects.marks import Hypothesis
 from stochfric_mb.effects.traits import DRAWN_ANEW, SHAPES_SLIPS
 from stochfric_mb.errors import InputError
-from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run, apply_settings
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference.augmented import Start, augmented_system
@@ -73,7 +72,7 @@ class BeltPlan(RigPlan):
             InputError: the belt rests, the sampling is too slow, or the box slips too seldom; says what would do.
         """
         run, measured = self._measured(run, seed)
-        data = self._assumed(measured)
+        data = assumed(self.records(measured))
         require_usable(data)
         slips = extract(record_of(data.fit[0], data))
         if len(slips) < criteria.FEWEST_SLIPS:
@@ -88,7 +87,7 @@ class BeltPlan(RigPlan):
     def signatures(self, parts: Sequence[BeltPart]) -> tuple[list[Signature], dict[str, str]]:
         """Return what effects would leave in some runs, and effect -> what would show it, for those that leave nothing."""
         pool = make_pool([p.slips for p in parts], [p.calibration for p in parts])
-        terms = stated_terms(pool, dict(self._assumed().scenario.uncertainty))
+        terms = stated_terms(pool, dict(assumed(self.records()).scenario.uncertainty))
         regression = Regression(pool)
         solution = regression.fit(terms)
         forms = list(_forms(pool, regression, terms, solution))
@@ -127,10 +126,6 @@ class BeltPlan(RigPlan):
             (f"a run at normal_force = {2.0 * load:.3g} N", setting(normal_force=2.0 * load)),
             (f"a run at {2.0 * first.sample_rate:g} samples a second", {"sample_rate": 2.0 * first.sample_rate}),
         ]
-
-    def _assumed(self, *runs: Run) -> Dataset:
-        """Return runs as a dataset, the usual uncertainty assumed where the scenario states none."""
-        return assumed(Dataset(title="", scenario_path=None, scenario=self.scenario, runs=runs))
 
     def _box(self, run: PlannedRun) -> BeltBox:
         return apply_settings(self.scenario, run.settings, f"run {run.name!r}")

@@ -18,14 +18,13 @@ from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate, c
 from stochfric_mb.discovery.driven_joint.decision.selection import SIZES, Selector
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.gains import effect_columns
-from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
+from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.discovery.planning.joint_motion import measured_at_joint, measured_in_model
 from stochfric_mb.discovery.planning.planned_run import PlannedRun
 from stochfric_mb.discovery.planning.rig_plan import Further, Part, RigPlan
 from stochfric_mb.discovery.planning.signature import BEYOND, Signature, needed_for_a_name
 from stochfric_mb.effects import Effect, effect_class, effect_kinds
 from stochfric_mb.errors import InputError
-from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Mjcf
 
@@ -65,17 +64,18 @@ class JointPlan(RigPlan):
             raise InputError(f"{run.name}: set = {dict(run.settings)!r}; at a joint plan stroke, period, duration and noise")
         if getattr(joint, "piston_area", 0.0):
             raise InputError(f"{run.name}: a pressure cannot be planned; leave piston_area out of the scenario for the plan")
-        friction = self.scenario.law.mu_k * self._load
+        source = self._source()
+        friction = self.scenario.law.mu_k * source.places[self.place]
         stated = run.with_noise(SHARE_OF_STROKE * run.stroke, SHARE_OF_FRICTION * friction)
         if isinstance(joint, Mjcf):
-            return Part(stated, measured_in_model(stated, self._source(()), self.place, self.scenario.law.mu_k, seed))
+            return Part(stated, measured_in_model(stated, source, self.place, self.scenario.law.mu_k, seed))
         return Part(stated, measured_at_joint(stated, joint, friction, seed))
 
     def signatures(self, parts: Sequence[Part]) -> tuple[list[Signature], dict[str, str]]:
         """Return what effects would leave in some runs, and effect -> what would show it, for those that leave nothing."""
-        source, name, load = self._source([p.measured for p in parts]), self.place, self._load
-        balances, nuisances = source.balances(name, "fit", 0.0), source.nuisances(name)
-        fitted = Selector(balances, nuisances, prior_model(self.scenario, name, nuisances, load)).recalibrated
+        source, name = self._source(*(p.measured for p in parts)), self.place
+        balances, load = source.balances(name, "fit", 0.0), source.places[name]
+        fitted = Selector(balances, source.nuisances(name), source.stated(name)).recalibrated
         span = span_of(balances, fitted.model.law.mu_k * load, load)
         tried = candidates(span, fitted.model.effects)
         forms = [
@@ -91,7 +91,7 @@ class JointPlan(RigPlan):
     @property
     def rotational(self) -> bool:
         """Whether friction acts about an axis."""
-        return self._source(()).rotates(self.place)
+        return self._source().rotates(self.place)
 
     @property
     def notes(self) -> list[str]:
@@ -99,16 +99,10 @@ class JointPlan(RigPlan):
         others = [name for name in getattr(self.scenario.mechanism, "friction", ()) if name != self.place]
         return [f"the limits are those of joint {self.place}; --joint plans {' or '.join(others)}"] if others else []
 
-    @property
-    def _load(self) -> float:
-        """Load of the joint [N or N m]: friction is mu times it."""
-        joint = self.scenario.mechanism
-        return joint.friction[self.place] if isinstance(joint, Mjcf) else joint.normal_force
-
-    def _source(self, runs: Sequence[Run]) -> Balances:
+    def _source(self, *runs: Run) -> Balances:
         """Return the force balances of runs; a controller would ask for columns that are not planned."""
         scenario = dataclasses.replace(self.scenario, controller=None)
-        return source_of(Dataset(title="", scenario_path=None, scenario=scenario, runs=tuple(runs)))
+        return source_of(dataclasses.replace(self.records(*runs), scenario=scenario))
 
     @property
     def no_limit(self) -> tuple[str, ...]:

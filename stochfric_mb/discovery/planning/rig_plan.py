@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 from stochfric_mb.discovery.driven_joint.decision.estimates import unit_at
 from stochfric_mb.discovery.planning.planned_run import PlannedRun
 from stochfric_mb.discovery.planning.signature import Signature, separation
+from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.scenario import Scenario
 
@@ -57,6 +58,10 @@ class RigPlan(abc.ABC):
     def no_limit(self) -> tuple[str, ...]:
         """The effects that discovery looks for here; those without a signature have no limit."""
         return ()
+
+    def records(self, *runs: Run) -> Dataset:
+        """Return runs as a dataset."""
+        return Dataset(title="", scenario_path=None, scenario=self.scenario, runs=runs)
 
     @abc.abstractmethod
     def part(self, run: PlannedRun, seed: int) -> Any:

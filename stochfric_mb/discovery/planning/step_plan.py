@@ -24,7 +24,6 @@ from stochfric_mb.discovery.velocity_step.velocity_steps import track_of
 from stochfric_mb.effects import kind_with_signature
 from stochfric_mb.effects.traits import MEMORY, MORE_DAMPING, RATE, SLOPE_IN_DISTANCE
 from stochfric_mb.errors import InputError
-from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
 
 Array = npt.NDArray[np.float64]
@@ -83,7 +82,7 @@ class StepPlan(RigPlan):
 
     def signatures(self, parts: Sequence[Part]) -> tuple[list[LawSignature], dict[str, str]]:
         """Return what the laws would leave in some runs; none of them is out of sight where the speed steps."""
-        data = Dataset(title="", scenario_path=None, scenario=self.scenario, runs=tuple(p.measured for p in parts))
+        data = self.records(*(p.measured for p in parts))
         tracks = [track_of(run, data) for run in data.runs]
         reference = float(np.median(tracks[0].speed))
         shortest = 2.0 * min(float(np.median(t.speed)) * t.run.sample_interval for t in tracks)

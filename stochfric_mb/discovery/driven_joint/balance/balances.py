@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import abc
 import dataclasses
+from collections.abc import Mapping
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
+
+BESIDE = ("sensor", "randomness")
+"""Groups of effects that are no part of the mean friction."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -24,12 +29,27 @@ class Balances(abc.ABC):
 
     @property
     @abc.abstractmethod
-    def places(self) -> list[tuple[str, float]]:
-        """Places in which friction is sought, and their stated loads [N or N m]; a single one needs no name."""
+    def places(self) -> Mapping[str, float]:
+        """Places in which friction is sought -> their stated loads [N or N m]; a single one needs no name."""
 
     @abc.abstractmethod
     def nuisances(self, place: str) -> list[Nuisance]:
         """Return what data may correct, with its priors."""
+
+    def stated(self, place: str) -> JointModel:
+        """Return the model as stated at a place."""
+        scenario = self.dataset.scenario
+        acts_in = getattr(scenario.mechanism, "effects_in", ())
+        own = () if acts_in and place not in acts_in else tuple(e for e in scenario.effects if e.group not in BESIDE)
+        mu_k, spread = scenario.law.mu_k, scenario.uncertainty.get("mu_k", 0.0)
+        return JointModel(
+            scenario.law,
+            own,
+            {n.name: n.value for n in self.nuisances(place)},
+            self.places[place],
+            contact=place in getattr(scenario.mechanism, "pairs", ()),
+            level=(mu_k, spread * mu_k if spread > 0.0 else float("inf")),
+        )
 
     @abc.abstractmethod
     def rotates(self, place: str) -> bool:

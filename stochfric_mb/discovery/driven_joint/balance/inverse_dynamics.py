@@ -64,9 +64,9 @@ class PlainBalances(Balances):
     """Force balances of the mechanisms that are one joint."""
 
     @property
-    def places(self) -> list[tuple[str, float]]:
+    def places(self) -> dict[str, float]:
         """The one place, which needs no name, and its load."""
-        return [("", float(self.dataset.scenario.mechanism.normal_force))]
+        return {"": float(self.dataset.scenario.mechanism.normal_force)}
 
     def nuisances(self, place: str) -> list[Nuisance]:
         """Return the numbers of the mechanism that data may correct, with their priors."""

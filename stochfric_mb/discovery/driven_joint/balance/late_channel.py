@@ -30,7 +30,7 @@ def late_channel(source: Any, places: Sequence[PlaceOutcome]) -> tuple[str, Timi
     worst = max(places, key=lambda p: p.selected.final.rms / p.floor)
     if len(columns) < 2 or (1.0 - MATERIAL) * worst.selected.final.rms <= worst.floor or any(p.late for p in places):
         return None
-    name = worst.place or source.places[0][0]
+    name = worst.place or next(iter(source.places))
     interval = dataset.fit[0].sample_interval
     width = round(float(np.median([s.window.half_width for s in worst.fit])) / interval)
 

@@ -80,8 +80,9 @@ class _Plant:
     def __init__(self, source: MjcfSource, models: Models, run: Run, delay: float) -> None:
         self._source, self._models, self._run, self._delay = source, models, run, delay
         mujoco = source.mujoco
-        self._mechanism = corrected(source.mechanism, {p: models[p].nuisances for p, _ in source.places})
-        name, first = source.places[0][0], models[source.places[0][0]].nuisances
+        self._mechanism = corrected(source.mechanism, {p: models[p].nuisances for p in source.places})
+        name = next(iter(source.places))
+        first = models[name].nuisances
         if name in source.mechanism.pairs:
             law = models[name].law
             model = without_friction(mujoco, source.mechanism, (name, law.mu_s, law.mu_k))
@@ -116,7 +117,7 @@ class _Plant:
         """Return positions, shape (n, n_joints), and what each controller gives, shape (n,)."""
         mujoco, model, data, run = self._source.mujoco, self._model, self._data, self._run
         n, h = self.end - self.start, run.sample_interval
-        places = [place_of(self._source, p, load, self._models[p], run) for p, load in self._source.places]
+        places = [place_of(self._source, p, self._models[p], run) for p in self._source.places]
         period = getattr(self._source.dataset.scenario.controller, "period", 0.0)
         hold = max(1, round(period / h * self._steps)) if period > 0.0 else 1
         drives = {p: self._late(drive_of(run, self._mechanism, p)) for p in self._mechanism.drives}

@@ -58,9 +58,9 @@ class MjcfSource(Rig):
     """Run -> load that its joint transmits where that was measured apart from the drive [N or N m], shape (count,)."""
 
     @property
-    def places(self) -> list[tuple[str, float]]:
-        """Joints, tendons or pair in which friction is sought, and their loads."""
-        return list(self.mechanism.friction.items())
+    def places(self) -> Mapping[str, float]:
+        """Joints, tendons or pair in which friction is sought -> their loads."""
+        return self.mechanism.friction
 
     def nuisances(self, place: str) -> list[Nuisance]:
         """Return what data may correct, with its priors; a stated value of 1 is a factor."""
@@ -75,7 +75,7 @@ class MjcfSource(Rig):
 
     def coupled(self, place: str) -> bool:
         """Return whether friction elsewhere enters the balance of a place."""
-        others = [p for p, _ in self.places if p != place]
+        others = [p for p in self.places if p != place]
         return any(p in self.tendons for p in ((place, *others) if others else ()))
 
     def window(self, run: Run, place: str, samples: int | None = None) -> Window:
@@ -191,7 +191,7 @@ class MjcfSource(Rig):
         """
         n = len(window.centres)
         taken, known = np.zeros((n, len(self.names))), np.ones(n, dtype=bool)
-        for name, load in self.places if self.coupled(place) else ():
+        for name, load in self.places.items() if self.coupled(place) else ():
             path = self.path(run, name, window)
             least = self._least(run, window, path)
             sliding = slides(window, path.velocity, least)

@@ -31,17 +31,17 @@ LOOSE = 1.0e-3
 """Normal force over the stated one below which a pair is left as it is [-]."""
 
 
-def place_of(source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> LossPlace | PairPlace:
+def place_of(source: MjcfSource, name: str, model: JointModel, run: Run) -> LossPlace | PairPlace:
     """Return friction in a joint, tendon or pair, for one run."""
-    return (PairPlace if name in source.mechanism.pairs else LossPlace)(source, name, load, model, run)
+    return (PairPlace if name in source.mechanism.pairs else LossPlace)(source, name, model, run)
 
 
 class _Place:
     """Friction in one place while the model runs, and what it remembers of the way there."""
 
-    def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run, *, contact: bool) -> None:
-        self.name, self._load = name, load
-        self._friction = FrictionAt(model.law, model.effects_in(run.name), load, contact=contact)
+    def __init__(self, source: MjcfSource, name: str, model: JointModel, run: Run, *, contact: bool) -> None:
+        self.name, self._load = name, model.load
+        self._friction = FrictionAt(model.law, model.effects_in(run.name), model.load, contact=contact)
         self._turned, self._side = 0.0, 0.0
         # conditions as they were: what drifts changes little by an error of the simulation
         self._travelled, self._slip, self._temperature = (
@@ -69,8 +69,8 @@ class _Place:
 class LossPlace(_Place):
     """Friction in one joint or tendon while the model runs: what is available there is MuJoCo's ``frictionloss``."""
 
-    def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> None:
-        super().__init__(source, name, load, model, run, contact=False)
+    def __init__(self, source: MjcfSource, name: str, model: JointModel, run: Run) -> None:
+        super().__init__(source, name, model, run, contact=False)
         self._joint = name in source.names
         self._number = (source.names if self._joint else source.tendons).index(name)
         self._gain = model.nuisances.get("gain", 1.0)
@@ -102,8 +102,8 @@ class LossPlace(_Place):
 class PairPlace(_Place):
     """Friction in a pair while the model runs: our plugin's coefficients are what is available over the normal force."""
 
-    def __init__(self, source: MjcfSource, name: str, load: float, model: JointModel, run: Run) -> None:
-        super().__init__(source, name, load, model, run, contact=True)
+    def __init__(self, source: MjcfSource, name: str, model: JointModel, run: Run) -> None:
+        super().__init__(source, name, model, run, contact=True)
         self._source, self._more = source, model.law.mu_s / model.law.mu_k
         path = source.path(run, name, narrowest(run))
         self._position, self._direction = path.position, np.sign(path.velocity)

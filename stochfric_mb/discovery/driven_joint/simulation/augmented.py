@@ -8,15 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from stochfric_mb.discovery.driven_joint.balance.balances import BESIDE
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.effects import Effect, kind_with_signature, make_effect
 from stochfric_mb.effects.traits import DRAWN_ANEW, LATE
 from stochfric_mb.mechanisms import Mjcf
 from stochfric_mb.scenario import Scenario
-
-BESIDE = ("sensor", "randomness")
-"""Groups of effects that are no part of the mean friction."""
 
 
 def stated_scatter(scenario: Scenario[Any], process: str) -> float:

@@ -47,7 +47,7 @@ def simulated(
 
     base = source.stated_delay
     delay = base + places[0].late
-    names = {p.place or source.places[0][0]: p for p in places}
+    names = {p.place or next(iter(source.places)): p for p in places}
     early = any(p.undelayed is not None for p in places)
     stages: dict[str, tuple[Models, float]] = {
         "baseline": ({n: p.stated for n, p in names.items()}, base),
