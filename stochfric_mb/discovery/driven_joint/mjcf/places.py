@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import importlib
 from typing import Any
 
@@ -129,38 +128,26 @@ class PairPlace(_Place):
         normal = pressed if self._measured is None else max(float(self._measured[sample]), 0.0)
         available, pushed = self._available(t, self._at, v, sample, load=normal, pressed=normal / self._load)
         if self._slots is None:
-            self._slots = _Slots.of(self._attach, model, data, instance)
+            self._slots = _Slots(self._attach, model, data, instance)
         mu = available / pressed
         self._slots.write(data, self._more * mu, mu)
         return pushed
 
 
-@dataclasses.dataclass(frozen=True)
 class _Slots:
     """Where the plugin keeps an instance's coefficients, asked once: a model runs for thousands of steps."""
 
-    places: npt.NDArray[np.int64]
-    """What `set_friction` writes to in ``plugin_state``."""
-    values: Array
-    """What it writes there, mu_s and mu_k apart."""
-    mu_s: npt.NDArray[np.bool_]
-    """Which of the places hold mu_s."""
-    mu_k: npt.NDArray[np.bool_]
-    """Which hold mu_k."""
-
-    @classmethod
-    def of(cls, attach: Any, model: Any, data: Any, instance: str) -> _Slots:
-        probe = data.plugin_state.copy()
-        attach.set_friction(probe, model, instance, mu_s=MARK_S, mu_k=MARK_K)
+    def __init__(self, attach: Any, model: Any, data: Any, instance: str) -> None:
+        before = data.plugin_state
+        probe = attach.set_friction(before.copy(), model, instance, mu_s=MARK_S, mu_k=MARK_K)
         marked = (probe == MARK_S) | (probe == MARK_K)
-        places = np.flatnonzero(marked | ((probe != data.plugin_state) & (probe < 0.0)))  # a time before all: evaluate anew
-        values = probe[places]
-        return cls(places, values, values == MARK_S, values == MARK_K)
+        self._places = np.flatnonzero(marked | ((probe != before) & (probe < 0.0)))  # a time before all: evaluate anew
+        self._values = probe[self._places]
+        self._s, self._k = self._values == MARK_S, self._values == MARK_K
 
     def write(self, data: Any, mu_s: float, mu_k: float) -> None:
-        values = self.values.copy()
-        values[self.mu_s], values[self.mu_k] = mu_s, mu_k
-        data.plugin_state[self.places] = values
+        self._values[self._s], self._values[self._k] = mu_s, mu_k
+        data.plugin_state[self._places] = self._values
 
 
 def pair_direction(source: MjcfSource, model: Any, data: Any, pair: str) -> Array:
