@@ -7,7 +7,7 @@ import pytest
 
 from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.discovery.driven_joint.balance.force_balance import slipped
-from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import balance_of
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import PlainBalances
 from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, chosen_window
 from stochfric_mb.discovery.inference.noise import independent_count, white_noise
 from stochfric_mb.discovery.velocity_step.rate_and_state import AGEING, friction_path
@@ -48,6 +48,11 @@ def scenario(**changes):
         "uncertainty": {"mass": 0.05, "offset": 0.1},
     }
     return Scenario(**(values | changes))
+
+
+def balance_of(run, model):
+    """The balance of a single run."""
+    return PlainBalances(Dataset(title="", scenario_path=None, scenario=model, runs=(run,))).balance(run, "", 0.0, None)
 
 
 def pair(friction, **keys):

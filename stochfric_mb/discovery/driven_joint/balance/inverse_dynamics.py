@@ -23,7 +23,6 @@ from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Cascade, HingePendulum, PrismaticJoint
-from stochfric_mb.scenario import Scenario
 
 Array = npt.NDArray[np.float64]
 Joint = PrismaticJoint | HingePendulum
@@ -85,7 +84,42 @@ class PlainBalances(Balances):
 
     def balance(self, run: Run, place: str, delay: float, samples: int | None) -> ForceBalance:
         """Return a run as a balance."""
-        return balance_of(run, self.dataset.scenario, delay=delay, samples=samples, runs=self.dataset.runs)
+        scenario = self.dataset.scenario
+        joint: Joint = run.mechanism(scenario)  # type: ignore[assignment]
+        terms = terms_of(run, joint)
+        q = position_of(run)
+        values = {name: float(getattr(joint, name, 1.0)) for name in terms}
+        noise = _noise(terms, values, q)
+        window = window_of(run, noise, scenario.law.mu_k * joint.normal_force, samples)
+        name, factor = drive_channel(joint)
+        late = delay + (HELD * run.sample_interval if isinstance(scenario.controller, Cascade) else 0.0)
+        columns: dict[str, Array] = {}
+        total = np.zeros(len(window.centres))
+        for number, of in terms.items():
+            shift = late if number in DRIVEN else 0.0
+            seen = [t.factor * window.through(t.signal, t.derivative, shift)[window.centres] for t in of]
+            columns[number] = np.sum(seen, axis=0)
+            total = total - values[number] * columns[number]
+        velocity = window.through(q, 1)
+        least = least_speed(velocity, window.gain(1) * white_noise(q))
+        load, load_by_drive = _transmitted_load(run, joint, window)
+        return balance_along(
+            run,
+            window,
+            window.through(q),
+            velocity,
+            least,
+            unit="N m" if joint.rotational else "N",
+            load=load,
+            load_by_drive=load_by_drive,
+            driven=total,
+            columns={k: v for k, v in columns.items() if k != "drive"},
+            sliding=slides(window, velocity, least),
+            white=noise,
+            before=distance_before(run, self.dataset.runs, lambda r: narrowest(r).through(position_of(r), 1)),
+            drive=window.sampled(factor * channel(run, name), late),
+            pressure=window.sampled(run.channels["pressure"]) if "pressure" in run.channels else None,
+        )
 
 
 def terms_of(run: Run, joint: Joint) -> dict[str, tuple[Term, ...]]:
@@ -125,58 +159,6 @@ def position_of(run: Run) -> Array:
     if "velocity" in run.channels:
         return integrated(run.channels["velocity"], run.sample_interval)
     raise InputError(f"run {run.name!r} has neither position nor velocity; a driven joint needs its motion")
-
-
-def balance_of(
-    run: Run, scenario: Scenario, *, delay: float = 0.0, samples: int | None = None, runs: Sequence[Run] = ()
-) -> ForceBalance:
-    """Return a run of a prismatic joint or hinge pendulum as a balance.
-
-    Args:
-        run: the run.
-        scenario: the present model.
-        delay: by how much the position comes after the driving force in the record [s]; compensated here.
-        samples: half width of the window [samples]; None: chosen from the noise.
-        runs: all runs of the dataset; pieces of the same record that come before have slid already.
-
-    Raises:
-        InputError: a channel is missing, or the run is too short.
-    """
-    joint: Joint = run.mechanism(scenario)  # type: ignore[assignment]
-    terms = terms_of(run, joint)
-    q = position_of(run)
-    values = {name: float(getattr(joint, name, 1.0)) for name in terms}
-    noise = _noise(terms, values, q)
-    window = window_of(run, noise, scenario.law.mu_k * joint.normal_force, samples)
-    name, factor = drive_channel(joint)
-    late = delay + (HELD * run.sample_interval if isinstance(scenario.controller, Cascade) else 0.0)
-    columns: dict[str, Array] = {}
-    total = np.zeros(len(window.centres))
-    for number, of in terms.items():
-        shift = late if number in DRIVEN else 0.0
-        seen = [t.factor * window.through(t.signal, t.derivative, shift)[window.centres] for t in of]
-        columns[number] = np.sum(seen, axis=0)
-        total = total - values[number] * columns[number]
-    velocity = window.through(q, 1)
-    least = least_speed(velocity, window.gain(1) * white_noise(q))
-    load, load_by_drive = _transmitted_load(run, joint, window)
-    return balance_along(
-        run,
-        window,
-        window.through(q),
-        velocity,
-        least,
-        unit="N m" if joint.rotational else "N",
-        load=load,
-        load_by_drive=load_by_drive,
-        driven=total,
-        columns={k: v for k, v in columns.items() if k != "drive"},
-        sliding=slides(window, velocity, least),
-        white=noise,
-        before=distance_before(run, runs, lambda r: narrowest(r).through(position_of(r), 1)),
-        drive=window.sampled(factor * channel(run, name), late),
-        pressure=window.sampled(run.channels["pressure"]) if "pressure" in run.channels else None,
-    )
 
 
 def _noise(terms: Mapping[str, Sequence[Term]], values: Mapping[str, float], q: Array) -> dict[int, float]:
