@@ -5,6 +5,6 @@ One direction: force balance (in weak form) -> timing -> fits -> selection of ef
 """
 
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome, PlaceOutcome
-from stochfric_mb.discovery.driven_joint.joint_workflow import discover_joint, joint_outcome
+from stochfric_mb.discovery.driven_joint.joint_workflow import joint_outcome
 
-__all__ = ["JointOutcome", "PlaceOutcome", "discover_joint", "joint_outcome"]
+__all__ = ["JointOutcome", "PlaceOutcome", "joint_outcome"]

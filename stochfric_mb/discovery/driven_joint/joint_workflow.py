@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -10,25 +11,24 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
+from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.balance.late_channel import brought_forward, late_channel
-from stochfric_mb.discovery.driven_joint.balance.readings import Readings, mended
-from stochfric_mb.discovery.driven_joint.balance.timing import NAMED, Timing
+from stochfric_mb.discovery.driven_joint.balance.readings import mended
+from stochfric_mb.discovery.driven_joint.balance.timing import NAMED
 from stochfric_mb.discovery.driven_joint.decision.adequacy import drawn_by_two, inadequate
 from stochfric_mb.discovery.driven_joint.decision.carry_over import with_idle, with_unnamed
 from stochfric_mb.discovery.driven_joint.decision.selection import Stage
 from stochfric_mb.discovery.driven_joint.decision.signs import require_dissipation
 from stochfric_mb.discovery.driven_joint.decision.verdict import verdict
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
-from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome, PlaceOutcome
 from stochfric_mb.discovery.driven_joint.place import place_outcome, share_by_delay
-from stochfric_mb.discovery.driven_joint.simulation.augmented import augmented, stated_delay
+from stochfric_mb.discovery.driven_joint.simulation.augmented import augmented
 from stochfric_mb.discovery.driven_joint.simulation.controller_check import controller_misfit, disbelieved
 from stochfric_mb.discovery.driven_joint.simulation.pictures import friction_picture
 from stochfric_mb.discovery.driven_joint.simulation.resimulation import simulated
-from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
-from stochfric_mb.discovery.result import Result
+from stochfric_mb.discovery.driven_joint.source import source_of
+from stochfric_mb.effects import Effect
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.mechanisms import Cascade, Mjcf, PrismaticJoint, ProportionalDerivative, SpringSlider
@@ -42,11 +42,6 @@ ANSWERS = 3
 """Answers that are tried, each without what led those before it: the held-out runs judge so many, and no more."""
 CONTROLLED = {Cascade.kind: PrismaticJoint.kind, ProportionalDerivative.kind: Mjcf.kind}
 """Controller -> the mechanism that it drives."""
-
-
-def discover_joint(dataset: Dataset, *, progress: Progress | None = None) -> Result:
-    """Return what the data of a driven joint say that its model lacks; see `joint_outcome`."""
-    return joint_outcome(dataset, progress=progress).result
 
 
 def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> JointOutcome:
@@ -73,34 +68,23 @@ def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> Join
         dataset, better = (
             dataclasses.replace(x, scenario=dataclasses.replace(x.scenario, controller=None)) for x in (dataset, better)
         )
-    if not (readings.effects and _quieter(dataset, better)):
-        better, readings = dataset, Readings()
-    return _outcome(better, tell, source_of(better), readings, notes)
+    if not (readings and _quieter(dataset, better)):
+        better, readings = dataset, ()
+    return _outcome(source_of(better), tell, readings, notes)
 
 
 def _quieter(given: Dataset, better: Dataset) -> bool:
     """Return whether the balance of a place errs less, by a material part, with wrong readings replaced, seen alike."""
-    base, (as_given, repaired) = stated_delay(given.scenario), (source_of(x) for x in (given, better))
-    for name, load in as_given.places:
-        before = as_given.balances(name, "fit", base)
+    as_given, repaired = (source_of(x) for x in (given, better))
+    for name in as_given.places:
+        before = as_given.balances(name, "fit", as_given.stated_delay)
         width = round(float(np.median([s.window.half_width / s.window.interval for s in before])))
-        nuisances = as_given.nuisances(name)
-        model = prior_model(given.scenario, name, nuisances, load)
-        seen = [s.balances(name, "fit", base, width) for s in (as_given, repaired)]
-        raw, replaced = (fit(model, s, nuisances, noise=model.law.mu_k * load).rms for s in seen)
+        nuisances, model = as_given.nuisances(name), as_given.stated(name)
+        seen = [s.balances(name, "fit", s.stated_delay, width) for s in (as_given, repaired)]
+        raw, replaced = (fit(model, s, nuisances, noise=model.law.mu_k * model.load).rms for s in seen)
         if replaced < (1.0 - criteria.MATERIAL) * raw:
             return True
     return False
-
-
-def _brought_forward(
-    dataset: Dataset, tell: Progress, channel: tuple[str, Timing], base: float
-) -> tuple[Dataset, Any, list[PlaceOutcome]]:
-    """Return a dataset with a late column brought forward, its balances, and the outcomes from them."""
-    dataset = brought_forward(dataset, channel[0], channel[1].seconds)
-    source = source_of(dataset)
-    places = [place_outcome(dataset, tell, source, name, load, base, [], timed=False) for name, load in source.places]
-    return dataset, source, _beside(dataset, tell, source, places, base)
 
 
 def _fits_better(before: Sequence[PlaceOutcome], after: Sequence[PlaceOutcome]) -> bool:
@@ -143,58 +127,41 @@ def require_usable(dataset: Dataset) -> None:
         return
     _require_controller(dataset.scenario)
     source = source_of(dataset)
-    _require_sliding_at_places(dataset, source)
-    for name, _ in source.places:
-        require_dissipation(dataset, name, source.balances(name, "fit", stated_delay(dataset.scenario)))
+    _require_sliding(source)
+    for name in source.places:
+        require_dissipation(dataset, name, source.balances(name, "fit", source.stated_delay))
 
 
-def _require_sliding_at_places(dataset: Dataset, source: Any) -> None:
-    for name, _ in source.places:
-        for role in ("fit", "test"):
-            _require_sliding(source.balances(name, role, stated_delay(dataset.scenario)), name, role)
-
-
-def _outcome(dataset: Dataset, tell: Progress, source: Any, readings: Readings, said: Sequence[str]) -> JointOutcome:
-    _require_sliding_at_places(dataset, source)
+def _outcome(source: Balances, tell: Progress, readings: Sequence[Effect], said: Sequence[str]) -> JointOutcome:
+    _require_sliding(source)
     notes = [*said]
-    base = stated_delay(dataset.scenario)
-    places = [place_outcome(dataset, tell, source, name, load, base, notes) for name, load in source.places]
-    places = _beside(dataset, tell, source, places, base)
-    channel = late_channel(dataset, source, places, base)
+    places = _places(source, tell, notes)
+    channel = late_channel(source, places)
     if channel is not None:
-        again = _brought_forward(dataset, tell, channel, base)
-        if _fits_better(places, again[2]):
-            dataset, source, after = again
+        moved = source_of(brought_forward(source.dataset, channel[0], channel[1].seconds))
+        after = _places(moved, tell, [], timed=False)
+        if _fits_better(places, after):
+            source = moved
             before = {p.place: {k: p.scores[k] for k in ("baseline", "recalibrated")} for p in places}
             places = [dataclasses.replace(p, scores=p.scores | before[p.place]) for p in after]
         else:
             channel = None
+    dataset = source.dataset
     places.sort(key=_evidence)
     timing = places[0].timing
-    places, floor = _adequate(dataset, tell, source, places, base)
+    places, floor = _adequate(source, tell, places)
     places = [with_idle(p) for p in places]
     places[0] = with_unnamed(dataset, places[0])
     notes += _run_notes(dataset)
-    result = verdict(dataset, places, notes, floor, readings.effects, channel)
-    pictures = tuple(
-        friction_picture(
-            p.place and f"{p.thing} {p.place}",
-            p.test,
-            p.nuisances,
-            p.selected.recalibrated.model,
-            with_phases(p.selected.final.model, p.test),
-        )
-        for p in places
-    )
-    scenario = augmented(dataset.scenario, places, timing, readings.effects)
+    result = verdict(dataset, places, notes, floor, readings, channel)
+    pictures = tuple(map(friction_picture, places))
+    scenario = augmented(dataset.scenario, places, timing, readings)
     return JointOutcome(result, scenario, dataset, places=tuple(places), pictures=pictures)
 
 
-def _adequate(
-    dataset: Dataset, tell: Progress, source: Any, places: Sequence[PlaceOutcome], base: float
-) -> tuple[list[PlaceOutcome], float | None]:
+def _adequate(source: Balances, tell: Progress, places: Sequence[PlaceOutcome]) -> tuple[list[PlaceOutcome], float | None]:
     """Return the places simulated, the first one with the first of its answers that is adequate, and the noise of the drive."""
-    first = seen = simulated(dataset, tell, source, places, (base, base + places[0].late))
+    first = seen = simulated(source, tell, places)
     stages: tuple[Stage, ...] = ()
     without = frozenset[str]()
     for _ in range(ANSWERS - 1):
@@ -206,7 +173,7 @@ def _adequate(
         other = place.again(without)
         if not other.selected.named:
             break
-        seen = simulated(dataset, tell, source, [other, *places[1:]], (base, base + other.late))
+        seen = simulated(source, tell, [other, *places[1:]])
     best, floor = first if inadequate(seen[0][0]) else seen
     return [dataclasses.replace(best[0], beside=stages), *best[1:]], floor
 
@@ -216,36 +183,42 @@ def _evidence(place: PlaceOutcome) -> float:
     return -sum(max(t.score, 0.0) for t in place.selected.effects)
 
 
-def _beside(dataset: Dataset, tell: Progress, source: Any, places: list[PlaceOutcome], base: float) -> list[PlaceOutcome]:
-    """Return the places anew, judged beside the one with the most evidence, where friction in one enters another's balance."""
-    names = [(p, load) for p, load in source.places if isinstance(dataset.scenario.mechanism, Mjcf) and source.coupled(p)]
-    outcomes = {name: place for (name, _), place in zip(source.places, places, strict=True)}
+def _places(source: Any, tell: Progress, notes: list[str], *, timed: bool = True) -> list[PlaceOutcome]:
+    """Return the outcomes at all places; arguments as of `place_outcome`.
+
+    Where friction in one enters another's balance they are judged anew beside the one with the most evidence.
+    """
+    places = [place_outcome(source, tell, name, notes, timed=timed) for name in source.places]
+    names = [name for name in source.places if source.coupled(name)]
     if not names or not any(p.selected.effects for p in places):
         return places
+    outcomes = dict(zip(source.places, places, strict=True))
     first = min(outcomes, key=lambda name: _evidence(outcomes[name]))
     source.known.update({name: p.selected.recalibrated.model for name, p in outcomes.items()})
     source.known[first] = outcomes[first].selected.final.model
-    for name, load in names:
+    for name in names:
         if name != first:
-            outcomes[name] = place_outcome(dataset, tell, source, name, load, base, [])
+            outcomes[name] = place_outcome(source, tell, name, [])
             source.known[name] = outcomes[name].selected.final.model
-    return [outcomes[name] for name, _ in source.places]
+    return list(outcomes.values())
 
 
-def _require_sliding(balances: Sequence[ForceBalance], name: str, role: str) -> None:
-    """Return if the joint slides in the runs of a role.
+def _require_sliding(source: Balances) -> None:
+    """Return if every place slides in the runs of both roles.
 
     Raises:
-        InputError: it hardly does.
+        InputError: one hardly does.
     """
-    windows = sum(int(s.sliding.sum()) for s in balances)
-    if windows < FEWEST:
-        runs = ", ".join(s.run for s in balances)
-        where = f"joint {name!r}" if name else "the joint"
-        raise InputError(
-            f"{where} slides one way in only {windows} windows of the runs with role {role!r} ({runs}); at least {FEWEST} are "
-            "needed: record longer or livelier motion, or check the units of position and load"
-        )
+    for name, role in itertools.product(source.places, ("fit", "test")):
+        balances = source.balances(name, role, source.stated_delay)
+        windows = sum(int(s.sliding.sum()) for s in balances)
+        if windows < FEWEST:
+            runs = ", ".join(s.run for s in balances)
+            where = f"joint {name!r}" if name else "the joint"
+            raise InputError(
+                f"{where} slides one way in only {windows} windows of the runs with role {role!r} ({runs}); at least {FEWEST} "
+                "are needed: record longer or livelier motion, or check the units of position and load"
+            )
 
 
 def _run_notes(dataset: Dataset) -> list[str]:

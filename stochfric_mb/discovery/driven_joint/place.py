@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.balance.timing import LEAST_SAMPLES, Timing, timing
 from stochfric_mb.discovery.driven_joint.decision.selection import Selected, Selector
@@ -22,10 +22,8 @@ from stochfric_mb.discovery.driven_joint.scatter.run_scatter import Forecasts, c
 from stochfric_mb.discovery.driven_joint.scatter.stroke_coefficients import dependence
 from stochfric_mb.discovery.driven_joint.scatter.stroke_scatter import stroke_scatter
 from stochfric_mb.discovery.driven_joint.simulation.augmented import stated_scatter
-from stochfric_mb.discovery.driven_joint.simulation.scores import closed_share, noise_floor, score
-from stochfric_mb.discovery.driven_joint.source import prior_model
+from stochfric_mb.discovery.driven_joint.simulation.scores import closed_share, noise_floor, rms, score
 from stochfric_mb.discovery.inference.noise import independent_count
-from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.mechanisms import PrismaticJoint
 from stochfric_mb.numerics.robust import deviation
 
@@ -39,11 +37,8 @@ HELD = 4
 class _Asked:
     """A place, and how it is seen."""
 
-    dataset: Dataset
-    source: Any
+    source: Balances
     name: str
-    load: float
-    base: float
     tell: Progress
     timing: Timing | None
     selectors: dict[float, Selector] = dataclasses.field(default_factory=dict[float, Selector])
@@ -52,47 +47,36 @@ class _Asked:
     def selector(self, delay: float, start: JointModel, how: str) -> Selector:
         """Return the selection with a delay compensated."""
         if delay not in self.selectors:
-            balances, where = self.source.balances(self.name, "fit", delay), f"{self.name}: " if self.name else ""
-            nuisances = self.source.nuisances(self.name)
-            self.selectors[delay] = Selector(balances, nuisances, start, lambda text: self.tell(where + text + how))
+            balances, nuisances = self.source.balances(self.name, "fit", delay), self.source.nuisances(self.name)
+            self.selectors[delay] = Selector(balances, nuisances, start, lambda text: self.say(text + how))
         return self.selectors[delay]
 
+    def say(self, text: str) -> None:
+        """Say what is being done at the place."""
+        self.tell(f"{self.name}: {text}" if self.name else text)
 
-def place_outcome(
-    dataset: Dataset,
-    tell: Progress,
-    source: Any,
-    name: str,
-    load: float,
-    base: float,
-    notes: list[str],
-    *,
-    timed: bool = True,
-) -> PlaceOutcome:
+
+def place_outcome(source: Balances, tell: Progress, name: str, notes: list[str], *, timed: bool = True) -> PlaceOutcome:
     """Return the outcome at a place.
 
     Args:
-        dataset: the dataset.
-        tell: called with what is being done.
         source: balances of the dataset.
+        tell: called with what is being done.
         name: the place.
-        load: its stated load [N or N m].
-        base: delay of all positions that is known [s].
         notes: what the reader should know is added to these.
         timed: whether a delay is looked for.
     """
-    balances = source.balances(name, "fit", base)
-    notes += sign_notes(dataset, name, load, balances)
-    late = _timing(dataset, tell, source, name, base, balances) if timed else None
-    return _answered(_Asked(dataset, source, name, load, base, tell, late), frozenset())
+    balances = source.balances(name, "fit", source.stated_delay)
+    notes += sign_notes(source.dataset, name, balances)
+    late = _timing(source, tell, name, balances) if timed else None
+    return _answered(_Asked(source, name, tell, late), frozenset())
 
 
 def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
     """Return the outcome at a place, without some kinds and numbers."""
-    dataset, source, name, tell, base, timing = asked.dataset, asked.source, asked.name, asked.tell, asked.base, asked.timing
-    scenario, nuisances = dataset.scenario, source.nuisances(name)
-    stated = prior_model(scenario, name, nuisances, asked.load)
-    where = f"{name}: " if name else ""
+    source, name, timing, base = asked.source, asked.name, asked.timing, asked.source.stated_delay
+    dataset, scenario, nuisances = source.dataset, source.dataset.scenario, source.nuisances(name)
+    stated = source.stated(name)
     undelayed = None
     shortest = LEAST_SAMPLES * dataset.fit[0].sample_interval
     if timing is not None and abs(timing.seconds) <= shortest:  # how signals are sampled and held
@@ -110,7 +94,7 @@ def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
             undelayed, selected, fit_balances = selected.recalibrated.model, late, balances
     delay = base + (timing.seconds if timing is not None and timing.named else 0.0)
     test_balances = source.balances(name, "test", delay)
-    tell(f"{where}held-out runs")
+    asked.say("held-out runs")
     scores = {
         label: score(model, test_balances, nuisances, dataset.test, scenario)
         for label, model in _models(stated, selected).items()
@@ -124,7 +108,8 @@ def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
     random = None if selected.unknown else stroke_scatter(final, fit_balances, nuisances, stated_scatter(scenario, "per_event"))
     noise = floor = noise_floor(final, test_balances, nuisances)
     if random is not None and random.accounted:
-        floor = float(np.hypot(floor, random.sigma * _rms_dependence(final, test_balances)))
+        along = np.concatenate([dependence(final, s)[s.sliding] for s in test_balances])
+        floor = float(np.hypot(floor, random.sigma * rms(along)))
     kinds = {"tendon": getattr(scenario.mechanism, "tendons", ()), "pair": getattr(scenario.mechanism, "pairs", ())}
     thing = next((kind for kind, names in kinds.items() if name in names), "joint")
     runs = None if selected.unknown else run_scatter(final, fit_balances, nuisances, stated_scatter(scenario, "per_run"))
@@ -133,39 +118,36 @@ def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
         models = (stated, runs.believed), (selected.recalibrated.model, runs.believed), (final, runs.foreseen)
         each = [crps_of(m, test_balances, nuisances, noise, sigma) for m, sigma in models]
         forecasts = Forecasts(*(score for score, _ in each), floor=each[-1][1])
-    seen = tuple(fit_balances), tuple(test_balances)
     return PlaceOutcome(
-        name,
-        selected,
-        tuple(nuisances),
-        stated,
-        *seen,
-        scores,
-        floor,
-        thing,
-        random,
-        runs,
-        forecasts,
-        undelayed,
+        place=name,
+        selected=selected,
+        nuisances=tuple(nuisances),
+        stated=stated,
+        fit=tuple(fit_balances),
+        test=tuple(test_balances),
+        scores=scores,
+        floor=floor,
+        thing=thing,
+        random=random,
+        runs=runs,
+        forecasts=forecasts,
+        undelayed=undelayed,
         timing=timing,
         again=lambda more: _answered(asked, without | more),
     )
 
 
-def _timing(
-    dataset: Dataset, tell: Progress, source: Any, name: str, base: float, balances: Sequence[ForceBalance]
-) -> Timing | None:
+def _timing(source: Balances, tell: Progress, name: str, balances: Sequence[ForceBalance]) -> Timing | None:
     """Return by how much the motion at a place may come late; None: it does not, or nothing could be late."""
-    mechanism = dataset.scenario.mechanism
+    mechanism, base = source.dataset.scenario.mechanism, source.stated_delay
     if isinstance(mechanism, PrismaticJoint) and mechanism.mass <= 0.0:
         return None  # a slow prescribed motion has no inertia by which it could be late
     tell("timing")
-    half_width = float(np.median([s.window.half_width for s in balances]))
     return timing(
         lambda d, w: source.balances(name, "fit", base + d, w),
         source.nuisances(name),
-        dataset.fit[0].sample_interval,
-        half_width,
+        source.dataset.fit[0].sample_interval,
+        float(np.median([s.window.half_width for s in balances])),
     )
 
 
@@ -192,7 +174,7 @@ def _better(
     if more < 0 and gain > np.log(1.0 - criteria.MATERIAL):
         gain = max(gain, 0.0)  # effects that leave less by no material part explain no more than the delay, which is simpler
     stated = fit(plain.recalibrated.model, balances[0], nuisances, noise=prior_weight(plain.recalibrated))
-    sizes = _rms, lambda rest: deviation(rest, about=0.0)
+    sizes = rms, lambda rest: deviation(rest, about=0.0)
     shares = [share_by_delay(stated, after, balances[-1], nuisances, size) for size in sizes]
     evidence = 2.0 * n * gain + before.strain - after.strain - more * np.log(n)
     return float(evidence), min(shares) >= criteria.EXPLAINED_BY_DELAY
@@ -207,16 +189,12 @@ def _refitted(selected: Selected, balances: Sequence[ForceBalance]) -> JointFit:
     return fit(selected.final.model, balances, selected.nuisances, noise=prior_weight(selected.final))
 
 
-def _rms(values: Array) -> float:
-    return float(np.sqrt(np.mean(values**2)))
-
-
 def share_by_delay(
     plain: JointFit,
     late: JointFit,
     balances: Sequence[ForceBalance],
     nuisances: Sequence[Nuisance],
-    size: Callable[[Array], float] = _rms,
+    size: Callable[[Array], float] = rms,
 ) -> float:
     """Return the share of what stands above the noise that a delay, with what was selected beside it, closes [-].
 
@@ -236,8 +214,3 @@ def _models(stated: JointModel, selected: Selected) -> dict[str, JointModel]:
     models = {"baseline": stated, "recalibrated": selected.recalibrated.model}
     models |= {f"with {t.candidate.kind}": t.fit.model for t in selected.effects}
     return models | {"augmented": selected.final.model}
-
-
-def _rms_dependence(model: JointModel, balances: Sequence[ForceBalance]) -> float:
-    """Return the change of friction with mu_k, rms over the windows of sliding [N or N m]."""
-    return float(np.sqrt(np.mean(np.concatenate([dependence(model, s)[s.sliding] for s in balances]) ** 2)))

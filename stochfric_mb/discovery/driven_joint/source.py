@@ -1,23 +1,18 @@
-"""Where balances come from: a slide or hinge, or a user's own model; and the stated model at a place."""
+"""Where the balances of a dataset come from: a slide or hinge, or a user's own model."""
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Sequence
 from typing import Any
 
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import balance_of, nuisances_of
-from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
-from stochfric_mb.discovery.driven_joint.simulation.augmented import BESIDE
+from stochfric_mb.discovery.driven_joint.balance.balances import Balances
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import PlainBalances
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.mechanisms import HingePendulum, Mjcf, PrismaticJoint
-from stochfric_mb.scenario import Scenario
 
 
-def source_of(dataset: Dataset) -> Any:
-    """Return the balances of a dataset: of its places, by role and delay.
+def source_of(dataset: Dataset) -> Balances:
+    """Return the balances of a dataset.
 
     Raises:
         InputError: the mechanism is no driven joint, or its model or a channel cannot be used.
@@ -28,39 +23,7 @@ def source_of(dataset: Dataset) -> Any:
 
         return mjcf_balances(dataset)
     if isinstance(mechanism, PrismaticJoint | HingePendulum):
-        return PlainSource(dataset)
+        return PlainBalances(dataset)
     raise InputError(
         f"mechanism {mechanism.kind!r} is no driven joint; use prismatic_joint, hinge_pendulum, spring_slider or mjcf"
     )
-
-
-@dataclasses.dataclass(frozen=True)
-class PlainSource:
-    """ForceBalances of the mechanisms that are one joint."""
-
-    dataset: Dataset
-    """The dataset."""
-
-    @property
-    def places(self) -> list[tuple[str, float]]:
-        """Return the one place, which needs no name, and its load."""
-        return [("", float(self.dataset.scenario.mechanism.normal_force))]
-
-    def nuisances(self, place: str) -> list[Nuisance]:
-        """Return what data may correct, with its priors."""
-        return nuisances_of(self.dataset.scenario, self.dataset.scenario.mechanism)
-
-    def balances(self, place: str, role: str, delay: float, samples: int | None = None) -> list[ForceBalance]:
-        """Return the runs of a role as balances; arguments as of `balance_of`."""
-        runs = self.dataset.fit if role == "fit" else self.dataset.test
-        return [balance_of(r, self.dataset.scenario, delay=delay, samples=samples, runs=self.dataset.runs) for r in runs]
-
-
-def prior_model(scenario: Scenario[Any], place: str, nuisances: Sequence[Nuisance], load: float) -> JointModel:
-    """Return the model as stated at a place whose load is ``load`` [N or N m]."""
-    acts_in = getattr(scenario.mechanism, "effects_in", ())
-    own = () if acts_in and place not in acts_in else tuple(e for e in scenario.effects if e.group not in BESIDE)
-    contact = place in getattr(scenario.mechanism, "pairs", ())
-    mu_k, spread = scenario.law.mu_k, scenario.uncertainty.get("mu_k", 0.0)
-    level = mu_k, spread * mu_k if spread > 0.0 else float("inf")
-    return JointModel(scenario.law, own, {n.name: n.value for n in nuisances}, load, contact, level)

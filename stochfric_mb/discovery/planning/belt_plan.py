@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,8 @@ from scipy.optimize import brentq
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.planning.planned_run import PlannedRun
-from stochfric_mb.discovery.planning.signature import Signature, separation
+from stochfric_mb.discovery.planning.rig_plan import Further, Part, RigPlan
+from stochfric_mb.discovery.planning.signature import Signature, needed_for_a_name
 from stochfric_mb.discovery.stick_slip.advice import SEEN_BY, constant_conditions
 from stochfric_mb.discovery.stick_slip.records.calibration import Calibration, calibrate
 from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
@@ -29,14 +30,12 @@ from stochfric_mb.discovery.stick_slip.screening.waves import slow_frequencies, 
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import assumed, prior_model
 from stochfric_mb.discovery.stick_slip.study import record_of
 from stochfric_mb.effects import effect_class, effect_kinds, kind_with_signature
-from stochfric_mb.effects.marks import WAVE, Hypothesis
+from stochfric_mb.effects.marks import Hypothesis
 from stochfric_mb.effects.traits import DRAWN_ANEW, SHAPES_SLIPS
 from stochfric_mb.errors import InputError
-from stochfric_mb.measurement.dataset import Dataset
-from stochfric_mb.measurement.run import Run
+from stochfric_mb.measurement.run import Run, apply_settings
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference.augmented import Start, augmented_system
-from stochfric_mb.scenario import Scenario
 
 LOOKED_AT = 6
 """Frequencies that stand for all: periodic effects are all alike."""
@@ -49,41 +48,31 @@ SHARE_OF_TRAVEL = 1.0e-3
 
 
 @dataclasses.dataclass(frozen=True)
-class Part:
+class BeltPart(Part):
     """One planned run, as discovery would see it."""
 
-    run: PlannedRun
-    """The run, its noise stated."""
     slips: Slips
     """The slips of its simulated record."""
     calibration: Calibration
     """Errors of their features."""
 
-    def facts(self) -> dict[str, Any]:
-        """Return what there is to say of it."""
-        about = {"name": self.run.name, "seconds": self.run.duration, "sample_rate": self.run.sample_rate}
-        return about | {"noise": self.run.noise, "set": dict(self.run.settings), "slips": len(self.slips)}
-
 
 @dataclasses.dataclass(frozen=True)
-class BeltPlan:
+class BeltPlan(RigPlan):
     """Planned runs of a belt-box."""
 
-    scenario: Scenario[BeltBox]
-    """The stated model."""
-    rotational = False
-    """The box slides along a line."""
-    notes: tuple[str, ...] = ()
-    """Nothing more is to be said of it."""
+    def facts(self, part: BeltPart) -> dict[str, Any]:
+        """Return what there is to say of a planned run."""
+        return super().facts(part) | {"slips": len(part.slips)}
 
-    def part(self, run: PlannedRun, seed: int) -> Part:
+    def part(self, run: PlannedRun, seed: int) -> BeltPart:
         """Return a planned run, simulated and taken through discovery's extraction.
 
         Raises:
             InputError: the belt rests, the sampling is too slow, or the box slips too seldom; says what would do.
         """
         run, measured = self._measured(run, seed)
-        data = assumed(Dataset(title="", scenario_path=None, scenario=self.scenario, runs=(measured,)))
+        data = assumed(self.records(measured))
         require_usable(data)
         slips = extract(record_of(data.fit[0], data))
         if len(slips) < criteria.FEWEST_SLIPS:
@@ -93,12 +82,12 @@ class BeltPlan:
                 + (f": plan {math.ceil(1.2 * criteria.FEWEST_SLIPS * cycle)} s or more" if len(slips) else "; the box does "
                    "not slip with the stated numbers: check mu_s against mu_k, and the speed of the belt")
             )  # fmt: skip
-        return Part(run, slips, calibrate(slips, seed=11 + seed))
+        return BeltPart(run, measured, slips, calibrate(slips, seed=11 + seed))
 
-    def signatures(self, parts: Sequence[Part]) -> tuple[list[Signature], dict[str, str]]:
+    def signatures(self, parts: Sequence[BeltPart]) -> tuple[list[Signature], dict[str, str]]:
         """Return what effects would leave in some runs, and effect -> what would show it, for those that leave nothing."""
         pool = make_pool([p.slips for p in parts], [p.calibration for p in parts])
-        terms = stated_terms(pool, dict(assumed_uncertainty(self.scenario)))
+        terms = stated_terms(pool, dict(assumed(self.records()).scenario.uncertainty))
         regression = Regression(pool)
         solution = regression.fit(terms)
         forms = list(_forms(pool, regression, terms, solution))
@@ -113,43 +102,33 @@ class BeltPlan:
             stated_kinds |= {kind_with_signature(DRAWN_ANEW)}
         return [f for f in forms if f.kind not in {*blind, *stated_kinds}], blind
 
-    apart = staticmethod(separation)
-    """When effects are distinguished."""
-
-    def unit(self, straight: str) -> str:
-        """Return the unit of a parameter at this rig: it slides along a line."""
-        return straight
-
     @property
     def no_limit(self) -> tuple[str, ...]:
-        """Return the effects for which discovery has detectors and no regressors."""
+        """The effects for which discovery has detectors and no regressors."""
         return tuple(k for k in effect_kinds() if effect_class(k).searched_in_slips())
 
-    def extra_runs(self, first: PlannedRun) -> list[tuple[str, PlannedRun]]:
-        """Return runs that may be added, each with its words."""
+    def further(self, first: PlannedRun) -> list[Further]:
+        """Return runs that may be added: other speeds, the belt reversed, another load, finer sampling."""
         box = self._box(first)
         speed, load = box.belt_velocity, box.normal_force
 
-        def with_(**settings: float) -> PlannedRun:
-            return dataclasses.replace(first, name="extra run", settings=dict(first.settings) | settings)
+        def setting(**settings: float) -> dict[str, Any]:
+            return {"settings": dict(first.settings) | settings}
 
-        slower = dataclasses.replace(with_(belt_velocity=0.5 * speed), duration=2.0 * first.duration)
+        twice = 2.0 * first.duration
         return [
-            (f"another {first.duration:g} s as in {first.name}", dataclasses.replace(first, name="extra run")),
-            (f"a run at belt_velocity = {2.0 * speed:.3g} m/s", with_(belt_velocity=2.0 * speed)),
-            (f"a run of {slower.duration:g} s at belt_velocity = {0.5 * speed:.3g} m/s", slower),
-            (f"a run with the belt reversed, belt_velocity = {-speed:.3g} m/s", with_(belt_velocity=-speed)),
-            (f"a run at normal_force = {2.0 * load:.3g} N", with_(normal_force=2.0 * load)),
+            (f"a run at belt_velocity = {2.0 * speed:.3g} m/s", setting(belt_velocity=2.0 * speed)),
             (
-                f"a run at {2.0 * first.sample_rate:g} samples a second",
-                dataclasses.replace(first, name="extra run", sample_rate=2.0 * first.sample_rate),
+                f"a run of {twice:g} s at belt_velocity = {0.5 * speed:.3g} m/s",
+                setting(belt_velocity=0.5 * speed) | {"duration": twice},
             ),
+            (f"a run with the belt reversed, belt_velocity = {-speed:.3g} m/s", setting(belt_velocity=-speed)),
+            (f"a run at normal_force = {2.0 * load:.3g} N", setting(normal_force=2.0 * load)),
+            (f"a run at {2.0 * first.sample_rate:g} samples a second", {"sample_rate": 2.0 * first.sample_rate}),
         ]
 
     def _box(self, run: PlannedRun) -> BeltBox:
-        empty = np.zeros(0)
-        bare = Run(name=run.name, role="fit", time=empty, channels={}, settings=run.settings, sample_interval=1.0)
-        return bare.mechanism(self.scenario)
+        return apply_settings(self.scenario, run.settings, f"run {run.name!r}")
 
     def _measured(self, run: PlannedRun, seed: int) -> tuple[PlannedRun, Run]:
         """Return a planned run with its noise stated, and what would be measured with the stated model."""
@@ -165,18 +144,9 @@ class BeltPlan:
         start = Start(-settling, 0.0, box.belt_velocity, stick=True)
         settled = system.march(start, step, round(settling * run.sample_rate)).end
         position = system.march(settled, step, round(run.duration * run.sample_rate)).position
-        noise = run.noise if run.noise is not None else SHARE_OF_TRAVEL * float(np.ptp(position))
-        position = position + noise * np.random.default_rng(seed).standard_normal(len(position))
-        stated = dataclasses.replace(run, noise=noise)
-        time = np.asarray(step * np.arange(len(position)), dtype=np.float64)
-        return stated, Run(
-            name=run.name, role="fit", time=time, channels={"position": position}, settings=run.settings, sample_interval=step
-        )
-
-
-def assumed_uncertainty(scenario: Scenario[Any]) -> Mapping[str, float]:
-    """Return the uncertainty of a scenario, the usual one where it states none."""
-    return assumed(Dataset(title="", scenario_path=None, scenario=scenario, runs=())).scenario.uncertainty
+        run = run.with_noise(SHARE_OF_TRAVEL * float(np.ptp(position)))
+        position = position + (run.noise or 0.0) * np.random.default_rng(seed).standard_normal(len(position))
+        return run, run.record({"position": position})
 
 
 @dataclasses.dataclass(frozen=True)
@@ -184,40 +154,41 @@ class _Form:
     """A hypothesis or a wave before the terms of the stated model are taken out."""
 
     kind: str
-    variant: str
     columns: Sequence[Any]
-    signals: int
-    """How many of the columns are the effect at its phases, 0: the first one is the effect."""
     grid: int
     value: Callable[[float], tuple[str, float, dict[str, float | str], bool]]
+    limited: bool = True
+    """Whether it has a limit of its own; if not, it is what another effect may be taken for."""
     least: float = 0.0
     """Coefficient from which simulating the effect confirms it; 0 where it is not simulated."""
+    wave: bool = False
+    """Whether columns are the effect at its phases in turn; if not, the first one is the effect."""
 
 
 def _forms(pool: Pool, regression: Regression, terms: Terms, solution: Solution) -> list[Signature]:
     """Return the forms of all effects that the slips could show."""
-    families = hypotheses_in(pool)
-    forms = [
-        _Form(kind, h.variant, h.columns, 0, len(ways), _value_of(kind, h, len(h.columns)), _least(pool, terms, h))
-        for kind, ways in families.items()
-        for h in ways
-    ]
+    periodic: list[_Form] = []
     for kind, wave in waves_in(pool).items():
         every = slow_frequencies(pool, wave.pace)
         for f in every[len(every) // (2 * LOOKED_AT) :: max(len(every) // LOOKED_AT, 1)]:
             place = _wave_value(kind, wave.setting(float(f)))
-            forms.append(_Form(kind, WAVE, wave_columns(pool, wave, float(f), 1), 2, 3 * len(every), place))
-    signatures: list[Signature] = []
-    periodic = {f.kind for f in forms if f.signals}
-    plainest = {kind: ways[0].variant for kind, ways in families.items()}
-    for form in forms:
-        columns = regression.beyond(terms, solution.scatter, form.columns)
-        other = not form.signals and (form.kind in periodic or form.variant != plainest[form.kind])
-        signature = _signature(form, columns, regression.n, limited=not other)
-        if signature is not None:
-            signatures.append(signature)
-    signatures.append(_scatter_signature(pool, regression, solution))
-    return signatures
+            periodic.append(_Form(kind, wave_columns(pool, wave, float(f), 1), 3 * len(every), place, wave=True))
+    known = {f.kind for f in periodic}
+    plain = [
+        _Form(
+            kind,
+            h.columns,
+            len(ways),
+            _value_of(kind, h, len(h.columns)),
+            limited=kind not in known and h.variant == ways[0].variant,
+            least=_least(pool, terms, h),
+        )
+        for kind, ways in hypotheses_in(pool).items()
+        for h in ways
+    ]
+    forms = [(f, regression.beyond(terms, solution.scatter, f.columns)) for f in (*plain, *periodic)]
+    signatures = [s for f, columns in forms if (s := _signature(f, columns, regression.n)) is not None]
+    return [*signatures, _scatter_signature(pool, regression, solution)]
 
 
 def _least(pool: Pool, terms: Terms, hypothesis: Hypothesis) -> float:
@@ -226,10 +197,10 @@ def _least(pool: Pool, terms: Terms, hypothesis: Hypothesis) -> float:
     return simulated_limit(pool, terms, hypothesis) if simulated else 0.0
 
 
-def _signature(form: _Form, columns: Any, n: int, *, limited: bool) -> Signature | None:
-    """Return a form at its limit; without ``limited`` as what another effect may be taken for: it has no limit of its own."""
-    needed = criteria.NAMED + columns.shape[1] * math.log(n) + 2.0 * math.log(form.grid)
-    plain = (columns[:, :1],) if not form.signals else (columns[:, 0::2], columns[:, 1::2])
+def _signature(form: _Form, columns: Any, n: int) -> Signature | None:
+    """Return a form at its limit; None: the numbers of the stated model imitate it."""
+    needed = needed_for_a_name(columns.shape[1], n, form.grid)
+    plain = (columns[:, 0::2], columns[:, 1::2]) if form.wave else (columns[:, :1],)
     signals = [c.sum(axis=1) for c in plain]
     evidence = float(np.mean([s @ s for s in signals]))
     raw = float(sum(np.sum(np.square(c)) for c in form.columns))
@@ -237,7 +208,7 @@ def _signature(form: _Form, columns: Any, n: int, *, limited: bool) -> Signature
         return None
     strength = max(math.sqrt(needed / evidence), form.least)
     name, value, beside, at_most = form.value(strength)
-    limit = abs(value) if limited and name else math.inf
+    limit = abs(value) if form.limited and name else math.inf
     unit = effect_class(form.kind).__dataclass_fields__[name].metadata["unit"] if name else "-"
     return Signature(form.kind, name, unit, limit, beside, tuple(strength * s for s in signals), columns, at_most)
 

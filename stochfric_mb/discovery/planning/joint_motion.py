@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import drive_channel
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import inverse
 from stochfric_mb.discovery.planning.planned_run import PlannedRun
 from stochfric_mb.errors import InputError, require_name
@@ -18,25 +18,18 @@ from stochfric_mb.mechanisms import HingePendulum, Mjcf, PrismaticJoint
 Array = npt.NDArray[np.float64]
 
 
-@dataclasses.dataclass(frozen=True)
-class Harmonic:
-    """q = centre + stroke/2 sin(2 pi (t/period + turn))."""
+def harmonic(run: PlannedRun, centre: float, turn: float = 0.0) -> tuple[Array, Array, Array]:
+    """Return position, velocity and acceleration along q = centre + stroke/2 sin(2 pi (t/period + turn)), shape (n,) each.
 
-    centre: float
-    """Middle of the stroke [m or rad]."""
-    stroke: float
-    """Distance between the turning points [m or rad]."""
-    period: float
-    """Time there and back [s]."""
-    turn: float = 0.0
-    """Part of the period by which it is ahead [-]."""
-
-    def at(self, time: Array) -> tuple[Array, Array, Array]:
-        """Return position, velocity and acceleration, shape (n,) each."""
-        rate = 2.0 * math.pi / self.period
-        phase = rate * time + 2.0 * math.pi * self.turn
-        away, velocity = 0.5 * self.stroke * np.sin(phase), 0.5 * self.stroke * rate * np.cos(phase)
-        return self.centre + away, velocity, -(rate**2) * away
+    Args:
+        run: the planned run, with its stroke and period.
+        centre: middle of the stroke [m or rad].
+        turn: part of the period by which it is ahead [-].
+    """
+    half, rate = 0.5 * (run.stroke or 0.0), 2.0 * math.pi / (run.period or 1.0)
+    phase = rate * run.time + 2.0 * math.pi * turn
+    away = half * np.sin(phase)
+    return centre + away, half * rate * np.cos(phase), -(rate**2) * away
 
 
 def measured_at_joint(run: PlannedRun, joint: PrismaticJoint | HingePendulum, friction: float, seed: int) -> Run:
@@ -48,21 +41,17 @@ def measured_at_joint(run: PlannedRun, joint: PrismaticJoint | HingePendulum, fr
         friction: Coulomb friction [N or N m].
         seed: of the noise.
     """
-    time, generator = _clock(run), np.random.default_rng(seed)
-    q, velocity, acceleration = _motion_of(run, joint.initial_position).at(time)
+    generator = np.random.default_rng(seed)
+    q, velocity, acceleration = harmonic(run, joint.initial_position)
     drive = joint.damping * velocity + joint.offset + friction * np.sign(velocity)
     if isinstance(joint, PrismaticJoint):
-        drive, name, gain = drive + joint.mass * acceleration, "force", joint.force_gain
+        drive = drive + joint.mass * acceleration
     else:
         inertia = joint.mass * joint.length**2 + joint.inertia
         drive = drive + inertia * acceleration + joint.mass * joint.gravity * joint.length * np.sin(q)
-        name, gain = "torque", joint.torque_gain
     drive = drive + (run.force_noise or 0.0) * generator.standard_normal(len(q))
-    channels = {
-        "position": q + (run.noise or 0.0) * generator.standard_normal(len(q)),
-        "voltage" if gain else name: drive / (gain or 1.0),
-    }
-    return _run(run, time, channels)
+    name, factor = drive_channel(joint)
+    return run.record({"position": q + (run.noise or 0.0) * generator.standard_normal(len(q)), name: drive / factor})
 
 
 def measured_in_model(run: PlannedRun, source: Any, place: str, mu_k: float, seed: int) -> Run:
@@ -78,12 +67,12 @@ def measured_in_model(run: PlannedRun, source: Any, place: str, mu_k: float, see
     Raises:
         InputError: the motion leaves a joint's range.
     """
-    mechanism, model, time = source.mechanism, source.model, _clock(run)
+    mechanism, model, time = source.mechanism, source.model, run.time
     own = source.names.index(place)
     moved = [n for i, n in enumerate(source.names) if _is_measured(mechanism, n) and model.jnt_type[i] == model.jnt_type[own]]
     moved.sort(key=lambda n: n != place)
     motions = [
-        _motion_in_range(run, model, i, moved.index(n)).at(time) if n in moved else _rest(mechanism, model, i, n, len(time))
+        _in_range(run, model, i, moved.index(n)) if n in moved else _rest(mechanism, model, i, n, len(time))
         for i, n in enumerate(source.names)
     ]
     q, v, a = (np.stack(rows, axis=1) for rows in zip(*motions, strict=True))
@@ -100,7 +89,7 @@ def measured_in_model(run: PlannedRun, source: Any, place: str, mu_k: float, see
             first, *others = drive.columns
             channels[first] = (force + noise[1] * generator.standard_normal(len(time))) / drive.gain
             channels |= {other: np.ones(len(time)) for other in others}
-    return _run(run, time, channels)
+    return run.record(channels)
 
 
 def require_plannable(mechanism: Mjcf, place: str) -> None:
@@ -137,26 +126,9 @@ def _rest(mechanism: Mjcf, model: Any, number: int, name: str, n: int) -> tuple[
     return np.full(n, model.qpos0[number] if isinstance(given, str) else given), np.zeros(n), np.zeros(n)
 
 
-def _motion_in_range(run: PlannedRun, model: Any, number: int, turn: int) -> Harmonic:
+def _in_range(run: PlannedRun, model: Any, number: int, turn: int) -> tuple[Array, Array, Array]:
     low, high = (float(x) for x in model.jnt_range[number])
-    limited = bool(model.jnt_limited[number])
-    motion = _motion_of(run, 0.5 * (low + high) if limited else float(model.qpos0[number]), 0.25 * turn)
-    if limited and motion.stroke > high - low:
-        raise InputError(
-            f"{run.name}: stroke = {motion.stroke:g} is more than the range of a joint, {low:g} to {high:g}; plan less"
-        )
-    return motion
-
-
-def _motion_of(run: PlannedRun, centre: float, turn: float = 0.0) -> Harmonic:
-    return Harmonic(centre, float(run.stroke or 0.0), float(run.period or 1.0), turn)
-
-
-def _clock(run: PlannedRun) -> Array:
-    return np.asarray(np.arange(round(run.duration * run.sample_rate)) / run.sample_rate, dtype=np.float64)
-
-
-def _run(run: PlannedRun, time: Array, channels: dict[str, Array]) -> Run:
-    return Run(
-        name=run.name, role="fit", time=time, channels=channels, settings=run.settings, sample_interval=1.0 / run.sample_rate
-    )
+    limited, stroke = bool(model.jnt_limited[number]), run.stroke or 0.0
+    if limited and stroke > high - low:
+        raise InputError(f"{run.name}: stroke = {stroke:g} is more than the range of a joint, {low:g} to {high:g}; plan less")
+    return harmonic(run, 0.5 * (low + high) if limited else float(model.qpos0[number]), 0.25 * turn)

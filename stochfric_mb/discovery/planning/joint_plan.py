@@ -13,22 +13,20 @@ from typing import Any
 
 import numpy as np
 
-from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate, candidates, span_of
-from stochfric_mb.discovery.driven_joint.decision.estimates import unit_at
 from stochfric_mb.discovery.driven_joint.decision.selection import SIZES, Selector
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.gains import effect_columns
-from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
+from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.discovery.planning.joint_motion import measured_at_joint, measured_in_model
 from stochfric_mb.discovery.planning.planned_run import PlannedRun
-from stochfric_mb.discovery.planning.signature import Signature, separation
+from stochfric_mb.discovery.planning.rig_plan import Further, Part, RigPlan
+from stochfric_mb.discovery.planning.signature import BEYOND, Signature, needed_for_a_name
 from stochfric_mb.effects import Effect, effect_class, effect_kinds
 from stochfric_mb.errors import InputError
-from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Mjcf
-from stochfric_mb.scenario import Scenario
 
 SHARE_OF_STROKE, SHARE_OF_FRICTION = 1.0e-4, 0.01
 """Noise of sensors of which nobody said how good they are, over the stroke and over the friction [-]."""
@@ -39,31 +37,14 @@ FEWEST_CYCLES = 3.0
 
 
 @dataclasses.dataclass(frozen=True)
-class JointPart:
-    """One planned run of a joint."""
-
-    run: PlannedRun
-    """The run, its noise stated."""
-    measured: Run
-    """What would be measured with the stated model."""
-
-    def facts(self) -> dict[str, Any]:
-        """Return what there is to say of it."""
-        run = self.run
-        about = {"name": run.name, "seconds": run.duration, "sample_rate": run.sample_rate, "noise": run.noise}
-        return about | {"force_noise": run.force_noise, "stroke": run.stroke, "period": run.period, "set": dict(run.settings)}
-
-
-@dataclasses.dataclass(frozen=True)
-class JointPlan:
+class JointPlan(RigPlan):
     """Planned runs of a driven joint."""
 
-    scenario: Scenario[Any]
-    """The stated model."""
+    shown = ("force_noise", "stroke", "period")
     place: str = ""
     """Joint of a MuJoCo model; empty: the mechanism is one joint."""
 
-    def part(self, run: PlannedRun, seed: int) -> JointPart:
+    def part(self, run: PlannedRun, seed: int) -> Part:
         """Return a planned run, simulated.
 
         Raises:
@@ -83,19 +64,18 @@ class JointPlan:
             raise InputError(f"{run.name}: set = {dict(run.settings)!r}; at a joint plan stroke, period, duration and noise")
         if getattr(joint, "piston_area", 0.0):
             raise InputError(f"{run.name}: a pressure cannot be planned; leave piston_area out of the scenario for the plan")
-        friction = self.scenario.law.mu_k * self._load
-        noise = SHARE_OF_STROKE * run.stroke if run.noise is None else run.noise
-        force_noise = SHARE_OF_FRICTION * friction if run.force_noise is None else run.force_noise
-        stated = dataclasses.replace(run, noise=noise, force_noise=force_noise)
+        source = self._source()
+        friction = self.scenario.law.mu_k * source.places[self.place]
+        stated = run.with_noise(SHARE_OF_STROKE * run.stroke, SHARE_OF_FRICTION * friction)
         if isinstance(joint, Mjcf):
-            return JointPart(stated, measured_in_model(stated, self._source(()), self.place, self.scenario.law.mu_k, seed))
-        return JointPart(stated, measured_at_joint(stated, joint, friction, seed))
+            return Part(stated, measured_in_model(stated, source, self.place, self.scenario.law.mu_k, seed))
+        return Part(stated, measured_at_joint(stated, joint, friction, seed))
 
-    def signatures(self, parts: Sequence[JointPart]) -> tuple[list[Signature], dict[str, str]]:
+    def signatures(self, parts: Sequence[Part]) -> tuple[list[Signature], dict[str, str]]:
         """Return what effects would leave in some runs, and effect -> what would show it, for those that leave nothing."""
-        source, name, load = self._source([p.measured for p in parts]), self.place, self._load
-        balances, nuisances = source.balances(name, "fit", 0.0), source.nuisances(name)
-        fitted = Selector(balances, nuisances, prior_model(self.scenario, name, nuisances, load)).recalibrated
+        source, name = self._source(*(p.measured for p in parts)), self.place
+        balances, load = source.balances(name, "fit", 0.0), source.places[name]
+        fitted = Selector(balances, source.nuisances(name), source.stated(name)).recalibrated
         span = span_of(balances, fitted.model.law.mu_k * load, load)
         tried = candidates(span, fitted.model.effects)
         forms = [
@@ -108,60 +88,39 @@ class JointPlan:
         missing = {c.kind for c in candidates(richer, fitted.model.effects)} - {c.kind for c in tried}
         return forms, {k: RICHER.get(effect_class(k).answers_to, "another motion") for k in effect_kinds() if k in missing}
 
-    apart = staticmethod(separation)
-    """When effects are distinguished."""
-
-    def unit(self, straight: str) -> str:
-        """Return the unit of a parameter at this joint, its unit along a line given."""
-        return unit_at(straight, "N m" if self.rotational else "N")
-
     @property
     def rotational(self) -> bool:
-        """Return whether friction acts about an axis."""
-        joint = self.scenario.mechanism
-        if not isinstance(joint, Mjcf):
-            return joint.rotational
-        source = self._source(())
-        return bool(source.model.jnt_type[source.names.index(self.place)] == source.mujoco.mjtJoint.mjJNT_HINGE)
+        """Whether friction acts about an axis."""
+        return self._source().rotates(self.place)
 
     @property
     def notes(self) -> list[str]:
-        """Return what a reader should know of this mechanism."""
+        """What a reader should know of this mechanism."""
         others = [name for name in getattr(self.scenario.mechanism, "friction", ()) if name != self.place]
         return [f"the limits are those of joint {self.place}; --joint plans {' or '.join(others)}"] if others else []
 
-    @property
-    def _load(self) -> float:
-        """Load of the joint [N or N m]: friction is mu times it."""
-        joint = self.scenario.mechanism
-        return joint.friction[self.place] if isinstance(joint, Mjcf) else joint.normal_force
-
-    def _source(self, runs: Sequence[Run]) -> Any:
+    def _source(self, *runs: Run) -> Balances:
         """Return the force balances of runs; a controller would ask for columns that are not planned."""
         scenario = dataclasses.replace(self.scenario, controller=None)
-        return source_of(Dataset(title="", scenario_path=None, scenario=scenario, runs=tuple(runs)))
+        return source_of(dataclasses.replace(self.records(*runs), scenario=scenario))
 
     @property
     def no_limit(self) -> tuple[str, ...]:
-        """Return the effects that a joint may have: those without a signature have no limit."""
+        """The effects that a joint may have."""
         return tuple(k for k in effect_kinds() if effect_class(k).searched_at_joints())
 
-    def extra_runs(self, first: PlannedRun) -> list[tuple[str, PlannedRun]]:
-        """Return runs that may be added, each with its words."""
-        again = dataclasses.replace(first, name="extra run")
+    def further(self, first: PlannedRun) -> list[Further]:
+        """Return runs that may be added: faster, slower, longer strokes, a quieter force sensor."""
         stroke, period = first.stroke or 1.0, first.period or 1.0
-        quiet = None if first.force_noise is None else 0.5 * first.force_noise
-        runs = [
-            (f"another {first.duration:g} s as in {first.name}", again),
-            (f"a run twice as fast, period = {0.5 * period:.3g} s", dataclasses.replace(again, period=0.5 * period)),
-            (
-                f"a run five times as slow, period = {5.0 * period:.3g} s, for {5.0 * first.duration:g} s",
-                dataclasses.replace(again, period=5.0 * period, duration=5.0 * first.duration),
-            ),
-            (f"a run with twice the stroke, {2.0 * stroke:.3g}", dataclasses.replace(again, stroke=2.0 * stroke)),
+        slower = {"period": 5.0 * period, "duration": 5.0 * first.duration}
+        runs: list[Further] = [
+            (f"a run twice as fast, period = {0.5 * period:.3g} s", {"period": 0.5 * period}),
+            (f"a run five times as slow, period = {5.0 * period:.3g} s, for {5.0 * first.duration:g} s", slower),
+            (f"a run with twice the stroke, {2.0 * stroke:.3g}", {"stroke": 2.0 * stroke}),
         ]
-        if quiet is not None:
-            runs.append((f"a run with a force sensor of noise {quiet:.3g}", dataclasses.replace(again, force_noise=quiet)))
+        if first.force_noise is not None:
+            quiet = 0.5 * first.force_noise
+            runs.append((f"a run with a force sensor of noise {quiet:.3g}", {"force_noise": quiet}))
         return runs
 
 
@@ -186,8 +145,8 @@ def _form(candidate: Candidate, effect: Effect, balances: Any, fitted: JointFit,
     if size <= 1.0e-9 * float(np.sum(columns**2)):
         return None
     n = max(fitted.independent, 4.0)
-    needed = criteria.NAMED + candidate.parameters * math.log(n) + 2.0 * math.log(len(candidate.starts) * kinds)
-    share = max(math.expm1(needed / n), 1.0 / (1.0 - criteria.MATERIAL) ** 2 - 1.0)
+    needed = needed_for_a_name(candidate.parameters, n, len(candidate.starts) * kinds)
+    share = max(math.expm1(needed / n), BEYOND)
     strength = math.sqrt(share * len(columns) * fitted.rms**2 / size)
     numbers = {f.name: getattr(effect, f.name) for f in dataclasses.fields(effect)}
     # overtones are in proportion to it

@@ -8,8 +8,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, cast
 
+import numpy as np
+import numpy.typing as npt
+
 from stochfric_mb.errors import InputError, require_name, require_number
+from stochfric_mb.measurement.run import Run
 from stochfric_mb.scenario import Scenario, load_any_scenario
+
+Array = npt.NDArray[np.float64]
 
 SCHEMA = "stochfric.plan/1"
 """Schema of a file of planned runs."""
@@ -51,8 +57,25 @@ class PlannedRun:
             if getattr(self, key) is not None:
                 require_number(f"{self.name}: {key}", getattr(self, key), above=0.0)
 
+    @property
+    def time(self) -> Array:
+        """Time of its samples [s], shape (n,)."""
+        return np.asarray(np.arange(round(self.duration * self.sample_rate)) / self.sample_rate, dtype=np.float64)
 
-KEYS = ("duration", "sample_rate", "noise", "force_noise", "stroke", "period", "slow_speed", "fast_speed")
+    def with_noise(self, noise: float, force_noise: float | None = None) -> PlannedRun:
+        """Return it with its noise stated: these numbers where it was not."""
+        noise = noise if self.noise is None else self.noise
+        return dataclasses.replace(self, noise=noise, force_noise=force_noise if self.force_noise is None else self.force_noise)
+
+    def record(self, channels: Mapping[str, Array], covariates: Mapping[str, Array] | None = None) -> Run:
+        """Return it as measured, columns of shape (n,) given."""
+        return Run(
+            name=self.name, role="fit", time=self.time, channels=channels, covariates=covariates or {}, settings=self.settings,
+            sample_interval=1.0 / self.sample_rate,
+        )  # fmt: skip
+
+
+KEYS = tuple(f.name for f in dataclasses.fields(PlannedRun) if f.name not in ("name", "settings"))
 """Numbers of a planned run; others are numbers of the mechanism."""
 
 

@@ -18,6 +18,9 @@ Array = npt.NDArray[np.float64]
 STRONG = 3.0
 """Size over the detection limit up to which effects must differ to count as distinguished [-]."""
 
+BEYOND = 1.0 / (1.0 - criteria.MATERIAL) ** 2 - 1.0
+"""Mean square over that of what stays that an effect must take away to lower the error by a material part [-]."""
+
 
 @dataclasses.dataclass(frozen=True)
 class Signature:
@@ -89,6 +92,17 @@ def best_of_each(signatures: Sequence[Signature]) -> dict[str, Signature]:
         if one.limit < best.limit and (one.parameter == best.parameter or math.isinf(best.limit)):
             table[one.kind] = one
     return table
+
+
+def needed_for_a_name(parameters: int, independent: float, tried: float) -> float:
+    """Return the evidence, 2 delta log L, that an effect needs to be named [-].
+
+    Args:
+        parameters: numbers that it adds to a fit.
+        independent: independent numbers in the data.
+        tried: starting points times kinds.
+    """
+    return criteria.NAMED + parameters * math.log(independent) + 2.0 * math.log(tried)
 
 
 Apart = Callable[[Signature, Sequence[Signature]], float]

@@ -9,7 +9,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -18,16 +17,14 @@ from scipy.optimize import brentq
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.noise import independent_count
 from stochfric_mb.discovery.planning.planned_run import PlannedRun
-from stochfric_mb.discovery.planning.signature import Signature, missed_share
+from stochfric_mb.discovery.planning.rig_plan import Further, Part, RigPlan
+from stochfric_mb.discovery.planning.signature import BEYOND, Signature, missed_share
 from stochfric_mb.discovery.velocity_step.laws import Law, Track, laws
 from stochfric_mb.discovery.velocity_step.velocity_steps import track_of
 from stochfric_mb.effects import kind_with_signature
 from stochfric_mb.effects.traits import MEMORY, MORE_DAMPING, RATE, SLOPE_IN_DISTANCE
 from stochfric_mb.errors import InputError
-from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.mechanisms import SpringSlider
-from stochfric_mb.scenario import Scenario
 
 Array = npt.NDArray[np.float64]
 
@@ -45,10 +42,6 @@ NUDGE = 1.0e-3
 """Step of the numbers of a law by which its columns are taken, over their natural steps [-]."""
 
 
-BEYOND = 1.0 / (1.0 - criteria.MATERIAL) ** 2 - 1.0
-"""Mean square over that of the noise that a law must take away beyond a simpler one to be preferred [-]."""
-
-
 @dataclasses.dataclass(frozen=True)
 class LawSignature(Signature):
     """What a law adds to constant friction."""
@@ -60,34 +53,12 @@ class LawSignature(Signature):
 
 
 @dataclasses.dataclass(frozen=True)
-class StepPart:
-    """One planned run of a spring slider."""
-
-    run: PlannedRun
-    """The run, its noise stated."""
-    measured: Run
-    """What would be measured with the stated model."""
-
-    def facts(self) -> dict[str, Any]:
-        """Return what there is to say of it."""
-        run = self.run
-        about = {"name": run.name, "seconds": run.duration, "sample_rate": run.sample_rate, "noise": run.noise}
-        speeds = {"slow_speed": run.slow_speed, "fast_speed": run.fast_speed, "period": run.period}
-        return about | {"force_noise": run.force_noise} | speeds | {"set": dict(run.settings)}
-
-
-@dataclasses.dataclass(frozen=True)
-class StepPlan:
+class StepPlan(RigPlan):
     """Planned runs of a spring slider."""
 
-    scenario: Scenario[SpringSlider]
-    """The stated model."""
-    rotational = False
-    """Its load point moves along a line."""
-    notes: tuple[str, ...] = ()
-    """Nothing more is to be said of it."""
+    shown = ("force_noise", "slow_speed", "fast_speed", "period")
 
-    def part(self, run: PlannedRun, seed: int) -> StepPart:
+    def part(self, run: PlannedRun, seed: int) -> Part:
         """Return a planned run, simulated.
 
         Raises:
@@ -106,15 +77,12 @@ class StepPlan:
             )
         if run.stroke is not None or run.settings:
             raise InputError(f"{run.name}: at a spring slider plan slow_speed, fast_speed, period, duration and noise")
-        friction = self.scenario.law.mu_k * self.scenario.mechanism.normal_force
-        noise = 0.0 if run.noise is None else run.noise
-        force_noise = SHARE_OF_FRICTION * friction if run.force_noise is None else run.force_noise
-        stated = dataclasses.replace(run, noise=noise, force_noise=force_noise)
-        return StepPart(stated, self._measured(stated, slow, fast, period, seed))
+        stated = run.with_noise(0.0, SHARE_OF_FRICTION * self._friction)
+        return Part(stated, self._measured(stated, slow, fast, period, seed))
 
-    def signatures(self, parts: Sequence[StepPart]) -> tuple[list[LawSignature], dict[str, str]]:
+    def signatures(self, parts: Sequence[Part]) -> tuple[list[LawSignature], dict[str, str]]:
         """Return what the laws would leave in some runs; none of them is out of sight where the speed steps."""
-        data = Dataset(title="", scenario_path=None, scenario=self.scenario, runs=tuple(p.measured for p in parts))
+        data = self.records(*(p.measured for p in parts))
         tracks = [track_of(run, data) for run in data.runs]
         reference = float(np.median(tracks[0].speed))
         shortest = 2.0 * min(float(np.median(t.speed)) * t.run.sample_interval for t in tracks)
@@ -131,50 +99,38 @@ class StepPlan:
         distance = SHARE_OF_STEP * min(0.5 * (p.run.period or 0.0) * (p.run.slow_speed or 0.0) for p in parts)
         return _signatures(study, max(distance, shortest)), {}
 
-    @staticmethod
-    def apart(true: LawSignature, other: Sequence[LawSignature]) -> float:
+    def apart(self, true: LawSignature, other: Sequence[LawSignature]) -> float:
         """Return the size over its limit from which on a law is distinguished from another one; inf: at no size.
 
         Laws are of one class where their scores differ by less than `TIE`; a richer one must take away more, too, `BEYOND`.
         """
         return max((_apart(true, form) for form in other), default=1.0)
 
-    def unit(self, straight: str) -> str:
-        """Return the unit of a parameter at this rig: it slides along a line."""
-        return straight
+    def further(self, first: PlannedRun) -> list[Further]:
+        """Return runs that may be added: a faster speed, more time between steps, a quieter load cell."""
+        fast, period = first.fast_speed or 1.0, first.period or 1.0
+        quiet = 0.5 * (first.force_noise or SHARE_OF_FRICTION * self._friction)
+        longer = {"period": 5.0 * period, "duration": 5.0 * first.duration}
+        return [
+            (f"a run with ten times the fast speed, {10.0 * fast:.3g} m/s", {"fast_speed": 10.0 * fast}),
+            (f"a run five times as long between the steps, period = {5.0 * period:.3g} s", longer),
+            (f"a run with a load cell of noise {quiet:.3g}", {"force_noise": quiet}),
+        ]
 
     @property
-    def no_limit(self) -> tuple[str, ...]:
-        """Return the effects that discovery looks for here without a limit: none."""
-        return ()
-
-    def extra_runs(self, first: PlannedRun) -> list[tuple[str, PlannedRun]]:
-        """Return runs that may be added, each with its words."""
-        again = dataclasses.replace(first, name="extra run")
-        fast, period = first.fast_speed or 1.0, first.period or 1.0
-        noise = first.force_noise or SHARE_OF_FRICTION * self.scenario.law.mu_k * self.scenario.mechanism.normal_force
-        longer = dataclasses.replace(again, period=5.0 * period, duration=5.0 * first.duration)
-        return [
-            (f"another {first.duration:g} s as in {first.name}", again),
-            (f"a run with ten times the fast speed, {10.0 * fast:.3g} m/s", dataclasses.replace(again, fast_speed=10.0 * fast)),
-            (f"a run five times as long between the steps, period = {5.0 * period:.3g} s", longer),
-            (f"a run with a load cell of noise {0.5 * noise:.3g}", dataclasses.replace(again, force_noise=0.5 * noise)),
-        ]
+    def _friction(self) -> float:
+        """Stated friction [N]."""
+        return self.scenario.law.mu_k * self.scenario.mechanism.normal_force
 
     def _measured(self, run: PlannedRun, slow: float, fast: float, period: float, seed: int) -> Run:
         """Return the load point's way and a constant friction coefficient, with noise."""
-        step, generator = 1.0 / run.sample_rate, np.random.default_rng(seed)
-        time = np.asarray(step * np.arange(round(run.duration * run.sample_rate)), dtype=np.float64)
+        generator, time = np.random.default_rng(seed), run.time
         speed = np.where(np.mod(time, period) < 0.5 * period, slow, fast)
-        position = step * np.concatenate([[0.0], np.cumsum(speed)[:-1]]) + (run.noise or 0.0) * generator.standard_normal(
-            len(time)
-        )
+        position = np.concatenate([[0.0], np.cumsum(speed)[:-1]]) / run.sample_rate
+        position = position + (run.noise or 0.0) * generator.standard_normal(len(time))
         noise = (run.force_noise or 0.0) / self.scenario.mechanism.normal_force
         friction = self.scenario.law.mu_k + noise * generator.standard_normal(len(time))
-        return Run(
-            name=run.name, role="fit", time=time, channels={"position": position},
-            covariates={"friction_coefficient": friction}, sample_interval=step,
-        )  # fmt: skip
+        return run.record({"position": position}, {"friction_coefficient": friction})
 
 
 @dataclasses.dataclass(frozen=True)

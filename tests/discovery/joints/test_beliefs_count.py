@@ -8,7 +8,7 @@ import pytest
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import wave_starts
-from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
+from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.effects import make_effect
 from stochfric_mb.effects.contract import Scan
 from stochfric_mb.measurement import Dataset
@@ -21,7 +21,7 @@ FREQUENCY, SPEED = 1.0, 0.5
 def fitted(measured: Dataset):
     source = source_of(measured)
     balances, nuisances = source.balances("", "fit", 0.0), source.nuisances("")
-    model = prior_model(measured.scenario, "", nuisances, source.places[0][1])
+    model = source.stated("")
     return balances, fit(model, balances, nuisances, noise=0.2)
 
 

@@ -8,11 +8,10 @@ import pytest
 
 from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_state, one_curve
-from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import balance_of
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import Dataset, Run
 from stochfric_mb.scenario import any_scenario_from_dict
-from tests.discovery.joints.test_parts import scenario
+from tests.discovery.joints.test_parts import balance_of, scenario
 
 H = 1.0e-3
 LONG = 8.0

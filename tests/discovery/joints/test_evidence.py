@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import balance_of
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, strokes
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of, whitened
 from stochfric_mb.discovery.driven_joint.fit.fitting import stroke_count
-from tests.discovery.joints.test_parts import coulomb, scenario, sine_run
+from tests.discovery.joints.test_parts import balance_of, coulomb, scenario, sine_run
 
 
 def grouped(between, within, *, groups=200, size=20, seed=0):

@@ -10,7 +10,7 @@ from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.carry_over import _waves
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector
-from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
+from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.measurement import Dataset
 from tests.discovery.joints.test_parts import coulomb, grease, pair, scenario, sine_run
 
@@ -127,7 +127,7 @@ def test_a_mass_beyond_its_belief_has_to_hold_in_runs_that_were_left_out(masses,
     runs = [sine_run(coulomb, mass=m, seed=i) for i, m in enumerate(masses)]
     source = source_of(Dataset(title="", scenario_path=None, scenario=scenario(), runs=tuple(runs)))
     balances, nuisances = source.balances("", "fit", 0.0), source.nuisances("")
-    selector = Selector(balances, nuisances, prior_model(scenario(), "", nuisances, source.places[0][1]))
+    selector = Selector(balances, nuisances, source.stated(""))
     current = selector.recalibrated
     (freed,) = selector._freed(current)
     assert freed.number.name == "mass"
@@ -140,5 +140,5 @@ def test_a_number_at_the_end_of_its_range_stands_for_something_else():
     measured = pair(coulomb, mass=-0.5)
     source = source_of(measured)
     balances, nuisances = source.balances("", "fit", 0.0), source.nuisances("")
-    selector = Selector(balances, nuisances, prior_model(measured.scenario, "", nuisances, source.places[0][1]))
+    selector = Selector(balances, nuisances, source.stated(""))
     assert "mass" not in [f.number.name for f in selector._freed(selector.recalibrated)]

@@ -35,9 +35,14 @@ class Confounded:
     explained: float
     """Part of the variance of one that the other explains [-]."""
 
+    @property
+    def strong(self) -> bool:
+        """Whether no analysis can say which of them mattered."""
+        return self.explained >= TOGETHER
+
     def __str__(self) -> str:
         """Return the finding as a sentence."""
-        word = "are" if self.explained >= TOGETHER else "are partly"
+        word = "are" if self.strong else "are partly"
         return (
             f"{self.first} and {self.second} {word} confounded here: one explains {100 * self.explained:.0f} % of the other's "
             "variance"
@@ -96,13 +101,13 @@ def spoken_of(pairs: Sequence[Confounded], kinds: Sequence[str]) -> list[Confoun
         kinds: kinds of the selected effects.
     """
     drifts = any(map(by_clock, kinds))
-    return [p for p in pairs if p.explained >= TOGETHER and (drifts or {p.first, p.second} != {"time", "distance"})]
+    return [p for p in pairs if p.strong and (drifts or {p.first, p.second} != {"time", "distance"})]
 
 
 def stand_ins(kind: str, pairs: Sequence[Confounded]) -> tuple[str, ...]:
     """Return the effects that could pass for ``kind`` because its condition went together with theirs."""
     own = effect_class(kind).answers_to
-    others = {p.second if p.first == own else p.first for p in pairs if p.explained >= TOGETHER and own in (p.first, p.second)}
+    others = {p.second if p.first == own else p.first for p in pairs if p.strong and own in (p.first, p.second)}
     if not own or own in CLOCKS:
         return ()
     return tuple(k for k in effect_kinds() if k != kind and effect_class(k).answers_to in others)
@@ -122,8 +127,7 @@ def by_state(kind: str, others: Sequence[str], pairs: Sequence[Confounded]) -> l
     if not by_clock(kind):
         return []
     own = effect_class(kind).answers_to
-    together = [{p.first, p.second} for p in pairs if p.explained >= TOGETHER]
-    return [k for k in others if not by_clock(k) and {own, effect_class(k).answers_to} in together]
+    return [k for k in others if not by_clock(k) and {own, effect_class(k).answers_to} in _strong(pairs)]
 
 
 def one_curve(kinds: Sequence[str], pairs: Sequence[Confounded]) -> tuple[str, ...]:
@@ -136,9 +140,12 @@ def one_curve(kinds: Sequence[str], pairs: Sequence[Confounded]) -> tuple[str, .
         kinds: kinds of the selected effects.
         pairs: conditions that went together.
     """
-    together = [{p.first, p.second} for p in pairs if p.explained >= TOGETHER]
     couples = itertools.combinations([k for k in kinds if k in effect_kinds()], 2)
-    return next((c for c in couples if {effect_class(k).answers_to for k in c} in together), ())
+    return next((c for c in couples if {effect_class(k).answers_to for k in c} in _strong(pairs)), ())
+
+
+def _strong(pairs: Sequence[Confounded]) -> list[set[str]]:
+    return [{p.first, p.second} for p in pairs if p.strong]
 
 
 def by_clock(kind: str) -> bool:

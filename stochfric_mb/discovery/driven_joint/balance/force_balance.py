@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.weak_form import Window
+from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, narrowest
+from stochfric_mb.measurement.run import Run
 from stochfric_mb.measurement.smoothing import window
+from stochfric_mb.measurement.temperature import temperature_of
 
 Array = npt.NDArray[np.float64]
 
@@ -45,10 +48,6 @@ class ForceBalance:
 
     run: str
     """Name of the run."""
-    role: str
-    """``fit`` or ``test``."""
-    place: str
-    """Joint or tendon; empty where there is one only."""
     unit: str
     """Unit of forces: N, or N m."""
     window: Window
@@ -69,16 +68,14 @@ class ForceBalance:
     """Nuisance -> change of the balance per unit of it, shape (n_centres,)."""
     sliding: npt.NDArray[np.bool_]
     """Whether the joint slides one way all through the window, shape (n_centres,)."""
-    noise: float
-    """Noise to be expected on ``driven`` from white noise of the channels [N or N m]."""
-    factors: Mapping[str, Array]
-    """Known conditions for the search of confounding, such as temperature, shape (n_centres,)."""
     white: Mapping[int, float] = dataclasses.field(default_factory=dict[int, float])
     """Derivative -> white noise of what enters the balance with it."""
     before: float = 0.0
     """Distance slid in the pieces of the same record that come before this one [m or rad]."""
     temperature: Array | None = None
     """Measured temperature [degC], shape (count,); None: none was."""
+    constants: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
+    """Known conditions that stay the same in the run."""
     load_by_drive: Array | None = None
     """Change of ``load`` with the driving force, -1 or 1, shape (count,); None: the load is known without it."""
     drive: Array | None = None
@@ -127,6 +124,64 @@ class ForceBalance:
         """Distance slid since the record began, whichever way [m or rad], shape (count,)."""
         return self.before + distance_slid(self.velocity, self.window)
 
+    @property
+    def factors(self) -> dict[str, Array]:
+        """The conditions that friction may depend on: name -> shape (n_centres,)."""
+        at = self.window.centres
+        along = {
+            "direction": np.sign(self.velocity),
+            "speed": np.abs(self.velocity),
+            "position": self.position,
+            "load": self.load,
+            "time": self.time,
+            "distance": self.travelled,
+        }
+        along |= {} if self.temperature is None else {"temperature": self.temperature}
+        return {k: v[at] for k, v in along.items()} | {k: np.full(len(at), v) for k, v in self.constants.items()}
+
+
+def balance_along(run: Run, window: Window, position: Array, velocity: Array, least: float, **more: Any) -> ForceBalance:
+    """Return the balance of a run whose motion along a place is known.
+
+    Args:
+        run: the run.
+        window: the window that it is seen through.
+        position: position through it [m or rad], shape (count,).
+        velocity: velocity in weak form [m/s or rad/s], shape (count,).
+        least: speed above which the place surely slides [m/s or rad/s].
+        more: the other fields of a balance.
+    """
+    temperature = temperature_of(run)
+    return ForceBalance(
+        run=run.name,
+        window=window,
+        time=run.time,
+        position=position,
+        velocity=velocity,
+        slip=slipped(position, velocity, least),
+        temperature=None if temperature is None else window.held(window.through(temperature)),
+        constants=run.constants,
+        **more,
+    )
+
+
+def known_temperature(run: Run) -> Array:
+    """Return the measured temperature [degC], shape (count,); zeros where there is none, and no effect that asks for it."""
+    seen = temperature_of(run)
+    return np.zeros(len(run.time)) if seen is None else seen
+
+
+def distance_before(run: Run, runs: Sequence[Run], velocity: Callable[[Run], Array]) -> float:
+    """Return the distance slid in earlier pieces of the record that a run is a piece of [m or rad].
+
+    Args:
+        run: the run.
+        runs: all runs of its dataset.
+        velocity: velocity of a run through its narrowest window, shape (count,).
+    """
+    earlier = [r for r in runs if run.source and r.source == run.source and r.time[-1] <= run.time[0]]
+    return sum(float(distance_slid(velocity(r), narrowest(r))[-1]) for r in earlier)
+
 
 def distance_slid(velocity: Array, window: Window) -> Array:
     """Return the distance moved since the first sample, whichever way [m or rad], shape (count,).
@@ -160,6 +215,12 @@ def least_speed(velocity: Array, noise: float) -> float:
         noise: standard deviation of its noise.
     """
     return max(SURE * noise, LEAST_SPEED * float(np.quantile(np.abs(velocity), 0.9)))
+
+
+def stretches(mask: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Return the stretches in which a mask holds without a gap: the first of each, and the one after its last."""
+    edges = np.flatnonzero(np.diff(np.r_[0, mask.astype(np.int8), 0]))
+    return [(int(start), int(end)) for start, end in zip(edges[::2], edges[1::2], strict=True)]
 
 
 def slides(window: Window, velocity: Array, least: float) -> npt.NDArray[np.bool_]:

@@ -3,30 +3,34 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.conditions import distance_before, known_factors, temperature_through
+from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.balance.force_balance import (
     ForceBalance,
     Nuisance,
-    distance_slid,
+    balance_along,
+    distance_before,
+    integrated,
     least_speed,
     slides,
-    slipped,
 )
-from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, chosen_window, narrowest
+from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, narrowest, window_of
 from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Cascade, HingePendulum, PrismaticJoint
-from stochfric_mb.scenario import Scenario
 
 Array = npt.NDArray[np.float64]
 Joint = PrismaticJoint | HingePendulum
 
+DRIVES = {PrismaticJoint.kind: ("force", "force_gain"), HingePendulum.kind: ("torque", "torque_gain")}
+"""Mechanism -> channel of the force that drives it, and the number by which a voltage stands for that."""
+DRIVEN = ("drive", "force_gain", "torque_gain")
+"""Names of the term that is the drive."""
 GAINS = {"force": "N/V", "torque": "N m/V"}
 """Drive that a voltage may stand for -> unit of its gain."""
 UNITS = {
@@ -44,43 +48,104 @@ HELD = 0.5
 
 @dataclasses.dataclass(frozen=True)
 class Term:
-    """A signal, or a derivative of it, in the balance."""
+    """What a number of the mechanism is multiplied with in drive = sum of terms + friction: a signal, or a derivative of it."""
 
+    factor: float
+    """Factor on the signal."""
     signal: Array
     """Samples, shape (count,)."""
     derivative: int = 0
     """Which derivative of it is meant."""
 
 
-def terms_of(run: Run, joint: Joint) -> dict[str, Callable[[float], list[tuple[float, Term]]]]:
-    """Return what enters drive = sum of terms + friction for each number of the mechanism: value -> (factor, term).
+@dataclasses.dataclass(frozen=True)
+class PlainBalances(Balances):
+    """Force balances of the mechanisms that are one joint."""
+
+    @property
+    def places(self) -> dict[str, float]:
+        """The one place, which needs no name, and its load."""
+        return {"": float(self.dataset.scenario.mechanism.normal_force)}
+
+    def nuisances(self, place: str) -> list[Nuisance]:
+        """Return the numbers of the mechanism that data may correct, with their priors."""
+        joint, uncertainty = self.dataset.scenario.mechanism, self.dataset.scenario.uncertainty
+        nuisances: list[Nuisance] = []
+        for name, unit in UNITS[joint.kind].items():
+            value, spread = float(getattr(joint, name)), uncertainty.get(name, 0.0)
+            deviation = spread if name in ABSOLUTE else spread * abs(value)
+            if deviation > 0.0:
+                nuisances.append(Nuisance(name, value, deviation, unit, 0.0 if name in POSITIVE else -np.inf))
+        return nuisances
+
+    def rotates(self, place: str) -> bool:
+        """Return whether the joint is a hinge."""
+        return self.dataset.scenario.mechanism.rotational
+
+    def balance(self, run: Run, place: str, delay: float, samples: int | None) -> ForceBalance:
+        """Return a run as a balance."""
+        scenario = self.dataset.scenario
+        joint: Joint = run.mechanism(scenario)  # type: ignore[assignment]
+        terms = terms_of(run, joint)
+        q = position_of(run)
+        values = {name: float(getattr(joint, name, 1.0)) for name in terms}
+        noise = _noise(terms, values, q)
+        window = window_of(run, noise, scenario.law.mu_k * joint.normal_force, samples)
+        name, factor = drive_channel(joint)
+        late = delay + (HELD * run.sample_interval if isinstance(scenario.controller, Cascade) else 0.0)
+        columns: dict[str, Array] = {}
+        total = np.zeros(len(window.centres))
+        for number, of in terms.items():
+            shift = late if number in DRIVEN else 0.0
+            seen = [t.factor * window.through(t.signal, t.derivative, shift)[window.centres] for t in of]
+            columns[number] = np.sum(seen, axis=0)
+            total = total - values[number] * columns[number]
+        velocity = window.through(q, 1)
+        least = least_speed(velocity, window.gain(1) * white_noise(q))
+        load, load_by_drive = _transmitted_load(run, joint, window)
+        return balance_along(
+            run,
+            window,
+            window.through(q),
+            velocity,
+            least,
+            unit="N m" if joint.rotational else "N",
+            load=load,
+            load_by_drive=load_by_drive,
+            driven=total,
+            columns={k: v for k, v in columns.items() if k != "drive"},
+            sliding=slides(window, velocity, least),
+            white=noise,
+            before=distance_before(run, self.dataset.runs, lambda r: narrowest(r).through(position_of(r), 1)),
+            drive=window.sampled(factor * channel(run, name), late),
+            pressure=window.sampled(run.channels["pressure"]) if "pressure" in run.channels else None,
+        )
+
+
+def terms_of(run: Run, joint: Joint) -> dict[str, tuple[Term, ...]]:
+    """Return what enters drive = sum of terms + friction for each number of the mechanism.
 
     Raises:
         InputError: a channel is missing.
     """
-    q = position_of(run)
-    one = np.ones_like(q)
-    terms: dict[str, Callable[[float], list[tuple[float, Term]]]] = {
-        "damping": lambda x: [(x, Term(q, 1))],
-        "offset": lambda x: [(x, Term(one))],
-    }
+    q, (name, _) = position_of(run), drive_channel(joint)
+    terms: dict[str, tuple[Term, ...]] = {"damping": (Term(1.0, q, 1),), "offset": (Term(1.0, np.ones_like(q)),)}
     if isinstance(joint, PrismaticJoint):
-        terms["mass"] = lambda x: [(x, Term(q, 2))]
+        terms["mass"] = (Term(1.0, q, 2),)
         if joint.piston_area > 0.0:
-            pressure = _channel(run, "pressure")
-            terms["piston_area"] = lambda x: [(x, Term(pressure))]
+            terms["piston_area"] = (Term(1.0, channel(run, "pressure")),)
     else:
-        length, g = joint.length, joint.gravity
-        terms["inertia"] = lambda x: [(x, Term(q, 2))]
-        terms["mass"] = lambda x: [(x * length**2, Term(q, 2)), (x * length * g, Term(np.sin(q)))]
-    name, gain = ("force", "force_gain") if isinstance(joint, PrismaticJoint) else ("torque", "torque_gain")
-    if getattr(joint, gain):
-        drive = _channel(run, "voltage")
-        terms[gain] = lambda x: [(-x, Term(drive))]
-    else:
-        drive = _channel(run, name)
-        terms["drive"] = lambda x: [(-x, Term(drive))]
+        terms["inertia"] = (Term(1.0, q, 2),)
+        terms["mass"] = (Term(joint.length**2, q, 2), Term(joint.length * joint.gravity, np.sin(q)))
+    terms[DRIVES[joint.kind][1] if name == "voltage" else "drive"] = (Term(-1.0, channel(run, name)),)
     return terms
+
+
+def drive_channel(joint: Joint) -> tuple[str, float]:
+    """Return the channel that drives a joint, and its factor: the voltage where a gain is stated, otherwise the force."""
+    force, gain = DRIVES[joint.kind]
+    factor = float(getattr(joint, gain))
+    return ("voltage", factor) if factor else (force, 1.0)
 
 
 def position_of(run: Run) -> Array:
@@ -92,126 +157,27 @@ def position_of(run: Run) -> Array:
     if "position" in run.channels:
         return run.channels["position"]
     if "velocity" in run.channels:
-        v = run.channels["velocity"]
-        return np.r_[0.0, np.cumsum(0.5 * (v[1:] + v[:-1]))] * run.sample_interval
+        return integrated(run.channels["velocity"], run.sample_interval)
     raise InputError(f"run {run.name!r} has neither position nor velocity; a driven joint needs its motion")
 
 
-def drive_of(run: Run, joint: Joint) -> Array:
-    """Return the driving force, its gain as stated [N or N m], shape (count,)."""
-    force, gain = ("force", "force_gain") if isinstance(joint, PrismaticJoint) else ("torque", "torque_gain")
-    factor = getattr(joint, gain)
-    return factor * _channel(run, "voltage") if factor else _channel(run, force)
-
-
-def motion_velocity(run: Run) -> Array:
-    """Return the velocity of a run through its narrowest window [m/s or rad/s], shape (count,)."""
-    return narrowest(run).through(position_of(run), 1)
-
-
-def nuisances_of(scenario: Scenario, joint: Joint) -> list[Nuisance]:
-    """Return the numbers of the mechanism that data may correct, with their priors."""
-    nuisances: list[Nuisance] = []
-    for name, unit in UNITS[joint.kind].items():
-        value = float(getattr(joint, name))
-        spread = scenario.uncertainty.get(name, 0.0)
-        deviation = spread if name in ABSOLUTE else spread * abs(value)
-        if deviation > 0.0:
-            nuisances.append(Nuisance(name, value, deviation, unit, 0.0 if name in POSITIVE else -np.inf))
-    return nuisances
-
-
-def stated_friction(scenario: Scenario, load: float) -> float:
-    """Return the sliding friction that the scenario believes in [N or N m]."""
-    return scenario.law.mu_k * load
-
-
-def balance_of(
-    run: Run, scenario: Scenario, *, delay: float = 0.0, samples: int | None = None, runs: Sequence[Run] = ()
-) -> ForceBalance:
-    """Return a run of a prismatic joint or hinge pendulum as a balance.
-
-    Args:
-        run: the run.
-        scenario: the present model.
-        delay: by how much the position comes after the driving force in the record [s]; compensated here.
-        samples: half width of the window [samples]; None: chosen from the noise.
-        runs: all runs of the dataset; pieces of the same record that come before have slid already.
-
-    Raises:
-        InputError: a channel is missing, or the run is too short.
-    """
-    joint: Joint = run.mechanism(scenario)  # type: ignore[assignment]
-    terms = terms_of(run, joint)
-    q, h = position_of(run), run.sample_interval
-    values = {name: float(getattr(joint, name, 1.0)) for name in terms}
-    noise = _noise(terms, values, q)
-    window = (
-        chosen_window(h, len(q), noise, stated_friction(scenario, joint.normal_force))
-        if samples is None
-        else Window(samples * h, h, len(q))
-    )
-    if len(window.centres) < 8:
-        raise InputError(
-            f"run {run.name!r}: {len(q)} samples are too few for windows of {window.half_width:.3g} s; record longer"
-        )
-    drives = ("drive", "force_gain", "torque_gain")
-    late = delay + (HELD * h if isinstance(scenario.controller, Cascade) else 0.0)
-    columns: dict[str, Array] = {}
-    total = np.zeros(len(window.centres))
-    for name, of in terms.items():
-        shift = late if name in drives else 0.0
-        column = sum(f * window.through(t.signal, t.derivative, shift)[window.centres] for f, t in of(1.0))
-        total = total - values[name] * column
-        columns[name] = np.asarray(column)
-    velocity = window.through(q, 1)
-    least = least_speed(velocity, window.gain(1) * white_noise(q))
-    position = window.through(q)
-    load, load_by_drive = transmitted_load(run, joint, window)
-    before = distance_before(run, runs, motion_velocity)
-    return ForceBalance(
-        run=run.name,
-        role=run.role,
-        place="",
-        unit="N m" if joint.rotational else "N",
-        window=window,
-        time=run.time,
-        position=position,
-        velocity=velocity,
-        load=load,
-        slip=slipped(position, velocity, least),
-        driven=total,
-        columns={k: v for k, v in columns.items() if k != "drive"},
-        sliding=slides(window, velocity, least),
-        noise=float(np.sqrt(sum((window.gain(d) * s) ** 2 for d, s in noise.items()))),
-        factors=known_factors(run, window, position, velocity, load, before + distance_slid(velocity, window)),
-        white=noise,
-        before=before,
-        temperature=temperature_through(run, window),
-        load_by_drive=load_by_drive,
-        drive=window.sampled(drive_of(run, joint), late),
-        pressure=window.sampled(run.channels["pressure"]) if "pressure" in run.channels else None,
-    )
-
-
-def _noise(
-    terms: Mapping[str, Callable[[float], list[tuple[float, Term]]]], values: Mapping[str, float], q: Array
-) -> dict[int, float]:
+def _noise(terms: Mapping[str, Sequence[Term]], values: Mapping[str, float], q: Array) -> dict[int, float]:
     """Return the noise that enters with each derivative: position noise counts once, however many terms it enters."""
     factors: dict[int, float] = {}
     other = 0.0
     for name, of in terms.items():
-        for factor, term in of(values[name]):
+        for term in of:
+            factor = values[name] * term.factor
             if term.signal is q:
                 factors[term.derivative] = factors.get(term.derivative, 0.0) + factor
-            elif np.ptp(term.signal) > 0.0 and name in ("drive", "force_gain", "torque_gain", "piston_area"):
+            elif np.ptp(term.signal) > 0.0 and name in (*DRIVEN, "piston_area"):
                 other += (factor * white_noise(term.signal)) ** 2
     noise = {d: abs(f) * white_noise(q) for d, f in factors.items()}
     noise[0] = float(np.hypot(noise.get(0, 0.0), np.sqrt(other)))
     return noise
 
 
-def transmitted_load(run: Run, joint: Joint, window: Window) -> tuple[Array, Array | None]:
+def _transmitted_load(run: Run, joint: Joint, window: Window) -> tuple[Array, Array | None]:
     """Return the load that the joint transmits beyond its stated load, and its change with the drive, shape (count,) each.
 
     The load is the channel ``normal_force``, or the force of the pressure on the piston, or the size of the driving torque:
@@ -220,12 +186,10 @@ def transmitted_load(run: Run, joint: Joint, window: Window) -> tuple[Array, Arr
     known = measured_load(run, joint)
     if known is not None:
         return np.abs(window.through(known)), None
-    assert isinstance(joint, HingePendulum)
-    if joint.torque_gain:
-        torque = joint.torque_gain * window.through(run.channels["voltage"])
+    name, factor = drive_channel(joint)
+    torque = factor * window.through(channel(run, name))
+    if name == "voltage":
         torque = torque - joint.damping * window.through(position_of(run), 1)
-    else:
-        torque = window.through(run.channels["torque"])
     return np.abs(torque), np.sign(torque)
 
 
@@ -238,10 +202,15 @@ def measured_load(run: Run, joint: Joint) -> Array | None:
         return run.channels["normal_force"]
     if isinstance(joint, HingePendulum):
         return None
-    return joint.piston_area * _channel(run, "pressure") if joint.piston_area > 0.0 else np.zeros(len(run.time))
+    return joint.piston_area * channel(run, "pressure") if joint.piston_area > 0.0 else np.zeros(len(run.time))
 
 
-def _channel(run: Run, name: str) -> Array:
+def channel(run: Run, name: str) -> Array:
+    """Return a channel of a run.
+
+    Raises:
+        InputError: it has none of that name; says what would do.
+    """
     if name not in run.channels:
         given = ", ".join(run.channels)
         remedy = f"name its column with columns = {{ {name} = ... }}"

@@ -14,13 +14,14 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.discovery.driven_joint.balance.force_balance import stretches
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_columns, with_column
 from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.effects import Effect, kind_with_signature, make_effect
 from stochfric_mb.effects.traits import REPEATED_READING
 from stochfric_mb.effects.traits import STRAY as STRAY_READING
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.mechanisms import Mjcf
 from stochfric_mb.numerics.robust import deviation
 
 Array = npt.NDArray[np.float64]
@@ -43,78 +44,42 @@ LEAST = 8
 """Readings on each side at least."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Readings:
-    """What was wrong with the positions of a dataset."""
-
-    repeated: int = 0
-    """Stretches of repeated readings."""
-    stale: float = 0.0
-    """Share of the samples that they are [-]."""
-    longest: float = 0.0
-    """The longest of them [s]."""
-    stray: int = 0
-    """Readings that are far off."""
-    fraction: float = 0.0
-    """Share of the samples that these are [-]."""
-    size: float = 0.0
-    """Their distance from where they should be, rms [m or rad]."""
-    rate: float = 0.0
-    """Stretches of repeated readings per second of a column [1/s]."""
-
-    @property
-    def effects(self) -> tuple[Effect, ...]:
-        """Return the effects that they mean."""
-        effects: list[Effect] = []
-        if self.repeated >= FEWEST:
-            effects.append(make_effect(kind_with_signature(REPEATED_READING), rate=self.rate, duration=self.stale / self.rate))
-        if self.stray >= FEWEST:
-            effects.append(make_effect(kind_with_signature(STRAY_READING), fraction=self.fraction, size=self.size))
-        return tuple(effects)
-
-
-def mended(dataset: Dataset) -> tuple[Dataset, Readings]:
-    """Return a dataset of a driven joint with repeated and stray positions replaced, and what they were."""
+def mended(dataset: Dataset) -> tuple[Dataset, tuple[Effect, ...]]:
+    """Return a dataset of a driven joint with repeated and stray positions replaced, and the effects that these mean."""
     runs: list[Run] = []
-    stretches, strays, away = list[float](), 0, list[Array]()
+    lengths, away = list[float](), [np.zeros(0)]
     samples, duration = 0, 0.0
     for given in dataset.runs:
         run = given
-        for name in _positions(dataset):
+        for name in position_columns(dataset.scenario.mechanism):
             values = run.channels.get(name, run.covariates.get(name))
             if values is None or len(values) < FEW or np.ptp(values) == 0.0:
                 continue
             samples, duration = samples + len(values), duration + len(values) * run.sample_interval
             held = repeated(values)
             off = stray(without(values, held, np.zeros(len(values), dtype=bool)))
-            stretches += [(end - start) * run.sample_interval for start, end in held]
-            strays += int(off.sum())
+            lengths += [(end - start) * run.sample_interval for start, end in held]
             better = without(values, held, off)
             away.append((values - better)[off])
             if held or off.any():
-                run = _with(run, name, better)
+                run = with_column(run, name, better)
         runs.append(run)
-    distances = np.concatenate([*away, np.zeros(0)])
-    readings = Readings(
-        len(stretches),
-        sum(stretches) / max(duration, 1.0e-300),
-        max(stretches, default=0.0),
-        strays,
-        strays / max(samples, 1),
-        float(np.sqrt(np.mean(distances**2))) if len(distances) else 0.0,
-        len(stretches) / max(duration, 1.0e-300),
-    )
-    return (dataclasses.replace(dataset, runs=tuple(runs)) if stretches or strays else dataset), readings
+    distances, effects = np.concatenate(away), list[Effect]()
+    if len(lengths) >= FEWEST:
+        numbers = {"rate": len(lengths) / duration, "duration": sum(lengths) / len(lengths)}
+        effects.append(make_effect(kind_with_signature(REPEATED_READING), **numbers))
+    if len(distances) >= FEWEST:
+        size = float(np.sqrt(np.mean(distances**2)))
+        effects.append(make_effect(kind_with_signature(STRAY_READING), fraction=len(distances) / samples, size=size))
+    return (dataclasses.replace(dataset, runs=tuple(runs)) if lengths or len(distances) else dataset), tuple(effects)
 
 
 def repeated(values: Array) -> list[tuple[int, int]]:
     """Return the stretches in which a position is repeated though the joint moves on: first repeated one, and next new one."""
-    same = np.diff(values) == 0.0
-    edges = np.flatnonzero(np.diff(np.r_[0, same.astype(np.int8), 0]))
     moved = np.abs(np.diff(values))
     step = float(np.min(moved[moved > 0.0], initial=np.inf))  # the resolution, where there is one
-    stretches: list[tuple[int, int]] = []
-    for first, last in zip(edges[::2], edges[1::2], strict=True):
+    found: list[tuple[int, int]] = []
+    for first, last in stretches(moved == 0.0):
         end = last + 1
         if end - first < REPEATED or end >= len(values):
             continue
@@ -122,8 +87,8 @@ def repeated(values: Array) -> list[tuple[int, int]]:
         near = np.r_[moved[max(first - reach, 0) : first], moved[end : end + reach]]
         usual = float(np.median(near)) if len(near) else np.inf
         if moved[last] > MISSED * max(usual, step) and np.count_nonzero(near == 0.0) < 0.5 * len(near):
-            stretches.append((int(first) + 1, int(end)))
-    return stretches
+            found.append((first + 1, end))
+    return found
 
 
 def stray(values: Array) -> Mask:
@@ -147,9 +112,8 @@ def without(values: Array, held: Sequence[tuple[int, int]], off: Mask) -> Array:
     bad = off.copy()
     for start, end in held:
         bad[start:end] = True
-    edges = np.flatnonzero(np.diff(np.r_[0, bad.astype(np.int8), 0]))
     good, better = np.flatnonzero(~bad), values.copy()
-    for start, end in zip(edges[::2], edges[1::2], strict=True):
+    for start, end in stretches(bad):
         at = int(np.searchsorted(good, start))
         reach = max(LEAST, round(REACH * (end - start)))
         known = good[max(at - reach, 0) : at + reach]
@@ -157,16 +121,3 @@ def without(values: Array, held: Sequence[tuple[int, int]], off: Mask) -> Array:
         curve = np.polynomial.Polynomial.fit(known.astype(np.float64), values[known], CURVE)
         better[start:end] = curve(gap.astype(np.float64))
     return better
-
-
-def _positions(dataset: Dataset) -> tuple[str, ...]:
-    """Return the names of the columns that hold measured positions."""
-    mechanism = dataset.scenario.mechanism
-    if isinstance(mechanism, Mjcf):
-        return tuple(dict.fromkeys(x for x in mechanism.positions.values() if isinstance(x, str)))
-    return ("position",)
-
-
-def _with(run: Run, name: str, values: Array) -> Run:
-    where = "channels" if name in run.channels else "covariates"
-    return dataclasses.replace(run, **{where: {**getattr(run, where), name: values}})

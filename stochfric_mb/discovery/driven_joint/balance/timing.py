@@ -17,8 +17,9 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.fit.fitting import independent_count
+from stochfric_mb.discovery.driven_joint.fit.gains import left_by
 from stochfric_mb.discovery.inference.intervals import confidence_interval
+from stochfric_mb.discovery.inference.noise import independent_count
 from stochfric_mb.errors import InputError
 
 Array = npt.NDArray[np.float64]
@@ -69,6 +70,11 @@ class Timing:
         return dataclasses.replace(self, score=evidence, named=evidence > NAMED and explains)
 
     @property
+    def shows(self) -> bool:
+        """Whether the balances speak for it, and for its sign."""
+        return self.score > NAMED and self.low * self.high > 0.0
+
+    @property
     def puzzling(self) -> bool:
         """Whether motion is late or early somewhere, and no delay explains it."""
         return self.score > NAMED and not self.named
@@ -92,14 +98,23 @@ def timing(
         seen: list[Timing] = []
         for width in sorted({max(round(w * half_width / interval), NARROWEST) for w in HALF_WIDTHS}):
             with contextlib.suppress(InputError):  # a run is too short for this window
-                seen.append(_through(lambda d, w=width: make(d, w), names, interval, generous, width))
+                seen.append(sought(lambda d, w=width: make(d, w), names, interval, generous=generous, width=width))
         timings += sorted(seen, key=lambda t: -t.score)[:1]
-    return next((t for t in timings if t.score > NAMED and t.low * t.high > 0.0), None)
+    return next((t for t in timings if t.shows), None)
 
 
-def _through(
-    make: Callable[[float], Sequence[ForceBalance]], names: Sequence[str], interval: float, generous: bool, width: int
+def sought(
+    make: Callable[[float], Sequence[ForceBalance]], names: Sequence[str], interval: float, *, generous: bool, width: int
 ) -> Timing:
+    """Return the delay with which windows of one width are explained best.
+
+    Args:
+        make: delay [s] -> the balances of the fit runs, that delay compensated.
+        names: numbers of the mechanism, which are free here.
+        interval: distance between samples [s].
+        generous: whether the friction law beside it is a generous one, or the stated one.
+        width: half width of the windows [samples].
+    """
     span = min(LONGEST, 40.0 * interval)
     grid = np.linspace(-span, span, GRID)
     errors = np.array([_left(make(d), names, generous)[0] for d in grid])
@@ -122,21 +137,6 @@ def _through(
     return Timing(delay, within.low, within.high, float(score) if material else 0.0, gain, width)
 
 
-def of_channel(
-    make: Callable[[float], Sequence[ForceBalance]], nuisances: Sequence[Nuisance], interval: float, width: int
-) -> Timing | None:
-    """Return by how much one channel alone is late; None: it is not.
-
-    Args:
-        make: delay [s] -> the balances to learn from, the channel brought forward by it.
-        nuisances: numbers of the mechanism with their priors.
-        interval: distance between samples [s].
-        width: half width of the windows [samples].
-    """
-    timing = _through(make, [n.name for n in nuisances], interval, True, width)
-    return timing if timing.score > NAMED and timing.low * timing.high > 0.0 else None
-
-
 def lowest(x: Array, y: Array) -> float:
     """Return where the parabola through the lowest of equidistant points and its neighbours is lowest."""
     i = min(max(int(np.argmin(y)), 1), len(x) - 2)
@@ -150,8 +150,7 @@ def _left(balances: Sequence[ForceBalance], names: Sequence[str], generous: bool
     """Return the mean square that a friction law leaves, and the number of independent windows."""
     columns = np.concatenate([_columns(s, names, generous)[s.sliding] for s in balances])
     driven = np.concatenate([s.driven[s.sliding] for s in balances])
-    scaled = columns / np.maximum(np.linalg.norm(columns, axis=0), 1.0e-300)
-    rest = driven - scaled @ np.linalg.lstsq(scaled, driven, rcond=1.0e-10)[0]
+    rest = left_by(columns, driven)
     ends = np.cumsum([int(s.sliding.sum()) for s in balances])[:-1]
     return float(np.mean(rest**2)), max(sum(independent_count(r) for r in np.split(rest, ends)), 4.0)
 

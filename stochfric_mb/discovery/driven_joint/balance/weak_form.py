@@ -15,6 +15,7 @@ import numpy.typing as npt
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.sparse import csr_array
 
+from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.measurement.smoothing import smooth, window
 
@@ -37,6 +38,8 @@ RECORD = 24.0
 FINE = 12
 """Samples of a half width by which the mean of a signal over a window is taken: by trapezoids, the window being smooth at both
 ends, more of them change it by less than 1e-6 of what a signal varies by within a window [-]."""
+FEWEST = 8
+"""Fewest centres of windows in a run."""
 OVERLAP = 2.0
 """Centres of windows in one half width."""
 
@@ -122,6 +125,21 @@ def narrowest(run: Run) -> Window:
 def least_width(count: int) -> float:
     """Return the half width of the narrowest window in a record of ``count`` samples [sample intervals]."""
     return float(np.clip(2.0 * count / RECORD, SHORTEST, NARROWEST))
+
+
+def window_of(run: Run, noise: dict[int, float], friction: float, samples: int | None) -> Window:
+    """Return the window through which a place is seen in a run: of half width ``samples``, or else the one of `chosen_window`.
+
+    Raises:
+        InputError: the run is too short.
+    """
+    h, count = run.sample_interval, len(run.time)
+    window = chosen_window(h, count, noise, friction) if samples is None else Window(samples * h, h, count)
+    if len(window.centres) < FEWEST:
+        raise InputError(
+            f"run {run.name!r}: {count} samples are too few for windows of {window.half_width:.3g} s; record longer"
+        )
+    return window
 
 
 def chosen_window(interval: float, count: int, noise: dict[int, float], friction: float) -> Window:

@@ -197,10 +197,6 @@ class Selector:
             final = self._fit(dataclasses.replace(final.model, effects=others))
             effects = [t for i, t in enumerate(effects) if i != empty]
 
-    def first(self) -> Stage:
-        """Return the first step alone."""
-        return self._stage(self.recalibrated)
-
     def _stage(self, current: JointFit) -> Stage:
         span = span_of(self._balances, current.model.law.mu_k * current.model.load, current.model.load)
         fits = self._fitted(current, span)

@@ -10,7 +10,7 @@ import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector
-from stochfric_mb.discovery.driven_joint.source import prior_model, source_of
+from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
@@ -23,20 +23,19 @@ DRIVES = ("voltage", "force", "torque")
 """Channels that drive a slide or hinge."""
 
 
-def sign_notes(dataset: Dataset, place: str, load: float, balances: Sequence[ForceBalance]) -> list[str]:
+def sign_notes(dataset: Dataset, place: str, balances: Sequence[ForceBalance]) -> list[str]:
     """Return what looks like a wrong sign at a place, by the balance of forces with the drive as given and turned round.
 
     Args:
         dataset: the dataset.
         place: name of the joint, tendon or pair; empty where there is one only.
-        load: its stated load [N or N m].
         balances: its fit runs.
 
     Raises:
         InputError: friction brings in energy in a run.
     """
     require_dissipation(dataset, place, balances)
-    return _fits_turned(dataset, place, load, balances)
+    return _fits_turned(dataset, place, balances)
 
 
 def require_dissipation(dataset: Dataset, place: str, balances: Sequence[ForceBalance]) -> None:
@@ -80,7 +79,7 @@ def _remedy(dataset: Dataset, place: str) -> str:
     return f"give sign = {{ {name} = -1 }}"
 
 
-def _fits_turned(dataset: Dataset, place: str, load: float, balances: Sequence[ForceBalance]) -> list[str]:
+def _fits_turned(dataset: Dataset, place: str, balances: Sequence[ForceBalance]) -> list[str]:
     """Return a note if the stated model explains the motion far better with the drive turned round.
 
     Where inertia outweighs friction a wrong sign shows as twice the inertia, not as energy.
@@ -88,8 +87,7 @@ def _fits_turned(dataset: Dataset, place: str, load: float, balances: Sequence[F
     if place in getattr(dataset.scenario.mechanism, "pairs", ()):
         return []  # the drives press there, too: with them turned round nothing touches
     source = source_of(_turned(dataset, place))
-    nuisances = source.nuisances(place)
-    stated = prior_model(dataset.scenario, place, nuisances, load)
+    nuisances, stated = source.nuisances(place), source.stated(place)
     both = balances, source.balances(place, "fit", 0.0)
     as_given, turned = (Selector(s, nuisances, stated).recalibrated.rms for s in both)
     if turned > TURNED * as_given:

@@ -15,6 +15,7 @@ from stochfric_mb.discovery.driven_joint.decision.estimates import against_prior
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.discovery.driven_joint.scatter.between_groups import CoefficientScatter
 from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
@@ -49,7 +50,7 @@ def verdict(
     effects: list[EffectEstimate] = []
     for place in places:
         effects += _delay(place) + ([] if place.idle else _released(place) + _estimates(place, pairs))
-        effects += _drawn(place) + _drawn_by_run(place)
+        effects += _drawn(place)
     gap = _gap(places, loop_floor)
     effects = _late_column(channel) + effects
     lacking = (p for p in places if p.selected.unknown or p.unnamed is not None or lacks(dataset, p))
@@ -102,12 +103,16 @@ def _late_column(channel: tuple[str, Timing] | None) -> list[EffectEstimate]:
     if channel is None:
         return []
     name, timing = channel
-    size = Interval(abs(timing.seconds), min(abs(timing.low), abs(timing.high)), max(abs(timing.low), abs(timing.high)), "s")
     how = "late" if timing.seconds > 0.0 else "early"
-    text = (
-        f"The column {name} alone comes {1e3 * size.value:.1f} ms {how} in the record; it is moved before friction is judged."
-    )
-    return [EffectEstimate(kind_with_signature(LATE), (), Where("time", text), {"delay": size}, timing.score, None)]
+    text = f"comes {1e3 * abs(timing.seconds):.1f} ms {how} in the record; it is moved before friction is judged."
+    return [_late(timing, f"The column {name} alone {text}")]
+
+
+def _late(timing: Timing, text: str) -> EffectEstimate:
+    """Return the finding of a delay."""
+    low, high = sorted((abs(timing.low), abs(timing.high)))
+    size = Interval(abs(timing.seconds), low, high, "s")
+    return EffectEstimate(kind_with_signature(LATE), (), Where("time", text), {"delay": size}, timing.score, None)
 
 
 def _reading(effect: Effect) -> EffectEstimate:
@@ -137,13 +142,12 @@ def _delay(place: PlaceOutcome) -> list[EffectEstimate]:
     timing = place.timing
     if timing is None or not timing.named:
         return []
-    size = Interval(abs(timing.seconds), min(abs(timing.low), abs(timing.high)), max(abs(timing.low), abs(timing.high)), "s")
     first = "position" if timing.seconds > 0.0 else "driving force"
     text = (
-        f"The {first}{_at(place)} comes {1e3 * size.value:.1f} ms late in the record; this is compensated before friction is "
-        "judged, and explains more than effects do without it."
+        f"The {first}{_at(place)} comes {1e3 * abs(timing.seconds):.1f} ms late in the record; this is compensated before "
+        "friction is judged, and explains more than effects do without it."
     )
-    return [EffectEstimate(kind_with_signature(LATE), (), Where("time", text), {"delay": size}, timing.score, None)]
+    return [_late(timing, text)]
 
 
 def _estimates(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[EffectEstimate]:
@@ -215,33 +219,23 @@ def _axis(place: PlaceOutcome) -> str:
 
 
 def _drawn(place: PlaceOutcome) -> list[EffectEstimate]:
-    """Return the finding that friction is drawn anew for each stroke, if it is one."""
-    seen = place.random
-    if seen is None or not seen.named:
-        return []
-    text = (
-        f"Friction differs from stroke to stroke{_at(place)} by {100.0 * seen.share:.1f} % (standard deviation, {seen.strokes} "
-        "strokes), more than its scatter within them explains, and each stroke by itself."
-    )
-    size = Interval(seen.sigma, seen.low, seen.high, "-")
-    return [
-        EffectEstimate(kind_with_signature(DRAWN_ANEW), (), Where("stroke", text), {"sigma_k": size}, seen.score, seen.p_value)
-    ]
+    """Return the findings that friction is drawn anew for each stroke, or for each run."""
+    strokes, runs = place.random, place.runs
+    found: list[EffectEstimate] = []
+    if strokes is not None and strokes.named:
+        how = f"{strokes.strokes} strokes), more than its scatter within them explains, and each stroke by itself"
+        found.append(_scattered(strokes, "stroke", place, how))
+    if runs is not None and runs.named:
+        how = f"{runs.runs} runs), more than the scatter of their strokes explains; no run says it of another"
+        found.append(_scattered(runs, "run", place, how))
+    return found
 
 
-def _drawn_by_run(place: PlaceOutcome) -> list[EffectEstimate]:
-    """Return the finding that friction is drawn anew for each run, if it is one."""
-    seen = place.runs
-    if seen is None or not seen.named:
-        return []
-    text = (
-        f"Friction differs from run to run{_at(place)} by {100.0 * seen.share:.1f} % (standard deviation, {seen.runs} runs), "
-        "more than the scatter of their strokes explains; no run says it of another."
-    )
-    size = Interval(seen.sigma, seen.low, seen.high, "-")
-    return [
-        EffectEstimate(kind_with_signature(DRAWN_ANEW), (), Where("run", text), {"sigma_k": size}, seen.score, seen.p_value)
-    ]
+def _scattered(seen: CoefficientScatter, axis: str, place: PlaceOutcome, how: str) -> EffectEstimate:
+    share = f"{100.0 * seen.share:.1f} % (standard deviation, {how}."
+    where = Where(axis, f"Friction differs from {axis} to {axis}{_at(place)} by {share}")
+    size = {"sigma_k": Interval(seen.sigma, seen.low, seen.high, "-")}
+    return EffectEstimate(kind_with_signature(DRAWN_ANEW), (), where, size, seen.score, seen.p_value)
 
 
 def _at(place: PlaceOutcome) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance, stretches
 from stochfric_mb.discovery.driven_joint.fit.free_parameters import adjusted, free_parameters
 from stochfric_mb.discovery.driven_joint.fit.joint_model import Forces, JointModel
 from stochfric_mb.discovery.inference.fitter import minimised
@@ -73,7 +73,7 @@ class JointFit:
 
 def stroke_count(masks: Sequence[Mask]) -> int:
     """Return the number of stretches of windows without a gap."""
-    return sum(int(np.count_nonzero(np.diff(np.r_[0, m.astype(np.int8)]) > 0)) for m in masks)
+    return sum(len(stretches(m)) for m in masks)
 
 
 def fit(

@@ -44,7 +44,7 @@ def predicted_rms(model: JointModel, effect: Effect, balances: Sequence[ForceBal
     Cheap: one evaluation a parameter. It ranks starting points; the fit itself is not linear.
     """
     design = np.column_stack([current.jacobian, effect_columns(model, effect, balances)])
-    left = _left_by(design, np.concatenate(current.remainders))
+    left = left_by(design, np.concatenate(current.remainders))
     return float(np.sqrt(np.mean(left**2)))
 
 
@@ -54,11 +54,11 @@ def hidden_share(effect: Effect, balances: Sequence[ForceBalance], current: Join
     change = columns[:, int(np.argmax(np.abs(columns).max(axis=0) > 0.0))]
     size = float(change @ change)
     prior, _ = prior_rows(current, prior_weight(current))
-    left = _left_by(np.vstack([current.jacobian, prior]), np.r_[change, np.zeros(len(prior))])
+    left = left_by(np.vstack([current.jacobian, prior]), np.r_[change, np.zeros(len(prior))])
     return 1.0 - float(left @ left) / size if size > 0.0 else 1.0
 
 
-def _left_by(design: Array, values: Array) -> Array:
+def left_by(design: Array, values: Array) -> Array:
     """Return what the columns of ``design`` leave of ``values``."""
     scaled = design / np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
     return values - scaled @ np.linalg.lstsq(scaled, values, rcond=1.0e-10)[0]

@@ -70,10 +70,13 @@ def tendon_along(mujoco: Any, model: Any, tendon: int, positions: Array) -> tupl
     for k, q in enumerate(positions):
         data.qpos[:] = q
         mujoco.mj_fwdPosition(model, data)
-        length[k] = data.ten_length[tendon]
-        for i in range(model.nv):
-            data.qvel[:] = 0.0
-            data.qvel[i] = 1.0
-            mujoco.mj_fwdVelocity(model, data)
-            rows[k, i] = data.ten_velocity[tendon]
+        length[k], rows[k] = data.ten_length[tendon], tendon_row(model, data, tendon)
     return length, rows
+
+
+def tendon_row(model: Any, data: Any, tendon: int) -> Array:
+    """Return how a tendon's length changes with each joint in the present state, shape (n_joints,)."""
+    row = np.zeros(model.nv)
+    start, count = int(model.ten_J_rowadr[tendon]), int(model.ten_J_rownnz[tendon])
+    row[model.ten_J_colind[start : start + count]] = data.ten_J[start : start + count]
+    return row

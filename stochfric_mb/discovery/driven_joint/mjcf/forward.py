@@ -13,23 +13,21 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.weak_form import narrowest
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
-from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import scale_masses
+from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import scale_masses, tendon_row
 from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
+from stochfric_mb.discovery.driven_joint.mjcf.joint_loops import joint_loops
 from stochfric_mb.discovery.driven_joint.mjcf.loaded_model import without_friction
-from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import column, corrected, drive_of, position_of_joint
-from stochfric_mb.discovery.driven_joint.mjcf.places import PairDirections, place_of
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import corrected, drive_of, position_of_joint
+from stochfric_mb.discovery.driven_joint.mjcf.places import pair_direction, place_of
 from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
-from stochfric_mb.discovery.inference.noise import white_noise
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.mechanisms import JointLoop, ProportionalDerivative
 
 Array = npt.NDArray[np.float64]
 Models = Mapping[str, JointModel]
@@ -70,32 +68,10 @@ def forward(source: MjcfSource, models: Models, delay: float) -> Forward:
         wrong += float(np.sum((position - plant.measured)[seen] ** 2))
         count += int(seen.sum()) * position.shape[1]
         for joint, output in given.items():
-            recorded = _output(run, source, joint)[plant.start : plant.end]
+            recorded = plant.loops[joint].recorded[plant.start : plant.end]
             wrong_drive += float(np.sum((output - recorded)[seen] ** 2))
             drive += float(np.sum(recorded[seen] ** 2))
-    looped = isinstance(source.dataset.scenario.controller, ProportionalDerivative)
-    return Forward(float(np.sqrt(wrong / count)), float(np.sqrt(wrong_drive / drive)) if looped else None)
-
-
-def drive_floor(source: MjcfSource) -> float:
-    """Return the noise of what the controller gave over its size [-], from third differences."""
-    noise = size = 0.0
-    for run in source.dataset.test:
-        for joint in _loops(source):
-            recorded = _output(run, source, joint)
-            noise += white_noise(recorded) ** 2 * len(recorded)
-            size += float(np.sum(recorded**2))
-    return float(np.sqrt(noise / size))
-
-
-def _loops(source: MjcfSource) -> Mapping[str, JointLoop]:
-    loop = source.dataset.scenario.controller
-    return loop.joints if isinstance(loop, ProportionalDerivative) else {}
-
-
-def _output(run: Run, source: MjcfSource, joint: str) -> Array:
-    """Return what the controller of a joint gave: the first column of its drive."""
-    return column(run, source.mechanism.drives[joint].columns[0])
+    return Forward(float(np.sqrt(wrong / count)), float(np.sqrt(wrong_drive / drive)) if drive > 0.0 else None)
 
 
 class _Plant:
@@ -104,8 +80,9 @@ class _Plant:
     def __init__(self, source: MjcfSource, models: Models, run: Run, delay: float) -> None:
         self._source, self._models, self._run, self._delay = source, models, run, delay
         mujoco = source.mujoco
-        self._mechanism = corrected(source.mechanism, {p: models[p].nuisances for p, _ in source.places})
-        name, first = source.places[0][0], models[source.places[0][0]].nuisances
+        self._mechanism = corrected(source.mechanism, {p: models[p].nuisances for p in source.places})
+        name = next(iter(source.places))
+        first = models[name].nuisances
         if name in source.mechanism.pairs:
             law = models[name].law
             model = without_friction(mujoco, source.mechanism, (name, law.mu_s, law.mu_k))
@@ -122,7 +99,6 @@ class _Plant:
         model.dof_solref[:], model.tendon_solref_fri[:] = reference, reference
         model.dof_solimp[:], model.tendon_solimp_fri[:] = HARD, HARD
         self._model, self._data = model, mujoco.MjData(model)
-        self._directions = PairDirections(source, model, self._data)
         # through the narrowest window: velocities to start from
         narrow = narrowest(run)
         self._state = tuple(source.joints(run, narrow, d) for d in (0, 1))
@@ -131,8 +107,9 @@ class _Plant:
         self.start, self.end = int(narrow.centres[0]), int(narrow.centres[-1])
         self.measured: Array = np.column_stack(rows)[self.start : self.end]
         """Measured positions, shape (n, n_joints)."""
-        self._controls = {joint: self._control(joint, loop) for joint, loop in _loops(source).items()}
-        late = SETTLE / run.sample_interval if self._controls else 0
+        self.loops = joint_loops(run, self._mechanism, source.dataset.scenario.controller)
+        """Joint -> its controller."""
+        late = SETTLE / run.sample_interval if self.loops else 0
         self.compared: npt.NDArray[np.bool_] = np.arange(len(self.measured)) >= late
         """Samples that are compared, shape (n,)."""
 
@@ -140,12 +117,12 @@ class _Plant:
         """Return positions, shape (n, n_joints), and what each controller gives, shape (n,)."""
         mujoco, model, data, run = self._source.mujoco, self._model, self._data, self._run
         n, h = self.end - self.start, run.sample_interval
-        places = [place_of(self._source, p, load, self._models[p], run, self._directions) for p, load in self._source.places]
+        places = [place_of(self._source, p, self._models[p], run) for p in self._source.places]
         period = getattr(self._source.dataset.scenario.controller, "period", 0.0)
         hold = max(1, round(period / h * self._steps)) if period > 0.0 else 1
         drives = {p: self._late(drive_of(run, self._mechanism, p)) for p in self._mechanism.drives}
-        positions, given = np.empty((n, model.nv)), {joint: np.empty(n) for joint in self._controls}
-        again = n if self._controls else max(1, round(AHEAD / h))
+        positions, given = np.empty((n, model.nv)), {joint: np.empty(n) for joint in self.loops}
+        again = n if self.loops else max(1, round(AHEAD / h))
         forces: dict[str, float] = {}
         for i in range(n):
             if i % again == 0:
@@ -155,21 +132,20 @@ class _Plant:
             positions[i] = data.qpos
             for k in range(self._steps):
                 if (i * self._steps + k) % hold == 0:
-                    for joint, control in self._controls.items():
-                        output, forces[joint] = control(self.start + i, k / self._steps, data)
+                    for joint in self.loops:
+                        output, forces[joint] = self._controlled(joint, self.start + i, k / self._steps)
                         if k == 0:
                             given[joint][i] = output
+                applied = {p: forces.get(p, float(series[self.start + i])) for p, series in drives.items()}
                 data.qfrc_applied[:] = 0.0
-                for place, series in drives.items():
-                    force = forces[place] if place in forces else float(series[self.start + i])
+                for place, force in applied.items():
                     self._push(place, force)
                 for place, force in self._mechanism.offset.items():
                     self._push(place, -force)
                 now = float(run.time[self.start + i]) + k * model.opt.timestep
                 for place in places:
-                    self._push(place.name, place.set(model, data, now, forces, drives, self.start + i))
+                    self._push(place.name, place.set(model, data, now, applied.get(place.name, 0.0), self.start + i))
                 mujoco.mj_step(model, data)
-                self._directions.forget()
         return positions, given
 
     def _late(self, drive: Array) -> Array:
@@ -184,7 +160,6 @@ class _Plant:
         if sample > self.start:  # what is held by a contact has found its place
             data.qpos[stays], data.qvel[stays] = before[0][stays], before[1][stays]
         mujoco.mj_forward(self._model, data)
-        self._directions.forget()
 
     def _push(self, place: str, force: float) -> None:
         """Add a force along a joint, tendon or pair."""
@@ -193,35 +168,13 @@ class _Plant:
         if place in self._source.names:
             self._data.qfrc_applied[self._source.names.index(place)] += force
         elif place in self._source.mechanism.pairs:
-            self._data.qfrc_applied[:] += force * self._directions(place)
+            self._data.qfrc_applied[:] += force * pair_direction(self._source, self._model, self._data, place)
         else:
-            self._data.qfrc_applied[:] += force * direction(self._source, self._model, self._data, place)
+            self._data.qfrc_applied[:] += force * tendon_row(self._model, self._data, self._source.tendons.index(place))
 
-    def _control(self, joint: str, loop: JointLoop) -> Callable[[int, float, Any], tuple[float, float]]:
-        """Return the controller of a joint: sample, part of the interval after it, state -> output, force."""
-        run, source = self._run, self._source
-        factor = run.constants[loop.factor] if loop.factor else 1.0
-        reference, dof = column(run, loop.reference), source.names.index(joint)
-        added = column(run, loop.added) if loop.added else np.zeros(len(reference))
-        drive = self._mechanism.drives[joint]
-        ratio = np.full(len(run.time), drive.gain)
-        for name in drive.columns[1:]:
-            ratio = ratio * column(run, name)
-
-        def control(sample: int, part: float, data: Any) -> tuple[float, float]:
-            goal = (1.0 - part) * reference[sample] + part * reference[min(sample + 1, len(reference) - 1)]
-            error = goal - float(data.qpos[dof])
-            u = factor * (loop.position_gain * error - loop.velocity_gain * float(data.qvel[dof])) + float(added[sample])
-            u = min(max(u, -loop.limit), loop.limit)
-            return u, u * float(ratio[sample])
-
-        return control
-
-
-def direction(source: MjcfSource, model: Any, data: Any, tendon: str) -> Array:
-    """Return how a tendon's length changes with each joint in the present state, shape (n_joints,)."""
-    number = source.tendons.index(tendon)
-    row = np.zeros(model.nv)
-    start, count = int(model.ten_J_rowadr[number]), int(model.ten_J_rownnz[number])
-    row[model.ten_J_colind[start : start + count]] = data.ten_J[start : start + count]
-    return row
+    def _controlled(self, joint: str, sample: int, part: float) -> tuple[float, float]:
+        """Return what the controller of a joint gives, and the force of it, a part of an interval after a sample."""
+        loop, dof = self.loops[joint], self._source.names.index(joint)
+        goal = (1.0 - part) * loop.reference[sample] + part * loop.reference[min(sample + 1, len(loop.reference) - 1)]
+        u = float(loop.output(goal, self._data.qpos[dof], self._data.qvel[dof], sample))
+        return u, u * float(loop.force[sample])

@@ -12,7 +12,6 @@ are micrometres, which no record holds, so N is not asked of the softness of a c
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -33,28 +32,14 @@ LEAST = 1.0e-6
 
 @dataclasses.dataclass(frozen=True)
 class Touch:
-    """Where and how two geoms touch in one state."""
+    """Where and how two geoms touch: in one state, or along a motion of n states."""
 
     part: Array
-    """J_n: how fast the body parts from the surface with each joint, shape (n_joints,)."""
+    """J_n: how fast the body parts from the surface with each joint, shape (n_joints,) or (n, n_joints)."""
     slide: Array
-    """How fast it slides with each joint, world axes, shape (3, n_joints)."""
-    axes: Array
-    """Axes of the surface, as columns, shape (3, 3)."""
+    """How fast it slides with each joint, in the surface's axes, shape (3, n_joints) or (n, 3, n_joints)."""
     place: Array
-    """Place of the body's geom in these axes [m], shape (3,)."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Along:
-    """Two geoms along a motion."""
-
-    part: Array
-    """J_n, shape (n, n_joints); zeros where they do not touch."""
-    slide: Array
-    """Sliding in the surface's axes with each joint, shape (n, 3, n_joints)."""
-    place: Array
-    """Place of the body's geom in the surface's axes [m], shape (n, 3)."""
+    """Place of the body's geom in these axes [m], shape (3,) or (n, 3)."""
 
 
 def geom_numbers(mujoco: Any, model: Any, pair: Pair) -> tuple[int, int]:
@@ -70,7 +55,7 @@ def geom_numbers(mujoco: Any, model: Any, pair: Pair) -> tuple[int, int]:
     return body, surface
 
 
-def reach_out(mujoco: Any, model: Any) -> None:
+def reach_out(model: Any) -> None:
     """Let geoms touch across the noise of measured positions; forces of contacts are of no use in this model then."""
     model.geom_margin[:] = 0.5 * REACH * model.stat.extent
     model.pair_margin[:] = REACH * model.stat.extent
@@ -96,11 +81,11 @@ def touch(mujoco: Any, model: Any, data: Any, body: int, surface: int) -> Touch 
     part = normal @ relative
     axes = data.geom_xmat[surface].reshape(3, 3)
     place = axes.T @ (data.geom_xpos[body] - data.geom_xpos[surface])
-    return Touch(part, relative - np.outer(normal, part), axes.copy(), place)
+    return Touch(part, axes.T @ (relative - np.outer(normal, part)), place)
 
 
-def pair_along(mujoco: Any, model: Any, geoms: tuple[int, int], positions: Array) -> Along:
-    """Return a pair along a motion.
+def pair_along(mujoco: Any, model: Any, geoms: tuple[int, int], positions: Array) -> Touch:
+    """Return a pair along a motion; zeros where it does not touch.
 
     Args:
         mujoco: the module.
@@ -109,18 +94,18 @@ def pair_along(mujoco: Any, model: Any, geoms: tuple[int, int], positions: Array
         positions: of the joints, shape (n, n_joints).
     """
     data = mujoco.MjData(model)
-    part, slide = np.zeros_like(positions), np.zeros((len(positions), 3, model.nv))
-    place = np.zeros((len(positions), 3))
+    n = len(positions)
+    along = Touch(np.zeros_like(positions), np.zeros((n, 3, model.nv)), np.zeros((n, 3)))
     for k, q in enumerate(positions):
         data.qpos[:] = q
         mujoco.mj_fwdPosition(model, data)
         seen = touch(mujoco, model, data, *geoms)
         if seen is not None:
-            part[k], slide[k], place[k] = seen.part, seen.axes.T @ seen.slide, seen.place
-    return Along(part, slide, place)
+            along.part[k], along.slide[k], along.place[k] = seen.part, seen.slide, seen.place
+    return along
 
 
-def line(along: Along, rates: Array, name: str) -> Array:
+def line(along: Touch, rates: Array, name: str) -> Array:
     """Return the direction of sliding in the surface's axes, shape (3,).
 
     Args:
@@ -168,8 +153,3 @@ def two_forces(part: Array, slide: Array, name: str) -> Array:
     rows = np.zeros((len(part), 2, part.shape[1]))
     rows[touching] = np.linalg.pinv(both)
     return rows
-
-
-def over_samples(values: Sequence[float] | Array, centres: npt.NDArray[np.int64], count: int) -> Array:
-    """Return values at the centres of windows as values at all samples, shape (count,)."""
-    return np.interp(np.arange(count), centres, np.asarray(values))

@@ -14,28 +14,25 @@ the normal force is part of the balance (`mjcf_pairs`). What other places take o
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.conditions import known_factors, temperature_through
 from stochfric_mb.discovery.driven_joint.balance.force_balance import (
     ForceBalance,
     Nuisance,
-    distance_slid,
+    balance_along,
     least_speed,
     slides,
     slipped,
 )
-from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, chosen_window, narrowest
+from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, narrowest, window_of
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import by_mass, effective_inertia, inverse
-from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import over_samples
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import drive_of, in_si, position_of_joint
 from stochfric_mb.discovery.driven_joint.mjcf.motion import Path, Rig
 from stochfric_mb.discovery.inference.noise import white_noise
-from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import ProportionalDerivative
 
@@ -43,10 +40,8 @@ Array = npt.NDArray[np.float64]
 
 CORRECTED = {"mass": "-", "armature": "-", "gain": "-", "damping": "-", "offset": "N or N m"}
 """What data may correct: factors on masses, armature, drive and damping of the joint, and an offset of its drive."""
-OF_TENDONS = ("mass", "armature", "gain", "offset")
-"""The same at a tendon, which has no damping of its own here."""
-OF_PAIRS = ("mass", "armature", "offset")
-"""The same at a pair, which nothing drives but through the joints."""
+NOT_OF_TENDONS, NOT_OF_PAIRS = ("damping",), ("damping", "gain")
+"""A tendon has no damping of its own here, and nothing drives a pair but through the joints."""
 LIFTED = 0.05
 """Normal force over the stated one below which a pair is not taken to slide on its surface [-]."""
 HELD = 0.5
@@ -63,67 +58,46 @@ class MjcfSource(Rig):
     """Run -> load that its joint transmits where that was measured apart from the drive [N or N m], shape (count,)."""
 
     @property
-    def places(self) -> list[tuple[str, float]]:
-        """Joints, tendons or pair in which friction is sought, and their loads."""
-        return list(self.mechanism.friction.items())
+    def places(self) -> Mapping[str, float]:
+        """Joints, tendons or pair in which friction is sought -> their loads."""
+        return self.mechanism.friction
 
     def nuisances(self, place: str) -> list[Nuisance]:
         """Return what data may correct, with its priors; a stated value of 1 is a factor."""
         spread = self.dataset.scenario.uncertainty
+        missing = NOT_OF_PAIRS if place in self.mechanism.pairs else NOT_OF_TENDONS if place in self.tendons else ()
         nuisances: list[Nuisance] = []
         for name, unit in CORRECTED.items():
-            if spread.get(name, 0.0) > 0.0 and name in self._corrected(place):
+            if spread.get(name, 0.0) > 0.0 and name not in missing:
                 value, low = (0.0, -np.inf) if name == "offset" else (1.0, 0.0)
                 nuisances.append(Nuisance(name, value, spread[name], unit, low))
         return nuisances
 
-    def _corrected(self, place: str) -> Sequence[str]:
-        return OF_PAIRS if place in self.mechanism.pairs else OF_TENDONS if place in self.tendons else tuple(CORRECTED)
-
     def coupled(self, place: str) -> bool:
         """Return whether friction elsewhere enters the balance of a place."""
-        others = [p for p, _ in self.places if p != place]
+        others = [p for p in self.places if p != place]
         return any(p in self.tendons for p in ((place, *others) if others else ()))
 
-    def balances(self, place: str, role: str, delay: float, samples: int | None = None) -> list[ForceBalance]:
-        """Return the runs of a role as balances of one place; arguments as of `balance.balance_of`."""
-        runs = self.dataset.fit if role == "fit" else self.dataset.test
-        return [self._balance(run, place, delay, samples) for run in runs]
-
     def window(self, run: Run, place: str, samples: int | None = None) -> Window:
-        """Return the window through which a place is seen in a run.
-
-        Raises:
-            InputError: the run is too short.
-        """
-        h, count = run.sample_interval, len(run.time)
+        """Return the window through which a place is seen in a run."""
         friction = self.dataset.scenario.law.mu_k * self.mechanism.friction[place]
-        window = (
-            Window(samples * h, h, count) if samples is not None else chosen_window(h, count, self._noise(run, place), friction)
-        )
-        if len(window.centres) < 8:
-            raise InputError(
-                f"run {run.name!r}: {count} samples are too few for windows of {window.half_width:.3g} s; record longer"
-            )
-        return window
+        return window_of(run, self._noise(run, place), friction, samples)
 
     def _noise(self, run: Run, place: str) -> dict[int, float]:
         """Return the noise of the balance of a place: derivative -> standard deviation."""
-        key = ("noise", run.name, place)
-        if key not in self.remembered:
-            narrow = narrowest(run)
-            weights = np.abs(self.path(run, place, narrow).weights).mean(axis=0)
-            inertia = effective_inertia(self.mujoco, self.model)
-            noise: dict[int, float] = {0: 0.0, 2: 0.0}
-            for weight, size, joint in zip(weights, inertia, self.names, strict=True):
-                noise[0] = float(np.hypot(noise[0], weight * _level(drive_of(run, self.mechanism, joint))))
-                noise[2] = float(np.hypot(noise[2], weight * size * _level(position_of_joint(run, self.mechanism, joint))))
-            if place in self.tendons:
-                noise[0] = float(np.hypot(noise[0], _level(drive_of(run, self.mechanism, place))))
-            self.remembered[key] = noise
-        return self.remembered[key]
+        return self._once(("noise", run.name, place), lambda: self._noise_anew(run, place))
 
-    def _balance(self, run: Run, place: str, delay: float, samples: int | None) -> ForceBalance:
+    def _noise_anew(self, run: Run, place: str) -> dict[int, float]:
+        weights = np.abs(self.path(run, place, narrowest(run)).weights).mean(axis=0)
+        inertia = weights * effective_inertia(self.mujoco, self.model)
+        drives = [w * _level(drive_of(run, self.mechanism, n)) for w, n in zip(weights, self.names, strict=True)]
+        if place in self.tendons:
+            drives.append(_level(drive_of(run, self.mechanism, place)))
+        positions = [m * _level(position_of_joint(run, self.mechanism, n)) for m, n in zip(inertia, self.names, strict=True)]
+        return {0: float(np.linalg.norm(drives)), 2: float(np.linalg.norm(positions))}
+
+    def balance(self, run: Run, place: str, delay: float, samples: int | None) -> ForceBalance:
+        """Return a run as a balance of a place."""
         window = self.window(run, place, samples)
         at = window.centres
         motion, needed, mass = self._dynamics(run, window)
@@ -134,9 +108,10 @@ class MjcfSource(Rig):
         left = others - needed - damped
         for name, offset in self.mechanism.offset.items():
             left = left - offset * self.path(run, name, window).direction
-        left = left - self._friction_elsewhere(run, place, window)
+        taken, known = self._elsewhere(run, place, window)
+        left = left - taken
         own_damping = damped + self.model.dof_damping * motion[1]
-        least = self._least(run, place, window, path)
+        least = self._least(run, window, path)
         columns = {
             "mass": np.sum(weights * mass, axis=1),
             "armature": np.sum(weights * (self.model.dof_armature * motion[2]), axis=1),
@@ -144,37 +119,28 @@ class MjcfSource(Rig):
             "damping": np.sum(weights * own_damping, axis=1),
             "offset": np.ones(len(at)),
         }
-        sliding = slides(window, path.velocity, least) & self._others_slide(run, place, window)
+        sliding = slides(window, path.velocity, least) & known
         load, normal = path.load, None
         if path.part is not None:
             load = normal = self._normal_force(run, place, window, left)
             if path.normal_weights is None:  # a measured force is taken out of the balance; another one is solved with friction
                 left = left + normal[at, None] * path.part
             sliding &= normal[at] > LIFTED * self.mechanism.friction[place]
-        noise = self._noise(run, place)
-        before = float(self.travelled(run, place)[0])
-        travelled = before + distance_slid(path.velocity, window)
-        return ForceBalance(
-            run=run.name,
-            role=run.role,
-            place=place if len(self.mechanism.friction) > 1 else "",
-            unit="N m" if self._rotates(place) else "N",
-            window=window,
-            time=run.time,
-            position=path.position,
-            velocity=path.velocity,
+        return balance_along(
+            run,
+            window,
+            path.position,
+            path.velocity,
+            least,
+            unit="N m" if self.rotates(place) else "N",
             load=load,
-            slip=slipped(path.position, path.velocity, least),
+            load_by_drive=path.load_by_drive,
             driven=own + np.sum(weights * left, axis=1),
             columns=columns,
             sliding=sliding,
-            noise=float(np.hypot(window.gain(0) * noise[0], window.gain(2) * noise[2])),
-            factors=known_factors(run, window, path.position, path.velocity, load, travelled),
-            white=noise,
-            before=before,
-            temperature=temperature_through(run, window),
+            white=self._noise(run, place),
+            before=float(self.travelled(run, place)[0]),
             normal_force=normal,
-            load_by_drive=path.load_by_drive,
             drive=window.sampled(drive_of(run, self.mechanism, place), delay) if place in self.mechanism.drives else None,
         )
 
@@ -184,9 +150,9 @@ class MjcfSource(Rig):
         if rows is None:
             measured = in_si(run, self.mechanism.pairs[place].normal_force, "normal_force")
             return np.maximum(window.through(measured), 0.0)
-        return over_samples(np.maximum(np.sum(rows * left, axis=1), 0.0), window.centres, len(run.time))
+        return np.interp(np.arange(len(run.time)), window.centres, np.maximum(np.sum(rows * left, axis=1), 0.0))
 
-    def _least(self, run: Run, place: str, window: Window, path: Path) -> float:
+    def _least(self, run: Run, window: Window, path: Path) -> float:
         """Return the speed above which a place surely slides [m/s or rad/s]."""
         each = [_level(position_of_joint(run, self.mechanism, n)) for n in self.names]
         seen = float(np.linalg.norm(np.abs(path.direction).mean(axis=0) * each))
@@ -196,9 +162,10 @@ class MjcfSource(Rig):
         """Return the distance since a place last reversed or rested in a run [m or rad], shape (count,)."""
         narrow = narrowest(run)
         path = self.path(run, place, narrow)
-        return slipped(path.position, path.velocity, self._least(run, place, narrow, path))
+        return slipped(path.position, path.velocity, self._least(run, narrow, path))
 
-    def _rotates(self, place: str) -> bool:
+    def rotates(self, place: str) -> bool:
+        """Return whether friction in a place acts about an axis."""
         if place not in self.names:
             return False
         return bool(self.model.jnt_type[self.names.index(place)] == self.mujoco.mjtJoint.mjJNT_HINGE)
@@ -217,52 +184,41 @@ class MjcfSource(Rig):
                 others += seen[:, None] * self.path(run, name, window).direction
         return own, others
 
-    def _friction_elsewhere(self, run: Run, place: str, window: Window) -> Array:
-        """Return what friction in other places takes of the joints' forces, shape (n_centres, n_joints)."""
-        taken = np.zeros((len(window.centres), len(self.names)))
-        if not self.coupled(place):
-            return taken
-        for name, load in self.places:
-            if name != place:
-                path = self.path(run, name, window)
-                model = self.known.get(name, JointModel(self.dataset.scenario.law, (), {}, load))
-                least = self._least(run, name, window, path)
-                balance = _motion(run, window, path, least)
-                force = model.friction(balance)
-                taken += force[:, None] * path.direction
-        return taken
+    def _elsewhere(self, run: Run, place: str, window: Window) -> tuple[Array, npt.NDArray[np.bool_]]:
+        """Return what friction in other places takes of the joints' forces, shape (n_centres, n_joints), and where it is known.
 
-    def _others_slide(self, run: Run, place: str, window: Window) -> npt.NDArray[np.bool_]:
-        """Return at which centres friction that enters from other places is known, since they slide, too."""
-        known = np.ones(len(window.centres), dtype=bool)
-        if self.coupled(place):
-            for name, _ in self.places:
-                path = self.path(run, name, window)
-                known &= slides(window, path.velocity, self._least(run, name, window, path))
-        return known
+        It is known where they slide, too.
+        """
+        n = len(window.centres)
+        taken, known = np.zeros((n, len(self.names))), np.ones(n, dtype=bool)
+        for name, load in self.places.items() if self.coupled(place) else ():
+            path = self.path(run, name, window)
+            least = self._least(run, window, path)
+            sliding = slides(window, path.velocity, least)
+            known &= sliding
+            if name == place:
+                continue
+            model = self.known.get(name, JointModel(self.dataset.scenario.law, (), {}, load))
+            motion = balance_along(
+                run, window, path.position, path.velocity, least,
+                unit="", load=path.load, driven=np.zeros(n), columns={}, sliding=sliding,
+            )  # fmt: skip
+            taken += model.friction(motion)[:, None] * path.direction
+        return taken, known
 
     def _dynamics(self, run: Run, window: Window) -> tuple[tuple[Array, Array, Array], Array, Array]:
         """Return motion at the centres, forces that it needs, and their change with a factor on all masses.
 
         Each is of shape (n_centres, n_joints); the motion is positions, rates and accelerations.
         """
-        key = ("dynamics", run.name, window.half_width)
-        if key not in self.remembered:
+
+        def anew() -> tuple[tuple[Array, Array, Array], Array, Array]:
             q, v, a = (self.joints(run, window, d)[window.centres] for d in (0, 1, 2))
             needed = inverse(self.mujoco, self.model, (q, v, a))
-            self.remembered[key] = (q, v, a), needed, by_mass(self.mujoco, self.model, (q, v, a), needed)
-        return self.remembered[key]
+            return (q, v, a), needed, by_mass(self.mujoco, self.model, (q, v, a), needed)
+
+        return self._once(("dynamics", run.name, window.half_width), anew)
 
 
 def _level(signal: Array) -> float:
     return white_noise(signal) if np.ptp(signal) else 0.0
-
-
-def _motion(run: Run, window: Window, path: Path, least: float) -> ForceBalance:
-    """Return a balance of the motion along a place alone."""
-    none = np.zeros(len(window.centres))
-    return ForceBalance(
-        run=run.name, role=run.role, place="", unit="", window=window, time=run.time, position=path.position,
-        velocity=path.velocity, load=path.load, slip=slipped(path.position, path.velocity, least), driven=none, columns={},
-        sliding=none > 0.0, noise=0.0, factors={},
-    )  # fmt: skip

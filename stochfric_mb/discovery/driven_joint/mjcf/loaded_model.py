@@ -14,7 +14,8 @@ from typing import Any
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import scale_masses
 from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import geom_numbers, reach_out
 from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
-from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_of_joint, require_loops
+from stochfric_mb.discovery.driven_joint.mjcf.joint_loops import joint_loops
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_of_joint
 from stochfric_mb.errors import InputError, MissingEngineError, require_name
 from stochfric_mb.laws.elastic_stick import ElasticStick
 from stochfric_mb.measurement.dataset import Dataset
@@ -55,14 +56,15 @@ def mjcf_balances(dataset: Dataset) -> MjcfSource:
             f"{mechanism.file.name}: joints {', '.join(map(str, missing)) or 'with quaternions'} have no measured position; "
             "every joint needs one in mechanism.positions, hinge or slide; of one that stays, its number"
         )
-    require_loops(dataset)
+    for run in dataset.test:
+        joint_loops(run, mechanism, dataset.scenario.controller)  # refuses what cannot be simulated
     _require_ranges(dataset, mechanism, mujoco, model)
     shapes = None
     if mechanism.pairs:
         for pair in mechanism.pairs.values():
             geom_numbers(mujoco, model, pair)
         shapes = copy.copy(model)
-        reach_out(mujoco, shapes)
+        reach_out(shapes)
         # what contacts push with is asked of the balance: the soft contacts of the model have no part in it
         model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
     return MjcfSource(dataset, mechanism, mujoco, model, tuple(names), tuple(tendons), shapes)

@@ -3,42 +3,19 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.errors import InputError, require_name
-from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.quantities import KNOWN
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.measurement.units import to_si
-from stochfric_mb.mechanisms import Mjcf, ProportionalDerivative
+from stochfric_mb.mechanisms import Mjcf
 
 Array = npt.NDArray[np.float64]
-
-
-def require_loops(dataset: Dataset) -> None:
-    """Return if the controller of an MJCF model, if any, can be simulated in the held-out runs.
-
-    Raises:
-        InputError: a joint has no drive, or a run lacks the reference or the factor.
-    """
-    controller, mechanism = dataset.scenario.controller, dataset.scenario.mechanism
-    if not isinstance(controller, ProportionalDerivative):
-        return
-    for joint, loop in controller.joints.items():
-        if joint not in mechanism.drives or joint not in mechanism.positions:
-            raise InputError(
-                f"controller.joints.{joint}: {joint!r} has no drive that a controller could give; add mechanism.drives.{joint}"
-            )
-        for run in dataset.test:
-            column(run, loop.reference)
-            if loop.factor and loop.factor not in run.constants:
-                given = ", ".join(run.constants) or "none"
-                raise InputError(
-                    f"run {run.name!r} has no constant {loop.factor!r} for controller.joints.{joint}.factor (it has: {given})"
-                )
 
 
 def corrected(mechanism: Mjcf, corrections: Mapping[str, Mapping[str, float]]) -> Mjcf:
@@ -63,10 +40,13 @@ def drive_of(run: Run, mechanism: Mjcf, place: str) -> Array:
         InputError: one of its columns is missing.
     """
     drive = mechanism.drives.get(place)
-    if drive is None:
-        return np.zeros(len(run.time))
-    force = np.full(len(run.time), drive.gain)
-    for name in drive.columns:
+    return np.zeros(len(run.time)) if drive is None else product(run, drive.gain, drive.columns)
+
+
+def product(run: Run, gain: float, names: Sequence[str]) -> Array:
+    """Return a gain times columns of a run, shape (count,)."""
+    force = np.full(len(run.time), gain)
+    for name in names:
         force = force * column(run, name)
     return force
 
@@ -98,8 +78,17 @@ def column(run: Run, name: str) -> Array:
     Raises:
         InputError: it has none of that name.
     """
-    for columns in (run.channels, run.covariates):
-        if name in columns:
-            return columns[name]
-    require_name(f"column of run {run.name} (for the mechanism)", name, [*run.channels, *run.covariates])
-    raise AssertionError  # require_name has raised
+    known = {**run.covariates, **run.channels}
+    return known[require_name(f"column of run {run.name} (for the mechanism)", name, known)]
+
+
+def position_columns(mechanism: Any) -> tuple[str, ...]:
+    """Return the names of the columns that hold measured positions."""
+    given = mechanism.positions.values() if isinstance(mechanism, Mjcf) else ("position",)
+    return tuple(dict.fromkeys(x for x in given if isinstance(x, str)))
+
+
+def with_column(run: Run, name: str, values: Array) -> Run:
+    """Return the run with another channel or covariate in the place of the one of that name."""
+    where = "channels" if name in run.channels else "covariates"
+    return dataclasses.replace(run, **{where: {**getattr(run, where), name: values}})

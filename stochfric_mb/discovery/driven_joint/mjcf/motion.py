@@ -6,18 +6,19 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.conditions import distance_before
-from stochfric_mb.discovery.driven_joint.balance.force_balance import distance_slid, integrated
+from stochfric_mb.discovery.driven_joint.balance.balances import Balances
+from stochfric_mb.discovery.driven_joint.balance.force_balance import distance_before, distance_slid, integrated
 from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, narrowest
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import tendon_along
 from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import geom_numbers, line, pair_along, two_forces
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import drive_of, position_of_joint
-from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Mjcf
 
@@ -47,11 +48,9 @@ class Path:
 
 
 @dataclasses.dataclass(frozen=True)
-class Rig:
+class Rig(Balances):
     """A model and the records of it."""
 
-    dataset: Dataset
-    """The dataset."""
     mechanism: Mjcf
     """Its mechanism."""
     mujoco: Any
@@ -73,12 +72,12 @@ class Rig:
 
     def path(self, run: Run, place: str, window: Window) -> Path:
         """Return the motion along a joint, tendon or pair in a run."""
-        key = ("path", run.name, place, window.half_width)
+        of = self._of_pair if place in self.mechanism.pairs else self._of_tendon if place in self.tendons else self._of_joint
+        return self._once(("path", run.name, place, window.half_width), lambda: of(run, place, window))
+
+    def _once(self, key: tuple[Any, ...], make: Callable[[], Any]) -> Any:
         if key not in self.remembered:
-            of = (
-                self._of_pair if place in self.mechanism.pairs else self._of_tendon if place in self.tendons else self._of_joint
-            )
-            self.remembered[key] = of(run, place, window)
+            self.remembered[key] = make()
         return self.remembered[key]
 
     def travelled(self, run: Run, place: str) -> Array:
@@ -92,14 +91,18 @@ class Rig:
 
     def line(self, place: str) -> Array:
         """Return the direction in which a pair slides, in the surface's axes, shape (3,): the same in all runs."""
-        key = ("line", place)
-        if key not in self.remembered:
-            run = self.dataset.fit[0]
-            window = narrowest(run)
-            geoms = geom_numbers(self.mujoco, self.shapes, self.mechanism.pairs[place])
-            positions, rates = (self.joints(run, window, d)[window.centres] for d in (0, 1))
-            self.remembered[key] = line(pair_along(self.mujoco, self.shapes, geoms, positions), rates, place)
-        return self.remembered[key]
+        return self._once(("line", place), lambda: self._line(place))
+
+    def _line(self, place: str) -> Array:
+        run = self.dataset.fit[0]
+        window = narrowest(run)
+        positions, rates = (self.joints(run, window, d)[window.centres] for d in (0, 1))
+        return line(pair_along(self.mujoco, self.shapes, self.geoms[place], positions), rates, place)
+
+    @functools.cached_property
+    def geoms(self) -> dict[str, tuple[int, int]]:
+        """Pair -> numbers of its geoms, body first."""
+        return {name: geom_numbers(self.mujoco, self.model, pair) for name, pair in self.mechanism.pairs.items()}
 
     def _of_joint(self, run: Run, place: str, window: Window) -> Path:
         q = position_of_joint(run, self.mechanism, place)
@@ -122,9 +125,8 @@ class Rig:
         return np.abs(drive), np.sign(drive)
 
     def _of_pair(self, run: Run, place: str, window: Window) -> Path:
-        pair = self.mechanism.pairs[place]
-        geoms, axis = geom_numbers(self.mujoco, self.shapes, pair), self.line(place)
-        along = pair_along(self.mujoco, self.shapes, geoms, self.joints(run, window))
+        pair, axis = self.mechanism.pairs[place], self.line(place)
+        along = pair_along(self.mujoco, self.shapes, self.geoms[place], self.joints(run, window))
         slide = np.einsum("i,nij->nj", axis, along.slide)
         velocity = np.sum(slide * self.joints(run, window, 1), axis=1)
         # where a body turns its geom stays: what slides by is the integral

@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, stretches
 from stochfric_mb.discovery.driven_joint.fit.fitting import PER_STROKE
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.simulation.scores import APART
@@ -61,9 +61,8 @@ def strokes_of(rest: Array, along: Array, balance: ForceBalance, shortest: int) 
         shortest: least number of windows.
     """
     strokes: list[Stroke] = []
-    edges = np.flatnonzero(np.diff(np.r_[0, balance.sliding.astype(np.int8), 0]))
     forward = balance.velocity[balance.window.centres] > 0.0
-    for start, end in zip(edges[::2], edges[1::2], strict=True):
+    for start, end in stretches(balance.sliding):
         r, f = rest[start:end], along[start:end]
         size = float(f @ f)
         if end - start < shortest or size <= 0.0:

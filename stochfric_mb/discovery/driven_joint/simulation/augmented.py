@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from stochfric_mb.discovery.driven_joint.balance.balances import BESIDE
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.effects import Effect, kind_with_signature, make_effect
@@ -15,19 +16,11 @@ from stochfric_mb.effects.traits import DRAWN_ANEW, LATE
 from stochfric_mb.mechanisms import Mjcf
 from stochfric_mb.scenario import Scenario
 
-BESIDE = ("sensor", "randomness")
-"""Groups of effects that are no part of the mean friction."""
-
 
 def stated_scatter(scenario: Scenario[Any], process: str) -> float:
     """Return the standard deviation of mu_k that the scenario declares, stroke by stroke or run by run [-]."""
     declared = [e.to_dict() for e in scenario.effects if DRAWN_ANEW in e.signatures]
     return float(np.sqrt(sum(e["sigma_k"] ** 2 for e in declared if e["process"] == process)))
-
-
-def stated_delay(scenario: Scenario[Any]) -> float:
-    """Return by how much the scenario says that positions are late [s]."""
-    return sum(e.late for e in scenario.effects)
 
 
 def augmented(
@@ -46,7 +39,7 @@ def augmented(
         sigma, process = max(drawn)  # a model has one such process
         sigma_s = sigma * model.law.mu_s / model.law.mu_k
         effects.append(make_effect(kind_with_signature(DRAWN_ANEW), process=process, sigma_s=sigma_s, sigma_k=sigma))
-    delay = stated_delay(scenario) + (timing.seconds if timing is not None and timing.named else 0.0)
+    delay = sum(e.late for e in scenario.effects) + (timing.seconds if timing is not None and timing.named else 0.0)
     if delay > 0.0:  # one that comes before has no effect of its own, and stays a finding
         effects.append(make_effect(kind_with_signature(LATE), delay=delay))
     return dataclasses.replace(

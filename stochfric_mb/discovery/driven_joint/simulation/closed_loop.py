@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.compile import compiled
-from stochfric_mb.discovery.driven_joint.balance.conditions import known_temperature
-from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import measured_load, position_of
+from stochfric_mb.discovery.driven_joint.balance.force_balance import known_temperature
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import channel, drive_channel, measured_load, position_of
 from stochfric_mb.discovery.driven_joint.fit.friction_along import chain, resistance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.effects import contract as e
@@ -23,6 +23,34 @@ FINER = 10
 """Steps of the simulation in one sample; the controller acts once a sample, as the real one did."""
 FIRST = 15
 """Samples from which the first position is taken."""
+
+
+class CascadeLoop:
+    """The controller of a slide in one run.
+
+    Raises:
+        InputError: the run lacks a covariate that the controller reads, or what it gave.
+    """
+
+    def __init__(self, run: Run, joint: PrismaticJoint, controller: Cascade) -> None:
+        for name in filter(None, (controller.reference, controller.added)):
+            if name not in run.covariates:
+                given = ", ".join(run.covariates)
+                raise InputError(f"run {run.name!r} has no covariate {name!r} for the controller (it has: {given})")
+        added = run.covariates[controller.added] if controller.added else np.zeros(len(run.time))
+        self._controller = controller
+        self.reference = np.ascontiguousarray(run.covariates[controller.reference])
+        """Reference position [m], shape (n,)."""
+        self.added = np.ascontiguousarray(added)
+        """What is added to its output [V or N], shape (n,)."""
+        self.recorded = controller_output(run, joint)
+        """What it gave, shape (n,)."""
+
+    def output(self, reference: Array, position: Array, velocity: Array) -> Array:
+        """Return what it gives at all samples, shape (n,)."""
+        loop = self._controller
+        u = loop.velocity_gain * (loop.position_gain * (reference - position) - velocity) + self.added
+        return np.clip(u, -loop.limit, loop.limit)
 
 
 def closed_loop(
@@ -43,7 +71,7 @@ def closed_loop(
     Raises:
         InputError: the run has no such reference.
     """
-    reference, added = signals_of(run, controller)
+    given = CascadeLoop(run, joint, controller)
     q = position_of(run)
     temperature = known_temperature(run)
     pressure = run.channels.get("pressure", np.zeros(len(q)))
@@ -57,43 +85,21 @@ def closed_loop(
     loop = np.array([controller.position_gain, controller.velocity_gain, controller.limit])
     start = float(np.polyfit(np.arange(FIRST), q[:FIRST], 2)[2])
     # the voltage that the controller gave tells the velocity that it saw
-    u = controller_output(run, joint)[0]
-    rate = controller.position_gain * (reference[0] - start) - (u - added[0]) / controller.velocity_gain
+    u = given.recorded[0]
+    rate = controller.position_gain * (given.reference[0] - start) - (u - given.added[0]) / controller.velocity_gain
     if abs(u) >= controller.limit:
         rate = float(np.polyfit(np.arange(FIRST), q[:FIRST], 1)[0]) / run.sample_interval
     voltage, position = np.empty(len(q)), np.empty(len(q))
     _march(
-        links.numbers, links.calls, links.parameters, plant, loop, reference, added, float(run.time[0]), run.sample_interval,
-        start, rate, before, temperature, pressure, np.abs(load), pushed, voltage, position,
+        links.numbers, links.calls, links.parameters, plant, loop, given.reference, given.added, float(run.time[0]),
+        run.sample_interval, start, rate, before, temperature, pressure, np.abs(load), pushed, voltage, position,
     )  # fmt: skip
     return voltage, position
 
 
-def signals_of(run: Run, controller: Cascade) -> tuple[Array, Array]:
-    """Return the reference [m] and what is added to the output [V or N], shape (n,) each.
-
-    Raises:
-        InputError: the run lacks a covariate that the controller reads.
-    """
-    for name in filter(None, (controller.reference, controller.added)):
-        if name not in run.covariates:
-            given = ", ".join(run.covariates)
-            raise InputError(f"run {run.name!r} has no covariate {name!r} for the controller (it has: {given})")
-    reference = np.ascontiguousarray(run.covariates[controller.reference])
-    added = run.covariates[controller.added] if controller.added else np.zeros(len(reference))
-    return reference, np.ascontiguousarray(added)
-
-
 def controller_output(run: Run, joint: PrismaticJoint) -> Array:
-    """Return what the controller gave, shape (n,): a voltage [V] where the joint has a force gain, else the force [N].
-
-    Raises:
-        InputError: the run has no such channel.
-    """
-    name = "voltage" if joint.force_gain else "force"
-    if name not in run.channels:
-        raise InputError(f"run {run.name!r} has no {name}, which its controller gives; name its column with columns")
-    return run.channels[name]
+    """Return what the controller gave, shape (n,): a voltage [V] where the joint has a force gain, else the force [N]."""
+    return channel(run, drive_channel(joint)[0])
 
 
 @compiled

@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable, Iterator
-
 import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import position_of
 from stochfric_mb.discovery.driven_joint.balance.weak_form import narrowest
-from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import column, position_of_joint
-from stochfric_mb.discovery.driven_joint.simulation.closed_loop import controller_output, signals_of
+from stochfric_mb.discovery.driven_joint.mjcf.joint_loops import RunLoop, joint_loops
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_of_joint
+from stochfric_mb.discovery.driven_joint.simulation.closed_loop import CascadeLoop
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
-from stochfric_mb.mechanisms import Cascade, JointLoop, Mjcf, PrismaticJoint, ProportionalDerivative
+from stochfric_mb.mechanisms import Cascade, Mjcf
 
 Array = npt.NDArray[np.float64]
 
 SHIFTS = np.linspace(-2.0, 2.0, 17)
 """By how much the reference may come later than its sample [samples]: stiff loops turn half a sample into volts."""
-Law = Callable[[Array, Array, Array], Array]
-"""Reference, position and velocity, shape (n,) each -> what the controller gives, shape (n,)."""
 
 
 def controller_misfit(dataset: Dataset) -> float | None:
@@ -35,15 +31,15 @@ def controller_misfit(dataset: Dataset) -> float | None:
     """
     wrong, right = np.zeros(len(SHIFTS)), 0.0
     for run in dataset.test:
-        for law, reference, position, given in _loops(dataset, run):
+        for loop, position in _loops(dataset, run):
             window = narrowest(run)
             inside = slice(int(window.centres[0]), int(window.centres[-1]) + 1)
             velocity, at = window.through(position, 1), np.arange(len(position))
-            measured = given[inside]
+            measured = loop.recorded[inside]
             right += float(measured @ measured)
             for i, late in enumerate(SHIFTS):
-                moved = np.interp(at - late, at, reference)
-                error = law(moved, position, velocity)[inside] - measured
+                moved = np.interp(at - late, at, loop.reference)
+                error = loop.output(moved, position, velocity)[inside] - measured
                 wrong[i] += float(error @ error)
     return float(np.sqrt(wrong.min() / right)) if right > 0.0 else None
 
@@ -59,29 +55,11 @@ def disbelieved(misfit: float | None) -> list[str]:
     ]
 
 
-def _loops(dataset: Dataset, run: Run) -> Iterator[tuple[Law, Array, Array, Array]]:
-    """Yield the law, reference, position and recorded output of each controlled joint."""
+def _loops(dataset: Dataset, run: Run) -> list[tuple[RunLoop | CascadeLoop, Array]]:
+    """Return the controller of each controlled joint in a run, and the joint's position, shape (n,)."""
     controller, joint = dataset.scenario.controller, run.mechanism(dataset.scenario)
-    if isinstance(controller, Cascade) and isinstance(joint, PrismaticJoint):
-        reference, added = signals_of(run, controller)
-
-        law = functools.partial(_cascade, controller, added)
-        yield law, reference, position_of(run), controller_output(run, joint)
-    elif isinstance(controller, ProportionalDerivative) and isinstance(joint, Mjcf):
-        for name, loop in controller.joints.items():
-            factor = run.constants[loop.factor] if loop.factor else 1.0
-            more = column(run, loop.added) if loop.added else np.zeros(len(run.time))
-
-            recorded = column(run, joint.drives[name].columns[0])
-            law = functools.partial(_single, loop, factor, more)
-            yield law, column(run, loop.reference), position_of_joint(run, joint, name), recorded
-
-
-def _cascade(controller: Cascade, added: Array, reference: Array, position: Array, velocity: Array) -> Array:
-    u = controller.velocity_gain * (controller.position_gain * (reference - position) - velocity) + added
-    return np.clip(u, -controller.limit, controller.limit)
-
-
-def _single(loop: JointLoop, factor: float, added: Array, reference: Array, position: Array, velocity: Array) -> Array:
-    u = factor * (loop.position_gain * (reference - position) - loop.velocity_gain * velocity) + added
-    return np.clip(u, -loop.limit, loop.limit)
+    if isinstance(controller, Cascade):
+        return [(CascadeLoop(run, joint, controller), position_of(run))]
+    if isinstance(joint, Mjcf):
+        return [(loop, position_of_joint(run, joint, n)) for n, loop in joint_loops(run, joint, controller).items()]
+    return []

@@ -1,20 +1,54 @@
-"""The friction of an augmented scenario as a plain function of time, position and velocity, for any engine."""
+"""Friction as a plain function of time, position and velocity: of a model, and of an augmented scenario for any engine."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
 from stochfric_mb.discovery.driven_joint.fit.friction_along import chain, resistance
+from stochfric_mb.effects import Effect
 from stochfric_mb.effects.contract import LOAD, WORLD
 from stochfric_mb.errors import InputError, require_number
+from stochfric_mb.laws import Law
 from stochfric_mb.mechanisms import BeltBox, SpringSlider
 from stochfric_mb.scenario import Scenario
 
 FrictionFunction = Callable[..., float]
+
+
+class FrictionAt:
+    """The friction that law and effects make available, instant by instant.
+
+    Args:
+        law: the law.
+        effects: what is added to it.
+        load: stated load [N or N m].
+        contact: whether the place is a contact, whose normal force is known along the motion.
+    """
+
+    def __init__(self, law: Law, effects: Sequence[Effect], load: float, *, contact: bool = False) -> None:
+        self._links = chain(law, effects, load, contact=contact)
+        self._world, self._memory = np.zeros(WORLD), np.zeros(8)
+
+    def __call__(
+        self, t: float, q: float, v: float, side: float, *, load: float = 0.0, slip: float = 0.0, travelled: float = 0.0,
+        temperature: float = 0.0, pressed: float = 1.0, drive: float = 0.0, pressure: float = 0.0,
+    ) -> tuple[float, float]:  # fmt: skip
+        """Return the friction against the motion, and what effects push along +q with whichever way it goes [N or N m].
+
+        ``side`` is the direction of the motion, 1 or -1, ``slip`` the distance since the last reversal, and ``pressed`` the
+        normal force of a contact over its stated load.
+        """
+        links = self._links
+        against = resistance(
+            links.numbers, links.calls, links.parameters, self._world, self._memory, t, q, v, load, slip, side, travelled,
+            temperature, pressed, drive, pressure,
+        )  # fmt: skip
+        pushed = float(self._world[LOAD])
+        return side * (float(against) + pushed), pushed
 
 
 def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint: str = "") -> FrictionFunction:
@@ -43,9 +77,7 @@ def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint:
     acts_in = getattr(mechanism, "effects_in", ())
     effects = scenario.effects if not acts_in or place in acts_in else ()
     contact, stated_load = place in getattr(mechanism, "pairs", {}), loads[place]
-    links = chain(scenario.law, effects, stated_load, contact=contact)
-    world, memory = np.zeros(WORLD), np.zeros(8)
-
+    friction = FrictionAt(scenario.law, effects, stated_load, contact=contact)
     needed = {name: e.kind for e in effects for name in e.reads if name in ("drive", "pressure")}
 
     def force(
@@ -57,25 +89,10 @@ def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint:
                 raise InputError(f"effect {kind!r} reads the {name}, which is not given; call the friction with {name}=...")
         side = 1.0 if v >= 0.0 else -1.0
         pressed = load / stated_load if contact else 1.0
-        against = resistance(
-            links.numbers,
-            links.calls,
-            links.parameters,
-            world,
-            memory,
-            t,
-            q,
-            v,
-            load,
-            0.0,
-            side,
-            travelled,
-            temperature,
-            pressed,
-            drive or 0.0,
-            pressure or 0.0,
-        )
-        pushed = float(world[LOAD])
-        return pushed - (float(against) + pushed) * math.tanh(abs(v) / smoothing_velocity)
+        available, pushed = friction(
+            t, q, v, side, load=load, travelled=travelled, temperature=temperature, pressed=pressed, drive=drive or 0.0,
+            pressure=pressure or 0.0,
+        )  # fmt: skip
+        return pushed - side * available * math.tanh(abs(v) / smoothing_velocity)
 
     return force

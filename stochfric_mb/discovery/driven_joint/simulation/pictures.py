@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
+
+if TYPE_CHECKING:
+    from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 
 Array = npt.NDArray[np.float64]
 Picture = tuple[str, str, dict[str, Any]]
@@ -19,18 +20,18 @@ MOST = 1500
 """Most points of a series."""
 
 
-def friction_picture(
-    place: str, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance], recalibrated: JointModel, augmented: JointModel
-) -> Picture:
-    """Return friction against velocity, and what the models leave of it against time, on the runs of ``balances``."""
+def friction_picture(place: PlaceOutcome) -> Picture:
+    """Return friction against velocity, and what the models leave of it against time, on the held-out runs of a place."""
+    balances = place.test
     unit = balances[0].unit
     rate = "rad/s" if unit == "N m" else "m/s"
     at = [s.window.centres[s.sliding] for s in balances]
     speed = np.concatenate([s.velocity[c] for s, c in zip(balances, at, strict=True)])
     time = np.concatenate([s.time[c] for s, c in zip(balances, at, strict=True)])
-    models = {"recalibrated": recalibrated, "augmented": augmented}
+    selected = place.selected
+    models = {"recalibrated": selected.recalibrated.model, "augmented": with_phases(selected.final.model, balances)}
     along = {n: np.concatenate([m.friction(s)[s.sliding] for s in balances]) for n, m in models.items()}
-    rest = {n: np.concatenate([m.remainder(s, nuisances)[s.sliding] for s in balances]) for n, m in models.items()}
+    rest = {n: np.concatenate([m.remainder(s, place.nuisances)[s.sliding] for s in balances]) for n, m in models.items()}
     data = along["augmented"] + rest["augmented"]
     some = np.unique(np.linspace(0, len(speed) - 1, min(MOST, len(speed))).round().astype(int))
     left = [_points("data", speed[some], data[some]), *(_points(n, speed[some], along[n][some]) for n in models)]
@@ -39,7 +40,7 @@ def friction_picture(
         {"x": f"velocity [{rate}]", "y": f"friction [{unit}]", "series": left},
         {"x": "time [s]", "y": f"residual [{unit}]", "series": right},
     ]
-    title = f"Friction in {place}" if place else "Friction"
+    title = f"Friction in {place.thing} {place.place}" if place.place else "Friction"
     caption = (
         "Held-out runs. Left: friction from inverse dynamics and as the models have it. Right: residual while the joint slides."
     )

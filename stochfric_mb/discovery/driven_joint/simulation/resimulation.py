@@ -8,11 +8,12 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import measured_load
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import drive_channel, measured_load
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
-from stochfric_mb.discovery.driven_joint.simulation.scores import loop_floor
+from stochfric_mb.discovery.driven_joint.simulation.closed_loop import controller_output
+from stochfric_mb.discovery.driven_joint.simulation.scores import drive_floor
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.mechanisms import HingePendulum, Mjcf, PrismaticJoint
 from stochfric_mb.mechanisms.mjcf_parts import Drive
@@ -23,29 +24,30 @@ Models = Mapping[str, JointModel]
 
 
 def simulated(
-    dataset: Dataset, tell: Callable[[str], None], source: Any, places: Sequence[PlaceOutcome], delays: tuple[float, float]
+    source: Any, tell: Callable[[str], None], places: Sequence[PlaceOutcome]
 ) -> tuple[list[PlaceOutcome], float | None]:
     """Return the places with the errors of forward simulation, and the noise of what a controller gives [-].
 
     Slides and hinges with a cascade are simulated already; one that is slow and prescribed has nothing to simulate.
 
     Args:
-        dataset: the dataset.
-        tell: called with what is being done.
         source: balances of the dataset.
+        tell: called with what is being done.
         places: the outcomes; the first one's scores are completed.
-        delays: the stated delay, and the one that is compensated [s].
     """
+    dataset = source.dataset
     mechanism = dataset.scenario.mechanism
     floor = None
     if dataset.scenario.controller is not None and not isinstance(mechanism, Mjcf):
-        return list(places), loop_floor(dataset.test, mechanism)
+        return list(places), drive_floor([controller_output(r, mechanism) for r in dataset.test])
     if not isinstance(mechanism, Mjcf) and not _moves_freely(dataset):
         return list(places), None
-    from stochfric_mb.discovery.driven_joint.mjcf.forward import drive_floor, forward
+    from stochfric_mb.discovery.driven_joint.mjcf.forward import forward
+    from stochfric_mb.discovery.driven_joint.mjcf.joint_loops import joint_loops
 
-    base, delay = delays
-    names = {p.place or source.places[0][0]: p for p in places}
+    base = source.stated_delay
+    delay = base + places[0].late
+    names = {p.place or next(iter(source.places)): p for p in places}
     early = any(p.undelayed is not None for p in places)
     stages: dict[str, tuple[Models, float]] = {
         "baseline": ({n: p.stated for n, p in names.items()}, base),
@@ -61,7 +63,8 @@ def simulated(
             seen = forward(*as_mjcf(dataset, next(iter(models.values()))), late)
         scores[label] = dataclasses.replace(scores[label], loop=seen.drive, forward=seen.position)
     if dataset.scenario.controller is not None:
-        floor = drive_floor(source)
+        loops = [joint_loops(run, mechanism, dataset.scenario.controller) for run in dataset.test]
+        floor = drive_floor([loop.recorded for of in loops for loop in of.values()])
     return [dataclasses.replace(places[0], scores=scores), *places[1:]], floor
 
 
@@ -83,14 +86,12 @@ def as_mjcf(dataset: Dataset, model: JointModel) -> tuple[Any, Models]:
     mujoco: Any = importlib.import_module("mujoco")
     stated: Any = dataset.scenario.mechanism
     mechanism = dataclasses.replace(stated, **model.nuisances)
-    name, gain = ("force", "force_gain") if isinstance(mechanism, PrismaticJoint) else ("torque", "torque_gain")
-    factor = getattr(mechanism, gain)
-    drive = Drive(columns=("voltage",), gain=factor) if factor else Drive(columns=(name,))
+    name, factor = drive_channel(mechanism)
     place = Mjcf(
         file=Path(),
         friction={JOINT: model.load},
         positions={JOINT: "position"},
-        drives={JOINT: drive},
+        drives={JOINT: Drive(columns=(name,), gain=factor)},
         damping={JOINT: mechanism.damping},
         offset={JOINT: mechanism.offset},
     )

@@ -52,7 +52,7 @@ def score(
     model = with_phases(model, balances)
     rest = [model.remainder(s, nuisances) for s in balances]
     sliding = np.concatenate([r[s.sliding] for r, s in zip(rest, balances, strict=True)])
-    return Score(_rms(sliding), _rms(np.concatenate(rest)), loop_error(model, runs, scenario, [s.before for s in balances]))
+    return Score(rms(sliding), rms(np.concatenate(rest)), loop_error(model, runs, scenario, [s.before for s in balances]))
 
 
 def loop_error(model: JointModel, runs: Sequence[Run], scenario: Scenario, before: Sequence[float]) -> float | None:
@@ -69,9 +69,7 @@ def loop_error(model: JointModel, runs: Sequence[Run], scenario: Scenario, befor
         return None
     wrong = right = 0.0
     for run, slid in zip(runs, before, strict=True):
-        joint = run.mechanism(scenario)
-        if not isinstance(joint, PrismaticJoint):
-            return None
+        joint: PrismaticJoint = run.mechanism(scenario)
         voltage, _ = closed_loop(run, joint, model, controller, slid)
         late = round(SETTLED / controller.position_gain / run.sample_interval)
         measured = controller_output(run, joint)[late:]
@@ -80,9 +78,8 @@ def loop_error(model: JointModel, runs: Sequence[Run], scenario: Scenario, befor
     return float(np.sqrt(wrong / right))
 
 
-def loop_floor(runs: Sequence[Run], joint: PrismaticJoint) -> float:
-    """Return the noise of what the controller gave over its size [-], from third differences."""
-    given = [controller_output(r, joint) for r in runs]
+def drive_floor(given: Sequence[Array]) -> float:
+    """Return the noise of what controllers gave over its size [-], from third differences."""
     noise = sum(white_noise(u) ** 2 * len(u) for u in given)
     return float(np.sqrt(noise / sum(float(np.sum(u**2)) for u in given)))
 
@@ -114,5 +111,6 @@ def closed_share(before: float, after: float, floor: float) -> float:
     return (before**2 - after**2) / max(before**2 - floor**2, 1.0e-12 * before**2, 1.0e-300)
 
 
-def _rms(values: Array) -> float:
+def rms(values: Array) -> float:
+    """Return the root mean square of values; nan of none."""
     return float(np.sqrt(np.mean(values**2))) if len(values) else float("nan")
