@@ -14,7 +14,7 @@ from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, stated_terms
+from stochfric_mb.discovery.stick_slip.screening.regression import baseline_of
 from stochfric_mb.discovery.stick_slip.simulation.forecast import MEMBERS, N_OUTPUTS, Windows, forecasts
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, deterministic
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
@@ -163,9 +163,7 @@ def _cycles(model: Model, windows: Sequence[Windows]) -> Cycles:
 
 def _left_over(pool: Pool, study: Study) -> LeftOver:
     """Return what remains of the features in ``pool`` once the stated model's parameters are fitted to them."""
-    regression = Regression(pool)
-    terms = stated_terms(pool, dict(study.uncertainty))
-    rest = regression.residuals(terms, regression.fit(terms, study.solution.scatter))[pool.kept]
+    rest = baseline_of(pool, study.uncertainty, study.baseline.solution.scatter).residuals()[pool.kept]
     series = rest[:, 1:].T
     return LeftOver(
         time=pool.onset_time[pool.kept],

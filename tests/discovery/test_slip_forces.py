@@ -6,7 +6,7 @@ from scipy.integrate import trapezoid
 from scipy.stats import norm
 
 from stochfric_mb.discovery import discover
-from stochfric_mb.discovery.stick_slip.feature_skill import _crps
+from stochfric_mb.discovery.stick_slip.validation.feature_skill import _crps
 from tests.discovery.generator.case import Case
 from tests.discovery.net.rigs import belt_box
 

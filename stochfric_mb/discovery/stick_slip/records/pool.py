@@ -66,6 +66,11 @@ class Pool:
         return len(self.slips)
 
     @property
+    def rows(self) -> list[np.ndarray]:
+        """Numbers of the slips that count, run by run."""
+        return [np.flatnonzero(self.kept & (self.run == r)) for r in range(self.n_runs)]
+
+    @property
     def angular_frequency(self) -> float:
         """Natural angular frequency of the rig [rad/s]."""
         return self.slips[0].record.angular_frequency
@@ -134,6 +139,11 @@ def constant(values: Array) -> Array:
     return coefficients
 
 
+def less_medians(values: Array, run: np.ndarray) -> Array:
+    """Return numbers of slips, shape (n,) or (n, m), less their median in the slip's run."""
+    return values - np.array([np.median(values[run == r], axis=0) for r in range(run[-1] + 1)])[run]
+
+
 def make_pool(slips: Sequence[Slips], calibrations: Sequence[Calibration]) -> Pool:
     """Return the slips of all runs side by side, with the bias of their features taken out."""
     run = np.repeat(np.arange(len(slips)), [len(s) for s in slips])
@@ -173,15 +183,11 @@ def make_pool(slips: Sequence[Slips], calibrations: Sequence[Calibration]) -> Po
 
 
 def _kept(features: Array, run: np.ndarray, static: Array) -> np.ndarray:
-    centred = np.empty_like(features)
-    spread = np.empty_like(features)
-    for r in np.unique(run):
-        mine = run == r
-        centred[mine] = features[mine] - np.median(features[mine], axis=0)
-        spread[mine] = deviation(features[mine], axis=0)
-    off = np.asarray((np.abs(centred) > criteria.STRAY_SLIP * spread).any(axis=1))
+    away = np.abs(less_medians(features, run))
+    spread = np.array([deviation(features[run == r], axis=0) for r in range(run[-1] + 1)])[run]
+    off = np.asarray((away > criteria.STRAY_SLIP * spread).any(axis=1))
     # a scatter of 15 % of the static force is friction that varies, not an outlier
-    gross = np.asarray((np.abs(centred) > np.maximum(criteria.GROSS_SLIP * spread, 0.15 * static[:, None])).any(axis=1))
+    gross = np.asarray((away > np.maximum(criteria.GROSS_SLIP * spread, 0.15 * static[:, None])).any(axis=1))
     for r in np.unique(run):
         mine = run == r
         if off[mine].sum() <= max(criteria.FEW_STRAY, criteria.STRAY_SHARE * mine.sum()):

@@ -64,17 +64,16 @@ class _Phases:
     line: Array
     deviation: float
 
-    def centred(self, column: Array) -> Array:
-        """Return a column less its mean in each phase."""
-        total = np.bincount(self.samples.segment, column)
-        count = np.bincount(self.samples.segment)
-        return column - (total / np.maximum(count, 1))[self.samples.segment]
-
     def rest(self, columns: Sequence[Array]) -> Array:
         """Return the values less the belt's line and the columns."""
-        design = np.stack([self.line, *(self.centred(c) for c in columns)], axis=1)
+        design = np.stack([self.line, *(centred(c, self.samples.segment) for c in columns)], axis=1)
         design = design / np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
         return self.values - design @ np.linalg.lstsq(design, self.values, rcond=1.0e-9)[0]
+
+
+def centred(column: Array, segment: np.ndarray) -> Array:
+    """Return a column less its mean in each phase; ``segment``: the phase of each sample."""
+    return column - (np.bincount(segment, column) / np.maximum(np.bincount(segment), 1))[segment]
 
 
 def bin_deviation(noise: Noise, size: int) -> float:
@@ -172,8 +171,8 @@ def _creep(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> dic
 def _phases(slips: Slips) -> _Phases:
     samples = slips.stick
     deviation = bin_deviation(slips.noise, samples.bin_size)
-    empty = _Phases(slips, samples, samples.residual, samples.time, deviation)
-    return dataclasses.replace(empty, values=empty.centred(samples.residual / deviation), line=empty.centred(samples.time))
+    values, line = (centred(column, samples.segment) for column in (samples.residual / deviation, samples.time))
+    return _Phases(slips, samples, values, line, deviation)
 
 
 def _without_accidents(run: _Phases) -> _Phases:

@@ -9,8 +9,9 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.decision.decision import Decision
 from stochfric_mb.discovery.stick_slip.decision.kinematics import STICK_SHARE
-from stochfric_mb.discovery.stick_slip.decision.rounds import SCORE_LEFT, SHAPE_LEFT, Decision
+from stochfric_mb.discovery.stick_slip.decision.rounds import SCORE_LEFT, SHAPE_LEFT
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of, floor_scores, scores
