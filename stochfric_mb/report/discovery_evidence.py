@@ -137,7 +137,7 @@ def _slip_friction(model: Model, like: Slips) -> SlipFriction | None:
     record, belt = like.record, like.record.stated.belt_velocity
     system = model.system(record)
     settled = system.march(Start(record.time[0] - like.settling, 0.0, belt, stick=True), like.settling, 1).end
-    time, begins = system.march(settled, 3.0 * float(np.median(np.diff(like.onset_time))), 1).events.T
+    time, begins = system.march(settled, 3.0 * like.cycle, 1).events.T
     pairs = np.flatnonzero((begins[:-1] == 1.0) & (begins[1:] == 0.0))
     if not len(pairs):
         return None

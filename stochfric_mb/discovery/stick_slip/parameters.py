@@ -37,7 +37,7 @@ def effect_estimate(named: Named, fit: Fit | None, model: Model, study: Study) -
     effect = model.effects_in(run)[place]
     # a fit knows the effects that are not random alone
     fitted = len(deterministic(dataclasses.replace(model, effects=model.effects[:place], own={})).effects)
-    time = sum(float(s.record.time[-1] - s.record.time[0]) for s in study.pool.slips)
+    time = sum(s.record.duration for s in study.pool.slips)
     drawn = effect.deviations(effect.draws(time, max(study.baseline.regression.n, 2)))
     for field in dataclasses.fields(effect):
         value = getattr(effect, field.name)

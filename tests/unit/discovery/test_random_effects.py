@@ -39,6 +39,7 @@ def study(onset: np.ndarray, in_slip: np.ndarray | float = 0.0, jumps: int = 0) 
         restick_time=times + 0.1,
         normal_force=np.full(N * RUNS, 13.0),
         angular_frequency=25.0,
+        cycle=1.1,
         per_run=lambda _: np.ones(N * RUNS),  # the belt's direction
     )
     solution = SimpleNamespace(coefficients=np.array([0.6, 0.4]), scatter=np.log(np.array([0.3, 0.2, 0.01]) / 13.0))

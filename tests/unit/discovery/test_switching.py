@@ -35,7 +35,7 @@ class Pool:
     @property
     def slips(self):
         box = SimpleNamespace(belt_velocity=2.5e-3)
-        one = SimpleNamespace(onset_time=CYCLE * np.arange(N), record=SimpleNamespace(mechanism=box))
+        one = SimpleNamespace(cycle=CYCLE, record=SimpleNamespace(mechanism=box))
         return [one] * RUNS
 
 

@@ -72,9 +72,8 @@ def entrained(study: Study, model: Model, cases: Sequence[Case]) -> list[Trial]:
 
 def _common_rate(pool: Pool) -> float | None:
     """Return the rate of the slips [Hz], where it is regular and the same in all runs."""
-    intervals = [np.diff(s.onset_time) for s in pool.slips]
-    rates = np.array([1.0 / np.median(i) for i in intervals])
-    irregular = max(float(deviation(i) / np.median(i)) for i in intervals)
+    rates = np.array([1.0 / s.cycle for s in pool.slips])
+    irregular = max(deviation(np.diff(s.onset_time)) / s.cycle for s in pool.slips)
     if np.ptp(rates) > criteria.ENTRAINED * rates.mean() or irregular > criteria.ENTRAINED:
         return None
     return float(rates.mean())

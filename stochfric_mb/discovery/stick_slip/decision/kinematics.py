@@ -122,7 +122,7 @@ def _in_slips(study: Study) -> float:
         far += len(stray)
         inside += int(np.count_nonzero((slip >= 0) & (stray <= slips.restick_time[np.maximum(slip, 0)])))
         covered += float(np.sum(slips.restick_time - slips.onset_time))
-        length += float(record.time[-1] - record.time[0])
+        length += record.duration
     # corners of the motion stand out a little more easily than the rest of it
     return float(binom.sf(inside - 1, far, covered / length)) if inside > far / 2 else 1.0
 
@@ -229,7 +229,7 @@ def _driven(study: Study, frequency: float) -> bool:
     """Return whether a frequency [Hz] is that of the known excitation."""
     return any(
         r.mechanism.excitation_amplitude
-        and abs(frequency - r.mechanism.excitation_angular_frequency / (2.0 * np.pi)) < 2.0 / (r.time[-1] - r.time[0])
+        and abs(frequency - r.mechanism.excitation_angular_frequency / (2.0 * np.pi)) < 2.0 / r.duration
         for r in study.records
     )
 

@@ -93,7 +93,6 @@ def kicks(study: Study) -> Finding | None:
     gaps = np.concatenate([np.diff(np.flatnonzero(far[pool.run == r])) for r in range(pool.n_runs)])
     if len(gaps) >= 4 and np.mean(gaps == np.median(gaps)) > 0.8:
         return None
-    cycle = float(np.median([np.median(np.diff(s.onset_time)) for s in pool.slips]))
     impulses = _impulses(study, far)
     mean, deviation = float(impulses.mean()), float(impulses.std(ddof=1))
     if abs(mean) < criteria.KICKS_ONE_SIDED * deviation:
@@ -104,7 +103,7 @@ def kicks(study: Study) -> Finding | None:
         kind_with_signature(KICKS),
         detected("kicks", share),
         {
-            "rate": unseen * share / cycle,
+            "rate": unseen * share / pool.cycle,
             "impulse": deviation,
             "mean": mean,
             "duration": PULSE / pool.angular_frequency,

@@ -10,7 +10,7 @@ import numpy as np
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.calibration import Calibration
 from stochfric_mb.discovery.stick_slip.records.record import Array
-from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, N_MOMENTS, Slips, legendre_coefficients
+from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, legendre_coefficients
 from stochfric_mb.numerics.robust import deviation
 
 LEAST_DWELL = 0.255
@@ -100,7 +100,12 @@ class Pool:
     @property
     def duration(self) -> float:
         """Length of the longest record [s]."""
-        return max(float(s.record.time[-1] - s.record.time[0]) for s in self.slips)
+        return max(s.record.duration for s in self.slips)
+
+    @property
+    def cycle(self) -> float:
+        """Typical time from one break-away to the next [s]."""
+        return float(np.median([s.cycle for s in self.slips]))
 
     def temperature(self, time: Array) -> Array | None:
         """Return the measured temperature [degC] at times in the slips [s], shape (n,) or (n, m); None: a run has none."""
@@ -128,15 +133,9 @@ class Pool:
         if at_onset is not None:
             column[:, 0] = at_onset
         if in_slip is not None:
-            column[:, 1:] = constant(in_slip) if in_slip.ndim == 1 else legendre_coefficients(in_slip)
+            at, values = (1, in_slip) if in_slip.ndim == 1 else (slice(1, None), legendre_coefficients(in_slip))
+            column[:, at] = values
         return column
-
-
-def constant(values: Array) -> Array:
-    """Return the coefficients of forces that are constant in each slip, shape (n, N_MOMENTS)."""
-    coefficients = np.zeros((len(values), N_MOMENTS))
-    coefficients[:, 0] = values
-    return coefficients
 
 
 def less_medians(values: Array, run: np.ndarray) -> Array:

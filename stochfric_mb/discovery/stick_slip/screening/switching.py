@@ -145,7 +145,7 @@ def _jumps(pool: Pool, values: Array, finest: Array) -> tuple[int, float]:
 
 def _regular(pool: Pool, upper: np.ndarray) -> bool:
     """Return whether the levels alternate at regular intervals of time or of belt travel."""
-    rate = max(1.0 / float(np.median(np.diff(s.onset_time))) for s in pool.slips)
+    rate = max(1.0 / s.cycle for s in pool.slips)
     # short of every other slip: that is no ripple
     grid = np.arange(2.0 / pool.duration, 0.45 * rate, 0.1 / pool.duration)
     belt = float(pool.belt_velocity.min())

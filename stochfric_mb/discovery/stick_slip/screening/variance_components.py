@@ -84,7 +84,7 @@ def _wander(baseline: Baseline, rest: Array) -> tuple[float, float, float, str]:
     """Return (score, strength, correlation time, what wanders) of an Ornstein-Uhlenbeck process on the forces."""
     pool = baseline.pool
     static, kinetic = (baseline.regression.load * np.exp(baseline.solution.scatter[:2])) ** 2
-    cycle = float(np.median([np.median(np.diff(s.onset_time)) for s in pool.slips]))
+    cycle = pool.cycle
     runs: list[tuple[Array, dict[str, Array], Array, Array]] = []
     for r, rows in enumerate(pool.rows):
         if len(rows) < 4:

@@ -52,7 +52,7 @@ def _slip_rate(pool: Pool) -> float:
 
 
 def _slip_rates(pool: Pool) -> Array:
-    return np.array([1.0 / np.median(np.diff(s.onset_time)) for s in pool.slips])
+    return np.array([1.0 / s.cycle for s in pool.slips])
 
 
 def wave_columns(pool: Pool, wave: Wave, frequency: float, harmonics: int) -> list[Array]:
