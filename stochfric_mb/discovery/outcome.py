@@ -10,7 +10,7 @@ from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
 
 if TYPE_CHECKING:
-    from stochfric_mb.discovery.stick_slip.decision.rounds import Decision
+    from stochfric_mb.discovery.stick_slip.decision.decision import Decision
     from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut
     from stochfric_mb.discovery.stick_slip.simulation.model import Model
     from stochfric_mb.discovery.stick_slip.study import Study

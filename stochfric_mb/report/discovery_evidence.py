@@ -14,7 +14,7 @@ from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, stated_terms
+from stochfric_mb.discovery.stick_slip.screening.regression import baseline_of
 from stochfric_mb.discovery.stick_slip.simulation.forecast import MEMBERS, N_OUTPUTS, Windows, forecasts
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, deterministic
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
@@ -137,7 +137,7 @@ def _slip_friction(model: Model, like: Slips) -> SlipFriction | None:
     record, belt = like.record, like.record.stated.belt_velocity
     system = model.system(record)
     settled = system.march(Start(record.time[0] - like.settling, 0.0, belt, stick=True), like.settling, 1).end
-    time, begins = system.march(settled, 3.0 * float(np.median(np.diff(like.onset_time))), 1).events.T
+    time, begins = system.march(settled, 3.0 * like.cycle, 1).events.T
     pairs = np.flatnonzero((begins[:-1] == 1.0) & (begins[1:] == 0.0))
     if not len(pairs):
         return None
@@ -163,9 +163,7 @@ def _cycles(model: Model, windows: Sequence[Windows]) -> Cycles:
 
 def _left_over(pool: Pool, study: Study) -> LeftOver:
     """Return what remains of the features in ``pool`` once the stated model's parameters are fitted to them."""
-    regression = Regression(pool)
-    terms = stated_terms(pool, dict(study.uncertainty))
-    rest = regression.residuals(terms, regression.fit(terms, study.solution.scatter))[pool.kept]
+    rest = baseline_of(pool, study.uncertainty, study.baseline.solution.scatter).residuals()[pool.kept]
     series = rest[:, 1:].T
     return LeftOver(
         time=pool.onset_time[pool.kept],

@@ -45,9 +45,9 @@ def statistics(case, size):
     result = study(assumed(dataset))
     if result is None:
         return None
-    candidates = screen(result.pool, result.regression, result.terms, result.solution)
-    scatter = randomness(result.regression, result.terms, result.solution)
-    levels = switching(result.regression, result.regression.residuals(result.terms, result.solution))
+    candidates = screen(result.baseline)
+    scatter = randomness(result.baseline)
+    levels = switching(result.pool, result.baseline.residuals())
     jumps = result.sticking.jumps if result.sticking is not None else 0
     # what simulating refutes is not named, whatever its score was
     most = np.inf

@@ -9,9 +9,10 @@ import pytest
 from stochfric_mb.discovery import discover
 from stochfric_mb.discovery.inference.false_alarms import Evidence
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip import validation, workflow
-from stochfric_mb.discovery.stick_slip.decision.held_out_check import Comparison, without_last
-from stochfric_mb.discovery.stick_slip.decision.rounds import Named
+from stochfric_mb.discovery.stick_slip import workflow
+from stochfric_mb.discovery.stick_slip.decision.decision import Named
+from stochfric_mb.discovery.stick_slip.validation import answers
+from stochfric_mb.discovery.stick_slip.validation.held_out_check import Comparison, without_last
 from stochfric_mb.effects import make_effect
 from tests.discovery.test_discover import plain
 
@@ -31,8 +32,8 @@ def test_an_effect_that_worsens_forecasts_of_held_out_runs_is_not_named(monkeypa
         return dataclasses.replace(recalibrated, model=recalibrated.model.plus(BOGUS))
 
     monkeypatch.setattr(workflow, "decide", misled)
-    monkeypatch.setattr(validation, "_fit", unfitted)
-    monkeypatch.setattr(validation, "unexplained", lambda *_: None)  # it, too, would refuse the force
+    monkeypatch.setattr(answers, "_fit", unfitted)
+    monkeypatch.setattr(answers, "unexplained", lambda *_: None)  # it, too, would refuse the force
     result = discover(plain()).result
     assert result.verdict == "none"
     assert not result.effects

@@ -33,24 +33,24 @@ def studied(form: str, design: str, folder) -> Study:
 )
 def test_a_course_of_no_usual_shape_is_seen_as_what_it_is(form, design, kind, tmp_path):
     result = studied(form, design, tmp_path)
-    best = screen(result.pool, result.regression, result.terms, result.solution)[0]
+    best = screen(result.baseline)[0]
     assert best.name == kind
     assert best.any_course
-    drift = randomness(result.regression, result.terms, result.solution).wander
+    drift = randomness(result.baseline).wander
     assert best.score - drift > criteria.NAMED
 
 
 def test_a_random_wander_is_no_course(tmp_path):
     result = studied("correlated_smooth", "several", tmp_path)
-    courses = [c for c in screen(result.pool, result.regression, result.terms, result.solution) if c.any_course]
-    drift = randomness(result.regression, result.terms, result.solution).wander
+    courses = [c for c in screen(result.baseline) if c.any_course]
+    drift = randomness(result.baseline).wander
     assert max(c.score for c in courses) - drift < criteria.NAMED
 
 
 def test_the_course_found_is_the_one_that_was_there(tmp_path):
     result = studied("drift_logistic", "one", tmp_path)
-    best = screen(result.pool, result.regression, result.terms, result.solution)[0]
-    effect = make_effect(best.name, **best.start(result.terms.columns.shape[2]))
+    best = screen(result.baseline)[0]
+    effect = make_effect(best.name, **best.hypothesis.start(best.strengths))
     span = result.pool.duration
     world = np.zeros(30)
     shown = []

@@ -14,12 +14,10 @@ from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.choice import Chosen, choose
 from stochfric_mb.discovery.stick_slip.decision.confirmation import cases_of, confirm, predict
 from stochfric_mb.discovery.stick_slip.decision.entrainment import entrained
-from stochfric_mb.discovery.stick_slip.decision.explained import unexplained
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.decision.rounds import decide
 from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_step, steady
 from stochfric_mb.discovery.stick_slip.notes import notes, of_the_record
-from stochfric_mb.discovery.stick_slip.predictive_check import inadequate
 from stochfric_mb.discovery.stick_slip.records.stick_phases import analyse
 from stochfric_mb.discovery.stick_slip.refusal import refusal
 from stochfric_mb.discovery.stick_slip.screening.competitors import competitors, softening
@@ -28,7 +26,9 @@ from stochfric_mb.discovery.stick_slip.screening.power import smallest
 from stochfric_mb.discovery.stick_slip.screening.screen import screen
 from stochfric_mb.discovery.stick_slip.simulation.delay_compensation import driven, with_delay, without_delay
 from stochfric_mb.discovery.stick_slip.study import study
-from stochfric_mb.discovery.stick_slip.validation import Answer, explaining, fitted
+from stochfric_mb.discovery.stick_slip.validation.answers import Answer, explaining, fitted
+from stochfric_mb.discovery.stick_slip.validation.explained import unexplained
+from stochfric_mb.discovery.stick_slip.validation.predictive_check import inadequate
 from stochfric_mb.discovery.stick_slip.workflow import recalibrated_model
 from stochfric_mb.effects import make_effect
 from tests.discovery.generator.case import Case
@@ -49,7 +49,7 @@ def slip_study(data):
 
 @pytest.fixture(scope="module")
 def candidates(slip_study):
-    return screen(slip_study.pool, slip_study.regression, slip_study.terms, slip_study.solution)
+    return screen(slip_study.baseline)
 
 
 @pytest.fixture(scope="module")
@@ -76,11 +76,7 @@ def test_a_mechanism_that_is_off_within_its_uncertainty_leaves_no_shape_to_the_s
 
     def score_of_shape() -> float:
         slip_study = study(data)
-        return next(
-            c.score
-            for c in screen(slip_study.pool, slip_study.regression, slip_study.terms, slip_study.solution)
-            if c.name == "slip_shape"
-        )
+        return next(c.score for c in screen(slip_study.baseline) if c.name == "slip_shape")
 
     assert score_of_shape() < criteria.FOLLOWED_UP
     monkeypatch.setattr("stochfric_mb.discovery.stick_slip.study.RECALIBRATIONS", 0)
@@ -112,7 +108,7 @@ def test_patterns_without_a_name_have_one_row_a_slip(slip_study):
 
 def test_a_candidate_becomes_an_effect_that_confirmation_bears_out(slip_study, candidates, cases):
     weakening = next(c for c in candidates if c.name == "velocity_weakening")
-    model = with_candidate(slip_study.model, weakening, slip_study.pool, slip_study.terms.columns.shape[2])
+    model = with_candidate(slip_study.model, weakening, slip_study.pool)
     assert [e.kind for e in model.effects] == ["velocity_weakening"]
     before, after = (confirm(cases, m, slip_study.uncertainty) for m in (slip_study.model, model))
     assert after.criterion < before.criterion - 100.0
@@ -127,14 +123,14 @@ def test_a_candidate_that_never_slips_is_no_explanation(slip_study, candidates, 
     monkeypatch.setattr(choice, "entrained", lambda *_: [])
     before = confirm(cases, slip_study.model, slip_study.uncertainty)
     assert before.slips
-    chosen = choose(slip_study, slip_study.model, slip_study.terms, candidates, cases, before, {})
+    chosen = choose(slip_study, slip_study.model, candidates, cases, before, {})
     assert not (isinstance(chosen, Chosen) and chosen.simulated)
 
 
 def test_the_effect_that_was_planted_is_chosen(slip_study, candidates, cases):
     before = confirm(cases, slip_study.model, slip_study.uncertainty)
     details = {}
-    chosen = choose(slip_study, slip_study.model, slip_study.terms, candidates, cases, before, details)
+    chosen = choose(slip_study, slip_study.model, candidates, cases, before, details)
     assert isinstance(chosen, Chosen)
     assert chosen.candidate.name == "velocity_weakening"
     assert details["confirmation_1"]["believed"][0] == before.chi2
@@ -142,7 +138,7 @@ def test_the_effect_that_was_planted_is_chosen(slip_study, candidates, cases):
 
 def test_slips_that_keep_to_a_wave_are_simulated_as_such(slip_study, cases):
     # in a free run every slip is like the one before: waves are tried, and none fits better than weakening does
-    for candidate, confirmed in entrained(slip_study, slip_study.model, slip_study.terms, cases):
+    for candidate, confirmed in entrained(slip_study, slip_study.model, cases):
         assert candidate.is_wave
         assert confirmed.n_parameters >= 3
 
@@ -211,9 +207,7 @@ def test_stick_phases_of_a_rigid_contact_show_nothing(slip_study):
 
 def test_no_step_of_the_sensor_is_seen_and_the_slips_stay_as_they_are(slip_study, candidates):
     assert seen_step(candidates, {}) is None
-    np.testing.assert_array_equal(
-        steady(slip_study.regression, slip_study.terms, candidates, [], slip_study.solution).features, slip_study.pool.features
-    )
+    np.testing.assert_array_equal(steady(slip_study.baseline, candidates, []).features, slip_study.pool.features)
 
 
 def test_no_known_force_tells_a_delay_which_can_be_taken_off_again(slip_study):

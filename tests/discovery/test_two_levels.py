@@ -15,6 +15,6 @@ from tests.discovery.net.rigs import belt_box
 )
 def test_the_better_explanation_stands(form, design, switches):
     result = study(belt_box(Case(form, design, 1.0, 17)))
-    levels = levels_score(result.regression, result.terms, result.solution)
-    best = max(c.score for c in screen(result.pool, result.regression, result.terms, result.solution) if c.is_effect)
+    levels = levels_score(result.baseline)
+    best = max(c.score for c in screen(result.baseline) if c.is_effect)
     assert (levels > best) == switches

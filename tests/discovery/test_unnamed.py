@@ -3,9 +3,9 @@
 import pytest
 
 from stochfric_mb import discover
-from stochfric_mb.discovery.stick_slip.decision.anonymous import anonymous, sentence_of
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import gap_of, held_out
 from stochfric_mb.discovery.stick_slip.study import slips_of_run, study
+from stochfric_mb.discovery.stick_slip.validation.anonymous import anonymous, sentence_of
 from stochfric_mb.discovery.stick_slip.workflow import recalibrated_model
 from tests.discovery.generator.case import Case
 from tests.discovery.net.rigs import belt_box

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
+from scipy.signal import correlate
 
 from stochfric_mb.numerics.robust import deviation
 
@@ -27,9 +28,7 @@ def independent_count(values: Array) -> float:
     if n < 8:
         return float(n)
     x = values - values.mean()
-    size = 1 << (2 * n - 1).bit_length()
-    spectrum = np.abs(np.fft.rfft(x, size)) ** 2
-    correlation = np.fft.irfft(spectrum, size)[: n // 2]
+    correlation = correlate(x, x, method="fft")[n - 1 : n - 1 + n // 2]
     if correlation[0] <= 0.0:
         return float(n)
     correlation = correlation / correlation[0]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
-from stochfric_mb.discovery.stick_slip.decision.rounds import Decision
+from stochfric_mb.discovery.stick_slip.decision.decision import Decision
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import effect_class, effect_kinds, words_of

@@ -7,7 +7,7 @@ from typing import Any
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Gap
 from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
-from stochfric_mb.discovery.stick_slip.decision.rounds import Decision
+from stochfric_mb.discovery.stick_slip.decision.decision import Decision
 from stochfric_mb.discovery.stick_slip.records.long_records import FORECAST, SIMULATED
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import NOT_STATED

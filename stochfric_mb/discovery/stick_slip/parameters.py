@@ -10,7 +10,7 @@ import numpy as np
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import EffectEstimate, Interval, Where
-from stochfric_mb.discovery.stick_slip.decision.rounds import Named
+from stochfric_mb.discovery.stick_slip.decision.decision import Named
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import deterministic
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
@@ -37,8 +37,8 @@ def effect_estimate(named: Named, fit: Fit | None, model: Model, study: Study) -
     effect = model.effects_in(run)[place]
     # a fit knows the effects that are not random alone
     fitted = len(deterministic(dataclasses.replace(model, effects=model.effects[:place], own={})).effects)
-    time = sum(float(s.record.time[-1] - s.record.time[0]) for s in study.pool.slips)
-    drawn = effect.deviations(effect.draws(time, max(study.regression.n, 2)))
+    time = sum(s.record.duration for s in study.pool.slips)
+    drawn = effect.deviations(effect.draws(time, max(study.baseline.regression.n, 2)))
     for field in dataclasses.fields(effect):
         value = getattr(effect, field.name)
         if isinstance(value, str) or not np.isfinite(value) or effect.lacks(field.name):

@@ -34,8 +34,7 @@ def refusal(dataset: Dataset) -> tuple[Where, str]:
 def _of(record: Record, scenario: Scenario) -> tuple[str, str]:
     """Return what a run does instead of slipping, and what it would need."""
     box, law = record.mechanism, scenario.law
-    seconds = float(record.time[-1] - record.time[0])
-    result = len(extract(record))
+    seconds, result = record.duration, len(extract(record))
     travel = 2.0 * (law.mu_s - law.mu_k) * box.normal_force / box.stiffness
     if record.noise > criteria.TOO_LOUD * travel:
         return (

@@ -16,7 +16,7 @@ from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Record, 
 from stochfric_mb.discovery.stick_slip.records.sensor_range import SensorRange, sensor_range
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, extract
 from stochfric_mb.discovery.stick_slip.records.stick_phases import Sticking, analyse
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms, stated_terms
+from stochfric_mb.discovery.stick_slip.screening.regression import Baseline, baseline_of
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, windows_of
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import prior_model
@@ -60,12 +60,8 @@ class Study:
     """Fit runs, cleaned."""
     pool: Pool
     """Their slips."""
-    regression: Regression
-    """Fits to them."""
-    terms: Terms
-    """The stated model in the regression."""
-    solution: Solution
-    """Its fit."""
+    baseline: Baseline
+    """The stated model, fitted to them."""
     sticking: Sticking | None
     """The kinematic channel."""
     range: SensorRange
@@ -107,16 +103,15 @@ def study(dataset: Dataset, *, progress: Progress = lambda _: None) -> Study | N
     if not usable:
         return None
     progress("calibration")
-    pool, solution = _calibrated(usable, dataset.scenario.uncertainty)
+    baseline = _calibrated(usable, dataset.scenario.uncertainty)
+    pool = baseline.pool
     return Study(
         dataset=dataset,
         model=model,
         uncertainty=dataset.scenario.uncertainty,
         records=records,
         pool=pool,
-        regression=Regression(pool),
-        terms=stated_terms(pool, dict(dataset.scenario.uncertainty)),
-        solution=solution,
+        baseline=baseline,
         sticking=analyse(pool.slips),
         range=sensor_range(pool.slips),
         outliers=float(np.mean(np.concatenate([r.outlier for r in records]))),
@@ -147,34 +142,32 @@ def require_usable(dataset: Dataset) -> None:
     _usable([record_of(run, dataset) for run in dataset.fit], dataset)
 
 
-def _calibrated(slips: Sequence[Slips], uncertainty: Mapping[str, float]) -> tuple[Pool, Solution]:
+def _calibrated(slips: Sequence[Slips], uncertainty: Mapping[str, float]) -> Baseline:
     """Return the slips with forces taken with the mechanism that they show, the bias of these taken out, and their fit.
 
     With the stated mechanism edges and forces err by more than noise where it is off by a few percent: what corrections of
     first order leave shapes every slip alike, as an effect does. A mechanism far beyond what is stated is none: an effect looks
     like one, and its forces are those of the stated mechanism.
     """
-    pool, solution, shown = _taken(slips, uncertainty)
+    baseline, shown = _taken(slips, uncertainty)
     for _ in range(RECALIBRATIONS):
-        at = pool.slips[0].record.corrections
-        off = solution.deviations[2 : 2 + len(CORRECTED)]
+        at = baseline.pool.slips[0].record.corrections
+        off = baseline.solution.deviations[2:]
         if all(abs(shown[name] - at[name]) <= doubt for name, doubt in zip(CORRECTED, off, strict=True)):
             break
         slips = [extract(s.record.corrected(shown)) for s in slips]
-        pool, solution, shown = _taken(slips, uncertainty)
-    return pool, solution
+        baseline, shown = _taken(slips, uncertainty)
+    return baseline
 
 
-def _taken(slips: Sequence[Slips], uncertainty: Mapping[str, float]) -> tuple[Pool, Solution, dict[str, float]]:
-    """Return the slips as they were extracted, calibrated, their fit, and the corrections of the mechanism that they show."""
-    pool = make_pool(slips, [calibrate(s, seed=11 + i) for i, s in enumerate(slips)])
-    terms, regression = stated_terms(pool, dict(uncertainty)), Regression(pool)
-    solution = regression.fit(terms)
-    shown = corrections_of(solution.coefficients[2:])
-    away = np.array(list(shown.values())) / terms.priors[2 : 2 + len(CORRECTED)]
+def _taken(slips: Sequence[Slips], uncertainty: Mapping[str, float]) -> tuple[Baseline, dict[str, float]]:
+    """Return the stated model, fitted to slips as they were extracted, and the corrections of the mechanism that they show."""
+    baseline = baseline_of(make_pool(slips, [calibrate(s, seed=11 + i) for i, s in enumerate(slips)]), uncertainty)
+    shown = corrections_of(baseline.solution.coefficients[2:])
+    away = np.array(list(shown.values())) / baseline.terms.priors[2:]
     if away @ away > criteria.FAR_FROM_STATED:
         shown = dict.fromkeys(shown, 0.0)
-    return pool, solution, shown
+    return baseline, shown
 
 
 def slips_of_run(run: Run, dataset: Dataset, study: Study) -> Slips:

@@ -9,10 +9,8 @@ import numpy as np
 from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.result import Result
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
-from stochfric_mb.discovery.stick_slip.decision.anonymous import Anonymous, anonymous, sentence_of
-from stochfric_mb.discovery.stick_slip.decision.explained import taken_back
-from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, decide
-from stochfric_mb.discovery.stick_slip.feature_skill import leading, slip_force_gap
+from stochfric_mb.discovery.stick_slip.decision.decision import Decision
+from stochfric_mb.discovery.stick_slip.decision.rounds import decide
 from stochfric_mb.discovery.stick_slip.notes import notes
 from stochfric_mb.discovery.stick_slip.parameters import effect_estimate, moved, not_measured, own_parameters
 from stochfric_mb.discovery.stick_slip.records.preconditions import require_usable
@@ -32,7 +30,10 @@ from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import assumed
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit, with_deviations
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study, slips_of_run, study
-from stochfric_mb.discovery.stick_slip.validation import Answer, checked_on_held_out, explaining, fitted, with_bump
+from stochfric_mb.discovery.stick_slip.validation.anonymous import Anonymous, anonymous, sentence_of
+from stochfric_mb.discovery.stick_slip.validation.answers import Answer, checked_on_held_out, explaining, fitted, with_bump
+from stochfric_mb.discovery.stick_slip.validation.explained import taken_back
+from stochfric_mb.discovery.stick_slip.validation.feature_skill import leading, slip_force_gap
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
@@ -159,7 +160,7 @@ def augmented_scenario(dataset: Dataset, model: Model) -> Scenario:
 def recalibrated_model(model: Model, study: Study) -> Fit:
     """Return the model as stated, fitted within its uncertainty; its scatter, if any is declared, stays as declared."""
     stated = dataclasses.replace(deterministic(model), corrections=dict.fromkeys(CORRECTED, 0.0))
-    mu_s, mu_k = (float(max(c, 1.0e-5)) for c in study.solution.coefficients[:2])
+    mu_s, mu_k = (float(max(c, 1.0e-5)) for c in study.baseline.solution.coefficients[:2])
     shown = dataclasses.replace(stated, corrections=study.pool.slips[0].record.corrections).with_law(mu_s, mu_k)
     # where errors are large their sizes, to which a fit keeps, lead it nowhere: squares do, and sizes from there
     near = refit(shown, study.windows, study.uncertainty, typical=np.inf, evaluations=30).model

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome
-from stochfric_mb.discovery.driven_joint.simulation.pictures import Picture, step_picture
+from stochfric_mb.discovery.driven_joint.simulation.pictures import step_picture
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.inference.noise import independent_count, white_noise
 from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
@@ -58,10 +58,14 @@ def spring_slider_outcome(dataset: Dataset, progress: Callable[[str], None]) -> 
     closest = best if accepted else plain
     where = unexplained([t for t in tracks if t.run.role == "fit"], closest)
     term = smooth_law(closest, tracks) if where is not None else None
-    result = _result(dataset, tracks, plain, closest, fits, scores, where, term)
-    kept = _kept(term)
+    kept = term if term is not None and term.carries_over else None
+    unnamed = {} if where is None else {"unnamed_term": NOWHERE if term is None else term.sentence}
+    result = _result(dataset, tracks, plain, closest, fits, scores, where, kept, unnamed)
     augmented = {"augmented": kept.fitted} if kept is not None else {"augmented": best} if accepted else {}
-    picture = _picture(tracks, {"recalibrated": plain} | augmented)
+    friction = {"data": np.concatenate([t.friction for t in tracks])}
+    for name, fitted in ({"recalibrated": plain} | augmented).items():
+        friction[name] = np.concatenate(fitted.law.predict(tracks, fitted.values))
+    picture = step_picture(np.concatenate([t.run.time for t in tracks]), friction)
     return JointOutcome(result, _augmented(dataset, closest, kept), dataset, pictures=(picture,))
 
 
@@ -88,13 +92,6 @@ def _best(fits: Sequence[Fitted]) -> tuple[Fitted, float, dict[str, float]]:
     # of laws that leave as much the simplest: what a few more numbers take off is real, perhaps, but no explanation
     alike = [(f, s) for f, s in zip(fits[1:], each, strict=True) if f.rms <= best.rms / (1.0 - criteria.MATERIAL)]
     return *min(alike, key=lambda fit: (len(fit[0].values), fit[0].rms)), scores
-
-
-def _picture(tracks: Sequence[Track], models: Mapping[str, Fitted]) -> Picture:
-    """Return friction over time, measured and by each model, as `step_picture` gives it."""
-    series = {"data": np.concatenate([t.friction for t in tracks])}
-    series |= {name: np.concatenate(f.law.predict(tracks, f.values)) for name, f in models.items()}
-    return step_picture(np.concatenate([t.run.time for t in tracks]), series)
 
 
 def track_of(run: Run, dataset: Dataset) -> Track:
@@ -147,7 +144,8 @@ def _result(
     fits: Sequence[Fitted],
     scores: dict[str, float],
     where: Where | None,
-    term: SmoothLaw | None,
+    kept: SmoothLaw | None,
+    unnamed: dict[str, str],
 ) -> Result:
     """Return what is said of the runs.
 
@@ -159,15 +157,14 @@ def _result(
         fits: all laws.
         scores: of each kind.
         where: where friction disagrees with it.
-        term: what then stands beside it without a name.
+        kept: what then stands beside it without a name, where it carries over.
+        unnamed: what is said of such a term, for the details.
     """
-    kept = _kept(term)
     gap = _gap(dataset, tracks, plain, closest if kept is None else kept.fitted)
     effects = () if closest is plain or where is not None else (_estimate(plain, closest, scores),)
-    of_term = {} if where is None else {"unnamed_term": NOWHERE if term is None else term.sentence}
     searched = {f.law.kind for f in fits} | {kind_with_signature(finding) for finding in (MORE_DAMPING, LATE)}
     return Result(
-        verdict=_verdict(effects, where),
+        verdict="unknown" if where is not None else "effect" if effects else "none",
         effects=effects,
         where=where,
         ranking=tuple(sorted(scores.items(), key=lambda s: -s[1])),
@@ -177,17 +174,12 @@ def _result(
         parameters=_of_the_rig(closest if kept is None else kept.law_alone(closest.law)),
         notes=(
             *gap.notes,
-            *of_term.values(),
+            *unnamed.values(),
             "the load point's speed is taken through a window; the machine's stiffness is fitted",
         ),
         unnamed=_unnamed(kept) if kept is not None else None,
-        details={"laws": {f"{f.law.kind or 'constant'} {f.law.variant}".strip(): _facts(f, tracks) for f in fits}} | of_term,
+        details={"laws": {f"{f.law.kind or 'constant'} {f.law.variant}".strip(): _facts(f, tracks) for f in fits}} | unnamed,
     )
-
-
-def _kept(term: SmoothLaw | None) -> SmoothLaw | None:
-    """Return the term if it carries over."""
-    return term if term is not None and term.carries_over else None
 
 
 def _gap(dataset: Dataset, tracks: Sequence[Track], plain: Fitted, final: Fitted) -> Gap:
@@ -204,12 +196,6 @@ def _facts(fitted: Fitted, tracks: Sequence[Track]) -> dict[str, Any]:
     """Return errors and numbers of a law."""
     numbers = dict(zip(fitted.law.names, fitted.values.tolist(), strict=True))
     return {"fit": fitted.rms, "held_out": held_out_error(fitted, tracks), "numbers": numbers}
-
-
-def _verdict(effects: Sequence[EffectEstimate], where: Where | None) -> Literal["effect", "none", "unknown"]:
-    if where is not None:
-        return "unknown"
-    return "effect" if effects else "none"
 
 
 def unexplained(tracks: Sequence[Track], closest: Fitted) -> Where | None:

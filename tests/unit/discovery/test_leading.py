@@ -3,7 +3,7 @@
 import dataclasses
 
 from stochfric_mb.discovery.result import Gap
-from stochfric_mb.discovery.stick_slip.feature_skill import leading
+from stochfric_mb.discovery.stick_slip.validation.feature_skill import leading
 
 FLAT = Gap("crps_one_cycle", "m", True, 9.0e-6, 4.15e-6, 4.12e-6, 4.12e-6)
 FORCES = Gap("crps_slip_forces", "-", True, 3.0, 2.0, 0.6, 0.56)

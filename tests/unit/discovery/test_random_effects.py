@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip.decision.random_effects import RandomEffects, kicks, random_effects
+from stochfric_mb.discovery.stick_slip.decision.decision import Finding
+from stochfric_mb.discovery.stick_slip.decision.random_effects import kicks, random_effects
 from stochfric_mb.discovery.stick_slip.screening.switching import Switching
 from stochfric_mb.discovery.stick_slip.screening.variance_components import Randomness
 
@@ -38,12 +39,14 @@ def study(onset: np.ndarray, in_slip: np.ndarray | float = 0.0, jumps: int = 0) 
         restick_time=times + 0.1,
         normal_force=np.full(N * RUNS, 13.0),
         angular_frequency=25.0,
+        cycle=1.1,
         per_run=lambda _: np.ones(N * RUNS),  # the belt's direction
     )
     solution = SimpleNamespace(coefficients=np.array([0.6, 0.4]), scatter=np.log(np.array([0.3, 0.2, 0.01]) / 13.0))
+    variance = np.exp(2.0 * solution.scatter[:2]).sum()
     return SimpleNamespace(
         pool=pool,
-        solution=solution,
+        baseline=SimpleNamespace(solution=solution, variance=variance),
         model=SimpleNamespace(process=None),
         sticking=SimpleNamespace(jumps=jumps),
         records=[SimpleNamespace(mechanism=SimpleNamespace(stiffness=4000.0))],
@@ -115,24 +118,25 @@ def scatter(**changes: float | str) -> Randomness:
     return Randomness(**(plain | {"wander_time": 3.0, "wander_of": "both", "together": 0.0} | changes))
 
 
-def called(levels: Switching = CALM, in_slip: float = 0.5, **changes: float) -> RandomEffects | Where | None:
+def called(levels: Switching = CALM, in_slip: float = 0.5, **changes: float) -> Finding | Where | None:
     """What a scatter is called whose deviation in slip is ``in_slip`` times that at break-away."""
     one = study(np.zeros(N * RUNS))
-    one.solution.scatter = one.solution.scatter[0] + np.log([1.0, in_slip, 1.0])
-    return random_effects(one, scatter(**changes), levels, one.solution, [])
+    one.baseline.solution.scatter = one.baseline.solution.scatter[0] + np.log([1.0, in_slip, 1.0])
+    return random_effects(one, one.baseline, scatter(**changes), levels, [])
 
 
 @pytest.mark.parametrize(("coloured", "drawn"), [(20.0e-6, True), (400.0e-6, False)])
 def test_scatter_no_larger_than_slow_noise_of_the_sensor_is_no_friction(coloured, drawn):
     one = study(np.zeros(N * RUNS))
-    assert 13.0 * np.exp(one.solution.scatter[0]) / 4000.0 == pytest.approx(75.0e-6)  # the scatter, as motion of the spring
+    # the scatter, as motion of the spring
+    assert 13.0 * np.exp(one.baseline.solution.scatter[0]) / 4000.0 == pytest.approx(75.0e-6)
     one.pool.slips = [SimpleNamespace(onset_time=s.onset_time, noise=sensor(coloured, coloured)) for s in one.pool.slips]
-    assert (random_effects(one, scatter(), CALM, one.solution, []) is not None) == drawn
+    assert (random_effects(one, one.baseline, scatter(), CALM, []) is not None) == drawn
 
 
 def test_independent_scatter_is_random_coefficients():
     result = called()
-    assert isinstance(result, RandomEffects)
+    assert isinstance(result, Finding)
     assert result.kind == "random_coefficients"
 
 
@@ -144,13 +148,13 @@ def test_scatter_that_stick_and_slip_share_without_memory_has_no_name():
 
 def test_a_factor_of_both_coefficients_is_drawn_anew_for_each_slip():
     result = called(together=0.95, in_slip=KINETIC / STATIC)
-    assert isinstance(result, RandomEffects)
+    assert isinstance(result, Finding)
     assert result.kind == "random_coefficients"
 
 
 def test_a_wander_may_share_it():
     result = called(together=0.95, correlation=5.0, wander=80.0)
-    assert isinstance(result, RandomEffects)
+    assert isinstance(result, Finding)
     assert result.kind == "correlated_coefficients"
 
 
@@ -165,7 +169,7 @@ def test_a_force_that_wanders_alike_in_stick_and_slip_is_no_coefficient_and_may_
     one = study(np.zeros(N * RUNS))
     one.pool.slips = [SimpleNamespace(onset_time=s.onset_time, noise=sensor(noise)) for s in one.pool.slips]
     wander = scatter(correlation=5.0, wander=80.0, wander_of="offset", wander_share=0.01)  # 0.08 N, 20 um
-    result = random_effects(one, wander, CALM, one.solution, [])
+    result = random_effects(one, one.baseline, wander, CALM, [])
     assert result is None if verdict is None else isinstance(result, verdict)
 
 

@@ -25,13 +25,17 @@ class Pool:
     belt_velocity: np.ndarray = field(default_factory=lambda: np.full(N * RUNS, 2.5e-3))
 
     @property
+    def rows(self):
+        return [np.flatnonzero(self.kept & (self.run == r)) for r in range(RUNS)]
+
+    @property
     def calibrations(self):
         return [SimpleNamespace(covariance=NOISE**2 * np.eye(8))] * RUNS
 
     @property
     def slips(self):
         box = SimpleNamespace(belt_velocity=2.5e-3)
-        one = SimpleNamespace(onset_time=CYCLE * np.arange(N), record=SimpleNamespace(mechanism=box))
+        one = SimpleNamespace(cycle=CYCLE, record=SimpleNamespace(mechanism=box))
         return [one] * RUNS
 
 
@@ -40,7 +44,7 @@ def pattern(onset: np.ndarray, slip: np.ndarray | None = None):
     residuals = NOISE * generator.standard_normal((N * RUNS, 8))
     residuals[:, 0] += onset
     residuals[:, 1] += onset if slip is None else slip
-    return switching(SimpleNamespace(pool=Pool()), residuals)
+    return switching(Pool(), residuals)
 
 
 def draws(seed: int = 3) -> np.random.Generator:

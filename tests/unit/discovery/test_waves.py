@@ -8,7 +8,7 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.record import make_record
 from stochfric_mb.discovery.stick_slip.records.slips import extract
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import waves_in
-from stochfric_mb.discovery.stick_slip.screening.regression import START, Regression, Terms, stated_terms
+from stochfric_mb.discovery.stick_slip.screening.regression import START, Baseline, Regression, Terms, stated_terms
 from stochfric_mb.discovery.stick_slip.screening.waves import _gains, best_wave, frequencies, wave_columns
 from stochfric_mb.effects import make_effect
 from stochfric_mb.laws import make_law
@@ -58,7 +58,7 @@ def test_a_fast_force_is_found_although_slips_keep_to_its_crests(entrained):
     start = regression.fit(terms)
     scores = {}
     for kind, wave in waves_in(pool).items():
-        hypothesis, looked_at = best_wave(kind, wave, pool, regression, terms, start.scatter)
+        hypothesis, looked_at = best_wave(kind, wave, Baseline(regression, terms, start))
         fitted = regression.fit(terms.plus(hypothesis.columns), start.scatter)
         scores[kind] = 2.0 * (start.cost - fitted.cost) - 2.0 * np.log(looked_at)
         if kind == "harmonic_force":

@@ -13,7 +13,6 @@ from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confir
 from stochfric_mb.discovery.stick_slip.decision.entrainment import Trial, entrained
 from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING
 from stochfric_mb.discovery.stick_slip.screening.naming import with_candidate
-from stochfric_mb.discovery.stick_slip.screening.regression import Terms
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import likelihood_ratio, refit
@@ -57,7 +56,6 @@ class Chosen:
 def choose(
     study: Study,
     model: Model,
-    terms: Terms,
     candidates: Sequence[Candidate],
     cases: Sequence[Case],
     before: Confirmed | None,
@@ -68,7 +66,6 @@ def choose(
     Args:
         study: what was measured.
         model: the model so far.
-        terms: its terms in the regression.
         candidates: the screening's outcome, best first.
         cases: slips to be predicted in a confirmation.
         before: the simulated model so far.
@@ -77,10 +74,10 @@ def choose(
     family = _family(candidates, cases)
     rest = [c for c in candidates if not family.holds(c)]
     if before is None or family.score < max(criteria.NAMED, _best_score(rest)):
-        return _by_score(study, model, terms, candidates, before)
+        return _by_score(study, model, candidates, before)
     # refuted once, shapes stay refuted: the slips that simulated ones are compared with are the same
     if REFUTED not in details:
-        simulation = _Simulation(study, model, terms, cases, before, details)
+        simulation = _Simulation(study, model, cases, before, details)
         outcome = simulation.outcome([c for c in candidates if c.is_effect and family.holds(c)])
         if outcome is not None:
             return outcome
@@ -88,22 +85,20 @@ def choose(
     # simulation does not bear the shape out: what remains are effects that change from slip to slip
     least = criteria.WORTH_SIMULATING * family.score
     left = [c for c in rest if c.score > least or not c.is_effect]
-    return _by_score(study, model, terms, left, before)
+    return _by_score(study, model, left, before)
 
 
-def _by_score(
-    study: Study, model: Model, terms: Terms, candidates: Sequence[Candidate], before: Confirmed | None
-) -> Chosen | Where | None:
+def _by_score(study: Study, model: Model, candidates: Sequence[Candidate], before: Confirmed | None) -> Chosen | Where | None:
     """Return the effect with most evidence, or where a pattern without a name has more."""
     effects = [c for c in candidates if c.is_effect]
     nameless = _nameless(effects, [c for c in candidates if not c.is_effect])
     if nameless is not None or not effects or effects[0].score < criteria.NAMED:
         return nameless
-    best, class_ = _distinguished(study, model, terms, effects)
-    return Chosen(best, class_, with_candidate(model, best, study.pool, terms.columns.shape[2]), before, False)
+    best, class_ = _distinguished(study, model, effects)
+    return Chosen(best, class_, with_candidate(model, best, study.pool), before, False)
 
 
-def _distinguished(study: Study, model: Model, terms: Terms, effects: Sequence[Candidate]) -> tuple[Candidate, tuple[str, ...]]:
+def _distinguished(study: Study, model: Model, effects: Sequence[Candidate]) -> tuple[Candidate, tuple[str, ...]]:
     """Return the effect that is meant, and those alike: refitted to forecasts where marks are close.
 
     The marks of a strong effect are its first order alone, forecasts are exact.
@@ -115,7 +110,7 @@ def _distinguished(study: Study, model: Model, terms: Terms, effects: Sequence[C
     near = [c for c in kinds.values() if c.score > criteria.CONTENDS * best.score][:MOST_CONTENDERS]
     if len(near) == 1:
         return best, ()
-    alike = _alike_in_forecasts(study, [(c, with_candidate(model, c, study.pool, terms.columns.shape[2])) for c in near])
+    alike = _alike_in_forecasts(study, [(c, with_candidate(model, c, study.pool)) for c in near])
     return alike[0], tuple(c.name for c in alike[1:])
 
 
@@ -189,8 +184,6 @@ class _Simulation:
     """What was measured."""
     model: Model
     """The present model."""
-    terms: Terms
-    """Its terms in the regression."""
     cases: Sequence[Case]
     """Slips to be predicted."""
     before: Confirmed
@@ -235,17 +228,16 @@ class _Simulation:
 
     def _tried(self, mine: Sequence[Candidate]) -> list[Trial]:
         """Return the candidates that are worth it, simulated, best first."""
-        n_terms = self.terms.columns.shape[2]
         # over the best effect, not the shape: where none comes near it the marks are too far from linear to choose by
         least = max(criteria.WORTH_SIMULATING * mine[0].score if mine else 0.0, criteria.FOLLOWED_UP / 2.0)
         rounds = sum(key.startswith("confirmation") for key in self.details)
         most = MOST_SIMULATED_LATER if rounds else MOST_SIMULATED
         worth = [c for c in mine if c.score > least]
         chosen = [c for c in worth if not c.any_shape][:most] + [c for c in worth if c.any_shape]
-        starts = [with_candidate(self.model, c, self.study.pool, n_terms) for c in chosen]
+        starts = [with_candidate(self.model, c, self.study.pool) for c in chosen]
         tried = [(c, confirm(self.cases, m, self.study.uncertainty)) for c, m in zip(chosen, starts, strict=True)]
         if not self.model.effects:
-            tried += entrained(self.study, self.model, self.terms, self.cases)
+            tried += entrained(self.study, self.model, self.cases)
         tried.sort(key=lambda t: t[1].criterion)
         # of several variants of an effect the best one counts
         scores = {c.name: [f.chi2, f.criterion] for c, f in reversed(tried)}

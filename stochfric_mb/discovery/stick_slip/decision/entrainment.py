@@ -18,7 +18,6 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import waves_in
 from stochfric_mb.discovery.stick_slip.screening.naming import with_candidate
-from stochfric_mb.discovery.stick_slip.screening.regression import Terms
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.study import Study
@@ -35,13 +34,12 @@ EVALUATIONS = 10
 Trial = tuple[Candidate, Confirmed]
 
 
-def entrained(study: Study, model: Model, terms: Terms, cases: Sequence[Case]) -> list[Trial]:
+def entrained(study: Study, model: Model, cases: Sequence[Case]) -> list[Trial]:
     """Return the best wave of each kind to which the slips may keep, simulated; none where slips come at no regular intervals.
 
     Args:
         study: what was measured.
         model: the stated model.
-        terms: its terms in the regression.
         cases: slips to be predicted.
     """
     rate = _common_rate(study.pool)
@@ -54,7 +52,7 @@ def entrained(study: Study, model: Model, terms: Terms, cases: Sequence[Case]) -
     tried: dict[int, Trial] = {}
 
     def attempt(kind: str, order: int) -> Trial:
-        return _tried(kind, waves[kind], order * rate, study, model, terms, cases)
+        return _tried(kind, waves[kind], order * rate, study, model, cases)
 
     def best() -> int:
         return min(tried, key=lambda order: tried[order][1].criterion)
@@ -74,21 +72,18 @@ def entrained(study: Study, model: Model, terms: Terms, cases: Sequence[Case]) -
 
 def _common_rate(pool: Pool) -> float | None:
     """Return the rate of the slips [Hz], where it is regular and the same in all runs."""
-    intervals = [np.diff(s.onset_time) for s in pool.slips]
-    rates = np.array([1.0 / np.median(i) for i in intervals])
-    irregular = max(float(deviation(i) / np.median(i)) for i in intervals)
+    rates = np.array([1.0 / s.cycle for s in pool.slips])
+    irregular = max(deviation(np.diff(s.onset_time)) / s.cycle for s in pool.slips)
     if np.ptp(rates) > criteria.ENTRAINED * rates.mean() or irregular > criteria.ENTRAINED:
         return None
     return float(rates.mean())
 
 
-def _tried(kind: str, wave: Wave, frequency: float, study: Study, model: Model, terms: Terms, cases: Sequence[Case]) -> Trial:
+def _tried(kind: str, wave: Wave, frequency: float, study: Study, model: Model, cases: Sequence[Case]) -> Trial:
     hypothesis = Hypothesis(kind, _columns(wave, frequency, study.pool), (wave.setting(frequency), 1.0), variant=ENTRAINED)
-    solution = study.regression.solve(terms.plus(hypothesis.columns), study.solution.scatter)
-    cost = len(hypothesis.columns) * float(np.log(study.regression.n))
-    score = 2.0 * float(study.regression.gains(terms, study.solution.scatter, [hypothesis.columns])[0]) - cost
-    candidate = Candidate(kind, "", score, hypothesis, solution)
-    trial = with_candidate(model, candidate, study.pool, terms.columns.shape[2])
+    score = 2.0 * float(study.baseline.gains([hypothesis.columns])[0]) - len(hypothesis.columns) * study.baseline.price
+    candidate = Candidate(kind, "", score, hypothesis, study.baseline.solved(hypothesis.columns))
+    trial = with_candidate(model, candidate, study.pool)
     confirmed = confirm(cases, trial, study.uncertainty, evaluations=EVALUATIONS, entrained=True)
     # the order is a number, too
     return candidate, dataclasses.replace(confirmed, n_parameters=confirmed.n_parameters + 1, freedom=confirmed.freedom - 1)

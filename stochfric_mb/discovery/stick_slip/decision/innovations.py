@@ -11,15 +11,34 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, predict
+from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.stick_slip.decision.confirmation import ANY, Case, predict
 from stochfric_mb.discovery.stick_slip.records.calibration import LEAST_ERROR, Calibration
 from stochfric_mb.discovery.stick_slip.records.pool import LEAST_DWELL, Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips
+from stochfric_mb.discovery.stick_slip.screening.regression import Baseline, baseline_of
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.sensor_errors import errors_by_noise
+from stochfric_mb.discovery.stick_slip.study import Study
 
-ANY = np.eye(N_FEATURES)
+
+def left_by(
+    model: Model, study: Study, before: Baseline, *, anew: bool = False, faults: Sequence[Array] = ()
+) -> Baseline | None:
+    """Return the stated model, fitted to what the effects of a model leave; None where it misses too many slips.
+
+    Args:
+        model: the model.
+        study: the slips as measured.
+        before: what was left before.
+        anew: as in `left_over`.
+        faults: regressors that stay among the terms.
+    """
+    left = left_over(study.pool, model, anew=anew)
+    if left.kept.sum() < criteria.LEAST_KEPT * before.pool.kept.sum():
+        return None
+    return baseline_of(left, study.uncertainty, before.solution.scatter, faults)
 
 
 def left_over(pool: Pool, model: Model, *, anew: bool = False) -> Pool:

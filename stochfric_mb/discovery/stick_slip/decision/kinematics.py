@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+import itertools
+from collections.abc import Mapping, Sequence
 from typing import cast
 
 import numpy as np
@@ -12,8 +13,10 @@ from scipy.stats import binom
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.false_alarms import Evidence, detected, likely
 from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.decision.decision import Finding
 from stochfric_mb.discovery.stick_slip.records.record import Array, Record
-from stochfric_mb.discovery.stick_slip.records.stick_phases import Sticking
+from stochfric_mb.discovery.stick_slip.records.slips import Slips
+from stochfric_mb.discovery.stick_slip.records.stick_phases import Sticking, centred
 from stochfric_mb.discovery.stick_slip.screening.competitors import step_times, steps
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import refit
@@ -41,92 +44,51 @@ STICK_SHARE = "share_in_stick"
 """Name under which they hold the share of what the stick phases show that the effect named there explains [-]."""
 
 
-def with_kinematic(study: Study, model: Model, kind: str, values: dict[str, float]) -> Model:
+def with_kinematic(study: Study, model: Model, finding: Finding) -> Model:
     """Return the model with an effect that the stick phases showed; a ripple's phases and amplitude are fitted at once."""
-    if kind == kind_with_signature(BELT_RIPPLE):
-        names = [s.record.name for s in study.pool.slips]
-        best: tuple[float, Model] | None = None
-        for amplitude in (0.01, 0.05):
-            own = {
-                name: (*({} for _ in model.effects), {"phase": phase})
-                for name, phase in _ripple_phases(study, values["frequency"])
-            }
-            assert set(own) == set(names)
-            trial = model.plus(make_effect(kind, **(values | {"amplitude": amplitude})))
-            fit = refit(dataclasses.replace(trial, own=own), study.windows, study.uncertainty, most=12, evaluations=20)
-            if best is None or fit.cost < best[0]:
-                best = (fit.cost, fit.model)
-        assert best is not None
-        return best[1]
-    model = model.plus(make_effect(kind, **values))
-    if kind == kind_with_signature(YIELDING):
-        return _compliant(study, model)
-    return model
+    first = make_effect(finding.kind, **finding.values)
+    if finding.kind == kind_with_signature(BELT_RIPPLE):
+        trials = [model.plus(dataclasses.replace(first, amplitude=amplitude)) for amplitude in (0.01, 0.05)]  # pyright: ignore[reportCallIssue]
+        frequency, others = float(finding.values["frequency"]), ({},) * len(model.effects)
+        own = {s.record.name: (*others, {"phase": _ripple_phase(s, frequency)}) for s in study.pool.slips}
+        return _best_in_forecasts(study, [dataclasses.replace(trial, own=own) for trial in trials], most=12, evaluations=20)
+    if finding.kind == kind_with_signature(YIELDING):
+        grid = itertools.product(study.records[0].deflection * np.array(LIMITS), (0.05, 0.3))
+        ways = [dataclasses.replace(first, elastic_limit=float(limit), damping_ratio=ratio) for limit, ratio in grid]  # pyright: ignore[reportCallIssue]
+        rough = _best_in_forecasts(study, [model.plus(way) for way in ways], most=5, evaluations=4)
+        return _best_in_forecasts(study, [rough], most=12, evaluations=20)
+    return model.plus(first)
 
 
-def _compliant(study: Study, model: Model) -> Model:
-    """Return the model with the elastic limit and damping that forecast best; looked for on a grid first."""
-    place = len(model.effects) - 1
-    first = model.effects[place]
-    best: tuple[float, Model] | None = None
-    for limit in study.records[0].deflection * np.array(LIMITS):
-        for ratio in (0.05, 0.3):
-            effects = (*model.effects[:place], dataclasses.replace(first, elastic_limit=float(limit), damping_ratio=ratio))
-            trial = dataclasses.replace(model, effects=effects)
-            fit = refit(trial, study.windows, study.uncertainty, most=5, evaluations=4)
-            if best is None or fit.cost < best[0]:
-                best = (fit.cost, fit.model)
-    assert best is not None
-    return refit(best[1], study.windows, study.uncertainty, most=12, evaluations=20).model
+def _best_in_forecasts(study: Study, trials: Sequence[Model], *, most: int, evaluations: int) -> Model:
+    """Return the model that forecasts best, fitted to ``most`` forecasts of each run in so many ``evaluations``."""
+    fits = [refit(trial, study.windows, study.uncertainty, most=most, evaluations=evaluations) for trial in trials]
+    return min(fits, key=lambda f: f.cost).model
 
 
-def _ripple_phases(study: Study, frequency: float) -> list[tuple[str, float]]:
-    """Return run and phase of a ripple of the belt's speed, from what its integral leaves in the stick phases."""
-    phases: list[tuple[str, float]] = []
-    for slips in study.pool.slips:
-        samples = slips.stick
-        angle = 2.0 * np.pi * frequency * samples.time
-        count = np.maximum(np.bincount(samples.segment), 1)
-        centred = [
-            c - (np.bincount(samples.segment, c) / count)[samples.segment]
-            for c in (np.cos(angle), np.sin(angle), samples.time, samples.residual)
-        ]
-        a, b, _ = np.linalg.lstsq(np.stack(centred[:3], axis=1), centred[3], rcond=None)[0]
-        # the position is the integral, v_b A/w sin(w t + phase) = v_b A/w (cos w t sin phase + sin w t cos phase)
-        phase = float(np.arctan2(a, b))
-        phases.append((slips.record.name, phase))
-    return phases
+def _ripple_phase(slips: Slips, frequency: float) -> float:
+    """Return the phase of a ripple of the belt's speed [rad], from what its integral leaves in the stick phases of a run."""
+    samples = slips.stick
+    angle = 2.0 * np.pi * frequency * samples.time
+    waves = [centred(c, samples.segment) for c in (np.cos(angle), np.sin(angle), samples.time)]
+    a, b, _ = np.linalg.lstsq(np.stack(waves, axis=1), centred(samples.residual, samples.segment), rcond=None)[0]
+    # the position is the integral, v_b A/w sin(w t + phase) = v_b A/w (cos w t sin phase + sin w t cos phase)
+    return float(np.arctan2(a, b))
 
 
-@dataclasses.dataclass(frozen=True)
-class Blame:
-    """An effect that the stick phases or the sensor show."""
-
-    kind: str
-    """Its name."""
-    evidence: Evidence
-    """What speaks for it."""
-    values: dict[str, float]
-    """Its parameters."""
-
-
-Blamed = list[Blame]
-"""Effects that the stick phases and the sensor show."""
-
-
-def kinematics(study: Study, details: dict[str, object]) -> Blamed | Where:
+def kinematics(study: Study, details: dict[str, object]) -> list[Finding] | Where:
     """Return the effects that the stick phases and the sensor show, or where they disagree with no known effect."""
     details["ceiling"] = study.range.share
     if study.range.clipped:
         ends = {"high": study.range.high, "low": study.range.low}
-        return [Blame(kind_with_signature(CLIPPED), detected("clipped", study.range.share), ends)]
+        return [Finding(kind_with_signature(CLIPPED), detected("clipped", study.range.share), ends)]
     stray, in_stick = _outliers(study, details), _in_stick(study, details)
     if isinstance(stray, Where) or isinstance(in_stick, Where):
         return stray if isinstance(stray, Where) else in_stick
     return _delays(study, details) + stray + in_stick
 
 
-def _outliers(study: Study, details: dict[str, object]) -> Blamed | Where:
+def _outliers(study: Study, details: dict[str, object]) -> list[Finding] | Where:
     """Return outliers; what stands out of a smoothed sensor's samples alone is none, what keeps to the slips no accident."""
     share = outlier_share(study)
     details["outlier_share"] = share
@@ -136,7 +98,7 @@ def _outliers(study: Study, details: dict[str, object]) -> Blamed | Where:
         return Where("slip, sensor", "the reading jumps in the slips and at their edges, and hardly anywhere else")
     sizes = np.concatenate([np.abs(r.raw - r.position)[r.outlier] for r in study.records])
     return [
-        Blame(
+        Finding(
             kind_with_signature(STRAY),
             detected("outliers", share),
             {"fraction": share, "size": float(np.sqrt(np.mean(sizes**2)))},
@@ -160,7 +122,7 @@ def _in_slips(study: Study) -> float:
         far += len(stray)
         inside += int(np.count_nonzero((slip >= 0) & (stray <= slips.restick_time[np.maximum(slip, 0)])))
         covered += float(np.sum(slips.restick_time - slips.onset_time))
-        length += float(record.time[-1] - record.time[0])
+        length += record.duration
     # corners of the motion stand out a little more easily than the rest of it
     return float(binom.sf(inside - 1, far, covered / length)) if inside > far / 2 else 1.0
 
@@ -172,7 +134,7 @@ def outlier_share(study: Study) -> float:
     return float(np.count_nonzero(sizes > criteria.OUTLIER_DEVIATIONS * noise)) / sum(len(r.time) for r in study.records)
 
 
-def _in_stick(study: Study, details: dict[str, object]) -> Blamed | Where:
+def _in_stick(study: Study, details: dict[str, object]) -> list[Finding] | Where:
     """Return what the stick phases show; steps and drifts of the sensor are left to the forces, where their size shows."""
     sticking = study.sticking
     if sticking is None:
@@ -223,9 +185,8 @@ def _of_the_zero(study: Study, frequency: float) -> bool:
     if frequency * study.pool.duration >= PIECES / 2.0:
         return False
     ways = [h.columns for h in effect_class(kind_with_signature(CREEPING_ZERO)).hypotheses(study.pool)]
-    gains = study.regression.gains(study.terms, study.solution.scatter, ways)
-    scores = [2.0 * gain - len(way) * np.log(study.regression.n) for gain, way in zip(gains, ways, strict=True)]
-    return max(scores) > criteria.NAMED
+    gains = study.baseline.gains(ways)
+    return max(2.0 * gain - len(way) * study.baseline.price for gain, way in zip(gains, ways, strict=True)) > criteria.NAMED
 
 
 def _single_moments(study: Study, sticking: Sticking, details: dict[str, object]) -> None:
@@ -235,17 +196,17 @@ def _single_moments(study: Study, sticking: Sticking, details: dict[str, object]
         details["single_moments"] = sticking.scores[JUMP]
 
 
-def _in_stick_named(study: Study, best: str, score: float, settings: dict[str, float]) -> Blamed:
+def _in_stick_named(study: Study, best: str, score: float, settings: dict[str, float]) -> list[Finding]:
     """Return the effect that stands for what is seen in stick, at numbers to start from."""
     if best == BELT_RIPPLE:
         return [
-            Blame(kind_with_signature(best), likely("stick", score), {"amplitude": 0.01, "frequency": settings["frequency"]})
+            Finding(kind_with_signature(best), likely("stick", score), {"amplitude": 0.01, "frequency": settings["frequency"]})
         ]
     box = study.records[0].mechanism
     stiffness = max(settings["angular_frequency"] ** 2 * box.mass - box.stiffness, 0.1 * box.stiffness)
-    limit = float(study.solution.coefficients[0]) * box.normal_force / stiffness
-    values = {"elastic_limit": limit, "damping_ratio": settings["damping_ratio"]}
-    return [Blame(kind_with_signature(best), likely("stick", score), values)]
+    limit = float(study.baseline.solution.coefficients[0]) * box.normal_force / stiffness
+    values: dict[str, float | str] = {"elastic_limit": limit, "damping_ratio": settings["damping_ratio"]}
+    return [Finding(kind_with_signature(best), likely("stick", score), values)]
 
 
 def _winner(study: Study, sticking: Sticking) -> tuple[str, float]:
@@ -268,12 +229,12 @@ def _driven(study: Study, frequency: float) -> bool:
     """Return whether a frequency [Hz] is that of the known excitation."""
     return any(
         r.mechanism.excitation_amplitude
-        and abs(frequency - r.mechanism.excitation_angular_frequency / (2.0 * np.pi)) < 2.0 / (r.time[-1] - r.time[0])
+        and abs(frequency - r.mechanism.excitation_angular_frequency / (2.0 * np.pi)) < 2.0 / r.duration
         for r in study.records
     )
 
 
-def _delays(study: Study, details: dict[str, object]) -> Blamed:
+def _delays(study: Study, details: dict[str, object]) -> list[Finding]:
     """Return the delay of the position after a velocity channel, where runs have one and the delay is beyond doubt."""
     delays: list[Delay] = []
     for run in study.dataset.fit:
@@ -291,7 +252,7 @@ def _delays(study: Study, details: dict[str, object]) -> Blamed:
         return []
     # twice the log likelihood ratio of one normal number against 0
     ratio = (seconds / doubt) ** 2 if doubt > 0.0 else float("inf")
-    return [Blame(kind_with_signature(LATE), Evidence(ratio, None), {"delay": seconds})]
+    return [Finding(kind_with_signature(LATE), Evidence(ratio, None), {"delay": seconds})]
 
 
 def delay_deviation(details: Mapping[str, object]) -> float:
@@ -309,10 +270,7 @@ def _step_stays(study: Study, setting: dict[str, float]) -> bool:
             continue
         trials = steps(pool, run, multiplied=False)
         near = [trials[i] for i in np.flatnonzero(np.abs(place - when) < 1.5 * (place[1] - place[0]))]
-        if (
-            near
-            and max(study.regression.gains(study.terms, study.solution.scatter, [[t] for t in near])) > criteria.NAMED / 2.0
-        ):
+        if near and max(study.baseline.gains([[t] for t in near])) > criteria.NAMED / 2.0:
             return True
     return False
 

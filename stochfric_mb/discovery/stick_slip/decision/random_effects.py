@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.inference.false_alarms import Evidence, detected, likely
+from stochfric_mb.discovery.inference.false_alarms import detected, likely
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip.records.pool import Pool
+from stochfric_mb.discovery.stick_slip.decision.decision import Finding
+from stochfric_mb.discovery.stick_slip.records.pool import Pool, less_medians
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.null_draws import drawn
-from stochfric_mb.discovery.stick_slip.screening.regression import Solution
+from stochfric_mb.discovery.stick_slip.screening.regression import Baseline
 from stochfric_mb.discovery.stick_slip.screening.switching import Switching
 from stochfric_mb.discovery.stick_slip.screening.variance_components import Randomness, randomness
 from stochfric_mb.discovery.stick_slip.study import Study
@@ -28,18 +28,6 @@ PULSE, KNOTS_APART = 0.051, 0.255
 the motion to show."""
 
 
-@dataclasses.dataclass(frozen=True)
-class RandomEffects:
-    """A random effect."""
-
-    kind: str
-    """Its name."""
-    evidence: Evidence
-    """What speaks for it."""
-    values: dict[str, float | str]
-    """Its parameters."""
-
-
 def stray(pool: Pool, residuals: Array) -> np.ndarray:
     """Return which slips that count are far from all others of their run, in onset force or in the slip, however little it is.
 
@@ -48,22 +36,17 @@ def stray(pool: Pool, residuals: Array) -> np.ndarray:
         residuals: what a model leaves of their features [N], shape (n, N_FEATURES).
     """
     far = np.zeros(len(residuals), dtype=bool)
-    for r in range(pool.n_runs):
-        mine = np.flatnonzero(pool.kept & (pool.run == r))
-        for column in (0, 1) if len(mine) else ():
-            away = residuals[mine, column] - np.median(residuals[mine, column])
-            far[mine] |= np.abs(away) > criteria.KICK_STRAY * deviation(away)
+    for rows in filter(len, pool.rows):
+        away = residuals[rows, :2] - np.median(residuals[rows, :2], axis=0)
+        far[rows] = (np.abs(away) > criteria.KICK_STRAY * deviation(away, axis=0)).any(axis=1)
     return far
 
 
 def kicked(study: Study) -> np.ndarray:
     """Return which slips stand out from all others of their run: in onset force, or in the slip."""
     pool = study.pool
-    forces = pool.features[:, :2].copy()
-    for r in range(pool.n_runs):
-        forces[pool.run == r] -= np.median(forces[pool.run == r], axis=0)
-    spread = np.array([deviation(forces[:, 0]), deviation(forces[:, 1])])
-    limit = np.maximum(criteria.KICK_STRAY * spread, criteria.KICK_LEAST * float(np.median(pool.static)))
+    forces = less_medians(pool.features[:, :2], pool.run)
+    limit = np.maximum(criteria.KICK_STRAY * deviation(forces, axis=0), criteria.KICK_LEAST * float(np.median(pool.static)))
     return np.asarray((np.abs(forces) > limit).any(axis=1)) & ~_sliding(pool)
 
 
@@ -83,10 +66,8 @@ def _repeated(study: Study) -> bool:
     """
     pool = study.pool
     levels = np.stack([pool.static, pool.kinetic, pool.kinetic, pool.kinetic], axis=1)
-    shares = pool.features[:, :4] / levels
-    for r in range(pool.n_runs):
-        shares[pool.run == r] -= np.median(shares[pool.run == r], axis=0)
-    spread = np.array([deviation(column) for column in shares.T])
+    shares = less_medians(pool.features[:, :4] / levels, pool.run)
+    spread = deviation(shares, axis=0)
     static, kinetic = (
         (np.abs(shares[:, :2]) > np.maximum(criteria.KICK_STRAY * spread[:2], criteria.KICK_LEAST)) & ~_sliding(pool)[:, None]
     ).T
@@ -98,7 +79,7 @@ def _repeated(study: Study) -> bool:
     return any(count >= most for count in near)
 
 
-def kicks(study: Study) -> RandomEffects | None:
+def kicks(study: Study) -> Finding | None:
     """Return impacts if a few slips, and only a few, stand out, each by its own amount, and not at a regular count.
 
     A kick that is too weak to set off a slip moves the stuck box a little: a jump within a stick phase counts as well.
@@ -112,18 +93,17 @@ def kicks(study: Study) -> RandomEffects | None:
     gaps = np.concatenate([np.diff(np.flatnonzero(far[pool.run == r])) for r in range(pool.n_runs)])
     if len(gaps) >= 4 and np.mean(gaps == np.median(gaps)) > 0.8:
         return None
-    cycle = float(np.median([np.median(np.diff(s.onset_time)) for s in pool.slips]))
     impulses = _impulses(study, far)
     mean, deviation = float(impulses.mean()), float(impulses.std(ddof=1))
     if abs(mean) < criteria.KICKS_ONE_SIDED * deviation:
         mean, deviation = 0.0, float(np.sqrt(np.mean(impulses**2)))
     # of kicks from both sides those that push the stuck box on with the belt set off no slip
     unseen = UNSEEN if mean == 0.0 else 1.0
-    return RandomEffects(
+    return Finding(
         kind_with_signature(KICKS),
         detected("kicks", share),
         {
-            "rate": unseen * share / cycle,
+            "rate": unseen * share / pool.cycle,
             "impulse": deviation,
             "mean": mean,
             "duration": PULSE / pool.angular_frequency,
@@ -134,20 +114,18 @@ def kicks(study: Study) -> RandomEffects | None:
 def _impulses(study: Study, far: np.ndarray) -> Array:
     """Return the impulses of kicks [N s]: in slip they change the mean force by the impulse over the slip's duration."""
     pool = study.pool
-    kinetic = pool.features[:, 1].copy()
-    for r in range(pool.n_runs):
-        kinetic[pool.run == r] -= np.median(kinetic[pool.run == r])
+    kinetic = less_medians(pool.features[:, 1], pool.run)
     direction = pool.per_run(lambda s: float(s.record.direction))
     return np.asarray((direction * kinetic * (pool.restick_time - pool.onset_time))[far], dtype=np.float64)
 
 
 def random_effects(
-    study: Study, scatter: Randomness, levels: Switching, solution: Solution, named: Sequence[str]
-) -> RandomEffects | Where | None:
+    study: Study, baseline: Baseline, scatter: Randomness, levels: Switching, named: Sequence[str]
+) -> Finding | Where | None:
     """Return random friction, or where a scatter of no known kind lives, or None."""
-    sigma_s, sigma_k, _ = np.exp(solution.scatter)
-    mu_s, mu_k = study.solution.coefficients[:2]
-    if not _scatters(study, scatter, solution, named, max(sigma_s, sigma_k) / mu_s):
+    sigma_s, sigma_k, _ = np.exp(baseline.solution.scatter)
+    mu_s, mu_k = study.baseline.solution.coefficients[:2]
+    if not _scatters(study, baseline, scatter, named, max(sigma_s, sigma_k) / mu_s):
         return None
     if levels.where is not None or (scatter.wander > criteria.NAMED and scatter.wander_of == "offset"):
         return levels.where or _offset(study, scatter)
@@ -161,7 +139,7 @@ def random_effects(
     return _drawn_anew(scatter, sigma_s, sigma_k, mu_k / mu_s, KNOTS_APART / study.pool.angular_frequency)
 
 
-def _drawn_anew(scatter: Randomness, sigma_s: float, sigma_k: float, ratio: float, spacing: float) -> RandomEffects | Where:
+def _drawn_anew(scatter: Randomness, sigma_s: float, sigma_k: float, ratio: float, spacing: float) -> Finding | Where:
     """Return coefficients that are drawn anew, or where a force is.
 
     Args:
@@ -179,16 +157,16 @@ def _drawn_anew(scatter: Randomness, sigma_s: float, sigma_k: float, ratio: floa
     values: dict[str, float | str] = {
         "process": "knots" if within else "per_event", "sigma_s": float(sigma_s), "sigma_k": float(sigma_k), "spacing": spacing
     }  # fmt: skip
-    return RandomEffects(kind_with_signature(DRAWN_ANEW), likely("scatter", strongest), values)
+    return Finding(kind_with_signature(DRAWN_ANEW), likely("scatter", strongest), values)
 
 
-def _memory(scatter: Randomness, mu_s: float, mu_k: float) -> RandomEffects | Where | None:
+def _memory(scatter: Randomness, mu_s: float, mu_k: float) -> Finding | Where | None:
     """Return what a scatter with a memory is; None where it has none."""
     if (
         scatter.wander > criteria.NAMED and scatter.correlation > criteria.SCATTER_MEMORY
     ) or scatter.wander > 5.0 * criteria.NAMED:
         share = max(scatter.wander_share, 1.0e-3)
-        return RandomEffects(
+        return Finding(
             kind_with_signature(WANDER),
             likely("wander", scatter.wander),
             {"sigma_s": float(share * mu_s), "sigma_k": float(share * mu_k), "correlation_time": float(scatter.wander_time)},
@@ -200,7 +178,7 @@ def _memory(scatter: Randomness, mu_s: float, mu_k: float) -> RandomEffects | Wh
 
 def _declared(study: Study) -> Randomness:
     """Return what the scatter would tell if the declared process were all that is random."""
-    return randomness(*drawn(study, 0))
+    return randomness(drawn(study, 0))
 
 
 def _offset(study: Study, scatter: Randomness) -> Where | None:
@@ -212,7 +190,7 @@ def _offset(study: Study, scatter: Randomness) -> Where | None:
     return Where("time", f"the same in stick and slip, a force or the sensor's zero drifts by {away:.2g} m")
 
 
-def _scatters(study: Study, scatter: Randomness, solution: Solution, named: Sequence[str], share: float) -> bool:
+def _scatters(study: Study, baseline: Baseline, scatter: Randomness, named: Sequence[str], share: float) -> bool:
     """Return whether friction scatters beyond doubt, and by more than what the form of a named effect may leave."""
     if max(scatter.static, scatter.kinetic) <= criteria.SCATTER_CERTAIN and scatter.wander <= criteria.NAMED:
         return False
@@ -221,5 +199,5 @@ def _scatters(study: Study, scatter: Randomness, solution: Solution, named: Sequ
     away = max(share * level, scatter.wander_share * level) / study.records[0].mechanism.stiffness
     if away < max(s.noise.coloured for s in study.pool.slips):
         return False
-    remaining = np.exp(2.0 * solution.scatter[:2]).sum() / np.exp(2.0 * study.solution.scatter[:2]).sum()
+    remaining = baseline.variance / study.baseline.variance
     return not named or (remaining >= criteria.SCATTER_REMAINING and share >= criteria.SCATTER_LEAST_SHARE)

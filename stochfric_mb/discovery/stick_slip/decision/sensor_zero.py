@@ -12,7 +12,7 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.decision.kinematics import STEP_SEEN
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
+from stochfric_mb.discovery.stick_slip.screening.regression import Baseline
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
 from stochfric_mb.effects import kind_with_signature
 from stochfric_mb.effects.traits import CREEPING_ZERO, JUMP, MOVES_ZERO
@@ -37,22 +37,18 @@ def seen_step(candidates: Sequence[Candidate], details: Mapping[str, object]) ->
     return step if in_stick[CREEPING_ZERO] < criteria.OUTDONE * in_stick[JUMP] else None
 
 
-def steady(
-    regression: Regression, terms: Terms, candidates: Sequence[Candidate], kept: Sequence[Array], solution: Solution
-) -> Pool:
+def steady(baseline: Baseline, candidates: Sequence[Candidate], faults: Sequence[Array]) -> Pool:
     """Return the slips less what a sensor whose zero moves adds to their features: medians must be of slips alike.
 
     Args:
-        regression: fits to the slips.
-        terms: what the model holds so far.
+        baseline: what the model so far leaves of the slips.
         candidates: the screening's outcome; a fault of the sensor that may be named is taken out.
-        kept: regressors of faults that are named already, the last terms of ``solution``.
-        solution: the fit of ``terms``.
+        faults: regressors of those that are named already, the last terms of the baseline.
     """
-    pool = regression.pool
-    columns, strengths = list(kept), solution.coefficients[len(solution.coefficients) - len(kept) :]
+    pool = baseline.pool
+    columns, strengths = list(faults), baseline.solution.coefficients[baseline.n_terms - len(faults) :]
     fault = next((c for c in candidates if c.has(MOVES_ZERO) and c.score >= criteria.NAMED), None)
-    if fault is not None and (moved := _within_runs(regression, terms, fault, solution)) is not None:
+    if fault is not None and (moved := _within_runs(baseline, fault)) is not None:
         columns += fault.hypothesis.columns
         strengths = np.r_[strengths, moved]
     if not columns:
@@ -60,23 +56,22 @@ def steady(
     return dataclasses.replace(pool, features=pool.features - np.stack(columns, axis=2) @ strengths)
 
 
-def _within_runs(regression: Regression, terms: Terms, fault: Candidate, solution: Solution) -> Array | None:
+def _within_runs(baseline: Baseline, fault: Candidate) -> Array | None:
     """Return the strengths of a fault that changes the slips of one run; None where it stands for what differs between runs.
 
     A step soon after a run's beginning is almost a level of the run's own, and so is what another load or speed does.
     """
-    pool = regression.pool
+    pool = baseline.pool
     levels = [
         column
         for run in range(1, pool.n_runs)
         for column in (pool.column(pool.static * (pool.run == run), None), pool.column(None, pool.kinetic * (pool.run == run)))
     ]
     if not levels:
-        return fault.solution.coefficients[-len(fault.hypothesis.columns) :]
-    apart = terms.plus(levels)
-    without = regression.fit(apart, solution.scatter)
-    with_ = regression.fit(apart.plus(fault.hypothesis.columns), without.scatter)
-    penalty = 2.0 * (solution.cost - fault.solution.cost) - fault.score
-    if 2.0 * (without.cost - with_.cost) - penalty < criteria.NAMED:
+        return fault.strengths
+    apart = baseline.plus(levels)
+    with_ = apart.fitted(fault.hypothesis.columns)
+    penalty = 2.0 * (baseline.solution.cost - fault.solution.cost) - fault.score
+    if 2.0 * (apart.solution.cost - with_.cost) - penalty < criteria.NAMED:
         return None
     return with_.coefficients[-len(fault.hypothesis.columns) :]

@@ -58,15 +58,9 @@ def calibrate(slips: Slips, *, seed: int = 11) -> Calibration:
         seed: of the simulated measurements.
     """
     static, kinetic = float(np.median(slips.onset_force)), float(np.median(slips.moments[:, 0]))
-    observed: list[Array] = []
-    true: list[Array] = []
-    generator = np.random.default_rng(seed)
-    like = middle(slips)
-    for repeat in range(REPEATS):
-        measured, truth = _simulated(like, static, kinetic, repeat, generator)
-        observed.append(measured)
-        true.append(truth)
-    features, forces = np.concatenate(observed), np.concatenate(true)
+    generator, like = np.random.default_rng(seed), middle(slips)
+    simulated = [_simulated(like, static, kinetic, repeat, generator) for repeat in range(REPEATS)]
+    features, forces = map(np.concatenate, zip(*simulated, strict=True))
     if len(features) < FEWEST:
         return Calibration(np.zeros(N_FEATURES), np.zeros((N_FEATURES, 2)), (static, kinetic), np.diag((UNKNOWN * static) ** 2))
     error = features.copy()

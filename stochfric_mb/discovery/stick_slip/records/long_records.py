@@ -28,7 +28,7 @@ def middle(slips: Slips) -> Slips:
     }
     record = slips.record
     # half a cycle on either side, so that the first and the last slip lie within
-    half = 0.5 * float(np.median(np.diff(slips.onset_time)))
+    half = 0.5 * slips.cycle
     span = arrays["onset_time"][0] - half, arrays["restick_time"][-1] + half
     rows = slice(*np.searchsorted(record.time, span))
     cut = dataclasses.replace(
@@ -36,5 +36,4 @@ def middle(slips: Slips) -> Slips:
         temperature=None if record.temperature is None else record.temperature[rows],
     )  # fmt: skip
     inside = (slips.stick.time >= span[0]) & (slips.stick.time <= span[1])
-    samples = {f.name: getattr(slips.stick, f.name)[inside] for f in dataclasses.fields(slips.stick) if f.name != "bin_size"}
-    return dataclasses.replace(slips, record=cut, stick=dataclasses.replace(slips.stick, **samples), **arrays)
+    return dataclasses.replace(slips, record=cut, stick=slips.stick.part(inside), **arrays)

@@ -10,7 +10,7 @@ import numpy as np
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.calibration import Calibration
 from stochfric_mb.discovery.stick_slip.records.record import Array
-from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, N_MOMENTS, Slips, legendre_coefficients
+from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, legendre_coefficients
 from stochfric_mb.numerics.robust import deviation
 
 LEAST_DWELL = 0.255
@@ -66,6 +66,11 @@ class Pool:
         return len(self.slips)
 
     @property
+    def rows(self) -> list[np.ndarray]:
+        """Numbers of the slips that count, run by run."""
+        return [np.flatnonzero(self.kept & (self.run == r)) for r in range(self.n_runs)]
+
+    @property
     def angular_frequency(self) -> float:
         """Natural angular frequency of the rig [rad/s]."""
         return self.slips[0].record.angular_frequency
@@ -95,7 +100,12 @@ class Pool:
     @property
     def duration(self) -> float:
         """Length of the longest record [s]."""
-        return max(float(s.record.time[-1] - s.record.time[0]) for s in self.slips)
+        return max(s.record.duration for s in self.slips)
+
+    @property
+    def cycle(self) -> float:
+        """Typical time from one break-away to the next [s]."""
+        return float(np.median([s.cycle for s in self.slips]))
 
     def temperature(self, time: Array) -> Array | None:
         """Return the measured temperature [degC] at times in the slips [s], shape (n,) or (n, m); None: a run has none."""
@@ -123,15 +133,14 @@ class Pool:
         if at_onset is not None:
             column[:, 0] = at_onset
         if in_slip is not None:
-            column[:, 1:] = constant(in_slip) if in_slip.ndim == 1 else legendre_coefficients(in_slip)
+            at, values = (1, in_slip) if in_slip.ndim == 1 else (slice(1, None), legendre_coefficients(in_slip))
+            column[:, at] = values
         return column
 
 
-def constant(values: Array) -> Array:
-    """Return the coefficients of forces that are constant in each slip, shape (n, N_MOMENTS)."""
-    coefficients = np.zeros((len(values), N_MOMENTS))
-    coefficients[:, 0] = values
-    return coefficients
+def less_medians(values: Array, run: np.ndarray) -> Array:
+    """Return numbers of slips, shape (n,) or (n, m), less their median in the slip's run."""
+    return values - np.array([np.median(values[run == r], axis=0) for r in range(run[-1] + 1)])[run]
 
 
 def make_pool(slips: Sequence[Slips], calibrations: Sequence[Calibration]) -> Pool:
@@ -173,15 +182,11 @@ def make_pool(slips: Sequence[Slips], calibrations: Sequence[Calibration]) -> Po
 
 
 def _kept(features: Array, run: np.ndarray, static: Array) -> np.ndarray:
-    centred = np.empty_like(features)
-    spread = np.empty_like(features)
-    for r in np.unique(run):
-        mine = run == r
-        centred[mine] = features[mine] - np.median(features[mine], axis=0)
-        spread[mine] = deviation(features[mine], axis=0)
-    off = np.asarray((np.abs(centred) > criteria.STRAY_SLIP * spread).any(axis=1))
+    away = np.abs(less_medians(features, run))
+    spread = np.array([deviation(features[run == r], axis=0) for r in range(run[-1] + 1)])[run]
+    off = np.asarray((away > criteria.STRAY_SLIP * spread).any(axis=1))
     # a scatter of 15 % of the static force is friction that varies, not an outlier
-    gross = np.asarray((np.abs(centred) > np.maximum(criteria.GROSS_SLIP * spread, 0.15 * static[:, None])).any(axis=1))
+    gross = np.asarray((away > np.maximum(criteria.GROSS_SLIP * spread, 0.15 * static[:, None])).any(axis=1))
     for r in np.unique(run):
         mine = run == r
         if off[mine].sum() <= max(criteria.FEW_STRAY, criteria.STRAY_SHARE * mine.sum()):

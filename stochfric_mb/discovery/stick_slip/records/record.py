@@ -100,9 +100,14 @@ class Record:
     """Measured temperature [degC]; None: none was."""
 
     @property
+    def duration(self) -> float:
+        """Length of the record [s]."""
+        return float(self.time[-1] - self.time[0])
+
+    @property
     def rate(self) -> float:
         """Samples a second [Hz]."""
-        return (len(self.time) - 1) / (self.time[-1] - self.time[0])
+        return (len(self.time) - 1) / self.duration
 
     @property
     def angular_frequency(self) -> float:

@@ -62,13 +62,10 @@ def slips_of(record: Record, noise: Noise | None = None) -> list[tuple[int, int]
     enter = max(ENTER_NOISE * deviation, ENTER * belt)
     leave = max(LEAVE_NOISE * deviation, LEAVE * belt)
     inside = np.flatnonzero(relative > enter)
-    if len(inside) == 0:
-        return []
-    cuts = np.flatnonzero(np.diff(inside) > 1)
     shortest, apart = record.samples(0.64), record.samples(0.3)
     slips: list[list[int]] = []
-    for first, last in zip(np.r_[inside[0], inside[cuts + 1]], np.r_[inside[cuts], inside[-1]], strict=True):
-        begin, end = int(first), int(last)
+    for part in filter(len, np.split(inside, np.flatnonzero(np.diff(inside) > 1) + 1)):
+        begin, end = int(part[0]), int(part[-1])
         while begin > 0 and relative[begin - 1] > leave:
             begin -= 1
         while end < len(relative) - 1 and relative[end + 1] > leave:

@@ -96,11 +96,8 @@ def _bow(visit: Array) -> tuple[float, float]:
 def _visits(raw: Array, above: float) -> Iterator[Array]:
     """Yield the pieces of a record above a level; gaps of a few samples are noise."""
     samples = np.flatnonzero(raw > above)
-    if len(samples) == 0:
-        return
-    cuts = np.flatnonzero(np.diff(samples) > 8)
-    for first, last in zip(np.r_[samples[0], samples[cuts + 1]], np.r_[samples[cuts], samples[-1]], strict=True):
-        yield raw[first : last + 1]
+    for visit in filter(len, np.split(samples, np.flatnonzero(np.diff(samples) > 8) + 1)):
+        yield raw[visit[0] : visit[-1] + 1]
 
 
 def _goes_beyond(slips: Slips, side: int, level: float) -> bool:

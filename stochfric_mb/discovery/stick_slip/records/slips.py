@@ -75,6 +75,11 @@ class StickSamples:
     bin_size: int
     """Samples in a bin."""
 
+    def part(self, chosen: np.ndarray) -> StickSamples:
+        """Return the bins where ``chosen`` is true, shape (n,)."""
+        arrays = {f.name: getattr(self, f.name)[chosen] for f in dataclasses.fields(self) if f.name != "bin_size"}
+        return dataclasses.replace(self, **arrays)
+
 
 @dataclasses.dataclass(frozen=True)
 class Slips:
@@ -117,13 +122,18 @@ class Slips:
         return len(self.onset_time)
 
     @property
+    def cycle(self) -> float:
+        """Typical time from one break-away to the next [s]."""
+        return float(np.median(np.diff(self.onset_time)))
+
+    @property
     def settling(self) -> float:
         """Time [s] that a simulation of the run takes from the belt's zero to where its cycles are typical."""
         least = SETTLING / self.record.angular_frequency
         if len(self) < 2:
             return least
         first = abs(float(np.median(self.onset_position))) / self.record.mechanism.belt_velocity
-        return max(least, first + 2.0 * float(np.median(np.diff(self.onset_time))))
+        return max(least, first + 2.0 * self.cycle)
 
     @property
     def features(self) -> Array:
@@ -214,7 +224,9 @@ def _edge(record: Record, index: int, side: int, ridge: float) -> tuple[float, f
 
 def _edges(record: Record, rough: list[tuple[int, int]], ridge: float, firm: float) -> Array:
     """Return break-away (time [s], position [m]) and re-stick of the slips, shape (n, 4)."""
-    edges = [e for e in (_locate(record, a, b, ridge, firm) for a, b in rough) if e[2] - e[0] > 0.5 / record.angular_frequency]
+    pairs = ((_edge(record, begin, 1, ridge), _edge(record, end, -1, firm)) for begin, end in rough)
+    shortest = 0.5 / record.angular_frequency
+    edges = [(*onset[:2], *restick[:2]) for onset, restick in pairs if restick[0] - onset[0] > shortest]
     # two slips may not overlap: a rough slip cut in two can be located twice
     return np.array([e for i, e in enumerate(edges) if i == 0 or e[0] > edges[i - 1][2]]).reshape(-1, 4)
 
@@ -223,13 +235,6 @@ def _onset_force(record: Record, time: Any, position: Any) -> Any:
     """Return the force at break-away [N]."""
     box = record.mechanism
     return box.stiffness * position + box.damping * box.belt_velocity - record.excitation(time)
-
-
-def _locate(record: Record, begin: int, end: int, ridge: float, firm: float) -> tuple[float, float, float, float]:
-    """Return (onset time, position, re-stick time, position)."""
-    onset = _edge(record, begin, 1, ridge)
-    restick = _edge(record, end, -1, firm)
-    return onset[0], onset[1], restick[0], restick[1]
 
 
 def _quiet(record: Record, rough: list[tuple[int, int]]) -> tuple[list[Array], list[Array]]:

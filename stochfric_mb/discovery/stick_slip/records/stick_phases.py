@@ -64,17 +64,16 @@ class _Phases:
     line: Array
     deviation: float
 
-    def centred(self, column: Array) -> Array:
-        """Return a column less its mean in each phase."""
-        total = np.bincount(self.samples.segment, column)
-        count = np.bincount(self.samples.segment)
-        return column - (total / np.maximum(count, 1))[self.samples.segment]
-
     def rest(self, columns: Sequence[Array]) -> Array:
         """Return the values less the belt's line and the columns."""
-        design = np.stack([self.line, *(self.centred(c) for c in columns)], axis=1)
+        design = np.stack([self.line, *(centred(c, self.samples.segment) for c in columns)], axis=1)
         design = design / np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
         return self.values - design @ np.linalg.lstsq(design, self.values, rcond=1.0e-9)[0]
+
+
+def centred(column: Array, segment: np.ndarray) -> Array:
+    """Return a column less its mean in each phase; ``segment``: the phase of each sample."""
+    return column - (np.bincount(segment, column) / np.maximum(np.bincount(segment), 1))[segment]
 
 
 def bin_deviation(noise: Noise, size: int) -> float:
@@ -118,12 +117,12 @@ def _gain(runs: Sequence[_Phases], rests: Sequence[Array], columns: Callable[[_P
 
 def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tuple[float, dict[str, float]]:
     """Return the score of a ripple of the belt's speed, its frequency [Hz], and its score and share of chi^2 as plain noise."""
-    duration = max(float(run.slips.record.time[-1] - run.slips.record.time[0]) for run in runs)
+    duration = max(run.slips.record.duration for run in runs)
     # a wave that is faster still is a sensor's, not a drive's
     lasting = np.concatenate([run.slips.restick_time - run.slips.onset_time for run in runs])
     fastest = WAVES_IN_A_SLIP / float(np.median(lasting))
     every = np.arange(2.0 / duration, fastest, 1.0 / (FINENESS * duration))
-    cycle = float(np.median([np.median(np.diff(run.slips.onset_time)) for run in runs]))
+    cycle = float(np.median([run.slips.cycle for run in runs]))
     grid = worth_a_look(
         lambda some, stretch: _ripple_gains(runs, rests, some, stretch),
         every,
@@ -172,8 +171,8 @@ def _creep(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> dic
 def _phases(slips: Slips) -> _Phases:
     samples = slips.stick
     deviation = bin_deviation(slips.noise, samples.bin_size)
-    empty = _Phases(slips, samples, samples.residual, samples.time, deviation)
-    return dataclasses.replace(empty, values=empty.centred(samples.residual / deviation), line=empty.centred(samples.time))
+    values, line = (centred(column, samples.segment) for column in (samples.residual / deviation, samples.time))
+    return _Phases(slips, samples, values, line, deviation)
 
 
 def _without_accidents(run: _Phases) -> _Phases:
@@ -186,11 +185,7 @@ def _without_accidents(run: _Phases) -> _Phases:
     if not off.any() or off.sum() > criteria.PHASE_MOST_ACCIDENTS * present.sum():
         return run
     kept = ~off[segment]
-    s = run.samples
-    samples = StickSamples(
-        s.segment[kept], s.time[kept], s.residual[kept], s.since_restick[kept], s.to_onset[kept], s.position[kept], s.bin_size
-    )
-    return dataclasses.replace(run, samples=samples, values=run.values[kept], line=run.line[kept])
+    return dataclasses.replace(run, samples=run.samples.part(kept), values=run.values[kept], line=run.line[kept])
 
 
 def _ripple_gains(

@@ -18,16 +18,15 @@ HIGHEST_HARMONIC = 9
 """Order up to which a ripple at a multiple of a named one's frequency is its harmonic: beyond, a multiple is always near."""
 
 
-def with_candidate(model: Model, candidate: Candidate, pool: Pool, n_terms: int) -> Model:
+def with_candidate(model: Model, candidate: Candidate, pool: Pool) -> Model:
     """Return the model with the candidate's effect added, at the numbers that the screening fitted.
 
     Args:
         model: the model so far.
         candidate: an effect of the screening.
         pool: the slips.
-        n_terms: coefficients of the regression before the candidate's own.
     """
-    coefficients = candidate.solution.coefficients[n_terms:]
+    coefficients = candidate.strengths
     model = beside(model, candidate.solution.coefficients)
     if candidate.is_wave:
         return _periodic(model, candidate, pool, coefficients)
@@ -138,7 +137,7 @@ def _in_time(kind: str, frequency: float, amplitudes: Array, phases: Array) -> W
     return effects, [tuple({"phase": float(row[h])} for h in large) for row in phases]
 
 
-def as_harmonic(model: Model, candidate: Candidate, pool: Pool, n_terms: int) -> Model | None:
+def as_harmonic(model: Model, candidate: Candidate, pool: Pool) -> Model | None:
     """Return the model with the candidate as a harmonic of a ripple that it holds; None where it is none.
 
     A ripple that is not a sine, such as a square one, leaves multiples of its frequency behind.
@@ -149,12 +148,12 @@ def as_harmonic(model: Model, candidate: Candidate, pool: Pool, n_terms: int) ->
     if held is None:
         return None
     belt = float(pool.belt_velocity.min())
-    main, other = _frequency(held, belt), _candidate_frequency(candidate, belt)
+    main, other = _frequency(held, belt), candidate.frequency(belt)
     order = round(other / main)
     if not 1 <= order <= HIGHEST_HARMONIC or abs(other - order * main) > 2.0 / pool.duration:
         return None
     if held.kind == candidate.name:
-        return with_candidate(model, candidate, pool, n_terms)
+        return with_candidate(model, candidate, pool)
     # set by the kind that is held; amplitude and phases are fitted next
     setting = {"frequency": order * main} if hasattr(held, "frequency") else {"wavelength": belt / (order * main)}
     small = dataclasses.replace(held, amplitude=0.2 * held.amplitude, **setting)  # pyright: ignore[reportAttributeAccessIssue, reportCallIssue]
@@ -163,8 +162,3 @@ def as_harmonic(model: Model, candidate: Candidate, pool: Pool, n_terms: int) ->
 
 def _frequency(effect: Effect, belt: float) -> float:
     return float(effect.frequency if hasattr(effect, "frequency") else belt / effect.wavelength)  # pyright: ignore[reportAttributeAccessIssue]
-
-
-def _candidate_frequency(candidate: Candidate, belt: float) -> float:
-    main = float(candidate.hypothesis.setting[0])
-    return belt / main if candidate.along_belt else main

@@ -12,7 +12,7 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.stick_slip.records.pool import make_pool
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms, stated_terms
+from stochfric_mb.discovery.stick_slip.screening.regression import Baseline, baseline_of
 from stochfric_mb.discovery.stick_slip.screening.screen import screen
 from stochfric_mb.discovery.stick_slip.simulation.scatter import simulated_slips
 from stochfric_mb.discovery.stick_slip.study import Study
@@ -21,20 +21,15 @@ DRAWS = 16
 """Records that the quantile is estimated from: its standard error is then the scale of the distribution of largest scores."""
 
 
-def drawn(study: Study, sample: int) -> tuple[Regression, Terms, Solution]:
-    """Return fits to the slips of one simulated set of records like the fit runs, and the stated model in them."""
+def drawn(study: Study, sample: int) -> Baseline:
+    """Return the stated model, fitted to the slips of one simulated set of records like the fit runs."""
     slips = [simulated_slips(study.model, s, sample=sample + i) for i, s in enumerate(study.pool.slips)]
-    regression = Regression(make_pool(slips, study.pool.calibrations))
-    terms = stated_terms(regression.pool, dict(study.uncertainty))
-    return regression, terms, regression.fit(terms, study.solution.scatter)
+    return baseline_of(make_pool(slips, study.pool.calibrations), study.uncertainty, study.baseline.solution.scatter)
 
 
 def largest_by_chance(study: Study) -> float:
     """Return the score that the best candidate of such records exceeds at the family-wise rate [-]."""
-    best: list[float] = []
-    for draw in range(1, DRAWS + 1):
-        regression, terms, solution = drawn(study, draw * len(study.pool.slips))
-        best.append(screen(regression.pool, regression, terms, solution)[0].score)
+    best = [screen(drawn(study, draw * len(study.pool.slips)))[0].score for draw in range(1, DRAWS + 1)]
     scale = float(np.std(best, ddof=1)) * np.sqrt(6.0) / np.pi
     place = float(np.mean(best)) - np.euler_gamma * scale
     return place - scale * float(np.log(-np.log1p(-criteria.FAMILY_WISE)))

@@ -38,7 +38,7 @@ def smallest(study: Study) -> dict[str, float]:
     sqrt(score + penalties) of its standard deviations, and, where simulated slips decide, their misfit falls by enough. Of the
     hypotheses of a kind the most sensitive one counts.
     """
-    regression = study.regression
+    baseline = study.baseline
     numbers: dict[str, float] = {}
     families = hypotheses_in(study.pool)
     periodic = waves_in(study.pool)
@@ -53,11 +53,10 @@ def smallest(study: Study) -> dict[str, float]:
         best = np.inf
         for hypothesis in looked_at:
             p = len(hypothesis.columns)
-            solution = regression.solve(study.terms.plus(hypothesis.columns), study.solution.scatter)
-            needed = np.sqrt(criteria.NAMED + p * np.log(regression.n) + 2.0 * np.log(grid[kind]))
-            strengths = needed * solution.deviations[study.terms.columns.shape[2] :]
+            needed = np.sqrt(criteria.NAMED + p * baseline.price + 2.0 * np.log(grid[kind]))
+            strengths = needed * baseline.solved(hypothesis.columns).deviations[baseline.n_terms :]
             if SHAPES_SLIPS in effect_class(kind).traits and strengths[0] > 0.0:
-                strengths = strengths * max(1.0, simulated_limit(study.pool, study.terms, hypothesis) / strengths[0])
+                strengths = strengths * max(1.0, simulated_limit(study.pool, baseline.terms, hypothesis) / strengths[0])
             if kind in periodic:
                 # cosine and sine of every run share the evidence
                 best = min(best, float(np.median(strengths) / np.sqrt(study.pool.n_runs)))

@@ -9,7 +9,7 @@ that the scenario states. Negative log likelihoods are up to a constant that all
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -81,7 +81,7 @@ class Regression:
     def __init__(self, pool: Pool) -> None:
         self.pool = pool
         self.load = float(np.median(pool.normal_force))
-        self._rows = [np.flatnonzero(pool.kept & (pool.run == r)) for r in range(pool.n_runs)]
+        self._rows = pool.rows
 
     @property
     def n(self) -> int:
@@ -174,10 +174,6 @@ class Regression:
         rest = rest - basis @ (basis.T @ rest)
         return basis[: len(target)], rest[: len(target)]
 
-    def residuals(self, terms: Terms, solution: Solution) -> Array:
-        """Return the features less the model [N], shape (n, N_FEATURES), of all slips."""
-        return terms.target(self.pool.features) - terms.columns @ solution.coefficients
-
     def covariance(self, run: int, scatter: Array) -> Array:
         """Return the covariance of the features in a run [N^2], shape (N_FEATURES, N_FEATURES)."""
         static, kinetic, white = (self.load * np.exp(np.asarray(scatter))) ** 2
@@ -201,7 +197,79 @@ class Regression:
         return np.concatenate(whitened).reshape(-1, columns.shape[2])
 
 
-def stated_terms(pool: Pool, uncertainty: dict[str, float]) -> Terms:
+@dataclasses.dataclass(frozen=True)
+class Baseline:
+    """A model's terms fitted to slips, as measured or as effects leave them: what further terms are held against."""
+
+    regression: Regression
+    """Fits to the slips."""
+    terms: Terms
+    """The terms."""
+    solution: Solution
+    """Their fit."""
+
+    @property
+    def pool(self) -> Pool:
+        """The slips."""
+        return self.regression.pool
+
+    @property
+    def n_terms(self) -> int:
+        """Number of its coefficients, which stand before those of further terms."""
+        return self.terms.columns.shape[2]
+
+    @property
+    def price(self) -> float:
+        """Evidence that each further number costs, the logarithm of the number of slips [-]."""
+        return float(np.log(self.regression.n))
+
+    @property
+    def variance(self) -> float:
+        """Variance of both forces of a slip about the fit, over the normal force [-]."""
+        return float(np.exp(2.0 * self.solution.scatter[:2]).sum())
+
+    def residuals(self) -> Array:
+        """Return the features less the fit [N], shape (n, N_FEATURES), of all slips."""
+        return self.terms.target(self.pool.features) - self.terms.columns @ self.solution.coefficients
+
+    def gains(self, trials: Sequence[Sequence[Array]]) -> Array:
+        """Return by how much each trial's further columns lower the cost at the same scatter, shape (len(trials),)."""
+        return self.regression.gains(self.terms, self.solution.scatter, trials)
+
+    def solved(self, columns: Sequence[Array]) -> Solution:
+        """Return the fit with further columns at the same scatter."""
+        return self.regression.solve(self.terms.plus(columns), self.solution.scatter)
+
+    def fitted(self, columns: Sequence[Array], priors: Array | None = None) -> Solution:
+        """Return the fit with further columns and the scatter that they leave."""
+        return self.regression.fit(self.terms.plus(columns, priors), self.solution.scatter)
+
+    def plus(self, columns: Sequence[Array]) -> Baseline:
+        """Return the baseline with further terms, fitted."""
+        return Baseline(self.regression, self.terms.plus(columns), self.fitted(columns))
+
+    def of(self, kept: np.ndarray) -> Baseline:
+        """Return the same terms fitted to some of the slips, where ``kept`` is true, shape (n,)."""
+        regression = Regression(dataclasses.replace(self.pool, kept=kept))
+        return Baseline(regression, self.terms, regression.fit(self.terms, self.solution.scatter))
+
+
+def baseline_of(
+    pool: Pool, uncertainty: Mapping[str, float], start: Array | None = None, more: Sequence[Array] = ()
+) -> Baseline:
+    """Return the stated model fitted to slips.
+
+    Args:
+        pool: the slips.
+        uncertainty: relative standard deviations of the stated numbers.
+        start: variance components from which the fit begins; the usual ones if not given.
+        more: columns of further terms.
+    """
+    regression, terms = Regression(pool), stated_terms(pool, uncertainty).plus(more)
+    return Baseline(regression, terms, regression.fit(terms, start))
+
+
+def stated_terms(pool: Pool, uncertainty: Mapping[str, float]) -> Terms:
     """Return the terms of the model as stated: mu_s, mu_k, and errors of stiffness, mass and damping with their priors.
 
     Args:
@@ -224,7 +292,6 @@ def stated_terms(pool: Pool, uncertainty: dict[str, float]) -> Terms:
     inertia = sum(level * column for level, column in zip(levels, (static, kinetic), strict=True)) - spring - damper
     inertia += pool.column(_known(pool, pool.onset_time[:, None])[:, 0], _known(pool, pool.node_time))
     columns = [static, kinetic, -spring, -inertia, -damper]
-    assert all(c.shape[1] == N_FEATURES for c in columns)
     return Terms(np.stack(columns, axis=2), np.array([np.inf, np.inf, *priors]), taken_at)
 
 

@@ -15,7 +15,7 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING, competitors, softening, step_times, steps
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
+from stochfric_mb.discovery.stick_slip.screening.regression import Baseline, Solution
 from stochfric_mb.discovery.stick_slip.screening.waves import best_wave
 from stochfric_mb.effects import effect_class, kind_with_signature, kinds_with
 from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, ENTRAINED, WAVE, Hypothesis
@@ -65,13 +65,19 @@ class Candidate:
         """Whether it is a wave along the belt, not in time."""
         return self.has(ALONG_BELT)
 
+    def frequency(self, belt: float) -> float:
+        """Return the frequency of a wave [Hz], of one along the belt at a belt velocity [m/s]."""
+        main = float(self.hypothesis.setting[0])
+        return belt / main if self.along_belt else main
+
     def has(self, trait: str) -> bool:
         """Return whether it is an effect with a trait."""
         return self.is_effect and trait in effect_class(self.name).traits
 
-    def start(self, terms: int) -> dict[str, float]:
-        """Return parameter values where a fit of the effect may start; ``terms``: number of coefficients before its own."""
-        return self.hypothesis.start(self.solution.coefficients[terms:])
+    @property
+    def strengths(self) -> Array:
+        """Coefficients of its regressors, which stand behind those of the model's terms."""
+        return self.solution.coefficients[-len(self.hypothesis.columns) :]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -88,58 +94,43 @@ class _Kind:
     """Among how many they were chosen."""
 
 
-def screen(
-    pool: Pool, regression: Regression, terms: Terms, solution: Solution, *, without: Sequence[str] = ()
-) -> list[Candidate]:
+def screen(baseline: Baseline, *, without: Sequence[str] = ()) -> list[Candidate]:
     """Return the best hypothesis of each kind, and of each variant of a kind, best first.
 
     Args:
-        pool: the slips.
-        regression: fits to them.
-        terms: what the model holds so far.
-        solution: its fit.
+        baseline: what the model so far leaves of the slips.
         without: kinds that the model holds already.
     """
-    rough = [
-        _best(kind, regression, terms, solution, solution.scatter)
-        for kinds in (
-            _effects(pool, regression, terms, solution, without),
-            _patterns(pool),
-            _steps(pool, regression, terms, solution, without),
-        )
-        for kind in kinds
-    ]
-    rough.sort(key=lambda r: -r[0])
+    kinds = (*_effects(baseline, without), *_patterns(baseline.pool), *_steps(baseline, without))
+    rough = sorted((_best(kind, baseline, baseline.solution.scatter) for kind in kinds), key=lambda r: -r[0])
     items = [
-        _refitted(kind, hypothesis, regression, terms, solution)
+        _refitted(kind, hypothesis, baseline)
         if i < REFITTED
-        else Candidate(
-            kind.name, kind.axis, score, hypothesis, regression.solve(terms.plus(hypothesis.columns), solution.scatter)
-        )
+        else Candidate(kind.name, kind.axis, score, hypothesis, baseline.solved(hypothesis.columns))
         for i, (score, kind, hypothesis, _) in enumerate(rough)
     ]
-    return sorted((c for c in items if _sign_possible(c.name, c.solution, terms)), key=lambda c: -c.score)
+    return sorted((c for c in items if _sign_possible(c.name, c.solution, baseline)), key=lambda c: -c.score)
 
 
-def _refitted(kind: _Kind, hypothesis: Hypothesis, regression: Regression, terms: Terms, solution: Solution) -> Candidate:
+def _refitted(kind: _Kind, hypothesis: Hypothesis, baseline: Baseline) -> Candidate:
     """Return the best way of a kind with the variance components fitted anew.
 
     The ways of a kind are distinguished at the scatter that one of them leaves, not at that without any.
     """
-    fitted = regression.fit(terms.plus(hypothesis.columns), solution.scatter)
-    _, _, best, penalty = _best(kind, regression, terms, solution, fitted.scatter)
+    fitted = baseline.fitted(hypothesis.columns)
+    _, _, best, penalty = _best(kind, baseline, fitted.scatter)
     if best is not hypothesis:
-        fitted = regression.fit(terms.plus(best.columns), fitted.scatter)
-    return Candidate(kind.name, kind.axis, 2.0 * (solution.cost - fitted.cost) - penalty, best, fitted)
+        fitted = baseline.regression.fit(baseline.terms.plus(best.columns), fitted.scatter)
+    return Candidate(kind.name, kind.axis, 2.0 * (baseline.solution.cost - fitted.cost) - penalty, best, fitted)
 
 
-def _effects(pool: Pool, regression: Regression, terms: Terms, solution: Solution, without: Sequence[str]) -> Iterator[_Kind]:
+def _effects(baseline: Baseline, without: Sequence[str]) -> Iterator[_Kind]:
     """Yield the effects by their variants, then those that are waves."""
-    for kind, ways in hypotheses_in(pool, without=without).items():
+    for kind, ways in hypotheses_in(baseline.pool, without=without).items():
         for variant in dict.fromkeys(h.variant for h in ways):
             yield _Kind(kind, "", [h for h in ways if h.variant == variant], len(ways))
-    for kind, wave in waves_in(pool, without=without).items():
-        best_one, looked_at = best_wave(kind, wave, pool, regression, terms, solution.scatter)
+    for kind, wave in waves_in(baseline.pool, without=without).items():
+        best_one, looked_at = best_wave(kind, wave, baseline)
         yield _Kind(kind, "", [best_one], looked_at)
 
 
@@ -151,26 +142,24 @@ def _patterns(pool: Pool) -> Iterator[_Kind]:
     yield _Kind(SOFTENING, "stiffness, time within the run", softer, len(softer))
 
 
-def _steps(pool: Pool, regression: Regression, terms: Terms, solution: Solution, without: Sequence[str]) -> Iterator[_Kind]:
+def _steps(baseline: Baseline, without: Sequence[str]) -> Iterator[_Kind]:
     """Yield steps of the friction, which have no name, and of the sensor."""
     for kind, axis, multiplied in (
         ("friction_step", "abrupt change of the friction", True),
         (kind_with_signature(JUMP), "", False),
     ):
         if kind not in without:
-            step = _step(pool, regression, terms, solution, kind, multiplied=multiplied)
-            yield _Kind(kind, axis, [step], len(step_times(pool)) ** pool.n_runs)
+            step = _step(baseline, kind, multiplied=multiplied)
+            yield _Kind(kind, axis, [step], len(step_times(baseline.pool)) ** baseline.pool.n_runs)
 
 
-def _best(
-    kind: _Kind, regression: Regression, terms: Terms, solution: Solution, scatter: Array
-) -> tuple[float, _Kind, Hypothesis, float]:
+def _best(kind: _Kind, baseline: Baseline, scatter: Array) -> tuple[float, _Kind, Hypothesis, float]:
     """Return score, kind, hypothesis and cost of the best way of a kind at fixed variance components."""
-    gains = regression.gains(terms, scatter, [h.columns for h in kind.hypotheses])
-    cost = np.array([len(h.columns) for h in kind.hypotheses]) * float(np.log(regression.n))
+    gains = baseline.regression.gains(baseline.terms, scatter, [h.columns for h in kind.hypotheses])
+    cost = np.array([len(h.columns) for h in kind.hypotheses]) * baseline.price
     order = np.argsort(cost - 2.0 * gains, kind="stable")
     # a curved hypothesis whose strength comes out negative must not stand before a straight one that is possible
-    possible = (int(j) for j in order if _can_be(kind.name, kind.hypotheses[j], regression, terms, solution))
+    possible = (int(j) for j in order if _can_be(kind.name, kind.hypotheses[j], baseline))
     best = next(possible, int(order[0]))
     penalty = float(cost[best]) + 2.0 * np.log(kind.grid)
     return 2.0 * float(gains[best]) - penalty, kind, kind.hypotheses[best], penalty
@@ -181,36 +170,33 @@ def _positive(kind: str) -> bool:
     return kind in kinds_with(POSITIVE)
 
 
-def _can_be(kind: str, hypothesis: Hypothesis, regression: Regression, terms: Terms, solution: Solution) -> bool:
-    return not _positive(kind) or _sign_possible(
-        kind, regression.solve(terms.plus(hypothesis.columns), solution.scatter), terms
-    )
+def _can_be(kind: str, hypothesis: Hypothesis, baseline: Baseline) -> bool:
+    return not _positive(kind) or _sign_possible(kind, baseline.solved(hypothesis.columns), baseline)
 
 
-def _sign_possible(kind: str, fitted: Solution, terms: Terms) -> bool:
+def _sign_possible(kind: str, fitted: Solution, baseline: Baseline) -> bool:
     """Return whether the fitted strength has a sign that the effect can have, within two standard deviations."""
-    place = terms.columns.shape[2]
+    place = baseline.n_terms
     return not _positive(kind) or bool(fitted.coefficients[place] > -2.0 * fitted.deviations[place])
 
 
-def _step(pool: Pool, regression: Regression, terms: Terms, solution: Solution, kind: str, *, multiplied: bool) -> Hypothesis:
+def _step(baseline: Baseline, kind: str, *, multiplied: bool) -> Hypothesis:
     """Return one step a run, each where it explains most; two of a sensor where the second one explains enough more."""
-    place = step_times(pool)
+    pool, place = baseline.pool, step_times(baseline.pool)
     trials = [steps(pool, run, multiplied=multiplied) for run in range(pool.n_runs)]
-    firsts, _ = _best_steps(trials, regression, terms, solution)
+    firsts, _ = _best_steps(trials, baseline)
     columns = [mine[best] for mine, best in zip(trials, firsts, strict=True)]
     if not multiplied:
-        seconds, gain = _best_steps(trials, regression, terms.plus(columns), solution)
-        if 2.0 * gain - pool.n_runs * (np.log(regression.n) + 2.0 * np.log(len(place))) >= criteria.SECOND_STEP:
+        beside = dataclasses.replace(baseline, terms=baseline.terms.plus(columns))
+        seconds, gain = _best_steps(trials, beside)
+        if 2.0 * gain - pool.n_runs * (baseline.price + 2.0 * np.log(len(place))) >= criteria.SECOND_STEP:
             pairs = list(zip(trials, firsts, seconds, strict=True))
             both = [mine[i] for mine, *pair in pairs for i in pair]
             return Hypothesis(kind, both, tuple(float(place[i]) for _, *pair in pairs for i in pair))
     return Hypothesis(kind, columns, tuple(float(place[best]) for best in firsts))
 
 
-def _best_steps(
-    trials: Sequence[Sequence[Array]], regression: Regression, terms: Terms, solution: Solution
-) -> tuple[list[int], float]:
+def _best_steps(trials: Sequence[Sequence[Array]], baseline: Baseline) -> tuple[list[int], float]:
     """Return the number of the best step of each run, and by how much they lower the cost together, run by run."""
-    gains = [regression.gains(terms, solution.scatter, [[t] for t in mine]) for mine in trials]
+    gains = [baseline.gains([[t] for t in mine]) for mine in trials]
     return [int(np.argmax(g)) for g in gains], sum(float(g.max()) for g in gains)

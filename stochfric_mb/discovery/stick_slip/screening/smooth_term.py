@@ -10,7 +10,7 @@ from numpy.polynomial import legendre
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.naming import beside
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
+from stochfric_mb.discovery.stick_slip.screening.regression import Baseline, Solution
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.effects import kinds_with, make_effect
 from stochfric_mb.effects.traits import ANONYMOUS
@@ -50,32 +50,27 @@ class SmoothTerm:
     """The fit of the features with it."""
 
 
-def smooth_term(
-    regression: Regression, terms: Terms, solution: Solution, model: Model, axis: Axis, among: int = 1
-) -> SmoothTerm:
+def smooth_term(baseline: Baseline, model: Model, axis: Axis, among: int = 1) -> SmoothTerm:
     """Return the term along an axis.
 
     Args:
-        regression: fits to what the model's effects leave of the slips.
-        terms: the stated model in them.
-        solution: its fit.
+        baseline: what the model's effects leave of the slips.
         model: the model.
         axis: the axis.
         among: number of axes among which it is chosen.
     """
     first, last = (float(np.quantile(axis.in_slip, q)) for q in ENDS)
-    spread = SIZE * float(solution.coefficients[0]) / np.arange(1, ORDERS + 1) ** 2
+    spread = SIZE * float(baseline.solution.coefficients[0]) / np.arange(1, ORDERS + 1) ** 2
 
     def fitted(share: float) -> tuple[Solution, float, float]:
         high = first + share * (last - first)
-        columns = _columns(regression.pool, axis, first, high)
-        return regression.fit(terms.plus(columns, spread), solution.scatter), first, high
+        return baseline.fitted(_columns(baseline.pool, axis, first, high), spread), first, high
 
     # what begins with every slip may be over soon
     spans = SPANS if axis.at_onset is None else SPANS[:1]
     best, low, high = min(map(fitted, spans), key=lambda f: f[0].cost)
     choice = 2.0 * float(np.log(among * len(spans)))
-    score = 2.0 * (solution.cost - best.cost) - ORDERS * float(np.log(regression.n)) - choice
+    score = 2.0 * (baseline.solution.cost - best.cost) - ORDERS * baseline.price - choice
     numbers = best.coefficients
     table = _polynomials(np.linspace(-1.0, 1.0, KNOTS)) @ numbers[-ORDERS:]
     values = {f"change_{i}": float(table[i] - table[0]) for i in range(1, KNOTS)}

@@ -21,7 +21,7 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
-from stochfric_mb.discovery.stick_slip.screening.regression import Regression, Solution, Terms
+from stochfric_mb.discovery.stick_slip.screening.regression import Baseline
 from stochfric_mb.numerics.robust import deviation
 
 PHASES, DUTIES = 24, (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
@@ -65,28 +65,25 @@ class Switching:
         return JUMPS if self.at_rest_between_jumps and not self.regular else None
 
 
-def switching(regression: Regression, residuals: Array) -> Switching:
+def switching(pool: Pool, residuals: Array) -> Switching:
     """Return what residuals of the features [N], shape (n, N_FEATURES), tell of levels and jumps."""
-    pool = regression.pool
     # what the extraction itself scatters is no change
     finest = np.stack([np.sqrt(np.diag(c.covariance)[:2]) for c in pool.calibrations])
     levels = [_levels(pool, residuals[:, c], finest[:, c]) for c in (0, 1)]
     separation, column = max((levels[c][0], c) for c in (0, 1))
     upper = levels[column][1]
-    rows = [np.flatnonzero(pool.kept & (pool.run == r)) for r in range(pool.n_runs)]
-    changes = float(np.mean([np.count_nonzero(np.diff(upper[m])) for m in rows]))
+    changes = float(np.mean([np.count_nonzero(np.diff(upper[m])) for m in pool.rows]))
     regular = separation > criteria.LEVELS_APART and _regular(pool, upper)
     jumps, still = max((_jumps(pool, residuals[:, c], finest[:, c]) for c in (0, 1)), key=lambda j: j[0])
     return Switching(separation, changes, regular, jumps, still)
 
 
-def levels_score(regression: Regression, terms: Terms, solution: Solution) -> float:
+def levels_score(baseline: Baseline) -> float:
     """Return the evidence for two levels of friction, each run's own, between which slips change without a rule [-].
 
     Which slip is at which level costs the logarithm of the number of ways in which as many changes may fall.
     """
-    pool = regression.pool
-    residuals = regression.residuals(terms, solution)
+    pool, residuals = baseline.pool, baseline.residuals()
     finest = np.stack([np.sqrt(np.diag(c.covariance)[:2]) for c in pool.calibrations])
     values: list[float] = []
     for column in (0, 1):
@@ -96,8 +93,8 @@ def levels_score(regression: Regression, terms: Terms, solution: Solution) -> fl
             mine = pool.run == run
             columns += [pool.column(pool.static * upper * mine, None), pool.column(None, pool.kinetic * upper * mine)]
             n, changes = int(mine.sum()), int(np.count_nonzero(np.diff(upper[mine])))
-            cost += float(np.log(regression.n)) * 2 + 2.0 * float(gammaln(n) - gammaln(changes + 1) - gammaln(n - changes))
-        values.append(2.0 * (solution.cost - regression.fit(terms.plus(columns), solution.scatter).cost) - cost)
+            cost += 2.0 * baseline.price + 2.0 * float(gammaln(n) - gammaln(changes + 1) - gammaln(n - changes))
+        values.append(2.0 * (baseline.solution.cost - baseline.fitted(columns).cost) - cost)
     return max(values)
 
 
@@ -105,8 +102,7 @@ def _levels(pool: Pool, values: Array, finest: Array) -> tuple[float, np.ndarray
     """Return the distance of two levels over their width in a typical run, and which slips are at the upper one."""
     upper = np.zeros(len(values), dtype=bool)
     distances, weights = list[float](), list[int]()
-    for run in range(pool.n_runs):
-        rows = np.flatnonzero(pool.kept & (pool.run == run))
+    for run, rows in enumerate(pool.rows):
         if len(rows) < 4:
             continue
         mine = values[rows]
@@ -135,8 +131,8 @@ def _halves(values: Array) -> tuple[Array, Array]:
 def _jumps(pool: Pool, values: Array, finest: Array) -> tuple[int, float]:
     """Return the number of jumps, and the share of changes that are none; runs are in units of their own small changes."""
     changes: list[Array] = []
-    for run in range(pool.n_runs):
-        mine = values[pool.kept & (pool.run == run)]
+    for run, rows in enumerate(pool.rows):
+        mine = values[rows]
         if len(mine) < 4:
             continue
         steps = np.abs(np.diff(mine))
@@ -149,12 +145,12 @@ def _jumps(pool: Pool, values: Array, finest: Array) -> tuple[int, float]:
 
 def _regular(pool: Pool, upper: np.ndarray) -> bool:
     """Return whether the levels alternate at regular intervals of time or of belt travel."""
-    rate = max(1.0 / float(np.median(np.diff(s.onset_time))) for s in pool.slips)
+    rate = max(1.0 / s.cycle for s in pool.slips)
     # short of every other slip: that is no ripple
     grid = np.arange(2.0 / pool.duration, 0.45 * rate, 0.1 / pool.duration)
     belt = float(pool.belt_velocity.min())
     travel = (pool.belt_velocity * pool.onset_time - pool.typical_onset) / belt
-    rows = [np.flatnonzero(pool.kept & (pool.run == r)) for r in range(pool.n_runs)]
+    rows = pool.rows
     rarer = sum(min(int(upper[m].sum()), int((~upper[m]).sum())) for m in rows)
     phases = np.arange(PHASES) / PHASES
     for place in (pool.onset_time, travel):

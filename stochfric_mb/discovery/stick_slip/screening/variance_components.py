@@ -7,8 +7,9 @@ import dataclasses
 import numpy as np
 
 from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
-from stochfric_mb.discovery.stick_slip.screening.regression import LOWEST, Regression, Solution, Terms
+from stochfric_mb.discovery.stick_slip.screening.regression import LOWEST, Baseline
 
 
 @dataclasses.dataclass(frozen=True)
@@ -35,34 +36,32 @@ class Randomness:
     """Correlation of the onset force with the mean force of the slip that follows [-]."""
 
 
-def randomness(regression: Regression, terms: Terms, solution: Solution) -> Randomness:
+def randomness(baseline: Baseline) -> Randomness:
     """Return what the scatter about a fitted model tells."""
 
     def ratio(component: int) -> float:
-        without = solution.scatter.copy()
+        without = baseline.solution.scatter.copy()
         without[component] = LOWEST
-        return 2.0 * (regression.solve(terms, without).cost - solution.cost)
+        return 2.0 * (baseline.regression.solve(baseline.terms, without).cost - baseline.solution.cost)
 
-    rest = regression.residuals(terms, solution)[:, :2]
-    correlation = _correlation(regression, rest)
+    rest = baseline.residuals()[:, :2]
+    correlation = _correlation(baseline.pool, rest)
     nothing = (0.0, 0.0, 1.0, "both")
-    wander, share, time, what = _wander(regression, rest, solution) if correlation > criteria.WANDER_WORTH_A_LOOK else nothing
-    return Randomness(ratio(0), ratio(1), ratio(2), correlation, wander, share, time, what, _together(regression, rest))
+    wander, share, time, what = _wander(baseline, rest) if correlation > criteria.WANDER_WORTH_A_LOOK else nothing
+    return Randomness(ratio(0), ratio(1), ratio(2), correlation, wander, share, time, what, _together(baseline.pool, rest))
 
 
-def _together(regression: Regression, rest: Array) -> float:
+def _together(pool: Pool, rest: Array) -> float:
     """Return the correlation of the two forces of a slip, each less its mean over the run."""
-    pool = regression.pool
-    parts = [rest[(pool.run == r) & pool.kept] for r in range(pool.n_runs)]
+    parts = [rest[rows] for rows in pool.rows]
     first, second = np.concatenate([p - p.mean(axis=0) for p in parts if len(p)]).T
     return float(first @ second / (np.sqrt((first @ first) * (second @ second)) or 1.0))
 
 
-def _correlation(regression: Regression, rest: Array) -> float:
-    pool = regression.pool
+def _correlation(pool: Pool, rest: Array) -> float:
     total, weight = 0.0, 0
-    for r in range(pool.n_runs):
-        mine = rest[(pool.run == r) & pool.kept].mean(axis=1)
+    for rows in pool.rows:
+        mine = rest[rows].mean(axis=1)
         if len(mine) < 4:
             continue
         mine = mine - mine.mean()
@@ -81,14 +80,13 @@ REMAINING = (1.0, 0.2, 0.02, 0.0)
 """Shares of the independent scatter that may remain [-]."""
 
 
-def _wander(regression: Regression, rest: Array, solution: Solution) -> tuple[float, float, float, str]:
+def _wander(baseline: Baseline, rest: Array) -> tuple[float, float, float, str]:
     """Return (score, strength, correlation time, what wanders) of an Ornstein-Uhlenbeck process on the forces."""
-    pool = regression.pool
-    static, kinetic = (regression.load * np.exp(solution.scatter[:2])) ** 2
-    cycle = float(np.median([np.median(np.diff(s.onset_time)) for s in pool.slips]))
+    pool = baseline.pool
+    static, kinetic = (baseline.regression.load * np.exp(baseline.solution.scatter[:2])) ** 2
+    cycle = pool.cycle
     runs: list[tuple[Array, dict[str, Array], Array, Array]] = []
-    for r in range(pool.n_runs):
-        rows = np.flatnonzero((pool.run == r) & pool.kept)
+    for r, rows in enumerate(pool.rows):
         if len(rows) < 4:
             continue
         n = len(rows)

@@ -18,7 +18,7 @@ from stochfric_mb.discovery.inference.frequency_search import worth_a_look
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, legendre_coefficients
-from stochfric_mb.discovery.stick_slip.screening.regression import Part, Regression, Terms
+from stochfric_mb.discovery.stick_slip.screening.regression import Baseline, Part
 from stochfric_mb.effects.marks import WAVE, Hypothesis, Wave
 
 HARMONICS = 3
@@ -52,7 +52,7 @@ def _slip_rate(pool: Pool) -> float:
 
 
 def _slip_rates(pool: Pool) -> Array:
-    return np.array([1.0 / np.median(np.diff(s.onset_time)) for s in pool.slips])
+    return np.array([1.0 / s.cycle for s in pool.slips])
 
 
 def wave_columns(pool: Pool, wave: Wave, frequency: float, harmonics: int) -> list[Array]:
@@ -104,25 +104,21 @@ def shared_by_runs(pool: Pool) -> list[Array]:
     return columns
 
 
-def best_wave(
-    kind: str, wave: Wave, pool: Pool, regression: Regression, terms: Terms, scatter: Array
-) -> tuple[Hypothesis, int]:
+def best_wave(kind: str, wave: Wave, baseline: Baseline) -> tuple[Hypothesis, int]:
     """Return the best wave of a kind, and how many were looked at.
 
     Args:
         kind: a periodic effect.
-        wave: its wave in the pool.
-        pool: the slips.
-        regression: fits to them.
-        terms: what the model holds so far.
-        scatter: logarithms of the variance components.
+        wave: its wave in the slips.
+        baseline: what the model so far leaves of them.
     """
-    parts = regression.parts(terms, scatter)
-    cost = 2.0 * pool.n_runs * float(np.log(regression.n))
+    pool = baseline.pool
+    parts = baseline.regression.parts(baseline.terms, baseline.solution.scatter)
+    cost = 2.0 * pool.n_runs * baseline.price
     whole = frequencies(pool, wave.pace)
     # a wave that all slips of a run keep to looks like a shape that they share: it must tell more with less
     alike = shared_by_runs(pool)
-    shaped = 2.0 * float(regression.gains(terms, scatter, [alike])[0]) - len(alike) * float(np.log(regression.n))
+    shaped = 2.0 * float(baseline.gains([alike])[0]) - len(alike) * baseline.price
     rates = _slip_rates(pool)
     share = criteria.SHARE_OF_SHAPE if rates.max() > criteria.RATES_DIFFER * rates.min() else 1.0
     limit = SLOW * _slip_rate(pool)

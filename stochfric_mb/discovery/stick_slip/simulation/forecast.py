@@ -65,8 +65,7 @@ def windows_of(slips: Slips) -> Windows:
     targets: list[Array] = []
     if n < 2:
         return Windows(record, np.zeros((0, 3)), np.zeros((0, N_OUTPUTS)), 1)
-    cycle = float(np.median(np.diff(slips.onset_time)))
-    stride = max(round(REACH * cycle * record.rate / N_OUTPUTS), 1)
+    stride = max(round(REACH * slips.cycle * record.rate / N_OUTPUTS), 1)
     dwells = slips.onset_time[1:] - slips.restick_time[:-1]
     typical = float(np.median(dwells))
     shortest, wide = (angle / record.angular_frequency for angle in (SHORTEST_DWELL, MEAN_OVER))

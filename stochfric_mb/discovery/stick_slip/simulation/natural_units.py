@@ -46,8 +46,8 @@ class NaturalUnits:
     @classmethod
     def of_run(cls, record: Record) -> NaturalUnits:
         """Return the units of the rig of a run."""
-        box, length = record.mechanism, float(record.time[-1] - record.time[0])
-        return cls(box.normal_force, record.deflection, 1.0 / record.angular_frequency, length, box.belt_velocity)
+        box, time = record.mechanism, 1.0 / record.angular_frequency
+        return cls(box.normal_force, record.deflection, time, record.duration, box.belt_velocity)
 
     def of(self, unit: str) -> float:
         """Return the natural unit of a quantity, over its SI unit [-]; 1 for numbers, angles and temperatures."""

@@ -43,22 +43,16 @@ def matched(model: Model, pool: Pool, *, rounds: int = 3) -> Model:
         load = float(np.median(pool.normal_force))
         values = {}
         for name, column in (("sigma_s", 1), ("sigma_k", 3)):
-            now = getattr(model.effects[place], name)
-            ratio = target[column] / simulated[column] if simulated[column] > 0.0 else 1.0
-            values[name] = float(min(max(now, 1.0e-5) * np.clip(ratio, 0.4, 2.5), _most(model)))
+            ratio = target[column] / simulated[column]
+            values[name] = max(getattr(model.effects[place], name), 1.0e-5) * float(np.clip(ratio, 0.4, 2.5))
+        most = _most(model)
+        if knots:
+            shift = np.clip((target[[0, 2]] - simulated[[0, 2]]) / load, -FARTHEST * first.mu_s, FARTHEST * first.mu_s)
+            mu_s = float(np.clip(model.law.mu_s + shift[0], (1.0 - FARTHEST) * first.mu_s, (1.0 + FARTHEST) * first.mu_s))
+            model = model.with_law(mu_s, float(np.clip(model.law.mu_k + shift[1], 1.0e-5, 0.98 * mu_s)))
+            most = min(most, _most(model))  # the means may have come closer to each other
         effects = list(model.effects)
-        effects[place] = dataclasses.replace(effects[place], **values)
-        if not knots:
-            model = dataclasses.replace(model, effects=tuple(effects))
-            continue
-        shift = np.clip((target[[0, 2]] - simulated[[0, 2]]) / load, -FARTHEST * first.mu_s, FARTHEST * first.mu_s)
-        mu_s = float(np.clip(model.law.mu_s + shift[0], (1.0 - FARTHEST) * first.mu_s, (1.0 + FARTHEST) * first.mu_s))
-        mu_k = float(np.clip(model.law.mu_k + shift[1], 1.0e-5, 0.98 * mu_s))
-        model = dataclasses.replace(model, effects=tuple(effects)).with_law(mu_s, mu_k)
-        # the means may have come closer to each other
-        for name in ("sigma_s", "sigma_k"):
-            values[name] = min(values[name], _most(model))
-        effects[place] = dataclasses.replace(effects[place], **values)
+        effects[place] = dataclasses.replace(effects[place], **{name: min(value, most) for name, value in values.items()})
         model = dataclasses.replace(model, effects=tuple(effects))
     return model
 

@@ -1,6 +1,6 @@
 """An unnamed term: a smooth change of friction along an axis, kept if held-out runs bear it out.
 
-Beside a named effect, what another form of it would add is such a term, too (`rounds`).
+Beside a named effect, what another form of it would add is such a term, too (`working_model`).
 """
 
 from __future__ import annotations
@@ -8,12 +8,12 @@ from __future__ import annotations
 import dataclasses
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.stick_slip.decision.held_out_check import Comparison, compared
-from stochfric_mb.discovery.stick_slip.decision.rounds import Named, term_of
+from stochfric_mb.discovery.stick_slip.decision.decision import Named, term_of
 from stochfric_mb.discovery.stick_slip.screening.smooth_term import axes_of, smooth_term
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit, with_deviations
 from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.discovery.stick_slip.validation.held_out_check import Comparison, compared
 from stochfric_mb.errors import SimulationError
 
 
@@ -44,7 +44,7 @@ def anonymous(study: Study, recalibrated: Fit, runs: HeldOut) -> Anonymous | Non
         runs: held-out runs; no phase is to be found in them, since the term has none.
     """
     axes = axes_of(study.pool)[:-1]
-    tried = [smooth_term(study.regression, study.terms, study.solution, recalibrated.model, axis, len(axes)) for axis in axes]
+    tried = [smooth_term(study.baseline, recalibrated.model, axis, len(axes)) for axis in axes]
     best = max(tried, key=lambda t: t.score)
     if best.score <= criteria.UNNAMED_LEAST:
         return None

@@ -9,8 +9,9 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.stick_slip.decision.decision import Decision
 from stochfric_mb.discovery.stick_slip.decision.kinematics import STICK_SHARE
-from stochfric_mb.discovery.stick_slip.decision.rounds import SCORE_LEFT, SHAPE_LEFT, Decision
+from stochfric_mb.discovery.stick_slip.decision.rounds import SCORE_LEFT, SHAPE_LEFT
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of, floor_scores, scores
@@ -59,7 +60,8 @@ def _enough(decision: Decision, augmented: Model) -> float:
     """Return the share of the reducible error that the names must explain [-]."""
     if explained_with_its_form(decision):
         return criteria.CLOSES_NOTHING
-    return _least_share(augmented, {n.kind for n in decision.named})
+    lenient = augmented.random or any(n.kind == kind_with_signature(JUMP) for n in decision.named)
+    return criteria.EXPLAINED_RANDOM if lenient else criteria.EXPLAINED
 
 
 def _too_little(decision: Decision, enough: float, without: Array, with_: Array, best: Array) -> Decision | None:
@@ -106,12 +108,6 @@ def explained_with_its_form(decision: Decision) -> bool:
     pattern = cast("float", decision.details.get(SCORE_LEFT, 0.0))
     explained = left < criteria.FORM_MISSES or in_stick > criteria.STICK_EXPLAINED
     return len(decision.named) == 1 and explained and pattern < (decision.named[0].evidence.score or 0.0)
-
-
-def _least_share(augmented: Model, kinds: set[str]) -> float:
-    """Return the share of the reducible error that a name must explain [-]."""
-    lenient = augmented.random or kind_with_signature(JUMP) in kinds
-    return criteria.EXPLAINED_RANDOM if lenient else criteria.EXPLAINED
 
 
 def taken_back(decision: Decision, why: str) -> Decision:

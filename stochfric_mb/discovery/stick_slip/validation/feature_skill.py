@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
-from scipy.special import ndtr
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Gap
@@ -63,6 +62,8 @@ def leading(gap: Gap | None, forces: Gap | None) -> Literal["gap", "slip_forces"
 
 def _scores(models: Sequence[Model], slips: Slips, calibration: Calibration, rows: np.ndarray) -> Array:
     """Return the scores of three models and the floor of the last, slip by slip, shape (n_rows, 4)."""
+    from scoringrules import crps_normal
+
     pool = make_pool([slips], [calibration])
     noise = np.sqrt(np.diag(calibration.covariance))
     columns: list[Array] = []
@@ -70,7 +71,7 @@ def _scores(models: Sequence[Model], slips: Slips, calibration: Calibration, row
     for model in models:
         spread = np.hypot(noise, _scatter(model, slips))
         error = (pool.features[rows] - _expected(model, slips, pool.dwell, rows)) / spread
-        columns.append((_crps(error) * spread / noise).mean(axis=1))
+        columns.append((crps_normal(error, 0.0, 1.0, backend="numpy") * spread / noise).mean(axis=1))
     # of a normal number scored by its own distribution the expectation is 1/sqrt(pi) of its deviation
     floor = np.full(len(rows), float(np.mean(spread / noise)) / np.sqrt(np.pi))
     return np.stack([*columns, floor], axis=1)
@@ -96,9 +97,3 @@ def _scatter(model: Model, slips: Slips) -> Array:
 
 def _sigma(process: object, which: int) -> float:
     return float(getattr(process, ("sigma_s", "sigma_k")[which], 0.0))
-
-
-def _crps(z: Array) -> Array:
-    """Return the CRPS of a standard normal forecast at z [-]: Gneiting and Raftery 2007, doi 10.1198/016214506000001437."""
-    density = np.exp(-0.5 * z**2) / np.sqrt(2.0 * np.pi)
-    return np.asarray(z * (2.0 * ndtr(z) - 1.0) + 2.0 * density - 1.0 / np.sqrt(np.pi), dtype=np.float64)

@@ -20,7 +20,7 @@ from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES
-from stochfric_mb.discovery.stick_slip.screening.regression import LOWEST, Regression, stated_terms
+from stochfric_mb.discovery.stick_slip.screening.regression import LOWEST, Baseline, Regression, stated_terms
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import deterministic
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.scatter import simulated_slips
@@ -139,9 +139,9 @@ def _of_its_own(study: Study, model: Model, calm: Model) -> tuple[list[Array], t
 
 def _misfit(pool: Pool, uncertainty: Mapping[str, float], *, random: bool) -> _Misfit:
     """Return what the stated model, its numbers fitted, leaves of slips; scatter beside noise counts as such if random."""
-    regression, terms = Regression(pool), stated_terms(pool, dict(uncertainty))
+    regression, terms = Regression(pool), stated_terms(pool, uncertainty)
     solution = regression.fit(terms) if random else regression.solve(terms, np.full(3, LOWEST))
-    rest = regression.residuals(terms, solution)
+    rest = Baseline(regression, terms, solution).residuals()
     means: list[Array] = []
     weights: list[Array] = []
     varying, freedom = np.zeros(2), np.zeros(4)

@@ -6,12 +6,9 @@ import dataclasses
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip.decision.explained import explained_with_its_form, unexplained
-from stochfric_mb.discovery.stick_slip.decision.held_out_check import Comparison, compared, without_last
+from stochfric_mb.discovery.stick_slip.decision.decision import Decision, Named
 from stochfric_mb.discovery.stick_slip.decision.random_effects import kicked
-from stochfric_mb.discovery.stick_slip.decision.rounds import Decision, Named, of_wander
-from stochfric_mb.discovery.stick_slip.feature_skill import slip_force_gap
-from stochfric_mb.discovery.stick_slip.predictive_check import inadequate
+from stochfric_mb.discovery.stick_slip.decision.rounds import of_wander
 from stochfric_mb.discovery.stick_slip.screening.folding import comes_back
 from stochfric_mb.discovery.stick_slip.simulation.forecast import score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, deterministic, floor_of, mean_score, settled
@@ -20,6 +17,10 @@ from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, likelihood_r
 from stochfric_mb.discovery.stick_slip.simulation.scatter import matched
 from stochfric_mb.discovery.stick_slip.simulation.strength import decided_by_ratio, undecided
 from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.discovery.stick_slip.validation.explained import explained_with_its_form, unexplained
+from stochfric_mb.discovery.stick_slip.validation.feature_skill import slip_force_gap
+from stochfric_mb.discovery.stick_slip.validation.held_out_check import Comparison, compared, without_last
+from stochfric_mb.discovery.stick_slip.validation.predictive_check import inadequate
 from stochfric_mb.effects import kind_with_signature, kinds_with
 from stochfric_mb.effects.traits import OUTSIDE_FORECASTS, SCATTER, WANDER
 
