@@ -9,11 +9,12 @@ from stochfric_mb.discovery import criteria, discover
 from stochfric_mb.discovery.inference.paired import paired
 from stochfric_mb.discovery.result import Gap
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
+from stochfric_mb.discovery.stick_slip.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision import choice
-from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
+from stochfric_mb.discovery.stick_slip.decision.cases import cases_of, predict
 from stochfric_mb.discovery.stick_slip.decision.chance import before_effects, without_accidents
 from stochfric_mb.discovery.stick_slip.decision.choice import Chosen, choose
-from stochfric_mb.discovery.stick_slip.decision.confirmation import cases_of, confirm, predict
+from stochfric_mb.discovery.stick_slip.decision.confirmation import confirm
 from stochfric_mb.discovery.stick_slip.decision.entrainment import entrained
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.decision.rounds import decide
