@@ -9,20 +9,24 @@ from stochfric_mb.discovery import criteria, discover
 from stochfric_mb.discovery.inference.paired import paired
 from stochfric_mb.discovery.result import Gap
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
+from stochfric_mb.discovery.stick_slip.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision import choice
-from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
+from stochfric_mb.discovery.stick_slip.decision.cases import cases_of, predict
+from stochfric_mb.discovery.stick_slip.decision.chance import before_effects, without_accidents
 from stochfric_mb.discovery.stick_slip.decision.choice import Chosen, choose
-from stochfric_mb.discovery.stick_slip.decision.confirmation import cases_of, confirm, predict
+from stochfric_mb.discovery.stick_slip.decision.confirmation import confirm
 from stochfric_mb.discovery.stick_slip.decision.entrainment import entrained
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.decision.rounds import decide
 from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_step, steady
+from stochfric_mb.discovery.stick_slip.decision.working_model import WorkingModel
 from stochfric_mb.discovery.stick_slip.notes import notes, of_the_record
 from stochfric_mb.discovery.stick_slip.records.stick_phases import analyse
 from stochfric_mb.discovery.stick_slip.refusal import refusal
 from stochfric_mb.discovery.stick_slip.screening.competitors import competitors, softening
 from stochfric_mb.discovery.stick_slip.screening.naming import with_candidate
 from stochfric_mb.discovery.stick_slip.screening.power import smallest
+from stochfric_mb.discovery.stick_slip.screening.regression import baseline_of
 from stochfric_mb.discovery.stick_slip.screening.screen import screen
 from stochfric_mb.discovery.stick_slip.simulation.delay_compensation import driven, with_delay, without_delay
 from stochfric_mb.discovery.stick_slip.study import study
@@ -134,6 +138,35 @@ def test_the_effect_that_was_planted_is_chosen(slip_study, candidates, cases):
     assert isinstance(chosen, Chosen)
     assert chosen.candidate.name == "velocity_weakening"
     assert details["confirmation_1"]["believed"][0] == before.chi2
+
+
+def test_the_planted_effect_is_taken_into_the_model_and_out_of_the_slips(slip_study, candidates):
+    working = WorkingModel(slip_study)
+    working.look_at(candidates)
+    assert (working.kinds, working.shape_left, working.seen) == ([], 1.0, None)
+    chosen = choose(slip_study, working.model, candidates, working.cases, working.confirmed, {})
+    assert working.take(chosen, {})
+    assert working.kinds == ["velocity_weakening"]
+    assert working.named[0].before.effects == ()
+    assert working.shape_left < criteria.FORM_MISSES
+    assert screen(working.baseline)[0].score < 0.1 * candidates[0].score
+
+
+def test_an_effect_in_all_slips_is_not_put_down_to_chance(slip_study, candidates):
+    details = {}
+    assert before_effects(slip_study, candidates, details) is False
+    assert not details["switching"]["regular"]
+
+
+def test_a_slip_that_stands_far_out_is_left_out_and_many_are_not(slip_study):
+    def with_far(count: int):
+        features = slip_study.pool.features.copy()
+        features[3 : 3 + count, 0] += 0.5 * slip_study.pool.static[0]
+        return baseline_of(dataclasses.replace(slip_study.pool, features=features), slip_study.uncertainty)
+
+    one, many = with_far(1), with_far(10)
+    assert list(np.flatnonzero(one.pool.kept & ~without_accidents(one).pool.kept)) == [3]
+    assert without_accidents(many) is many
 
 
 def test_slips_that_keep_to_a_wave_are_simulated_as_such(slip_study, cases):

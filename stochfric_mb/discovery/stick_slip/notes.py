@@ -6,7 +6,7 @@ from typing import Any
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Gap
-from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
+from stochfric_mb.discovery.stick_slip.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision
 from stochfric_mb.discovery.stick_slip.records.long_records import FORECAST, SIMULATED
 from stochfric_mb.discovery.stick_slip.simulation.model import Model

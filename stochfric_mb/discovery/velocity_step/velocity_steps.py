@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.joint_result import JointOutcome
-from stochfric_mb.discovery.driven_joint.simulation.pictures import step_picture
+from stochfric_mb.discovery.driven_joint.simulation.pictures import Picture, step_picture
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.inference.noise import independent_count, white_noise
 from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
@@ -61,12 +61,16 @@ def spring_slider_outcome(dataset: Dataset, progress: Callable[[str], None]) -> 
     kept = term if term is not None and term.carries_over else None
     unnamed = {} if where is None else {"unnamed_term": NOWHERE if term is None else term.sentence}
     result = _result(dataset, tracks, plain, closest, fits, scores, where, kept, unnamed)
-    augmented = {"augmented": kept.fitted} if kept is not None else {"augmented": best} if accepted else {}
-    friction = {"data": np.concatenate([t.friction for t in tracks])}
-    for name, fitted in ({"recalibrated": plain} | augmented).items():
-        friction[name] = np.concatenate(fitted.law.predict(tracks, fitted.values))
-    picture = step_picture(np.concatenate([t.run.time for t in tracks]), friction)
+    final = closest if kept is None else kept.fitted
+    picture = _picture(tracks, {"recalibrated": plain} | ({} if final is plain else {"augmented": final}))
     return JointOutcome(result, _augmented(dataset, closest, kept), dataset, pictures=(picture,))
+
+
+def _picture(tracks: Sequence[Track], models: Mapping[str, Fitted]) -> Picture:
+    """Return friction over time, measured and by each model, as `step_picture` gives it."""
+    series = {"data": np.concatenate([t.friction for t in tracks])}
+    series |= {name: np.concatenate(f.law.predict(tracks, f.values)) for name, f in models.items()}
+    return step_picture(np.concatenate([t.run.time for t in tracks]), series)
 
 
 def _fits(tracks: Sequence[Track], dataset: Dataset, progress: Callable[[str], None]) -> list[Fitted]:

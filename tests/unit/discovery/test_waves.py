@@ -8,6 +8,7 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.record import make_record
 from stochfric_mb.discovery.stick_slip.records.slips import extract
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import waves_in
+from stochfric_mb.discovery.stick_slip.screening.naming import _bounded
 from stochfric_mb.discovery.stick_slip.screening.regression import START, Baseline, Regression, Terms, stated_terms
 from stochfric_mb.discovery.stick_slip.screening.waves import _gains, best_wave, frequencies, wave_columns
 from stochfric_mb.effects import make_effect
@@ -75,3 +76,9 @@ def test_a_wave_along_the_belt_is_looked_for_by_the_waves_of_a_typical_run(entra
     assert wave.pace == pytest.approx(np.median(BELTS) / min(BELTS))
     longest = wave.setting(frequencies(pool, wave.pace)[0])
     assert longest == pytest.approx(np.median(BELTS) * pool.duration / 3.0)
+
+
+@pytest.mark.parametrize("amplitude", [0.3, 1.05, 1300.0])
+def test_a_ripple_that_screening_makes_larger_than_the_load_begins_within_its_bounds(amplitude):
+    ripple = _bounded("normal_load_ripple", {"amplitude": amplitude, "frequency": 1.0})
+    assert ripple.amplitude == pytest.approx(min(amplitude, 1.0), abs=2.1e-3)  # a thousandth of the range of 2 inside

@@ -9,7 +9,8 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, confirm
+from stochfric_mb.discovery.stick_slip.decision.cases import Case
+from stochfric_mb.discovery.stick_slip.decision.confirmation import Confirmed, confirm
 from stochfric_mb.discovery.stick_slip.decision.entrainment import Trial, entrained
 from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING
 from stochfric_mb.discovery.stick_slip.screening.naming import with_candidate

@@ -13,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, confirm
+from stochfric_mb.discovery.stick_slip.decision.cases import Case
+from stochfric_mb.discovery.stick_slip.decision.confirmation import Confirmed, confirm
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import waves_in

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.stick_slip.decision.confirmation import ANY, Case, predict
+from stochfric_mb.discovery.stick_slip.decision.cases import ANY, Case, predict
 from stochfric_mb.discovery.stick_slip.records.calibration import LEAST_ERROR, Calibration
 from stochfric_mb.discovery.stick_slip.records.pool import LEAST_DWELL, Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array

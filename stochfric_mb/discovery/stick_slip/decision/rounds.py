@@ -8,7 +8,7 @@ from typing import cast
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
-from stochfric_mb.discovery.stick_slip.decision.belt_speed import belt_speed
+from stochfric_mb.discovery.stick_slip.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.chance import before_effects, without_accidents
 from stochfric_mb.discovery.stick_slip.decision.choice import SHAPES, Chosen, choose
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision, Finding

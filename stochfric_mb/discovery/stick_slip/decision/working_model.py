@@ -9,8 +9,9 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.false_alarms import likely
+from stochfric_mb.discovery.stick_slip.decision.cases import Case, cases_of
 from stochfric_mb.discovery.stick_slip.decision.choice import REFIT_WINDOWS, Chosen
-from stochfric_mb.discovery.stick_slip.decision.confirmation import Case, Confirmed, SeenInSlips, cases_of, confirm
+from stochfric_mb.discovery.stick_slip.decision.confirmation import Confirmed, SeenInSlips, confirm
 from stochfric_mb.discovery.stick_slip.decision.decision import Finding, Named, selected, term_of
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_by
 from stochfric_mb.discovery.stick_slip.decision.kinematics import delay_deviation, with_kinematic

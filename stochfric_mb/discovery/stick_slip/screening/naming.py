@@ -93,8 +93,9 @@ def _bounded(kind: str, values: Mapping[str, float | str]) -> Effect:
         if isinstance(value, str):
             kept[name] = value
             continue
-        inside = 1.0e-3 * abs(value) if about[name]["strict"] else 0.0
-        kept[name] = float(np.clip(value, about[name]["low"] + inside, about[name]["high"] - inside))
+        low, high = about[name]["low"], about[name]["high"]
+        inside = 1.0e-3 * min(abs(value), high - low) if about[name]["strict"] else 0.0
+        kept[name] = float(np.clip(value, low + inside, high - inside))
     return make_effect(kind, **kept)
 
 

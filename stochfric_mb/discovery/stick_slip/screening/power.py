@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.stick_slip.decision.confirmation import evidence_in_medians, evidence_needed
+from stochfric_mb.discovery.stick_slip.decision.cases import evidence_in_medians
+from stochfric_mb.discovery.stick_slip.decision.confirmation import evidence_needed
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
 from stochfric_mb.discovery.stick_slip.screening.regression import Terms
