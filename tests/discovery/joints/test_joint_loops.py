@@ -61,6 +61,6 @@ def test_what_it_cannot_read_is_refused():
         loops(JointLoop(position_gain=3.0, reference="goal", factor="stiffness"))
     with pytest.raises(InputError, match="did you mean 'goal'"):
         loops(JointLoop(position_gain=3.0, reference="gaol"))
-    undriven = Mjcf(file=Path("arm.xml"), friction={"elbow": 1.0}, positions={"elbow": "q"})
+    undriven = Mjcf(file=Path("arm.xml"), friction={"elbow": 1.0}, positions={"elbow": "q"}, drives={})
     with pytest.raises(InputError, match="'elbow' has no drive that a controller could give"):
         loops(JointLoop(position_gain=3.0, reference="goal"), undriven)
