@@ -142,6 +142,29 @@ def test_joints_hold_each_other():
     assert np.abs(data.qpos - early).max() < 1e-9
 
 
+@pytest.mark.parametrize(("integrator", "servo"), [("Euler", False), ("implicit", False), ("implicitfast", True)])
+@pytest.mark.parametrize("ratio", [0.5, 5.0, 50.0])
+def test_a_damped_joint_is_braked_by_all_its_friction(integrator, servo, ratio):
+    """From h c/m = 1 on friction pushed it: its row asked for the acceleration of a stop, of which damping leaves a part."""
+    h, mass, cap, v = 2e-3, 2.0, 4.0, 0.1
+    damping = ratio * mass / h
+    spec = mujoco.MjSpec.from_string(SLIDER.format(dt=h, integrator=integrator))
+    if servo:
+        spec.add_actuator(target="x", trntype=mujoco.mjtTrn.mjTRN_JOINT).set_to_velocity(kv=damping)
+    else:
+        spec.joint("x").damping = [damping, 0.0, 0.0]
+    engine.add_friction(spec, engine.Joint("x"), Coulomb(0.5, 0.4), normal_force=cap / 0.4)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.qvel[0] = v
+    while v > h * cap / mass:
+        v = (v - h * cap / mass) / (1.0 + ratio)  # implicit in damping, as all three integrators are
+        mujoco.mj_step(model, data)
+        assert data.qvel[0] == pytest.approx(v, rel=1e-9)
+    mujoco.mj_step(model, data)
+    assert abs(data.qvel[0]) < 2e-3 * v  # friction could stop it within this step; a thousandth is what its row lets pass
+
+
 CHAIN = """<mujoco><option timestep="2e-3" jacobian="{jacobian}"/><worldbody>
 <body pos="0 0 1"><freejoint/><geom size=".1" mass="5"/>{links}</body></worldbody>
 <tendon><fixed name="pull"><joint joint="j0" coef=".5"/><joint joint="j5" coef="-2"/></fixed></tendon></mujoco>"""

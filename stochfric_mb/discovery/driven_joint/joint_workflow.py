@@ -148,14 +148,13 @@ def _outcome(source: Balances, tell: Progress, readings: Sequence[Effect], said:
             channel = None
     dataset = source.dataset
     places.sort(key=_evidence)
-    timing = places[0].timing
     places, floor = _adequate(source, tell, places)
     places = [with_idle(p) for p in places]
     places[0] = with_unnamed(dataset, places[0])
     notes += _run_notes(dataset)
     result = verdict(dataset, places, notes, floor, readings, channel)
     pictures = tuple(map(friction_picture, places))
-    scenario = augmented(dataset.scenario, places, timing, readings)
+    scenario = augmented(dataset.scenario, places, readings)
     return JointOutcome(result, scenario, dataset, places=tuple(places), pictures=pictures)
 
 

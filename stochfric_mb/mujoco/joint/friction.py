@@ -133,7 +133,7 @@ def follow(m, d, state, law, slot, old, known):
 def undamped_part(m, header, slot):
     """Return the part of the solver's acceleration that is left where the integrator takes the joint's damping implicitly.
 
-    That is 1/(1 + h c/m). A stuck row asks for what is to be left. What other damping leaves out is known a step late
+    That is 1/(1 + h c/m). A row asks for what is to be left. What other damping leaves out is known a step late
     (`lead`), which beyond h c/m = 4 would shake: the roots of v' = v + g s, z' = z + v', s' = (1 - g) s - v' - z'/4, with
     g = 1/(1 + h c/m) and time in steps, are then outside the unit circle.
     """
@@ -170,16 +170,15 @@ def steer(m, d, state, law, since):
     if since > 0.0:
         v = -along_row(m, d, header, d.qvel)
         z = 0.5 * since * (slot.vx + v)
-    resistance = LEAK * locked_mobility(m, d, header)
+    resistance, stiffness, position = LEAK * locked_mobility(m, d, header), 0.0, 0.0
     if slot.slides != 0.0:
         slot.cap = call_slide(law.slide, abs(v), slot.mu_s, slot.mu_k, header.parameters.ctypes.data)
-        set_resistance(m, d, place, resistance)
-        set_reference(d, place, 1.0 / h, 0.0, 0.0)
     else:
         resistance, stiffness, slot.cap = solver.spring_and_cap(m, state, law, slot, resistance)
-        part = undamped_part(m, header, slot)
-        set_resistance(m, d, place, resistance / part)
-        set_reference(d, place, 1.0 / (h * part), stiffness / part, -(slot.z[0] + z + slot.lead[0] / stiffness))
+        position = -(slot.z[0] + z + slot.lead[0] / stiffness)
+    slot.undamped = undamped_part(m, header, slot)
+    set_resistance(m, d, place, resistance / slot.undamped)
+    set_reference(d, place, 1.0 / (h * slot.undamped), stiffness / slot.undamped, position)
     set_limit(d, place, slot.cap * slot.given)
 
 
@@ -223,7 +222,7 @@ def learn(m, d, state, current):
     slot.loose = slot.saturated
     slot.foreseen = 1.0 if slot.slides == 0.0 and not saturated and m.integrator != RUNGE_KUTTA and place >= 0 else 0.0
     if slot.foreseen != 0.0:
-        slot.a[0] = -undamped_part(m, header, slot) * along_row(m, d, header, d.qacc)
+        slot.a[0] = -slot.undamped * along_row(m, d, header, d.qacc)
 
 
 @compiled

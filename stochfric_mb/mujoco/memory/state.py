@@ -101,6 +101,7 @@ SLOT = _record(
     ("pull", 3),  # friction force on the body in the step before [N], world axes
     # of explicit steps, joints and tendons alone:
     ("on_body", 3), ("on_surface", 3),  # the contact point in the frames of the two bodies
+    "undamped",  # the part of the solver's acceleration that is left of it where damping is implicit [-]
     ("work", 4), ("before", 5), ("guards", GUARDS), ("hold", 2),  # see `contact.law`
     ("state", MAX_STATE),  # the law's
 )  # fmt: skip

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.balances import BESIDE
-from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.effects import Effect, kind_with_signature, make_effect
 from stochfric_mb.effects.traits import DRAWN_ANEW, LATE
@@ -23,11 +22,9 @@ def stated_scatter(scenario: Scenario[Any], process: str) -> float:
     return float(np.sqrt(sum(e["sigma_k"] ** 2 for e in declared if e["process"] == process)))
 
 
-def augmented(
-    scenario: Scenario[Any], places: Sequence[PlaceOutcome], timing: Timing | None, readings: Sequence[Effect] = ()
-) -> Scenario[Any]:
-    """Return the scenario with the identified effects; of several joints, the first one's effects, in that joint."""
-    model = places[0].selected.final.model
+def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], readings: Sequence[Effect] = ()) -> Scenario[Any]:
+    """Return the scenario with the identified effects; of several joints, the first one's effects and delay, in that joint."""
+    model, timing = places[0].selected.final.model, places[0].timing
     effects = list(model.effects_in(places[0].fit[0].run))
     drawn = _drawn(places[0])
     effects += [
