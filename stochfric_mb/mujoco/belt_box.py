@@ -192,9 +192,7 @@ def trajectory_of(model: mujoco.MjModel, state: Array, rows: Array, scenario: Sc
     law, notes = running_law(scenario.law, scenario.mechanism, scenario.effects, dt, substitute=True, **address)
     n_steps = (scenario.n_outputs - 1) * round(scenario.output_step / dt)
     trajectory = Trajectory(
-        time=scenario.output_times(),
-        **{name: rows[:, i].copy() for i, name in enumerate(
-            ("position", "velocity", "friction_force", "normal_force", "mu_s", "mu_k", "stick"))},
+        scenario.output_times(), *rows.T.copy(),
         attributes={
             "engine": "mujoco", "version": mujoco.__version__, "hook": HOOK, "dt": dt, **address,
             "law": getattr(law, "inner", law).kind, "notes": notes,
