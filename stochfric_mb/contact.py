@@ -199,14 +199,16 @@ def _compute(functions, address, descriptor, cursor, p, state, book, out, t, ux,
     here = state
     if book[ALIVE] == 0.0:
         here = np.zeros(MAX_STATE)
-        call_law(
-            functions[0], t, ux, uy, vx, vy, normal_force, mu_s, mu_k, book[MASS], hx, hy,
-            here.ctypes.data, p.ctypes.data, here.ctypes.data,
-        )  # fmt: skip
+        _call(functions[0], t, ux, uy, vx, vy, normal_force, mu_s, mu_k, book[MASS], hx, hy, here, p, here)
+    _call(functions[1], t, ux, uy, vx, vy, normal_force, mu_s, mu_k, book[MASS], hx, hy, here, p, out)
+
+
+@compiled
+def _call(function, t, ux, uy, vx, vy, normal_force, mu_s, mu_k, mass, hx, hy, state, p, out):
+    """Call a function of the law; arrays that a caller passes live on while addresses of them are in use."""
     call_law(
-        functions[1], t, ux, uy, vx, vy, normal_force, mu_s, mu_k, book[MASS], hx, hy,
-        here.ctypes.data, p.ctypes.data, out.ctypes.data,
-    )  # fmt: skip
+        function, t, ux, uy, vx, vy, normal_force, mu_s, mu_k, mass, hx, hy, state.ctypes.data, p.ctypes.data, out.ctypes.data
+    )
 
 
 @compiled
@@ -236,10 +238,7 @@ def _advance(functions, address, descriptor, cursor, p, state, book, out, t, ux,
         book[ALIVE], book[STUCK] = 0.0, 0.0
         return
     which = 0 if book[ALIVE] == 0.0 else 2
-    call_law(
-        functions[which], t, ux, uy, vx, vy, normal_force, mu_s, mu_k, book[MASS], hx, hy,
-        state.ctypes.data, p.ctypes.data, out.ctypes.data,
-    )  # fmt: skip
+    _call(functions[which], t, ux, uy, vx, vy, normal_force, mu_s, mu_k, book[MASS], hx, hy, state, p, out)
     for i in range(functions[3]):
         state[i] = out[i]
     book[ALIVE] = 1.0

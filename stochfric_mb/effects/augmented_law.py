@@ -248,10 +248,15 @@ def _see(t, ux, vx, state, mu_s, mu_k, p, begins, w, memory):
 @compiled
 def _ask(which, t, u, v, normal_force, mu_s, mu_k, effective_mass, state, p, out):
     """Call a function of the law inside; its answer is in ``out``."""
-    q = as_doubles(int(p[2]))
     inside = np.empty(INNER)
     for i in range(INNER):
         inside[i] = state[i]
+    _call(as_doubles(int(p[2])), which, t, u, v, normal_force, mu_s, mu_k, effective_mass, inside, out)
+
+
+@compiled
+def _call(q, which, t, u, v, normal_force, mu_s, mu_k, effective_mass, inside, out):
+    """Call a function of the law inside; arrays that a caller passes live on while addresses of them are in use."""
     call_law(
         int(q[which]), t, u, 0.0, v, 0.0, normal_force, mu_s, mu_k, effective_mass, 0.0, 0.0,
         inside.ctypes.data, int(q[INNER_P]), out.ctypes.data,

@@ -82,17 +82,17 @@ def tangent_mass(model, data, state, contact, slot, body, surface):
     """Return the mass [kg] that a tangential force feels, 1/(J M^-1 J^T) in the direction where it is smallest."""
     m, d = model_at(model), data_at(data)
     nv = m.nv
-    rows = np.empty((4, nv)).ctypes.data if nv > s.MAX_ROW else s.header_record(state).rows.ctypes.data
-    for j in range(2 * nv):
-        w.put(rows, j, 0.0)
+    room = s.room_in(s.header_record(state)) if nv <= s.MAX_ROW else np.empty(4 * nv)
+    room[: 2 * nv] = 0.0
+    rows = room.ctypes.data
     add_forces(m, d, body, surface, contact.pos, slot.axis_1, 1.0, rows)
     add_forces(m, d, body, surface, contact.pos, slot.axis_2, 1.0, rows + 8 * nv)
     engine.mj_solveM(model, data, rows + 16 * nv, rows, np.int32(2))
     a, b, c = 0.0, 0.0, 0.0
     for j in range(nv):
-        a += w.at(rows, j) * w.at(rows, 2 * nv + j)
-        b += w.at(rows, nv + j) * w.at(rows, 3 * nv + j)
-        c += w.at(rows, j) * w.at(rows, 3 * nv + j)
+        a += room[j] * room[2 * nv + j]
+        b += room[nv + j] * room[3 * nv + j]
+        c += room[j] * room[3 * nv + j]
     largest = 0.5 * (a + b) + length(0.5 * (a - b), c)
     return 1.0 / largest if largest > 0.0 else 0.0
 

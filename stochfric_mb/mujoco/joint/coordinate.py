@@ -79,7 +79,8 @@ def mobility(m, d, header):
 
     With MuJoCo's M = L' D L that is the square of D^(-1/2) L'^-1 J', whose entries are those of the row and of what bears it.
     """
-    part, total = np.zeros(m.nv), 0.0
+    part, total = s.room_in(header) if m.nv <= 4 * s.MAX_ROW else np.empty(m.nv), 0.0
+    part[: m.nv] = 0.0
     add_row(m, d, header, 1.0, part.ctypes.data)
     for i in range(m.nv - 1, -1, -1):
         if part[i] != 0.0:
@@ -88,24 +89,6 @@ def mobility(m, d, header):
                 part[w.int_at(m.M_colind, k)] -= w.at(d.qLD, k) * part[i]
             total += part[i] * part[i] * w.at(d.qLDiagInv, i)
     return total
-
-
-@compiled
-def locked_mobility(m, d, header):
-    """Return the mobility [1/kg or 1/(kg m^2)] of the coordinate where all others are locked, the sum of J_j^2/M_jj."""
-    number = int(header.geom_surface)
-    if not is_tendon(header):
-        return 1.0 / inertia(m, d, w.int_at(m.jnt_dofadr, number))
-    first, total = w.int_at(m.ten_J_rowadr, number), 0.0
-    for j in range(first, first + w.int_at(m.ten_J_rownnz, number)):
-        total += w.at(d.ten_J, j) ** 2 / inertia(m, d, w.int_at(m.ten_J_colind, j))
-    return total
-
-
-@compiled
-def inertia(m, d, dof):
-    """Return the inertia [kg or kg m^2] of all that a degree of freedom moves, the diagonal element of M."""
-    return w.at(d.M, w.int_at(m.M_rowadr, dof) + w.int_at(m.M_rownnz, dof) - 1)
 
 
 @compiled

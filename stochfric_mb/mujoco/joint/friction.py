@@ -22,7 +22,6 @@ from stochfric_mb.mujoco.joint.coordinate import (
     bearing_load,
     friction_row,
     is_tendon,
-    locked_mobility,
     mobility,
     position_of,
     resting_load,
@@ -32,12 +31,15 @@ from stochfric_mb.mujoco.memory import state as s
 from stochfric_mb.mujoco.memory.structs import DAMPING, DISCRETE, EULER, N_BIAS, N_GEAR, RUNGE_KUTTA, data_at, model_at
 from stochfric_mb.numerics import memory as w
 
-LEAK = 1.0e-3
-"""Share of what would move a stuck coordinate in a step, all others locked, that its row lets pass: R over the mobility.
+LEAK = 8.0e-5
+"""Share of what would move a free coordinate in a step that its friction row lets pass, R over the mobility.
 
-MuJoCo's own R is up to 1e4 times that, since it is of the mobility with all others free, and lets a chain of light links sag by
-milliradians. With a smaller one Newton's method crosses more kinks: 24 joints of a Shadow hand take 1.4 iterations a step with
-1e-3 (1.2 natively), 3.3 with 1e-5. A quadruped stands on the friction of its joints to 6e-6 rad at 2 ms, 8e-5 rad at 10 ms.
+What is held sags by h^2 R F/`RIGID` and comes back with its load: chosen so that an arm of four like links sags by less than
+1e-5 rad at 5 ms. Six links of 30 g that hold 1 kg at 0.6 m sag by 1.7e-5 rad at 2 ms, a quadruped that stands on the friction
+of its joints by 5e-7, and by 7e-6 at 10 ms. With a smaller share Newton's method crosses more kinks: 24 joints of a Shadow
+hand take 1.3, 1.4 and 2.0 iterations a step with 1e-3, 1e-4 and 1e-5 (natively 1.2). MuJoCo's own share, 0.1 of the mobility in
+the model's first position, lets such chains sag by milliradians, and slide with a fifth of their friction where something
+holds them.
 """
 
 NO_DAMPING = int(mujoco.mjtDisableBit.mjDSBL_DAMPER)
@@ -170,7 +172,7 @@ def steer(m, d, state, law, since):
     if since > 0.0:
         v = -along_row(m, d, header, d.qvel)
         z = 0.5 * since * (slot.vx + v)
-    resistance, stiffness, position = LEAK * locked_mobility(m, d, header), 0.0, 0.0
+    resistance, stiffness, position = LEAK / slot.felt, 0.0, 0.0
     if slot.slides != 0.0:
         slot.cap = call_slide(law.slide, abs(v), slot.mu_s, slot.mu_k, header.parameters.ctypes.data)
     else:

@@ -219,3 +219,9 @@ def descriptor_of(state):
 def cursor_of(state):
     """Return the cursor of the coefficient path."""
     return w.vector(state + _CURSOR, CURSOR)
+
+
+@compiled
+def room_in(header):
+    """Return the header's room to work in, 4 * `MAX_ROW` doubles."""
+    return w.vector(header.rows.ctypes.data, 4 * MAX_ROW)

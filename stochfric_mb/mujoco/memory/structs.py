@@ -40,7 +40,7 @@ _DATA = (
     "cdof", "qpos", "qvel", "qacc", "qacc_warmstart", "ctrl", "qfrc_passive", "plugin_state", "plugin_data", "sensordata",
     "ten_J", "ten_length", "efc_type", "efc_id", "efc_J", "efc_J_rownnz", "efc_J_rowadr", "efc_J_colind", "efc_pos",
     "efc_margin", "efc_frictionloss", "efc_diagA", "efc_KBIP", "efc_D", "efc_R", "efc_AR", "efc_AR_rowadr", "efc_AR_colind",
-    "efc_force", "map_efc2iefc", "iefc_frictionloss", "iefc_D", "iefc_R", "cfrc_int", "flg_rnepost", "M", "qLD", "qLDiagInv",
+    "efc_force", "map_efc2iefc", "iefc_frictionloss", "iefc_D", "iefc_R", "cfrc_int", "flg_rnepost", "qLD", "qLDiagInv",
 )  # fmt: skip
 _CONTACT = (
     "dist", "pos", "frame", "includemargin", "friction", "surfacevel", "solref", "solreffriction", "solimp", "mu", "dim",
