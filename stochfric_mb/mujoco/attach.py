@@ -92,8 +92,8 @@ def add_friction(
         return name
     if normal_force is not None or radius is not None:
         raise InputError(
-            f"normal_force = {normal_force!r}, radius = {radius!r} are for joints and tendons; contacts have MuJoCo's own "
-            "normal force"
+            f"normal_force = {normal_force!r}, radius = {radius!r} are for joints and tendons, and {geoms!r} is neither: write "
+            "Joint(name) or Tendon(name); contacts have MuJoCo's own normal force"
         )
     body, surface = require_geoms(spec, geoms)
     pairs = colliding_pairs(spec, body, surface) if ANY in (body, surface) else [(body, surface)]
