@@ -48,5 +48,4 @@ def test_sysid_finds_friction_through_the_plugins_configuration():
     result = example.main()
     for name, truth in example.TRUTH.items():
         # 10 um of noise on 0.5 m leave 1e-5; sysid's interpolation of the pushes leaves 3e-3
-        # switches fall on steps of 2 ms, so the residual is a rough function of the parameters: the optimiser ends near by
-        assert result[name] == pytest.approx(truth, rel=0.02)
+        assert result[name] == pytest.approx(truth, rel=0.005)
