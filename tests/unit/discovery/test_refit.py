@@ -24,7 +24,7 @@ MOTION = np.linspace(0.0, 2.8e-3, N_OUTPUTS)
 def windows():
     record = make_record("run", np.arange(1000) * 1e-3, np.zeros(1000), BOX)
     noise = NOISE * np.random.default_rng(3).standard_normal((COUNT, N_OUTPUTS))
-    return Windows(record, np.zeros((COUNT, 3)), MOTION + noise, 1)
+    return Windows(record, np.zeros((COUNT, 3)), MOTION + noise, 1, np.zeros(COUNT))
 
 
 def fitted(monkeypatch, windows, shown):

@@ -117,10 +117,10 @@ def _distinguished(study: Study, model: Model, effects: Sequence[Candidate]) -> 
 
 def _alike_in_forecasts(study: Study, trials: Sequence[tuple[Candidate, Model]]) -> list[Candidate]:
     """Return the candidates whose models forecast as well as the best one when refitted, in the order given."""
-    fits = [refit(m, study.windows, study.uncertainty, most=REFIT_WINDOWS, evaluations=20) for _, m in trials]
-    best = min(fits, key=lambda f: f.cost)
-    near = zip(trials, fits, strict=True)
-    return [c for (c, _), f in near if likelihood_ratio(best, f, study.windows) < criteria.ALIKE_SCREENED]
+    fitted = [refit(m, study.windows, study.uncertainty, most=REFIT_WINDOWS, evaluations=20).model for _, m in trials]
+    best = min(fitted, key=lambda m: likelihood_ratio(fitted[0], m, study.windows))
+    near = zip(trials, fitted, strict=True)
+    return [c for (c, _), m in near if likelihood_ratio(best, m, study.windows) < criteria.ALIKE_SCREENED]
 
 
 def _best_score(candidates: Iterable[Candidate]) -> float:

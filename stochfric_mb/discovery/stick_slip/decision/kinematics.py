@@ -16,7 +16,8 @@ from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.decision import Finding
 from stochfric_mb.discovery.stick_slip.records.record import Array, Record
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
-from stochfric_mb.discovery.stick_slip.records.stick_phases import Sticking, centred
+from stochfric_mb.discovery.stick_slip.records.stick_phases import Sticking
+from stochfric_mb.discovery.stick_slip.records.stick_waves import in_slips_too, wave_in_stick
 from stochfric_mb.discovery.stick_slip.screening.competitors import step_times, steps
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import refit
@@ -68,10 +69,7 @@ def _best_in_forecasts(study: Study, trials: Sequence[Model], *, most: int, eval
 
 def _ripple_phase(slips: Slips, frequency: float) -> float:
     """Return the phase of a ripple of the belt's speed [rad], from what its integral leaves in the stick phases of a run."""
-    samples = slips.stick
-    angle = 2.0 * np.pi * frequency * samples.time
-    waves = [centred(c, samples.segment) for c in (np.cos(angle), np.sin(angle), samples.time)]
-    a, b, _ = np.linalg.lstsq(np.stack(waves, axis=1), centred(samples.residual, samples.segment), rcond=None)[0]
+    a, b = wave_in_stick(slips, frequency)
     # the position is the integral, v_b A/w sin(w t + phase) = v_b A/w (cos w t sin phase + sin w t cos phase)
     return float(np.arctan2(a, b))
 
@@ -163,8 +161,12 @@ def _least(sticking: Sticking) -> float:
 
 def _of_the_sensor(study: Study, sticking: Sticking, best: str, score: float) -> bool:
     """Return whether what is seen in stick is a sensor's: its zero steps or drifts, or wanders by less than a reading errs."""
-    if best in (CREEPING_ZERO, JUMP) or (best == BELT_RIPPLE and _of_the_zero(study, sticking.settings[best]["frequency"])):
+    if best in (CREEPING_ZERO, JUMP):
         return True
+    if best == BELT_RIPPLE:
+        frequency = sticking.settings[best]["frequency"]
+        if _of_the_zero(study, frequency) or sum(in_slips_too(s, frequency) for s in study.pool.slips) > criteria.NAMED:
+            return True
     slow = score < _least(sticking) and sticking.departure < criteria.STICK_DEPARTS
     return slow and best not in CREEP and not _in_noise_alone(best, sticking)
 

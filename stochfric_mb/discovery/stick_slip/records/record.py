@@ -59,6 +59,11 @@ class Noise:
         """Standard deviation of the white part [m]."""
         return math.sqrt(max(self.deviation**2 - self.coloured**2, 0.0))
 
+    def of_mean(self, count: int) -> float:
+        """Return the standard deviation of the mean of so many samples [m], with the coloured part at its long-run strength."""
+        slow = self.coloured**2 * (1.0 + self.memory) / (1.0 - self.memory)
+        return math.sqrt((self.white**2 + slow) / count)
+
     def draw(self, n: int, generator: np.random.Generator) -> Array:
         """Return ``n`` samples of such noise [m]."""
         noise = self.white * generator.standard_normal(n)

@@ -17,7 +17,7 @@ from stochfric_mb.discovery.inference.frequency_search import worth_a_look
 from stochfric_mb.discovery.inference.threads import CORES, in_threads
 from stochfric_mb.discovery.stick_slip.records.record import Array, Noise
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, StickSamples
-from stochfric_mb.discovery.stick_slip.records.stick_waves import wave_gains
+from stochfric_mb.discovery.stick_slip.records.stick_waves import centred, wave_gains
 from stochfric_mb.effects.traits import BELT_RIPPLE, CREEPING_ZERO, JUMP, YIELDING
 
 FINENESS = 4.0
@@ -69,17 +69,6 @@ class _Phases:
         design = np.stack([self.line, *(centred(c, self.samples.segment) for c in columns)], axis=1)
         design = design / np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
         return self.values - design @ np.linalg.lstsq(design, self.values, rcond=1.0e-9)[0]
-
-
-def centred(column: Array, segment: np.ndarray) -> Array:
-    """Return a column less its mean in each phase; ``segment``: the phase of each sample."""
-    return column - (np.bincount(segment, column) / np.maximum(np.bincount(segment), 1))[segment]
-
-
-def bin_deviation(noise: Noise, size: int) -> float:
-    """Return the standard deviation of a bin's mean [m], with the coloured part at its long-run strength."""
-    slow = noise.coloured**2 * (1.0 + noise.memory) / (1.0 - noise.memory)
-    return float(np.sqrt((noise.white**2 + slow) / size))
 
 
 def analyse(slips: Sequence[Slips]) -> Sticking | None:
@@ -170,7 +159,7 @@ def _creep(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> dic
 
 def _phases(slips: Slips) -> _Phases:
     samples = slips.stick
-    deviation = bin_deviation(slips.noise, samples.bin_size)
+    deviation = slips.noise.of_mean(samples.bin_size)
     values, line = (centred(column, samples.segment) for column in (samples.residual / deviation, samples.time))
     return _Phases(slips, samples, values, line, deviation)
 

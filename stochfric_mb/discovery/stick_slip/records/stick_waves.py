@@ -1,4 +1,7 @@
-"""Waves in stick phases: how much of what the phases show a cosine and a sine of each frequency would explain."""
+"""Waves in stick phases: how much of what the phases show each frequency would explain, and whether slips hold a wave as well.
+
+A sensor shows its own waves all along; a belt moves no sliding box.
+"""
 
 # pyright: reportMissingParameterType=false, reportUnknownParameterType=false, reportUnknownVariableType=false
 # pyright: reportUnknownArgumentType=false, reportUnknownMemberType=false
@@ -11,9 +14,15 @@ import math
 import numpy as np
 
 from stochfric_mb.compile import compiled
+from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.records.slips import Slips
 
 SPACED = 1.0e-9
 """Share by which two distances between samples may differ to be the same [-]: a hundred such steps turn a wave by 1e-7."""
+FEWEST = 12
+"""Samples below which a slip says nothing of a wave beside its own motion."""
+EDGE = 0.1
+"""Share of a slip at either end that is left out: its edges are not known so well [-]."""
 
 
 @compiled
@@ -66,3 +75,41 @@ def wave_gains(grid, time, segment, line, rest):
         if determinant > 1.0e-9 * aa * bb:
             gains[i] = (bb * ar * ar - 2.0 * ab * ar * br + aa * br * br) / determinant
     return gains
+
+
+def centred(column: Array, segment: np.ndarray) -> Array:
+    """Return a column less its mean in each phase; ``segment``: the phase of each sample."""
+    return column - (np.bincount(segment, column) / np.maximum(np.bincount(segment), 1))[segment]
+
+
+def wave_in_stick(slips: Slips, frequency: float) -> Array:
+    """Return the amplitudes of cosine and sine of a wave in the position [m], as a run's stick phases show it, shape (2,)."""
+    samples = slips.stick
+    angle = 2.0 * np.pi * frequency * samples.time
+    columns = [centred(c, samples.segment) for c in (np.cos(angle), np.sin(angle), samples.time)]
+    wave = np.linalg.lstsq(np.stack(columns, axis=1), centred(samples.residual, samples.segment), rcond=None)[0][:2]
+    return np.asarray(wave, dtype=np.float64)
+
+
+def in_slips_too(slips: Slips, frequency: float) -> float:
+    """Return twice the log likelihood ratio of the stick phases' wave being in the slips as well, to there being none [-].
+
+    A slip's own motion, a free oscillation about a level that may drift, is fitted beside it in each slip.
+    """
+    record = slips.record
+    wave, total = wave_in_stick(slips, frequency), 0.0
+    half = np.pi * frequency * slips.stick.bin_size / record.rate  # means over bins show less of it
+    wave = wave / max(np.sinc(half / np.pi), 0.1)
+    for begin, end in zip(slips.onset_time, slips.restick_time, strict=True):
+        edge = EDGE * (end - begin)
+        first, last = np.searchsorted(record.time, (begin + edge, end - edge))
+        if last - first < FEWEST:
+            continue
+        time = record.time[first:last]
+        turned, angle = record.angular_frequency * (time - time[0]), 2.0 * np.pi * frequency * time
+        own = np.stack([np.ones_like(time), time - time[0], np.cos(turned), np.sin(turned)], axis=1)
+        basis = np.linalg.qr(own)[0]
+        added = np.cos(angle) * wave[0] + np.sin(angle) * wave[1]
+        shown, added = (x - basis @ (basis.T @ x) for x in (record.position[first:last], added))
+        total += float(shown @ shown - (shown - added) @ (shown - added))
+    return total / slips.noise.deviation**2

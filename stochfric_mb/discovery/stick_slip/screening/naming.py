@@ -103,7 +103,9 @@ def _periodic(model: Model, candidate: Candidate, pool: Pool, coefficients: Arra
     harmonics = int(candidate.hypothesis.setting[-1])
     main = candidate.hypothesis.setting[0]
     pairs = coefficients.reshape(pool.n_runs, harmonics, 2)
-    amplitudes = np.hypot(pairs[..., 0], pairs[..., 1]).mean(axis=0)
+    # slips of a run that keep to the wave are all alike, and tell its size hardly at all
+    variance = (candidate.solution.deviations[-coefficients.size :] ** 2).reshape(pairs.shape).sum(axis=2)
+    amplitudes = np.average(np.hypot(pairs[..., 0], pairs[..., 1]), axis=0, weights=1.0 / variance)
     # a cos + b sin = A cos(theta + phase)
     phases = np.arctan2(-pairs[..., 1], pairs[..., 0])
     if candidate.along_belt:

@@ -44,6 +44,8 @@ class Windows:
     """Position as measured [m], shape (n, N_OUTPUTS)."""
     stride: int
     """Samples between two outputs."""
+    uncertain: Array
+    """Standard deviation of the position at the start [m], shape (n,)."""
 
     def __len__(self) -> int:
         return len(self.starts)
@@ -54,7 +56,12 @@ class Windows:
 
     def part(self, chosen: slice | np.ndarray) -> Windows:
         """Return some of the windows."""
-        return dataclasses.replace(self, starts=self.starts[chosen], targets=self.targets[chosen])
+        starts, targets, uncertain = self.starts[chosen], self.targets[chosen], self.uncertain[chosen]
+        return dataclasses.replace(self, starts=starts, targets=targets, uncertain=uncertain)
+
+    def started(self, deviations: float) -> Windows:
+        """Return the windows with starts that are so many standard deviations further on."""
+        return dataclasses.replace(self, starts=self.starts + deviations * self.uncertain[:, None] * np.r_[0.0, 1.0, 0.0])
 
 
 def windows_of(slips: Slips) -> Windows:
@@ -63,8 +70,9 @@ def windows_of(slips: Slips) -> Windows:
     n = len(slips)
     starts: list[tuple[float, float, float]] = []
     targets: list[Array] = []
+    uncertain: list[float] = []
     if n < 2:
-        return Windows(record, np.zeros((0, 3)), np.zeros((0, N_OUTPUTS)), 1)
+        return Windows(record, np.zeros((0, 3)), np.zeros((0, N_OUTPUTS)), 1, np.zeros(0))
     stride = max(round(REACH * slips.cycle * record.rate / N_OUTPUTS), 1)
     dwells = slips.onset_time[1:] - slips.restick_time[:-1]
     typical = float(np.median(dwells))
@@ -84,7 +92,10 @@ def windows_of(slips: Slips) -> Windows:
              record.time[middle] - slips.restick_time[i])
         )  # fmt: skip
         targets.append(record.raw[middle + stride : last + 1 : stride])
-    return Windows(record, np.array(starts).reshape(-1, 3), np.array(targets).reshape(-1, N_OUTPUTS), stride)
+        uncertain.append(slips.noise.of_mean(2 * half + 1))
+    return Windows(
+        record, np.array(starts).reshape(-1, 3), np.array(targets).reshape(-1, N_OUTPUTS), stride, np.array(uncertain)
+    )
 
 
 def forecasts(model: Model, windows: Windows, *, sample: int = 0) -> Array:

@@ -30,6 +30,8 @@ LEAST_STEP, WIDEST = 1.0e-6, 30.0
 """Shortest and widest step of the slopes that intervals come from, over a natural step of each number [-]."""
 ALIKE = 3.0
 """Factor within which two slopes, or a change of the errors and one standard deviation, count as alike [-]."""
+STARTS = np.linspace(-3.0, 3.0, 13)
+"""Where a forecast may begin, in standard deviations of what is known of its start [-]."""
 MOST_STEPS = 10
 """Steps that are tried for such a slope."""
 LEAST_CURVATURE = 1.0e-8
@@ -122,12 +124,24 @@ def cost_of(model: Model, windows: Sequence[Windows], *, most: int = MOST_WINDOW
 
 def _robust(errors: Array) -> float:
     """Return half the sum of squares of errors, of those beyond `TYPICAL` by size [-]."""
-    return float(TYPICAL**2 * np.sum(np.sqrt(1.0 + (errors / TYPICAL) ** 2) - 1.0))
+    return float(np.sum(_each(errors)))
 
 
-def likelihood_ratio(fit: Fit, fewer: Fit, windows: Sequence[Windows]) -> float:
-    """Return twice the log likelihood ratio of a fit to one of a smaller model, in what forecasts count as independent [-]."""
-    return 2.0 * (fewer.cost - fit.cost) / _Misfit(fit.model, windows, {}, (), MOST_WINDOWS).spread(2.0 * fit.cost)
+def _each(errors: Array) -> Array:
+    """Return the same row by row, shape (n,) of (n, k)."""
+    return np.asarray(TYPICAL**2 * np.sum(np.sqrt(1.0 + (errors / TYPICAL) ** 2) - 1.0, axis=-1))
+
+
+def likelihood_ratio(model: Model, other: Model, windows: Sequence[Windows]) -> float:
+    """Return twice the log likelihood ratio of a model to another one, in what forecasts count as independent [-].
+
+    All forecasts count, not only those that a fit used: a wave's frequency may be wrong by a wave between two of these. Each
+    begins where it is least wrong, as far as noise lets the start be off: a wave to which slips keep knows when the box breaks
+    away whatever the start, and would be better by that alone.
+    """
+    misfits = [_Misfit(m, windows, {}, (), max(map(len, windows))) for m in (model, other)]
+    cost, others = (sum(float(m.least(w).sum()) for w in m.windows) for m in misfits)
+    return 2.0 * (others - cost) / misfits[0].spread(2.0 * cost)
 
 
 def with_deviations(
@@ -288,6 +302,15 @@ class _Misfit:
         """Return the errors of a model's forecasts, shape (targets,)."""
         errors = (forecasts(model, windows) - windows.targets) / self.unit
         return np.nan_to_num(np.clip(errors, -CLIP, CLIP), nan=CLIP).ravel()
+
+    def least(self, windows: Windows) -> Array:
+        """Return what the model as it is leaves of each forecast, begun where it leaves least, shape (n,); cf. `_robust`."""
+        noise = windows.record.noise / self.unit
+        tried = [
+            _each(self._error_of(self.model, windows.started(d)).reshape(windows.targets.shape)) + 0.5 * (d * noise) ** 2
+            for d in STARTS
+        ]
+        return np.min(tried, axis=0)
 
     def spread(self, squares: float) -> float:
         """Return the variance that errors count with, from their robust sum of squares."""

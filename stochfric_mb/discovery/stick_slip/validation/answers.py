@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 
+import numpy as np
+
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision, Named
@@ -17,12 +19,12 @@ from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, likelihood_r
 from stochfric_mb.discovery.stick_slip.simulation.scatter import matched
 from stochfric_mb.discovery.stick_slip.simulation.strength import decided_by_ratio, undecided
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.discovery.stick_slip.validation.explained import explained_with_its_form, unexplained
+from stochfric_mb.discovery.stick_slip.validation.explained import explained_with_its_form, taken_back, unexplained
 from stochfric_mb.discovery.stick_slip.validation.feature_skill import slip_force_gap
 from stochfric_mb.discovery.stick_slip.validation.held_out_check import Comparison, compared, without_last
 from stochfric_mb.discovery.stick_slip.validation.predictive_check import inadequate
 from stochfric_mb.effects import kind_with_signature, kinds_with
-from stochfric_mb.effects.traits import OUTSIDE_FORECASTS, SCATTER, WANDER
+from stochfric_mb.effects.traits import MOVES_ZERO, OUTSIDE_FORECASTS, SCATTER, WANDER
 
 
 @dataclasses.dataclass(frozen=True)
@@ -115,13 +117,32 @@ def _poor(answer: Answer, slip_study: Study, recalibrated: Fit) -> Decision | No
     """Return another decision if forecasts or forces of the fit runs say that this one explains too little; None if enough."""
     decision = answer.decision
     poor = unexplained(slip_study, decision, recalibrated.model, answer.model)
-    if poor is not None or decision.verdict != "effect" or explained_with_its_form(decision):
+    if poor is not None or decision.verdict != "effect":
         return poor
+    far = _far_off(answer.model, recalibrated.model, slip_study)
+    if far is not None:
+        return taken_back(decision, f"comes closest, but with it {far} stated standard deviations off from what is stated")
+    if explained_with_its_form(decision):
+        return None
     where, decision.details["adequacy"] = inadequate(slip_study, answer.model)
     if where is None:
         return None
     text = f"{decision.named[0].kind} comes closest, but {where.text}"
     return dataclasses.replace(decision, verdict="unknown", named=(), where=Where(where.axis, text))
+
+
+def _far_off(model: Model, recalibrated: Model, slip_study: Study) -> str | None:
+    """Return which coefficient of friction effects push far off from what is stated, and by how much; None: none."""
+    stated, doubt = slip_study.dataset.scenario.law, slip_study.uncertainty
+    for name in ("mu_s", "mu_k"):
+        believed, deviation = getattr(stated, name), doubt.get(name, 0.0)
+        off, before = (
+            abs(getattr(m.law, name) - believed) / (believed * deviation) if believed * deviation else 0.0
+            for m in (model, recalibrated)
+        )
+        if off > max(criteria.MOST_OFF, before):
+            return f"{name} would be {off:.2g}"
+    return None
 
 
 def _instead(decision: Decision, slip_study: Study) -> list[Decision]:
@@ -139,7 +160,7 @@ def checked_on_held_out(answer: Answer, slip_study: Study, recalibrated: Fit, ru
     """Return the answer less the effects that held-out runs do not bear out, last selected first.
 
     An effect must not make their forecasts worse, and must make them or the forces of their slips better; a further one must
-    make the forecasts better. What is named then has a strength that differs from zero.
+    make the forecasts better. All together must not make them worse. What is named then has a strength that differs from zero.
     """
     if answer.decision.named and answer.decision.form is not None:
         answer = _with_form(answer, answer.decision.form.kind, slip_study, recalibrated, runs)
@@ -153,6 +174,13 @@ def checked_on_held_out(answer: Answer, slip_study: Study, recalibrated: Fit, ru
             break
         dropped[last.kind] = dataclasses.asdict(seen)
         answer = fewer
+    if len(answer.decision.named) > 1:
+        # scatter that stands beside an effect makes up for what that one does wrong
+        seen = compared(recalibrated.model, answer.model, runs)
+        if seen is not None and seen.worse:
+            last = answer.decision.named[0]
+            dropped |= {n.kind: dataclasses.asdict(seen) for n in answer.decision.named}
+            answer = Answer(dataclasses.replace(answer.decision, named=()), None, recalibrated.model)
     answer = _with_strengths(answer, slip_study, recalibrated)
     if not dropped or last is None:
         return answer
@@ -192,7 +220,7 @@ def _with_strengths(answer: Answer, slip_study: Study, recalibrated: Fit) -> Ans
         fewer = dataclasses.replace(answer.decision, named=rest, model=model)
         assert fit is not None
         other = _fit(fewer, slip_study, recalibrated) if rest else recalibrated
-        ratio = likelihood_ratio(fit, other, slip_study.windows)
+        ratio = likelihood_ratio(fit.model, other.model, slip_study.windows)
         evidence = max(ratio, named[kind].evidence.score or 0.0)
         answer.decision.details.setdefault("strengths", {})[kind] = ratio  # pyright: ignore[reportIndexIssue, reportAttributeAccessIssue]
         if evidence >= criteria.STRENGTH_DECIDED:
@@ -220,7 +248,21 @@ def _nothing_left(answer: Answer, last: Named, runs: HeldOut) -> Decision:
     """Return the decision where held-out runs have refused every effect: none, or unknown where much is to be explained."""
     error = mean_score(answer.model, runs)
     reducible = error - min(floor_of(answer.model, runs), error)
-    if reducible < criteria.LEAST_REDUCIBLE * error:
+    if reducible < criteria.LEAST_REDUCIBLE * error or (
+        last.kind in kinds_with(MOVES_ZERO) and _slow_noise(error, reducible, runs)
+    ):
         return dataclasses.replace(answer.decision, verdict="none")
     text = f"{last.kind} comes closest on the fit runs, but makes forecasts of the held-out runs worse"
     return dataclasses.replace(answer.decision, verdict="unknown", where=Where(last.where.axis, text))
+
+
+def _slow_noise(error: float, reducible: float, runs: HeldOut) -> bool:
+    """Return whether what forecasts miss beyond noise is no more than a reading errs: a zero that wanders so little is noise.
+
+    Args:
+        error: mean absolute error [m].
+        reducible: part of it beyond that of a true model [m].
+        runs: the forecast runs.
+    """
+    beyond = float(np.sqrt(np.pi / 2.0 * (error**2 - (error - reducible) ** 2)))  # as a standard deviation
+    return beyond < criteria.STICK_DEPARTS * max(s.noise.deviation for s in runs.slips)

@@ -37,7 +37,7 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
     if decision.verdict == "unknown":
         return None
     kinds = {n.kind for n in decision.named}
-    windows = _judged(study, kinds)
+    windows = _judged(study, kinds, decision.model)
     if not windows:
         return None
     runs = HeldOut(study.pool.slips[:2], windows, windows)
@@ -85,9 +85,13 @@ def _too_little(decision: Decision, enough: float, without: Array, with_: Array,
     return taken_back(decision, why) if float(left.mean()) - enough * floor > criteria.LACKS * doubt else None
 
 
-def _judged(study: Study, kinds: set[str]) -> tuple[Windows, ...]:
-    """Return the forecasts of the fit runs that say what is explained; none where the effects named show elsewhere."""
-    if kinds and kinds <= set(kinds_with(OUTSIDE_FORECASTS)):
+def _judged(study: Study, kinds: set[str], model: Model) -> tuple[Windows, ...]:
+    """Return the forecasts of the fit runs that say what is explained; none where the effects named show elsewhere.
+
+    A delay behind a measured velocity is measured itself; a forecast that starts late as well shows little of it.
+    """
+    elsewhere = {e.kind for e in model.effects if any(hasattr(e, name) for name in model.measured)}
+    if kinds and kinds <= {*kinds_with(OUTSIDE_FORECASTS), *elsewhere}:
         return ()
     return tuple(_scattered(w, JUDGED_WINDOWS) for w in study.windows if len(w))
 
