@@ -34,6 +34,8 @@ WORDS = {
 CHANGES = tuple(f"change_{i}" for i in range(1, 7))
 """Parameters that are the table, from the second knot on."""
 
+LEAST_LOAD = 1.0e-3
+"""Normal force over the reference load below which the force of the table falls with it [-]: nothing presses there."""
 FINER = 0.01
 """Deviation by which a fit may move a knot [-]: the curve is that of the features, forecasts refine it."""
 
@@ -46,7 +48,7 @@ def _change(knot: int) -> float:
 class Unnamed(Effect):
     """mu_k plus a table over speed, position, slip, time, load or temperature, and mu_s plus static_share times it.
 
-    The table is linear between seven knots, evenly spaced from ``low`` to ``high``, 0 at the first and constant outside.
+    With a reference load the table counts times reference_load/N: what it adds is a force of its own. The table is linear between seven knots, evenly spaced from ``low`` to ``high``, 0 at the first and constant outside.
 
     Reference: C. de Boor, A Practical Guide to Splines, Springer 1978, chapter III (broken lines).
     """
@@ -72,6 +74,12 @@ class Unnamed(Effect):
     """The same at the sixth knot [-]."""
     change_6: float = _change(6)
     """The same at the seventh knot [-]."""
+    reference_load: float = parameter(
+        "N", "normal force at which the changes hold, if they are a force that it does not change", scale=10.0, low=0.0,
+        default=0.0,
+    )  # fmt: skip
+    """Normal force at which the changes hold, the force that they make being the same at any other [N]; 0: the force grows with
+    the load, as friction does."""
 
     kind: ClassVar[str] = "unnamed"
     equation: ClassVar[str] = (
@@ -124,5 +132,7 @@ def friction(world, memory, rates, p):
     change += (p[7] - p[6]) * min(max(k - 3.0, 0.0), 1.0)
     change += (p[8] - p[7]) * min(max(k - 4.0, 0.0), 1.0)
     change += (p[9] - p[8]) * min(max(k - 5.0, 0.0), 1.0)
+    if p[10] > 0.0:
+        change *= p[10] / max(world[NORMAL_FORCE], LEAST_LOAD * p[10])
     world[MU_K] = max(world[MU_K] + change, 0.0)
     world[MU_S] = max(world[MU_S] + p[3] * change, 0.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -25,6 +26,8 @@ ENDS = 0.01, 0.99
 
 SPANS = (1.0, 0.3)
 """Shares of what they visit that the table covers [-]."""
+LOADS_DIFFER = 0.05
+"""Range of the loads over the median from which on they tell a force from a coefficient [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -61,21 +64,26 @@ def smooth_term(baseline: Baseline, model: Model, axis: Axis, among: int = 1) ->
     """
     first, last = (float(np.quantile(axis.in_slip, q)) for q in ENDS)
     spread = SIZE * float(baseline.solution.coefficients[0]) / np.arange(1, ORDERS + 1) ** 2
+    load = baseline.pool.normal_force
+    reference = float(np.median(load))
 
-    def fitted(share: float) -> tuple[Solution, float, float]:
+    def fitted(share: float, reference: float) -> tuple[Solution, float, float, float]:
         high = first + share * (last - first)
-        return baseline.fitted(_columns(baseline.pool, axis, first, high), spread), first, high
+        weight = np.full(len(load), reference) if reference else load
+        return baseline.fitted(_columns(baseline.pool, axis, first, high, weight), spread), first, high, reference
 
-    # what begins with every slip may be over soon
+    # what begins with every slip may be over soon; what loads differ by tells a coefficient from a force
     spans = SPANS if axis.at_onset is None else SPANS[:1]
-    best, low, high = min(map(fitted, spans), key=lambda f: f[0].cost)
-    choice = 2.0 * float(np.log(among * len(spans)))
+    references = (0.0, reference) if np.ptp(load) > LOADS_DIFFER * reference and axis.name != "load" else (0.0,)
+    ways = list(itertools.product(spans, references))
+    best, low, high, held = min((fitted(*way) for way in ways), key=lambda f: f[0].cost)
+    choice = 2.0 * float(np.log(among * len(ways)))
     score = 2.0 * (baseline.solution.cost - best.cost) - ORDERS * baseline.price - choice
     numbers = best.coefficients
     table = _polynomials(np.linspace(-1.0, 1.0, KNOTS)) @ numbers[-ORDERS:]
     values = {f"change_{i}": float(table[i] - table[0]) for i in range(1, KNOTS)}
     share = 0.0 if axis.at_onset is None else 1.0
-    term = make_effect(kinds_with(ANONYMOUS)[0], axis=axis.name, low=low, high=high, static_share=share, **values)
+    term = make_effect(kinds_with(ANONYMOUS)[0], axis=axis.name, low=low, high=high, static_share=share, reference_load=held, **values)
     start = beside(model, np.r_[numbers[0], numbers[1] + table[0], numbers[2:]])
     return SmoothTerm(score, start.plus(term), best)
 
@@ -103,9 +111,8 @@ def _polynomials(place: Array) -> Array:
     return np.asarray(legendre.legvander(np.clip(place, -1.0, 1.0), ORDERS)[..., 1:], dtype=np.float64)
 
 
-def _columns(pool: Pool, axis: Axis, low: float, high: float) -> list[Array]:
-    """Return what each polynomial would change for a unit of the coefficient, shape (n, N_FEATURES)."""
-    load = pool.normal_force
+def _columns(pool: Pool, axis: Axis, low: float, high: float, load: Array) -> list[Array]:
+    """Return what each polynomial would change for a unit of the coefficient under ``load`` [N], shape (n, N_FEATURES)."""
     inside = _polynomials(2.0 * (axis.in_slip - low) / (high - low) - 1.0)
     at_onset = None if axis.at_onset is None else _polynomials(2.0 * (axis.at_onset - low) / (high - low) - 1.0)
     return [
