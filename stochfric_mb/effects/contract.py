@@ -185,6 +185,10 @@ class Effect:
         """
         return np.zeros((len(position), self.n_memory))
 
+    def fitted_together(self) -> tuple[tuple[str, ...], Array]:
+        """Return parameters whose priors in a fit hang together, and the covariance in units of these priors, shape (k, k)."""
+        return (), np.zeros((0, 0))
+
     def shortest_time(self, speed: float) -> float:
         """Return the shortest period [s] that the effect brings in while the contact moves at ``speed`` [m/s]."""
         return math.inf

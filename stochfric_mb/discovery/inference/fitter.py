@@ -48,7 +48,7 @@ def minimised(
     difference: float,
     evaluations: int,
     tolerance: float,
-    outlying: float = np.inf,
+    outlying: float | Array = np.inf,
     threads: bool = False,
 ) -> Minimum:
     """Return where the sum of squares is smallest; where it or its slopes are no numbers, the last point at which they were.
@@ -61,7 +61,8 @@ def minimised(
         difference: step of the finite differences, in the numbers' own unit.
         evaluations: most iterations.
         tolerance: relative fall of the cost, seen or promised by the slopes, below which it ends [-].
-        outlying: residuals beyond this count by their size, not its square: the loss is C^2 (sqrt(1 + (r/C)^2) - 1).
+        outlying: residuals beyond this, one for all or shape (n,), count by their size, not its square: the loss is
+            C^2 (sqrt(1 + (r/C)^2) - 1).
         threads: whether derivatives are taken in several threads, where compiled code makes the residuals: they stay the same.
     """
     anew = functools.partial(_slopes, errors, low=low, high=high, difference=difference, threads=threads)
@@ -100,19 +101,22 @@ def minimised(
     return Minimum(x, _weighted(slopes, rest, outlying)[0], cost)
 
 
-def _cost(rest: Array, outlying: float) -> float:
-    if not np.isfinite(outlying):
-        return 0.5 * float(rest @ rest)
-    return outlying**2 * float(np.sum(np.sqrt(1.0 + (rest / outlying) ** 2) - 1.0))
+def _cost(rest: Array, outlying: float | Array) -> float:
+    return float(np.sum(loss(rest, outlying)))
 
 
-def _weighted(slopes: Array, rest: Array, outlying: float) -> tuple[Array, Array]:
+def loss(rest: Array, outlying: float | Array) -> Array:
+    """Return the loss of residuals, half their squares or, of those beyond ``outlying``, about their size times that."""
+    squares = rest**2
+    # the same as C^2 (sqrt(1 + (r/C)^2) - 1), without the difference
+    return squares / (1.0 + np.sqrt(1.0 + squares / np.asarray(outlying) ** 2))
+
+
+def _weighted(slopes: Array, rest: Array, outlying: float | Array) -> tuple[Array, Array]:
     """Return derivatives and residuals weighted such that Gauss and Newton's equations are those of the loss.
 
     Reference: B. Triggs, P. McLauchlan, R. Hartley, A. Fitzgibbon, Bundle adjustment, 2000, section 4.3.
     """
-    if not np.isfinite(outlying):
-        return slopes, rest
     z = 1.0 + (rest / outlying) ** 2
     return slopes * z[:, None] ** -0.75, rest * z**0.25
 

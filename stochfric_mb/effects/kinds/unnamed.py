@@ -8,6 +8,9 @@ from __future__ import annotations
 import dataclasses
 from typing import ClassVar
 
+import numpy as np
+from numpy.polynomial import legendre
+
 from stochfric_mb.effects.contract import (
     MU_K,
     MU_S,
@@ -17,6 +20,7 @@ from stochfric_mb.effects.contract import (
     SPEED,
     TEMPERATURE,
     TIME,
+    Array,
     Effect,
     choice,
     parameter,
@@ -37,7 +41,10 @@ CHANGES = tuple(f"change_{i}" for i in range(1, 7))
 LEAST_LOAD = 1.0e-3
 """Normal force over the reference load below which the force of the table falls with it [-]: nothing presses there."""
 FINER = 0.01
-"""Deviation by which a fit may move a knot [-]: the curve is that of the features, forecasts refine it."""
+"""Deviation of the first polynomial by which a fit may move the curve [-]: it is that of the features, forecasts refine it."""
+SMOOTH, CORNERS = 4, 0.05
+"""Polynomials by which it may move, the k-th one by 1/k^2 of the first, and single knots beside them over the first [-]: a few
+runs each tell a number or two, and knots of their own would follow any of them."""
 
 
 def _change(knot: int) -> float:
@@ -48,7 +55,8 @@ def _change(knot: int) -> float:
 class Unnamed(Effect):
     """mu_k plus a table over speed, position, slip, time, load or temperature, and mu_s plus static_share times it.
 
-    With a reference load the table counts times reference_load/N: what it adds is a force of its own. The table is linear between seven knots, evenly spaced from ``low`` to ``high``, 0 at the first and constant outside.
+    With a reference load the table counts times reference_load/N: what it adds is a force of its own. The table is linear
+    between seven knots, evenly spaced from ``low`` to ``high``, 0 at the first and constant outside.
 
     Reference: C. de Boor, A Practical Guide to Splines, Springer 1978, chapter III (broken lines).
     """
@@ -106,6 +114,12 @@ class Unnamed(Effect):
     def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
         """Return the ends of the table, which are those of the motion."""
         return ("low", "high")
+
+    def fitted_together(self) -> tuple[tuple[str, ...], Array]:
+        """Return the knots: the curve is smooth."""
+        waves = legendre.legvander(np.linspace(-1.0, 1.0, len(CHANGES) + 1), SMOOTH)[:, 1:]
+        moved = (waves - waves[0])[1:] / np.arange(1, SMOOTH + 1) ** 2
+        return CHANGES, moved @ moved.T + CORNERS**2 * np.eye(len(CHANGES))
 
     def unit_of(self, name: str) -> str:
         """Return the unit of a parameter; that of the ends is the axis's."""

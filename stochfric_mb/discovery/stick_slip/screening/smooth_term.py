@@ -83,7 +83,9 @@ def smooth_term(baseline: Baseline, model: Model, axis: Axis, among: int = 1) ->
     table = _polynomials(np.linspace(-1.0, 1.0, KNOTS)) @ numbers[-ORDERS:]
     values = {f"change_{i}": float(table[i] - table[0]) for i in range(1, KNOTS)}
     share = 0.0 if axis.at_onset is None else 1.0
-    term = make_effect(kinds_with(ANONYMOUS)[0], axis=axis.name, low=low, high=high, static_share=share, reference_load=held, **values)
+    term = make_effect(
+        kinds_with(ANONYMOUS)[0], axis=axis.name, low=low, high=high, static_share=share, reference_load=held, **values
+    )
     start = beside(model, np.r_[numbers[0], numbers[1] + table[0], numbers[2:]])
     return SmoothTerm(score, start.plus(term), best)
 

@@ -8,13 +8,14 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from stochfric_mb.discovery.inference.fitter import minimised
+from stochfric_mb.discovery.inference.fitter import loss, minimised
 from stochfric_mb.discovery.inference.free_parameter import FreeParameter, steps_of
 from stochfric_mb.discovery.inference.threads import in_threads
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, forecasts
 from stochfric_mb.discovery.stick_slip.simulation.model import Model, adjusted, free_parameters
 from stochfric_mb.discovery.stick_slip.simulation.natural_units import NaturalUnits
+from stochfric_mb.effects import Effect
 
 MOST_WINDOWS = 16
 """Forecasts a run that a fit uses, spread over the run."""
@@ -32,6 +33,8 @@ ALIKE = 3.0
 """Factor within which two slopes, or a change of the errors and one standard deviation, count as alike [-]."""
 STARTS = np.linspace(-3.0, 3.0, 13)
 """Where a forecast may begin, in standard deviations of what is known of its start [-]."""
+LIGHTER = 0.7
+"""Share of what priors weighed in a fit, below which they weigh less where it ended for it to go on [-]."""
 MOST_STEPS = 10
 """Steps that are tried for such a slope."""
 LEAST_CURVATURE = 1.0e-8
@@ -103,10 +106,16 @@ def refit(
     """
     misfit = _Misfit(model, windows, uncertainty, only, most)
     misfit.beside(further, weigh or model)
-    minimum = minimised(
-        misfit.errors, np.zeros(len(misfit.free)), misfit.steps.low, misfit.steps.high, difference=DIFFERENCE,
-        evaluations=evaluations, tolerance=1.0e-4, outlying=typical, threads=True,
-    )  # fmt: skip
+    x = np.zeros(len(misfit.free))
+    while True:
+        weight = misfit.believe(x)
+        minimum = minimised(
+            misfit.errors, x, misfit.steps.low, misfit.steps.high, difference=DIFFERENCE,
+            evaluations=evaluations, tolerance=1.0e-4, outlying=misfit.outlying(typical), threads=True,
+        )  # fmt: skip
+        x = minimum.x
+        if not misfit.believed(x) < LIGHTER * weight:
+            break
     values = misfit.steps.values(minimum.x)
     spread = misfit.spread(2.0 * minimum.cost)
     size = np.sqrt((minimum.jacobian**2).sum(axis=0))
@@ -129,7 +138,7 @@ def _robust(errors: Array) -> float:
 
 def _each(errors: Array) -> Array:
     """Return the same row by row, shape (n,) of (n, k)."""
-    return np.asarray(TYPICAL**2 * np.sum(np.sqrt(1.0 + (errors / TYPICAL) ** 2) - 1.0, axis=-1))
+    return loss(errors, TYPICAL).sum(axis=-1)
 
 
 def likelihood_ratio(model: Model, other: Model, windows: Sequence[Windows]) -> float:
@@ -248,6 +257,17 @@ def _slope(change: Callable[[float], Array], first: float, most: float) -> Array
     return moved / (step * (size if size > ALIKE else 1.0))
 
 
+def _together(free: Sequence[FreeParameter], effects: Sequence[Effect]) -> Array:
+    """Return what makes independent surprises of those of numbers whose priors hang together, shape (p, p)."""
+    whitening = np.eye(len(free))
+    for owner, effect in enumerate(effects):
+        names, correlation = effect.fitted_together()
+        at = [i for i, k in enumerate(free) if k.owner == owner and k.name in names]
+        if at:
+            whitening[np.ix_(at, at)] = np.linalg.inv(np.linalg.cholesky(correlation))
+    return whitening
+
+
 class _Misfit:
     """What forecasts miss, over the free parameters of a model in their natural steps, all 0 at the start."""
 
@@ -265,8 +285,9 @@ class _Misfit:
         self._seen_by = [np.array([k.run in ("", run) for k in self.free], dtype=bool) for run in runs]
         most = 2 + sum(not k.run for k in self.free)
         self._missed = [functools.lru_cache(most)(functools.partial(self._missed_in, w)) for w in self.windows]
+        self._together = _together(self.free, model.effects)
         self._further: Further | None = None
-        self._weight, self._repeats = 0.0, 0
+        self._weight, self._repeats, self._belief = 0.0, 0, 1.0
 
     def beside(self, further: Further | None, model: Model) -> None:
         """Let what else the runs show count, an independent number of it as much as one of a model's forecasts."""
@@ -282,8 +303,22 @@ class _Misfit:
         """Return the errors of forecasts and priors."""
         values = self.steps.values(step)
         parts = [missed(*values[seen]) for missed, seen in zip(self._missed, self._seen_by, strict=True)]
-        # priors enter as one observation each; its weight is that of a cycle's worth of independent errors
-        return np.concatenate([*parts, 3.0 * self.steps.surprise(values)])
+        return np.concatenate([*parts, self._belief * (self._together @ self.steps.surprise(values))])
+
+    def believed(self, step: Array) -> float:
+        """Return what one standard deviation of a prior weighs: what an independent number of a forecast errs."""
+        errors = self.alone(step)[: -len(self.free) or None]
+        return float(np.sqrt(self.spread(2.0 * _robust(errors))))
+
+    def believe(self, step: Array) -> float:
+        """Let priors weigh so much, and return it."""
+        self._belief = self.believed(step)
+        return self._belief
+
+    def outlying(self, typical: float) -> Array:
+        """Return the sizes beyond which errors count by their size [-], shape as `errors`: priors are normal."""
+        count = len(self.errors(np.zeros(len(self.free))))
+        return np.r_[np.full(count - len(self.free), typical), np.full(len(self.free), np.inf)]
 
     def errors(self, step: Array) -> Array:
         """Return the errors of what else the runs show, of forecasts, and of priors, in units of `UNIT` and of deviations."""
