@@ -5,6 +5,8 @@ from collections.abc import Iterable, Iterator
 from .joint_generator.case import Case
 from .joint_generator.forms import FORMS
 from .joint_generator.unseen import UNSEEN
+from .joint_generator.unseen_fifth import PAIRS as UNSEEN_FIFTH_PAIRS
+from .joint_generator.unseen_fifth import UNSEEN_FIFTH
 from .joint_generator.unseen_fourth import UNSEEN_FOURTH
 from .joint_generator.unseen_second import UNSEEN_SECOND
 from .joint_generator.unseen_third import UNSEEN_THIRD
@@ -56,7 +58,13 @@ UNSEEN_SECOND_PAIRS = (
     "payload.counterweight+position_dependent_friction.worn_rack",
 )
 
-SERIES = {1: (UNSEEN, UNSEEN_PAIRS), 2: (UNSEEN_SECOND, UNSEEN_SECOND_PAIRS), 3: (UNSEEN_THIRD, ()), 4: (UNSEEN_FOURTH, ())}
+SERIES = {
+    1: (UNSEEN, UNSEEN_PAIRS),
+    2: (UNSEEN_SECOND, UNSEEN_SECOND_PAIRS),
+    3: (UNSEEN_THIRD, ()),
+    4: (UNSEEN_FOURTH, ()),
+    5: (UNSEEN_FIFTH, UNSEEN_FIFTH_PAIRS),
+}
 """Sets of forms for a report, with their pairs."""
 
 

@@ -10,7 +10,7 @@ from zlib import crc32
 import numpy as np
 from scipy.signal import lfilter
 
-from . import (  # each enters its forms; `sixth` has the others enter theirs first: rigs in turn hang on the order
+from . import (  # each enters its forms; `seventh` has the others enter theirs first: rigs in turn hang on the order
     fifth,  # noqa: F401
     fourth,  # noqa: F401
     friction_forms,  # noqa: F401
@@ -18,6 +18,7 @@ from . import (  # each enters its forms; `sixth` has the others enter theirs fi
     nameless_forms,  # noqa: F401
     null_forms,  # noqa: F401
     second_forms,  # noqa: F401
+    seventh,  # noqa: F401
     sixth,  # noqa: F401
     third,  # noqa: F401
 )
