@@ -98,3 +98,15 @@ def test_cases_cover_the_effects_that_move_the_box() -> None:
     assert moving == set(CASES) | covered_elsewhere
     for kind, values in CASES.items():
         assert {f.name for f in dataclasses.fields(effect_class(kind))} >= set(values)
+
+
+def test_a_table_that_is_a_force_is_half_a_coefficient_under_twice_the_load() -> None:
+    box = BeltBox(mass=6.08, damping=0.768, stiffness=3956.0, normal_force=26.0, belt_velocity=2.5e-3)
+    law = make_law("coulomb", mu_s=0.8, mu_k=0.46)
+    changes = {"change_1": 0.02, "change_2": 0.03, "change_3": -0.01, "change_6": 0.04}
+    table = {"axis": "speed", "low": 0.0, "high": 0.1}
+    force = make_effect("unnamed", **table, **changes, reference_load=13.0)
+    half = make_effect("unnamed", **table, **{name: 0.5 * value for name, value in changes.items()})
+    paths = [augmented_system(box, law, [e]).march(Start(), 1.0e-3, len(TIMES)).position for e in (force, half)]
+    assert np.ptp(paths[0]) > 1.0e-3
+    np.testing.assert_allclose(*paths, rtol=0.0, atol=TOLERANCE)

@@ -61,9 +61,11 @@ class ViscousFriction(Effect):
         return self.coefficient
 
     @classmethod
-    def at_joint(cls, span: JointSpan) -> JointSignature:
-        """Return a force in proportion to the speed."""
-        return JointSignature((cls(coefficient=0.5 * span.friction / span.speed),), "speed", 1)
+    def at_joint(cls, span: JointSpan) -> tuple[JointSignature, ...]:
+        """Return a force in proportion to the speed, and one that levels off early or late."""
+        slope = 0.5 * span.friction / span.speed
+        thins = tuple(cls(coefficient=slope / part, saturation_velocity=part * span.speed) for part in (0.15, 0.5))
+        return JointSignature((cls(coefficient=slope),), "speed", 1), JointSignature(thins, "speed", 2)
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:

@@ -1,4 +1,6 @@
-"""Deviations of fitted numbers: what forecasts leave open, also where errors jump."""
+"""Deviations of fitted numbers: what forecasts leave open, also where errors jump; and what fits go by."""
+
+import dataclasses
 
 import numpy as np
 import pytest
@@ -64,3 +66,44 @@ def test_a_cliff_beside_the_fit_is_no_precision(monkeypatch, windows):
     smooth = 5.0 * NOISE / GAIN / np.sqrt(6 * COUNT)
     assert fit["mu_s"] < 0.2 * smooth
     assert wide["mu_s"] == pytest.approx(smooth, rel=0.1)  # what the other side tells
+
+
+def test_a_model_that_does_not_hang_on_the_start_is_no_better_for_that(monkeypatch, windows):
+    start = 3.0e-6
+    late = start * np.random.default_rng(5).standard_normal(COUNT)
+    edge = 0.5 * MOTION[-1]
+
+    def path(shift):
+        here = MOTION + shift[:, None]
+        return np.where(MOTION + 10.0 * shift[:, None] < edge, here, here - edge)  # a slip, sooner by what the start is off
+
+    noise = NOISE * np.random.default_rng(6).standard_normal((COUNT, N_OUTPUTS))
+    windows = dataclasses.replace(
+        windows, starts=np.stack([np.zeros(COUNT), late, np.zeros(COUNT)], axis=1), targets=path(0.0 * late) + noise,
+        uncertain=np.full(COUNT, start),
+    )  # fmt: skip
+
+    def forecasts(model, asked):
+        return path(asked.starts[:, 1] if model.law.mu_k < 0.45 else 0.0 * late)
+
+    monkeypatch.setattr(refit, "forecasts", forecasts)
+    honest, clock = MODEL.with_law(0.8, 0.4), MODEL.with_law(0.8, 0.5)
+    # chi^2 of one degree and less: with the starts as measured it is 200 and more
+    assert abs(refit.likelihood_ratio(clock, honest, [windows])) < 4.0
+    monkeypatch.setattr(refit, "STARTS", np.zeros(1))
+    assert refit.likelihood_ratio(clock, honest, [windows]) > 40.0
+
+
+@pytest.mark.parametrize(("missing", "moved"), [(0.0, 2.0), (3.0e-4, 0.0)])
+def test_what_is_stated_weighs_more_where_forecasts_miss_more(missing, moved, monkeypatch, windows):
+    wave = np.sin(np.linspace(0.0, 40.0, N_OUTPUTS))
+    drift = 1.0e-3 * np.linspace(-1.0, 1.0, N_OUTPUTS)
+    windows = dataclasses.replace(windows, targets=windows.targets + missing * wave + 0.02 * drift)
+
+    def forecasts(model, asked):
+        return np.full(asked.targets.shape, MOTION + model.corrections.get("stiffness", 0.0) * drift)
+
+    monkeypatch.setattr(refit, "forecasts", forecasts)
+    fit = refit.refit(MODEL, [windows], {"stiffness": 0.01}, most=COUNT)
+    # 2 % of stiffness, two stated deviations, are what the drift in the forecasts asks for
+    assert fit.model.corrections["stiffness"] / 0.01 == pytest.approx(moved, abs=0.5)

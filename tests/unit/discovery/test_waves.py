@@ -1,5 +1,7 @@
 """Waves: the quick search against the plain regression, and a force whose crests the slips keep to."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -7,10 +9,12 @@ from stochfric_mb.discovery.stick_slip.records.calibration import calibrate
 from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.record import make_record
 from stochfric_mb.discovery.stick_slip.records.slips import extract
+from stochfric_mb.discovery.stick_slip.records.stick_waves import in_slips_too, wave_in_stick
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import waves_in
-from stochfric_mb.discovery.stick_slip.screening.naming import _bounded
+from stochfric_mb.discovery.stick_slip.screening.naming import _bounded, with_candidate
 from stochfric_mb.discovery.stick_slip.screening.regression import START, Baseline, Regression, Terms, stated_terms
 from stochfric_mb.discovery.stick_slip.screening.waves import _gains, best_wave, frequencies, wave_columns
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.effects import make_effect
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
@@ -82,3 +86,38 @@ def test_a_wave_along_the_belt_is_looked_for_by_the_waves_of_a_typical_run(entra
 def test_a_ripple_that_screening_makes_larger_than_the_load_begins_within_its_bounds(amplitude):
     ripple = _bounded("normal_load_ripple", {"amplitude": amplitude, "frequency": 1.0})
     assert ripple.amplitude == pytest.approx(min(amplitude, 1.0), abs=2.1e-3)  # a thousandth of the range of 2 inside
+
+
+def test_a_run_that_tells_nothing_of_a_wave_does_not_set_its_size():
+    slips = [SimpleNamespace(record=SimpleNamespace(name=f"run {i}", direction=1)) for i in range(3)]
+    strengths = np.array([0.6, 0.0, 0.0, 0.62, 800.0, 0.0])
+    candidate = SimpleNamespace(
+        name="harmonic_force", is_wave=True, along_belt=False, strengths=strengths,
+        hypothesis=SimpleNamespace(setting=(FREQUENCY, 1.0)),
+        solution=SimpleNamespace(
+            coefficients=np.r_[0.8, 0.46, np.zeros(3), strengths],
+            deviations=np.r_[np.zeros(5), 0.02, 0.02, 0.02, 0.02, 900.0, 900.0],
+        ),
+    )  # fmt: skip
+    model = Model(make_law("coulomb", mu_s=0.8, mu_k=0.46), {})
+    named = with_candidate(model, candidate, SimpleNamespace(n_runs=3, slips=slips)).effects[0]
+    assert named.amplitude == pytest.approx(0.61, abs=0.02)
+
+
+@pytest.mark.parametrize(("of_the_sensor", "sign"), [(True, 1.0), (False, -1.0)])
+def test_a_wave_of_the_sensor_is_in_the_slips_one_of_the_belt_is_not(of_the_sensor, sign):
+    frequency, size = 14.0, 5.0e-6  # two waves in a slip, each as large as the noise
+    box = BeltBox(mass=6.08, damping=0.768, stiffness=3956.0, normal_force=13.0, belt_velocity=BELTS[0])
+    turn = 2.0 * np.pi * frequency
+    ripple = make_effect("belt_speed_ripple", amplitude=size * turn / BELTS[0], frequency=frequency, phase=0.4)
+    law = make_law("coulomb", mu_s=0.8, mu_k=0.46)
+    motion = augmented_system(box, law, [] if of_the_sensor else [ripple]).march(
+        Start(-20.0, 0.0, BELTS[0], stick=True), 1e-3, 50_000
+    )
+    time = np.arange(1, 30_001) * 1e-3
+    position = motion.position[20_000:] + NOISE * np.random.default_rng(0).standard_normal(30_000)
+    if of_the_sensor:
+        position = position + size * np.sin(turn * time + 0.4)
+    slips = extract(make_record("run", time, position, box))
+    assert np.hypot(*wave_in_stick(slips, frequency)) == pytest.approx(size, rel=0.2)
+    assert sign * in_slips_too(slips, frequency) > 20.0
