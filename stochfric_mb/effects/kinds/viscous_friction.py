@@ -57,8 +57,8 @@ class ViscousFriction(Effect):
 
     @property
     def linear_damping(self) -> float:
-        """The coefficient, as long as the film does not thin."""
-        return self.coefficient
+        """The coefficient, where the force is in proportion to the speed and nothing else."""
+        return self.coefficient if self.saturation_velocity == math.inf and self.reference_load == 0.0 else 0.0
 
     @classmethod
     def at_joint(cls, span: JointSpan) -> tuple[JointSignature, ...]:
