@@ -78,6 +78,9 @@ HELD_OUT_MOST = 2.0
 """Standard deviations of a fair coin by which better forecasts must outnumber worse ones to be most [-]."""
 LEAST_REDUCIBLE = 0.08
 """Reducible error, over the error itself, below which shares of it would be noise over noise [-]."""
+SHOWS_IN_FORECASTS = 0.5
+"""Reducible share of the error of forecasts over that of slip forces below which an effect shows in the forces [-]: at less
+than half of it noise hides in a forecast most of what the forces show."""
 CLOSES_NOTHING = 0.02
 """Share of the error of forecasts, or of predicted slip forces, below which a change of it is nothing over nothing: an effect
 that takes away no more of either is not named, and a gap no larger has no closed share [-]."""
@@ -159,9 +162,9 @@ SCATTER_REMAINING = 0.1
 """Share of the stated model's scatter that must remain with the effects in for it to be called random [-]."""
 SCATTER_LEAST_SHARE = 0.004
 """Scatter over the friction itself below which, beside a named effect, it is what the effect's form leaves [-]."""
-FEWEST_KICKED, MOST_KICKED = 0.05, 0.45
-"""Share of cycles with a slip that stands out, or a jump in stick, for which kicks are the reason [-]; one slip of thirty may
-stand out by accident (see `pool`)."""
+ACCIDENTS, MOST_KICKED = 0.05, 0.45
+"""Share of slips that stand out up to which they are no scatter, one slip of thirty may do so by accident (see `pool`), and
+from which on they are no kicks [-]. Kicks of fewer slips throw forecasts off, as edges that noise hides do not."""
 KICK_STRAY = 8.0
 """Robust deviations beyond which a slip is an accident [-]."""
 KICK_LEAST = 0.01

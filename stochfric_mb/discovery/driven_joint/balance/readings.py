@@ -13,6 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
+from scipy.interpolate import CubicSpline
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import stretches
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_columns, with_column
@@ -36,6 +37,8 @@ REPEATED = 3
 """Fewest readings that are the same to the last digit."""
 MISSED = 4.0
 """Jump after them over the usual change between samples and over the resolution, from which the joint has moved on [-]."""
+REGULAR = 0.9
+"""Share of the changes that come at multiples of one interval, from which on a position is sampled at that [-]."""
 FEWEST = 5
 """Fewest of either for a finding: fewer are accidents."""
 CURVE, REACH = 3, 1.5
@@ -78,8 +81,11 @@ def repeated(values: Array) -> list[tuple[int, int]]:
     """Return the stretches in which a position is repeated though the joint moves on: first repeated one, and next new one."""
     moved = np.abs(np.diff(values))
     step = float(np.min(moved[moved > 0.0], initial=np.inf))  # the resolution, where there is one
+    still = stretches(moved == 0.0)
+    if _slower(moved, step):
+        return [(first + 1, last + 1) for first, last in still]
     found: list[tuple[int, int]] = []
-    for first, last in stretches(moved == 0.0):
+    for first, last in still:
         end = last + 1
         if end - first < REPEATED or end >= len(values):
             continue
@@ -89,6 +95,21 @@ def repeated(values: Array) -> list[tuple[int, int]]:
         if moved[last] > MISSED * max(usual, step) and np.count_nonzero(near == 0.0) < 0.5 * len(near):
             found.append((first + 1, end))
     return found
+
+
+def _slower(moved: Array, step: float) -> bool:
+    """Return whether a position is new at every n-th sample only, as a camera's beside a faster record.
+
+    Args:
+        moved: changes from sample to sample, shape (n,).
+        step: least of them: a coarse encoder moves by one, whenever it does.
+    """
+    new = np.flatnonzero(moved)
+    if len(new) < FEW:
+        return False
+    apart = np.diff(new)
+    usual = int(np.median(apart))
+    return usual >= REPEATED and bool(np.mean(apart % usual == 0) > REGULAR and np.median(moved[new]) > MISSED * step)
 
 
 def stray(values: Array) -> Mask:
@@ -113,6 +134,8 @@ def without(values: Array, held: Sequence[tuple[int, int]], off: Mask) -> Array:
     for start, end in held:
         bad[start:end] = True
     good, better = np.flatnonzero(~bad), values.copy()
+    if len(good) < 0.5 * len(values):
+        return CubicSpline(good, values[good])(np.arange(len(values)))
     for start, end in stretches(bad):
         at = int(np.searchsorted(good, start))
         reach = max(LEAST, round(REACH * (end - start)))

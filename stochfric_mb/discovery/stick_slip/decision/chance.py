@@ -82,4 +82,4 @@ def without_accidents(baseline: Baseline) -> Baseline:
     """Return the baseline without slips that stand far out, too few to be kicks: two of a hundred are no scatter."""
     kept = baseline.pool.kept
     far = stray(baseline.pool, baseline.residuals())
-    return baseline.of(kept & ~far) if 0.0 < far.sum() < criteria.FEWEST_KICKED * kept.sum() else baseline
+    return baseline.of(kept & ~far) if 0.0 < far.sum() < criteria.ACCIDENTS * kept.sum() else baseline

@@ -88,7 +88,7 @@ def kicks(study: Study) -> Finding | None:
     pool = study.pool
     jumps = study.sticking.jumps if study.sticking is not None else 0
     share = (int(far.sum()) + jumps) / len(far)
-    if far.sum() < criteria.FEWEST_KICKS or not criteria.FEWEST_KICKED < share < criteria.MOST_KICKED or _repeated(study):
+    if far.sum() < criteria.FEWEST_KICKS or share >= criteria.MOST_KICKED or _repeated(study):
         return None
     gaps = np.concatenate([np.diff(np.flatnonzero(far[pool.run == r])) for r in range(pool.n_runs)])
     if len(gaps) >= 4 and np.mean(gaps == np.median(gaps)) > 0.8:

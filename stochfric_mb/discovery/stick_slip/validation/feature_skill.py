@@ -53,11 +53,11 @@ def slip_force_gap(stated: Model, recalibrated: Model, augmented: Model, slips: 
 
 
 def leading(gap: Gap | None, forces: Gap | None) -> Literal["gap", "slip_forces"]:
-    """Return the score in which effects show: that of the forces where forecasts could hardly be made better."""
+    """Return the score in which effects show: that of the forces where far more of it can be made better than of forecasts."""
     if forces is None or forces.closed is None or gap is None:
         return "gap"
     seen, felt = (g.reducible / g.recalibrated for g in (gap, forces))
-    return "slip_forces" if seen < criteria.LEAST_REDUCIBLE and felt > seen else "gap"
+    return "slip_forces" if seen < criteria.SHOWS_IN_FORECASTS * felt else "gap"
 
 
 def _scores(models: Sequence[Model], slips: Slips, calibration: Calibration, rows: np.ndarray) -> Array:
