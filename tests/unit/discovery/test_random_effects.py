@@ -95,8 +95,10 @@ def test_a_box_that_slides_on_about_the_kinetic_force_is_not_kicked_anew():
 def test_jumps_in_stick_count_beside_slips_that_stand_out():
     onset = np.zeros(N * RUNS)
     onset[struck(3)] = [-0.7, -2.0, -2.5]
-    assert kicks(study(onset)) is None
-    assert kicks(study(onset, jumps=5)) is not None
+    few, more = kicks(study(onset)), kicks(study(onset, jumps=5))
+    assert few is not None
+    assert more is not None
+    assert more.values["rate"] == pytest.approx(few.values["rate"] * 8 / 3)
     assert kicks(study(np.zeros(N * RUNS), jumps=20)) is None  # nothing but jumps: of what force, nobody knows
 
 
@@ -106,7 +108,7 @@ def test_slips_that_stand_out_by_the_same_amount_are_at_a_second_level():
     assert kicks(study(onset)) is None
 
 
-@pytest.mark.parametrize("count", [0, 3, 40])
+@pytest.mark.parametrize("count", [0, 2, 40])
 def test_none_single_ones_or_half_of_the_slips_are_not_kicked(count):
     onset = np.zeros(N * RUNS)
     onset[struck(count)] = -np.random.default_rng(3).uniform(0.5, 5.0, count)
