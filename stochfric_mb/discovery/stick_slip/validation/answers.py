@@ -19,12 +19,17 @@ from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, likelihood_r
 from stochfric_mb.discovery.stick_slip.simulation.scatter import matched
 from stochfric_mb.discovery.stick_slip.simulation.strength import decided_by_ratio, undecided
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.discovery.stick_slip.validation.explained import explained_with_its_form, taken_back, unexplained
+from stochfric_mb.discovery.stick_slip.validation.explained import (
+    explained_with_its_form,
+    shown_elsewhere,
+    taken_back,
+    unexplained,
+)
 from stochfric_mb.discovery.stick_slip.validation.feature_skill import slip_force_gap
 from stochfric_mb.discovery.stick_slip.validation.held_out_check import Comparison, compared, without_last
 from stochfric_mb.discovery.stick_slip.validation.predictive_check import inadequate
 from stochfric_mb.effects import kind_with_signature, kinds_with
-from stochfric_mb.effects.traits import MOVES_ZERO, OUTSIDE_FORECASTS, SCATTER, WANDER
+from stochfric_mb.effects.traits import MOVES_ZERO, SCATTER, WANDER
 
 
 @dataclasses.dataclass(frozen=True)
@@ -166,7 +171,7 @@ def checked_on_held_out(answer: Answer, slip_study: Study, recalibrated: Fit, ru
         answer = _with_form(answer, answer.decision.form.kind, slip_study, recalibrated, runs)
     dropped: dict[str, object] = {}
     last: Named | None = None
-    while answer.decision.named and answer.decision.named[-1].kind not in kinds_with(OUTSIDE_FORECASTS):
+    while answer.decision.named and answer.decision.named[-1].kind not in shown_elsewhere(answer.decision.model):
         last = answer.decision.named[-1]
         fewer = _without_last(answer, slip_study, recalibrated, runs)
         seen = compared(fewer.model, answer.model, runs)

@@ -85,13 +85,17 @@ def _too_little(decision: Decision, enough: float, without: Array, with_: Array,
     return taken_back(decision, why) if float(left.mean()) - enough * floor > criteria.LACKS * doubt else None
 
 
-def _judged(study: Study, kinds: set[str], model: Model) -> tuple[Windows, ...]:
-    """Return the forecasts of the fit runs that say what is explained; none where the effects named show elsewhere.
+def shown_elsewhere(model: Model) -> set[str]:
+    """Return the effects that forecasts do not show.
 
     A delay behind a measured velocity is measured itself; a forecast that starts late as well shows little of it.
     """
-    elsewhere = {e.kind for e in model.effects if any(hasattr(e, name) for name in model.measured)}
-    if kinds and kinds <= {*kinds_with(OUTSIDE_FORECASTS), *elsewhere}:
+    return {*kinds_with(OUTSIDE_FORECASTS), *(e.kind for e in model.effects if any(hasattr(e, n) for n in model.measured))}
+
+
+def _judged(study: Study, kinds: set[str], model: Model) -> tuple[Windows, ...]:
+    """Return the forecasts of the fit runs that say what is explained; none where the effects named show elsewhere."""
+    if kinds and kinds <= shown_elsewhere(model):
         return ()
     return tuple(_scattered(w, JUDGED_WINDOWS) for w in study.windows if len(w))
 
