@@ -160,8 +160,8 @@ def _least(sticking: Sticking) -> float:
 
 
 def _of_the_sensor(study: Study, sticking: Sticking, best: str, score: float) -> bool:
-    """Return whether what is seen in stick is a sensor's: its zero steps or drifts, or wanders by less than a reading errs."""
-    if best in (CREEPING_ZERO, JUMP):
+    """Return whether what is seen in stick is a sensor's: rounding, a zero that steps, drifts or wanders by less than noise."""
+    if best in (CREEPING_ZERO, JUMP) or _rounded(study, sticking):
         return True
     if best == BELT_RIPPLE:
         frequency = sticking.settings[best]["frequency"]
@@ -169,6 +169,13 @@ def _of_the_sensor(study: Study, sticking: Sticking, best: str, score: float) ->
             return True
     slow = score < _least(sticking) and sticking.departure < criteria.STICK_DEPARTS
     return slow and best not in CREEP and not _in_noise_alone(best, sticking)
+
+
+def _rounded(study: Study, sticking: Sticking) -> bool:
+    """Return whether what is seen in stick is no more than readings are rounded by: slips alike are rounded alike."""
+    steps = [float(np.min(np.diff(np.unique(r.raw)), initial=np.inf)) for r in study.records]
+    seen = sticking.departure * min(s.noise.deviation for s in study.pool.slips)
+    return all(seen < step / np.sqrt(12.0) for step in steps if np.isfinite(step))
 
 
 def _in_noise_alone(best: str, sticking: Sticking) -> bool:
