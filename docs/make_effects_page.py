@@ -47,6 +47,11 @@ def _parameter(field: dataclasses.Field[Any]) -> str:
     return f"`{field.name}` [{field.metadata['unit']}]{default}"
 
 
+def _of_joints(cls: type[Effect]) -> bool:
+    """Return whether an effect is one of driven joints, which no belt-box has."""
+    return bool(cls.reads) or example(cls.kind).moves_load
+
+
 def agreement_table(kinds: list[str | None], law: str = "coulomb") -> str:
     """Return the rms differences of position from the reference [um], three seconds of Table 1 at the default step."""
     lines = [f"| effect | {' | '.join(ENGINES)} |", "|---" * (len(ENGINES) + 1) + "|"]
@@ -69,7 +74,7 @@ def filled(page: str, name: str, table: str) -> str:
 
 def main() -> None:
     """Write the tables of the page anew."""
-    moving = [kind for kind in EFFECTS if effect_class(kind).group != "sensor" and not effect_class(kind).reads]
+    moving = [kind for kind in EFFECTS if effect_class(kind).group != "sensor" and not _of_joints(effect_class(kind))]
     page = PAGE.read_text(encoding="utf-8")
     page = filled(page, "effects", effects_table())
     page = filled(page, "agreement", agreement_table([None, *moving]))

@@ -344,6 +344,11 @@ def _require_measured(effects: Sequence[Effect], mechanism: Any) -> None:
                     f"effect {effect.kind!r} reads a measured {effect.reads[0]}, which a simulated {mechanism.kind} does not "
                     "have; leave it out, or let friction change with time: friction_drift"
                 )
+            if effect.moves_load:
+                raise InputError(
+                    f"effect {effect.kind!r} moves the load behind the motor of a driven joint, which a simulated "
+                    f"{mechanism.kind} does not have; leave it out, or use second_mode"
+                )
 
 
 def _require_few_periods(duration: float, mechanism: Any) -> None:

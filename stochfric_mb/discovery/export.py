@@ -37,7 +37,8 @@ def files(outcome: Outcome) -> dict[str, str]:
     written = {"parameters.csv": parameter_table(outcome.result), "augmented.toml": scenario_toml(scenario)}
     if isinstance(scenario.mechanism, Mjcf | PrismaticJoint | HingePendulum) and importlib.util.find_spec("mujoco"):
         written["augmented.xml"] = mjcf(scenario)
-    if isinstance(scenario.mechanism, PrismaticJoint | HingePendulum):
+    # a load that moves by itself is no friction: the engine needs a second body
+    if isinstance(scenario.mechanism, PrismaticJoint | HingePendulum) and not any(e.moves_load for e in scenario.effects):
         written["exudyn_friction.py"] = exudyn_snippet("augmented.toml")
     return written
 

@@ -38,6 +38,7 @@ EFFECTS: dict[str, str | type[Effect]] = {
     "quadratic_damping": "QuadraticDamping",
     "backlash": "Backlash",
     "second_mode": "SecondMode",
+    "joint_compliance": "JointCompliance",
     "effective_area": "EffectiveArea",
     "drive_gain_change": "DriveGainChange",
     "harmonic_force": "HarmonicForce",

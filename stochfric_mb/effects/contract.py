@@ -37,6 +37,7 @@ from stochfric_mb.errors import InputError, require_name, require_number
 if TYPE_CHECKING:
     from stochfric_mb.coefficients import Process
     from stochfric_mb.effects.joints import JointSpan
+    from stochfric_mb.effects.load_side import MotorMotion
     from stochfric_mb.effects.marks import Hypothesis, Slips, Wave
 
 Array = npt.NDArray[np.float64]
@@ -189,6 +190,17 @@ class Effect:
         """Return parameters whose priors in a fit hang together, and the covariance in units of these priors, shape (k, k)."""
         return (), np.zeros((0, 0))
 
+    def load_force(self, motor: MotorMotion) -> Array | None:
+        """Return the further force of a joint's load that moves by itself [N or N m], shape (count,); None: none does.
+
+        It acts against the motor's positive direction. The load's motion is an auxiliary state, which follows from that of the
+        motor; `stochfric_mb.effects.load_side` has the equations.
+
+        Args:
+            motor: the measured motion of the motor.
+        """
+        return None
+
     def shortest_time(self, speed: float) -> float:
         """Return the shortest period [s] that the effect brings in while the contact moves at ``speed`` [m/s]."""
         return math.inf
@@ -211,6 +223,11 @@ class Effect:
     def linear_damping(self) -> float:
         """Force per relative speed [N s/m], where that is all that the effect does."""
         return 0.0
+
+    @property
+    def moves_load(self) -> bool:
+        """Whether the load of a joint moves by itself with it, so that friction along the motor's motion is not all of it."""
+        return False
 
     @property
     def random(self) -> bool:

@@ -38,3 +38,5 @@ class JointSpan:
     """Median size of the pressure on a piston [Pa]; 0: none was measured."""
     window: float = 0.0
     """Half width of the windows through which it is seen [s]."""
+    inertia: float = 0.0
+    """Inertia of motor and load together as stated [kg or kg m^2]; 0: none is known of one body that moves."""

@@ -38,6 +38,8 @@ ANONYMOUS = "names no physics"
 """Never an answer by itself."""
 READS_LOAD = "scales friction with what a joint transmits"
 """Its reference load is the joint's."""
+ROUGH = "at a joint its force is no smooth function of its numbers"
+"""Impacts, which a small change makes or misses: fits go by larger steps, after a search without slopes."""
 READS_DRIVE = "scales what a joint is driven by"
 """The drive that it leaves is explained by motion only, too."""
 

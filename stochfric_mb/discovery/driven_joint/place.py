@@ -103,7 +103,7 @@ def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
         early = source.balances(name, "test", base)
         scores["baseline"] = score(stated, early, nuisances, dataset.test, scenario)
         scores["recalibrated"] = score(undelayed, early, nuisances, dataset.test, scenario)
-    final = with_phases(selected.final.model, test_balances)
+    final = with_phases(selected.final.model, test_balances, selected.nuisances)
     # where something without a name is missing from the mean, strokes differ for that
     random = None if selected.unknown else stroke_scatter(final, fit_balances, nuisances, stated_scatter(scenario, "per_event"))
     noise = floor = noise_floor(final, test_balances, nuisances)

@@ -25,7 +25,7 @@ VOCABULARY = frozenset(
         "random_coefficients", "correlated_coefficients", "velocity_weakening", "viscous_friction", "frictional_lag",
         "direction_asymmetry", "load_dependence", "position_dependent_friction", "position_dependent_force", "friction_drift",
         "distance_drift", "temperature_drift", "quadratic_damping", "sensor_delay", "harmonic_force", "stale_samples",
-        "sensor_outliers", "effective_area", "drive_gain_change",
+        "sensor_outliers", "effective_area", "drive_gain_change", "joint_compliance", "backlash",
     )
 )  # fmt: skip
 """Kinds that docs/joints.md says are searched at joints. Any other kind is rightly answered `unknown`."""

@@ -125,7 +125,8 @@ def test_impacts_are_a_poisson_process() -> None:
     ("kind", "in_slips", "at_joints"),
     [
         ("random_coefficients", True, True),
-        ("backlash", True, False),
+        ("backlash", True, True),
+        ("joint_compliance", False, True),
         ("normal_load_ripple", True, False),
         ("stale_samples", False, True),
         ("temperature_drift", True, True),

@@ -11,6 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, narrowest
+from stochfric_mb.effects import Effect
+from stochfric_mb.effects.load_side import MotorMotion
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.measurement.smoothing import window
 from stochfric_mb.measurement.temperature import temperature_of
@@ -19,6 +21,8 @@ Array = npt.NDArray[np.float64]
 
 LEAST_SPEED = 0.02
 """Speed below which a joint is not taken to slide, over its 90 % speed [-]."""
+REMEMBERED = 16
+"""Forces of loads that are kept: a fit moves one number after the other, and comes back."""
 SURE = 5.0
 """Least sliding speed in standard deviations of the velocity's noise."""
 
@@ -84,6 +88,10 @@ class ForceBalance:
     """Pressure on the piston [Pa], shape (count,); None: none was measured."""
     normal_force: Array | None = None
     """Normal force of a contact [N], shape (count,), >= 0; None: the stated load, which stays."""
+    motor: Callable[[], MotorMotion | None] = lambda: None
+    """Returns the motion of the motor, behind which the load may move by itself; None: no joint with an inertia."""
+    known: dict[Effect, Array] = dataclasses.field(default_factory=dict[Effect, Array])
+    """Forces of such loads that were worked out last [N or N m], shape (n_centres,) each."""
 
     def white_variance(self, along: Array, centres: npt.NDArray[np.int64]) -> float:
         """Return the variance that white noise of the channels gives the coefficient of ``along`` [1/(N or N m)^2 of it].
@@ -102,6 +110,24 @@ class ForceBalance:
             taps = window(self.window.half_width, self.window.interval, derivative=derivative)
             total += noise**2 * float(np.sum(np.convolve(spread, taps[: 2 * half + 1]) ** 2))
         return total / size**2
+
+    def load_force(self, effect: Effect) -> Array | None:
+        """Return the force of a load that moves by itself [N or N m], shape (n_centres,); None: none does.
+
+        Args:
+            effect: what lets it.
+        """
+        if not effect.moves_load:
+            return None
+        if effect not in self.known:
+            motor = self.motor()
+            force = None if motor is None else effect.load_force(motor)
+            if force is None:
+                return None
+            if len(self.known) >= REMEMBERED:
+                self.known.pop(next(iter(self.known)))
+            self.known[effect] = self.window.at_centres(force)
+        return self.known[effect]
 
     def with_more_drive(self, step: float) -> ForceBalance:
         """Return the same motion with a larger drive, and the load that it makes; the balance itself stays.

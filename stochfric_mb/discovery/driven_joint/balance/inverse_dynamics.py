@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -20,6 +21,7 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import (
 )
 from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, narrowest, window_of
 from stochfric_mb.discovery.inference.noise import white_noise
+from stochfric_mb.effects.load_side import MotorMotion
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Cascade, HingePendulum, PrismaticJoint
@@ -119,6 +121,7 @@ class PlainBalances(Balances):
             before=distance_before(run, self.dataset.runs, lambda r: narrowest(r).through(position_of(r), 1)),
             drive=window.sampled(factor * channel(run, name), late),
             pressure=window.sampled(run.channels["pressure"]) if "pressure" in run.channels else None,
+            motor=functools.cache(lambda: motor_motion(run, joint)),
         )
 
 
@@ -159,6 +162,24 @@ def position_of(run: Run) -> Array:
     if "velocity" in run.channels:
         return integrated(run.channels["velocity"], run.sample_interval)
     raise InputError(f"run {run.name!r} has neither position nor velocity; a driven joint needs its motion")
+
+
+def motor_motion(run: Run, joint: Joint) -> MotorMotion | None:
+    """Return the motion of the motor and what its load needs beside its acceleration; None: a joint without inertia.
+
+    Gravity acts on the load, whose centre of mass the pendulum states; the pressure on a piston, damping and the offset of the
+    drive act on the motor's side.
+    """
+    inertia, gravity = joint.mass, 0.0
+    if isinstance(joint, HingePendulum):
+        inertia = joint.inertia + joint.mass * joint.length**2
+        gravity = joint.mass * joint.length * joint.gravity
+    if inertia <= 0.0:
+        return None
+    q, narrow = position_of(run), narrowest(run)
+    seen = [narrow.through(q, derivative) for derivative in (0, 1, 2)]
+    held = gravity * np.stack([np.sin(seen[0]), np.cos(seen[0]), -np.sin(seen[0])])
+    return MotorMotion(run.sample_interval, *seen, inertia=inertia, held=held, inside=narrow.inside)
 
 
 def _noise(terms: Mapping[str, Sequence[Term]], values: Mapping[str, float], q: Array) -> dict[int, float]:

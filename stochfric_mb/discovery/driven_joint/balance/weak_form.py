@@ -79,6 +79,12 @@ class Window:
         seen[:edge], seen[len(seen) - edge :] = signal[:edge], signal[len(seen) - edge :]
         return seen
 
+    @property
+    def inside(self) -> tuple[int, int]:
+        """First sample around which a whole window fits into the record, and the one after the last."""
+        edge = len(self.taps) // 2
+        return edge, self.count - edge
+
     def held(self, seen: Array) -> Array:
         """Return what was seen `through` the window, shape (count,), held at both ends, where the window reaches out."""
         edge = len(self.taps) // 2

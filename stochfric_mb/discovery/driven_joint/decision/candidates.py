@@ -33,6 +33,11 @@ class Candidate:
     form: int = 0
     """Its place among the forms of its kind."""
 
+    @property
+    def moves_load(self) -> bool:
+        """Whether the load moves by itself with it."""
+        return any(s.moves_load for s in self.starts)
+
 
 def span_of(balances: Sequence[ForceBalance], friction: float, load: float) -> JointSpan:
     """Return what the motion of ``balances`` covers; friction and load are the stated ones [N or N m]."""
@@ -58,6 +63,7 @@ def span_of(balances: Sequence[ForceBalance], friction: float, load: float) -> J
         drive=_driven(balances, at),
         pressure=float(np.median(np.abs(np.concatenate(pressures)))) if pressures else 0.0,
         window=max(s.window.half_width for s in balances),
+        inertia=min(0.0 if (motor := s.motor()) is None else motor.inertia for s in balances),
     )
 
 
@@ -88,4 +94,5 @@ def candidates(span: JointSpan, stated: Sequence[Effect]) -> list[Candidate]:
         forms = effect_class(kind).at_joint(span) if kind not in have else None
         forms = (forms,) if isinstance(forms, JointSignature) else forms or ()
         searched += [Candidate(kind, f.starts, f.axis, f.parameters, f.scan, i) for i, f in enumerate(forms)]
-    return searched
+    # a joint has one load, which moves in one way
+    return [c for c in searched if not (c.moves_load and any(e.moves_load for e in stated))]

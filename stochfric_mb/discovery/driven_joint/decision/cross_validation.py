@@ -82,7 +82,7 @@ def _error(
     """Return the sum of squares on a part, of a model fitted without it."""
     kept = [s.sliding & ~out for s, out in zip(balances, part, strict=True)]
     fitted = fit(model, balances, nuisances, noise=noise, masks=kept, evaluations=EVALUATIONS).model
-    fitted = with_phases(fitted, [s for s, mask in zip(balances, kept, strict=True) if not mask.any()])
+    fitted = with_phases(fitted, [s for s, mask in zip(balances, kept, strict=True) if not mask.any()], nuisances)
     rest = [fitted.remainder(s, nuisances)[out] for s, out in zip(balances, part, strict=True)]
     return float(np.sum(np.concatenate(rest) ** 2))
 

@@ -18,7 +18,7 @@ LEAST_WAVE = 1.0e-3
 """Shortest wavelength that is tried, over the fitted one [-]: there is none of length 0."""
 ROTATIONAL = {
     "N": "N m", "m": "rad", "m/s": "rad/s", "N s/m": "N m s/rad", "N s^2/m^2": "N m s^2/rad^2",
-    "N/m": "N m/rad", "N/m^3": "N m/rad^3", "1/m": "1/rad", "1/m^2": "1/rad^2",
+    "N/m": "N m/rad", "N/m^3": "N m/rad^3", "1/m": "1/rad", "1/m^2": "1/rad^2", "kg": "kg m^2",
 }  # fmt: skip
 """Unit of a parameter where friction acts along a line -> where it acts about an axis."""
 FACTORS = {

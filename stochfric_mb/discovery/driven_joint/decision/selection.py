@@ -20,13 +20,17 @@ from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import COMPE
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight, settled
 from stochfric_mb.discovery.driven_joint.fit.gains import predicted_rms
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
-from stochfric_mb.discovery.driven_joint.fit.wave_scan import Start, tried, wave_starts
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import begun, tried, wave_starts
+from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
 from stochfric_mb.discovery.inference.paired import Paired
 from stochfric_mb.effects.joints import JointSpan
+from stochfric_mb.effects.traits import ROUGH
 
 Array = npt.NDArray[np.float64]
 
-SIZES = ("amplitude", "coefficient", "asymmetry", "viscous_difference", "rate")
+STARTS, STARTS_ROUGH = 2, 6
+"""Best starts of an effect from which it is fitted; of a rough one the best is often in a wrong valley."""
+SIZES = ("amplitude", "coefficient", "asymmetry", "viscous_difference", "rate", "load_share", "gap")
 """Parameters that are zero where an effect is none."""
 
 
@@ -226,18 +230,31 @@ class Selector:
         return Stage(current, tuple(trials), tuple(rivals), inside, repeats, enough)
 
     def _fitted(self, current: JointFit, span: JointSpan) -> Fitted:
-        """Return the candidates that the model does not have yet, fitted; beside the same effects that is done once."""
-        beside = self._beside(current)
-        left_out, fits = self._known.get(beside, (frozenset[str](), None))
+        """Return the candidates that the model does not have yet, fitted.
+
+        A load that moves by itself is looked for where all other candidates leave more than noise: it can take noise of the
+        acceleration away, whether there is such a load or not, and its force takes long to work out.
+        """
+        fits = self._fits(current, span, of_loads=False)
+        least = min((current, *(f for _, f in fits)), key=lambda f: f.rms)
+        if least.rms > FLOOR * noise_floor(least.model, self._balances, self._nuisances):
+            fits += self._fits(current, span, of_loads=True)
+        return fits
+
+    def _fits(self, current: JointFit, span: JointSpan, *, of_loads: bool) -> Fitted:
+        """Return candidates, those of moving loads or all others, fitted; beside the same effects that is done once."""
+        key = (of_loads, *self._beside(current))
+        left_out, fits = self._known.get(key, (frozenset[str](), None))
         if fits is None or not left_out <= self._without:
             fits = []
             for candidate in candidates(span, current.model.effects):
-                if candidate.kind in self._without:
+                if candidate.kind in self._without or candidate.moves_load != of_loads:
                     continue
                 self._tell(candidate.kind)
                 fitted = self._best(current, candidate)
-                fits += [(candidate, fitted)] if fitted is not None else []
-            self._known[beside] = self._without, fits
+                if fitted is not None and not (candidate.moves_load and _may_be_zero(fitted, len(fitted.model.effects) - 1)):
+                    fits.append((candidate, fitted))
+            self._known[key] = self._without, fits
         return [(c, f) for c, f in fits if c.kind not in self._without]
 
     def _beside(self, current: JointFit) -> Beside:
@@ -253,11 +270,12 @@ class Selector:
 
     def _best(self, current: JointFit, candidate: Candidate) -> JointFit | None:
         """Return the best fit with a candidate; None: it is no number, or nothing is left for a wave."""
-        starts = [Start(e) for e in candidate.starts]
-        if len(starts) > 2:
-            starts.sort(key=lambda s: predicted_rms(current.model, s.effect, self._balances, current))
+        starts = [begun(e, self._balances) for e in candidate.starts]
+        if len(starts) > STARTS:
+            starts.sort(key=lambda s: predicted_rms(current.model, s, self._balances, current))
         waves = wave_starts(candidate.scan, current, self._balances) if candidate.scan is not None else []
-        fits = [self._fit(s.added_to(current.model)) for s in (*starts[:2], *waves)]
+        count = STARTS_ROUGH if any(ROUGH in s.effect.traits for s in starts) else STARTS
+        fits = [self._fit(s.added_to(current.model)) for s in (*starts[:count], *waves)]
         best = min((f for f in fits if np.isfinite(f.rms)), key=lambda f: f.rms, default=None)
         if best is None:
             return None

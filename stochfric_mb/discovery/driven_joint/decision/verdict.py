@@ -10,6 +10,7 @@ import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_clock, confounded, spoken_of, stand_ins
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
+from stochfric_mb.discovery.driven_joint.decision.candidates import candidates, span_of
 from stochfric_mb.discovery.driven_joint.decision.carry_over import above_floor, foretells_nothing, lacks
 from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, mechanism_estimates, parameters
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
@@ -290,8 +291,10 @@ def _imitated(place: PlaceOutcome) -> list[str]:
 
 
 def _unseen(places: Sequence[PlaceOutcome], effects: Sequence[EffectEstimate]) -> tuple[str, ...]:
-    """Return the kinds that were not searched, and are no part of the model or of what is named."""
+    """Return the kinds for which no motion here asks, and that are no part of the model or of what is named."""
+    spans = [span_of(p.fit, p.stated.law.mu_k * p.stated.load, p.stated.load) for p in places]
     seen = {t.candidate.kind for p in places for s in p.searched for t in s.trials}
+    seen |= {c.kind for span in spans for c in candidates(span, ())}  # one that was not needed would have been seen, too
     seen |= {e.kind for p in places for e in p.stated.effects}
     seen |= {kind for e in effects for kind in (e.kind, *e.equivalent_to)}
     seen |= {kind_with_signature(finding) for finding in (LATE, STRAY, REPEATED_READING)}
@@ -323,6 +326,11 @@ def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
 def _forward_notes(place: PlaceOutcome) -> list[str]:
     """Return what forward simulation says."""
     before, after = (place.scores[k] for k in ("recalibrated", "augmented"))
+    if any(e.moves_load for e in place.selected.final.model.effects):
+        return [
+            "the load moves by itself in the augmented model: simulations and exports of one body do not carry that, and "
+            "held-out runs are scored by inverse dynamics alone; give an engine a second body with these numbers"
+        ]
     if before.forward is None or after.forward is None:
         return []
     how = "with the controller in the loop" if after.loop is not None else f"{AHEAD:g} s at a time from the measured state"

@@ -15,12 +15,15 @@ from stochfric_mb.discovery.driven_joint.fit.joint_model import Forces, JointMod
 from stochfric_mb.discovery.inference.fitter import minimised
 from stochfric_mb.discovery.inference.free_parameter import FreeParameter, steps_of
 from stochfric_mb.discovery.inference.noise import independent_count
+from stochfric_mb.effects.traits import ROUGH
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 DIFFERENCE, TOLERANCE = 1.0e-4, 1.0e-7
 """Step of the derivatives in natural steps, and fall of the sum of squares over itself at which a fit ends [-]."""
+LARGE_DIFFERENCE = 1.0e-2
+"""The same step where forces are no smooth functions of the numbers [-]: as far as one tells them apart."""
 EVALUATIONS = 12
 """Most Gauss-Newton steps: the balance is linear in most numbers."""
 SETTLINGS, SETTLED = 4, 0.8
@@ -98,6 +101,7 @@ def fit(
         fixed: number of an effect and name of its parameter, for those that stay.
     """
     used = [s.sliding for s in balances] if masks is None else list(masks)
+    rough = any(ROUGH in e.traits for e in model.effects)
     free = free_parameters(model, nuisances, fixed)
     steps = steps_of(free)
     known: dict[Any, list[Forces]] = {}
@@ -113,8 +117,9 @@ def fit(
         return np.concatenate([*parts, noise * steps.surprise(values)])
 
     minimum = minimised(
-        errors, np.zeros(len(free)), steps.low, steps.high, difference=DIFFERENCE, evaluations=evaluations, tolerance=TOLERANCE
-    )
+        errors, np.zeros(len(free)), steps.low, steps.high, difference=LARGE_DIFFERENCE if rough else DIFFERENCE,
+        evaluations=evaluations, tolerance=TOLERANCE,
+    )  # fmt: skip
     jacobian, scale, values = minimum.jacobian, steps.scale, steps.values(minimum.x)
     fitted = adjusted(model, free, values)
     parts = tuple(fitted.remainder(s, nuisances)[m] for s, m in zip(balances, used, strict=True))

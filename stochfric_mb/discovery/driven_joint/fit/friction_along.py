@@ -89,7 +89,9 @@ def friction_along(balance: ForceBalance, law: Law, effects: Sequence[Effect], l
     some = [np.ascontiguousarray(x[::every]) for x in signals]
     force = np.empty(len(some[0]))
     along(links.numbers, links.calls, links.parameters, *some, force)
-    return balance.window.means @ force
+    seen = balance.window.means @ force
+    carried = [own for x in effects if (own := balance.load_force(x)) is not None]
+    return seen + np.sum(carried, axis=0) if carried else seen
 
 
 @compiled

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
+from scipy.linalg import block_diag
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.free_parameters import adjusted, free_parameters
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import Start
 from stochfric_mb.discovery.inference.free_parameter import LAW, FreeParameter
 from stochfric_mb.effects import Effect
 
@@ -38,13 +41,17 @@ def effect_columns(model: JointModel, effect: Effect, balances: Sequence[ForceBa
     return np.column_stack(columns)
 
 
-def predicted_rms(model: JointModel, effect: Effect, balances: Sequence[ForceBalance], current: JointFit) -> float:
-    """Return the rms that ``effect`` would leave if the balance were linear in all numbers [N or N m].
+def predicted_rms(model: JointModel, start: Start, balances: Sequence[ForceBalance], current: JointFit) -> float:
+    """Return the rms that an effect would leave from a start if the balance were linear in all numbers [N or N m].
 
-    Cheap: one evaluation a parameter. It ranks starting points; the fit itself is not linear.
+    Cheap: one evaluation a parameter. It ranks starting points; the fit itself is not linear. The force of a load that moves by
+    itself is far from linear in most numbers: it is taken as it is where the fit begins.
     """
-    design = np.column_stack([current.jacobian, effect_columns(model, effect, balances)])
-    left = left_by(design, np.concatenate(current.remainders))
+    rest = np.concatenate(current.remainders)
+    if start.effect.moves_load:
+        left = _left_by_load(start.effect, balances, current)
+        return float(np.sqrt(left @ left / len(rest)))
+    left = left_by(np.column_stack([current.jacobian, effect_columns(model, start.effect, balances)]), rest)
     return float(np.sqrt(np.mean(left**2)))
 
 
@@ -56,6 +63,23 @@ def hidden_share(effect: Effect, balances: Sequence[ForceBalance], current: Join
     prior, _ = prior_rows(current, prior_weight(current))
     left = left_by(np.vstack([current.jacobian, prior]), np.r_[change, np.zeros(len(prior))])
     return 1.0 - float(left @ left) / size if size > 0.0 else 1.0
+
+
+def _left_by_load(effect: Effect, balances: Sequence[ForceBalance], current: JointFit) -> Array:
+    """Return what a load that moves by itself leaves, how it moves when each record begins fitted beside all other numbers.
+
+    Beliefs are counted, as what is left of them.
+    """
+    names = effect.own_to_run
+    still = dataclasses.replace(effect, **dict.fromkeys(names, 0.0))
+    moving = [still, *(dataclasses.replace(still, **{n: getattr(effect, n)}) for n in names)]
+    forces = [[s.load_force(e)[s.sliding] for s in balances] for e in moving]  # pyright: ignore[reportOptionalSubscript]
+    prior, off = prior_rows(current, prior_weight(current))
+    columns = [np.vstack([current.jacobian, prior])]
+    for begun in forces[1:]:
+        own = np.asarray(block_diag(*((x - y)[:, None] for x, y in zip(begun, forces[0], strict=True))), dtype=np.float64)  # pyright: ignore[reportArgumentType, reportCallIssue]
+        columns.append(np.vstack([own, np.zeros((len(off), len(balances)))]))
+    return left_by(np.hstack(columns), np.r_[np.concatenate(current.remainders) - np.concatenate(forces[0]), off])
 
 
 def left_by(design: Array, values: Array) -> Array:

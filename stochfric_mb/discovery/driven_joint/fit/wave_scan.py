@@ -14,9 +14,10 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
-from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.fit.fitting import EVALUATIONS, JointFit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel, Own
+from stochfric_mb.discovery.inference.fitter import minimised
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects.contract import Scan
 
@@ -40,6 +41,12 @@ class Start:
     def added_to(self, model: JointModel) -> JointModel:
         """Return the model with it."""
         return model.plus(self.effect, own=self.own)
+
+
+def begun(effect: Effect, balances: Sequence[ForceBalance]) -> Start:
+    """Return a start from an effect as it is, what each run has for itself being the same in all."""
+    names = effect.own_to_run if effect.moves_load else ()
+    return Start(effect, {(effect.kind, s.run, n): float(getattr(effect, n)) for s in balances for n in names})
 
 
 def tried(scan: Scan, balances: Sequence[ForceBalance]) -> float:
@@ -83,14 +90,19 @@ def wave_starts(scan: Scan, current: JointFit, balances: Sequence[ForceBalance])
     return starts
 
 
-def with_phases(model: JointModel, balances: Sequence[ForceBalance]) -> JointModel:
+def with_phases(model: JointModel, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]) -> JointModel:
     """Return the model with the phases that waves in time have in further runs, in which all else of them is known.
 
-    Where in its period a force is when a record begins no model can say; it is taken from the record itself.
+    Where in its period a force is when a record begins, or how a load swings, no model can say; it is taken from the record
+    itself.
     """
     own = dict(model.own)
     for effect in model.effects:
-        for name in {n for kind, _, n in model.own if kind == effect.kind}:
+        names = {n for kind, _, n in model.own if kind == effect.kind}
+        if effect.moves_load and names:
+            own |= _swinging(model, effect, sorted(names), balances, nuisances)
+            continue
+        for name in names:
             others = tuple(e for e in model.effects if e is not effect)
             for balance in balances:
                 parts = [dataclasses.replace(effect, **{name: x}) for x in (0.0, 0.5 * np.pi)]
@@ -102,6 +114,26 @@ def with_phases(model: JointModel, balances: Sequence[ForceBalance]) -> JointMod
                 b = np.linalg.lstsq(design, plain[balance.sliding], rcond=1.0e-10)[0]
                 own[effect.kind, balance.run, name] = float(np.arctan2(b[2], b[1]))
     return dataclasses.replace(model, own=own)
+
+
+def _swinging(
+    model: JointModel, effect: Effect, names: Sequence[str], balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]
+) -> dict[Own, float]:
+    """Return how the load swings when further runs begin, from the records themselves, all else being known."""
+    others = tuple(e for e in model.effects if e is not effect)
+    size = np.array([abs(getattr(effect, n)) or 1.0 for n in names])  # as large as where fits begin
+    free = np.full(len(names), np.inf)
+    own: dict[Own, float] = {}
+    for balance in balances:
+
+        def left(x: Array, balance: ForceBalance = balance) -> Array:
+            swings = dataclasses.replace(effect, **dict(zip(names, map(float, x * size), strict=True)))
+            trial = dataclasses.replace(model, effects=(*others, swings), own={})
+            return trial.remainder(balance, nuisances)[balance.sliding]
+
+        minimum = minimised(left, np.zeros(len(names)), -free, free, difference=0.1, evaluations=EVALUATIONS, tolerance=1.0e-5)
+        own |= {(effect.kind, balance.run, n): float(x) for n, x in zip(names, minimum.x * size, strict=True)}
+    return own
 
 
 def _length(scan: Scan, balances: Sequence[ForceBalance]) -> float:

@@ -33,6 +33,7 @@ from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import by_mass, eff
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import drive_of, in_si, position_of_joint
 from stochfric_mb.discovery.driven_joint.mjcf.motion import Path, Rig
 from stochfric_mb.discovery.inference.noise import white_noise
+from stochfric_mb.effects.load_side import MotorMotion
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import ProportionalDerivative
 
@@ -44,6 +45,10 @@ NOT_OF_TENDONS, NOT_OF_PAIRS = ("damping",), ("damping", "gain")
 """A tendon has no damping of its own here, and nothing drives a pair but through the joints."""
 LIFTED = 0.05
 """Normal force over the stated one below which a pair is not taken to slide on its surface [-]."""
+LOADS = 400
+"""Instants of a run at which it is asked what a load needs, at least: it changes with the place, slowly."""
+DISPLACED = 1.0e-3
+"""By how much a load is off its motor for the derivatives of what it needs [m or rad]."""
 HELD = 0.5
 """How much later than its sample a drive acts that is held until the next one, on average [periods]."""
 
@@ -142,7 +147,33 @@ class MjcfSource(Rig):
             before=float(self.travelled(run, place)[0]),
             normal_force=normal,
             drive=window.sampled(drive_of(run, self.mechanism, place), delay) if place in self.mechanism.drives else None,
+            motor=lambda: self._once(("motor", run.name, place), lambda: self._motor(run, place)),
         )
+
+    def _motor(self, run: Run, place: str) -> MotorMotion | None:
+        """Return the motion of a joint's motor, and what its load needs beside its acceleration; None: the place is no joint.
+
+        The load has all that the joint needs but the inertia that it has in the model's reference position: gravity, and what
+        other joints' motion asks of this one.
+        """
+        if place not in self.names:
+            return None
+        joint = self.names.index(place)
+        inertia = float(effective_inertia(self.mujoco, self.model)[joint])
+        if inertia <= 0.0:
+            return None
+        narrow = narrowest(run)
+        some = narrow.centres[:: max(1, len(narrow.centres) // LOADS)]
+        motion = [self.joints(run, narrow, d)[some] for d in (0, 1, 2)]
+        motion[2][:, joint] = 0.0
+        step = DISPLACED * np.eye(len(self.names))[joint]
+        places = motion[0], motion[0] + step, motion[0] - step
+        here, beyond, before = (inverse(self.mujoco, self.model, (q, motion[1], motion[2]))[:, joint] for q in places)
+        derivatives = here, (beyond - before) / (2.0 * DISPLACED), (beyond - 2.0 * here + before) / DISPLACED**2
+        at, q = np.arange(len(run.time)), position_of_joint(run, self.mechanism, place)
+        held = np.stack([np.interp(at, some, x) for x in derivatives])
+        seen = [narrow.through(q, derivative) for derivative in (0, 1, 2)]
+        return MotorMotion(run.sample_interval, *seen, inertia=inertia, held=held, inside=narrow.inside)
 
     def _normal_force(self, run: Run, place: str, window: Window, left: Array) -> Array:
         """Return the normal force in a pair [N], shape (count,): measured, or from what the joints have left."""

@@ -76,6 +76,12 @@ def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint:
     place = joint or next(iter(loads))
     acts_in = getattr(mechanism, "effects_in", ())
     effects = scenario.effects if not acts_in or place in acts_in else ()
+    moves = next((e.kind for e in effects if e.moves_load), None)
+    if moves is not None:
+        raise InputError(
+            f"effect {moves!r} lets the load move by itself, which no friction of the joint does; give the engine a second "
+            "body with the numbers of that effect, and leave the effect out of the scenario"
+        )
     contact, stated_load = place in getattr(mechanism, "pairs", {}), loads[place]
     friction = FrictionAt(scenario.law, effects, stated_load, contact=contact)
     needed = {name: e.kind for e in effects for name in e.reads if name in ("drive", "pressure")}

@@ -29,7 +29,10 @@ def friction_picture(place: PlaceOutcome) -> Picture:
     speed = np.concatenate([s.velocity[c] for s, c in zip(balances, at, strict=True)])
     time = np.concatenate([s.time[c] for s, c in zip(balances, at, strict=True)])
     selected = place.selected
-    models = {"recalibrated": selected.recalibrated.model, "augmented": with_phases(selected.final.model, balances)}
+    models = {
+        "recalibrated": selected.recalibrated.model,
+        "augmented": with_phases(selected.final.model, balances, selected.nuisances),
+    }
     along = {n: np.concatenate([m.friction(s)[s.sliding] for s in balances]) for n, m in models.items()}
     rest = {n: np.concatenate([m.remainder(s, place.nuisances)[s.sliding] for s in balances]) for n, m in models.items()}
     data = along["augmented"] + rest["augmented"]

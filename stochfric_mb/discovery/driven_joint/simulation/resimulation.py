@@ -52,10 +52,12 @@ def simulated(
     stages: dict[str, tuple[Models, float]] = {
         "baseline": ({n: p.stated for n, p in names.items()}, base),
         "recalibrated": ({n: p.undelayed or p.selected.recalibrated.model for n, p in names.items()}, base if early else delay),
-        "augmented": ({n: with_phases(p.selected.final.model, p.test) for n, p in names.items()}, delay),
+        "augmented": ({n: with_phases(p.selected.final.model, p.test, p.nuisances) for n, p in names.items()}, delay),
     }
     scores = dict(places[0].scores)
     for label, (models, late) in stages.items():
+        if any(e.moves_load for m in models.values() for e in m.effects):
+            continue  # the engine's joints are one body
         tell(f"forward simulation, {label}")
         if isinstance(mechanism, Mjcf):
             seen = forward(source, models, late)

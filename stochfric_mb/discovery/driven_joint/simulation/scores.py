@@ -49,7 +49,7 @@ def score(
     model: JointModel, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance], runs: Sequence[Run], scenario: Scenario
 ) -> Score:
     """Return the errors of ``model`` on ``balances``, which belong to ``runs``."""
-    model = with_phases(model, balances)
+    model = with_phases(model, balances, nuisances)
     rest = [model.remainder(s, nuisances) for s in balances]
     sliding = np.concatenate([r[s.sliding] for r, s in zip(rest, balances, strict=True)])
     return Score(rms(sliding), rms(np.concatenate(rest)), loop_error(model, runs, scenario, [s.before for s in balances]))
@@ -65,7 +65,7 @@ def loop_error(model: JointModel, runs: Sequence[Run], scenario: Scenario, befor
         before: distance slid in earlier pieces of each run's record [m].
     """
     controller = scenario.controller
-    if not isinstance(controller, Cascade):
+    if not isinstance(controller, Cascade) or any(e.moves_load for e in model.effects):
         return None
     wrong = right = 0.0
     for run, slid in zip(runs, before, strict=True):
@@ -91,7 +91,7 @@ def noise_floor(model: JointModel, balances: Sequence[ForceBalance], nuisances: 
     counts: blows, gaps and skipped teeth come in bursts and are no noise.
     """
     parts: list[Array] = []
-    model = with_phases(model, balances)
+    model = with_phases(model, balances, nuisances)
     for s in balances:
         r = model.remainder(s, nuisances)
         inside = s.sliding[: -2 * APART] & s.sliding[APART:-APART] & s.sliding[2 * APART :]
