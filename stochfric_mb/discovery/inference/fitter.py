@@ -109,7 +109,9 @@ def loss(rest: Array, outlying: float | Array) -> Array:
     """Return the loss of residuals, half their squares or, of those beyond ``outlying``, about their size times that."""
     squares = rest**2
     # the same as C^2 (sqrt(1 + (r/C)^2) - 1), without the difference
-    return squares / (1.0 + np.sqrt(1.0 + squares / np.asarray(outlying) ** 2))
+    with np.errstate(invalid="ignore"):
+        value = squares / (1.0 + np.sqrt(1.0 + squares / np.asarray(outlying) ** 2))
+    return np.where(np.isposinf(squares), np.inf, value)
 
 
 def _weighted(slopes: Array, rest: Array, outlying: float | Array) -> tuple[Array, Array]:
