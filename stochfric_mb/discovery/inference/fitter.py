@@ -119,7 +119,7 @@ def _weighted(slopes: Array, rest: Array, outlying: float | Array) -> tuple[Arra
 
     Reference: B. Triggs, P. McLauchlan, R. Hartley, A. Fitzgibbon, Bundle adjustment, 2000, section 4.3.
     """
-    z = 1.0 + (rest / outlying) ** 2
+    z = 1.0 + np.where(np.isinf(outlying), 0.0, rest / np.minimum(outlying, np.finfo(float).max)) ** 2
     return slopes * z[:, None] ** -0.75, rest * z**0.25
 
 
