@@ -49,10 +49,12 @@ def with_kinematic(study: Study, model: Model, finding: Finding) -> Model:
     """Return the model with an effect that the stick phases showed; a ripple's phases and amplitude are fitted at once."""
     first = make_effect(finding.kind, **finding.values)
     if finding.kind == kind_with_signature(BELT_RIPPLE):
-        trials = [model.plus(dataclasses.replace(first, amplitude=amplitude)) for amplitude in (0.01, 0.05)]  # pyright: ignore[reportCallIssue]
         frequency, others = float(finding.values["frequency"]), ({},) * len(model.effects)
-        own = {s.record.name: (*others, {"phase": _ripple_phase(s, frequency)}) for s in study.pool.slips}
-        return _best_in_forecasts(study, [dataclasses.replace(trial, own=own) for trial in trials], most=12, evaluations=20)
+        seen = {s.record.name: _ripple(s, frequency) for s in study.pool.slips}
+        amplitude = float(np.median([size for size, _ in seen.values()]))
+        own = {run: (*others, {"phase": phase}) for run, (_, phase) in seen.items()}
+        trial = dataclasses.replace(model.plus(dataclasses.replace(first, amplitude=amplitude)), own=own)  # pyright: ignore[reportCallIssue]
+        return _best_in_forecasts(study, [trial], most=12, evaluations=20)
     if finding.kind == kind_with_signature(YIELDING):
         grid = itertools.product(study.records[0].deflection * np.array(LIMITS), (0.05, 0.3))
         ways = [dataclasses.replace(first, elastic_limit=float(limit), damping_ratio=ratio) for limit, ratio in grid]  # pyright: ignore[reportCallIssue]
@@ -67,11 +69,11 @@ def _best_in_forecasts(study: Study, trials: Sequence[Model], *, most: int, eval
     return min(fits, key=lambda f: f.cost).model
 
 
-def _ripple_phase(slips: Slips, frequency: float) -> float:
-    """Return the phase of a ripple of the belt's speed [rad], from what its integral leaves in the stick phases of a run."""
+def _ripple(slips: Slips, frequency: float) -> tuple[float, float]:
+    """Return amplitude [-] and phase [rad] of a ripple of the belt's speed, by what its integral leaves in the stick phases."""
     a, b = wave_in_stick(slips, frequency)
     # the position is the integral, v_b A/w sin(w t + phase) = v_b A/w (cos w t sin phase + sin w t cos phase)
-    return float(np.arctan2(a, b))
+    return float(np.hypot(a, b) * 2.0 * np.pi * frequency / slips.record.mechanism.belt_velocity), float(np.arctan2(a, b))
 
 
 def kinematics(study: Study, details: dict[str, object]) -> list[Finding] | Where:
@@ -172,10 +174,11 @@ def _of_the_sensor(study: Study, sticking: Sticking, best: str, score: float) ->
 
 
 def _rounded(study: Study, sticking: Sticking) -> bool:
-    """Return whether what is seen in stick is no more than readings are rounded by: slips alike are rounded alike."""
-    steps = [float(np.min(np.diff(np.unique(r.raw)), initial=np.inf)) for r in study.records]
-    seen = sticking.departure * min(s.noise.deviation for s in study.pool.slips)
-    return all(seen < step / np.sqrt(12.0) for step in steps if np.isfinite(step))
+    """Return whether noise is mostly rounding, and what is seen in stick no more: slips that are alike are rounded alike."""
+    noise = [s.noise.deviation for s in study.pool.slips]
+    rounding = [float(np.min(np.diff(np.unique(r.raw)), initial=np.inf)) / np.sqrt(12.0) for r in study.records]
+    coarse = all(0.5 * n < r < np.inf for n, r in zip(noise, rounding, strict=True))
+    return coarse and sticking.departure * max(noise) < min(rounding)
 
 
 def _in_noise_alone(best: str, sticking: Sticking) -> bool:
@@ -209,7 +212,7 @@ def _in_stick_named(study: Study, best: str, score: float, settings: dict[str, f
     """Return the effect that stands for what is seen in stick, at numbers to start from."""
     if best == BELT_RIPPLE:
         return [
-            Finding(kind_with_signature(best), likely("stick", score), {"amplitude": 0.01, "frequency": settings["frequency"]})
+            Finding(kind_with_signature(best), likely("stick", score), {"amplitude": 0.0, "frequency": settings["frequency"]})
         ]
     box = study.records[0].mechanism
     stiffness = max(settings["angular_frequency"] ** 2 * box.mass - box.stiffness, 0.1 * box.stiffness)
