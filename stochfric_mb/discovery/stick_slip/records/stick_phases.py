@@ -119,11 +119,12 @@ def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tu
         stretch=STRETCH * cycle,
         fineness=FINENESS,
     )
-    gains = _ripple_gains(runs, rests, grid)
-    best = int(np.argmax(gains))
+    gains, plain = (_ripple_gains(runs, rests, grid, plain=p) for p in (False, True))
+    chi2 = sum(float(r @ r) for r in rests)
+    # a ripple that is nearly all of what counts as slow noise says itself how fast it is; that noise would favour its harmonics
+    best = int(np.argmax(plain if plain.max() > criteria.STICK_EXPLAINED * chi2 else gains))
     cost = 2 * len(runs) * log_n + 2.0 * float(np.log(len(every)))
-    plain = float(_ripple_gains(runs, rests, grid[best : best + 1], plain=True)[0])
-    settings = {"frequency": float(grid[best]), "plain": plain - cost, "share": plain / sum(float(r @ r) for r in rests)}
+    settings = {"frequency": float(grid[best]), "plain": float(plain[best]) - cost, "share": float(plain[best]) / chi2}
     return float(gains[best]) - cost, settings
 
 
