@@ -116,11 +116,17 @@ def _distinguished(study: Study, model: Model, effects: Sequence[Candidate]) -> 
 
 
 def _alike_in_forecasts(study: Study, trials: Sequence[tuple[Candidate, Model]]) -> list[Candidate]:
-    """Return the candidates whose models forecast as well as the best one when refitted, in the order given."""
+    """Return the candidates whose models forecast as well as the best one when refitted, in the order given.
+
+    A course of any shape has many numbers, each of which costs what it costs in the screening.
+    """
     fitted = [refit(m, study.windows, study.uncertainty, most=REFIT_WINDOWS, evaluations=20).model for _, m in trials]
-    best = min(fitted, key=lambda m: likelihood_ratio(fitted[0], m, study.windows))
-    near = zip(trials, fitted, strict=True)
-    return [c for (c, _), m in near if likelihood_ratio(best, m, study.windows) < criteria.ALIKE_SCREENED]
+    costs = [len(c.hypothesis.columns) * study.baseline.price for c, _ in trials]
+    against = [likelihood_ratio(fitted[0], m, study.windows) + cost for m, cost in zip(fitted, costs, strict=True)]
+    first = int(np.argmin(against))
+    near = zip(trials, fitted, costs, strict=True)
+    least = criteria.ALIKE_SCREENED + costs[first]
+    return [c for (c, _), m, cost in near if likelihood_ratio(fitted[first], m, study.windows) + cost < least]
 
 
 def _best_score(candidates: Iterable[Candidate]) -> float:

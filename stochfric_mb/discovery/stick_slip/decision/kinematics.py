@@ -152,7 +152,9 @@ def _in_stick(study: Study, details: dict[str, object]) -> list[Finding] | Where
         return []
     if best in CREEP or score < _least(sticking) or _in_noise_alone(best, sticking):
         return Where(*CREEP.get(best, ELSE))
-    details[STICK_SHARE] = score / sticking.excess if sticking.excess > 0.0 else 0.0
+    # a ripple that counts as slow noise leaves nothing in excess of that
+    shown = sticking.settings[best].get("share", 0.0)
+    details[STICK_SHARE] = score / sticking.excess if sticking.excess > 0.0 else shown
     return _in_stick_named(study, best, score, sticking.settings[best])
 
 

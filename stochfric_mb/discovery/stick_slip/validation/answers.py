@@ -127,7 +127,8 @@ def _poor(answer: Answer, slip_study: Study, recalibrated: Fit) -> Decision | No
     far = _far_off(answer.model, recalibrated.model, slip_study)
     if far is not None:
         return taken_back(decision, f"comes closest, but with it {far} stated standard deviations off from what is stated")
-    if explained_with_its_form(decision):
+    # of a record with stray or clipped readings the forces are not those of its slips
+    if explained_with_its_form(decision) or {n.kind for n in decision.named} <= shown_elsewhere(decision.model):
         return None
     where, decision.details["adequacy"] = inadequate(slip_study, answer.model)
     if where is None:
