@@ -12,6 +12,7 @@ from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference.augmented import Start, augmented_system
 from tests.physics.independent_belt_box import Box, simulate
+from tests.unit.effects.examples import example
 
 CASES = {
     "velocity_weakening": {"amplitude": 0.05, "decay_velocity": 5.0e-3},
@@ -92,8 +93,9 @@ def test_position_axis() -> None:
 def test_cases_cover_the_effects_that_move_the_box() -> None:
     from stochfric_mb.effects import EFFECTS, effect_class
 
-    # what reads a temperature, a pressure or a drive needs a record of it
-    covered_elsewhere = {"impacts", "presliding_compliance"} | {k for k in EFFECTS if effect_class(k).reads}
+    # what reads a temperature, a pressure or a drive needs a record of it; a load that moves behind its motor needs one
+    of_joints = {k for k in EFFECTS if effect_class(k).reads or example(k).moves_load}
+    covered_elsewhere = {"impacts", "presliding_compliance"} | of_joints
     moving = {k for k in EFFECTS if effect_class(k).group not in ("sensor", "randomness")}
     assert moving == set(CASES) | covered_elsewhere
     for kind, values in CASES.items():

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 
-import numpy as np
-
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision, Named
@@ -24,12 +22,13 @@ from stochfric_mb.discovery.stick_slip.validation.explained import (
     shown_elsewhere,
     taken_back,
     unexplained,
+    within_noise,
 )
 from stochfric_mb.discovery.stick_slip.validation.feature_skill import slip_force_gap
 from stochfric_mb.discovery.stick_slip.validation.held_out_check import Comparison, compared, without_last
 from stochfric_mb.discovery.stick_slip.validation.predictive_check import inadequate
 from stochfric_mb.effects import kind_with_signature, kinds_with
-from stochfric_mb.effects.traits import MOVES_ZERO, SCATTER, WANDER
+from stochfric_mb.effects.traits import SCATTER, WANDER
 
 
 @dataclasses.dataclass(frozen=True)
@@ -172,6 +171,7 @@ def checked_on_held_out(answer: Answer, slip_study: Study, recalibrated: Fit, ru
         answer = _with_form(answer, answer.decision.form.kind, slip_study, recalibrated, runs)
     dropped: dict[str, object] = {}
     last: Named | None = None
+    noise = False
     while answer.decision.named and answer.decision.named[-1].kind not in shown_elsewhere(answer.decision.model):
         last = answer.decision.named[-1]
         fewer = _without_last(answer, slip_study, recalibrated, runs)
@@ -179,6 +179,7 @@ def checked_on_held_out(answer: Answer, slip_study: Study, recalibrated: Fit, ru
         if seen is None or not (_refused(seen, last, fewer) or _closes_nothing(seen, last, fewer, answer, slip_study, runs)):
             break
         dropped[last.kind] = dataclasses.asdict(seen)
+        noise = within_noise(last.kind, answer.model, runs.slips)
         answer = fewer
     if len(answer.decision.named) > 1:
         # scatter that stands beside an effect makes up for what that one does wrong
@@ -191,7 +192,7 @@ def checked_on_held_out(answer: Answer, slip_study: Study, recalibrated: Fit, ru
     if not dropped or last is None:
         return answer
     answer.decision.details["not_borne_out"] = dropped
-    return answer if answer.decision.named else dataclasses.replace(answer, decision=_nothing_left(answer, last, runs))
+    return answer if answer.decision.named else dataclasses.replace(answer, decision=_nothing_left(answer, last, runs, noise))
 
 
 def _with_form(answer: Answer, term: str, slip_study: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
@@ -250,25 +251,11 @@ def _refused(seen: Comparison, last: Named, fewer: Answer) -> bool:
     return seen.worse or idle
 
 
-def _nothing_left(answer: Answer, last: Named, runs: HeldOut) -> Decision:
+def _nothing_left(answer: Answer, last: Named, runs: HeldOut, noise: bool) -> Decision:
     """Return the decision where held-out runs have refused every effect: none, or unknown where much is to be explained."""
     error = mean_score(answer.model, runs)
     reducible = error - min(floor_of(answer.model, runs), error)
-    if reducible < criteria.LEAST_REDUCIBLE * error or (
-        last.kind in kinds_with(MOVES_ZERO) and _slow_noise(error, reducible, runs)
-    ):
+    if noise or reducible < criteria.LEAST_REDUCIBLE * error:
         return dataclasses.replace(answer.decision, verdict="none")
     text = f"{last.kind} comes closest on the fit runs, but makes forecasts of the held-out runs worse"
     return dataclasses.replace(answer.decision, verdict="unknown", where=Where(last.where.axis, text))
-
-
-def _slow_noise(error: float, reducible: float, runs: HeldOut) -> bool:
-    """Return whether what forecasts miss beyond noise is no more than a reading errs: a zero that wanders so little is noise.
-
-    Args:
-        error: mean absolute error [m].
-        reducible: part of it beyond that of a true model [m].
-        runs: the forecast runs.
-    """
-    beyond = float(np.sqrt(np.pi / 2.0 * (error**2 - (error - reducible) ** 2)))  # as a standard deviation
-    return beyond < criteria.STICK_DEPARTS * max(s.noise.deviation for s in runs.slips)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from typing import cast
 
 import numpy as np
@@ -13,12 +14,13 @@ from stochfric_mb.discovery.stick_slip.decision.decision import Decision
 from stochfric_mb.discovery.stick_slip.decision.kinematics import STICK_SHARE
 from stochfric_mb.discovery.stick_slip.decision.rounds import SCORE_LEFT, SHAPE_LEFT
 from stochfric_mb.discovery.stick_slip.records.record import Array
+from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of, floor_scores, scores
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import kind_with_signature, kinds_with
-from stochfric_mb.effects.traits import JUMP, KICKS, OUTSIDE_FORECASTS, SCATTER
+from stochfric_mb.effects.traits import JUMP, KICKS, MOVES_ZERO, OUTSIDE_FORECASTS, SCATTER
 from stochfric_mb.errors import SimulationError
 
 GOLDEN = 0.6180339887498949
@@ -53,7 +55,9 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
         floor = min(float(best.mean()), float(with_.mean()))
         decision.details["explained"] = {"before": before, "floor": floor}
         return _missed(decision, before, floor) if before - floor > criteria.NONE_MISSES * before else None
-    return _too_little(decision, _enough(decision, augmented), without, with_, best)
+    little = _too_little(decision, _enough(decision, augmented), without, with_, best)
+    noise = little is not None and len(kinds) == 1 and within_noise(decision.named[0].kind, augmented, study.pool.slips)
+    return dataclasses.replace(decision, verdict="none", named=()) if noise else little
 
 
 def _enough(decision: Decision, augmented: Model) -> float:
@@ -83,6 +87,25 @@ def _too_little(decision: Decision, enough: float, without: Array, with_: Array,
     decision.details["explained"] = {"before": before, "after": after, "floor": floor, "share": share, "doubt": doubt}
     why = f"comes closest, but explains only {max(share, 0.0):.0%} of what the runs show"
     return taken_back(decision, why) if float(left.mean()) - enough * floor > criteria.LACKS * doubt else None
+
+
+def within_noise(kind: str, model: Model, slips: Sequence[Slips]) -> bool:
+    """Return whether a kind is a sensor's zero that moves by less than a reading errs: slow noise, which is no effect.
+
+    Args:
+        kind: an effect of the model.
+        model: the model with it, fitted.
+        slips: the slips of the runs.
+    """
+    if kind not in kinds_with(MOVES_ZERO):
+        return False
+    moved = [
+        float(np.std(effect.measure(s.record.time, np.zeros_like(s.record.time), np.random.default_rng(0))))
+        for s in slips
+        for effect in model.effects_in(s.record.name)
+        if effect.kind == kind
+    ]
+    return max(moved, default=np.inf) < criteria.STICK_DEPARTS * min(s.noise.deviation for s in slips)
 
 
 def shown_elsewhere(model: Model) -> set[str]:
