@@ -102,6 +102,8 @@ STICK_EXPLAINED, STICK_SLACK = 0.75, 60.0
 STICK_DEPARTS = 1.0
 """What a stuck box does beyond noise, over the noise of one reading, up to which it may be the sensor's slow noise [-]: a zero
 that wanders less is seen in the means of many readings alone, and moves no forecast by more than a reading errs."""
+ROUNDING = 0.5
+"""Deviation of rounding over that of the noise from which on noise is mostly rounding [-]: the larger half."""
 SINGLE_MOMENTS = 0.2
 """Share of what stick phases show beyond noise from which on jumps at single moments count [-]: chosen."""
 YIELDS_FOR_CREEP = 0.5

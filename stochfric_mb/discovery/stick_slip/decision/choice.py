@@ -16,7 +16,7 @@ from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING
 from stochfric_mb.discovery.stick_slip.screening.naming import with_candidate
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
-from stochfric_mb.discovery.stick_slip.simulation.refit import likelihood_ratio, refit
+from stochfric_mb.discovery.stick_slip.simulation.refit import likelihood_ratios, refit
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import effect_class, kinds_with
 from stochfric_mb.effects.traits import BETWEEN_POINTS, DRIFTS, SHAPED_IF_FORCED, SHAPES_SLIPS
@@ -121,12 +121,9 @@ def _alike_in_forecasts(study: Study, trials: Sequence[tuple[Candidate, Model]])
     A course of any shape has many numbers, each of which costs what it costs in the screening.
     """
     fitted = [refit(m, study.windows, study.uncertainty, most=REFIT_WINDOWS, evaluations=20).model for _, m in trials]
-    costs = [len(c.hypothesis.columns) * study.baseline.price for c, _ in trials]
-    against = [likelihood_ratio(fitted[0], m, study.windows) + cost for m, cost in zip(fitted, costs, strict=True)]
-    first = int(np.argmin(against))
-    near = zip(trials, fitted, costs, strict=True)
-    least = criteria.ALIKE_SCREENED + costs[first]
-    return [c for (c, _), m, cost in near if likelihood_ratio(fitted[first], m, study.windows) + cost < least]
+    costs = np.array([len(c.hypothesis.columns) * study.baseline.price for c, _ in trials])
+    against = likelihood_ratios(fitted, study.windows) + costs
+    return [c for (c, _), worse in zip(trials, against - against.min(), strict=True) if worse < criteria.ALIKE_SCREENED]
 
 
 def _best_score(candidates: Iterable[Candidate]) -> float:

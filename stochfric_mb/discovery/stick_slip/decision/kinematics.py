@@ -179,7 +179,7 @@ def _rounded(study: Study, sticking: Sticking) -> bool:
     """Return whether noise is mostly rounding, and what is seen in stick no more: slips that are alike are rounded alike."""
     noise = [s.noise.deviation for s in study.pool.slips]
     rounding = [float(np.min(np.diff(np.unique(r.raw)), initial=np.inf)) / np.sqrt(12.0) for r in study.records]
-    coarse = all(0.5 * n < r < np.inf for n, r in zip(noise, rounding, strict=True))
+    coarse = all(criteria.ROUNDING * n < r < np.inf for n, r in zip(noise, rounding, strict=True))
     return coarse and sticking.departure * max(noise) < min(rounding)
 
 

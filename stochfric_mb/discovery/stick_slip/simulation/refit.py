@@ -141,16 +141,16 @@ def _each(errors: Array) -> Array:
     return loss(errors, TYPICAL).sum(axis=-1)
 
 
-def likelihood_ratio(model: Model, other: Model, windows: Sequence[Windows]) -> float:
-    """Return twice the log likelihood ratio of a model to another one, in what forecasts count as independent [-].
+def likelihood_ratios(models: Sequence[Model], windows: Sequence[Windows]) -> Array:
+    """Return twice the log likelihood ratios of the best of some models to each, in what forecasts count as independent [-].
 
     All forecasts count, not only those that a fit used: a wave's frequency may be wrong by a wave between two of these. Each
     begins where it is least wrong, as far as noise lets the start be off: a wave to which slips keep knows when the box breaks
     away whatever the start, and would be better by that alone.
     """
-    misfits = [_Misfit(m, windows, {}, (), max(map(len, windows))) for m in (model, other)]
-    cost, others = (sum(float(m.least(w).sum()) for w in m.windows) for m in misfits)
-    return 2.0 * (others - cost) / misfits[0].spread(2.0 * cost)
+    misfits = [_Misfit(m, windows, {}, (), max(map(len, windows))) for m in models]
+    costs = np.array([sum(float(m.least(w).sum()) for w in m.windows) for m in misfits])
+    return 2.0 * (costs - costs.min()) / misfits[0].spread(2.0 * float(costs.min()))
 
 
 def with_deviations(

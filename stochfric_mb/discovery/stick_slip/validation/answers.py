@@ -14,7 +14,7 @@ from stochfric_mb.discovery.stick_slip.screening.folding import comes_back
 from stochfric_mb.discovery.stick_slip.simulation.forecast import score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, deterministic, floor_of, mean_score, settled
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
-from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, likelihood_ratio, refit, with_deviations
+from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, likelihood_ratios, refit, with_deviations
 from stochfric_mb.discovery.stick_slip.simulation.scatter import matched
 from stochfric_mb.discovery.stick_slip.simulation.strength import decided_by_ratio, undecided
 from stochfric_mb.discovery.stick_slip.study import Study
@@ -230,7 +230,8 @@ def _with_strengths(answer: Answer, slip_study: Study, recalibrated: Fit) -> Ans
         fewer = dataclasses.replace(answer.decision, named=rest, model=model)
         assert fit is not None
         other = _fit(fewer, slip_study, recalibrated) if rest else recalibrated
-        ratio = likelihood_ratio(fit.model, other.model, slip_study.windows)
+        without, with_ = likelihood_ratios([other.model, fit.model], slip_study.windows)
+        ratio = float(without - with_)
         evidence = max(ratio, named[kind].evidence.score or 0.0)
         answer.decision.details.setdefault("strengths", {})[kind] = ratio  # pyright: ignore[reportIndexIssue, reportAttributeAccessIssue]
         if evidence >= criteria.STRENGTH_DECIDED:
