@@ -160,8 +160,11 @@ def _estimates(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[EffectE
         others = tuple(k for k in dict.fromkeys([*map(_beyond, same), *stand_ins(effect.kind, pairs)]) if k != effect.kind)
         axis = trial.candidate.where
         stage = next(s for s in place.selected.stages if s.trials[0] is trial)
+        # a force of its own is no friction, whatever it depends on
+        of_its_own = effect.group == "mechanism" and effect.shows
+        opening = effect.shows[0].upper() + effect.shows[1:] if of_its_own else f"Friction depends on {axis}"
         text = (
-            f"Friction depends on {axis}{_at(place)}: the error falls from {stage.before.rms:.4g} to {trial.fit.rms:.4g} "
+            f"{opening}{_at(place)}: the error falls from {stage.before.rms:.4g} to {trial.fit.rms:.4g} "
             f"{place.fit[0].unit} on the fit runs."
         )
         chance = trial.p_value
