@@ -347,7 +347,7 @@ def _forward_notes(place: PlaceOutcome) -> list[str]:
 def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
     remarks: list[str] = []
     for place in places:
-        for kind in _imitated(place):
+        for kind in dict.fromkeys(_imitated(place)):  # several forms of a kind are one name
             names = ", ".join(n.name for n in place.nuisances)
             remarks.append(
                 f"{words_of(kind)} cannot be distinguished from a correction of {names} here{_at(place)}: any of it is "
