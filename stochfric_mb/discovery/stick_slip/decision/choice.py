@@ -27,6 +27,8 @@ MOST_SIMULATED_LATER = 4
 """The same in what an effect leaves, where the best marks can be trusted: what is left is weak."""
 MOST_CONTENDERS = 3
 """Candidates that are refitted to forecasts where their marks are about as good."""
+ROUGH = 3
+"""Steps of a rough fit, which tells where to begin."""
 REFIT_WINDOWS = 12
 """Forecasts of each run that such a fit uses."""
 REFUTED = "shapes_refuted"
@@ -232,14 +234,15 @@ class _Simulation:
 
     def _tried(self, mine: Sequence[Candidate]) -> list[Trial]:
         """Return the candidates that are worth it, simulated, best first."""
-        # over the best effect, not the shape: where none comes near it the marks are too far from linear to choose by
-        least = max(criteria.WORTH_SIMULATING * mine[0].score if mine else 0.0, criteria.FOLLOWED_UP / 2.0)
+        # over the best effect, not what follows any shape: where none comes near that the marks are too far from linear
+        best = next((c.score for c in mine if not c.any_shape), 0.0)
+        least = max(criteria.WORTH_SIMULATING * best, criteria.FOLLOWED_UP / 2.0)
         rounds = sum(key.startswith("confirmation") for key in self.details)
         most = MOST_SIMULATED_LATER if rounds else MOST_SIMULATED
         worth = [c for c in mine if c.score > least]
         chosen = [c for c in worth if not c.any_shape][:most] + [c for c in worth if c.any_shape]
-        starts = [with_candidate(self.model, c, self.study.pool) for c in chosen]
-        tried = [(c, confirm(self.cases, m, self.study.uncertainty)) for c, m in zip(chosen, starts, strict=True)]
+        so_far = self.before.model
+        tried = [(c, confirm(self.cases, self._begin(c), self.study.uncertainty, nested=so_far)) for c in chosen]
         if not self.model.effects:
             tried += entrained(self.study, self.model, self.cases)
         tried.sort(key=lambda t: t[1].criterion)
@@ -247,6 +250,23 @@ class _Simulation:
         scores = {c.name: [f.chi2, f.criterion] for c, f in reversed(tried)}
         self.details[f"confirmation_{rounds + 1}"] = scores | {"believed": [self.before.chi2, self.before.criterion]}
         return tried
+
+    def _begin(self, candidate: Candidate) -> Model:
+        """Return the model with a candidate where fitting begins: of ways far apart at that which a few steps bring nearest."""
+        ways = [with_candidate(self.model, c, self.study.pool) for c in (candidate, *candidate.others)]
+        so_far = self.before.model
+        if not all(_near(getattr(ways[0].law, name), getattr(so_far.law, name)) for name in ("mu_s", "mu_k")):
+            # estimated beside marks that look like theirs, coefficients of friction may be of another rig
+            ways.append(dataclasses.replace(ways[0], law=so_far.law, corrections=so_far.corrections))
+        if len(ways) == 1:
+            return ways[0]
+        rough = [confirm(self.cases, way, self.study.uncertainty, evaluations=ROUGH) for way in ways]
+        return min(rough, key=lambda r: r.chi2).model
+
+
+def _near(one: float, other: float) -> bool:
+    """Return whether two coefficients of friction differ by less than a factor of two."""
+    return 0.5 < one / other < 2.0
 
 
 def _lacking(fitted: Confirmed, before: Confirmed) -> bool:

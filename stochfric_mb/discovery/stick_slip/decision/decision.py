@@ -38,6 +38,8 @@ class Named:
     """Where it shows."""
     before: Model | None = None
     """The model without it, as it stood when it was selected."""
+    shape_left: float = 1.0
+    """Misfit of simulated slips with it and those before it over that without any [-]; 1 where none were simulated."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -62,10 +64,11 @@ class Decision:
     """The slips that the effects were simulated with, where they were."""
 
 
-def selected(kind: str, evidence: Evidence, before: Model, class_: tuple[str, ...] = ()) -> Named:
+def selected(kind: str, evidence: Evidence, before: Model, class_: tuple[str, ...] = (), shape_left: float = 1.0) -> Named:
     """Return an effect that is taken into the model ``before``, with where effects of its kind show."""
     cls = effect_class(kind)
-    return Named(kind, class_, evidence, Where(cls.shows_on or kind, cls.shows or f"{kind} explains the disagreement"), before)
+    where = Where(cls.shows_on or kind, cls.shows or f"{kind} explains the disagreement")
+    return Named(kind, class_, evidence, where, before, shape_left)
 
 
 def term_of(model: Model, score: float) -> Named:

@@ -28,8 +28,6 @@ from stochfric_mb.effects import kind_with_signature, kinds_with
 from stochfric_mb.effects.course import PIECES
 from stochfric_mb.effects.traits import BETWEEN_POINTS, CLIPPED, DRIFTS, SHAPES_SLIPS, WANDER, WANDERS_ALIKE, WAVES
 
-SHAPE_LEFT = "shape_left"
-"""Name under which the details hold the misfit of simulated slips with the effects named over that without."""
 SCORE_LEFT = "left_over_score"
 """Name under which the details hold the score of a pattern without a name in what the effects named leave."""
 LARGEST = "largest_by_chance"
@@ -192,7 +190,7 @@ class _Search:
     def ended(self) -> Decision:
         """Return the decision once what is random has been looked for, last of all."""
         working = self.working
-        self.details[SHAPE_LEFT] = working.shape_left
+        self.details["shape_left"] = working.shape_left
         working.baseline = without_accidents(working.baseline)
         scatter = randomness(working.baseline)
         self.details["randomness"] = dataclasses.asdict(scatter)

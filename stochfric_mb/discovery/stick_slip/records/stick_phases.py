@@ -221,7 +221,10 @@ def _yielding(run: _Phases) -> list[Array]:
 
 
 def _step(runs: Sequence[_Phases], rests: Sequence[Array]) -> tuple[float, list[float], int]:
-    """Return the fall of chi^2 by one step within a stick phase of each run, its times [s], and how many phases jump."""
+    """Return the fall of chi^2 by one step within a stick phase of each run, its times [s], and how many phases jump.
+
+    What counts is the fall beyond that by the phase's own slope: a reading that drifts, faster at times, does not jump.
+    """
     total, times, jumps = 0.0, list[float](), 0
     for run, rest in zip(runs, rests, strict=True):
         best, when = 0.0, 0.0
@@ -230,9 +233,13 @@ def _step(runs: Sequence[_Phases], rests: Sequence[Array]) -> tuple[float, list[
             n = len(rows)
             if n < 10:
                 continue
+            time = run.samples.time[rows] - run.samples.time[rows].mean()
+            mine = rest[rows] - rest[rows].mean()
+            mine = mine - time * (time @ mine) / (time @ time)
             k = np.arange(1, n)
-            sums = np.cumsum(rest[rows])
-            gains = (sums[:-1] - sums[-1] * k / n) ** 2 / (k * (n - k) / n)
+            # of a step from sample k on, less the mean and the slope that it has itself
+            own = k * (n - k) / n - np.cumsum(time)[:-1] ** 2 / (time @ time)
+            gains = np.cumsum(mine)[:-1] ** 2 / np.maximum(own, 1.0 / n)
             jumps += int(gains.max() > criteria.PHASE_JUMPED)
             if gains.max() > best:
                 best, when = float(gains.max()), float(run.samples.time[rows[int(np.argmax(gains))]])

@@ -24,6 +24,9 @@ from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, JUMP, POSITIVE
 REFITTED = 14
 """Candidates, best first at fixed variance components, whose variance components are fitted anew."""
 
+OTHERS, APART = 3, 0.2
+"""Other ways of a kind that are kept at most, and how far apart the logarithms of their first settings are [-]."""
+
 
 @dataclasses.dataclass(frozen=True)
 class Candidate:
@@ -39,6 +42,8 @@ class Candidate:
     """Its regressors."""
     solution: Solution
     """The fit with it."""
+    others: tuple[Candidate, ...] = ()
+    """Other ways of the same kind that marks hardly tell from this one, far from it: where simulations may begin as well."""
 
     @property
     def is_effect(self) -> bool:
@@ -121,7 +126,23 @@ def _refitted(kind: _Kind, hypothesis: Hypothesis, baseline: Baseline) -> Candid
     _, _, best, penalty = _best(kind, baseline, fitted.scatter)
     if best is not hypothesis:
         fitted = baseline.regression.fit(baseline.terms.plus(best.columns), fitted.scatter)
-    return Candidate(kind.name, kind.axis, 2.0 * (baseline.solution.cost - fitted.cost) - penalty, best, fitted)
+    score = 2.0 * (baseline.solution.cost - fitted.cost) - penalty
+    return Candidate(kind.name, kind.axis, score, best, fitted, tuple(_others(kind, best, baseline, fitted.scatter)))
+
+
+def _others(kind: _Kind, best: Hypothesis, baseline: Baseline, scatter: Array) -> Iterator[Candidate]:
+    """Yield ways of a kind whose first setting, on a logarithmic scale, is far from that of the better ones."""
+    if kind.axis or not best.setting or best.variant in (WAVE, ENTRAINED) or kind.name == kind_with_signature(JUMP):
+        return
+    gains = baseline.regression.gains(baseline.terms, scatter, [h.columns for h in kind.hypotheses])
+    taken = [best.setting[0]]
+    for place in np.argsort(-gains, kind="stable"):
+        way = kind.hypotheses[place]
+        if len(taken) > OTHERS or gains[place] < criteria.OUTDONE * gains.max():
+            return
+        if all(way.setting[0] * other > 0.0 and abs(np.log(way.setting[0] / other)) > APART for other in taken):
+            taken.append(way.setting[0])
+            yield Candidate(kind.name, "", 2.0 * float(gains[place]), way, baseline.solved(way.columns))
 
 
 def _effects(baseline: Baseline, without: Sequence[str]) -> Iterator[_Kind]:

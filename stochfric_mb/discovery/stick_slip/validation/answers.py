@@ -184,6 +184,10 @@ def checked_on_held_out(answer: Answer, slip_study: Study, recalibrated: Fit, ru
         dropped[last.kind] = dataclasses.asdict(seen)
         noise = within_noise(last.kind, answer.model, runs.slips)
         answer = fewer
+    if dropped and answer.decision.named:
+        # what is refused explains nothing: the rest has to do without it
+        poor = _poor(answer, slip_study, recalibrated)
+        answer = answer if poor is None else Answer(poor, None, recalibrated.model)
     if len(answer.decision.named) > 1:
         # scatter that stands beside an effect makes up for what that one does wrong
         seen = compared(recalibrated.model, answer.model, runs)

@@ -12,11 +12,11 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision
 from stochfric_mb.discovery.stick_slip.decision.kinematics import STICK_SHARE
-from stochfric_mb.discovery.stick_slip.decision.rounds import SCORE_LEFT, SHAPE_LEFT
+from stochfric_mb.discovery.stick_slip.decision.rounds import SCORE_LEFT
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.discovery.stick_slip.simulation.forecast import Windows, score
-from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of, floor_scores, scores
+from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, floor_of, floor_scores, phased, scores
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import kind_with_signature, kinds_with
@@ -55,16 +55,18 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
         floor = min(float(best.mean()), float(with_.mean()))
         decision.details["explained"] = {"before": before, "floor": floor}
         return _missed(decision, before, floor) if before - floor > criteria.NONE_MISSES * before else None
-    little = _too_little(decision, _enough(decision, augmented), without, with_, best)
+    little = _too_little(decision, _enough(decision), without, with_, best)
     noise = little is not None and len(kinds) == 1 and within_noise(decision.named[0].kind, augmented, study.pool.slips)
     return dataclasses.replace(decision, verdict="none", named=()) if noise else little
 
 
-def _enough(decision: Decision, augmented: Model) -> float:
+def _enough(decision: Decision) -> float:
     """Return the share of the reducible error that the names must explain [-]."""
     if explained_with_its_form(decision):
         return criteria.CLOSES_NOTHING
-    lenient = augmented.random or any(n.kind == kind_with_signature(JUMP) for n in decision.named)
+    # what is random beside a named effect does not excuse what that one does not explain
+    first = next(e for e in decision.model.effects if e.kind == decision.named[0].kind)
+    lenient = first.random or any(n.kind == kind_with_signature(JUMP) for n in decision.named)
     return criteria.EXPLAINED_RANDOM if lenient else criteria.EXPLAINED
 
 
@@ -131,14 +133,16 @@ def _error_of_mean(values: Array) -> float:
 def explained_with_its_form(decision: Decision) -> bool:
     """Return whether the one effect named explains what its channel shows, but for what another form of its kind would leave.
 
-    What its form leaves adds up in a forecast of a whole cycle. The forces of the slips, or the stick phases, in which it was
-    selected say more of its kind, unless a pattern without a name in what it leaves says more still.
+    What its form leaves adds up in a forecast of a whole cycle, from which recalibration has taken the mean. The forces of the
+    slips, or the stick phases, in which it was selected say more of its kind, unless a pattern without a name in what it leaves
+    says more still. Of a wave recalibration takes nothing: forecasts hold as much of it as the stick phases.
     """
-    left = cast("float", decision.details.get(SHAPE_LEFT, 1.0))
+    if len(decision.named) != 1 or phased(decision.model):
+        return False
     in_stick = cast("float", decision.details.get(STICK_SHARE, 0.0))
     pattern = cast("float", decision.details.get(SCORE_LEFT, 0.0))
-    explained = left < criteria.FORM_MISSES or in_stick > criteria.STICK_EXPLAINED
-    return len(decision.named) == 1 and explained and pattern < (decision.named[0].evidence.score or 0.0)
+    explained = decision.named[0].shape_left < criteria.FORM_MISSES or in_stick > criteria.STICK_EXPLAINED
+    return explained and pattern < (decision.named[0].evidence.score or 0.0)
 
 
 def taken_back(decision: Decision, why: str) -> Decision:
