@@ -13,7 +13,7 @@ from stochfric_mb.discovery.stick_slip.screening.variance_components import Rand
 
 N, RUNS = 40, 2
 STATIC, KINETIC = 8.0, 5.0
-CALM = Switching(separation=3.0, changes=10.0, regular=False, jumps=0, still=1.0)
+CALM = Switching(separation=3.0, changes=10.0, regular=False, rarer=10, jumps=0, still=1.0)
 
 
 def sensor(deviation: float, coloured: float = 0.0) -> SimpleNamespace:
@@ -161,7 +161,7 @@ def test_a_wander_may_share_it():
 
 
 def test_switching_has_no_name_however_it_wanders():
-    levels = Switching(separation=80.0, changes=10.0, regular=False, jumps=20, still=0.7)
+    levels = Switching(separation=80.0, changes=10.0, regular=False, rarer=10, jumps=20, still=0.7)
     assert called(levels, correlation=5.0, wander=80.0) is levels.where
     assert levels.where is not None
 

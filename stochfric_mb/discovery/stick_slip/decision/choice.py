@@ -241,8 +241,7 @@ class _Simulation:
         most = MOST_SIMULATED_LATER if rounds else MOST_SIMULATED
         worth = [c for c in mine if c.score > least]
         chosen = [c for c in worth if not c.any_shape][:most] + [c for c in worth if c.any_shape]
-        so_far = self.before.model
-        tried = [(c, confirm(self.cases, self._begin(c), self.study.uncertainty, nested=so_far)) for c in chosen]
+        tried = [(c, confirm(self.cases, self._begin(c), self.study.uncertainty)) for c in chosen]
         if not self.model.effects:
             tried += entrained(self.study, self.model, self.cases)
         tried.sort(key=lambda t: t[1].criterion)

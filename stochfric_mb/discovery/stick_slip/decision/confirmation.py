@@ -90,7 +90,6 @@ def confirm(
     *,
     evaluations: int = 20,
     entrained: bool = False,
-    nested: Model | None = None,
 ) -> Confirmed:
     """Return the candidate with its numbers fitted to the features of ``cases``.
 
@@ -101,7 +100,6 @@ def confirm(
         evaluations: most Gauss-Newton steps.
         entrained: whether the last effect is a wave to which the slips keep: what they leave open is its phase, not its
             frequency.
-        nested: the model that the candidate becomes as its last effect goes, fitted: a fit may begin near it.
     """
     free = _free_in(candidate, cases, uncertainty, entrained=entrained)
     steps = steps_of(free, np.array([_step(k) for k in free]))
@@ -118,8 +116,7 @@ def confirm(
             step = np.clip(step + np.array([away.get(k.name, 0.0) for k in free]) / steps.scale, steps.low, steps.high)
         return step
 
-    before = [] if nested is None else _free_in(nested, cases, uncertainty, entrained=False)
-    starts = [levelled(np.clip(s, steps.low, steps.high)) for s in _starts(candidate, free, steps.scale, before)]
+    starts = [levelled(np.clip(s, steps.low, steps.high)) for s in _starts(candidate, free, steps.scale)]
     first = min(starts, key=lambda s: float(np.sum(errors(s) ** 2)))
     minimum = minimised(
         errors,
@@ -170,22 +167,26 @@ def _levels_away(model: Model, cases: Sequence[Case]) -> dict[str, float]:
     return dict(zip(("mu_s", "mu_k"), np.mean(away, axis=0).tolist(), strict=True)) if away else {}
 
 
-def _starts(candidate: Model, free: Sequence[FreeParameter], scale: Array, nested: Sequence[FreeParameter]) -> list[Array]:
-    """Return where a fit may start: as screened, and with the last effect, and what it changes, several times weaker.
+def _starts(candidate: Model, free: Sequence[FreeParameter], scale: Array) -> list[Array]:
+    """Return where a fit may start: as screened, and with the stated mechanism and the last effect several times weaker.
 
-    A stiffness that was freed for a curved spring, or a coefficient estimated beside it, would without it be of another rig.
+    Where an effect is missing, the numbers of the mechanism that marks suggest are those that imitate it best. A stiffness that
+    was freed for a curved spring would, without its curve, be of another rig.
     """
     starts = [np.zeros(len(free))]
     if not candidate.effects:
         return starts
     last = len(candidate.effects) - 1
-    strong = [k.owner == last and k.name in STRENGTHS and k.value != 0.0 for k in free]
-    if not any(strong):
+    freed = candidate.effects[last].frees
+    values = np.array([k.value for k in free])
+    strong = np.array([k.owner == last and k.name in STRENGTHS and k.value != 0.0 for k in free])
+    along = strong | np.array([k.owner < 0 and k.name in freed for k in free])
+    stated = np.array([k.name in CORRECTED and k.owner < 0 and k.name not in freed for k in free])
+    if not strong.any():
         return starts
-    without = {k.name: k.value for k in nested if k.owner < 0} or dict.fromkeys(candidate.effects[last].frees, 0.0)
-    gone = [0.0 if s else without.get(k.name, k.value) if k.owner < 0 else k.value for s, k in zip(strong, free, strict=True)]
-    away = np.array([k.value for k in free]) - np.array(gone)
-    return starts + [(share - 1.0) * away / scale for share in (0.5, 0.2, 0.05)]
+    return starts + [
+        np.where(along, (share - 1.0) * values, np.where(stated, -values, 0.0)) / scale for share in (1.0, 0.5, 0.2, 0.05)
+    ]
 
 
 def _step(one: FreeParameter) -> float:

@@ -138,7 +138,7 @@ def _others(kind: _Kind, best: Hypothesis, baseline: Baseline, scatter: Array) -
     taken = [best.setting[0]]
     for place in np.argsort(-gains, kind="stable"):
         way = kind.hypotheses[place]
-        if len(taken) > OTHERS or gains[place] < criteria.OUTDONE * gains.max():
+        if len(taken) > OTHERS:
             return
         if all(way.setting[0] * other > 0.0 and abs(np.log(way.setting[0] / other)) > APART for other in taken):
             taken.append(way.setting[0])

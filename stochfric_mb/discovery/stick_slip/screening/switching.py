@@ -42,6 +42,8 @@ class Switching:
     """Changes of level a run [-]."""
     regular: bool
     """Whether the levels alternate regularly in time or along the belt."""
+    rarer: int
+    """Slips at the rarer level of their run."""
     jumps: int
     """Changes from one slip to the next that are far larger than most."""
     still: float
@@ -50,7 +52,8 @@ class Switching:
     @property
     def two_levels(self) -> bool:
         """Whether friction switches at random between two levels."""
-        return self.separation > criteria.LEVELS_APART and self.changes > criteria.STEPS_OF_A_SENSOR and not self.regular
+        apart = self.separation > criteria.LEVELS_APART and self.rarer >= criteria.FEWEST_ALIKE
+        return apart and self.changes > criteria.STEPS_OF_A_SENSOR and not self.regular
 
     @property
     def at_rest_between_jumps(self) -> bool:
@@ -74,8 +77,9 @@ def switching(pool: Pool, residuals: Array) -> Switching:
     upper = levels[column][1]
     changes = float(np.mean([np.count_nonzero(np.diff(upper[m])) for m in pool.rows]))
     regular = separation > criteria.LEVELS_APART and _regular(pool, upper)
+    rarer = sum(min(int(upper[m].sum()), int((~upper[m]).sum())) for m in pool.rows)
     jumps, still = max((_jumps(pool, residuals[:, c], finest[:, c]) for c in (0, 1)), key=lambda j: j[0])
-    return Switching(separation, changes, regular, jumps, still)
+    return Switching(separation, changes, regular, rarer, jumps, still)
 
 
 def levels_score(baseline: Baseline) -> float:
@@ -130,16 +134,19 @@ def _halves(values: Array) -> tuple[Array, Array]:
 
 def _jumps(pool: Pool, values: Array, finest: Array) -> tuple[int, float]:
     """Return the number of jumps, and the share of changes that are none; runs are in units of their own small changes."""
-    changes: list[Array] = []
+    changes: list[np.ndarray] = []
     for run, rows in enumerate(pool.rows):
         mine = values[rows]
         if len(mine) < 4:
             continue
         steps = np.abs(np.diff(mine))
-        changes.append(steps / max(deviation(steps, about=0.0), np.sqrt(2.0) * finest[run]))
+        jumps = steps > criteria.LEVEL_JUMP * max(deviation(steps, about=0.0), np.sqrt(2.0) * finest[run])
+        # a single slip that stands out is an accident: after it friction is where it was
+        back = jumps[1:] & jumps[:-1] & (np.abs(mine[2:] - mine[:-2]) < np.minimum(steps[1:], steps[:-1]) / 2.0)
+        changes.append(jumps & ~(np.r_[back, False] | np.r_[False, back]))
     if sum(map(len, changes)) < criteria.LEVELS_FEWEST:
         return 0, 1.0
-    jumped = np.concatenate(changes) > criteria.LEVEL_JUMP
+    jumped = np.concatenate(changes)
     return int(np.count_nonzero(jumped)), float(1.0 - jumped.mean())
 
 

@@ -8,6 +8,7 @@ from typing import cast
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision, Named
+from stochfric_mb.discovery.stick_slip.decision.kinematics import STICK_SHARE
 from stochfric_mb.discovery.stick_slip.decision.random_effects import kicked
 from stochfric_mb.discovery.stick_slip.decision.rounds import of_wander
 from stochfric_mb.discovery.stick_slip.screening.folding import comes_back
@@ -179,15 +180,17 @@ def checked_on_held_out(answer: Answer, slip_study: Study, recalibrated: Fit, ru
         last = answer.decision.named[-1]
         fewer = _without_last(answer, slip_study, recalibrated, runs)
         seen = compared(fewer.model, answer.model, runs)
-        if seen is None or not (_refused(seen, last, fewer) or _closes_nothing(seen, last, fewer, answer, slip_study, runs)):
+        if seen is None or not (_refused(seen, last, fewer) or _refuted_by_forces(seen, last, fewer, answer, slip_study, runs)):
             break
         dropped[last.kind] = dataclasses.asdict(seen)
         noise = within_noise(last.kind, answer.model, runs.slips)
         answer = fewer
     if dropped and answer.decision.named:
-        # what is refused explains nothing: the rest has to do without it
-        poor = _poor(answer, slip_study, recalibrated)
-        answer = answer if poor is None else Answer(poor, None, recalibrated.model)
+        # what is refused explains nothing: the rest has to explain the fit runs without it
+        poor = unexplained(slip_study, answer.decision, recalibrated.model, answer.model)
+        if poor is not None:
+            poor.details["not_borne_out"] = dropped
+            return Answer(poor, None, recalibrated.model)
     if len(answer.decision.named) > 1:
         # scatter that stands beside an effect makes up for what that one does wrong
         seen = compared(recalibrated.model, answer.model, runs)
@@ -211,14 +214,22 @@ def _with_form(answer: Answer, term: str, slip_study: Study, recalibrated: Fit, 
     return answer if seen is not None and seen.better else plain
 
 
-def _closes_nothing(seen: Comparison, last: Named, fewer: Answer, answer: Answer, slip_study: Study, runs: HeldOut) -> bool:
-    """Return whether the effect selected last leaves the forecasts and the forces of held-out slips as they are without it."""
-    if last.kind in kinds_with(SCATTER) or seen.without - seen.with_ > criteria.CLOSES_NOTHING * seen.without:
+def _refuted_by_forces(seen: Comparison, last: Named, fewer: Answer, answer: Answer, slip_study: Study, runs: HeldOut) -> bool:
+    """Return whether the forces of held-out slips speak against the effect selected last.
+
+    It leaves them and the forecasts as they are without it; or, selected for what it explains of such forces, makes them worse.
+    """
+    if last.kind in kinds_with(SCATTER):
         return False
+    idle = seen.without - seen.with_ <= criteria.CLOSES_NOTHING * seen.without
     if any(e.group == "sensor" for e in answer.model.effects):
-        return bool(fewer.decision.named)  # predicted forces do not hold what a sensor adds
+        return idle and bool(fewer.decision.named)  # predicted forces do not hold what a sensor adds
     forces = slip_force_gap(slip_study.model, fewer.model, answer.model, runs.slips)
-    return forces is not None and forces.recalibrated - forces.augmented < criteria.CLOSES_NOTHING * forces.recalibrated
+    if forces is None:
+        return False
+    nothing = criteria.CLOSES_NOTHING * forces.recalibrated
+    worse = STICK_SHARE not in answer.decision.details and forces.augmented - forces.recalibrated > nothing
+    return worse or (idle and forces.recalibrated - forces.augmented < nothing)
 
 
 def _with_strengths(answer: Answer, slip_study: Study, recalibrated: Fit) -> Answer:

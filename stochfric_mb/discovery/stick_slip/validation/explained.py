@@ -39,7 +39,7 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
     if decision.verdict == "unknown":
         return None
     kinds = {n.kind for n in decision.named}
-    windows = _judged(study, kinds, decision.model)
+    windows = tuple(_scattered(w, JUDGED_WINDOWS) for w in study.windows if len(w))
     if not windows:
         return None
     runs = HeldOut(study.pool.slips[:2], windows, windows)
@@ -51,18 +51,36 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
         best = floor_scores(augmented, runs, recalibrated if kind_with_signature(KICKS) in kinds else None)
     except SimulationError as error:
         return taken_back(decision, f"comes closest, but its model cannot run by itself: {error}")
-    if not kinds:
-        floor = min(float(best.mean()), float(with_.mean()))
-        decision.details["explained"] = {"before": before, "floor": floor}
-        return _missed(decision, before, floor) if before - floor > criteria.NONE_MISSES * before else None
+    if kinds <= shown_elsewhere(decision.model) or not len(best):
+        return _nothing_shown(decision, before, float(with_.mean()), best)
     little = _too_little(decision, _enough(decision), without, with_, best)
     noise = little is not None and len(kinds) == 1 and within_noise(decision.named[0].kind, augmented, study.pool.slips)
     return dataclasses.replace(decision, verdict="none", named=()) if noise else little
 
 
+def _nothing_shown(decision: Decision, before: float, after: float, best: Array) -> Decision | None:
+    """Return the decision that something is missing, if forecasts say so, where nothing is named that they would show.
+
+    Args:
+        decision: the decision.
+        before: mean error of the forecasts without the effects [m].
+        after: the same with them.
+        best: what they would be if the model were true, shape (m,); none where it does not slip.
+    """
+    if not len(best):
+        return taken_back(decision, "comes closest, but its model does not slip as the record does") if decision.named else None
+    floor = min(float(best.mean()), after)
+    decision.details["explained"] = {"before": before, "floor": floor}
+    return _missed(decision, after, floor) if after - floor > criteria.NONE_MISSES * after else None
+
+
 def _enough(decision: Decision) -> float:
-    """Return the share of the reducible error that the names must explain [-]."""
-    if explained_with_its_form(decision):
+    """Return the share of the reducible error that the names must explain [-].
+
+    Recalibration takes the mean of an effect that all slips have alike, and forecasts then hold little but its form. Of a wave
+    it takes nothing: forecasts hold as much of it as the stick phases.
+    """
+    if explained_with_its_form(decision) and not phased(decision.model):
         return criteria.CLOSES_NOTHING
     # what is random beside a named effect does not excuse what that one does not explain
     first = next(e for e in decision.model.effects if e.kind == decision.named[0].kind)
@@ -118,13 +136,6 @@ def shown_elsewhere(model: Model) -> set[str]:
     return {*kinds_with(OUTSIDE_FORECASTS), *(e.kind for e in model.effects if any(hasattr(e, n) for n in model.measured))}
 
 
-def _judged(study: Study, kinds: set[str], model: Model) -> tuple[Windows, ...]:
-    """Return the forecasts of the fit runs that say what is explained; none where the effects named show elsewhere."""
-    if kinds and kinds <= shown_elsewhere(model):
-        return ()
-    return tuple(_scattered(w, JUDGED_WINDOWS) for w in study.windows if len(w))
-
-
 def _error_of_mean(values: Array) -> float:
     """Return the standard error of the mean of ``values``, shape (n,)."""
     return float(np.std(values)) / max(len(values) - 1, 1) ** 0.5
@@ -133,11 +144,10 @@ def _error_of_mean(values: Array) -> float:
 def explained_with_its_form(decision: Decision) -> bool:
     """Return whether the one effect named explains what its channel shows, but for what another form of its kind would leave.
 
-    What its form leaves adds up in a forecast of a whole cycle, from which recalibration has taken the mean. The forces of the
-    slips, or the stick phases, in which it was selected say more of its kind, unless a pattern without a name in what it leaves
-    says more still. Of a wave recalibration takes nothing: forecasts hold as much of it as the stick phases.
+    What its form leaves adds up in a forecast of a whole cycle. The forces of the slips, or the stick phases, in which it was
+    selected say more of its kind, unless a pattern without a name in what it leaves says more still.
     """
-    if len(decision.named) != 1 or phased(decision.model):
+    if len(decision.named) != 1:
         return False
     in_stick = cast("float", decision.details.get(STICK_SHARE, 0.0))
     pattern = cast("float", decision.details.get(SCORE_LEFT, 0.0))
@@ -183,4 +193,4 @@ def _missed(decision: Decision, before: float, floor: float) -> Decision:
         f"no effect stands out in the forces of the slips, but forecasts of the fit runs miss by {before:.2g} m, where the "
         f"model would miss by {floor:.2g} m if it were true",
     )
-    return dataclasses.replace(decision, verdict="unknown", where=where)
+    return dataclasses.replace(decision, verdict="unknown", named=(), where=where)

@@ -128,6 +128,8 @@ def _of_its_own(study: Study, model: Model, calm: Model) -> tuple[list[Array], t
     misfits: list[_Misfit] = []
     for draw in range(DRAWS):
         slips = [simulated_slips(model, s, sample=1 + draw * len(study.pool.slips) + i) for i, s in enumerate(study.pool.slips)]
+        if not all(map(len, slips)):
+            raise SimulationError("the model does not slip")
         left = _left(make_pool(slips, study.pool.calibrations), calm, study.uncertainty, random=model.random)
         if left is None:
             raise SimulationError("the model does not slip as it did in the fit")
