@@ -94,6 +94,13 @@ def test_the_last_of_a_kind_is_taken_out_with_its_own_numbers():
         ("sixth_gauge_leaks-one-1", []),  # mu_k would be 7 stated deviations off
         ("fourth_zero_wanders-one-1", []),  # by less than a reading errs
         ("fourth_delay_of_an_all_pass-one-0.5", ["sensor_delay"]),  # measured behind a velocity: forecasts show nothing of it
+        # marks say little of where to begin: one start ended at a misfit of 7500, others at 4
+        ("seventh_mode_of_a_liquid_column-one-1", ["second_mode"]),
+        ("seventh_weakening_cubic_step-one-0.5", ["velocity_weakening"]),  # the same, and the damping that imitates it best
+        ("seventh_spring_levels_itself-one-1", []),  # the drift named made predicted forces of held-out slips worse
+        ("seventh_supply_of_the_bridge_sways-one-0.5", []),  # scatter that was refused later excused what a ripple left
+        # the sensor's zero drifts faster than in the middle of a record at its end: no step, though it looks like one
+        ("seventh_drift_of_a_sunny_stand-several-1", ["sensor_drift"]),
     ],
 )
 def test_records_on_which_an_answer_broke_a_principle(name, kinds, tmp_path):

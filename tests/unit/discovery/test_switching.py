@@ -93,3 +93,10 @@ def test_one_step_of_a_sensor_is_no_switching():
 
 def test_noise_alone_does_not_switch():
     assert pattern(np.zeros(N * RUNS)).where is None
+
+
+def test_single_slips_that_stand_out_are_no_levels():
+    onset = np.zeros(N * RUNS)
+    onset[[7, 23, 61]] = 0.9
+    shown = pattern(onset)
+    assert (shown.rarer, shown.jumps, shown.where) == (3, 0, None)

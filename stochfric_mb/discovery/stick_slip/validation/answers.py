@@ -173,18 +173,7 @@ def checked_on_held_out(answer: Answer, slip_study: Study, recalibrated: Fit, ru
     """
     if answer.decision.named and answer.decision.form is not None:
         answer = _with_form(answer, answer.decision.form.kind, slip_study, recalibrated, runs)
-    dropped: dict[str, object] = {}
-    last: Named | None = None
-    noise = False
-    while answer.decision.named and answer.decision.named[-1].kind not in shown_elsewhere(answer.decision.model):
-        last = answer.decision.named[-1]
-        fewer = _without_last(answer, slip_study, recalibrated, runs)
-        seen = compared(fewer.model, answer.model, runs)
-        if seen is None or not (_refused(seen, last, fewer) or _refuted_by_forces(seen, last, fewer, answer, slip_study, runs)):
-            break
-        dropped[last.kind] = dataclasses.asdict(seen)
-        noise = within_noise(last.kind, answer.model, runs.slips)
-        answer = fewer
+    answer, dropped, last, noise = _less_refused(answer, slip_study, recalibrated, runs)
     if dropped and answer.decision.named:
         # what is refused explains nothing: the rest has to explain the fit runs without it
         poor = unexplained(slip_study, answer.decision, recalibrated.model, answer.model)
@@ -203,6 +192,30 @@ def checked_on_held_out(answer: Answer, slip_study: Study, recalibrated: Fit, ru
         return answer
     answer.decision.details["not_borne_out"] = dropped
     return answer if answer.decision.named else dataclasses.replace(answer, decision=_nothing_left(answer, last, runs, noise))
+
+
+def _less_refused(
+    answer: Answer, slip_study: Study, recalibrated: Fit, runs: HeldOut
+) -> tuple[Answer, dict[str, object], Named | None, bool]:
+    """Return the answer less the effects that held-out runs refuse, last selected first, and how these forecast.
+
+    Returns:
+        The answer, the comparisons by which effects went, the effect looked at last, and whether the last one to go was a
+        sensor's slow noise.
+    """
+    dropped: dict[str, object] = {}
+    last: Named | None = None
+    noise = False
+    while answer.decision.named and answer.decision.named[-1].kind not in shown_elsewhere(answer.decision.model):
+        last = answer.decision.named[-1]
+        fewer = _without_last(answer, slip_study, recalibrated, runs)
+        seen = compared(fewer.model, answer.model, runs)
+        if seen is None or not (_refused(seen, last, fewer) or _refuted_by_forces(seen, last, fewer, answer, slip_study, runs)):
+            break
+        dropped[last.kind] = dataclasses.asdict(seen)
+        noise = within_noise(last.kind, answer.model, runs.slips)
+        answer = fewer
+    return answer, dropped, last, noise
 
 
 def _with_form(answer: Answer, term: str, slip_study: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
@@ -276,5 +289,5 @@ def _nothing_left(answer: Answer, last: Named, runs: HeldOut, noise: bool) -> De
     reducible = error - min(floor_of(answer.model, runs), error)
     if noise or reducible < criteria.LEAST_REDUCIBLE * error:
         return dataclasses.replace(answer.decision, verdict="none")
-    text = f"{last.kind} comes closest on the fit runs, but makes forecasts of the held-out runs worse"
+    text = f"{last.kind} comes closest on the fit runs, but the held-out runs do not bear it out"
     return dataclasses.replace(answer.decision, verdict="unknown", where=Where(last.where.axis, text))

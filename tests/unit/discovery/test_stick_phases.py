@@ -1,0 +1,37 @@
+"""What stands out while the box sticks: a step of the reading against a reading that drifts."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.stick_slip.records.stick_phases import _step
+
+PHASES, SAMPLES = 12, 40
+
+
+def stick_phases(course):
+    """Return the one run, and what is left in its phases, each less its mean: noise of 1 and a course in time."""
+    time = np.arange(PHASES * SAMPLES) / SAMPLES
+    segment = np.repeat(np.arange(PHASES), SAMPLES)
+    shown = course(time) + np.random.default_rng(4).standard_normal(len(time))
+    rest = shown - np.array([shown[segment == s].mean() for s in range(PHASES)])[segment]
+    return [SimpleNamespace(samples=SimpleNamespace(time=time, segment=segment))], [rest]
+
+
+@pytest.mark.parametrize("course", [lambda t: 0.0 * t, lambda t: 8.0 * t, lambda t: 20.0 * np.tanh((t - 6.0) / 5.0)])
+def test_a_drift_is_no_step(course):
+    """An S in time is steepest in the middle: one phase shows more of it than the others."""
+    fall, _, jumps = _step(*stick_phases(course))
+    assert jumps == 0
+    assert fall < criteria.PHASE_JUMPED
+
+
+@pytest.mark.parametrize("slope", [0.0, 8.0])
+def test_a_step_is_found_on_a_drift(slope):
+    fall, times, jumps = _step(*stick_phases(lambda t: slope * t + 6.0 * (t > 4.4)))
+    assert jumps == 1
+    assert times[0] == pytest.approx(4.4, abs=0.06)
+    # of 36 times n/4 that a step in the middle has, the phase's own slope takes three quarters
+    assert fall == pytest.approx(36.0 * SAMPLES / 16.0, rel=0.4)
