@@ -9,6 +9,8 @@ from .joint_generator.unseen_fifth import PAIRS as UNSEEN_FIFTH_PAIRS
 from .joint_generator.unseen_fifth import UNSEEN_FIFTH
 from .joint_generator.unseen_fourth import UNSEEN_FOURTH
 from .joint_generator.unseen_second import UNSEEN_SECOND
+from .joint_generator.unseen_sixth import PAIRS as UNSEEN_SIXTH_PAIRS
+from .joint_generator.unseen_sixth import UNSEEN_SIXTH
 from .joint_generator.unseen_third import UNSEEN_THIRD
 
 STRENGTHS = (1.0, 0.5)
@@ -64,6 +66,7 @@ SERIES = {
     3: (UNSEEN_THIRD, ()),
     4: (UNSEEN_FOURTH, ()),
     5: (UNSEEN_FIFTH, UNSEEN_FIFTH_PAIRS),
+    6: (UNSEEN_SIXTH, UNSEEN_SIXTH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 

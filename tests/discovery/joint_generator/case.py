@@ -18,6 +18,7 @@ from .unseen import UNSEEN
 from .unseen_fifth import UNSEEN_FIFTH
 from .unseen_fourth import UNSEEN_FOURTH
 from .unseen_second import UNSEEN_SECOND
+from .unseen_sixth import UNSEEN_SIXTH
 from .unseen_third import UNSEEN_THIRD
 
 VOCABULARY = frozenset(
@@ -54,7 +55,7 @@ class Case:
     @property
     def parts(self) -> tuple[Form, ...]:
         """The forms."""
-        known = FORMS | UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD | UNSEEN_FOURTH | UNSEEN_FIFTH
+        known = FORMS | UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD | UNSEEN_FOURTH | UNSEEN_FIFTH | UNSEEN_SIXTH
         for name in self.forms.split("+"):
             if name not in known:
                 raise SystemExit(f"form {name!r} is unknown; known: {', '.join(known)}")
@@ -184,7 +185,7 @@ def acceptable(form: Form) -> frozenset[str]:
 def expected(form: Form) -> str:
     """The true kind: the form's own if it is in the vocabulary, otherwise `unknown`."""
     numbers = frozenset() if form.name in FORMS else NUMBERS
-    links = LINKS if form.name in UNSEEN_FIFTH else frozenset()
+    links = LINKS if form.name in UNSEEN_FIFTH | UNSEEN_SIXTH else frozenset()
     return form.kind if form.kind in VOCABULARY | numbers | links | {NONE} else UNKNOWN
 
 
