@@ -53,17 +53,21 @@ class LoadDependence(Effect):
     order: ClassVar[int] = 3
 
     def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
-        """Return the exponent at a joint, whose friction grows with what it transmits beyond a preload; else the preload."""
-        return ("reference_load",) if contact else ("exponent",)
+        """Return the exponent at a joint, whose friction grows with what it transmits beyond a preload; else the preload.
+
+        Of a contact either the exponent is fitted, or the adhesion.
+        """
+        return ("reference_load", *(("exponent",) if self.adhesion > 0.0 else ())) if contact else ("exponent",)
 
     @classmethod
-    def at_joint(cls, span: JointSpan) -> JointSignature | None:
-        """Return a power of the normal force of a contact, or what a joint transmits beyond its preload."""
+    def at_joint(cls, span: JointSpan) -> JointSignature | tuple[JointSignature, ...] | None:
+        """Return a power of the normal force of a contact and surfaces that adhere, or what a joint transmits beyond a preload."""
         if not span.load:
             return None
-        if span.contact:  # mu_k holds at the stated load, and the exponent is searched
+        if span.contact:  # mu_k holds at the stated load, and the exponent or the adhesion is searched
             powers = tuple(cls(exponent=x, reference_load=span.stated_load) for x in (-0.3, 0.3))
-            return JointSignature(powers, "normal force", 1)
+            pulls = tuple(cls(exponent=0.0, reference_load=span.stated_load, adhesion=x * span.stated_load) for x in (0.1, 1.0))
+            return JointSignature(powers, "normal force", 1), JointSignature(pulls, "normal force", 1)
         return JointSignature(tuple(cls(exponent=1.0, reference_load=part * span.load) for part in (0.3, 1.0, 4.0)), "load", 1)
 
     @classmethod

@@ -36,6 +36,10 @@ class Balances(abc.ABC):
     def nuisances(self, place: str) -> list[Nuisance]:
         """Return what data may correct, with its priors."""
 
+    def presses(self, place: str) -> bool:
+        """Return whether the normal force of a place is known along the motion: of a pair of geoms, or measured at a slide."""
+        return place in getattr(self.dataset.scenario.mechanism, "pairs", ())
+
     def stated(self, place: str) -> JointModel:
         """Return the model as stated at a place."""
         scenario = self.dataset.scenario
@@ -47,7 +51,7 @@ class Balances(abc.ABC):
             own,
             {n.name: n.value for n in self.nuisances(place)},
             self.places[place],
-            contact=place in getattr(scenario.mechanism, "pairs", ()),
+            contact=self.presses(place),
             level=(mu_k, spread * mu_k if spread > 0.0 else float("inf")),
         )
 

@@ -84,6 +84,11 @@ class PlainBalances(Balances):
         """Return whether the joint is a hinge."""
         return self.dataset.scenario.mechanism.rotational
 
+    def presses(self, place: str) -> bool:
+        """Return whether all runs hold the normal force of a slide; beside a piston it adds to what seals are pressed with."""
+        joint, channels = self.dataset.scenario.mechanism, [run.channels for run in self.dataset.runs]
+        return bearing_alone(joint) and all("normal_force" in c for c in channels)
+
     def balance(self, run: Run, place: str, delay: float, samples: int | None) -> ForceBalance:
         """Return a run as a balance."""
         scenario = self.dataset.scenario
@@ -121,6 +126,7 @@ class PlainBalances(Balances):
             before=distance_before(run, self.dataset.runs, lambda r: narrowest(r).through(position_of(r), 1)),
             drive=window.sampled(factor * channel(run, name), late),
             pressure=window.sampled(run.channels["pressure"]) if "pressure" in run.channels else None,
+            normal_force=load if self.presses(place) else None,
             motor=functools.cache(lambda: motor_motion(run, joint)),
         )
 
@@ -212,6 +218,11 @@ def _transmitted_load(run: Run, joint: Joint, window: Window) -> tuple[Array, Ar
     if name == "voltage":
         torque = torque - joint.damping * window.through(position_of(run), 1)
     return np.abs(torque), np.sign(torque)
+
+
+def bearing_alone(joint: object) -> bool:
+    """Return whether a joint is a slide without a piston: a load that was measured there is the normal force itself."""
+    return isinstance(joint, PrismaticJoint) and joint.piston_area == 0.0
 
 
 def measured_load(run: Run, joint: Joint) -> Array | None:

@@ -69,7 +69,8 @@ class LossPlace(_Place):
     """Friction in one joint or tendon while the model runs: what is available there is MuJoCo's ``frictionloss``."""
 
     def __init__(self, source: MjcfSource, name: str, model: JointModel, run: Run) -> None:
-        super().__init__(source, name, model, run, contact=False)
+        super().__init__(source, name, model, run, contact=model.contact)
+        self._contact = model.contact
         self._joint = name in source.names
         self._number = (source.names if self._joint else source.tendons).index(name)
         self._gain = model.nuisances.get("gain", 1.0)
@@ -92,7 +93,8 @@ class LossPlace(_Place):
         stated = drive / self._gain
         # the load that friction knows of is that of the drive as stated, as in the fits, unless it was measured
         load = abs(stated - self._damping * v if self._loads is None else float(self._loads[sample]))
-        available, pushed = self._available(t, q, v, sample, load=load, drive=stated)
+        pressed = load / self._load if self._contact else 1.0
+        available, pushed = self._available(t, q, v, sample, load=load, drive=stated, pressed=pressed)
         loss = model.dof_frictionloss if self._joint else model.tendon_frictionloss
         loss[self._number] = available
         return pushed

@@ -79,7 +79,7 @@ def closed_loop(
     assert load is not None
     names = ("mass", "damping", "offset", "force_gain", "piston_area")
     value = {name: model.nuisances.get(name, float(getattr(joint, name))) for name in names}
-    links = chain(model.law, model.effects_in(run.name), model.load)
+    links = chain(model.law, model.effects_in(run.name), model.load, contact=model.contact)
     plant = np.array([value["mass"], value["damping"], value["force_gain"] if joint.force_gain else 1.0])
     pushed = value["offset"] + value["piston_area"] * pressure
     loop = np.array([controller.position_gain, controller.velocity_gain, controller.limit])
@@ -90,9 +90,10 @@ def closed_loop(
     if abs(u) >= controller.limit:
         rate = float(np.polyfit(np.arange(FIRST), q[:FIRST], 1)[0]) / run.sample_interval
     voltage, position = np.empty(len(q)), np.empty(len(q))
+    pressed = np.abs(load) / model.load if model.contact else np.ones(len(q))
     _march(
         links.numbers, links.calls, links.parameters, plant, loop, given.reference, given.added, float(run.time[0]),
-        run.sample_interval, start, rate, before, temperature, pressure, np.abs(load), pushed, voltage, position,
+        run.sample_interval, start, rate, before, temperature, pressure, np.abs(load), pressed, pushed, voltage, position,
     )  # fmt: skip
     return voltage, position
 
@@ -105,7 +106,7 @@ def controller_output(run: Run, joint: PrismaticJoint) -> Array:
 @compiled
 def _march(
     numbers, calls, parameters, plant, loop, reference, added, start, interval, q, v, travelled, temperature, pressure, load,
-    pushed, voltage, position,
+    pressed, pushed, voltage, position,
 ):  # fmt: skip
     world = np.zeros(e.WORLD)
     memory = np.zeros(8)
@@ -127,7 +128,7 @@ def _march(
                 turned, before = q, side
             friction = resistance(
                 numbers, calls, parameters, world, memory, t, q, v, load[i], abs(q - turned), side, travelled, temperature[i],
-                1.0, gain * u, pressure[i],
+                pressed[i], gain * u, pressure[i],
             )  # fmt: skip
             v += h * (known - friction) / mass
             if v * side < 0.0:  # friction stops a mass, it does not turn it

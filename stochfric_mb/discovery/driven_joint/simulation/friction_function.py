@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import bearing_alone
 from stochfric_mb.discovery.driven_joint.fit.friction_along import chain, resistance
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects.contract import LOAD, WORLD
@@ -57,7 +58,7 @@ def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint:
     F = P - R(abs(v)) tanh(v/smoothing_velocity) with the scenario's law and effects in R, and in P what effects push with
     whichever way the joint moves: what multi-step integrators can take.
     Friction does not hold at rest then; it creeps at a part of ``smoothing_velocity``. ``load`` is what the joint transmits
-    (at a pair of geoms: its normal force), ``travelled`` the distance slid, ``temperature`` and ``pressure`` the measured ones
+    (at a pair of geoms, or a slide without a piston: its normal force; 0 at the latter: the stated one), ``travelled`` the distance slid, ``temperature`` and ``pressure`` the measured ones
     and ``drive`` the driving force, for effects that ask for them; what these take from the drive is part of the force.
 
     Args:
@@ -82,7 +83,8 @@ def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint:
             f"effect {moves!r} lets the load move by itself, which no friction of the joint does; give the engine a second "
             "body with the numbers of that effect, and leave the effect out of the scenario"
         )
-    contact, stated_load = place in getattr(mechanism, "pairs", {}), loads[place]
+    pair, stated_load = place in getattr(mechanism, "pairs", {}), loads[place]
+    contact = pair or bearing_alone(mechanism)
     friction = FrictionAt(scenario.law, effects, stated_load, contact=contact)
     needed = {name: e.kind for e in effects for name in e.reads if name in ("drive", "pressure")}
 
@@ -94,7 +96,7 @@ def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint:
             if {"drive": drive, "pressure": pressure}[name] is None:
                 raise InputError(f"effect {kind!r} reads the {name}, which is not given; call the friction with {name}=...")
         side = 1.0 if v >= 0.0 else -1.0
-        pressed = load / stated_load if contact else 1.0
+        pressed = load / stated_load if pair or (contact and load > 0.0) else 1.0
         available, pushed = friction(
             t, q, v, side, load=load, travelled=travelled, temperature=temperature, pressed=pressed, drive=drive or 0.0,
             pressure=pressure or 0.0,
