@@ -28,7 +28,8 @@ from stochfric_mb.discovery.driven_joint.simulation.controller_check import cont
 from stochfric_mb.discovery.driven_joint.simulation.pictures import friction_picture
 from stochfric_mb.discovery.driven_joint.simulation.resimulation import simulated
 from stochfric_mb.discovery.driven_joint.source import source_of
-from stochfric_mb.effects import Effect
+from stochfric_mb.effects import Effect, kind_with_signature
+from stochfric_mb.effects.traits import LATE
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.mechanisms import Cascade, Mjcf, PrismaticJoint, ProportionalDerivative, SpringSlider
@@ -171,13 +172,22 @@ def _adequate(source: Balances, tell: Progress, places: Sequence[PlaceOutcome]) 
         if not inadequate(place) or place.again is None or drawn_by_two(place):
             break  # without one of two effects that draw one curve the other would be named by chance
         stages += place.selected.stages
-        without |= {place.selected.named[0]}
+        without |= {_leads(place)}
         other = place.again(without)
         if not other.selected.named:
             break
         seen = simulated(source, tell, [other, *places[1:]])
     best, floor = first if inadequate(seen[0][0]) else seen
+    if inadequate(best[0]) and best[0].late and best[0].again is not None:  # a delay beside effects that do not stand
+        best, floor = simulated(source, tell, [best[0].again(frozenset({kind_with_signature(LATE)})), *best[1:]])
     return [dataclasses.replace(best[0], beside=stages), *best[1:]], floor
+
+
+def _leads(place: PlaceOutcome) -> str:
+    """Return what led to the answer at a place: its first name, or a delay beside it that explains more."""
+    effects = place.selected.effects
+    late = place.timing is not None and place.late and (not effects or place.timing.score > effects[0].score)
+    return kind_with_signature(LATE) if late else place.selected.named[0]
 
 
 def _evidence(place: PlaceOutcome) -> float:

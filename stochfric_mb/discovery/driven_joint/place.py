@@ -24,6 +24,8 @@ from stochfric_mb.discovery.driven_joint.scatter.stroke_scatter import stroke_sc
 from stochfric_mb.discovery.driven_joint.simulation.augmented import stated_scatter
 from stochfric_mb.discovery.driven_joint.simulation.scores import closed_share, noise_floor, rms, score
 from stochfric_mb.discovery.inference.noise import independent_count
+from stochfric_mb.effects import kind_with_signature
+from stochfric_mb.effects.traits import LATE
 from stochfric_mb.mechanisms import PrismaticJoint
 from stochfric_mb.numerics.robust import deviation
 
@@ -48,7 +50,8 @@ class _Asked:
         """Return the selection with a delay compensated."""
         if delay not in self.selectors:
             balances, nuisances = self.source.balances(self.name, "fit", delay), self.source.nuisances(self.name)
-            self.selectors[delay] = Selector(balances, nuisances, start, lambda text: self.say(text + how))
+            # a load that moves by itself is another answer than a delay, and is looked for without one
+            self.selectors[delay] = Selector(balances, nuisances, start, lambda text: self.say(text + how), loads=not how)
         return self.selectors[delay]
 
     def say(self, text: str) -> None:
@@ -74,7 +77,8 @@ def place_outcome(source: Balances, tell: Progress, name: str, notes: list[str],
 
 def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
     """Return the outcome at a place, without some kinds and numbers."""
-    source, name, timing, base = asked.source, asked.name, asked.timing, asked.source.stated_delay
+    source, name, base = asked.source, asked.name, asked.source.stated_delay
+    timing = None if kind_with_signature(LATE) in without else asked.timing
     dataset, scenario, nuisances = source.dataset, source.dataset.scenario, source.nuisances(name)
     stated = source.stated(name)
     undelayed = None
@@ -173,9 +177,8 @@ def _better(
     gain = float(np.log(before.rms / after.rms))
     if more < 0 and gain > np.log(1.0 - criteria.MATERIAL):
         gain = max(gain, 0.0)  # effects that leave less by no material part explain no more than the delay, which is simpler
-    stated = fit(plain.recalibrated.model, balances[0], nuisances, noise=prior_weight(plain.recalibrated))
     sizes = rms, lambda rest: deviation(rest, about=0.0)
-    shares = [share_by_delay(stated, after, balances[-1], nuisances, size) for size in sizes]
+    shares = [share_by_delay(before, after, balances[-1], nuisances, size) for size in sizes]
     evidence = 2.0 * n * gain + before.strain - after.strain - more * np.log(n)
     return float(evidence), min(shares) >= criteria.EXPLAINED_BY_DELAY
 

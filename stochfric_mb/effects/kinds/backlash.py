@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 from collections.abc import Mapping
 from typing import ClassVar
 
@@ -17,16 +18,17 @@ from stochfric_mb.effects.load_side import Link, MotorMotion, load_force
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips
 from stochfric_mb.effects.traits import POSITIVE, ROUGH, SHAPES_SLIPS
 
-GAPS = (0.003, 0.15, 24)
-"""Gaps from which fits begin at joints, over the stroke [-], and their number: two next to each other differ by a fifth, since
+GAPS = (0.003, 0.15, 18)
+"""Gaps from which fits begin at joints, over the stroke [-], and their number: two next to each other differ by a quarter, as
 the moment at which a gap is crossed decides what comes after."""
 SHARES = (0.4, 0.65, 0.85)
 """Shares of the inertia from which they begin [-]."""
-SEEN, SMEARED = 0.3, (0.1, 0.5)
-"""Frequency of the contact from which they begin times the half width of the windows, and its damping ratios [-]: impacts that
-ring quicker are not seen, and how often they bounce no record says of another."""
-RUBS = 0.05
-"""Share of friction behind the gap from which they begin [-]."""
+SEEN, SMEARED = (0.3, 0.6), (0.1, 0.5)
+"""Frequencies of the contact from which they begin times the half width of the windows, and its damping ratios [-]: impacts
+that ring quicker are not seen, and how often they bounce no record says of another."""
+RUBS = (0.05, 0.4)
+"""Shares of friction behind the gap from which they begin [-]: at the motor, or on the load's own guide, which then stays where
+it is while the gap is crossed."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -107,12 +109,10 @@ class Backlash(Effect):
             return None
         starts = tuple(
             cls(
-                gap=float(part) * span.stroke, load_share=share, contact_frequency=SEEN / span.window,
-                damping_ratio=ratio, load_friction=RUBS * span.friction,
+                gap=float(part) * span.stroke, load_share=share, contact_frequency=quick / span.window,
+                damping_ratio=ratio, load_friction=rubs * span.friction,
             )
-            for part in np.geomspace(*GAPS)
-            for ratio in SMEARED
-            for share in SHARES
+            for part, ratio, share, quick, rubs in itertools.product(np.geomspace(*GAPS), SMEARED, SHARES, SEEN, RUBS)
         )  # fmt: skip
         return JointSignature(starts, "motion of the load", 5)
 

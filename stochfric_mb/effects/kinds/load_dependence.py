@@ -61,7 +61,7 @@ class LoadDependence(Effect):
 
     @classmethod
     def at_joint(cls, span: JointSpan) -> JointSignature | tuple[JointSignature, ...] | None:
-        """Return a power of the normal force of a contact and surfaces that adhere, or what a joint transmits beyond a preload."""
+        """Return a power of a contact's normal force and surfaces that adhere, or what a joint transmits beyond its preload."""
         if not span.load:
             return None
         if span.contact:  # mu_k holds at the stated load, and the exponent or the adhesion is searched

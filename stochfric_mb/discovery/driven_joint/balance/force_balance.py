@@ -92,6 +92,8 @@ class ForceBalance:
     """Returns the motion of the motor, behind which the load may move by itself; None: no joint with an inertia."""
     known: dict[Effect, Array] = dataclasses.field(default_factory=dict[Effect, Array])
     """Forces of such loads that were worked out last [N or N m], shape (n_centres,) each."""
+    at_motor: dict[Any, Array] = dataclasses.field(default_factory=dict[Any, Array])
+    """Friction beside such a load that was worked out last, by law, effects and load [N or N m], shape (n_centres,)."""
 
     def white_variance(self, along: Array, centres: npt.NDArray[np.int64]) -> float:
         """Return the variance that white noise of the channels gives the coefficient of ``along`` [1/(N or N m)^2 of it].
@@ -138,7 +140,7 @@ class ForceBalance:
         if step not in self._moved:
             load = self.load if self.load_by_drive is None else self.load + step * self.load_by_drive
             drive = None if self.drive is None else self.drive + step
-            self._moved[step] = dataclasses.replace(self, load=load, drive=drive)
+            self._moved[step] = dataclasses.replace(self, load=load, drive=drive, at_motor={})
         return self._moved[step]
 
     @functools.cached_property

@@ -12,7 +12,7 @@ from stochfric_mb.discovery.driven_joint.decision.adequacy import drawn_by_two, 
 from stochfric_mb.discovery.driven_joint.decision.evidence import settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
-from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, closed_share, noise_floor, score
+from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, closed_share, noise_floor, score, white_floor
 from stochfric_mb.effects import kinds_with, make_effect
 from stochfric_mb.effects.traits import ANONYMOUS
 from stochfric_mb.measurement.dataset import Dataset
@@ -77,7 +77,8 @@ def above_floor(place: PlaceOutcome) -> bool:
         return not strokes.all_of_it
     accounted = runs is not None and runs.accounted
     last = place.selected.recalibrated if place.idle else place.selected.final
-    floor = noise_floor(last.model, place.fit, place.nuisances)
+    white = white_floor(place.fit)  # what is missing may be as quick as the windows, and then shows in their differences
+    floor = min(noise_floor(last.model, place.fit, place.nuisances), criteria.COLOURED * white or np.inf)
     rest = np.concatenate(last.remainders)
     # runs that differ for no known reason are said in a note: what counts is what is left within them
     settings = np.unique(settings_of(place.fit), return_inverse=True)[1]

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from scipy.stats import f as fisher
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_state, confounded
+from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_state, confounded, one_curve
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate, candidates, span_of
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes, witnesses
@@ -32,6 +32,11 @@ STARTS, STARTS_ROUGH = 2, 6
 """Best starts of an effect from which it is fitted; of a rough one the best is often in a wrong valley."""
 SIZES = ("amplitude", "coefficient", "asymmetry", "viscous_difference", "rate", "load_share", "gap")
 """Parameters that are zero where an effect is none."""
+VARIES = ("slope", "curvature")
+"""Parameters that are all zero where what varies along the stroke is a constant."""
+SHARE, AT_AN_END = "load_share", 1.0e-3
+"""Part of the inertia that moves by itself, and how close to an end of its range it has reached it, over that range [-]:
+rounding."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -98,12 +103,14 @@ class Selected:
 
 Beside = tuple[Hashable, ...]
 """The effects of a model by kind and adjusted numbers, and what is believed of law and mechanism."""
+Fixed = Sequence[tuple[int, str]]
+"""Numbers of effects, by their places in a model and names, that a fit leaves as they are."""
 Fitted = list[tuple[Candidate, JointFit]]
 """Candidates with their fits."""
 
 
 class Selector:
-    """Selection at one joint."""
+    """Selection at one joint; ``loads``: whether loads that move by themselves are looked for."""
 
     def __init__(
         self,
@@ -111,7 +118,10 @@ class Selector:
         nuisances: Sequence[Nuisance],
         start: JointModel,
         progress: Callable[[str], None] | None = None,
+        *,
+        loads: bool = True,
     ) -> None:
+        self._loads = loads
         self._balances, self._nuisances = list(balances), list(nuisances)
         self._without: frozenset[str] = frozenset()
         self._known: dict[Beside, tuple[frozenset[str], Fitted]] = {}
@@ -120,8 +130,8 @@ class Selector:
         self.recalibrated, self._noise = settled(start, balances, nuisances, noise=_typical(balances))
         self._begin = self._noise, self._nuisances
 
-    def _fit(self, model: JointModel, evaluations: int = 12) -> JointFit:
-        return fit(model, self._balances, self._nuisances, noise=self._noise, evaluations=evaluations)
+    def _fit(self, model: JointModel, *, refined: bool = True, fixed: Fixed = ()) -> JointFit:
+        return fit(model, self._balances, self._nuisances, noise=self._noise, refined=refined, fixed=fixed)
 
     def run(self, without: frozenset[str] = frozenset()) -> Selected:
         """Return what is selected, without some kinds of effects and numbers of the mechanism."""
@@ -138,6 +148,8 @@ class Selector:
                 number, current = freed
                 released.append(number)
                 continue
+            if stage.accepted and self._only_bends(current, effects, stage.trials[0]):
+                stage = dataclasses.replace(stage, accepted=False)
             stages.append(stage)
             if not stage.accepted:
                 break
@@ -161,14 +173,24 @@ class Selector:
             tuple(self._nuisances),
         )
 
+    def _only_bends(self, current: JointFit, effects: Sequence[Trial], more: Trial) -> bool:
+        """Return whether a further effect bends the curve of an earlier one, along conditions that went together, within noise.
+
+        Where no more than noise is left, the earlier one has the form of the curve as far as the record can tell.
+        """
+        both = one_curve([*(t.candidate.kind for t in effects), more.candidate.kind], self._pairs)
+        return more.candidate.kind in both and current.rms < FLOOR * noise_floor(current.model, self._balances, self._nuisances)
+
     def _released(self, current: JointFit, stage: Stage) -> tuple[Released, JointFit] | None:
         """Return the number that is off by more than its uncertainty, if that explains more than any effect.
 
         It is a finding of its own, a payload for instance: within its belief it would hide behind what it cannot explain. As
         effects do, it has to foretell parts of the record that were left out.
         """
-        # a prior is given up only where it explains more than any effect that leaves it alone
-        freed, enough = self._freed(current), max(criteria.NAMED, stage.trials[0].score + criteria.TIE)
+        # a prior is given up where it explains more than any effect that leaves it alone, or as much with fewer numbers: an
+        # effect whose curve is straight is a constant
+        margin = criteria.TIE if stage.trials[0].candidate.parameters <= 1 else -criteria.TIE
+        freed, enough = self._freed(current), max(criteria.NAMED, stage.trials[0].score + margin)
         best = next((f for f in freed if f.number.score >= enough and self._foretells(current, f)), None)
         if best is None:
             return None
@@ -237,7 +259,7 @@ class Selector:
         """
         fits = self._fits(current, span, of_loads=False)
         least = min((current, *(f for _, f in fits)), key=lambda f: f.rms)
-        if least.rms > FLOOR * noise_floor(least.model, self._balances, self._nuisances):
+        if self._loads and least.rms > FLOOR * noise_floor(least.model, self._balances, self._nuisances):
             fits += self._fits(current, span, of_loads=True)
         return fits
 
@@ -252,7 +274,7 @@ class Selector:
                     continue
                 self._tell(candidate.kind)
                 fitted = self._best(current, candidate)
-                if fitted is not None and not (candidate.moves_load and _may_be_zero(fitted, len(fitted.model.effects) - 1)):
+                if fitted is not None and not _is_none(fitted, len(fitted.model.effects) - 1):
                     fits.append((candidate, fitted))
             self._known[key] = self._without, fits
         return [(c, f) for c, f in fits if c.kind not in self._without]
@@ -269,17 +291,24 @@ class Selector:
         return min(s.rms_gain for s in seen) > criteria.MATERIAL
 
     def _best(self, current: JointFit, candidate: Candidate) -> JointFit | None:
-        """Return the best fit with a candidate; None: it is no number, or nothing is left for a wave."""
+        """Return the best fit with a candidate; None: it is no number, or nothing is left for a wave.
+
+        How a load moves by itself that is in the model already stays as it is: another motion of it is no merit of this one.
+        """
+        loads = [(i, e) for i, e in enumerate(current.model.effects) if e.moves_load]
+        fixed = [(i, field.name) for i, e in loads for field in dataclasses.fields(e)]
         starts = [begun(e, self._balances) for e in candidate.starts]
         if len(starts) > STARTS:
             starts.sort(key=lambda s: predicted_rms(current.model, s, self._balances, current))
         waves = wave_starts(candidate.scan, current, self._balances) if candidate.scan is not None else []
         count = STARTS_ROUGH if any(ROUGH in s.effect.traits for s in starts) else STARTS
-        fits = [self._fit(s.added_to(current.model)) for s in (*starts[:count], *waves)]
+        fits = [self._fit(s.added_to(current.model), refined=False, fixed=fixed) for s in (*starts[:count], *waves)]
         best = min((f for f in fits if np.isfinite(f.rms)), key=lambda f: f.rms, default=None)
         if best is None:
             return None
-        return settled(best.model, self._balances, self._nuisances, noise=self._noise, fitted=best)[0]
+        if any(ROUGH in s.effect.traits for s in starts):
+            best = self._fit(best.model, fixed=fixed)
+        return settled(best.model, self._balances, self._nuisances, noise=self._noise, fitted=best, fixed=fixed)[0]
 
     def _scored(self, current: JointFit, fits: Sequence[tuple[Candidate, JointFit]]) -> list[Trial]:
         # all are judged by the same count of independent windows: that of the best fit
@@ -368,6 +397,22 @@ def simplest_first(trials: list[Trial], pairs: Sequence[Confounded] = ()) -> lis
     alike = [t for t in tied if (t.candidate.kind, t.candidate.parameters) == (best.kind, best.parameters)]
     first = min(alike, key=lambda t: t.candidate.form)
     return [first, *(t for t in trials if t is not first)]
+
+
+def _is_none(fitted: JointFit, owner: int) -> bool:
+    """Return whether an effect as fitted is none of its kind.
+
+    It is not where a load that moves by itself may as well not be there or ends at the end of what its share can be, where it
+    stands for something else, and where what varies along the stroke does not vary, so that a constant does.
+    """
+    effect = fitted.model.effects[owner]
+    if effect.moves_load:
+        share = next(k for k in fitted.free if (k.owner, k.name) == (owner, SHARE))
+        value = float(getattr(effect, SHARE))
+        return _may_be_zero(fitted, owner) or min(value - share.low, share.high - value) < AT_AN_END * (share.high - share.low)
+    sizes = [(abs(getattr(effect, name)), fitted.deviation(owner, name)) for name in VARIES if hasattr(effect, name)]
+    known = [size < 1.96 * deviation for size, deviation in sizes if np.isfinite(deviation)]
+    return bool(known) and all(known)
 
 
 def _may_be_zero(fitted: JointFit, owner: int) -> bool:

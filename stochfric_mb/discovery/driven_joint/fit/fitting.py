@@ -22,8 +22,9 @@ Mask = npt.NDArray[np.bool_]
 
 DIFFERENCE, TOLERANCE = 1.0e-4, 1.0e-7
 """Step of the derivatives in natural steps, and fall of the sum of squares over itself at which a fit ends [-]."""
-LARGE_DIFFERENCE = 1.0e-2
-"""The same step where forces are no smooth functions of the numbers [-]: as far as one tells them apart."""
+LARGE_DIFFERENCES = (1.0e-2, 1.0e-3)
+"""The same steps where forces are no smooth functions of the numbers [-]: as far as one tells them apart, and a tenth of that
+once the best valley is found."""
 EVALUATIONS = 12
 """Most Gauss-Newton steps: the balance is linear in most numbers."""
 SETTLINGS, SETTLED = 4, 0.8
@@ -88,6 +89,7 @@ def fit(
     masks: Sequence[Mask] | None = None,
     evaluations: int = EVALUATIONS,
     fixed: Sequence[tuple[int, str]] = (),
+    refined: bool = False,
 ) -> JointFit:
     """Return the model fitted to the balance of ``balances``.
 
@@ -99,6 +101,7 @@ def fit(
         masks: windows to use in each balance; None: those in which the joint slides.
         evaluations: most Gauss-Newton steps.
         fixed: number of an effect and name of its parameter, for those that stay.
+        refined: whether a fit of rough forces goes on with smaller steps: what is compared must be refined alike.
     """
     used = [s.sliding for s in balances] if masks is None else list(masks)
     rough = any(ROUGH in e.traits for e in model.effects)
@@ -116,10 +119,13 @@ def fit(
         parts = [trial.remainder(s, nuisances, forces)[m] for s, m, forces in seen]
         return np.concatenate([*parts, noise * steps.surprise(values)])
 
-    minimum = minimised(
-        errors, np.zeros(len(free)), steps.low, steps.high, difference=LARGE_DIFFERENCE if rough else DIFFERENCE,
-        evaluations=evaluations, tolerance=TOLERANCE,
-    )  # fmt: skip
+    differences = LARGE_DIFFERENCES[: 2 if refined else 1] if rough else (DIFFERENCE,)
+    start = np.zeros(len(free))
+    for difference in differences:
+        minimum = minimised(
+            errors, start, steps.low, steps.high, difference=difference, evaluations=evaluations, tolerance=TOLERANCE
+        )
+        start = minimum.x
     jacobian, scale, values = minimum.jacobian, steps.scale, steps.values(minimum.x)
     fitted = adjusted(model, free, values)
     parts = tuple(fitted.remainder(s, nuisances)[m] for s, m in zip(balances, used, strict=True))
@@ -144,6 +150,7 @@ def settled(
     *,
     noise: float,
     fitted: JointFit | None = None,
+    fixed: Sequence[tuple[int, str]] = (),
 ) -> tuple[JointFit, float]:
     """Return a fit in which beliefs count as much as one independent window of what it leaves itself, and that weight.
 
@@ -156,14 +163,15 @@ def settled(
         nuisances: numbers of the mechanism with their priors.
         noise: weight of beliefs from which to begin, as of `fit`.
         fitted: the fit with that weight, where it is known.
+        fixed: as of `fit`.
     """
-    fitted = fitted or fit(model, balances, nuisances, noise=noise)
+    fitted = fitted or fit(model, balances, nuisances, noise=noise, fixed=fixed)
     for _ in range(SETTLINGS):
         weight = prior_weight(fitted)
         if SETTLED * noise < weight < noise / SETTLED:
             break
         noise = weight
-        fitted = fit(fitted.model, balances, nuisances, noise=noise)
+        fitted = fit(fitted.model, balances, nuisances, noise=noise, fixed=fixed)
     return fitted, noise
 
 

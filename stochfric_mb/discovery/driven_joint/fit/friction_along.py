@@ -77,6 +77,21 @@ def friction_along(balance: ForceBalance, law: Law, effects: Sequence[Effect], l
         effects: what is added to it.
         load: stated load [N or N m].
     """
+    moving = [x for x in effects if x.moves_load]
+    key = (law, tuple(x for x in effects if not x.moves_load), load)
+    if not moving or key not in balance.at_motor:
+        seen = _friction_of_one_body(balance, *key)
+        if moving:  # a fit moves the numbers of the load one by one, and the rest of friction stays
+            balance.at_motor.clear()
+            balance.at_motor[key] = seen
+    else:
+        seen = balance.at_motor[key]
+    carried = [own for x in moving if (own := balance.load_force(x)) is not None]
+    return seen + np.sum(carried, axis=0) if carried else seen
+
+
+def _friction_of_one_body(balance: ForceBalance, law: Law, effects: Sequence[Effect], load: float) -> Array:
+    """Return the friction of a joint whose load follows the motor; arguments as of `friction_along`."""
     links = chain(law, effects, load, contact=balance.normal_force is not None)
     n, every = len(balance.time), balance.window.stride
     pressed = np.ones(n) if balance.normal_force is None else balance.normal_force / load
@@ -89,9 +104,7 @@ def friction_along(balance: ForceBalance, law: Law, effects: Sequence[Effect], l
     some = [np.ascontiguousarray(x[::every]) for x in signals]
     force = np.empty(len(some[0]))
     along(links.numbers, links.calls, links.parameters, *some, force)
-    seen = balance.window.means @ force
-    carried = [own for x in effects if (own := balance.load_force(x)) is not None]
-    return seen + np.sum(carried, axis=0) if carried else seen
+    return balance.window.means @ force
 
 
 @compiled

@@ -58,8 +58,9 @@ def joint_friction(scenario: Scenario[Any], *, smoothing_velocity: float, joint:
     F = P - R(abs(v)) tanh(v/smoothing_velocity) with the scenario's law and effects in R, and in P what effects push with
     whichever way the joint moves: what multi-step integrators can take.
     Friction does not hold at rest then; it creeps at a part of ``smoothing_velocity``. ``load`` is what the joint transmits
-    (at a pair of geoms, or a slide without a piston: its normal force; 0 at the latter: the stated one), ``travelled`` the distance slid, ``temperature`` and ``pressure`` the measured ones
-    and ``drive`` the driving force, for effects that ask for them; what these take from the drive is part of the force.
+    (its normal force at a pair of geoms, and at a slide without a piston, where 0 stands for the stated one), ``travelled`` the
+    distance slid, ``temperature`` and ``pressure`` the measured ones and ``drive`` the driving force, for effects that ask for
+    them; what these take from the drive is part of the force.
 
     Args:
         scenario: a scenario of a driven joint.

@@ -100,6 +100,12 @@ def noise_floor(model: JointModel, balances: Sequence[ForceBalance], nuisances: 
     return deviation(differences, about=0.0) if len(differences) else float("nan")
 
 
+def white_floor(balances: Sequence[ForceBalance]) -> float:
+    """Return what white noise of the channels leaves in the balance [N or N m]; 0: no such noise shows in them."""
+    left = [sum((s.window.gain(order) * size) ** 2 for order, size in s.white.items()) for s in balances]
+    return float(np.sqrt(np.mean(left)))
+
+
 def closed_share(before: float, after: float, floor: float) -> float:
     """Return the part of a squared error, noise apart, that is gone [-].
 
