@@ -255,11 +255,14 @@ class Selector:
         """Return the candidates that the model does not have yet, fitted.
 
         A load that moves by itself is looked for where all other candidates leave more than noise: it can take noise of the
-        acceleration away, whether there is such a load or not, and its force takes long to work out.
+        acceleration away, whether there is such a load or not. Its force takes long to work out: it is looked for first, and
+        again where nothing else has a name.
         """
         fits = self._fits(current, span, of_loads=False)
         least = min((current, *(f for _, f in fits)), key=lambda f: f.rms)
-        if self._loads and least.rms > FLOOR * noise_floor(least.model, self._balances, self._nuisances):
+        first = len(current.model.effects) == len(self.recalibrated.model.effects)
+        asked = self._loads and (first or self._scored(current, fits)[0].score <= criteria.NAMED)
+        if asked and least.rms > FLOOR * noise_floor(least.model, self._balances, self._nuisances):
             fits += self._fits(current, span, of_loads=True)
         return fits
 
