@@ -178,7 +178,7 @@ def _better(
     if more < 0 and gain > np.log(1.0 - criteria.MATERIAL):
         gain = max(gain, 0.0)  # effects that leave less by no material part explain no more than the delay, which is simpler
     sizes = rms, lambda rest: deviation(rest, about=0.0)
-    shares = [share_by_delay(before, after, balances[-1], nuisances, size) for size in sizes]
+    shares = [share_by_delay(without[0], after, balances[-1], nuisances, size) for size in sizes]
     evidence = 2.0 * n * gain + before.strain - after.strain - more * np.log(n)
     return float(evidence), min(shares) >= criteria.EXPLAINED_BY_DELAY
 
