@@ -29,7 +29,7 @@ def pressed(friction):
     for i, role in enumerate(("fit", "fit", "test")):
         run = sine_run(lambda q, v: 0.0 * v, seed=i, role=role)
         plain = sine_run(coulomb, seed=i, role=role)
-        turned = np.sign((plain.channels["force"] - run.channels["force"]))
+        turned = np.sign(plain.channels["force"] - run.channels["force"])
         normal = scenario().mechanism.normal_force * (1.0 + 0.5 * np.sin(2.1 * run.time))
         channels = {**run.channels, "normal_force": normal}
         channels["force"] = run.channels["force"] + friction(normal) * turned

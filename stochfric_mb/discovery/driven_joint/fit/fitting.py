@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Sequence
 from typing import Any
 
@@ -120,12 +121,10 @@ def fit(
         return np.concatenate([*parts, noise * steps.surprise(values)])
 
     differences = LARGE_DIFFERENCES[: 2 if refined else 1] if rough else (DIFFERENCE,)
-    start = np.zeros(len(free))
-    for difference in differences:
-        minimum = minimised(
-            errors, start, steps.low, steps.high, difference=difference, evaluations=evaluations, tolerance=TOLERANCE
-        )
-        start = minimum.x
+    find = functools.partial(minimised, errors, low=steps.low, high=steps.high, evaluations=evaluations, tolerance=TOLERANCE)
+    minimum = find(np.zeros(len(free)), difference=differences[0])
+    for difference in differences[1:]:
+        minimum = find(minimum.x, difference=difference)
     jacobian, scale, values = minimum.jacobian, steps.scale, steps.values(minimum.x)
     fitted = adjusted(model, free, values)
     parts = tuple(fitted.remainder(s, nuisances)[m] for s, m in zip(balances, used, strict=True))
