@@ -7,8 +7,10 @@ import pytest
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint import joint_outcome
+from stochfric_mb.discovery.driven_joint.decision.adequacy import _worse_at_most_times
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector, _is_none
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
+from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor, white_floor
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.effects import make_effect
@@ -78,6 +80,22 @@ def test_a_second_effect_along_one_curve_is_refused_within_noise():
     assert selector._only_bends(current, [both[0]], both[1])
     assert not selector._only_bends(dataclasses.replace(current, remainders=(np.full(9, 1.0e3),)), [both[0]], both[1])
     assert not selector._only_bends(current, [both[0]], trials["viscous_friction"])
+
+
+def test_names_that_trade_most_windows_for_a_few_do_not_stand():
+    source = source_of(pair(coulomb))
+    balances, nuisances = source.balances("", "fit", 0.0), source.nuisances("")
+    selected = Selector(balances, nuisances, source.stated("")).run()
+
+    def left(burst, level):
+        rest = np.full(1000, level)
+        rest[::50] = burst
+        return dataclasses.replace(selected.recalibrated, remainders=(rest,))
+
+    for level, worse in ((1.5, True), (0.9, False)):
+        both = dataclasses.replace(selected, recalibrated=left(100.0, 1.0), final=left(20.0, level))
+        place = PlaceOutcome("", both, tuple(nuisances), source.stated(""), tuple(balances), tuple(balances), {}, 0.1)
+        assert bool(_worse_at_most_times(place)) is worse
 
 
 def test_white_noise_of_the_channels_is_the_noise_of_the_balance_where_nothing_else_is():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import confounded, one_curve
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNED
@@ -14,8 +16,8 @@ def inadequate(place: PlaceOutcome) -> str:
     """Return why what was selected at a place does not stand; empty if it does, or if nothing was.
 
     It does not where two effects draw one curve, where it explains no more than it leaves on the held-out runs, where a number
-    that is believed has to go as far as beliefs allow for it, and where more than noise is left, which plainly depends on
-    conditions that are not its own.
+    that is believed has to go as far as beliefs allow for it, and where more than noise is left and either the typical window
+    errs more with it or what is left plainly depends on conditions that are not its own.
     """
     kinds = ", ".join(place.selected.named)
     if not kinds or place.forecasts is not None or (place.random is not None and place.random.named):
@@ -26,7 +28,7 @@ def inadequate(place: PlaceOutcome) -> str:
     why = _lost(place)
     if why:
         return f"{kinds} explains the fit runs, but not the held-out ones ({why}), and is not named"
-    why = _at_bound(place) or _plainly_left(place)
+    why = _at_bound(place) or _worse_at_most_times(place) or _plainly_left(place)
     return f"{kinds} explains much of the record, but {why}, and is not named" if why else ""
 
 
@@ -56,6 +58,21 @@ def _at_bound(place: PlaceOutcome) -> str:
         if belief.name not in released and abs(off) > criteria.AT_BOUND * criteria.MOST_OFF:
             return f"needs {belief.name} off by {off:.1f} of its stated standard deviations, as far as a belief gives way"
     return ""
+
+
+def _worse_at_most_times(place: PlaceOutcome) -> str:
+    """Return by how much the typical window errs more with the selected effects than without; empty: it does not.
+
+    What is right is right at most times. Effects that trade what was explained for what comes in bursts stand for something
+    else, however much of the square they take away; within noise there is nothing to trade.
+    """
+    before, after = place.selected.recalibrated, place.selected.final
+    if after.rms < FLOOR * noise_floor(after.model, place.fit, place.nuisances):
+        return ""
+    typical = [float(np.median(np.abs(np.concatenate(f.remainders)))) for f in (before, after)]
+    if typical[1] < (1.0 + criteria.MATERIAL) * typical[0]:
+        return ""
+    return f"the median error rises from {typical[0]:.3g} to {typical[1]:.3g} {place.fit[0].unit} with it"
 
 
 def _plainly_left(place: PlaceOutcome) -> str:
