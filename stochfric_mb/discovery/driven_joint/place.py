@@ -50,8 +50,7 @@ class _Asked:
         """Return the selection with a delay compensated."""
         if delay not in self.selectors:
             balances, nuisances = self.source.balances(self.name, "fit", delay), self.source.nuisances(self.name)
-            # a load that moves by itself is another answer than a delay, and is looked for without one
-            self.selectors[delay] = Selector(balances, nuisances, start, lambda text: self.say(text + how), loads=not how)
+            self.selectors[delay] = Selector(balances, nuisances, start, lambda text: self.say(text + how))
         return self.selectors[delay]
 
     def say(self, text: str) -> None:

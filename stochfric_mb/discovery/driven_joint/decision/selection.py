@@ -110,7 +110,7 @@ Fitted = list[tuple[Candidate, JointFit]]
 
 
 class Selector:
-    """Selection at one joint; ``loads``: whether loads that move by themselves are looked for."""
+    """Selection at one joint."""
 
     def __init__(
         self,
@@ -118,10 +118,7 @@ class Selector:
         nuisances: Sequence[Nuisance],
         start: JointModel,
         progress: Callable[[str], None] | None = None,
-        *,
-        loads: bool = True,
     ) -> None:
-        self._loads = loads
         self._balances, self._nuisances = list(balances), list(nuisances)
         self._without: frozenset[str] = frozenset()
         self._known: dict[Beside, tuple[frozenset[str], Fitted]] = {}
@@ -261,7 +258,7 @@ class Selector:
         fits = self._fits(current, span, of_loads=False)
         least = min((current, *(f for _, f in fits)), key=lambda f: f.rms)
         first = len(current.model.effects) == len(self.recalibrated.model.effects)
-        asked = self._loads and (first or self._scored(current, fits)[0].score <= criteria.NAMED)
+        asked = first or self._scored(current, fits)[0].score <= criteria.NAMED
         if asked and least.rms > FLOOR * noise_floor(least.model, self._balances, self._nuisances):
             fits += self._fits(current, span, of_loads=True)
         return fits
