@@ -168,7 +168,9 @@ def _of_the_sensor(study: Study, sticking: Sticking, best: str, score: float) ->
     if best in (CREEPING_ZERO, JUMP) or _rounded(study, sticking):
         return True
     if best == BELT_RIPPLE:
-        frequency = sticking.settings[best]["frequency"]
+        frequency, share = (sticking.settings[best][name] for name in ("frequency", "share"))
+        if share < criteria.WAVE_EXPLAINED and sticking.departure < criteria.STICK_DEPARTS:
+            return True  # slow noise has a wave that follows it best
         if _of_the_zero(study, frequency) or sum(in_slips_too(s, frequency) for s in study.pool.slips) > criteria.NAMED:
             return True
     slow = score < _least(sticking) and sticking.departure < criteria.STICK_DEPARTS

@@ -125,7 +125,10 @@ def random_effects(
     """Return random friction, or where a scatter of no known kind lives, or None."""
     sigma_s, sigma_k, _ = np.exp(baseline.solution.scatter)
     mu_s, mu_k = study.baseline.solution.coefficients[:2]
-    if not _scatters(study, baseline, scatter, named, max(sigma_s, sigma_k) / mu_s):
+    # how large a scatter is says nothing where that it is there at all is in doubt
+    certain = scatter.static > criteria.SCATTER_CERTAIN, scatter.kinetic > criteria.SCATTER_CERTAIN
+    share = max(certain[0] * sigma_s, certain[1] * sigma_k) / mu_s
+    if not _scatters(study, baseline, scatter, named, float(share)):
         return None
     if levels.where is not None or (scatter.wander > criteria.NAMED and scatter.wander_of == "offset"):
         return levels.where or _offset(study, scatter)
@@ -185,7 +188,7 @@ def _offset(study: Study, scatter: Randomness) -> Where | None:
     """Return where a force wanders that is the same in stick and slip; None where it is a sensor's zero, within its noise."""
     pool = study.pool
     away = scatter.wander_share * float(np.median(pool.static)) / study.records[0].mechanism.stiffness
-    if away < max(s.noise.deviation for s in pool.slips):
+    if away < criteria.STICK_DEPARTS * max(s.noise.deviation for s in pool.slips):
         return None
     return Where("time", f"the same in stick and slip, a force or the sensor's zero drifts by {away:.2g} m")
 
@@ -194,10 +197,12 @@ def _scatters(study: Study, baseline: Baseline, scatter: Randomness, named: Sequ
     """Return whether friction scatters beyond doubt, and by more than what the form of a named effect may leave."""
     if max(scatter.static, scatter.kinetic) <= criteria.SCATTER_CERTAIN and scatter.wander <= criteria.NAMED:
         return False
-    # of noise slower than a stick phase the record says nothing but where the box breaks away: as little is no friction
+    # of noise slower than a stick phase the record says nothing but where the box breaks away: a zero that moves so may wander
+    # by as much as a reading errs
     level = float(np.median(study.pool.static))
-    away = max(share * level, scatter.wander_share * level) / study.records[0].mechanism.stiffness
-    if away < max(s.noise.coloured for s in study.pool.slips):
+    wander = scatter.wander_share if scatter.wander > criteria.NAMED else 0.0
+    away = max(share, wander) * level / study.records[0].mechanism.stiffness
+    if away < criteria.STICK_DEPARTS * max(s.noise.deviation for s in study.pool.slips):
         return False
     remaining = baseline.variance / study.baseline.variance
     return not named or (remaining >= criteria.SCATTER_REMAINING and share >= criteria.SCATTER_LEAST_SHARE)
