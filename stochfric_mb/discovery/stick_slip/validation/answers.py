@@ -230,7 +230,7 @@ def _with_form(answer: Answer, term: str, slip_study: Study, recalibrated: Fit, 
 def _refuted_by_forces(seen: Comparison, last: Named, fewer: Answer, answer: Answer, slip_study: Study, runs: HeldOut) -> bool:
     """Return whether the forces of held-out slips speak against the effect selected last.
 
-    It leaves them and the forecasts as they are without it; or, selected for what it explains of such forces, makes them worse.
+    It leaves them and the forecasts as they are without it; or it makes them worse, unless the motion in stick speaks for it.
     """
     if last.kind in kinds_with(SCATTER):
         return False
@@ -241,8 +241,20 @@ def _refuted_by_forces(seen: Comparison, last: Named, fewer: Answer, answer: Ans
     if forces is None:
         return False
     nothing = criteria.CLOSES_NOTHING * forces.recalibrated
-    worse = STICK_SHARE not in answer.decision.details and forces.augmented - forces.recalibrated > nothing
+    worse = forces.augmented - forces.recalibrated > nothing and not _by_its_motion(answer.decision)
     return worse or (idle and forces.recalibrated - forces.augmented < nothing)
+
+
+def _by_its_motion(decision: Decision) -> bool:
+    """Return whether an effect was selected for what it does to a stuck box, and explains the motion as a name must.
+
+    The forces of a slip begin at its edges, which a contact that yields has moved.
+    """
+    seen = cast("dict[str, float]", decision.details.get("explained", {}))
+    if STICK_SHARE not in decision.details or "share" not in seen:
+        return STICK_SHARE in decision.details
+    reducible = seen["before"] - seen["floor"]
+    return seen["share"] * reducible + criteria.LACKS * seen["doubt"] >= criteria.EXPLAINED * reducible
 
 
 def _with_strengths(answer: Answer, slip_study: Study, recalibrated: Fit) -> Answer:
