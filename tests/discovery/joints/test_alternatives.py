@@ -11,7 +11,7 @@ from stochfric_mb.discovery.driven_joint.decision.adequacy import _worse_at_most
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector, _is_none
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
-from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor, white_floor
+from stochfric_mb.discovery.driven_joint.simulation.scores import noise_floor, white_floor
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.effects import make_effect
 from stochfric_mb.measurement import Dataset, load_dataset
@@ -69,19 +69,6 @@ def test_a_load_whose_share_ends_at_its_bound_stands_for_something_else():
     assert not _is_none(of_share(0.7), 0)
 
 
-def test_a_second_effect_along_one_curve_is_refused_within_noise():
-    source = source_of(pair(coulomb))
-    balances, nuisances = source.balances("", "fit", 0.0), source.nuisances("")
-    selector = Selector(balances, nuisances, source.stated(""))
-    current = selector.recalibrated
-    assert current.rms < FLOOR * noise_floor(current.model, balances, nuisances)
-    trials = {t.candidate.kind: t for t in selector.run().stages[0].trials}
-    both = trials["friction_drift"], trials["distance_drift"]
-    assert selector._only_bends(current, [both[0]], both[1])
-    assert not selector._only_bends(dataclasses.replace(current, remainders=(np.full(9, 1.0e3),)), [both[0]], both[1])
-    assert not selector._only_bends(current, [both[0]], trials["viscous_friction"])
-
-
 def test_names_that_trade_most_windows_for_a_few_do_not_stand():
     source = source_of(pair(coulomb))
     balances, nuisances = source.balances("", "fit", 0.0), source.nuisances("")
@@ -110,7 +97,6 @@ def test_white_noise_of_the_channels_is_the_noise_of_the_balance_where_nothing_e
     ("form", "design", "strength", "first"),
     [
         ("load_dependence.least_friction", "slide", 0.5, "load_dependence"),
-        ("distance_drift.galls_stroke_by_stroke", "mjcf_hinge", 1.0, "friction_drift"),
         ("constant_force.guide_is_not_level", "arm", 1.0, "constant_force"),
         ("drive_gain.partly_demagnetised", "mjcf_hinge", 0.5, "payload"),
         ("backlash.worn_bevel_gear", "mjcf_hinge", 1.0, "backlash"),

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from scipy.stats import f as fisher
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_state, confounded, one_curve
+from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_state, confounded
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate, candidates, span_of
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes, witnesses
@@ -145,8 +145,6 @@ class Selector:
                 number, current = freed
                 released.append(number)
                 continue
-            if stage.accepted and self._only_bends(current, effects, stage.trials[0]):
-                stage = dataclasses.replace(stage, accepted=False)
             stages.append(stage)
             if not stage.accepted:
                 break
@@ -169,14 +167,6 @@ class Selector:
             tuple(released),
             tuple(self._nuisances),
         )
-
-    def _only_bends(self, current: JointFit, effects: Sequence[Trial], more: Trial) -> bool:
-        """Return whether a further effect bends the curve of an earlier one, along conditions that went together, within noise.
-
-        Where no more than noise is left, the earlier one has the form of the curve as far as the record can tell.
-        """
-        both = one_curve([*(t.candidate.kind for t in effects), more.candidate.kind], self._pairs)
-        return more.candidate.kind in both and current.rms < FLOOR * noise_floor(current.model, self._balances, self._nuisances)
 
     def _released(self, current: JointFit, stage: Stage) -> tuple[Released, JointFit] | None:
         """Return the number that is off by more than its uncertainty, if that explains more than any effect.
