@@ -264,7 +264,7 @@ class _Simulation:
 
 
 def _near(one: float, other: float) -> bool:
-    """Return whether two coefficients of friction differ by less than a factor of two."""
+    """Return whether two coefficients of friction differ by a factor of two at most: no fit starts beyond."""
     return 0.5 < one / other < 2.0
 
 

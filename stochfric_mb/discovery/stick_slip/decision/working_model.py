@@ -113,7 +113,6 @@ class WorkingModel:
 
     def take(self, chosen: Chosen, details: dict[str, object]) -> bool:
         """Take an effect into the model, and out of the features; return whether it is worth a place beside the others."""
-        chosen = self._alone(chosen)
         kind, without, before = chosen.candidate.name, self.model, self.as_recorded
         simulated = self.confirmed, self.simulated
         self.confirmed, self.simulated = chosen.confirmed, self.simulated or chosen.simulated
@@ -136,25 +135,6 @@ class WorkingModel:
         else:
             self._go_on(chosen, screened if fitted else None)
         return True
-
-    def _alone(self, chosen: Chosen) -> Chosen:
-        """Return the choice without the effects before it, which go, if it explains simulated slips as well without them.
-
-        Of two effects that marks confuse either may be selected first: the order of selection is no evidence.
-        """
-        both = chosen.confirmed
-        if not (chosen.simulated and self.simulated and self.named) or both is None:
-            return chosen
-        newest = both.model.effects[-1]
-        if len(self.named) != len(self.taken) or newest.own_to_run or newest.kind in self.kinds:
-            return chosen
-        bare = dataclasses.replace(both.model, effects=(newest,), own={})
-        alone = confirm(self.cases, bare, self.study.uncertainty)
-        spread = max(both.chi2 / max(both.freedom, 1), 1.0)
-        if not alone.slips or alone.scaled(spread) > both.scaled(spread) + criteria.ALIKE_SIMULATED:
-            return chosen
-        self.model, self.named, self.taken, self.form = at_estimates(self.study), [], [], None
-        return dataclasses.replace(chosen, model=alone.model, confirmed=alone, class_=())
 
     def _complete(self, kind: str, details: dict[str, object]) -> None:
         """Take what the form of the one effect leaves along the effect's own axis into the model: a term without a name.

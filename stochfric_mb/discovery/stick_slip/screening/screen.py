@@ -25,7 +25,8 @@ REFITTED = 14
 """Candidates, best first at fixed variance components, whose variance components are fitted anew."""
 
 OTHERS, APART = 3, 0.2
-"""Other ways of a kind that are kept at most, and how far apart the logarithms of their first settings are [-]."""
+"""Other ways of a kind that are kept at most, and how far apart the logarithms of their first settings are [-]: about as far as
+a fit finds its way by itself. They are starts alone, and decide nothing."""
 
 
 @dataclasses.dataclass(frozen=True)

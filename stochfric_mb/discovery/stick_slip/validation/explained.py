@@ -188,9 +188,11 @@ def _scattered(windows: Windows, most: int) -> Windows:
 
 
 def _missed(decision: Decision, before: float, floor: float) -> Decision:
+    faults = ", ".join(n.kind for n in decision.named)
+    beside = f" beside {faults}" if faults else ""
     where = Where(
         "forecasts of one cycle",
-        f"no effect stands out in the forces of the slips, but forecasts of the fit runs miss by {before:.2g} m, where the "
-        f"model would miss by {floor:.2g} m if it were true",
+        f"no effect{beside} stands out in the forces of the slips, but forecasts of the fit runs miss by {before:.2g} m, where "
+        f"the model would miss by {floor:.2g} m if it were true",
     )
     return dataclasses.replace(decision, verdict="unknown", named=(), where=where)

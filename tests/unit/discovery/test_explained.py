@@ -1,0 +1,59 @@
+"""What excuses a name, and what does not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from stochfric_mb.discovery.inference.false_alarms import Evidence
+from stochfric_mb.discovery.stick_slip.decision.decision import Decision, selected
+from stochfric_mb.discovery.stick_slip.decision.kinematics import STICK_SHARE
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.discovery.stick_slip.validation.answers import _by_its_motion
+from stochfric_mb.discovery.stick_slip.validation.explained import _enough, _nothing_shown, explained_with_its_form
+from stochfric_mb.effects import make_effect
+
+
+def decided(*kinds: str, details: dict | None = None, shape_left: float = 1.0) -> Decision:
+    effects = {
+        "belt_speed_ripple": make_effect("belt_speed_ripple", amplitude=0.1, frequency=1.0),
+        "friction_drift": make_effect("friction_drift", change=0.1),
+        "random_coefficients": make_effect("random_coefficients", sigma_s=0.01, sigma_k=0.01),
+        "sensor_outliers": make_effect("sensor_outliers", fraction=0.01, size=1e-4),
+    }
+    model = Model(law=None, corrections={}, effects=tuple(effects[k] for k in kinds))
+    named = tuple(selected(k, Evidence(100.0, None), model, shape_left=shape_left) for k in kinds)
+    return Decision("effect" if kinds else "none", named, None, model, (), details or {})
+
+
+@pytest.mark.parametrize("kinds", [(), ("sensor_outliers",)])
+def test_what_forecasts_do_not_show_excuses_nothing_that_they_do(kinds):
+    best = np.full(10, 1.0e-6)
+    refused = _nothing_shown(decided(*kinds), 16e-6, 16e-6, best)
+    assert refused is not None
+    assert (refused.verdict, refused.named) == ("unknown", ())
+    assert all(kind in refused.where.text for kind in kinds)
+    assert _nothing_shown(decided(*kinds), 1.3e-6, 1.3e-6, best) is None  # noise leaves up to a third
+
+
+def test_scatter_beside_a_name_does_not_lower_what_that_must_explain():
+    assert _enough(decided("friction_drift", "random_coefficients")) == _enough(decided("friction_drift")) > 0.5
+    assert _enough(decided("random_coefficients")) < 0.5
+
+
+def test_a_wave_that_stick_shows_is_held_against_forecasts_as_others_are():
+    ripple = decided("belt_speed_ripple", details={STICK_SHARE: 0.96})
+    assert explained_with_its_form(ripple)  # its forces are not judged
+    assert _enough(ripple) > 0.5  # its motion is
+
+
+def test_the_shape_that_is_left_is_that_of_the_effect_named():
+    assert explained_with_its_form(decided("friction_drift", shape_left=0.01))
+    assert not explained_with_its_form(decided("friction_drift", details={"shape_left": 0.01}))
+
+
+@pytest.mark.parametrize(("share", "excused"), [(0.8, True), (0.64, True), (0.12, False)])
+def test_stick_excuses_worse_forces_where_the_motion_is_explained(share, excused):
+    seen = {"before": 10e-6, "after": 5e-6, "floor": 2e-6, "share": share, "doubt": 0.1e-6}
+    assert _by_its_motion(decided("friction_drift", details={STICK_SHARE: 0.9, "explained": seen})) is excused
+    assert not _by_its_motion(decided("friction_drift", details={"explained": seen}))
