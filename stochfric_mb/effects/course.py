@@ -1,8 +1,11 @@
-"""A course in time of any smooth shape: a sum of cubic B-splines over a stretch of time.
+"""A course of any smooth shape along time, distance or temperature: a sum of cubic B-splines over a stretch of it.
 
 A slow course differs from a random drift by its length scale: it bends over a part of the record that many slips fall into,
 and it comes back in the next run. Reference: C. de Boor, A Practical Guide to Splines, Springer 1978, chapter IX.
 """
+
+# pyright: standard
+# (compiled functions are typed by numba)
 
 from __future__ import annotations
 
@@ -13,7 +16,9 @@ from typing import Any
 
 import numpy as np
 
+from stochfric_mb.compile import compiled
 from stochfric_mb.effects.contract import Array, Effect, parameter
+from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, Hypothesis, Slips, levels
 
 PIECES = 16
 """Pieces of the course between its beginning and its end."""
@@ -21,6 +26,8 @@ COURSE = tuple(f"course_{i}" for i in range(1, PIECES + 3))
 """Parameters that are its shape; a course begins at 0, so that the spline before them is left out."""
 COARSER = (4, 8, PIECES)
 """Pieces of the courses that are looked for; each course is a finer one, too."""
+SHARES = (1.0, 0.0, 0.5, 2.0)
+"""Shares of the change that mu_s takes, of courses of friction [-]."""
 
 
 def _weight(number: int) -> Any:
@@ -95,6 +102,46 @@ def _raw(place: Array, pieces: int) -> Array:
     return np.where(apart < 1.0, near, np.maximum(2.0 - apart, 0.0) ** 3 / 6.0)
 
 
+@compiled
+def along(p, place):
+    """Return the course at a place, 0 at its begin and 1 at its end, from an effect's parameters."""
+    where, value = 16.0 * min(max(place, 0.0), 1.0), -(2.0 / 3.0 * p[1] + p[2] / 6.0)  # less what the splines are at the begin
+    for k in range(18):
+        away = abs(where - k)
+        if away < 1.0:
+            value += p[1 + k] * (2.0 / 3.0 - away * away * (1.0 - away / 2.0))
+        elif away < 2.0:
+            value += p[1 + k] * (2.0 - away) * (2.0 - away) * (2.0 - away) / 6.0
+    return value
+
+
+def friction_along(
+    kind: str, at_onset: Array, in_slip: Array, span: float, slips: Slips, more: dict[str, float] | None = None
+) -> list[Hypothesis]:
+    """Return friction that follows a course of any smooth shape along a quantity.
+
+    Args:
+        kind: the effect, a `Course` whose ``change`` is relative to mu_k, and to mu_s by ``static_share``.
+        at_onset: place in the course at the break-away, 0 at its begin and 1 at its end, shape (n,).
+        in_slip: the same in the slip, shape (n, nodes).
+        span: the stretch of the quantity that the course covers, in its unit.
+        slips: the slips.
+        more: further parameters of the effect.
+    """
+    static, kinetic = levels(slips)
+
+    def way(pieces: int, share: float) -> Hypothesis:
+        held, rubbing = splines(at_onset, pieces), splines(in_slip, pieces)
+        columns = [slips.column(share * static * held[:, k], kinetic[:, None] * rubbing[..., k]) for k in range(pieces + 2)]
+
+        def start(b: Array) -> dict[str, Any]:
+            return sized(b, pieces, span) | {"static_share": share} | (more or {})
+
+        return Hypothesis(kind, columns, (), start, COURSE_OF_ANY_SHAPE)
+
+    return [way(pieces, share) for pieces in COARSER for share in SHARES]
+
+
 @functools.cache
 def refined(pieces: int) -> Array:
     """Return what turns the weights of a coarser course into those of the finest, shape (PIECES + 2, pieces + 2)."""
@@ -103,7 +150,7 @@ def refined(pieces: int) -> Array:
 
 
 def sized(weights: Array, pieces: int, span: float) -> dict[str, float]:
-    """Return the parameters of a course: its size, its shape with a largest change of 1, and its span [s]."""
+    """Return the parameters of a course: its size, its shape with a largest change of 1, and its span."""
     fine = refined(pieces) @ weights
     course = splines(np.linspace(0.0, 1.0, 20 * PIECES + 1), PIECES) @ fine
     size = float(course[np.argmax(np.abs(course))]) or 1.0

@@ -11,6 +11,7 @@ from stochfric_mb.discovery.stick_slip.study import Study, study
 from stochfric_mb.effects import contract, make_effect
 from stochfric_mb.effects.kinds.friction_drift import friction
 from stochfric_mb.measurement.dataset import load_dataset
+from tests.discovery.unseen_forms import eighth  # noqa: F401  enters its forms
 from tests.discovery.unseen_forms.forms import FORMS
 from tests.discovery.unseen_forms.records import Case, write_record
 
@@ -29,6 +30,7 @@ def studied(form: str, design: str, folder) -> Study:
         ("drift_logistic", "one", "friction_drift"),
         ("drift_rise_and_fall", "several", "friction_drift"),
         ("drift_warming_up", "several", "sensor_drift"),
+        ("eighth_distance_laid_on_and_rubbed_off", "several", "distance_drift"),
     ],
 )
 def test_a_course_of_no_usual_shape_is_seen_as_what_it_is(form, design, kind, tmp_path):

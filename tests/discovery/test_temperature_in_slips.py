@@ -26,9 +26,12 @@ def warming(run: int):
     return time, 25.0 + 5.0 * np.sin(2.0 * np.pi * time / (17.0 + 6.0 * run) + run)
 
 
-def record(run: int, role: str, curvature: float = 0.0) -> Run:
-    drift = make_effect("temperature_drift", rate=RATE, reference_temperature=25.0, curvature=curvature)
-    system = augmented_system(BOX, LAW, [drift], temperature=warming(run))
+def drift(curvature: float = 0.0):
+    return make_effect("temperature_drift", rate=RATE, reference_temperature=25.0, curvature=curvature)
+
+
+def record(run: int, role: str, effect) -> Run:
+    system = augmented_system(BOX, LAW, [effect], temperature=warming(run))
     settled = system.march(Start(-5.0, 0.0, BOX.belt_velocity, stick=True), STEP, round(5.0 / STEP)).end
     position = system.march(settled, STEP, round(LONG / STEP)).position
     rng = np.random.default_rng(run)
@@ -40,8 +43,8 @@ def record(run: int, role: str, curvature: float = 0.0) -> Run:
     return Run(name=f"run {run}", role=role, time=time, channels=channels, sample_interval=STEP)
 
 
-def measured(curvature: float = 0.0) -> Dataset:
-    runs = tuple(record(i, role, curvature) for i, role in enumerate(("fit", "fit", "test")))
+def measured(effect=None) -> Dataset:
+    runs = tuple(record(i, role, effect or drift()) for i, role in enumerate(("fit", "fit", "test")))
     scenario = Scenario(mechanism=BOX, law=LAW, duration=LONG, output_step=STEP)
     return Dataset(title="", scenario_path=None, scenario=scenario, runs=runs)
 
@@ -53,13 +56,22 @@ def dataset() -> Dataset:
 
 def test_a_curved_dependence_on_temperature_is_no_drift_in_time():
     curvature = 0.15 * RATE  # at the ends, 5 K off, three quarters of what the straight part does
-    result = discover(measured(curvature)).result
+    result = discover(measured(drift(curvature))).result
     assert [e.kind for e in result.effects] == ["temperature_drift"]
     numbers = result.effects[0].parameters
     rate, about, bend = (numbers[name].value for name in ("rate", "reference_temperature", "curvature"))
     level = 1.0 + RATE * (about - 25.0) + curvature * (about - 25.0) ** 2  # both are relative to friction there
     assert bend == pytest.approx(curvature / level, rel=0.05)
     assert rate == pytest.approx((RATE + 2.0 * curvature * (about - 25.0)) / level, rel=0.05)
+    assert result.gap.closed > 0.9
+
+
+def test_friction_that_falls_where_a_lubricant_melts_follows_the_temperature():
+    table = 0.12 / (1.0 + np.exp(-(np.linspace(20.0, 30.0, 7) - 25.0) / 0.8))  # over 3 of 10 K
+    steep = {f"change_{i}": -float(change) for i, change in enumerate(table) if i}
+    melts = make_effect("unnamed", axis="temperature", low=20.0, high=30.0, static_share=1.0, reference_load=13.0, **steep)
+    result = discover(measured(melts)).result
+    assert [e.kind for e in result.effects] == ["temperature_drift"]
     assert result.gap.closed > 0.9
 
 

@@ -7,16 +7,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Any, ClassVar
+from typing import ClassVar
 
-from stochfric_mb.effects.contract import MU_K, MU_S, TIME, Array, JointSignature, parameter
-from stochfric_mb.effects.course import COARSER, Course, sized, splines
+from stochfric_mb.effects.contract import MU_K, MU_S, TIME, JointSignature, parameter
+from stochfric_mb.effects.course import Course, along, friction_along
 from stochfric_mb.effects.joints import JointSpan
-from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, Hypothesis, Slips, drifting, levels
+from stochfric_mb.effects.marks import Hypothesis, Slips, drifting
 from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, WANDERS_ALIKE
-
-SHARES = (1.0, 0.0, 0.5, 2.0)
-"""Shares of the change that mu_s takes, of courses of any shape [-]."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -60,19 +57,8 @@ class FrictionDrift(Course):
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
         """Return friction that drifts in each run: linearly, towards a limit, or along a course of any smooth shape."""
         ways = drifting(cls.kind, slips.onset_time, slips.mean_time, slips.duration, slips, "time_constant")
-        return ways + [_course(slips, pieces, share) for pieces in COARSER for share in SHARES]
-
-
-def _course(slips: Slips, pieces: int, share: float) -> Hypothesis:
-    """Return a course of any smooth shape, the same in each run since its start."""
-    held, rubbing = levels(slips)
-    at_onset, inside = (splines(t / slips.duration, pieces) for t in (slips.onset_time, slips.node_time))
-
-    def start(b: Array) -> dict[str, Any]:
-        return sized(b, pieces, slips.duration) | {"static_share": share}
-
-    columns = [slips.column(share * held * at_onset[:, k], rubbing[:, None] * inside[..., k]) for k in range(pieces + 2)]
-    return Hypothesis(FrictionDrift.kind, columns, (), start, COURSE_OF_ANY_SHAPE)
+        whole = slips.duration
+        return ways + friction_along(cls.kind, slips.onset_time / whole, slips.node_time / whole, whole, slips)
 
 
 def friction(world, memory, rates, p):
@@ -80,13 +66,6 @@ def friction(world, memory, rates, p):
     span, rate, settled, share, change = p[0], p[19], p[20], p[21], p[22]
     grown = rate * (world[TIME] if settled > 1.0e300 else -settled * math.expm1(-world[TIME] / settled))
     if change != 0.0:
-        place = 16.0 * min(max(world[TIME] / span, 0.0), 1.0)
-        for k in range(18):
-            away = abs(place - k)
-            if away < 1.0:
-                grown += change * p[1 + k] * (2.0 / 3.0 - away * away * (1.0 - away / 2.0))
-            elif away < 2.0:
-                grown += change * p[1 + k] * (2.0 - away) * (2.0 - away) * (2.0 - away) / 6.0
-        grown -= change * (2.0 / 3.0 * p[1] + p[2] / 6.0)  # what the splines are at the begin
+        grown += change * along(p, world[TIME] / span)
     world[MU_S] *= 1.0 + share * grown
     world[MU_K] *= 1.0 + grown
