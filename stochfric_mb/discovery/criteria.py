@@ -35,8 +35,6 @@ FORM_MISSES = 0.03
 strength. The tests' forms leave 0.016 at most, those of other kinds 0.08 where friction varies along the stroke."""
 SECOND_SHARE = 0.1
 """A further effect needs at least this share of the first one's score [-]."""
-STALLED = 0.6
-"""Share of the scatter that may remain after a ripple is taken out; if more does, no search for further ones makes sense."""
 LEFT_OVER = 0.35
 """Share of the scatter that named effects may leave where what is left is of no known kind: as in the forecasts, a name
 must explain the larger part, 65 %."""

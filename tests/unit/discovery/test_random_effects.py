@@ -108,6 +108,15 @@ def test_slips_that_stand_out_by_the_same_amount_are_at_a_second_level():
     assert kicks(study(onset)) is None
 
 
+def test_a_long_tail_of_static_friction_is_no_kicks():
+    onset = np.zeros(N * RUNS)
+    onset[struck(6)] = np.random.default_rng(3).uniform(0.5, 2.6, 6)  # held longer, and as any other in slip
+    assert kicks(study(onset)) is None
+    pushed = np.zeros(N * RUNS)
+    pushed[np.random.default_rng(4).choice(N * RUNS, 12, replace=False)] = 0.5  # pushes that hold it back come in slips, too
+    assert kicks(study(onset, pushed)) is not None
+
+
 @pytest.mark.parametrize("count", [0, 2, 40])
 def test_none_single_ones_or_half_of_the_slips_are_not_kicked(count):
     onset = np.zeros(N * RUNS)

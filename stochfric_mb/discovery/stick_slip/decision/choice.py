@@ -13,8 +13,9 @@ from stochfric_mb.discovery.stick_slip.decision.cases import Case
 from stochfric_mb.discovery.stick_slip.decision.confirmation import Confirmed, confirm
 from stochfric_mb.discovery.stick_slip.decision.entrainment import Trial, entrained
 from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING
-from stochfric_mb.discovery.stick_slip.screening.naming import with_candidate
-from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
+from stochfric_mb.discovery.stick_slip.screening.naming import beside_waves, with_candidate
+from stochfric_mb.discovery.stick_slip.screening.regression import Baseline
+from stochfric_mb.discovery.stick_slip.screening.screen import Candidate, with_overtones
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import likelihood_ratios, refit
 from stochfric_mb.discovery.stick_slip.study import Study
@@ -59,6 +60,7 @@ class Chosen:
 def choose(
     study: Study,
     model: Model,
+    baseline: Baseline,
     candidates: Sequence[Candidate],
     cases: Sequence[Case],
     before: Confirmed | None,
@@ -69,6 +71,7 @@ def choose(
     Args:
         study: what was measured.
         model: the model so far.
+        baseline: what it leaves.
         candidates: the screening's outcome, best first.
         cases: slips to be predicted in a confirmation.
         before: the simulated model so far.
@@ -77,7 +80,7 @@ def choose(
     family = _family(candidates, cases)
     rest = [c for c in candidates if not family.holds(c)]
     if before is None or family.score < max(criteria.NAMED, _best_score(rest)):
-        return _by_score(study, model, candidates, before)
+        return _by_score(study, model, baseline, candidates, before)
     # refuted once, shapes stay refuted: the slips that simulated ones are compared with are the same
     if REFUTED not in details:
         simulation = _Simulation(study, model, cases, before, details)
@@ -88,32 +91,39 @@ def choose(
     # simulation does not bear the shape out: what remains are effects that change from slip to slip
     least = criteria.WORTH_SIMULATING * family.score
     left = [c for c in rest if c.score > least or not c.is_effect]
-    return _by_score(study, model, left, before)
+    return _by_score(study, model, baseline, left, before)
 
 
-def _by_score(study: Study, model: Model, candidates: Sequence[Candidate], before: Confirmed | None) -> Chosen | Where | None:
+def _by_score(
+    study: Study, model: Model, baseline: Baseline, candidates: Sequence[Candidate], before: Confirmed | None
+) -> Chosen | Where | None:
     """Return the effect with most evidence, or where a pattern without a name has more."""
     effects = [c for c in candidates if c.is_effect]
     nameless = _nameless(effects, [c for c in candidates if not c.is_effect])
     if nameless is not None or not effects or effects[0].score < criteria.NAMED:
         return nameless
-    best, class_ = _distinguished(study, model, effects)
-    return Chosen(best, class_, with_candidate(model, best, study.pool), before, False)
+    best, class_ = _distinguished(study, model, baseline, effects)
+    return Chosen(best, class_, beside_waves(model, best, baseline), before, False)
 
 
-def _distinguished(study: Study, model: Model, effects: Sequence[Candidate]) -> tuple[Candidate, tuple[str, ...]]:
+def _distinguished(
+    study: Study, model: Model, baseline: Baseline, effects: Sequence[Candidate]
+) -> tuple[Candidate, tuple[str, ...]]:
     """Return the effect that is meant, and those alike: refitted to forecasts where marks are close.
 
-    The marks of a strong effect are its first order alone, forecasts are exact.
+    The marks of a strong effect are its first order alone, forecasts are exact. They hold the overtones of a wave as well,
+    without which they would tell which kind of sine imitates them.
     """
     kinds: dict[str, Candidate] = {}
     for candidate in effects:
         kinds.setdefault(candidate.name, candidate)
     best = effects[0]
     near = [c for c in kinds.values() if c.score > criteria.CONTENDS * best.score][:MOST_CONTENDERS]
-    if len(near) == 1:
-        return best, ()
-    alike = _alike_in_forecasts(study, [(c, with_candidate(model, c, study.pool)) for c in near])
+    # what is there has more tones before anything else is
+    held = [c for c in near if c.is_wave and any(e.kind == c.name and e.own_to_run for e in model.effects)]
+    if held or len(near) == 1:
+        return (held or near)[0], ()
+    alike = _alike_in_forecasts(study, [(c, with_candidate(model, with_overtones(c, baseline), study.pool)) for c in near])
     return alike[0], tuple(c.name for c in alike[1:])
 
 

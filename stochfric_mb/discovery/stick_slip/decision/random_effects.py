@@ -44,10 +44,25 @@ def stray(pool: Pool, residuals: Array) -> np.ndarray:
 
 def kicked(study: Study) -> np.ndarray:
     """Return which slips stand out from all others of their run: in onset force, or in the slip."""
-    pool = study.pool
+    forces, limit = _forces(study.pool)
+    return np.asarray((np.abs(forces) > limit).any(axis=1)) & ~_sliding(study.pool)
+
+
+def _forces(pool: Pool) -> tuple[Array, Array]:
+    """Return onset force and mean force of the slips less their run's medians [N], shape (n, 2), and how far off stands out."""
     forces = less_medians(pool.features[:, :2], pool.run)
-    limit = np.maximum(criteria.KICK_STRAY * deviation(forces, axis=0), criteria.KICK_LEAST * float(np.median(pool.static)))
-    return np.asarray((np.abs(forces) > limit).any(axis=1)) & ~_sliding(pool)
+    least = criteria.KICK_LEAST * float(np.median(pool.static))
+    return forces, np.maximum(criteria.KICK_STRAY * deviation(forces, axis=0), least)
+
+
+def _held_back(study: Study) -> bool:
+    """Return whether more slips stand out by a break-away at more force than by their own forces.
+
+    A kick sets a stuck box off before its time; to hold it back, it has to come as it breaks away. Far more come in slips.
+    """
+    forces, limit = _forces(study.pool)
+    late, in_slip = forces[:, 0] > limit[0], np.abs(forces[:, 1]) > limit[1]
+    return bool(np.count_nonzero(late & ~_sliding(study.pool)) > np.count_nonzero(in_slip))
 
 
 def _sliding(pool: Pool) -> np.ndarray:
@@ -88,7 +103,7 @@ def kicks(study: Study) -> Finding | None:
     pool = study.pool
     jumps = study.sticking.jumps if study.sticking is not None else 0
     share = (int(far.sum()) + jumps) / len(far)
-    if far.sum() < criteria.FEWEST_KICKS or share >= criteria.MOST_KICKED or _repeated(study):
+    if far.sum() < criteria.FEWEST_KICKS or share >= criteria.MOST_KICKED or _repeated(study) or _held_back(study):
         return None
     gaps = np.concatenate([np.diff(np.flatnonzero(far[pool.run == r])) for r in range(pool.n_runs)])
     if len(gaps) >= 4 and np.mean(gaps == np.median(gaps)) > 0.8:

@@ -114,7 +114,9 @@ class _Search:
         working = self.working
         if self.confirmation:
             working.look_at(candidates)
-        outcome = choose(working.study, working.model, candidates, working.cases, working.confirmed, self.details)
+        outcome = choose(
+            working.study, working.model, working.baseline, candidates, working.cases, working.confirmed, self.details
+        )
         if isinstance(outcome, Where) and working.named:
             # the selected effects stand; the rest is noted, not named
             self.details["left_over"] = dataclasses.asdict(outcome)

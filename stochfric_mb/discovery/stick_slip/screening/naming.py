@@ -9,9 +9,12 @@ import numpy as np
 
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array, corrections_of
+from stochfric_mb.discovery.stick_slip.screening.regression import Baseline
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
+from stochfric_mb.discovery.stick_slip.screening.waves import wave_columns
 from stochfric_mb.discovery.stick_slip.simulation.model import MOST_FREED, Model
 from stochfric_mb.effects import Effect, effect_class, kind_with_signature, make_effect
+from stochfric_mb.effects.marks import Wave
 from stochfric_mb.effects.traits import JUMP, WAVES
 
 HIGHEST_HARMONIC = 9
@@ -119,6 +122,49 @@ def _periodic(model: Model, candidate: Candidate, pool: Pool, coefficients: Arra
         for s, mine in zip(pool.slips, added, strict=True)
     }
     return dataclasses.replace(model, effects=(*model.effects, *effects), own=own)
+
+
+def beside_waves(model: Model, candidate: Candidate, baseline: Baseline) -> Model:
+    """Return the model with a candidate that is a wave in time beside others: all of them as one regression shows them.
+
+    The waves that the model holds were fitted without the candidate, and have taken a part of it.
+
+    Args:
+        model: the model so far.
+        candidate: an effect of the screening.
+        baseline: what the model leaves.
+    """
+    pool = baseline.pool
+    apart = 1.0 / pool.duration
+    waves = [
+        (i, e)
+        for i, e in enumerate(model.effects)
+        if e.own_to_run and WAVES in e.traits and hasattr(e, "frequency") and candidate.is_wave and not candidate.along_belt
+    ]
+    own = candidate.frequency(float(pool.belt_velocity.min())) if waves else 0.0
+    orders = np.arange(1, int(candidate.hypothesis.setting[-1]) + 1) if waves else np.ones(1)
+    waves = [(i, e) for i, e in waves if np.abs(orders * own - _frequency(e, 1.0)).min() > apart]
+    if not waves:
+        return with_candidate(model, candidate, pool)
+    held = [wave_columns(pool, _wave(e, pool), _frequency(e, 1.0), 1) for _, e in waves]
+    solution = baseline.solved([c for columns in (*held, candidate.hypothesis.columns) for c in columns])
+    joint = with_candidate(model, dataclasses.replace(candidate, solution=solution), pool)
+    size = len(candidate.hypothesis.columns)
+    changes = solution.coefficients[-size - sum(map(len, held)) : -size].reshape(len(waves), pool.n_runs, 2)
+    effects, values = list(joint.effects), {run: list(mine) for run, mine in joint.own.items()}
+    for (i, effect), change in zip(waves, changes, strict=True):
+        before = np.array([values[s.record.name][i]["phase"] for s in pool.slips])
+        after = effect.amplitude * np.exp(1j * before) + change[:, 0] - 1j * change[:, 1]  # pyright: ignore[reportAttributeAccessIssue]
+        effects[i] = _bounded(effect.kind, {"amplitude": float(np.abs(after).mean()), "frequency": _frequency(effect, 1.0)})
+        for s, phase in zip(pool.slips, np.angle(after), strict=True):
+            values[s.record.name][i] = {"phase": float(phase)}
+    return dataclasses.replace(joint, effects=tuple(effects), own={run: tuple(mine) for run, mine in values.items()})
+
+
+def _wave(effect: Effect, pool: Pool) -> Wave:
+    wave = type(effect).wave(pool)
+    assert wave is not None
+    return wave
 
 
 Waves = tuple[list[Effect], list[tuple[dict[str, float], ...]]]

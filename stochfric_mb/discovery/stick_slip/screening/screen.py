@@ -16,7 +16,7 @@ from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING, competitors, softening, step_times, steps
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
 from stochfric_mb.discovery.stick_slip.screening.regression import Baseline, Solution
-from stochfric_mb.discovery.stick_slip.screening.waves import best_wave
+from stochfric_mb.discovery.stick_slip.screening.waves import best_wave, with_harmonics
 from stochfric_mb.effects import effect_class, kind_with_signature, kinds_with
 from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, ENTRAINED, WAVE, Hypothesis
 from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, JUMP, POSITIVE
@@ -116,6 +116,16 @@ def screen(baseline: Baseline, *, without: Sequence[str] = ()) -> list[Candidate
         for i, (score, kind, hypothesis, _) in enumerate(rough)
     ]
     return sorted((c for c in items if _sign_possible(c.name, c.solution, baseline)), key=lambda c: -c.score)
+
+
+def with_overtones(candidate: Candidate, baseline: Baseline) -> Candidate:
+    """Return a slow wave with its harmonics, and any other candidate as it is."""
+    wave = effect_class(candidate.name).wave(baseline.pool) if candidate.hypothesis.variant == WAVE else None
+    if wave is None or candidate.hypothesis.setting[-1] > 1.0:
+        return candidate
+    frequency = candidate.frequency(float(baseline.pool.belt_velocity.min()))
+    fuller = with_harmonics(baseline.pool, candidate.name, wave, frequency)
+    return dataclasses.replace(candidate, hypothesis=fuller, solution=baseline.solved(fuller.columns))
 
 
 def _refitted(kind: _Kind, hypothesis: Hypothesis, baseline: Baseline) -> Candidate:

@@ -148,6 +148,12 @@ def best_wave(kind: str, wave: Wave, baseline: Baseline) -> tuple[Hypothesis, in
     return Hypothesis(kind, columns, (wave.setting(frequency), float(harmonics)), variant=WAVE), looked_at
 
 
+def with_harmonics(pool: Pool, kind: str, wave: Wave, frequency: float) -> Hypothesis:
+    """Return the wave of a kind with its harmonics at a frequency [Hz]."""
+    columns = wave_columns(pool, wave, frequency, HARMONICS)
+    return Hypothesis(kind, columns, (wave.setting(frequency), float(HARMONICS)), variant=WAVE)
+
+
 def _gains(pool: Pool, wave: Wave, parts: list[Part], grid: Array, harmonics: int, stretch: float = np.inf) -> Array:
     """Return by how much waves of the grid's frequencies lower the cost at fixed variance components, shape (len(grid),).
 
