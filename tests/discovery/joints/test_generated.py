@@ -20,6 +20,8 @@ CASES = [
     ("position_dependent_force.effective_area", "slide", 0.5, ["effective_area"]),
     ("unknown.bore_with_a_step", "slide", 1.0, ["effective_area"]),
     ("drive_gain_change.fading_magnets", "hinge", 0.5, ["drive_gain_change"]),
+    ("direction_asymmetry.slanted_dimples", "mjcf_hinge", 1.0, ["direction_asymmetry"]),
+    ("sensor_delay.dead_time_and_lag", "slide", 1.0, ["sensor_delay"]),
 ]
 """Form, mechanism, strength, and what is named first."""
 
