@@ -262,10 +262,10 @@ below 0.06 in all."""
 ZERO_WANDERS = 0.15
 """Force over friction up to which what goes on across reversals is a zero of the drive that wanders [-]: chosen between 0.12 of
 such a zero and 0.2 of a hose that somebody moves, in the tests."""
-COLOURED = 6.0
+COLOURED = 8.0
 """Noise of the balance, from differences between its windows, over what white noise of its channels leaves there, beyond which
-it is no noise of theirs but something quick that is missing [-]. Encoders that smooth leave 5.2 in the nulls of
-tests/discovery/joint_generator, others 2.5 at most; a load cell that rings leaves 14 at half strength."""
+it is no noise of theirs but something quick that is missing [-]: chosen so that 1.5 times it lies between the 9.7 that encoders
+which smooth leave in the nulls of tests/discovery/joint_generator, and the 14 of a load cell that rings at half strength."""
 WAVE_FLATTENS, WAVE_CERTAIN = 2.6, 2.6
 """Kurtosis of what is left below which half of its power is waves (3 - 1.5 share^2), and standard errors sqrt(24/n) that it
 must be off by [-]: chance does that in one place of 200. Nulls of tests/discovery/joint_generator stay above 2.7."""

@@ -54,6 +54,8 @@ class PlaceOutcome:
     """Evidence for a term without a name that carries over to held-out runs; it is the last effect of the final model."""
     timing: Timing | None = None
     """Delay between drive and motion; None where none could be looked for, or none shows."""
+    mended: bool = False
+    """Whether wrong readings were replaced by curves: of the noise of those the record then says nothing."""
     beside: tuple[Stage, ...] = ()
     """Steps of answers that were given up for this one, or that did not better it."""
     again: Callable[[frozenset[str]], PlaceOutcome] | None = dataclasses.field(default=None, compare=False, repr=False)

@@ -153,7 +153,7 @@ def _outcome(source: Balances, tell: Progress, readings: Sequence[Effect], said:
     dataset = source.dataset
     places.sort(key=_evidence)
     places, floor = _adequate(source, tell, places)
-    places = [with_idle(p) for p in places]
+    places = [with_idle(dataclasses.replace(p, mended=bool(readings))) for p in places]
     places[0] = with_unnamed(dataset, places[0])
     notes += _run_notes(dataset)
     result = verdict(dataset, places, notes, floor, readings, channel)

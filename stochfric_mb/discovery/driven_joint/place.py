@@ -11,7 +11,7 @@ import numpy.typing as npt
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.balance.timing import LEAST_SAMPLES, Timing, timing
+from stochfric_mb.discovery.driven_joint.balance.timing import LEAST_SAMPLES, Mask, Timing, shared, timing
 from stochfric_mb.discovery.driven_joint.decision.selection import Selected, Selector
 from stochfric_mb.discovery.driven_joint.decision.signs import sign_notes
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
@@ -168,9 +168,10 @@ def _better(
             those before are without, for all that sampling and holding may be late by.
         nuisances: numbers of the mechanism.
     """
-    without = [_refitted(plain, seen) for seen in balances[:-1]]
+    same = shared(balances)
+    without = [_refitted(plain, seen, same) for seen in balances[:-1]]
     before = min(without, key=lambda f: f.rms)
-    after = _refitted(late, balances[-1])
+    after = _refitted(late, balances[-1], same)
     n = max(sum(map(independent_count, after.remainders)), 4.0)  # timing shows within strokes, too
     more = len(after.free) + len(late.released) - len(before.free) - len(plain.released) + 1
     gain = float(np.log(before.rms / after.rms))
@@ -182,13 +183,13 @@ def _better(
     return float(evidence), min(shares) >= criteria.EXPLAINED_BY_DELAY
 
 
-def _refitted(selected: Selected, balances: Sequence[ForceBalance]) -> JointFit:
-    """Return the final model through other windows; what it released stays free.
+def _refitted(selected: Selected, balances: Sequence[ForceBalance], windows: Sequence[Mask]) -> JointFit:
+    """Return the final model through other windows, some of them; what it released stays free.
 
     Beliefs weigh as they did in the selection: through narrow windows what is left is mostly the noise of acceleration times
     mass, and a belief that weighs by it gives way to less mass, which is less noise.
     """
-    return fit(selected.final.model, balances, selected.nuisances, noise=prior_weight(selected.final))
+    return fit(selected.final.model, balances, selected.nuisances, noise=prior_weight(selected.final), masks=windows)
 
 
 def share_by_delay(

@@ -65,6 +65,9 @@ class Law:
 def laws(reference: float, stiffness: float, mu: float, shortest: float, way: float) -> list[Law]:
     """Return what is fitted: constant friction, drift with displacement, dependence on speed, and memory.
 
+    A drift may settle beside a straight one, as it may beside the other laws: a memory with a drift of its own would win over
+    a drift that bends.
+
     A machine in which all of friction deflects the spring by no more than the shortest distance looks rigid: no fit makes it
     stiffer.
 
@@ -83,7 +86,10 @@ def laws(reference: float, stiffness: float, mu: float, shortest: float, way: fl
         return [p[0] + p[1] * t.slid for t in tracks]
 
     def settling(tracks: Sequence[Track], p: Array) -> list[Array]:
-        return [p[0] + p[1] * (1.0 - np.exp(-np.maximum(t.slid, 0.0) / np.exp(p[2]))) for t in tracks]
+        return [
+            line + p[2] * (1.0 - np.exp(-np.maximum(t.slid, 0.0) / np.exp(p[3])))
+            for t, line in zip(tracks, drift(tracks, p), strict=True)
+        ]
 
     def speed(tracks: Sequence[Track], p: Array) -> list[Array]:
         return [p[0] + p[1] * t.slid + p[2] * np.log(t.speed / reference) for t in tracks]
@@ -108,9 +114,9 @@ def laws(reference: float, stiffness: float, mu: float, shortest: float, way: fl
             (0.01, 1.0), (0.0, -free), (free, free), drift,
         ),
         Law(
-            kind_with_signature(SLOPE_IN_DISTANCE), ("mu_0", "change", "log_distance"), ("-", "-", "-"),
-            tuple((mu, size, float(np.log(part * way))) for size in (0.01, -0.01) for part in SETTLING),
-            (0.01, 0.01, 0.3), (0.0, -free, least), (free, free, float(np.log(way))), settling, "running-in",
+            kind_with_signature(SLOPE_IN_DISTANCE), ("mu_0", "slope", "change", "log_distance"), ("-", "1/m", "-", "-"),
+            tuple((mu, 0.0, size, float(np.log(part * way))) for size in (0.01, -0.01) for part in SETTLING),
+            (0.01, 1.0, 0.01, 0.3), (0.0, -free, -free, least), (free, free, free, float(np.log(way))), settling, "running-in",
         ),
         Law(
             kind_with_signature(RATE), ("mu_0", "slope", "a_minus_b"), ("-", "1/m", "-"), ((mu, 0.0, 0.0),),

@@ -285,7 +285,7 @@ def _augmented(dataset: Dataset, closest: Fitted, kept: SmoothLaw | None) -> Any
     numbers = dict(zip(fitted.law.names, fitted.values.tolist(), strict=True))
     mu = numbers["mu_0"]
     if fitted.law.kind == kind_with_signature(SLOPE_IN_DISTANCE):
-        terms = (_drift(numbers), *terms)
+        terms = (*_drift(numbers), *terms)
     if fitted.law.kind != kind_with_signature(MEMORY):
         return dataclasses.replace(scenario, law=dataclasses.replace(scenario.law, mu_s=mu, mu_k=mu), effects=terms)
     rise = max(numbers["evolution_effect"], 0.0)
@@ -295,13 +295,14 @@ def _augmented(dataset: Dataset, closest: Fitted, kept: SmoothLaw | None) -> Any
     return dataclasses.replace(scenario, law=law, mechanism=mechanism, effects=(effect, *terms))
 
 
-def _drift(numbers: Mapping[str, float]) -> Effect:
-    """Return a drift with the displacement as an effect, from the numbers of its law: straight, or one that settles."""
+def _drift(numbers: Mapping[str, float]) -> tuple[Effect, ...]:
+    """Return a drift with the displacement as effects, from the numbers of its law: straight, and what settles beside it."""
     kind, mu = kind_with_signature(SLOPE_IN_DISTANCE), numbers["mu_0"]
-    if "slope" in numbers:
-        return make_effect(kind, rate=numbers["slope"] / mu)
+    straight = make_effect(kind, rate=numbers["slope"] / mu)
+    if "change" not in numbers:
+        return (straight,)
     distance = float(np.exp(numbers["log_distance"]))
-    return make_effect(kind, rate=numbers["change"] / (mu * distance), settling_distance=distance)
+    return straight, make_effect(kind, rate=numbers["change"] / (mu * distance), settling_distance=distance)
 
 
 def _term(kept: SmoothLaw) -> Effect:

@@ -20,12 +20,14 @@ CASES = [
     ("position_dependent_force.effective_area", "slide", 0.5, ["effective_area"]),
     ("unknown.bore_with_a_step", "slide", 1.0, ["effective_area"]),
     ("drive_gain_change.fading_magnets", "hinge", 0.5, ["drive_gain_change"]),
+    ("direction_asymmetry.slanted_dimples", "mjcf_hinge", 1.0, ["direction_asymmetry"]),
+    ("sensor_delay.dead_time_and_lag", "slide", 1.0, ["sensor_delay"]),
 ]
 """Form, mechanism, strength, and what is named first."""
 
 
-def answered(form, design, strength, tmp_path):
-    write(Case(form, design, strength, 0), tmp_path / "set", tmp_path / "truth.json")
+def answered(form, design, strength, tmp_path, seed=0):
+    write(Case(form, design, strength, seed), tmp_path / "set", tmp_path / "truth.json")
     return joint_outcome(load_dataset(tmp_path / "set")).result
 
 
@@ -34,3 +36,17 @@ def test_what_was_a_delay_a_scatter_or_nothing_has_its_name(form, design, streng
     result = answered(form, design, strength, tmp_path)
     assert [e.kind for e in result.effects] == kinds
     assert all(e.p_value is None or 0.0 <= e.p_value <= 1.0 for e in result.effects)
+
+
+@pytest.mark.parametrize(
+    ("form", "design", "seed", "kinds"),
+    [
+        ("none.encoder_smooths", "arm", 31, []),
+        ("correlated_coefficients.debris_from_stroke_to_stroke", "mjcf_hinge", 61, ["random_coefficients"]),
+        ("stale_samples.token_goes_round", "hinge", 61, ["stale_samples"]),
+    ],
+)
+def test_noise_debris_and_a_token_ring_are_what_they_are(form, design, seed, kinds, tmp_path):
+    result = answered(form, design, 1.0, tmp_path, seed)
+    assert [e.kind for e in result.effects] == kinds
+    assert result.verdict == ("effect" if kinds else "none")

@@ -30,6 +30,18 @@ def test_telegrams_that_are_dropped_are_found_and_the_motion_between_them_is_kno
     assert max(abs(better[a:b] - x[a:b]).max() for a, b in held) < 6.0 * NOISE < 0.01 * missed
 
 
+def test_news_that_comes_at_odd_times_is_old_between():
+    x, rng = motion(), np.random.default_rng(1)
+    news = np.cumsum(rng.integers(4, 12, 900))
+    news = np.r_[0, news[news < len(x)]]
+    stale = x[news[np.searchsorted(news, np.arange(len(x)), side="right") - 1]]
+    held = repeated(stale)
+    assert [start - 1 for start, _ in held] == news[: len(held)].tolist()
+    assert len(held) >= len(news) - 1
+    better = without(stale, held, np.zeros(len(x), dtype=bool))
+    assert abs(better - x)[news[0] : news[-1]].max() < 0.01 * abs(stale - x).max()
+
+
 def test_a_coarse_encoder_and_rest_repeat_nothing():
     coarse = np.round(motion() / 2.0e-4) * 2.0e-4
     resting = 0.1 + np.cumsum(1.0e-5 * (np.arange(6000) // 1500 % 2))

@@ -19,7 +19,7 @@ def test_constant_friction_and_drift_are_what_they_say():
     np.testing.assert_array_equal(constant.predict(tracks, np.array([0.6]))[0], 0.6)
     shown = drift.predict(tracks, np.array([0.6, 2.0]))[0]
     np.testing.assert_allclose(shown, 0.6 + 2.0 * tracks[0].slid)
-    settled = running_in.predict(tracks, np.array([0.6, -0.1, np.log(1.0e-9)]))[0]  # at once: all of the change
+    settled = running_in.predict(tracks, np.array([0.6, 0.0, -0.1, np.log(1.0e-9)]))[0]  # at once: all of the change
     np.testing.assert_allclose(settled[tracks[0].slid > 1.0e-7], 0.5, rtol=1.0e-12)
     assert len(memory_start(0.6, 1e4, 0.01, 1.0, 1.0)) == 7
 
@@ -48,12 +48,27 @@ def test_friction_that_runs_in_drifts_and_settles():
     outcome = spring_slider_outcome(dataclasses.replace(data, runs=tuple(worn)), lambda _: None)
     assert [e.kind for e in outcome.result.effects] == ["distance_drift"]
     numbers = outcome.result.effects[0].parameters
-    added = outcome.scenario.effects[0]
-    assert added.kind == "distance_drift"
+    straight, added = outcome.scenario.effects
+    assert straight.kind == added.kind == "distance_drift"
     assert added.rate * added.settling_distance * outcome.scenario.law.mu_k == pytest.approx(numbers["change"].value)
     for name, true in (("change", -0.1), ("distance", 0.1 * way)):  # four standard deviations: chance does that once in 16000
         one = numbers[name]
         assert abs(one.value - true) < (one.high - one.low) * 4.0 / (2.0 * 1.96)
+
+
+def test_a_drift_that_settles_and_goes_on_is_no_memory():
+    """A memory, which may have a straight drift beside it, stood for a drift that could not."""
+    data, rng = slider(0.01, 0.015, 2), np.random.default_rng(1)
+    first = min(float(r.channels["position"].min()) for r in data.runs)
+    way = max(float(r.channels["position"].max()) for r in data.runs) - first
+    worn = []
+    for run in data.runs:
+        slid = np.maximum(run.channels["position"] - first, 0.0)
+        friction = 0.6 + 0.03 * slid / way + 0.02 * (1.0 - np.exp(-10.0 * slid / way)) + 1e-4 * rng.standard_normal(len(slid))
+        worn.append(dataclasses.replace(run, covariates={"friction_coefficient": friction}))
+    outcome = spring_slider_outcome(dataclasses.replace(data, runs=tuple(worn)), lambda _: None)
+    assert [e.kind for e in outcome.result.effects] == ["distance_drift"]
+    assert {e.kind for e in outcome.scenario.effects} == {"distance_drift"}
 
 
 def test_numbers_of_the_rig_are_those_beside_the_effect(remembering):

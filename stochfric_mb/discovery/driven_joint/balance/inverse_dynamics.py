@@ -121,7 +121,7 @@ class PlainBalances(Balances):
             load_by_drive=load_by_drive,
             driven=total,
             columns={k: v for k, v in columns.items() if k != "drive"},
-            sliding=slides(window, velocity, least),
+            sliding=slides(window, velocity, least) & window.covered(late),
             white=noise,
             before=distance_before(run, self.dataset.runs, lambda r: narrowest(r).through(position_of(r), 1)),
             drive=window.sampled(factor * channel(run, name), late),

@@ -37,8 +37,6 @@ REPEATED = 3
 """Fewest readings that are the same to the last digit."""
 MISSED = 4.0
 """Jump after them over the usual change between samples and over the resolution, from which the joint has moved on [-]."""
-REGULAR = 0.9
-"""Share of the changes that come at multiples of one interval, from which on a position is sampled at that [-]."""
 FEWEST = 5
 """Fewest of either for a finding: fewer are accidents."""
 CURVE, REACH = 3, 1.5
@@ -98,7 +96,9 @@ def repeated(values: Array) -> list[tuple[int, int]]:
 
 
 def _slower(moved: Array, step: float) -> bool:
-    """Return whether a position is new at every n-th sample only, as a camera's beside a faster record.
+    """Return whether a position is mostly old news, as a camera's beside a faster record or one behind a bus that goes round.
+
+    When news comes does not matter: what moves by several steps of its resolution at a time has moved between, too.
 
     Args:
         moved: changes from sample to sample, shape (n,).
@@ -107,9 +107,7 @@ def _slower(moved: Array, step: float) -> bool:
     new = np.flatnonzero(moved)
     if len(new) < FEW:
         return False
-    apart = np.diff(new)
-    usual = int(np.median(apart))
-    return usual >= REPEATED and bool(np.mean(apart % usual == 0) > REGULAR and np.median(moved[new]) > MISSED * step)
+    return bool(np.median(np.diff(new)) >= REPEATED and np.median(moved[new]) > MISSED * step)
 
 
 def stray(values: Array) -> Mask:

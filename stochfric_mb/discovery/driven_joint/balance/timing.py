@@ -17,12 +17,14 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.balance.weak_form import FEWEST
 from stochfric_mb.discovery.driven_joint.fit.gains import left_by
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.inference.noise import independent_count
 from stochfric_mb.errors import InputError
 
 Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
 
 LONGEST = 0.05
 """Longest delay that is looked for, either way [s]."""
@@ -114,16 +116,26 @@ def sought(
         interval: distance between samples [s].
         generous: whether the friction law beside it is a generous one, or the stated one.
         width: half width of the windows [samples].
+
+    Raises:
+        InputError: the runs are too short for the longest delays.
     """
     span = min(LONGEST, 40.0 * interval)
     grid = np.linspace(-span, span, GRID)
-    errors = np.array([_left(make(d), names, generous)[0] for d in grid])
+    same = shared([make(d) for d in grid[[0, -1]]])
+    if sum(int(m.sum()) for m in same) < FEWEST:
+        raise InputError(f"no {FEWEST} windows of the runs can be seen with delays of up to {span:.3g} s")
+
+    def left(delay: float) -> tuple[float, float]:
+        return _left(make(delay), same, names, generous)
+
+    errors = np.array([left(d)[0] for d in grid])
     best = int(np.argmin(errors))
     step = grid[1] - grid[0]
     fine = np.linspace(grid[best] - step, grid[best] + step, 9)
-    delay = lowest(fine, np.array([_left(make(d), names, generous)[0] for d in fine]))
-    rest, n = _left(make(delay), names, generous)
-    still, _ = _left(make(0.0), names, generous)
+    delay = lowest(fine, np.array([left(d)[0] for d in fine]))
+    rest, n = left(delay)
+    still, _ = left(0.0)
     # S(T) = S (1 + (T - T0)^2 curvature): one standard deviation raises n S by S
     inside = 0 < best < GRID - 1
     rise = max(errors[best - 1], errors[best + 1]) / rest - 1.0 if inside else 0.0
@@ -146,12 +158,19 @@ def lowest(x: Array, y: Array) -> float:
     return float(x[i] + 0.5 * (x[1] - x[0]) * (left - right) / curve) if inside else float(x[int(np.argmin(y))])
 
 
-def _left(balances: Sequence[ForceBalance], names: Sequence[str], generous: bool) -> tuple[float, float]:
-    """Return the mean square that a friction law leaves, and the number of independent windows."""
-    columns = np.concatenate([_columns(s, names, generous)[s.sliding] for s in balances])
-    driven = np.concatenate([s.driven[s.sliding] for s in balances])
+def shared(delayed: Sequence[Sequence[ForceBalance]]) -> list[Mask]:
+    """Return the windows of sliding that balances share, whatever delay each has: errors in these alone can be compared."""
+    return [np.logical_and.reduce([s.sliding for s in each]) for each in zip(*delayed, strict=True)]
+
+
+def _left(
+    balances: Sequence[ForceBalance], windows: Sequence[Mask], names: Sequence[str], generous: bool
+) -> tuple[float, float]:
+    """Return the mean square that a friction law leaves in ``windows``, and the number of independent ones."""
+    columns = np.concatenate([_columns(s, names, generous)[m] for s, m in zip(balances, windows, strict=True)])
+    driven = np.concatenate([s.driven[m] for s, m in zip(balances, windows, strict=True)])
     rest = left_by(columns, driven)
-    ends = np.cumsum([int(s.sliding.sum()) for s in balances])[:-1]
+    ends = np.cumsum([int(m.sum()) for m in windows])[:-1]
     return float(np.mean(rest**2)), max(sum(independent_count(r) for r in np.split(rest, ends)), 4.0)
 
 

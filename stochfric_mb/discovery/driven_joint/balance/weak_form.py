@@ -71,6 +71,11 @@ class Window:
         """Return a signal, shape (count,), or a derivative of it through the window, delayed by ``shift`` [s]."""
         return smooth(signal, self.half_width, self.interval, derivative=derivative, shift=shift)
 
+    def covered(self, shift: float) -> npt.NDArray[np.bool_]:
+        """Return at which centres a signal delayed by ``shift`` [s] is known all through the window, shape (n_centres,)."""
+        whole, half = shift / self.interval, len(self.taps) // 2 + 1  # a window may be put between two samples
+        return (self.centres - half >= whole) & (self.centres + half < self.count + whole)
+
     def sampled(self, signal: Array, shift: float = 0.0) -> Array:
         """Return a signal smoothed no more than `means` needs it, delayed by ``shift`` [s], shape (count,)."""
         fine = max(self.stride, SHORTEST) * self.interval

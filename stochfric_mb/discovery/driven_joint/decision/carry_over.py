@@ -77,7 +77,8 @@ def above_floor(place: PlaceOutcome) -> bool:
         return not strokes.all_of_it
     accounted = runs is not None and runs.accounted
     last = place.selected.recalibrated if place.idle else place.selected.final
-    white = white_floor(place.fit)  # what is missing may be as quick as the windows, and then shows in their differences
+    # what is missing may be as quick as the windows, and then shows in their differences
+    white = 0.0 if place.mended else white_floor(place.fit)
     floor = min(noise_floor(last.model, place.fit, place.nuisances), criteria.COLOURED * white or np.inf)
     rest = np.concatenate(last.remainders)
     # runs that differ for no known reason are said in a note: what counts is what is left within them
@@ -87,7 +88,8 @@ def above_floor(place: PlaceOutcome) -> bool:
     # a zero of the drive that wanders goes on across reversals; a force as large as this is no zero
     small = float(np.std(within)) < criteria.ZERO_WANDERS * last.model.law.mu_k * last.model.load
     accounted = accounted or (strokes is not None and strokes.slow_noise and small)
-    return not accounted and (float(np.std(within)) > FLOOR * floor or _waves(within, last.independent))
+    # where no window has neighbours to differ from, nothing says that noise is all there is
+    return not accounted and (not float(np.std(within)) <= FLOOR * floor or _waves(within, last.independent))
 
 
 def _waves(rest: Array, independent: float) -> bool:

@@ -124,7 +124,7 @@ class MjcfSource(Rig):
             "damping": np.sum(weights * own_damping, axis=1),
             "offset": np.ones(len(at)),
         }
-        sliding = slides(window, path.velocity, least) & known
+        sliding = slides(window, path.velocity, least) & known & window.covered(delay)
         load, normal = path.load, None
         if path.part is not None:
             load = normal = self._normal_force(run, place, window, left)

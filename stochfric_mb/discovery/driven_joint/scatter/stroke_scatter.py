@@ -13,6 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance, stretches
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.scatter.between_groups import CoefficientScatter, Labels, estimated, means_of
@@ -53,8 +54,8 @@ class StrokeScatter(CoefficientScatter):
 
     @property
     def wanders(self) -> bool:
-        """Whether strokes resemble those before them, so that they are not drawn anew."""
-        return self.correlation > 2.0 / np.sqrt(self.strokes)
+        """Whether the stroke before says more than half of the next one, which is then not drawn anew."""
+        return self.correlation**2 > criteria.EXPLAINED_HELD_OUT and self.correlation > 2.0 / np.sqrt(self.strokes)
 
     @property
     def slow_noise(self) -> bool:
