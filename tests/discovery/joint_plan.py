@@ -9,6 +9,8 @@ from .joint_generator.unseen_fifth import PAIRS as UNSEEN_FIFTH_PAIRS
 from .joint_generator.unseen_fifth import UNSEEN_FIFTH
 from .joint_generator.unseen_fourth import UNSEEN_FOURTH
 from .joint_generator.unseen_second import UNSEEN_SECOND
+from .joint_generator.unseen_seventh import PAIRS as UNSEEN_SEVENTH_PAIRS
+from .joint_generator.unseen_seventh import UNSEEN_SEVENTH
 from .joint_generator.unseen_sixth import PAIRS as UNSEEN_SIXTH_PAIRS
 from .joint_generator.unseen_sixth import UNSEEN_SIXTH
 from .joint_generator.unseen_third import UNSEEN_THIRD
@@ -67,6 +69,7 @@ SERIES = {
     4: (UNSEEN_FOURTH, ()),
     5: (UNSEEN_FIFTH, UNSEEN_FIFTH_PAIRS),
     6: (UNSEEN_SIXTH, UNSEEN_SIXTH_PAIRS),
+    7: (UNSEEN_SEVENTH, UNSEEN_SEVENTH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 

@@ -18,6 +18,7 @@ from .unseen import UNSEEN
 from .unseen_fifth import UNSEEN_FIFTH
 from .unseen_fourth import UNSEEN_FOURTH
 from .unseen_second import UNSEEN_SECOND
+from .unseen_seventh import UNSEEN_SEVENTH
 from .unseen_sixth import UNSEEN_SIXTH
 from .unseen_third import UNSEEN_THIRD
 
@@ -55,7 +56,7 @@ class Case:
     @property
     def parts(self) -> tuple[Form, ...]:
         """The forms."""
-        known = FORMS | UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD | UNSEEN_FOURTH | UNSEEN_FIFTH | UNSEEN_SIXTH
+        known = FORMS | UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD | UNSEEN_FOURTH | UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH
         for name in self.forms.split("+"):
             if name not in known:
                 raise SystemExit(f"form {name!r} is unknown; known: {', '.join(known)}")
@@ -185,7 +186,7 @@ def acceptable(form: Form) -> frozenset[str]:
 def expected(form: Form) -> str:
     """The true kind: the form's own if it is in the vocabulary, otherwise `unknown`."""
     numbers = frozenset() if form.name in FORMS else NUMBERS
-    links = LINKS if form.name in UNSEEN_FIFTH | UNSEEN_SIXTH else frozenset()
+    links = LINKS if form.name in UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH else frozenset()
     return form.kind if form.kind in VOCABULARY | numbers | links | {NONE} else UNKNOWN
 
 

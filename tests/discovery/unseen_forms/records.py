@@ -10,13 +10,14 @@ from zlib import crc32
 import numpy as np
 from scipy.signal import lfilter
 
-from . import (  # each enters its forms; `eighth` has the others enter theirs first: rigs in turn hang on the order
+from . import (  # each enters its forms; `ninth` has the others enter theirs first: rigs in turn hang on the order
     eighth,  # noqa: F401
     fifth,  # noqa: F401
     fourth,  # noqa: F401
     friction_forms,  # noqa: F401
     mechanism_forms,  # noqa: F401
     nameless_forms,  # noqa: F401
+    ninth,  # noqa: F401
     null_forms,  # noqa: F401
     second_forms,  # noqa: F401
     seventh,  # noqa: F401
