@@ -135,30 +135,32 @@ def beside_waves(model: Model, candidate: Candidate, baseline: Baseline) -> Mode
         baseline: what the model leaves.
     """
     pool = baseline.pool
-    apart = 1.0 / pool.duration
-    waves = [
-        (i, e)
-        for i, e in enumerate(model.effects)
-        if e.own_to_run and WAVES in e.traits and hasattr(e, "frequency") and candidate.is_wave and not candidate.along_belt
-    ]
-    own = candidate.frequency(float(pool.belt_velocity.min())) if waves else 0.0
-    orders = np.arange(1, int(candidate.hypothesis.setting[-1]) + 1) if waves else np.ones(1)
-    waves = [(i, e) for i, e in waves if np.abs(orders * own - _frequency(e, 1.0)).min() > apart]
+    waves = _waves_beside(model, candidate, pool)
     if not waves:
         return with_candidate(model, candidate, pool)
-    held = [wave_columns(pool, _wave(e, pool), _frequency(e, 1.0), 1) for _, e in waves]
-    solution = baseline.solved([c for columns in (*held, candidate.hypothesis.columns) for c in columns])
+    held = [c for _, e in waves for c in wave_columns(pool, _wave(e, pool), _frequency(e, 1.0), 1)]
+    mine = candidate.hypothesis.columns
+    solution = baseline.solved([*held, *mine])
     joint = with_candidate(model, dataclasses.replace(candidate, solution=solution), pool)
-    size = len(candidate.hypothesis.columns)
-    changes = solution.coefficients[-size - sum(map(len, held)) : -size].reshape(len(waves), pool.n_runs, 2)
-    effects, values = list(joint.effects), {run: list(mine) for run, mine in joint.own.items()}
-    for (i, effect), change in zip(waves, changes, strict=True):
-        before = np.array([values[s.record.name][i]["phase"] for s in pool.slips])
+    changes = solution.coefficients[-len(held) - len(mine) : -len(mine)].reshape(len(waves), pool.n_runs, 2)
+    effects, values = list(joint.effects), {run: list(numbers) for run, numbers in joint.own.items()}
+    for (place, effect), change in zip(waves, changes, strict=True):
+        before = np.array([values[s.record.name][place]["phase"] for s in pool.slips])
         after = effect.amplitude * np.exp(1j * before) + change[:, 0] - 1j * change[:, 1]  # pyright: ignore[reportAttributeAccessIssue]
-        effects[i] = _bounded(effect.kind, {"amplitude": float(np.abs(after).mean()), "frequency": _frequency(effect, 1.0)})
+        numbers = {"amplitude": float(np.abs(after).mean()), "frequency": _frequency(effect, 1.0)}
+        effects[place] = _bounded(effect.kind, numbers)
         for s, phase in zip(pool.slips, np.angle(after), strict=True):
-            values[s.record.name][i] = {"phase": float(phase)}
-    return dataclasses.replace(joint, effects=tuple(effects), own={run: tuple(mine) for run, mine in values.items()})
+            values[s.record.name][place] = {"phase": float(phase)}
+    return dataclasses.replace(joint, effects=tuple(effects), own={run: tuple(numbers) for run, numbers in values.items()})
+
+
+def _waves_beside(model: Model, candidate: Candidate, pool: Pool) -> list[tuple[int, Effect]]:
+    """Return place and effect of the model's waves in time that one regression can tell from a candidate, if that is a wave."""
+    if not candidate.is_wave or candidate.along_belt:
+        return []
+    own = candidate.frequency(1.0) * np.arange(1, int(candidate.hypothesis.setting[-1]) + 1)
+    waves = [(i, e) for i, e in enumerate(model.effects) if WAVES in e.traits and e.own_to_run and hasattr(e, "frequency")]
+    return [(i, e) for i, e in waves if np.abs(own - _frequency(e, 1.0)).min() > 1.0 / pool.duration]
 
 
 def _wave(effect: Effect, pool: Pool) -> Wave:
