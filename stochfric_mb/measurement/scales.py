@@ -29,6 +29,9 @@ SPEED_FITS = math.log10(1.6)
 """Largest |log10| of stuck speed over belt speed: belts run off their stated speed by some per cent, units by 10 or more."""
 TIME_FITS = (math.log10(0.3), math.log10(5.0))
 """Range of log10 of the time in slip over half a natural period: 1 to 2 by theory, more for lag and weak springs."""
+CORRECTED_TIME = math.log10(3.0)
+"""Largest log10 of that time once a unit is corrected: theory's 2 and half as much again. A sensor that clips or loses the box
+shortens slips to a tenth, and a mass that is off by 1000 would then leave slips three times too long."""
 LENGTH_FITS = (-2.0, 1.0)
 """Range of log10 of the range of positions over mu_s N/k: slips are short where mu_k is near mu_s, drifts lengthen it."""
 WINDOWS = (8, 24, 72, 216)
@@ -189,7 +192,7 @@ def likeliest(seen: Shown) -> Cause | None:
         return None
     known = [Cause(name, factor, *powers) for name, powers in POWERS.items() for factor in FACTORS[name]]
     return min(
-        (cause for cause in known if seen.fits(cause)),
+        (c for c in known if seen.fits(c) and (not c.time or seen.time - c.time * math.log10(c.factor) <= CORRECTED_TIME)),
         key=lambda cause: abs(seen.speed - cause.speed * math.log10(cause.factor)),
         default=None,
     )

@@ -84,7 +84,8 @@ def _answer(
         answer = explaining(answer, study, recalibrated)
     progress("held-out runs")
     runs = held_out(slips, phased=phased(answer.model))
-    answer = checked_on_held_out(dataclasses.replace(answer, model=settled(answer.model, runs)), study, recalibrated, runs)
+    answer = dataclasses.replace(answer, model=settled(answer.model, runs))
+    answer, runs = checked_on_held_out(answer, study, recalibrated, runs)
     return with_bump(answer, decision, study), runs
 
 

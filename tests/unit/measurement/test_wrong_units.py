@@ -2,6 +2,7 @@
 
 import dataclasses
 import datetime
+import math
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 from stochfric_mb import InputError, load_scenario
 from stochfric_mb.measurement import load_dataset
-from stochfric_mb.measurement.scales import slip_time, stuck_speed
+from stochfric_mb.measurement.scales import Shown, likeliest, slip_time, stuck_speed
 from stochfric_mb.reference import simulate
 
 from .files import csv, measured
@@ -117,6 +118,13 @@ def test_numbers_that_are_merely_wrong_are_left_to_discovery(tmp_path, motion, t
 def test_a_box_that_rides_on_the_belt_throughout_has_no_wrong_unit(tmp_path, motion, truth):
     time, _ = motion
     assert _load(tmp_path, (time, truth.mechanism.belt_velocity * time), truth).fit
+
+
+def test_slips_that_a_sensor_cuts_short_are_no_mass_in_grams():
+    cut = Shown(speed=0.0, length=0.0, time=math.log10(0.13))  # a thousandth of the mass would make them 4.1
+    grams = Shown(speed=0.0, length=0.0, time=math.log10(1.5 / 1000.0**0.5))
+    assert likeliest(cut) is None
+    assert likeliest(grams).name == "mass"
 
 
 def test_slips_that_are_shorter_than_the_look_at_them_tell_no_time(motion):

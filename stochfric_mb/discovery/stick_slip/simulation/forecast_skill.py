@@ -49,6 +49,11 @@ def held_out(slips: Sequence[Slips], *, phased: bool) -> HeldOut:
     )
 
 
+def as_split_for(model: Model, runs: HeldOut) -> HeldOut:
+    """Return held-out runs as they are scored for a model: whole where it has no phases that a first half must tell."""
+    return runs if phased(model) else held_out(runs.slips, phased=False)
+
+
 def phased(model: Model) -> bool:
     """Return whether the model has phases that each run has its own value of."""
     return any(e.own_to_run for e in model.effects)
@@ -88,7 +93,8 @@ def _stepped(model: Model, runs: HeldOut) -> Model:
             best = int(np.argmax(regression.gains(terms, START, [[t] for t in trials])))
             terms = terms.plus([trials[best]])
             when.append(float(step_times(pool)[best]))
-        sizes = regression.solve(terms, START).coefficients[-len(places) :]
+        # at the scatter that the step leaves: START is that of friction, and errs by a hundredth of the step
+        sizes = regression.fit(terms).coefficients[-len(places) :]
         for place, size, time in zip(places, sizes, when, strict=True):
             model = with_steps(model, {slips.record.name: (float(size), time)}, place)
     return model

@@ -13,7 +13,14 @@ from stochfric_mb.discovery.stick_slip.decision.random_effects import kicked
 from stochfric_mb.discovery.stick_slip.decision.rounds import of_wander
 from stochfric_mb.discovery.stick_slip.screening.folding import comes_back
 from stochfric_mb.discovery.stick_slip.simulation.forecast import score
-from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import HeldOut, deterministic, floor_of, mean_score, settled
+from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import (
+    HeldOut,
+    as_split_for,
+    deterministic,
+    floor_of,
+    mean_score,
+    settled,
+)
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, likelihood_ratios, refit, with_deviations
 from stochfric_mb.discovery.stick_slip.simulation.scatter import matched
@@ -165,43 +172,48 @@ def _instead(decision: Decision, slip_study: Study) -> list[Decision]:
     return others if wander is None else [*others, wander]
 
 
-def checked_on_held_out(answer: Answer, slip_study: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
-    """Return the answer less the effects that held-out runs do not bear out, last selected first.
+def checked_on_held_out(answer: Answer, slip_study: Study, recalibrated: Fit, runs: HeldOut) -> tuple[Answer, HeldOut]:
+    """Return the answer less the effects that held-out runs do not bear out, last selected first, and the runs as scored.
 
     An effect must not make their forecasts worse, and must make them or the forces of their slips better; a further one must
     make the forecasts better. All together must not make them worse. What is named then has a strength that differs from zero.
     """
     if answer.decision.named and answer.decision.form is not None:
         answer = _with_form(answer, answer.decision.form.kind, slip_study, recalibrated, runs)
-    answer, dropped, last, noise = _less_refused(answer, slip_study, recalibrated, runs)
+    answer, dropped, last, noise, runs = _less_refused(answer, slip_study, recalibrated, runs)
     if dropped and answer.decision.named:
         # what is refused explains nothing: the rest has to explain the fit runs without it
         poor = unexplained(slip_study, answer.decision, recalibrated.model, answer.model)
         if poor is not None:
             poor.details["not_borne_out"] = dropped
-            return Answer(poor, None, recalibrated.model)
-    if len(answer.decision.named) > 1:
-        # scatter that stands beside an effect makes up for what that one does wrong
+            return Answer(poor, None, recalibrated.model), runs
+    together = len(answer.decision.named) > 1
+    while together and answer.decision.named:
+        # what stands beside an effect may make up for what that one does wrong: all together are held against none
         seen = compared(recalibrated.model, answer.model, runs)
-        if seen is not None and seen.worse:
-            last = answer.decision.named[0]
-            dropped |= {n.kind: dataclasses.asdict(seen) for n in answer.decision.named}
-            answer = Answer(dataclasses.replace(answer.decision, named=()), None, recalibrated.model)
+        if seen is None or not seen.worse:
+            break
+        last = answer.decision.named[-1]
+        dropped[last.kind] = dataclasses.asdict(seen)
+        answer = _without_last(answer, slip_study, recalibrated, runs)
+        runs = as_split_for(answer.model, runs)
     answer = _with_strengths(answer, slip_study, recalibrated)
     if not dropped or last is None:
-        return answer
+        return answer, runs
     answer.decision.details["not_borne_out"] = dropped
-    return answer if answer.decision.named else dataclasses.replace(answer, decision=_nothing_left(answer, last, runs, noise))
+    if not answer.decision.named:
+        answer = dataclasses.replace(answer, decision=_nothing_left(answer, last, runs, noise))
+    return answer, runs
 
 
 def _less_refused(
     answer: Answer, slip_study: Study, recalibrated: Fit, runs: HeldOut
-) -> tuple[Answer, dict[str, object], Named | None, bool]:
+) -> tuple[Answer, dict[str, object], Named | None, bool, HeldOut]:
     """Return the answer less the effects that held-out runs refuse, last selected first, and how these forecast.
 
     Returns:
-        The answer, the comparisons by which effects went, the effect looked at last, and whether the last one to go was a
-        sensor's slow noise.
+        The answer, the comparisons by which effects went, the effect looked at last, whether the last one to go was a
+        sensor's slow noise, and the runs as what is left is scored on them.
     """
     dropped: dict[str, object] = {}
     last: Named | None = None
@@ -215,7 +227,8 @@ def _less_refused(
         dropped[last.kind] = dataclasses.asdict(seen)
         noise = within_noise(last.kind, answer.model, runs.slips)
         answer = fewer
-    return answer, dropped, last, noise
+        runs = as_split_for(answer.model, runs)
+    return answer, dropped, last, noise, runs
 
 
 def _with_form(answer: Answer, term: str, slip_study: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
