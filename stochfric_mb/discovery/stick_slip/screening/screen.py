@@ -119,7 +119,7 @@ def screen(baseline: Baseline, *, without: Sequence[str] = ()) -> list[Candidate
 
 
 def with_overtones(candidate: Candidate, baseline: Baseline) -> Candidate:
-    """Return a slow wave with its harmonics, and any other candidate as it is."""
+    """Return a wave with its harmonics, and any other candidate as it is."""
     wave = effect_class(candidate.name).wave(baseline.pool) if candidate.hypothesis.variant == WAVE else None
     if wave is None or candidate.hypothesis.setting[-1] > 1.0:
         return candidate
