@@ -127,14 +127,14 @@ def test_a_candidate_that_never_slips_is_no_explanation(slip_study, candidates, 
     monkeypatch.setattr(choice, "entrained", lambda *_: [])
     before = confirm(cases, slip_study.model, slip_study.uncertainty)
     assert before.slips
-    chosen = choose(slip_study, slip_study.model, candidates, cases, before, {})
+    chosen = choose(slip_study, slip_study.model, slip_study.baseline, candidates, cases, before, {})
     assert not (isinstance(chosen, Chosen) and chosen.simulated)
 
 
 def test_the_effect_that_was_planted_is_chosen(slip_study, candidates, cases):
     before = confirm(cases, slip_study.model, slip_study.uncertainty)
     details = {}
-    chosen = choose(slip_study, slip_study.model, candidates, cases, before, details)
+    chosen = choose(slip_study, slip_study.model, slip_study.baseline, candidates, cases, before, details)
     assert isinstance(chosen, Chosen)
     assert chosen.candidate.name == "velocity_weakening"
     assert details["confirmation_1"]["believed"][0] == before.chi2
@@ -144,7 +144,7 @@ def test_the_planted_effect_is_taken_into_the_model_and_out_of_the_slips(slip_st
     working = WorkingModel(slip_study)
     working.look_at(candidates)
     assert (working.kinds, working.shape_left, working.seen) == ([], 1.0, None)
-    chosen = choose(slip_study, working.model, candidates, working.cases, working.confirmed, {})
+    chosen = choose(slip_study, working.model, working.baseline, candidates, working.cases, working.confirmed, {})
     assert working.take(chosen, {})
     assert working.kinds == ["velocity_weakening"]
     assert working.named[0].before.effects == ()
