@@ -19,6 +19,7 @@ import numpy as np
 from stochfric_mb.compile import compiled
 from stochfric_mb.effects.contract import Array, Effect, parameter
 from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, Hypothesis, Slips, levels
+from stochfric_mb.errors import InputError
 
 PIECES = 16
 """Pieces of the course between its beginning and its end."""
@@ -82,6 +83,14 @@ class Course(Effect):
     """Weight of the 17th spline in the course [-]."""
     course_18: float = _weight(18)
     """Weight of the 18th spline in the course [-]."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        change = float(getattr(self, "change", 0.0))
+        flat = not any(getattr(self, name) for name in COURSE)
+        if change != 0.0 and (flat or math.isinf(self.span)):
+            lacking = f"no shape: give {COURSE[0]} to {COURSE[-1]}" if flat else "no end: give span"
+            raise InputError(f"{self.kind}.change = {change:g}, but its course has {lacking}, or leave out change")
 
 
 def splines(place: Array, pieces: int) -> Array:

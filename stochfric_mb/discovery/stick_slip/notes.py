@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 from stochfric_mb.discovery import criteria
@@ -40,10 +41,23 @@ def notes(
         *(gap.notes if gap is not None else ()),
         *([details["unnamed_term"]] if "unnamed_term" in details else []),
         *not_simulated(model),
+        *_of_one_pace(model, study),
         *_seen_in_forces(gap, forces),
         *(f"{name} is {abs(by):.2g} stated standard deviations off from what is stated" for name, by in beyond.items()),
         *([] if given.scenario.uncertainty else [NOT_STATED]),
     )
+
+
+def _of_one_pace(model: Model, study: Study) -> list[str]:
+    """Return which waves of two kinds have one frequency: a single cause, a gain of the sensor too, may be behind both."""
+    waves = [(e.kind, float(getattr(e, "frequency", 0.0))) for e in model.effects if e.own_to_run]
+    pairs = ((a, b) for a, b in itertools.combinations(waves, 2) if a[0] != b[0] and min(a[1], b[1]) > 0.0)
+    return [
+        f"{one} and {other} have one frequency, {pace:.3g} Hz: a single cause may be behind both, the gain of a sensor that "
+        "sways as well as a drive that is out of true"
+        for (one, pace), (other, beside) in pairs
+        if abs(pace - beside) < 1.0 / study.pool.duration
+    ]
 
 
 def not_simulated(model: Model) -> list[str]:

@@ -17,7 +17,7 @@ from stochfric_mb.effects import make_effect
 def decided(*kinds: str, details: dict | None = None, shape_left: float = 1.0) -> Decision:
     effects = {
         "belt_speed_ripple": make_effect("belt_speed_ripple", amplitude=0.1, frequency=1.0),
-        "friction_drift": make_effect("friction_drift", change=0.1),
+        "friction_drift": make_effect("friction_drift", change=0.1, span=9.0, course_1=1.0),
         "random_coefficients": make_effect("random_coefficients", sigma_s=0.01, sigma_k=0.01),
         "sensor_outliers": make_effect("sensor_outliers", fraction=0.01, size=1e-4),
     }

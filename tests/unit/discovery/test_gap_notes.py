@@ -1,10 +1,14 @@
 """A model that gets worse on held-out runs must be said to."""
 
 import dataclasses
+from types import SimpleNamespace
 
 import pytest
 
 from stochfric_mb.discovery.result import Gap
+from stochfric_mb.discovery.stick_slip.notes import _of_one_pace
+from stochfric_mb.discovery.stick_slip.simulation.model import Model
+from stochfric_mb.effects import make_effect
 
 GAP = Gap("crps_one_cycle", "m", True, 3.0e-5, 2.0e-5, 1.0e-5, 5.0e-6)
 
@@ -18,3 +22,16 @@ def test_it_is_said_that_a_model_gets_worse(unit, said):
     (note,) = dataclasses.replace(GAP, augmented=2.5e-5, unit=unit).notes
     assert said in note
     assert "off by more" in note
+
+
+def test_ripples_of_one_frequency_may_have_one_cause():
+    belt = make_effect("belt_speed_ripple", amplitude=0.07, frequency=0.1692)
+    load, other = (make_effect("normal_load_ripple", amplitude=0.02, frequency=f) for f in (0.1693, 0.25))
+    study = SimpleNamespace(pool=SimpleNamespace(duration=300.0))
+
+    def said(*effects):
+        return _of_one_pace(Model(law=None, corrections={}, effects=effects), study)
+
+    (note,) = said(belt, load, other)
+    assert note.startswith("belt_speed_ripple and normal_load_ripple have one frequency, 0.169 Hz")
+    assert said(belt, other) == said(load, load) == []  # another frequency; tones of one kind

@@ -8,7 +8,8 @@ import pytest
 from stochfric_mb.compile import compiled
 from stochfric_mb.effects import contract, make_effect
 from stochfric_mb.effects.course import COARSER, COURSE, PIECES, refined, sized, splines
-from stochfric_mb.effects.kinds.friction_drift import friction
+from stochfric_mb.effects.kinds import distance_drift, friction_drift, temperature_drift
+from stochfric_mb.errors import InputError
 
 
 def test_a_course_begins_at_zero():
@@ -38,13 +39,22 @@ def test_a_smooth_course_is_followed():
     assert np.abs(rest).max() < 1024.0 / PIECES**4 / 384.0
 
 
-def test_friction_follows_the_course():
+@pytest.mark.parametrize(
+    ("module", "along", "begin", "more"),
+    [
+        (friction_drift, contract.TIME, 0.0, {}),
+        (distance_drift, contract.TRAVELLED, 0.0, {}),
+        (temperature_drift, contract.TEMPERATURE, 18.0, {"reference_temperature": 18.0}),
+    ],
+)
+def test_friction_follows_the_course(module, along, begin, more):
     weights = np.sin(np.arange(PIECES + 2))
-    effect = make_effect("friction_drift", **sized(weights, PIECES, 30.0), static_share=0.5)
+    kind = module.__name__.rsplit(".", 1)[1]
+    effect = make_effect(kind, **sized(weights, PIECES, 30.0), static_share=0.5, **more)
     world, nothing, p = np.zeros(contract.WORLD), np.zeros(1), effect.parameters()
-    for function in (friction, compiled(friction)):
+    for function in (module.friction, compiled(module.friction)):
         for t in (0.0, 3.0, 29.9, 45.0):
-            world[contract.TIME], world[contract.MU_S], world[contract.MU_K] = t, 1.0, 1.0
+            world[along], world[contract.MU_S], world[contract.MU_K] = begin + t, 1.0, 1.0
             function(world, nothing, nothing, p)
             expected = float(splines(np.array([t / 30.0]), PIECES)[0] @ weights)
             assert world[contract.MU_K] == pytest.approx(1.0 + expected, abs=1e-14)
@@ -64,4 +74,14 @@ def test_a_form_without_a_course_lacks_its_numbers():
     assert math.isinf(line.time_constant)
     assert all(line.lacks(name) for name in ("change", "span", *COURSE))
     assert not line.lacks("rate")
-    assert make_effect("friction_drift", change=0.1).lacks("rate")
+    assert make_effect("friction_drift", change=0.1, span=9.0, course_1=1.0).lacks("rate")
+
+
+@pytest.mark.parametrize(
+    ("given", "remedy"),
+    [({"span": 9.0}, "give course_1 to course_18"), ({"course_1": 1.0}, "give span"), ({}, "give course_1")],
+)
+@pytest.mark.parametrize("kind", ["friction_drift", "distance_drift", "temperature_drift", "sensor_drift"])
+def test_a_size_without_a_course_is_refused(kind, given, remedy):
+    with pytest.raises(InputError, match=rf"{kind}.change = 0.1, but .*{remedy}"):
+        make_effect(kind, change=0.1, **given)

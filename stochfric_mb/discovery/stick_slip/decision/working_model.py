@@ -172,7 +172,8 @@ class WorkingModel:
         """Go on with what is left; ``screened``: the model before a fit to forecasts, where there was one."""
         if chosen.candidate.name in kinds_with(MOVES_ZERO):
             self.faults += chosen.candidate.hypothesis.columns
-        before, promised = self.baseline.variance, self._promised(chosen.candidate)
+        before = self.baseline.variance
+        promised = before - dataclasses.replace(self.baseline, solution=chosen.candidate.solution).variance
         self._take_out()
         if chosen.simulated:
             return
@@ -181,11 +182,6 @@ class WorkingModel:
         removed = before - self.baseline.variance
         # a search for more makes sense where a wave takes out what its marks promised, be it much or little
         self.stalled |= chosen.candidate.is_wave and (removed <= 0.0 or removed < criteria.EXPLAINED * promised)
-
-    def _promised(self, candidate: Candidate) -> float:
-        """Return by how much the marks of a candidate lower the variance of what is left."""
-        beside = self.baseline.terms.plus(candidate.hypothesis.columns)
-        return self.baseline.variance - dataclasses.replace(self.baseline, terms=beside, solution=candidate.solution).variance
 
     def _refitted(self, without: Model) -> bool:
         """Fit the model to forecasts; go back to the one ``without`` its last effect if that forecasts as well."""

@@ -51,7 +51,8 @@ def held_out(slips: Sequence[Slips], *, phased: bool) -> HeldOut:
 
 def as_split_for(model: Model, runs: HeldOut) -> HeldOut:
     """Return held-out runs as they are scored for a model: whole where it has no phases that a first half must tell."""
-    return runs if phased(model) else held_out(runs.slips, phased=False)
+    split = any(map(len, runs.first))
+    return held_out(runs.slips, phased=False) if split and not phased(model) else runs
 
 
 def phased(model: Model) -> bool:
