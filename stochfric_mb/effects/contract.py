@@ -155,6 +155,10 @@ class Effect:
         """Return the parameter vector ``p``, shape (n_fields,), in the order of the fields."""
         return np.array([_as_float(getattr(self, f.name), f) for f in dataclasses.fields(self)], dtype=np.float64)
 
+    def given(self) -> dict[str, Any]:
+        """Return kind and numbers as `to_dict` does, less those that the effect lacks."""
+        return {name: value for name, value in self.to_dict().items() if name == "kind" or not self.lacks(name)}
+
     def to_dict(self) -> dict[str, Any]:
         """Return the effect as an ``[[effects]]`` table of a scenario."""
         return {"kind": self.kind} | {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}

@@ -8,6 +8,7 @@ import pytest
 from stochfric_mb.discovery import discover
 from stochfric_mb.discovery.stick_slip.screening.smooth_term import axes_of
 from stochfric_mb.effects import make_effect
+from stochfric_mb.effects.course import COURSE, PIECES, splines
 from stochfric_mb.laws import make_law
 from stochfric_mb.measurement.dataset import Dataset, Run
 from stochfric_mb.mechanisms import BeltBox
@@ -73,6 +74,13 @@ def test_friction_that_falls_where_a_lubricant_melts_follows_the_temperature():
     result = discover(measured(melts)).result
     assert [e.kind for e in result.effects] == ["temperature_drift"]
     assert result.gap.closed > 0.9
+    assert "details.not_in_augmented" in " ".join(result.notes)
+    (told,) = result.details["not_in_augmented"]  # the curve is nowhere else
+    found = make_effect(told.pop("kind"), **told)
+    place = (np.array([21.0, 25.0, 29.0]) - found.reference_temperature) / found.span
+    along = 1.0 + found.change * splines(place, PIECES) @ [getattr(found, name) for name in COURSE]
+    true = LAW.mu_k - np.interp([21.0, 25.0, 29.0], np.linspace(20.0, 30.0, 7), table)
+    np.testing.assert_allclose(along / along[1], true / true[1], atol=0.01)  # 0.05 K of noise where it falls by 0.07/K
 
 
 def test_friction_that_follows_a_measured_temperature_is_named(dataset):

@@ -15,6 +15,9 @@ from stochfric_mb.discovery.stick_slip.simulation.prior_model import NOT_STATED
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.measurement.dataset import Dataset
 
+NOT_IN_AUGMENTED = "not_in_augmented"
+"""Name under which the details hold the effects that augmented.toml does not."""
+
 
 def notes(
     study: Study, decision: Decision, model: Model, gap: Gap | None, forces: Gap | None, given: Dataset
@@ -63,7 +66,8 @@ def _of_one_pace(model: Model, study: Study) -> list[str]:
 def not_simulated(model: Model) -> list[str]:
     """Return which effects read what a simulated belt-box does not have."""
     return [
-        f"{effect.kind} reads a measured {effect.reads[0]}, which a simulated belt-box has not: it is not in augmented.toml"
+        f"{effect.kind} reads a measured {effect.reads[0]}, which a simulated belt-box has not: it is not in augmented.toml, "
+        f"all its numbers stand in result.json, in details.{NOT_IN_AUGMENTED}"
         for effect in model.effects
         if effect.reads
     ]
