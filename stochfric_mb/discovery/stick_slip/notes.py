@@ -73,6 +73,12 @@ def not_simulated(model: Model) -> list[str]:
     ]
 
 
+def not_in_augmented(model: Model) -> dict[str, object]:
+    """Return these effects with their numbers, under their name in the details; empty where there are none."""
+    elsewhere = [effect.given() for effect in model.effects if effect.reads]
+    return {NOT_IN_AUGMENTED: elsewhere} if elsewhere else {}
+
+
 def of_the_record(study: Study) -> list[str]:
     """Return what to know of the fit runs: which are not used, outliers, noise, length, the belt's speed."""
     used = {slips.record.name for slips in study.pool.slips}

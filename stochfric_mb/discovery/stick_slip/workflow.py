@@ -11,7 +11,7 @@ from stochfric_mb.discovery.result import Result
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision
 from stochfric_mb.discovery.stick_slip.decision.rounds import decide
-from stochfric_mb.discovery.stick_slip.notes import NOT_IN_AUGMENTED, notes
+from stochfric_mb.discovery.stick_slip.notes import not_in_augmented, notes
 from stochfric_mb.discovery.stick_slip.parameters import effect_estimate, moved, not_measured, own_parameters
 from stochfric_mb.discovery.stick_slip.records.preconditions import require_usable
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED
@@ -116,8 +116,7 @@ def _result(
     own, unmeasured = own_parameters(final, models[2], study), not_measured(final)
     beyond = moved(own, given, unmeasured)
     form = kept.named if kept is not None else decision.form if decision.named else None
-    if elsewhere := [e.given() for e in models[2].effects if e.reads]:
-        decision.details[NOT_IN_AUGMENTED] = elsewhere
+    decision.details.update(not_in_augmented(models[2]))
     decision.details["parameters"] = {"not_measured": unmeasured, "moved_beyond_uncertainty": beyond}
     return Result(
         verdict=decision.verdict,  # pyright: ignore[reportArgumentType]  # one of three words
