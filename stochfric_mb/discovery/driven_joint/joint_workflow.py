@@ -174,7 +174,7 @@ def _adequate(source: Balances, tell: Progress, places: Sequence[PlaceOutcome]) 
         stages += place.selected.stages
         without |= {_leads(place)}
         other = place.again(without)
-        if not other.selected.named:
+        if not (other.selected.named or other.late):
             break
         seen = simulated(source, tell, [other, *places[1:]])
     best, floor = first if inadequate(seen[0][0]) else seen

@@ -78,12 +78,17 @@ class JointPlan(RigPlan):
         fitted = Selector(balances, source.nuisances(name), source.stated(name)).recalibrated
         span = span_of(balances, fitted.model.law.mu_k * load, load)
         tried = candidates(span, fitted.model.effects)
-        forms = [
+        sizes: dict[str, set[str]] = {}
+        for candidate in tried:
+            sizes.setdefault(candidate.kind, set()).update(_size_of(effect) for effect in candidate.starts)
+        every = (
             form
             for candidate in tried
             for effect in candidate.starts
             if (form := _form(candidate, effect, balances, fitted, len(tried))) is not None
-        ]
+        )
+        # a form that changes two sizes of its kind at once has no limit in one of them: each alone has its own
+        forms = [f for f in every if not (sizes[f.kind] - {f.parameter}) & set(f.beside)]
         richer = dataclasses.replace(span, both_ways=True, load=load, temperature=(20.0, 10.0))
         missing = {c.kind for c in candidates(richer, fitted.model.effects)} - {c.kind for c in tried}
         return forms, {k: RICHER.get(effect_class(k).answers_to, "another motion") for k in effect_kinds() if k in missing}

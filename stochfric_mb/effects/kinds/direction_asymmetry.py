@@ -52,11 +52,13 @@ class DirectionAsymmetry(Effect):
 
     @classmethod
     def at_joint(cls, span: JointSpan) -> tuple[JointSignature, ...]:
-        """Return a difference between both directions, of all friction or of what is viscous alone."""
+        """Return a difference between both directions: of all friction, of what is viscous alone, or of each by itself."""
         if not span.both_ways:
             return ()
-        viscous = cls(viscous_difference=0.2 * span.friction / span.speed)
-        return JointSignature((cls(asymmetry=0.01),), "direction", 1), JointSignature((viscous,), "speed and direction", 1)
+        all_of_it, viscous = cls(asymmetry=0.01), cls(viscous_difference=0.2 * span.friction / span.speed)
+        both = dataclasses.replace(viscous, asymmetry=0.01)
+        forms = (all_of_it, "direction", 1), (viscous, "speed and direction", 1), (both, "speed and direction", 2)
+        return tuple(JointSignature((start,), axis, numbers) for start, axis, numbers in forms)
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:

@@ -121,6 +121,15 @@ def test_a_delay_is_named_first_and_is_not_friction():
     assert result.effects[0].parameters["delay"].value == pytest.approx(0.012, abs=0.001)
 
 
+def test_friction_that_rises_one_way_and_falls_the_other_is_one_asymmetry():
+    def dimples(q, v):
+        return np.sign(v) * (2.0 + np.where(v > 0.0, 1.0, -1.0) * (0.8 - 2.0 * np.abs(v)))
+
+    result = joint_outcome(pair(dimples)).result
+    assert [e.kind for e in result.effects] == ["direction_asymmetry"]
+    assert abs(result.effects[0].parameters["viscous_difference"].value) == pytest.approx(4.0, abs=0.1)
+
+
 @pytest.mark.parametrize("channel", ["force", "position"])
 def test_a_wrong_sign_is_pointed_out_where_inertia_outweighs_friction(channel):
     data = pair(coulomb)
