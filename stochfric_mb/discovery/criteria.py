@@ -190,6 +190,9 @@ SCATTER_MORE_MEMORY = 2.0**0.5 * SCATTER_MEMORY
 SCATTER_TOGETHER = 0.5
 """Correlation of stick and slip above which the scatter is not that of two independent coefficients [-]: of 24 slips with
 independent ones 1 in 80 reaches it, of 48 1 in 3000."""
+SCATTER_ALIKE = 2.0
+"""Correlation of stick and slip over its standard error from which on a scatter may be the zero of the sensor, which moves both
+alike [-]: one in forty by chance."""
 WANDER_WORTH_A_LOOK = 2.0
 """Correlation over its standard error below which no wander is looked for [-]."""
 LEVELS_APART = 12.0

@@ -10,23 +10,24 @@ and it comes back in the next run. Reference: C. de Boor, A Practical Guide to S
 from __future__ import annotations
 
 import dataclasses
-import functools
 import math
-from typing import Any
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
 from stochfric_mb.compile import compiled
-from stochfric_mb.effects.contract import Array, Effect, parameter
+from stochfric_mb.effects.contract import Array, Effect, JointSignature, parameter
 from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, Hypothesis, Slips, levels
 from stochfric_mb.errors import InputError
 
 PIECES = 16
-"""Pieces of the course between its beginning and its end."""
+"""Most pieces of a course between its beginning and its end."""
 COURSE = tuple(f"course_{i}" for i in range(1, PIECES + 3))
 """Parameters that are its shape; a course begins at 0, so that the spline before them is left out."""
 COARSER = (4, 8, PIECES)
-"""Pieces of the courses that are looked for; each course is a finer one, too."""
+"""Pieces of the courses that are looked for."""
+FLAT = 1.0e-3
+"""Weights from which fits of a course begin [-]: friction is linear in them."""
 SHARES = (1.0, 0.0, 0.5, 2.0)
 """Shares of the change that mu_s takes, of courses of friction [-]."""
 
@@ -41,6 +42,9 @@ def _weight(number: int) -> Any:
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Course(Effect):
     """An effect that may follow a course of any smooth shape; ``change``, its size, is the effect's own."""
+
+    course_size: ClassVar[str] = "change"
+    """Name of the parameter that is the size of the course."""
 
     span: float = parameter(
         "s", "time over which the course runs", scale=30.0, low=0.0, strict=True, infinite=True, default=math.inf,
@@ -83,14 +87,109 @@ class Course(Effect):
     """Weight of the 17th spline in the course [-]."""
     course_18: float = _weight(18)
     """Weight of the 18th spline in the course [-]."""
+    pieces: float = parameter(
+        "-", "pieces of the course", scale=1.0, low=1.0, high=float(PIECES), default=float(PIECES), fit_prior=0.0, optional=True
+    )
+    """Pieces of the course between its beginning and its end, a whole number; of n pieces the first n + 2 splines count [-]."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        change = float(getattr(self, "change", 0.0))
-        flat = not any(getattr(self, name) for name in COURSE)
+        if self.pieces != int(self.pieces):
+            raise InputError(f"{self.kind}.pieces = {self.pieces:g} is no whole number; give one from 1 to {PIECES}")
+        change = float(getattr(self, self.course_size, 0.0))
+        flat = not any(getattr(self, name) for name in self.shaped_by)
         if change != 0.0 and (flat or math.isinf(self.span)):
-            lacking = f"no shape: give {COURSE[0]} to {COURSE[-1]}" if flat else "no end: give span"
-            raise InputError(f"{self.kind}.change = {change:g}, but its course has {lacking}, or leave out change")
+            lacking = f"no shape: give {COURSE[0]} to {self.weights[-1]}" if flat else "no end: give span"
+            name = self.course_size
+            raise InputError(f"{self.kind}.{name} = {change:g}, but its course has {lacking}, or leave out {name}")
+
+    def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
+        """Return where the course runs and its size: its weights are fitted."""
+        return self.course_size, "span", "pieces"
+
+    @property
+    def any_shape(self) -> bool:
+        """Whether it follows a course."""
+        return bool(getattr(self, self.course_size))
+
+    @property
+    def weights(self) -> tuple[str, ...]:
+        """Names of the weights that count."""
+        return COURSE[: int(self.pieces) + 2]
+
+    def normalised(self) -> Self:
+        """Return the same effect, its size being the largest change and its weights relative to that."""
+        shape = self.shape(np.linspace(0.0, 1.0, 20 * PIECES + 1))
+        largest = float(shape[np.argmax(np.abs(shape))])
+        if largest in (0.0, 1.0):
+            return self
+        relative = {n: getattr(self, n) / largest for n in self.shaped_by}
+        return dataclasses.replace(self, **relative, **{self.course_size: largest * getattr(self, self.course_size)})
+
+    @property
+    def shaped_by(self) -> tuple[str, ...]:
+        """Names of all numbers in which the shape is linear."""
+        return self.weights
+
+    def columns(self, place: Array) -> Array:
+        """Return the change of the shape with each of the numbers `shaped_by`, shape (..., n); 0 at its begin, 1 at its end."""
+        return splines(place, int(self.pieces))
+
+    def shape(self, place: Array) -> Array:
+        """Return the course at places, shape as ``place``."""
+        return self.columns(place) @ np.array([getattr(self, name) for name in self.shaped_by])
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class CourseAlongStroke(Course):
+    """An effect that may follow a course of any smooth shape along the stroke; ``course``, its size, is the effect's own."""
+
+    course_size: ClassVar[str] = "course"
+
+    span: float = parameter(
+        "m", "stretch of the stroke over which the course runs", scale=0.1, low=0.0, strict=True, infinite=True,
+        default=math.inf, fit_prior=0.0, optional=True,
+    )  # fmt: skip
+    """Stretch of the stroke over which the course runs [m]; nothing changes before and after it."""
+    begin: float = parameter("m", "position at which the course begins", scale=0.1, default=0.0, fit_prior=0.0, optional=True)
+    """Position at which the course begins [m]."""
+    at_begin: float = parameter(
+        "-", "value of the course where it begins", scale=1.0, default=0.0, fit_prior=0.0, optional=True
+    )
+    """Value of the course where it begins, and before [-]."""
+
+    def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
+        """Return where the course runs and its size: its weights are fitted."""
+        return *super().kept_at_joints(contact), "begin"
+
+    @property
+    def shaped_by(self) -> tuple[str, ...]:
+        """Names of all numbers in which the shape is linear."""
+        return *super().shaped_by, "at_begin"
+
+    def columns(self, place: Array) -> Array:
+        """Return the change of the shape with each of the numbers `shaped_by`, shape (..., n); 0 at its begin, 1 at its end."""
+        return np.concatenate([super().columns(place), np.ones((*place.shape, 1))], axis=-1)
+
+    def shortest_time(self, speed: float) -> float:
+        """Return the time [s] in which the contact passes two pieces, in which a course can rise and fall."""
+        return 2.0 * self.span / (self.pieces * speed) if self.any_shape and speed > 0.0 else math.inf
+
+
+def courses_at_joint(flat: Course, axis: str, *, leveled: bool = False) -> tuple[JointSignature, ...]:
+    """Return courses of any smooth shape at a joint, of few pieces and of many; their weights are fitted, the size stays 1.
+
+    Args:
+        flat: the effect with its ``span``, and whatever else says where its course runs.
+        axis: axis along which it shows.
+        leveled: whether a course has a level of its own where it begins, there being no other number that is one.
+    """
+    forms: list[JointSignature] = []
+    for n in COARSER:
+        begin = dataclasses.replace(flat, pieces=float(n), **{COURSE[0]: FLAT, flat.course_size: 1.0})
+        fitted = begin.shaped_by if leveled else begin.weights
+        forms.append(JointSignature((dataclasses.replace(begin, **dict.fromkeys(fitted, FLAT)),), axis, len(fitted)))
+    return tuple(forms)
 
 
 def splines(place: Array, pieces: int) -> Array:
@@ -114,8 +213,9 @@ def _raw(place: Array, pieces: int) -> Array:
 @compiled
 def along(p, place):
     """Return the course at a place, 0 at its begin and 1 at its end, from an effect's parameters."""
-    where, value = 16.0 * min(max(place, 0.0), 1.0), -(2.0 / 3.0 * p[1] + p[2] / 6.0)  # less what the splines are at the begin
-    for k in range(18):
+    where = p[19] * min(max(place, 0.0), 1.0)
+    value = -(2.0 / 3.0 * p[1] + p[2] / 6.0)  # less what the splines are at the begin
+    for k in range(max(int(where) - 1, 0), min(int(where) + 3, int(p[19]) + 2)):
         away = abs(where - k)
         if away < 1.0:
             value += p[1 + k] * (2.0 / 3.0 - away * away * (1.0 - away / 2.0))
@@ -151,16 +251,9 @@ def friction_along(
     return [way(pieces, share) for pieces in COARSER for share in SHARES]
 
 
-@functools.cache
-def refined(pieces: int) -> Array:
-    """Return what turns the weights of a coarser course into those of the finest, shape (PIECES + 2, pieces + 2)."""
-    place = np.linspace(0.0, 1.0, 20 * PIECES + 1)
-    return np.asarray(np.linalg.lstsq(splines(place, PIECES), splines(place, pieces), rcond=None)[0], dtype=np.float64)
-
-
 def sized(weights: Array, pieces: int, span: float) -> dict[str, float]:
-    """Return the parameters of a course: its size, its shape with a largest change of 1, and its span."""
-    fine = refined(pieces) @ weights
-    course = splines(np.linspace(0.0, 1.0, 20 * PIECES + 1), PIECES) @ fine
+    """Return the parameters of a course: its size, its shape with a largest change of 1, its pieces and its span."""
+    course = splines(np.linspace(0.0, 1.0, 20 * PIECES + 1), pieces) @ weights
     size = float(course[np.argmax(np.abs(course))]) or 1.0
-    return {"change": size, "span": span} | {name: float(w / size) for name, w in zip(COURSE, fine, strict=True)}
+    shape = {name: float(w / size) for name, w in zip(COURSE, weights, strict=False)}
+    return {"change": size, "span": span, "pieces": float(pieces)} | shape

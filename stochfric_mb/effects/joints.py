@@ -16,6 +16,8 @@ class JointSpan:
     """High speed: its 95 % quantile [m/s or rad/s]."""
     stroke: float
     """Distance between the outermost positions [m or rad]."""
+    lowest: float
+    """The lowest of them [m or rad]."""
     duration: float
     """Longest record [s]."""
     load: float

@@ -82,7 +82,8 @@ def test_clear_cases_are_answered_rightly_and_the_gap_closes(case):
     assert gap is not None
     assert gap.held_out
     reducible = (gap.recalibrated - gap.floor) / gap.recalibrated
-    assert (reducible >= COUNTED) == (result.verdict != "none")  # what is missing costs more than a tenth, at strength 1
+    # what costs more than a tenth is not nothing; slips that keep to a force's rhythm are all alike, and it costs less
+    assert reducible < COUNTED or result.verdict != "none"
     if result.verdict == "effect":
         assert gap.closed >= CLOSED
 

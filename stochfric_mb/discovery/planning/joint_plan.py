@@ -79,11 +79,12 @@ class JointPlan(RigPlan):
         span = span_of(balances, fitted.model.law.mu_k * load, load)
         tried = candidates(span, fitted.model.effects)
         sizes: dict[str, set[str]] = {}
-        for candidate in tried:
+        straight = [c for c in tried if not c.any_shape]  # of a course of any shape one would have to say which
+        for candidate in straight:
             sizes.setdefault(candidate.kind, set()).update(_size_of(effect) for effect in candidate.starts)
         every = (
             form
-            for candidate in tried
+            for candidate in straight
             for effect in candidate.starts
             if (form := _form(candidate, effect, balances, fitted, len(tried))) is not None
         )

@@ -13,7 +13,7 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import BELT_VELOCITY, MU_K, MU_S, TRAVELLED, VELOCITY, JointSignature, parameter
-from stochfric_mb.effects.course import Course, along, friction_along
+from stochfric_mb.effects.course import Course, along, courses_at_joint, friction_along
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Hypothesis, Slips, drifting
 from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, SLOPE_IN_DISTANCE, WANDERS_ALIKE
@@ -65,9 +65,10 @@ class DistanceDrift(Course):
     separated_by: ClassVar[Mapping[str, str]] = {"friction_drift": "a run at another belt speed"}
 
     @classmethod
-    def at_joint(cls, span: JointSpan) -> JointSignature:
-        """Return a drift of a hundredth over the distance slid."""
-        return JointSignature((cls(rate=0.01 / span.distance),), "distance slid", 1)
+    def at_joint(cls, span: JointSpan) -> tuple[JointSignature, ...]:
+        """Return a drift of a hundredth over the distance slid, and courses of any smooth shape."""
+        straight = JointSignature((cls(rate=0.01 / span.distance),), "distance slid", 1)
+        return straight, *courses_at_joint(cls(span=span.distance), "distance slid")
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
@@ -91,7 +92,7 @@ def surroundings(world, memory, rates, p):
 
 def friction(world, memory, rates, p):
     """Multiply both coefficients by the drift."""
-    slid, span, rate, settled, share, change = world[TRAVELLED], p[0], p[19], p[20], p[21], p[22]
+    slid, span, rate, settled, share, change = world[TRAVELLED], p[0], p[20], p[21], p[22], p[23]
     grown = rate * (slid if settled > 1.0e300 else -settled * math.expm1(-slid / settled))
     if change != 0.0:
         grown += change * along(p, slid / span)

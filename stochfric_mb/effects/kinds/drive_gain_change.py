@@ -10,7 +10,8 @@ import math
 from collections.abc import Mapping
 from typing import ClassVar
 
-from stochfric_mb.effects.contract import DRIVE, LOAD, POSITION, TEMPERATURE, TIME, Effect, JointSignature, parameter
+from stochfric_mb.effects.contract import DRIVE, LOAD, POSITION, TEMPERATURE, TIME, JointSignature, parameter
+from stochfric_mb.effects.course import CourseAlongStroke, along, courses_at_joint
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.traits import READS_DRIVE
 
@@ -21,13 +22,14 @@ PITCHES = (2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class DriveGainChange(Effect):
+class DriveGainChange(CourseAlongStroke):
     """Drive times 1 + grown, a change in time, with temperature and along the stroke.
 
     grown = rate tau (1 - exp(-t/tau)) + per_kelvin (T - reference_temperature) + ripple cos(2 pi x/pitch + phase) + change +
-    slope x + curvature x^2, tau = time_constant, and rate t for an infinite one. Magnets weaken as they warm up, supplies sag,
-    the phases of a motor are not equally strong, and a coil leaves its magnet to either end of the stroke. What it lacks on
-    average then is the change at x = 0: without one mass and friction would have to take that up.
+    slope x + curvature x^2 + course c((x - begin)/span), tau = time_constant, and rate t for an infinite one; c is a sum
+    of cubic B-splines, so that the gain may follow any smooth shape along the stroke. Magnets weaken as they warm up, supplies
+    sag, the phases of a motor are not equally strong, and a coil leaves its magnet to either end of the stroke. What it lacks
+    on average then is the change at x = 0: without one mass and friction would have to take that up.
 
     References: T. Sebastian, IEEE Trans. Ind. Appl. 31, 1995, 353-357 (magnets); M. Gautier, S. Briot, J. Dyn. Sys., Meas.,
     Control 136, 2014, doi 10.1115/1.4027506 (drive gains of robots); R. Krishnan, Electric Motor Drives, Prentice Hall 2001,
@@ -57,11 +59,14 @@ class DriveGainChange(Effect):
     """Relative change along the stroke at x = 0 [1/m]."""
     curvature: float = parameter("1/m^2", "relative change by the square of the position", scale=10.0, default=0.0)
     """Relative change by the square of the position [1/m^2]."""
+    course: float = parameter("-", "relative size of a course of any shape", scale=0.02, default=0.0, optional=True)
+    """Relative size of a course of any shape [-]."""
 
     kind: ClassVar[str] = "drive_gain_change"
     equation: ClassVar[str] = (
         "drive times 1 + rate tau (1 - exp(-t/tau)) + per_kelvin (T - reference_temperature) + "
-        "ripple cos(2 pi x/pitch + phase) + change + slope x + curvature x^2, tau = time_constant"
+        "ripple cos(2 pi x/pitch + phase) + change + slope x + curvature x^2 + "
+        "course c((x - begin)/span), tau = time_constant, c of splines"
     )
     source: ClassVar[str] = "Sebastian 1995 (magnets); Gautier and Briot 2014"
     group: ClassVar[str] = "mechanism"
@@ -75,8 +80,8 @@ class DriveGainChange(Effect):
     shows: ClassVar[str] = "the force per command changes"
 
     def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
-        """Return the time in which a gain settles: one of a few shares of the record."""
-        return ("time_constant",)
+        """Return the time in which a gain settles, one of a few shares of the record, and where a course runs."""
+        return *super().kept_at_joints(contact), "time_constant"
 
     @classmethod
     def at_joint(cls, span: JointSpan) -> tuple[JointSignature, ...]:
@@ -93,6 +98,7 @@ class DriveGainChange(Effect):
             JointSignature(settles, "time", 1),
             JointSignature(waves, "position", 3),
             JointSignature((curve,), "position", 3),
+            *courses_at_joint(cls(span=span.stroke, begin=span.lowest), "position", leveled=True),
         ]
         if span.temperature is not None:
             middle, width = span.temperature
@@ -103,9 +109,11 @@ class DriveGainChange(Effect):
 
 def surroundings(world, memory, rates, p):
     """Add what the drive gives beyond what is stated."""
-    grown = p[0] * (world[TIME] if p[1] > 1.0e300 else -p[1] * math.expm1(-world[TIME] / p[1]))
-    grown += p[2] * (world[TEMPERATURE] - p[3])
-    grown += p[7] + (p[8] + p[9] * world[POSITION]) * world[POSITION]
-    if p[4] != 0.0:
-        grown += p[4] * math.cos(2.0 * math.pi * world[POSITION] / p[5] + p[6])
+    grown = p[22] * (world[TIME] if p[23] > 1.0e300 else -p[23] * math.expm1(-world[TIME] / p[23]))
+    grown += p[24] * (world[TEMPERATURE] - p[25])
+    grown += p[29] + (p[30] + p[31] * world[POSITION]) * world[POSITION]
+    if p[26] != 0.0:
+        grown += p[26] * math.cos(2.0 * math.pi * world[POSITION] / p[27] + p[28])
+    if p[32] != 0.0:
+        grown += p[32] * (p[21] + along(p, (world[POSITION] - p[20]) / p[0]))
     world[LOAD] += grown * world[DRIVE]

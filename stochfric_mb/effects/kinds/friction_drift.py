@@ -10,7 +10,7 @@ import math
 from typing import ClassVar
 
 from stochfric_mb.effects.contract import MU_K, MU_S, TIME, JointSignature, parameter
-from stochfric_mb.effects.course import Course, along, friction_along
+from stochfric_mb.effects.course import Course, along, courses_at_joint, friction_along
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Hypothesis, Slips, drifting
 from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, WANDERS_ALIKE
@@ -49,9 +49,10 @@ class FrictionDrift(Course):
     order: ClassVar[int] = 3
 
     @classmethod
-    def at_joint(cls, span: JointSpan) -> JointSignature:
-        """Return a drift of a hundredth over the record."""
-        return JointSignature((cls(rate=0.01 / span.duration),), "time", 1)
+    def at_joint(cls, span: JointSpan) -> tuple[JointSignature, ...]:
+        """Return a drift of a hundredth over the record, and courses of any smooth shape."""
+        straight = JointSignature((cls(rate=0.01 / span.duration),), "time", 1)
+        return straight, *courses_at_joint(cls(span=span.duration), "time")
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
@@ -63,7 +64,7 @@ class FrictionDrift(Course):
 
 def friction(world, memory, rates, p):
     """Multiply both coefficients by the drift."""
-    span, rate, settled, share, change = p[0], p[19], p[20], p[21], p[22]
+    span, rate, settled, share, change = p[0], p[20], p[21], p[22], p[23]
     grown = rate * (world[TIME] if settled > 1.0e300 else -settled * math.expm1(-world[TIME] / settled))
     if change != 0.0:
         grown += change * along(p, world[TIME] / span)

@@ -10,7 +10,8 @@ import math
 from collections.abc import Mapping
 from typing import ClassVar
 
-from stochfric_mb.effects.contract import LOAD, POSITION, Effect, JointSignature, Scan, parameter
+from stochfric_mb.effects.contract import LOAD, POSITION, JointSignature, Scan, parameter
+from stochfric_mb.effects.course import CourseAlongStroke, along, courses_at_joint
 from stochfric_mb.effects.joints import WAVES_ON_STROKE, JointSpan
 
 WAVES_OF_STROKE = (4.0, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08)
@@ -18,8 +19,10 @@ WAVES_OF_STROKE = (4.0, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class PositionDependentForce(Effect):
-    """Further force amplitude cos(2 pi x/wavelength + phase) - stiffness d - cubic d^3, d = x - zero; and its second harmonic.
+class PositionDependentForce(CourseAlongStroke):
+    """Further force amplitude cos(2 pi x/wavelength + phase) - stiffness d - cubic d^3 + course c, d = x - zero; an overtone.
+
+    c is a sum of cubic B-splines of (x - begin)/span, so that the force may follow any smooth shape along the stroke.
 
     Cogging and unbalance are waves, cables and bellows springs. It is no friction: it does not turn with the direction.
 
@@ -43,10 +46,13 @@ class PositionDependentForce(Effect):
     """Amplitude of the second harmonic [N]."""
     phase_2: float = parameter("rad", "phase of the second harmonic at x = 0", scale=1.0, default=0.0)
     """Phase of the second harmonic at x = 0 [rad]."""
+    course: float = parameter("N", "size of a course of any shape", scale=0.3, default=0.0, optional=True)
+    """Size of a course of any shape [N]."""
 
     kind: ClassVar[str] = "position_dependent_force"
     equation: ClassVar[str] = (
-        "further force amplitude cos(2 pi x/wavelength + phase) - stiffness (x - zero) - cubic (x - zero)^3, and an overtone"
+        "further force amplitude cos(2 pi x/wavelength + phase) - stiffness (x - zero) - cubic (x - zero)^3 + "
+        "course c((x - begin)/span), c of splines, and an overtone"
     )
     source: ClassVar[str] = "Zhu and Howe 2000 (cogging); Den Hartog 1956, sections 6.1 and 8.1 (unbalance, springs)"
     group: ClassVar[str] = "mechanism"
@@ -65,11 +71,12 @@ class PositionDependentForce(Effect):
     def shortest_time(self, speed: float) -> float:
         """Return the time [s] in which the contact passes the shorter wavelength that acts."""
         waves = 0.0 if self.amplitude == self.amplitude_2 == 0.0 else 2.0 if self.amplitude_2 != 0.0 else 1.0
-        return self.wavelength / (waves * speed) if waves * speed > 0.0 else math.inf
+        wave = self.wavelength / (waves * speed) if waves * speed > 0.0 else math.inf
+        return min(wave, super().shortest_time(speed))
 
     @classmethod
     def at_joint(cls, span: JointSpan) -> tuple[JointSignature, ...]:
-        """Return springs and waves along the stroke, of which both directions tell that they are no friction."""
+        """Return springs, waves and smooth courses along the stroke; both directions tell that they are no friction."""
         if not span.both_ways:
             return ()
         force, away = 0.1 * span.friction, 0.01 * span.stroke
@@ -92,11 +99,14 @@ class PositionDependentForce(Effect):
             JointSignature((stiffening,), "position", 3),
             JointSignature(waves, "position", 3, scan),
             JointSignature(twice, "position", 5),
+            *courses_at_joint(cls(span=span.stroke, begin=span.lowest), "position", leveled=True),
         )
 
 
 def surroundings(world, memory, rates, p):
     """Add the force."""
-    d = world[POSITION] - p[2]
-    angle = 2.0 * math.pi * world[POSITION] / p[4]
-    world[LOAD] += p[3] * math.cos(angle + p[5]) + p[6] * math.cos(2.0 * angle + p[7]) - p[0] * d - p[1] * d * d * d
+    d = world[POSITION] - p[24]
+    angle = 2.0 * math.pi * world[POSITION] / p[26]
+    world[LOAD] += p[25] * math.cos(angle + p[27]) + p[28] * math.cos(2.0 * angle + p[29]) - p[22] * d - p[23] * d * d * d
+    if p[30] != 0.0:
+        world[LOAD] += p[30] * (p[21] + along(p, (world[POSITION] - p[20]) / p[0]))

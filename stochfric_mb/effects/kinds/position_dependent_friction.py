@@ -13,10 +13,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import BELT_POSITION, MU_K, MU_S, POSITION, Effect, JointSignature, Scan, choice, parameter
+from stochfric_mb.effects.contract import BELT_POSITION, MU_K, MU_S, POSITION, JointSignature, Scan, choice, parameter
+from stochfric_mb.effects.course import COURSE, CourseAlongStroke, along, courses_at_joint
 from stochfric_mb.effects.joints import WAVES_ON_STROKE, JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips, Wave, friction_at, times
 from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, COURSE_OF_RUN, WANDERS_ALIKE, WAVES
+from stochfric_mb.errors import InputError
 
 MOST_AT_START = 0.9
 """Largest relative amplitude with which a fit begins [-]."""
@@ -26,17 +28,20 @@ stiffness that is off leaves as well."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class PositionDependentFriction(Effect):
-    """mu_s and mu_k times 1 + sum of a_h cos(2 pi h s/wavelength + phase_h), h = 1, 2, 3.
+class PositionDependentFriction(CourseAlongStroke):
+    """mu_s and mu_k times 1 + sum of a_h cos(2 pi h s/wavelength + phase_h) + course c((s - begin)/span), h = 1, 2, 3.
 
-    s is the belt coordinate under the body, belt travel - x (axis "belt"), or x (axis "position").
+    s is the belt coordinate under the body, belt travel - x (axis "belt"), or x (axis "position"); c is a sum of cubic
+    B-splines, so that friction may follow any smooth shape.
 
     Reference: B. Armstrong-Helouvry, Control of Machines with Friction, Kluwer 1991 (friction against joint position).
     """
 
-    amplitude: float = parameter("-", "relative amplitude of the first harmonic", scale=0.03)
+    amplitude: float = parameter("-", "relative amplitude of the first harmonic", scale=0.03, default=0.0)
     """Relative amplitude of the first harmonic [-]."""
-    wavelength: float = parameter("m", "wavelength of the first harmonic", scale=0.01, low=0.0, strict=True)
+    wavelength: float = parameter(
+        "m", "wavelength of the first harmonic", scale=0.01, low=0.0, strict=True, infinite=True, default=math.inf
+    )
     """Wavelength of the first harmonic [m]."""
     phase: float = parameter("rad", "phase of the first harmonic at s = 0", scale=1.0, default=0.0)
     """Phase of the first harmonic at s = 0 [rad]."""
@@ -50,9 +55,14 @@ class PositionDependentFriction(Effect):
     """Relative amplitude of the third harmonic [-]."""
     phase_3: float = parameter("rad", "phase of the third harmonic at s = 0", scale=1.0, default=0.0)
     """Phase of the third harmonic at s = 0 [rad]."""
+    course: float = parameter("-", "relative size of a course of any shape", scale=0.03, default=0.0, optional=True)
+    """Relative size of a course of any shape [-]."""
 
     kind: ClassVar[str] = "position_dependent_friction"
-    equation: ClassVar[str] = "both mu times 1 + sum a_h cos(2 pi h s/wavelength + phase_h), s = belt travel - x, or x"
+    equation: ClassVar[str] = (
+        "both mu times 1 + sum a_h cos(2 pi h s/wavelength + phase_h) + course c((s - begin)/span), "
+        "s = belt travel - x, or x, c of splines"
+    )
     source: ClassVar[str] = "Armstrong-Helouvry 1991"
     group: ClassVar[str] = "friction varies"
     traits: ClassVar[frozenset[str]] = frozenset({ANY_SHAPE, WAVES, ALONG_BELT, COURSE_OF_RUN, WANDERS_ALIKE})
@@ -66,6 +76,15 @@ class PositionDependentFriction(Effect):
     shows_on: ClassVar[str] = "belt position"
     shows: ClassVar[str] = "friction varies with position"
     order: ClassVar[int] = 3
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        waves = any((self.amplitude, self.amplitude_2, self.amplitude_3))
+        if math.isinf(self.wavelength) and (waves or not self.course):
+            raise InputError(
+                f"{self.kind} needs amplitude and wavelength of a wave, or course, span and {COURSE[0]} to {COURSE[-1]} of a "
+                f"course; amplitude = {self.amplitude:g} has no wavelength"
+            )
 
     def appears(self) -> tuple[str, str]:
         """Return belt or stroke, whichever the friction varies along."""
@@ -81,11 +100,12 @@ class PositionDependentFriction(Effect):
     def shortest_time(self, speed: float) -> float:
         """Return the time [s] in which the contact passes the shortest wavelength that acts."""
         harmonic = 3.0 if self.amplitude_3 != 0.0 else 2.0 if self.amplitude_2 != 0.0 else 1.0
-        return self.wavelength / (harmonic * speed) if speed > 0.0 else math.inf
+        wave = self.wavelength / (harmonic * speed) if speed > 0.0 else math.inf
+        return min(wave, super().shortest_time(speed))
 
     @classmethod
-    def at_joint(cls, span: JointSpan) -> JointSignature:
-        """Return waves along the stroke."""
+    def at_joint(cls, span: JointSpan) -> tuple[JointSignature, ...]:
+        """Return waves along the stroke, and courses of any smooth shape."""
         parts = (2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08)
         starts = (cls(amplitude=0.05, wavelength=span.stroke * part, phase=0.7, axis="position") for part in parts)
 
@@ -94,7 +114,11 @@ class PositionDependentFriction(Effect):
             return cls(amplitude=size, wavelength=1.0 / number, phase=math.atan2(-b, a), axis="position")
 
         low, high = (n / span.stroke for n in WAVES_ON_STROKE)
-        return JointSignature(tuple(starts), "position", 3, Scan("position", True, low, high, begin))
+        flat = cls(axis="position", course=1.0, course_1=1.0, span=span.stroke, begin=span.lowest)
+        return (
+            JointSignature(tuple(starts), "position", 3, Scan("position", True, low, high, begin)),
+            *courses_at_joint(flat, "position"),
+        )
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
@@ -134,10 +158,12 @@ class PositionDependentFriction(Effect):
 
 def friction(world, memory, rates, p):
     """Multiply both coefficients by the pattern."""
-    s = world[BELT_POSITION] if p[3] == 0.0 else world[POSITION]
-    angle = 2.0 * math.pi * s / p[1]
-    factor = 1.0 + p[0] * math.cos(angle + p[2])
-    if p[4] != 0.0 or p[6] != 0.0:
-        factor += p[4] * math.cos(2.0 * angle + p[5]) + p[6] * math.cos(3.0 * angle + p[7])
+    s = world[BELT_POSITION] if p[25] == 0.0 else world[POSITION]
+    angle = 2.0 * math.pi * s / p[23]
+    factor = 1.0 + p[22] * math.cos(angle + p[24])
+    if p[26] != 0.0 or p[28] != 0.0:
+        factor += p[26] * math.cos(2.0 * angle + p[27]) + p[28] * math.cos(3.0 * angle + p[29])
+    if p[30] != 0.0:
+        factor += p[30] * (p[21] + along(p, (s - p[20]) / p[0]))
     world[MU_S] *= factor
     world[MU_K] *= factor

@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import Array, parameter
-from stochfric_mb.effects.course import COARSER, COURSE, PIECES, Course, sized, splines
+from stochfric_mb.effects.course import COARSER, Course, sized, splines
 from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, Hypothesis, Slips
 from stochfric_mb.effects.traits import COURSE_OF_RUN, CREEPING_ZERO, DRIFTS, MOVES_ZERO
 
@@ -42,7 +42,7 @@ class SensorDrift(Course):
         """Return what the sensor shows [m]; arguments as in `Effect.measure`."""
         drifted = position + self.rate * time
         if self.change != 0.0:
-            drifted = drifted + self.change * splines(time / self.span, PIECES) @ [getattr(self, name) for name in COURSE]
+            drifted = drifted + self.change * self.shape(time / self.span)
         return drifted
 
     @classmethod

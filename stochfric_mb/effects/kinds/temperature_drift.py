@@ -12,7 +12,7 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import MU_K, MU_S, TEMPERATURE, Array, JointSignature, parameter
-from stochfric_mb.effects.course import Course, along, friction_along
+from stochfric_mb.effects.course import Course, along, courses_at_joint, friction_along
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Hypothesis, Slips, apart, levels
 from stochfric_mb.effects.traits import COURSE_OF_RUN
@@ -85,12 +85,17 @@ class TemperatureDrift(Course):
         middle, width = span.temperature
         straight = cls(rate=0.01 / width, reference_temperature=middle)
         bent = dataclasses.replace(straight, curvature=0.01 / width**2)
-        return JointSignature((straight,), "temperature", 1), JointSignature((bent,), "temperature", 2)
+        coldest = cls(span=width, reference_temperature=middle - 0.5 * width)
+        return (
+            JointSignature((straight,), "temperature", 1),
+            JointSignature((bent,), "temperature", 2),
+            *courses_at_joint(coldest, "temperature"),
+        )
 
 
 def friction(world, memory, rates, p):
     """Multiply both coefficients by the drift."""
-    above, span, rate, share, curvature, change = world[TEMPERATURE] - p[20], p[0], p[19], p[21], p[22], p[23]
+    above, span, rate, share, curvature, change = world[TEMPERATURE] - p[21], p[0], p[20], p[22], p[23], p[24]
     changed = (rate + curvature * above) * above
     if change != 0.0:
         changed += change * along(p, above / span)

@@ -106,6 +106,30 @@ def test_one_effect_is_named_and_measured(friction, kind, name, truth):
     assert result.gap.closed > 0.9
 
 
+def worn_patch(q, v):
+    return coulomb(q, v) * (1.0 + 0.4 * np.exp(-(((q - 0.03) / 0.04) ** 2)))
+
+
+def soft_stop(q, v):
+    return coulomb(q, v) + 1.5 * np.log1p(np.exp((q - 0.05) / 0.01)) / np.log1p(np.exp(5.0))
+
+
+@pytest.mark.parametrize(
+    ("force", "kind", "size", "to"),
+    [(worn_patch, "position_dependent_friction", 0.4, 1.1), (soft_stop, "position_dependent_force", 1.5, 2.0)],
+)
+def test_along_the_stroke_any_smooth_shape_has_its_name(force, kind, size, to):
+    outcome = joint_outcome(pair(force))
+    result = outcome.result
+    assert [e.kind for e in result.effects] == [kind]
+    assert result.gap.closed > 0.9
+    course = result.effects[0].parameters["course"]
+    assert size / to <= abs(course.value) <= size * to  # the shape says how much of it is a level
+    effect = next(e for e in outcome.scenario.effects if e.kind == kind)
+    assert effect.course == pytest.approx(course.value)
+    assert np.abs(effect.shape(np.linspace(0.0, 1.0, 321))).max() == pytest.approx(1.0)
+
+
 def test_a_slide_is_simulated_again_from_measured_states():
     pytest.importorskip("mujoco", reason="the slide runs in MuJoCo")
     scores = joint_outcome(pair(grease)).places[0].scores

@@ -7,7 +7,7 @@ import pytest
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.effects import contract, make_effect
-from stochfric_mb.effects.course import COARSER, COURSE, PIECES, refined, sized, splines
+from stochfric_mb.effects.course import COARSER, COURSE, PIECES, sized, splines
 from stochfric_mb.effects.kinds import distance_drift, friction_drift, temperature_drift
 from stochfric_mb.errors import InputError
 
@@ -22,14 +22,6 @@ def test_a_course_begins_at_zero():
     assert np.abs(reached).max() == pytest.approx(abs(effect.change))
 
 
-@pytest.mark.parametrize("pieces", COARSER)
-def test_a_coarser_course_is_a_finer_one_too(pieces):
-    place, weights = np.linspace(0.0, 1.0, 333), np.random.default_rng(0).standard_normal(pieces + 2)
-    fine = splines(place, PIECES) @ refined(pieces) @ weights
-    coarse = splines(place, pieces) @ weights
-    np.testing.assert_allclose(fine, coarse, atol=1e-10)
-
-
 def test_a_smooth_course_is_followed():
     place = np.linspace(0.0, 1.0, 500)
     course = place * np.exp(1.0 - 4.0 * place)
@@ -39,6 +31,7 @@ def test_a_smooth_course_is_followed():
     assert np.abs(rest).max() < 1024.0 / PIECES**4 / 384.0
 
 
+@pytest.mark.parametrize("pieces", [*COARSER, 1])
 @pytest.mark.parametrize(
     ("module", "along", "begin", "more"),
     [
@@ -47,18 +40,55 @@ def test_a_smooth_course_is_followed():
         (temperature_drift, contract.TEMPERATURE, 18.0, {"reference_temperature": 18.0}),
     ],
 )
-def test_friction_follows_the_course(module, along, begin, more):
-    weights = np.sin(np.arange(PIECES + 2))
+def test_friction_follows_the_course(module, along, begin, more, pieces):
+    weights = np.sin(np.arange(pieces + 2))
     kind = module.__name__.rsplit(".", 1)[1]
-    effect = make_effect(kind, **sized(weights, PIECES, 30.0), static_share=0.5, **more)
+    effect = make_effect(kind, **sized(weights, pieces, 30.0), static_share=0.5, **more)
     world, nothing, p = np.zeros(contract.WORLD), np.zeros(1), effect.parameters()
     for function in (module.friction, compiled(module.friction)):
-        for t in (0.0, 3.0, 29.9, 45.0):
+        for t in (0.0, 3.0, 15.0, 29.9, 30.0, 45.0):
             world[along], world[contract.MU_S], world[contract.MU_K] = begin + t, 1.0, 1.0
             function(world, nothing, nothing, p)
-            expected = float(splines(np.array([t / 30.0]), PIECES)[0] @ weights)
+            expected = float(splines(np.array([t / 30.0]), pieces)[0] @ weights)
             assert world[contract.MU_K] == pytest.approx(1.0 + expected, abs=1e-14)
             assert world[contract.MU_S] == pytest.approx(1.0 + 0.5 * expected, abs=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("kind", "acts_on", "expected"),
+    [
+        ("position_dependent_friction", contract.MU_K, lambda c: 0.4 * (1.0 + c)),
+        ("position_dependent_force", contract.LOAD, lambda c: c),
+        ("drive_gain_change", contract.LOAD, lambda c: 7.0 * c),
+        ("effective_area", contract.LOAD, lambda c: -3.0e5 * c),
+    ],
+)
+@pytest.mark.parametrize("pieces", COARSER)
+def test_what_the_stroke_decides_follows_the_course(kind, acts_on, expected, pieces):
+    numbers = sized(np.cos(np.arange(pieces + 2)), pieces, 0.3)
+    size = numbers.pop("change")
+    more = {"axis": "position"} if kind == "position_dependent_friction" else {}
+    effect = make_effect(kind, **numbers, course=size, begin=-0.1, at_begin=0.2, **more)
+    module = effect.functions()
+    function = getattr(module, "friction" if acts_on == contract.MU_K else "surroundings")
+    nothing, p = np.zeros(1), effect.parameters()
+    for one in (function, compiled(function)):
+        for x in (-0.2, -0.1, 0.02, 0.15, 0.2, 0.3):
+            world = np.zeros(contract.WORLD)
+            world[contract.POSITION], world[contract.MU_S], world[contract.MU_K] = x, 0.5, 0.4
+            world[contract.DRIVE], world[contract.PRESSURE] = 7.0, 3.0e5
+            one(world, nothing, nothing, p)
+            course = size * float(effect.shape(np.array([(x + 0.1) / 0.3]))[0])
+            assert world[acts_on] == pytest.approx(expected(course), abs=1e-9)
+    alike, largest = effect.normalised(), effect.normalised().shape(np.linspace(0.0, 1.0, 321))
+    assert np.abs(largest).max() == pytest.approx(1.0)
+    np.testing.assert_allclose(alike.course * largest, effect.course * effect.shape(np.linspace(0.0, 1.0, 321)), atol=1e-12)
+
+
+def test_friction_along_a_place_needs_a_wave_or_a_course():
+    for given in ({}, {"amplitude": 0.1}, {"amplitude_2": 0.1}):
+        with pytest.raises(InputError, match="wavelength"):
+            make_effect("position_dependent_friction", **given)
 
 
 def test_a_reading_follows_the_course():
@@ -67,6 +97,12 @@ def test_a_reading_follows_the_course():
     t = np.linspace(0.0, 25.0, 100)
     shown = effect.measure(t, np.zeros(100), np.random.default_rng(0))
     np.testing.assert_allclose(shown, splines(t / 20.0, PIECES) @ weights, atol=1e-18)
+
+
+@pytest.mark.parametrize("pieces", [0, 2.5, 17])
+def test_pieces_are_a_whole_number_up_to_what_has_weights(pieces):
+    with pytest.raises(InputError, match=r"pieces = .*(from 1 to 16|>= 1 and <= 16)"):
+        make_effect("friction_drift", change=0.1, span=9.0, course_1=1.0, pieces=pieces)
 
 
 def test_a_form_without_a_course_lacks_its_numbers():

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
 from stochfric_mb.effects import Effect, effect_class, effect_kinds
 from stochfric_mb.effects.contract import JointSignature, Scan
+from stochfric_mb.effects.course import Course
 from stochfric_mb.effects.joints import JointSpan
 
 Array = npt.NDArray[np.float64]
@@ -34,6 +35,11 @@ class Candidate:
     """Its place among the forms of its kind."""
 
     @property
+    def any_shape(self) -> bool:
+        """Whether it follows a course of any shape, in whose numbers friction is linear."""
+        return any(isinstance(s, Course) and s.any_shape for s in self.starts)
+
+    @property
     def moves_load(self) -> bool:
         """Whether the load moves by itself with it."""
         return any(s.moves_load for s in self.starts)
@@ -52,6 +58,7 @@ def span_of(balances: Sequence[ForceBalance], friction: float, load: float) -> J
     return JointSpan(
         speed=float(np.quantile(speed, 0.95)),
         stroke=float(np.ptp(position)),
+        lowest=float(position.min()),
         duration=max(float(s.time[-1] - s.time[0]) for s in balances),
         load=float(np.median(carries)) if varies else 0.0,
         both_ways=0.05 < float(np.mean(direction > 0.0)) < 0.95,

@@ -13,6 +13,7 @@ from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.inference.free_parameter import FreeParameter
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Interval
+from stochfric_mb.effects.course import PIECES, Course
 
 LEAST_WAVE = 1.0e-3
 """Shortest wavelength that is tried, over the fitted one [-]: there is none of length 0."""
@@ -38,7 +39,13 @@ def parameters(place: PlaceOutcome, owner: int) -> dict[str, Interval]:
     fit = place.selected.final
     effect = fit.model.effects[owner]
     intervals: dict[str, Interval] = {}
+    shape: tuple[str, ...] = ()
+    if isinstance(effect, Course) and effect.any_shape:  # augmented.toml has its weights
+        intervals[effect.course_size] = _course_size(place, owner, effect)
+        shape = effect.course_size, *effect.shaped_by
     for field in dataclasses.fields(effect):
+        if field.name in shape:
+            continue
         unit = unit_at(str(field.metadata.get("unit", "-")), place.fit[0].unit)
         value = getattr(effect, field.name)
         own = any((kind, name) == (effect.kind, field.name) for kind, _, name in fit.model.own)
@@ -59,6 +66,21 @@ def parameters(place: PlaceOutcome, owner: int) -> dict[str, Interval]:
     ):
         intervals |= _profiled(place, owner, intervals)
     return intervals
+
+
+def _course_size(place: PlaceOutcome, owner: int, effect: Course) -> Interval:
+    """Return the largest change along a course of any shape, which is linear in the numbers fitted."""
+    fit = place.selected.final
+    along = np.linspace(0.0, 1.0, 20 * PIECES + 1)
+    columns, course = effect.columns(along), effect.shape(along)
+    most = int(np.argmax(np.abs(course)))
+    numbers = [(k.owner, k.name) for k in fit.free]
+    at = [numbers.index((owner, name)) for name in effect.shaped_by if (owner, name) in numbers]
+    row = np.array([columns[most, i] for i, name in enumerate(effect.shaped_by) if (owner, name) in numbers])
+    size = float(getattr(effect, effect.course_size))
+    deviation = abs(size) * float(np.sqrt(max(row @ fit.covariance[np.ix_(at, at)] @ row, 0.0)))
+    unit = unit_at(effect.unit_of(effect.course_size), place.fit[0].unit)
+    return confidence_interval(size * float(course[most]), deviation, unit, -np.inf, np.inf)
 
 
 def _profiled(place: PlaceOutcome, owner: int, numbers: dict[str, Interval]) -> dict[str, Interval]:

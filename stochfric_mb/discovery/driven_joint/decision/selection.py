@@ -7,6 +7,7 @@ from collections.abc import Callable, Hashable, Sequence
 
 import numpy as np
 import numpy.typing as npt
+from scipy.stats import chi2
 from scipy.stats import f as fisher
 
 from stochfric_mb.discovery import criteria
@@ -23,6 +24,7 @@ from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import begun, tried, wave_starts
 from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
 from stochfric_mb.discovery.inference.paired import Paired
+from stochfric_mb.effects.course import CourseAlongStroke
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.traits import ROUGH
 
@@ -258,16 +260,45 @@ class Selector:
         key = (of_loads, *self._beside(current))
         left_out, fits = self._known.get(key, (frozenset[str](), None))
         if fits is None or not left_out <= self._without:
-            fits = []
-            for candidate in candidates(span, current.model.effects):
-                if candidate.kind in self._without or candidate.moves_load != of_loads:
-                    continue
-                self._tell(candidate.kind)
-                fitted = self._best(current, candidate)
-                if fitted is not None and not _is_none(fitted, len(fitted.model.effects) - 1):
-                    fits.append((candidate, fitted))
+            asked = [c for c in candidates(span, current.model.effects) if c.moves_load == of_loads]
+            asked = [c for c in asked if c.kind not in self._without]
+            fits = [(c, f) for c in asked if not c.any_shape and (f := self._searched(current, c)) is not None]
+            courses = self._worth_fitting(current, fits, [c for c in asked if c.any_shape])
+            fits += [(c, f) for c in courses if (f := self._searched(current, c)) is not None]
             self._known[key] = self._without, fits
         return [(c, f) for c, f in fits if c.kind not in self._without]
+
+    def _searched(self, current: JointFit, candidate: Candidate) -> JointFit | None:
+        """Return a candidate fitted; None: it has no fit, or as fitted is none of its kind."""
+        self._tell(candidate.kind)
+        fitted = self._best(current, candidate)
+        return fitted if fitted is not None and not _is_none(fitted, len(fitted.model.effects) - 1) else None
+
+    def _worth_fitting(self, current: JointFit, fits: Fitted, courses: Sequence[Candidate]) -> list[Candidate]:
+        """Return, of the courses of each kind, the one of as many pieces as the record supports, if it supports any.
+
+        Friction is linear in their weights, so that what a fit will leave is known before it is made.
+
+        Args:
+            current: the fit beside which they are asked for.
+            fits: other candidates fitted: the best counts the independent windows, and no course may say less than its kind.
+            courses: courses of any shape.
+        """
+        best = min((f for _, f in fits), key=lambda f: f.rms, default=current)
+        n = max(best.independent, 4.0)
+
+        def worth(rms: float, numbers: int) -> float:
+            return 2.0 * n * float(np.log(current.rms / rms)) - numbers * float(np.log(n))
+
+        most: dict[str, float] = {}
+        for other, fitted in fits:
+            most[other.kind] = max(most.get(other.kind, criteria.NAMED), worth(fitted.rms, other.parameters))
+        chosen: dict[str, Candidate] = {}
+        for one in courses:
+            left = predicted_rms(current.model, begun(one.starts[0], self._balances), self._balances, current)
+            if worth(left, one.parameters) > most.get(one.kind, criteria.NAMED):
+                most[one.kind], chosen[one.kind] = worth(left, one.parameters), one
+        return list(chosen.values())
 
     def _beside(self, current: JointFit) -> Beside:
         numbers = {(k.owner, k.name) for k in current.free}
@@ -400,9 +431,13 @@ def _is_none(fitted: JointFit, owner: int) -> bool:
         share = next(k for k in fitted.free if (k.owner, k.name) == (owner, SHARE))
         value = float(getattr(effect, SHARE))
         return _may_be_zero(fitted, owner) or min(value - share.low, share.high - value) < AT_AN_END * (share.high - share.low)
-    sizes = [(abs(getattr(effect, name)), fitted.deviation(owner, name)) for name in VARIES if hasattr(effect, name)]
-    known = [size < 1.96 * deviation for size, deviation in sizes if np.isfinite(deviation)]
-    return bool(known) and all(known)
+    varies = effect.weights if isinstance(effect, CourseAlongStroke) and effect.any_shape else VARIES
+    at = [i for i, k in enumerate(fitted.free) if k.owner == owner and k.name in varies]
+    numbers, covariance = fitted.values[at], fitted.covariance[np.ix_(at, at)]
+    if not at or not np.isfinite(covariance).all():
+        return False
+    # weights of a course share the doubt of what it begins with: together they tell
+    return float(numbers @ np.linalg.pinv(covariance, hermitian=True) @ numbers) < float(chi2.ppf(0.95, len(at)))
 
 
 def _may_be_zero(fitted: JointFit, owner: int) -> bool:

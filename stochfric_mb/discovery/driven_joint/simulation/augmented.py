@@ -11,6 +11,7 @@ import numpy as np
 from stochfric_mb.discovery.driven_joint.balance.balances import BESIDE
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.effects import Effect, kind_with_signature, make_effect
+from stochfric_mb.effects.course import Course
 from stochfric_mb.effects.traits import DRAWN_ANEW, LATE
 from stochfric_mb.mechanisms import Mjcf
 from stochfric_mb.scenario import Scenario
@@ -25,7 +26,7 @@ def stated_scatter(scenario: Scenario[Any], process: str) -> float:
 def augmented(scenario: Scenario[Any], places: Sequence[PlaceOutcome], readings: Sequence[Effect] = ()) -> Scenario[Any]:
     """Return the scenario with the identified effects; of several joints, the first one's effects and delay, in that joint."""
     model, timing = places[0].selected.final.model, places[0].timing
-    effects = list(model.effects_in(places[0].fit[0].run))
+    effects = [e.normalised() if isinstance(e, Course) else e for e in model.effects_in(places[0].fit[0].run)]
     drawn = _drawn(places[0])
     effects += [
         e

@@ -111,8 +111,8 @@ def _distinguished(
 ) -> tuple[Candidate, tuple[str, ...]]:
     """Return the effect that is meant, and those alike: refitted to forecasts where marks are close.
 
-    The marks of a strong effect are its first order alone, forecasts are exact. They hold the overtones of a wave as well,
-    without which they would tell which kind of sine imitates them.
+    The marks of a strong effect are its first order alone, forecasts are exact. They hold the overtones of a wave as well, if
+    there are any: without them they would tell which kind of sine imitates them.
     """
     kinds: dict[str, Candidate] = {}
     for candidate in effects:
@@ -123,8 +123,18 @@ def _distinguished(
     held = [c for c in near if c.is_wave and any(e.kind == c.name and e.own_to_run for e in model.effects)]
     if held or len(near) == 1:
         return (held or near)[0], ()
-    alike = _alike_in_forecasts(study, [(c, with_candidate(model, with_overtones(c, baseline), study.pool)) for c in near])
+    alike = _alike_in_forecasts(study, [(c, _foretelling(study, model, baseline, c)) for c in near])
     return alike[0], tuple(c.name for c in alike[1:])
+
+
+def _foretelling(study: Study, model: Model, baseline: Baseline, candidate: Candidate) -> Model:
+    """Return the model with a candidate, of a wave with its overtones or without them, whichever forecasts better.
+
+    To the marks, overtones may be what a large sine does beyond its first order.
+    """
+    fuller = with_overtones(candidate, baseline)
+    models = [with_candidate(model, way, study.pool) for way in (candidate, fuller)[: 1 if fuller is candidate else 2]]
+    return models[int(np.argmin(likelihood_ratios(models, study.windows)))]
 
 
 def _alike_in_forecasts(study: Study, trials: Sequence[tuple[Candidate, Model]]) -> list[Candidate]:

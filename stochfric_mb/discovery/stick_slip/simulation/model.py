@@ -181,6 +181,8 @@ def _bounds(name: str, value: float, scale: float, about: Mapping[str, Any], uni
     low, high = about["low"] + inside, about["high"] - inside
     if name == "elastic_limit":
         return SHORTEST_LIMIT * units.length, np.inf
+    if name == "delay" and value > 0.0:  # later by a whole period of a known force it forecasts alike
+        return low, value * MOST_TUNED
     if (about["fit_low"], about["fit_high"]) != (about["low"], about["high"]):
         return min(value, max(about["fit_low"], low)), max(value, min(about["fit_high"], high))
     if about["strict"] and value > 0.0:
