@@ -27,6 +27,7 @@ from stochfric_mb.discovery.driven_joint.simulation.augmented import augmented
 from stochfric_mb.discovery.driven_joint.simulation.controller_check import controller_misfit, disbelieved
 from stochfric_mb.discovery.driven_joint.simulation.pictures import friction_picture
 from stochfric_mb.discovery.driven_joint.simulation.resimulation import simulated
+from stochfric_mb.discovery.driven_joint.simulation.scores import Score, rms
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.effects import Effect, kind_with_signature
 from stochfric_mb.effects.traits import LATE
@@ -69,25 +70,41 @@ def joint_outcome(dataset: Dataset, *, progress: Progress | None = None) -> Join
         dataset, better = (
             dataclasses.replace(x, scenario=dataclasses.replace(x.scenario, controller=None)) for x in (dataset, better)
         )
-    if not (readings and _quieter(dataset, better)):
+    left = _left_by(dataset, better) if readings else 1.0
+    if left >= 1.0 - criteria.MATERIAL:
         better, readings = dataset, ()
-    return _outcome(source_of(better), tell, readings, notes)
+    mostly = left**2 <= 1.0 - criteria.EXPLAINED_HELD_OUT
+    return _outcome(source_of(better), tell, readings, notes, source_of(dataset) if mostly else None)
 
 
-def _quieter(given: Dataset, better: Dataset) -> bool:
-    """Return whether the balance of a place errs less, by a material part, with wrong readings replaced, seen alike."""
+def _left_by(given: Dataset, better: Dataset) -> float:
+    """Return the least part that the error of a place's balance keeps with wrong readings replaced, seen alike [-]."""
+    parts: list[float] = []
     as_given, repaired = (source_of(x) for x in (given, better))
     for name in as_given.places:
         before = as_given.balances(name, "fit", as_given.stated_delay)
         if not any(s.sliding.any() for s in before):  # a position that is new at every 40th sample alone moves in no window
-            return True
+            return 0.0
         width = round(float(np.median([s.window.half_width / s.window.interval for s in before])))
         nuisances, model = as_given.nuisances(name), as_given.stated(name)
         seen = [s.balances(name, "fit", s.stated_delay, width) for s in (as_given, repaired)]
         raw, replaced = (fit(model, s, nuisances, noise=model.law.mu_k * model.load).rms for s in seen)
-        if replaced < (1.0 - criteria.MATERIAL) * raw:
-            return True
-    return False
+        parts.append(replaced / raw)
+    return min(parts)
+
+
+def _with_readings(place: PlaceOutcome, as_read: Balances) -> PlaceOutcome:
+    """Return a place whose errors without effects are those of the readings as they were, seen through the same windows."""
+    width = round(float(np.median([s.window.half_width / s.window.interval for s in place.test])))
+    seen = [as_read.balances(place.place, role, as_read.stated_delay, width) for role in ("fit", "test")]
+    if not all(any(s.sliding.any() for s in some) for some in seen):
+        return place
+    fitted = fit(place.stated, seen[0], place.nuisances, noise=place.stated.law.mu_k * place.stated.load).model
+    errors: dict[str, Score] = {}
+    for label, model in (("baseline", place.stated), ("recalibrated", fitted)):
+        rest = np.concatenate([model.remainder(s, place.nuisances)[s.sliding] for s in seen[1]])
+        errors[label] = dataclasses.replace(place.scores[label], sliding=rms(rest))
+    return dataclasses.replace(place, scores=dict(place.scores) | errors)
 
 
 def _fits_better(before: Sequence[PlaceOutcome], after: Sequence[PlaceOutcome]) -> bool:
@@ -130,13 +147,24 @@ def require_usable(dataset: Dataset) -> None:
         return
     _require_controller(dataset.scenario)
     better, readings = mended(dataset)
-    source = source_of(better if readings and _quieter(dataset, better) else dataset)
+    source = source_of(better if readings and _left_by(dataset, better) < 1.0 - criteria.MATERIAL else dataset)
     _require_sliding(source)
     for name in source.places:
         require_dissipation(dataset, name, source.balances(name, "fit", source.stated_delay))
 
 
-def _outcome(source: Balances, tell: Progress, readings: Sequence[Effect], said: Sequence[str]) -> JointOutcome:
+def _outcome(
+    source: Balances, tell: Progress, readings: Sequence[Effect], said: Sequence[str], as_read: Balances | None
+) -> JointOutcome:
+    """Return the outcome of a dataset.
+
+    Args:
+        source: its balances, with wrong readings replaced.
+        tell: called with what is being done.
+        readings: effects that those mean.
+        said: what the reader should know already.
+        as_read: balances with the readings as they were, where replacing these explains more than it leaves.
+    """
     _require_sliding(source)
     notes = [*said]
     places = _places(source, tell, notes)
@@ -154,9 +182,10 @@ def _outcome(source: Balances, tell: Progress, readings: Sequence[Effect], said:
     places.sort(key=_evidence)
     places, floor = _adequate(source, tell, places)
     places = [with_idle(dataclasses.replace(p, mended=bool(readings))) for p in places]
-    places[0] = with_unnamed(dataset, places[0])
+    # an answer with a name has no term without one
+    places[0] = with_unnamed(dataset, places[0]) if as_read is None else _with_readings(places[0], as_read)
     notes += _run_notes(dataset)
-    result = verdict(dataset, places, notes, floor, readings, channel)
+    result = verdict(dataset, places, notes, floor, readings, channel, mostly=as_read is not None)
     pictures = tuple(map(friction_picture, places))
     scenario = augmented(dataset.scenario, places, readings)
     return JointOutcome(result, scenario, dataset, places=tuple(places), pictures=pictures)

@@ -45,8 +45,20 @@ def verdict(
     loop_floor: float | None,
     readings: Sequence[Effect] = (),
     channel: tuple[str, Timing] | None = None,
+    *,
+    mostly: bool = False,
 ) -> Result:
-    """Return the result of a dataset."""
+    """Return the result of a dataset.
+
+    Args:
+        dataset: what was measured.
+        places: its places, the one with most evidence first.
+        notes: what the reader should know.
+        loop_floor: noise of the drive where a controller is in the loop; None: none is.
+        readings: effects that wrong readings mean, which have been replaced.
+        channel: a column that comes late, and by how much.
+        mostly: whether replacing readings explains more of the squared error than it leaves.
+    """
     pairs = confounded(places[0].fit)
     effects: list[EffectEstimate] = []
     for place in places:
@@ -56,7 +68,7 @@ def verdict(
     effects = _late_column(channel) + effects
     lacking = (p for p in places if p.selected.unknown or p.unnamed is not None or lacks(dataset, p))
     unknown = None if effects else next(lacking, None)
-    if unknown is None:
+    if unknown is None or mostly:  # what is repeated or far off stands in the record, whatever else there is
         effects += [_reading(e) for e in readings]
     kind = "effect" if effects else "unknown" if unknown is not None else "none"
     where = None
@@ -66,11 +78,11 @@ def verdict(
         if unknown.curve:
             axis, why = _curve(unknown.curve)
         where = Where(axis, f"What is missing depends on {axis}{_at(unknown)}; {why}.")
-    nameless = places[0] if places[0].unnamed is not None else None
+    nameless = places[0] if places[0].unnamed is not None and kind == "unknown" else None
     return Result(
         verdict=kind,
         effects=tuple(effects),
-        where=where,
+        where=where if kind == "unknown" else None,
         ranking=_ranking(places),
         gap=gap,
         not_identifiable=_unseen(places, effects),
@@ -80,6 +92,7 @@ def verdict(
             *gap.notes,
             *(p.idle for p in places if p.idle),
             *(f"{e.appears()[1]}; with them replaced, more than noise is left" for e in readings if unknown is not None),
+            *([where.text] if where is not None and kind == "effect" else []),
             *notes,
             *_forward_notes(places[0]),
             *map(str, spoken_of(pairs, [e.kind for e in effects])),
