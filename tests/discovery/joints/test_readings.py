@@ -59,3 +59,17 @@ def test_stray_readings_are_found_and_no_turning_point_is_one():
     seen = stray(off)
     assert np.array_equal(np.flatnonzero(seen), hit)
     assert abs(without(off, [], seen) - x)[hit].max() < 6.0 * NOISE
+
+
+def test_a_click_that_rings_is_stray_and_a_kick_or_a_step_is_none():
+    x = motion()
+    clicked, hit = x.copy(), np.arange(41, 5950, 397)
+    for i, ring in enumerate((1.0, -0.7, 0.45, -0.25)):
+        clicked[hit + i] += 2.0e-3 * ring
+    seen = stray(clicked)
+    assert np.array_equal(np.flatnonzero(seen), np.sort(np.concatenate([hit + i for i in range(4)])))
+    assert abs(without(clicked, [], seen) - x)[seen].max() < 6.0 * NOISE
+    after = np.maximum(np.arange(len(x)) - 3000, 0)
+    assert not stray(x + 2.0e-4 * after).any()  # a kick: another velocity from then on
+    assert not stray(x + 2.0e-3 * (after > 0)).any()
+    assert not stray(x + 2.0e-3 * np.exp(-after / 20.0) * np.sin(1.5 * after)).any()  # it rings on

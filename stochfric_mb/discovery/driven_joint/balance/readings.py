@@ -14,6 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import CubicSpline
+from scipy.ndimage import binary_closing
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import stretches
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_columns, with_column
@@ -43,6 +44,10 @@ CURVE, REACH = 3, 1.5
 """Degree of the curve that replaces readings, and how far to both sides it is fitted, over the length of the gap [-]."""
 LEAST = 8
 """Readings on each side at least."""
+BURST = 12
+"""Most readings in a row that a disturbance may reach: a click that rings; two to either side of it see it."""
+SIDES = 3.0
+"""Error of the curve through both sides, over the noise, beyond which it is the motion that is rough there [-]."""
 
 
 def mended(dataset: Dataset) -> tuple[Dataset, tuple[Effect, ...]]:
@@ -111,19 +116,27 @@ def _slower(moved: Array, step: float) -> bool:
 
 
 def stray(values: Array) -> Mask:
-    """Return which readings are far off from a cubic through the next two on each side: one pulls its neighbours along.
+    """Return which readings are far off, one or a few in a row: those before and after them lie on one curve, which they leave.
 
-    One that is off by A leaves A there and -2/3 A at both neighbours; a jump that stays, or an oscillation, does not.
+    After a jump that stays, a kick or in an oscillation no curve goes through both sides.
     """
     away = values - np.convolve(values, np.array([-1.0, 4.0, 0.0, 4.0, -1.0]) / 6.0, mode="same")
     away[:2] = away[-2:] = 0.0
     moved = np.abs(np.diff(values))
     step = float(np.min(moved[moved > 0.0], initial=0.0))
     level = max(deviation(away, about=0.0), white_noise(values), step, 1.0e-300)
-    alone = np.abs(away) > STRAY * level
-    for neighbour in (np.roll(away, 1), np.roll(away, -1)):
-        alone &= np.abs(neighbour + away / 1.5) < np.abs(away) / 3.0
-    return alone
+    far = binary_closing(np.abs(away) > STRAY * level, np.ones(3))
+    near = np.flatnonzero(~far)
+    off = np.zeros(len(values), dtype=bool)
+    for first, last in stretches(far):
+        at = int(np.searchsorted(near, first))
+        around = near[max(at - LEAST, 0) : at + LEAST]
+        if last - first > BURST or around[0] > first or around[-1] < last:
+            continue
+        curve = np.polynomial.Polynomial.fit(around.astype(np.float64), values[around], CURVE)
+        if np.std(values[around] - curve(around.astype(np.float64))) < SIDES * level:
+            off[first:last] = np.abs(values[first:last] - curve(np.arange(first, last, dtype=np.float64))) > STRAY * level
+    return off
 
 
 def without(values: Array, held: Sequence[tuple[int, int]], off: Mask) -> Array:
