@@ -1,4 +1,4 @@
-"""A course of any smooth shape along time, distance or temperature: a sum of cubic B-splines over a stretch of it.
+"""A course of any smooth shape along time, distance, temperature or the stroke: a sum of cubic B-splines over a stretch of it.
 
 A slow course differs from a random drift by its length scale: it bends over a part of the record that many slips fall into,
 and it comes back in the next run. Reference: C. de Boor, A Practical Guide to Splines, Springer 1978, chapter IX.
@@ -96,6 +96,12 @@ class Course(Effect):
         super().__post_init__()
         if self.pieces != int(self.pieces):
             raise InputError(f"{self.kind}.pieces = {self.pieces:g} is no whole number; give one from 1 to {PIECES}")
+        idle = [name for name in COURSE if name not in self.weights and getattr(self, name)]
+        if idle:
+            raise InputError(
+                f"{self.kind}.{idle[0]} = {getattr(self, idle[0]):g} counts for nothing in a course of {self.pieces:g} pieces; "
+                f"give more pieces, or {COURSE[0]} to {self.weights[-1]} alone"
+            )
         change = float(getattr(self, self.course_size, 0.0))
         flat = not any(getattr(self, name) for name in self.shaped_by)
         if change != 0.0 and (flat or math.isinf(self.span)):

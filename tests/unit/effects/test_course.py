@@ -105,6 +105,11 @@ def test_pieces_are_a_whole_number_up_to_what_has_weights(pieces):
         make_effect("friction_drift", change=0.1, span=9.0, course_1=1.0, pieces=pieces)
 
 
+def test_a_weight_beyond_the_pieces_is_refused():
+    with pytest.raises(InputError, match="course_10 = 1 counts for nothing in a course of 4 pieces; give more pieces"):
+        make_effect("friction_drift", change=0.1, span=9.0, course_1=1.0, course_10=1.0, pieces=4)
+
+
 def test_a_form_without_a_course_lacks_its_numbers():
     line = make_effect("friction_drift", rate=0.01)
     assert math.isinf(line.time_constant)
