@@ -17,8 +17,8 @@ from . import law, mechanism, nameless, null, sensor
 from .enter import UNSEEN_EIGHTH
 
 PAIRS = (
-    "viscous_friction.sisko+position_dependent_force.rubber_cord",
-    "direction_asymmetry.spiral_grooves+position_dependent_friction.bent_screw",
+    "viscous_friction.sisko+position_dependent_friction.bent_screw",
+    "direction_asymmetry.spiral_grooves+position_dependent_force.rubber_cord",
     "temperature_drift.peak_of_a_rubber+harmonic_force.compressor_strokes",
     "drive_gain.effective_for_peak_value+quadratic_damping.disc_in_a_housing",
 )

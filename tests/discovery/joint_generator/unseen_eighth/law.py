@@ -50,13 +50,13 @@ def asperities_bear_less(rng: Generator, strength: float, bench: Bench) -> Effec
 @form("direction_asymmetry")
 def spiral_grooves(rng: Generator, strength: float, bench: Bench) -> Effect:
     """Muijderman 1966 (spiral grooves: one way they pump a film that lifts, the other way they empty it and it drags)."""
-    size, forward = 0.6 * strength * bench.level, rng.random() < 0.5
+    size, forward = 0.75 * strength * bench.level, rng.random() < 0.5
 
     def lifts(v: Array) -> Array:
         return -size * v / (v + 0.25 * bench.speed)
 
     def empties(v: Array) -> Array:
-        return 0.6 * size * v / bench.speed
+        return size * v / bench.speed
 
     def alter(plant: Plant, rng: Generator) -> Plant:
         del rng

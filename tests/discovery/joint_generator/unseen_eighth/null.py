@@ -54,15 +54,15 @@ def stamps_of_the_day(rng: Generator, strength: float, bench: Bench) -> Effect:
 
 
 @form("none")
-def contaminated_normal_noise(rng: Generator, strength: float, bench: Bench) -> Effect:
-    """Tukey 1960 (one reading of ten has twice and a half the noise, in both sensors; a sweep; numbers at 1.5 deviations)."""
+def dithered_converter(rng: Generator, strength: float, bench: Bench) -> Effect:
+    """Gray and Stockham 1993 (steps of the encoder of 6e-5 of the reach under a triangular dither; a sweep; 1.5 off)."""
+    step = 6e-5 * bench.reach
 
     def measure(record: Record, rng: Generator) -> Record:
         changed = {}
-        for columns, size in ((positions(record), bench.sensor.position), (drives(record), bench.sensor.drive / bench.gain)):
-            for name in columns:
-                loud = rng.random(record[name].size) < 0.1
-                changed[name] = record[name] + 2.3 * size * loud * rng.standard_normal(loud.size)
+        for name in positions(record):
+            dither = rng.random(record[name].size) - rng.random(record[name].size)
+            changed[name] = np.round(record[name] / step + dither) * step
         return record | changed
 
     return Effect(rig=lambda bench: replace(bench, motion="sweep"), measure=measure, deviation=1.5)
