@@ -14,4 +14,5 @@ forms       the hidden effects
 unseen      further ones, for a report alone; unseen_second to unseen_eighth: again others, for the next ones
 case        (form, design, strength, seed) -> dataset folder and truth record
 files       how a case is written down
+series_checks  what every series of forms for a report must keep
 """

@@ -66,7 +66,7 @@ class Series:
 
     def kinds_not_shown(self) -> set[str]:
         """Names of the vocabulary that no form has."""
-        return set(VOCABULARY | NUMBERS | LINKS) - set(self.kinds.values())
+        return {name for name in VOCABULARY | NUMBERS | LINKS if name not in self.kinds.values()}
 
     def misplaced(self) -> set[str]:
         """Forms whose own kind is no name of the vocabulary, nor `unknown`, nor `none`, and names in `also` that are none."""

@@ -3,11 +3,10 @@
 from dataclasses import replace
 
 import numpy as np
-from scipy.signal import lfilter
 
 from tests.discovery.joint_generator.bench import Bench, Sensor
 from tests.discovery.joint_generator.forms.form import Effect, Generator, Record
-from tests.discovery.joint_generator.forms.null import drives
+from tests.discovery.joint_generator.forms.null import coloured, drives
 from tests.discovery.joint_generator.forms.sensor import positions
 from tests.discovery.joint_generator.plant import Array
 from tests.discovery.joint_generator.slider import RateAndState
@@ -100,7 +99,7 @@ def level_above_and_slow_noise(rng: Generator, strength: float, bench: Bench) ->
     def law(rng: Generator) -> RateAndState:
         def added(t: Array, x: Array) -> Array:
             del x
-            return 2e-4 * lfilter([np.sqrt(1.0 - kept**2)], [1.0, -kept], rng.standard_normal(t.size))
+            return coloured(2e-4 * rng.standard_normal(t.size), kept)
 
         return RateAndState(0.68, 0.0, added=added)
 
