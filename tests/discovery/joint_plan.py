@@ -5,6 +5,8 @@ from collections.abc import Iterable, Iterator
 from .joint_generator.case import Case
 from .joint_generator.forms import FORMS
 from .joint_generator.unseen import UNSEEN
+from .joint_generator.unseen_eighth import PAIRS as UNSEEN_EIGHTH_PAIRS
+from .joint_generator.unseen_eighth import UNSEEN_EIGHTH
 from .joint_generator.unseen_fifth import PAIRS as UNSEEN_FIFTH_PAIRS
 from .joint_generator.unseen_fifth import UNSEEN_FIFTH
 from .joint_generator.unseen_fourth import UNSEEN_FOURTH
@@ -70,6 +72,7 @@ SERIES = {
     5: (UNSEEN_FIFTH, UNSEEN_FIFTH_PAIRS),
     6: (UNSEEN_SIXTH, UNSEEN_SIXTH_PAIRS),
     7: (UNSEEN_SEVENTH, UNSEEN_SEVENTH_PAIRS),
+    8: (UNSEEN_EIGHTH, UNSEEN_EIGHTH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 

@@ -15,6 +15,7 @@ from .integrator import simulate
 from .motion import MOTIONS
 from .plant import PRESSURE, Array, Plant, plain_plant
 from .unseen import UNSEEN
+from .unseen_eighth import UNSEEN_EIGHTH
 from .unseen_fifth import UNSEEN_FIFTH
 from .unseen_fourth import UNSEEN_FOURTH
 from .unseen_second import UNSEEN_SECOND
@@ -36,6 +37,7 @@ NUMBERS = frozenset(("payload", "drive_gain", "constant_force"))
 LINKS = frozenset(("joint_compliance", "backlash"))
 """Links between motor and load, which forms from the fifth set on count as names; for earlier ones they are outside."""
 
+_WITH_LINKS = UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH | UNSEEN_EIGHTH
 _BEFORE = 1.0  # s under control before a record begins
 
 
@@ -56,7 +58,7 @@ class Case:
     @property
     def parts(self) -> tuple[Form, ...]:
         """The forms."""
-        known = FORMS | UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD | UNSEEN_FOURTH | UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH
+        known = FORMS | UNSEEN | UNSEEN_SECOND | UNSEEN_THIRD | UNSEEN_FOURTH | _WITH_LINKS
         for name in self.forms.split("+"):
             if name not in known:
                 raise SystemExit(f"form {name!r} is unknown; known: {', '.join(known)}")
@@ -186,7 +188,7 @@ def acceptable(form: Form) -> frozenset[str]:
 def expected(form: Form) -> str:
     """The true kind: the form's own if it is in the vocabulary, otherwise `unknown`."""
     numbers = frozenset() if form.name in FORMS else NUMBERS
-    links = LINKS if form.name in UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH else frozenset()
+    links = LINKS if form.name in _WITH_LINKS else frozenset()
     return form.kind if form.kind in VOCABULARY | numbers | links | {NONE} else UNKNOWN
 
 
