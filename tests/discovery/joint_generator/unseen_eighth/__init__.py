@@ -1,4 +1,4 @@
-"""An eighth set of forms for a report alone: other shapes again, by an author who has not read the method nor what it missed.
+"""An eighth set of forms for a report alone: other shapes again, by an author who has not read the method.
 The literature stands beside each; about half of them a robotics or hydraulics engineer meets every week.
 
 law        effects of the vocabulary: by speed, direction, load, time, temperature, chance
