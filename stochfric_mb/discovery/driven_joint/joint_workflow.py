@@ -216,7 +216,9 @@ def _leads(place: PlaceOutcome) -> str:
     """Return what led to the answer at a place: its first name, or a delay beside it that explains more."""
     effects = place.selected.effects
     late = place.timing is not None and place.late and (not effects or place.timing.score > effects[0].score)
-    return kind_with_signature(LATE) if late else place.selected.named[0]
+    if late:
+        return kind_with_signature(LATE)
+    return effects[0].candidate.name if effects else place.selected.named[0]
 
 
 def _evidence(place: PlaceOutcome) -> float:

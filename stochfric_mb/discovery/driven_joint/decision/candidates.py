@@ -40,6 +40,11 @@ class Candidate:
         return any(isinstance(s, Course) and s.any_shape for s in self.starts)
 
     @property
+    def name(self) -> str:
+        """What it is left out by: its kind, of a course of any shape that course alone."""
+        return f"{self.kind} of any shape" if self.any_shape else self.kind
+
+    @property
     def moves_load(self) -> bool:
         """Whether the load moves by itself with it."""
         return any(s.moves_load for s in self.starts)

@@ -261,12 +261,12 @@ class Selector:
         left_out, fits = self._known.get(key, (frozenset[str](), None))
         if fits is None or not left_out <= self._without:
             asked = [c for c in candidates(span, current.model.effects) if c.moves_load == of_loads]
-            asked = [c for c in asked if c.kind not in self._without]
+            asked = [c for c in asked if not {c.kind, c.name} & self._without]
             fits = [(c, f) for c in asked if not c.any_shape and (f := self._searched(current, c)) is not None]
             courses = self._worth_fitting(current, fits, [c for c in asked if c.any_shape])
             fits += [(c, f) for c in courses if (f := self._searched(current, c)) is not None]
             self._known[key] = self._without, fits
-        return [(c, f) for c, f in fits if c.kind not in self._without]
+        return [(c, f) for c, f in fits if not {c.kind, c.name} & self._without]
 
     def _searched(self, current: JointFit, candidate: Candidate) -> JointFit | None:
         """Return a candidate fitted; None: it has no fit, or as fitted is none of its kind."""
@@ -294,7 +294,7 @@ class Selector:
         for other, fitted in fits:
             most[other.kind] = max(most.get(other.kind, criteria.NAMED), worth(fitted.rms, other.parameters))
         chosen: dict[str, Candidate] = {}
-        for one in courses:
+        for one in (c for c in courses if criteria.WINDOWS_A_NUMBER * c.parameters <= n):
             left = predicted_rms(current.model, begun(one.starts[0], self._balances), self._balances, current)
             if worth(left, one.parameters) > most.get(one.kind, criteria.NAMED):
                 most[one.kind], chosen[one.kind] = worth(left, one.parameters), one
@@ -402,20 +402,24 @@ def simplest_first(trials: list[Trial], pairs: Sequence[Confounded] = ()) -> lis
     """Return trials, best first, with the one of fewest numbers in front among those as good as the best.
 
     A wave far longer than the stroke is a constant force with three numbers. Of forms of one effect with as many numbers it is
-    the one that the effect gives first, which assumes least. An effect of the clock stands behind one of a state that went
+    the one that the effect gives first, which assumes least. A course of any shape has to be better than what has another form
+    by as much as anything needs to be named. An effect of the clock stands behind one of a state that went
     together with it.
 
     Args:
         trials: candidates.
         pairs: conditions that went together.
     """
-    tied = [t for t in trials if t.score > max(trials[0].score - criteria.TIE, 0.0)]
+    best = trials[0]
+    # a course follows what has fewer freedoms: in front of it stands what explains as much but for what names need
+    margins = [criteria.NAMED if best.candidate.any_shape and not t.candidate.any_shape else criteria.TIE for t in trials]
+    tied = [t for t, margin in zip(trials, margins, strict=True) if t.score > max(best.score - margin, 0.0)]
     if not tied:
         return trials
     by_size = sorted(tied, key=lambda t: (t.candidate.parameters, -t.score))
     states = by_state(by_size[0].candidate.kind, [t.candidate.kind for t in tied], pairs)
-    best = next((t for t in by_size if t.candidate.kind in states), by_size[0]).candidate
-    alike = [t for t in tied if (t.candidate.kind, t.candidate.parameters) == (best.kind, best.parameters)]
+    chosen = next((t for t in by_size if t.candidate.kind in states), by_size[0]).candidate
+    alike = [t for t in tied if (t.candidate.kind, t.candidate.parameters) == (chosen.kind, chosen.parameters)]
     first = min(alike, key=lambda t: t.candidate.form)
     return [first, *(t for t in trials if t is not first)]
 
