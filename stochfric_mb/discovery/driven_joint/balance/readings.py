@@ -125,7 +125,7 @@ def stray(values: Array) -> Mask:
     moved = np.abs(np.diff(values))
     step = float(np.min(moved[moved > 0.0], initial=0.0))
     level = max(deviation(away, about=0.0), white_noise(values), step, 1.0e-300)
-    far = binary_closing(np.abs(away) > STRAY * level, np.ones(3))
+    far: Mask = np.asarray(binary_closing(np.abs(away) > STRAY * level, np.ones(3)), dtype=np.bool_)
     near = np.flatnonzero(~far)
     off = np.zeros(len(values), dtype=bool)
     for first, last in stretches(far):
