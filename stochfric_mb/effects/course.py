@@ -88,7 +88,14 @@ class Course(Effect):
     course_18: float = _weight(18)
     """Weight of the 18th spline in the course [-]."""
     pieces: float = parameter(
-        "-", "pieces of the course", scale=1.0, low=1.0, high=float(PIECES), default=float(PIECES), fit_prior=0.0, optional=True
+        "-",
+        "pieces of the course",
+        scale=float(PIECES),
+        low=1.0,
+        high=float(PIECES),
+        default=float(PIECES),
+        fit_prior=0.0,
+        optional=True,
     )
     """Pieces of the course between its beginning and its end, a whole number; of n pieces the first n + 2 splines count [-]."""
 

@@ -137,14 +137,19 @@ def called(levels: Switching = CALM, in_slip: float = 0.5, **changes: float) -> 
 
 
 @pytest.mark.parametrize(
-    ("coloured", "together", "drawn"),
-    [(20.0e-6, 0.45, True), (400.0e-6, 0.45, False), (400.0e-6, 0.0, True)],  # a zero moves both; coefficients need not
+    ("noise", "coloured", "together", "drawn"),
+    [
+        (20.0e-6, 20.0e-6, 0.45, True),
+        (400.0e-6, 400.0e-6, 0.0, False),  # what is slower than a stick phase may be as large
+        (400.0e-6, 0.0, 0.45, False),  # a zero moves both; coefficients need not
+        (400.0e-6, 0.0, 0.0, True),
+    ],
 )
-def test_scatter_no_larger_than_slow_noise_of_the_sensor_is_no_friction(coloured, together, drawn):
+def test_scatter_no_larger_than_slow_noise_of_the_sensor_is_no_friction(noise, coloured, together, drawn):
     one = study(np.zeros(N * RUNS))
     # the scatter, as motion of the spring
     assert 13.0 * np.exp(one.baseline.solution.scatter[0]) / 4000.0 == pytest.approx(75.0e-6)
-    one.pool.slips = [SimpleNamespace(onset_time=s.onset_time, noise=sensor(coloured, coloured)) for s in one.pool.slips]
+    one.pool.slips = [SimpleNamespace(onset_time=s.onset_time, noise=sensor(noise, coloured)) for s in one.pool.slips]
     assert (random_effects(one, one.baseline, scatter(together=together), CALM, []) is not None) == drawn
 
 

@@ -63,7 +63,7 @@ def mended(dataset: Dataset) -> tuple[Dataset, tuple[Effect, ...]]:
                 continue
             samples, duration = samples + len(values), duration + len(values) * run.sample_interval
             held = repeated(values)
-            off = stray(without(values, held, np.zeros(len(values), dtype=bool)))
+            off = stray(without(values, held, np.zeros(len(values), dtype=bool))) & ~_beside(held, len(values))
             lengths += [(end - start) * run.sample_interval for start, end in held]
             better = without(values, held, off)
             away.append((values - better)[off])
@@ -78,6 +78,14 @@ def mended(dataset: Dataset) -> tuple[Dataset, tuple[Effect, ...]]:
         size = float(np.sqrt(np.mean(distances**2)))
         effects.append(make_effect(kind_with_signature(STRAY_READING), fraction=len(distances) / samples, size=size))
     return (dataclasses.replace(dataset, runs=tuple(runs)) if lengths or len(distances) else dataset), tuple(effects)
+
+
+def _beside(held: Sequence[tuple[int, int]], count: int) -> Mask:
+    """Return which readings are replaced, or so near that these are seen in what tells stray ones, shape (count,)."""
+    seen = np.zeros(count, dtype=np.bool_)
+    for start, end in held:
+        seen[max(start - 2, 0) : end + 2] = True
+    return seen
 
 
 def repeated(values: Array) -> list[tuple[int, int]]:

@@ -212,13 +212,14 @@ def _scatters(study: Study, baseline: Baseline, scatter: Randomness, named: Sequ
     """Return whether friction scatters beyond doubt, and by more than what the form of a named effect may leave."""
     if max(scatter.static, scatter.kinetic) <= criteria.SCATTER_CERTAIN and scatter.wander <= criteria.NAMED:
         return False
-    # of noise slower than a stick phase the record says nothing but where the box breaks away: a zero that moves so, in stick
-    # and slip alike, may wander by as much as a reading errs
+    # of noise slower than a stick phase the record says nothing but where the box breaks away: where noise is coloured, or
+    # stick and slip scatter alike, as a zero that moves makes them, it may be as much as a reading errs
     alike = scatter.together * np.sqrt(len(study.pool.run)) > criteria.SCATTER_ALIKE
+    slow = alike or any(s.noise.coloured > 0.0 for s in study.pool.slips)
     level = float(np.median(study.pool.static))
     wander = scatter.wander_share if scatter.wander > criteria.NAMED else 0.0
     away = max(share, wander) * level / study.records[0].mechanism.stiffness
-    if alike and away < criteria.STICK_DEPARTS * max(s.noise.deviation for s in study.pool.slips):
+    if slow and away < criteria.STICK_DEPARTS * max(s.noise.deviation for s in study.pool.slips):
         return False
     remaining = baseline.variance / study.baseline.variance
     return not named or (remaining >= criteria.SCATTER_REMAINING and share >= criteria.SCATTER_LEAST_SHARE)
