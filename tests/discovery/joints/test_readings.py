@@ -1,6 +1,7 @@
 """Repeated and stray positions are detected, replaced, and distinguished from encoders that are coarse or rest."""
 
 import numpy as np
+import pytest
 
 from stochfric_mb.discovery.driven_joint.balance.readings import repeated, stray, without
 
@@ -73,3 +74,11 @@ def test_a_click_that_rings_is_stray_and_a_kick_or_a_step_is_none():
     assert not stray(x + 2.0e-4 * after).any()  # a kick: another velocity from then on
     assert not stray(x + 2.0e-3 * (after > 0)).any()
     assert not stray(x + 2.0e-3 * np.exp(-after / 20.0) * np.sin(1.5 * after)).any()  # it rings on
+
+
+@pytest.mark.parametrize("every", [1, 10, 20])
+def test_single_stray_readings_are_found_however_few_samples_come_in_a_period(every):
+    x = motion()[::every].copy()
+    hit = np.arange(29, len(x) - 20, 31)
+    x[hit] += np.where(hit % 2 == 0, 6.0e-3, -6.0e-3)
+    assert np.array_equal(np.flatnonzero(stray(x)), hit)
