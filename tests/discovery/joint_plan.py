@@ -10,6 +10,8 @@ from .joint_generator.unseen_eighth import UNSEEN_EIGHTH
 from .joint_generator.unseen_fifth import PAIRS as UNSEEN_FIFTH_PAIRS
 from .joint_generator.unseen_fifth import UNSEEN_FIFTH
 from .joint_generator.unseen_fourth import UNSEEN_FOURTH
+from .joint_generator.unseen_ninth import PAIRS as UNSEEN_NINTH_PAIRS
+from .joint_generator.unseen_ninth import UNSEEN_NINTH
 from .joint_generator.unseen_second import UNSEEN_SECOND
 from .joint_generator.unseen_seventh import PAIRS as UNSEEN_SEVENTH_PAIRS
 from .joint_generator.unseen_seventh import UNSEEN_SEVENTH
@@ -73,6 +75,7 @@ SERIES = {
     6: (UNSEEN_SIXTH, UNSEEN_SIXTH_PAIRS),
     7: (UNSEEN_SEVENTH, UNSEEN_SEVENTH_PAIRS),
     8: (UNSEEN_EIGHTH, UNSEEN_EIGHTH_PAIRS),
+    9: (UNSEEN_NINTH, UNSEEN_NINTH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 

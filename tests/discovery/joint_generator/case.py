@@ -18,6 +18,7 @@ from .unseen import UNSEEN
 from .unseen_eighth import UNSEEN_EIGHTH
 from .unseen_fifth import UNSEEN_FIFTH
 from .unseen_fourth import UNSEEN_FOURTH
+from .unseen_ninth import UNSEEN_NINTH
 from .unseen_second import UNSEEN_SECOND
 from .unseen_seventh import UNSEEN_SEVENTH
 from .unseen_sixth import UNSEEN_SIXTH
@@ -37,7 +38,7 @@ NUMBERS = frozenset(("payload", "drive_gain", "constant_force"))
 LINKS = frozenset(("joint_compliance", "backlash"))
 """Links between motor and load, which forms from the fifth set on count as names; for earlier ones they are outside."""
 
-_WITH_LINKS = UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH | UNSEEN_EIGHTH
+_WITH_LINKS = UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH | UNSEEN_EIGHTH | UNSEEN_NINTH
 _BEFORE = 1.0  # s under control before a record begins
 
 
