@@ -46,7 +46,11 @@ def main() -> None:
         help="core: each form once; all: designs and strengths; nulls: the rigs that are as believed, in each design",
     )
     parser.add_argument(
-        "--series", type=int, choices=(1, 2, 3, 4, 5, 6, 7, 8, 9), default=1, help="the set: the first, or one written later"
+        "--series",
+        type=int,
+        choices=(1, 2, 3, 4, 5, 6, 7, 8, 9, 10),
+        default=1,
+        help="the set: the first, or one written later",
     )
     parser.add_argument("--strength", type=float, nargs="*", default=[], help="only these strengths")
     parser.add_argument("--only", nargs="*", default=[], help="forms, families (named, unknown, none) or names of cases")

@@ -10,7 +10,7 @@ from zlib import crc32
 import numpy as np
 from scipy.signal import lfilter
 
-from . import (  # each enters its forms; `ninth` has the others enter theirs first: rigs in turn hang on the order
+from . import (  # each enters its forms; `tenth` has the others enter theirs first: rigs in turn hang on the order
     eighth,  # noqa: F401
     fifth,  # noqa: F401
     fourth,  # noqa: F401
@@ -22,6 +22,7 @@ from . import (  # each enters its forms; `ninth` has the others enter theirs fi
     second_forms,  # noqa: F401
     seventh,  # noqa: F401
     sixth,  # noqa: F401
+    tenth,  # noqa: F401
     third,  # noqa: F401
 )
 from .forms import FORMS, NONE, UNKNOWN, Form
