@@ -277,6 +277,10 @@ WAVE_FLATTENS, WAVE_CERTAIN = 2.6, 2.6
 """Kurtosis of what is left below which half of its power is waves (3 - 1.5 share^2), and standard errors sqrt(24/n) that it
 must be off by [-]: chance does that in one place of 200. Nulls of tests/discovery/joint_generator stay above 2.7."""
 
+MEASURED_TO = 1.0e-3
+"""Changes of friction in velocity steps, over friction itself, up to which they may be the transducer's own [-]: one of class 1
+(ISO 376) repeats to a thousandth, and drifts by as much."""
+
 # Records
 
 MOST_FRICTION = 3.0

@@ -18,7 +18,7 @@ from stochfric_mb.discovery.stick_slip.decision.confirmation import confirm
 from stochfric_mb.discovery.stick_slip.decision.entrainment import entrained
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.decision.rounds import decide
-from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_step, steady
+from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_in_stick, steady
 from stochfric_mb.discovery.stick_slip.decision.working_model import WorkingModel
 from stochfric_mb.discovery.stick_slip.notes import notes, of_the_record
 from stochfric_mb.discovery.stick_slip.records.stick_phases import analyse
@@ -239,7 +239,7 @@ def test_stick_phases_of_a_rigid_contact_show_nothing(slip_study):
 
 
 def test_no_step_of_the_sensor_is_seen_and_the_slips_stay_as_they_are(slip_study, candidates):
-    assert seen_step(candidates, {}) is None
+    assert seen_in_stick(candidates, {}) is None
     np.testing.assert_array_equal(steady(slip_study.baseline, candidates, []).features, slip_study.pool.features)
 
 

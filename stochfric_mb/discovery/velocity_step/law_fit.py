@@ -30,10 +30,15 @@ class Fitted:
     """The law."""
     values: Array
     """Its numbers."""
-    deviations: Array
-    """Their standard deviations."""
+    covariance: Array
+    """Their covariance, shape (n, n)."""
     rest: list[Array]
     """Residual in the fit runs [-]."""
+
+    @property
+    def deviations(self) -> Array:
+        """Their standard deviations, shape (n,)."""
+        return np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
 
     @property
     def rms(self) -> float:
@@ -73,7 +78,7 @@ def fit_from(law: Law, tracks: Sequence[Track], start: Array, evaluations: int) 
     n, total = sum(map(len, rest)), sum(independent_count(r) for r in rest)
     variance = float(np.mean(errors(minimum.x) ** 2)) * n / max(total, 1.0)
     covariance = np.linalg.pinv(jacobian.T @ jacobian, hermitian=True) * variance
-    return Fitted(law, values, np.sqrt(np.maximum(np.diag(covariance), 0.0)) * scale, rest)
+    return Fitted(law, values, np.asarray(covariance * np.outer(scale, scale), dtype=np.float64), rest)
 
 
 def score_over(plain: Fitted, richer: Fitted, n: float, choices: int) -> float:

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.velocity_step.rate_and_state import AGEING, QUADRATIC, SLIP, friction_path
 from stochfric_mb.effects import kind_with_signature
+from stochfric_mb.effects.course import COARSER, COURSE, splines
 from stochfric_mb.effects.traits import MEMORY, RATE, SLOPE_IN_DISTANCE
 from stochfric_mb.measurement.run import Run
 
@@ -20,6 +21,11 @@ SETTLING = (0.03, 0.1, 0.3)
 """Lengths in which a drift settles where its fits begin, over the whole displacement [-]."""
 MEMORY_STARTS = [(b, d, k) for b in (0.01, -0.01) for d in (1.0, 10.0, 100.0) for k in (0.3, 3.0)]
 """Starts of the memory law: evolution effect b, distance D, and stiffness, the last two over the stated ones."""
+
+
+LONG_BEFORE = 7.0
+"""Most that the logarithm of the state at the start may be from steady sliding [-]: it has been held, or slid, a thousand times
+as long as it remembers. Without a bound a memory of 1e-30 of a second stood for a coating that wears off."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -35,7 +41,7 @@ class Track:
     pull: Array
     """Its mean speed from each sample to the next [m/s], shape (n,), > 0."""
     slid: Array
-    """Displacement of the load point since the first run began [m], shape (n,)."""
+    """Distance that the load point has gone since the first run began [m], shape (n,)."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -60,13 +66,15 @@ class Law:
     """Tracks and numbers -> friction coefficients."""
     variant: str = ""
     """Which of several forms of that effect it is."""
+    pieces: int = 0
+    """Pieces of the course that it follows, its last numbers; 0: none."""
 
 
 def laws(reference: float, stiffness: float, mu: float, shortest: float, way: float) -> list[Law]:
     """Return what is fitted: constant friction, drift with displacement, dependence on speed, and memory.
 
     A drift may settle beside a straight one, as it may beside the other laws: a memory with a drift of its own would win over
-    a drift that bends.
+    a drift that bends. It may follow a course of any smooth shape: a film that grows, a coating until it is gone.
 
     A machine in which all of friction deflects the spring by no more than the shortest distance looks rigid: no fit makes it
     stiffer.
@@ -76,7 +84,7 @@ def laws(reference: float, stiffness: float, mu: float, shortest: float, way: fl
         stiffness: stated stiffness [1/m].
         mu: stated friction coefficient [-].
         shortest: least distance D that shows, that of the usual motion in two samples [m].
-        way: displacement of the load point in all runs [m].
+        way: displacement of the load point in the fit runs [m]; a course stays as it is beyond.
     """
 
     def constant(tracks: Sequence[Track], p: Array) -> list[Array]:
@@ -90,6 +98,9 @@ def laws(reference: float, stiffness: float, mu: float, shortest: float, way: fl
             line + p[2] * (1.0 - np.exp(-np.maximum(t.slid, 0.0) / np.exp(p[3])))
             for t, line in zip(tracks, drift(tracks, p), strict=True)
         ]
+
+    def course(tracks: Sequence[Track], p: Array, *, pieces: int) -> list[Array]:
+        return [p[0] + splines(t.slid / way, pieces) @ p[1:] for t in tracks]
 
     def speed(tracks: Sequence[Track], p: Array) -> list[Array]:
         return [p[0] + p[1] * t.slid + p[2] * np.log(t.speed / reference) for t in tracks]
@@ -117,6 +128,14 @@ def laws(reference: float, stiffness: float, mu: float, shortest: float, way: fl
             kind_with_signature(SLOPE_IN_DISTANCE), ("mu_0", "slope", "change", "log_distance"), ("-", "1/m", "-", "-"),
             tuple((mu, 0.0, size, float(np.log(part * way))) for size in (0.01, -0.01) for part in SETTLING),
             (0.01, 1.0, 0.01, 0.3), (0.0, -free, -free, least), (free, free, free, float(np.log(way))), settling, "running-in",
+        ),
+        *(
+            Law(
+                kind_with_signature(SLOPE_IN_DISTANCE), ("mu_0", *COURSE[:n]), ("-",) * (n + 1), ((mu, *(0.0,) * n),),
+                (0.01,) * (n + 1), (0.0, *(-free,) * n), (free,) * (n + 1), functools.partial(course, pieces=n - 2),
+                f"course of {n - 2} pieces", n - 2,
+            )
+            for n in (pieces + 2 for pieces in COARSER)
         ),
         Law(
             kind_with_signature(RATE), ("mu_0", "slope", "a_minus_b"), ("-", "1/m", "-"), ((mu, 0.0, 0.0),),
@@ -175,7 +194,7 @@ def _marched(tracks: Sequence[Track], p: Array, reference: float, state: int) ->
     speed = pull[np.searchsorted(times, grid + 0.5 * step, side="right") - 1]
     speed[0] = tracks[0].speed[0]  # it starts at this speed, which a single step from sample to sample does not show
     mu = np.empty(len(grid))
-    limits = np.array([[1.0e-6, -10.0, -40.0, -10.0, -20.0], [10.0, 10.0, 10.0, 40.0, 20.0]])
+    limits = np.array([[1.0e-6, -10.0, -40.0, -10.0, -LONG_BEFORE], [10.0, 10.0, 10.0, 40.0, LONG_BEFORE]])
     direct, evolution, *logarithms = np.clip(p, *limits)
     friction_path(speed, step, direct, evolution, *np.exp(logarithms), reference, state, mu)
     return [np.interp(t.run.time, grid, mu) for t in tracks]

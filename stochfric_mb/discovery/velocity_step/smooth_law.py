@@ -58,7 +58,7 @@ class SmoothLaw:
 
     def law_alone(self, law: Law) -> Fitted:
         """Return the law beside the term, with the numbers that it has there."""
-        return Fitted(law, self.fitted.values[: 1 - KNOTS], self.fitted.deviations[: 1 - KNOTS], self.fitted.rest)
+        return Fitted(law, self.fitted.values[: 1 - KNOTS], self.fitted.covariance[: 1 - KNOTS, : 1 - KNOTS], self.fitted.rest)
 
     @property
     def carries_over(self) -> bool:

@@ -19,9 +19,10 @@ from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.inference.noise import independent_count, white_noise
 from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
 from stochfric_mb.discovery.velocity_step.law_fit import Fitted, fit, held_out_error, score_over
-from stochfric_mb.discovery.velocity_step.laws import Track, laws
+from stochfric_mb.discovery.velocity_step.laws import Track, laws, records
 from stochfric_mb.discovery.velocity_step.smooth_law import NOWHERE, SmoothLaw, smooth_law
 from stochfric_mb.effects import Effect, effect_class, effect_kinds, kind_with_signature, kinds_with, make_effect
+from stochfric_mb.effects.course import COURSE, sized, splines
 from stochfric_mb.effects.traits import ANONYMOUS, LATE, MEMORY, MORE_DAMPING, RATE, SLOPE_IN_DISTANCE
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset
@@ -37,6 +38,8 @@ HALF_WIDTHS = (0, 3, 4, 6, 8, HALF_WIDTH)
 QUIET = 0.3
 """Noise of its way from sample to sample, over the lowest of these (10 % quantile), up to which no wider window is taken [-]:
 the spring adds up the way, so that noise counts only where it turns the motion round."""
+WENT_BACK = 0.01
+"""Share of a track's way by which it must begin behind the end of the last one to have gone back [-]: noise is less."""
 PARTS = 12
 """Parts of an axis along which what is left of friction is looked at."""
 
@@ -48,13 +51,13 @@ def spring_slider_outcome(dataset: Dataset, progress: Callable[[str], None]) -> 
         InputError: no position of the load point, or no friction.
     """
     tracks = sorted((track_of(r, dataset) for r in dataset.runs), key=lambda t: float(t.run.time[0]))
-    offset = float(tracks[0].slid[0])
-    tracks = [dataclasses.replace(t, slid=t.slid - offset) for t in tracks]
+    tracks = _with_distance(tracks)
     fits = _fits(tracks, dataset, progress)
     plain = fits[0]
     best, own, scores = _best(fits)
     before, after = held_out_error(plain, tracks), held_out_error(best, tracks)
-    accepted = own > criteria.NAMED and after < (1.0 - criteria.CLOSES_NOTHING) * before
+    least = criteria.EXPLAINED_HELD_OUT * (before**2 - min(_noise(tracks, "test"), before) ** 2)
+    accepted = own > criteria.NAMED and before**2 - after**2 > least
     closest = best if accepted else plain
     where = unexplained([t for t in tracks if t.run.role == "fit"], closest)
     term = smooth_law(closest, tracks) if where is not None else None
@@ -63,7 +66,7 @@ def spring_slider_outcome(dataset: Dataset, progress: Callable[[str], None]) -> 
     result = _result(dataset, tracks, plain, closest, fits, scores, where, kept, unnamed)
     final = closest if kept is None else kept.fitted
     picture = _picture(tracks, {"recalibrated": plain} | ({} if final is plain else {"augmented": final}))
-    return JointOutcome(result, _augmented(dataset, closest, kept), dataset, pictures=(picture,))
+    return JointOutcome(result, _augmented(dataset, tracks, closest, kept), dataset, pictures=(picture,))
 
 
 def _picture(tracks: Sequence[Track], models: Mapping[str, Fitted]) -> Picture:
@@ -78,12 +81,30 @@ def _fits(tracks: Sequence[Track], dataset: Dataset, progress: Callable[[str], N
     reference = float(np.median(tracks[0].speed))
     shortest = 2.0 * min(float(np.median(t.speed)) * t.run.sample_interval for t in tracks)
     fits: list[Fitted] = []
-    way = float(np.ptp(np.concatenate([t.slid for t in tracks])))
-    for law in laws(reference, dataset.scenario.mechanism.stiffness, dataset.scenario.law.mu_k, shortest, way):
+    for law in laws(reference, dataset.scenario.mechanism.stiffness, dataset.scenario.law.mu_k, shortest, _way(tracks)):
         progress(law.kind or "constant friction")
         alike = next((f for f in fits if f.law.variant == "" and f.law.names == law.names), None)
         fits.append(fit(law, tracks, law.starts if alike is None else [alike.values]))
     return fits
+
+
+def _with_distance(tracks: Sequence[Track]) -> list[Track]:
+    """Return the tracks with the distance slid since the first one began: where a machine goes back, its way adds up."""
+    offset = float(tracks[0].slid[0])
+    slid: dict[int, Array] = {}
+    for record in records(tracks):
+        end = -np.inf
+        for track in record:
+            way = track.slid - offset
+            back = end - float(way[0])
+            way = way + back if WENT_BACK * float(np.ptp(way)) < back < np.inf else way
+            slid[id(track)], end = way, float(way[-1])
+    return [dataclasses.replace(t, slid=slid[id(t)]) for t in tracks]
+
+
+def _way(tracks: Sequence[Track]) -> float:
+    """Return the displacement of the load point in the fit runs [m]: a course says nothing of what lies beyond."""
+    return float(max(t.slid.max() for t in tracks if t.run.role == "fit"))
 
 
 def _best(fits: Sequence[Fitted]) -> tuple[Fitted, float, dict[str, float]]:
@@ -189,11 +210,17 @@ def _result(
 def _gap(dataset: Dataset, tracks: Sequence[Track], plain: Fitted, final: Fitted) -> Gap:
     """Return the errors on held-out runs."""
     test = [t.friction for t in tracks if t.run.role == "test"]
-    floor = float(np.sqrt(np.sum([white_noise(x) ** 2 * len(x) for x in test]) / sum(map(len, test))))
+    floor = _noise(tracks, "test")
     stated = float(np.sqrt(np.mean(np.concatenate([x - dataset.scenario.law.mu_k for x in test]) ** 2)))
     source = "high-frequency content of the friction coefficient (third differences)"
     before, after = held_out_error(plain, tracks), held_out_error(final, tracks)
     return Gap("friction_coefficient", "-", True, stated, before, after, floor, source)
+
+
+def _noise(tracks: Sequence[Track], role: str) -> float:
+    """Return the root mean square of the noise of runs with a role, as third differences show it [-]."""
+    frictions = [t.friction for t in tracks if t.run.role == role]
+    return float(np.sqrt(np.sum([white_noise(x) ** 2 * len(x) for x in frictions]) / sum(map(len, frictions))))
 
 
 def _facts(fitted: Fitted, tracks: Sequence[Track]) -> dict[str, Any]:
@@ -206,24 +233,27 @@ def unexplained(tracks: Sequence[Track], closest: Fitted) -> Where | None:
     """Return where friction disagrees with the law that comes closest, if it leaves more than another form would; else None.
 
     Noise is what third differences show; what is left beyond it must not be the larger part of friction's own changes. Of what
-    a law of sliding leaves only that counts which goes along an axis: rock has slow scatter of its own.
+    a law of sliding leaves only that counts which goes along an axis: rock has slow scatter of its own. Of what a course of any
+    shape leaves all counts.
 
     Args:
         tracks: the fit runs.
         closest: the best law, constant friction among them.
     """
-    noise = sum(white_noise(t.friction) ** 2 * len(t.friction) for t in tracks)
+    noise = _noise(tracks, "fit") ** 2 * sum(len(t.friction) for t in tracks)
     left = sum(float(r @ r) for r in closest.rest) - noise
     middle = float(np.mean(np.concatenate([t.friction for t in tracks])))
     changes = sum(float(np.sum((t.friction - middle) ** 2)) for t in tracks) - noise
-    if changes <= criteria.NONE_MISSES * noise:
+    measured = (criteria.MEASURED_TO * middle) ** 2 * sum(len(t.friction) for t in tracks)
+    if changes <= max(criteria.NONE_MISSES * noise, measured):
         return None
     speed, slid, run = ([getattr(t, name) for t in tracks] for name in ("speed", "slid", "run"))
     places = {"speed": speed, "displacement": slid, "time": [r.time for r in run]}
     rest = np.concatenate(closest.rest)
     shares = {axis: _share_along(np.concatenate(place), rest) for axis, place in places.items()}
     axis = max(shares, key=lambda a: shares[a])
-    explained = left * (shares[axis] if closest.law.kind else 1.0)
+    any_shape = not closest.law.kind or closest.law.pieces
+    explained = left * (1.0 if any_shape else shares[axis])
     if explained <= (1.0 - criteria.EXPLAINED) * changes:
         return None
     law = closest.law.kind or "constant friction"
@@ -263,7 +293,15 @@ def _of_the_rig(fitted: Fitted) -> dict[str, Interval]:
 def _numbers(fitted: Fitted) -> dict[str, Interval]:
     intervals: dict[str, Interval] = {}
     law = fitted.law
-    for name, value, deviation, unit, low in zip(law.names, fitted.values, fitted.deviations, law.units, law.low, strict=True):
+    if law.pieces:
+        course = splines(np.linspace(0.0, 1.0, 20 * law.pieces + 1), law.pieces)
+        changes = course @ fitted.values[1:]
+        at = int(np.argmax(np.abs(changes)))
+        deviation = float(np.sqrt(course[at] @ fitted.covariance[1:, 1:] @ course[at]))
+        intervals["largest_change"] = confidence_interval(float(changes[at]), deviation, "-")
+    for name, value, deviation, unit, low in list(
+        zip(law.names, fitted.values, fitted.deviations, law.units, law.low, strict=True)
+    )[: 1 if law.pieces else None]:
         if deviation == 0.0:  # nothing in these data depends on it
             continue
         number = confidence_interval(value, deviation, unit, low)
@@ -277,7 +315,7 @@ def _numbers(fitted: Fitted) -> dict[str, Interval]:
     return intervals
 
 
-def _augmented(dataset: Dataset, closest: Fitted, kept: SmoothLaw | None) -> Any:
+def _augmented(dataset: Dataset, tracks: Sequence[Track], closest: Fitted, kept: SmoothLaw | None) -> Any:
     """Return the scenario with the fitted law, and the term beside it: static friction is the peak of a fast step, mu_0 + b."""
     scenario = dataset.scenario
     fitted = closest if kept is None else kept.law_alone(closest.law)
@@ -285,7 +323,7 @@ def _augmented(dataset: Dataset, closest: Fitted, kept: SmoothLaw | None) -> Any
     numbers = dict(zip(fitted.law.names, fitted.values.tolist(), strict=True))
     mu = numbers["mu_0"]
     if fitted.law.kind == kind_with_signature(SLOPE_IN_DISTANCE):
-        terms = (*_drift(numbers), *terms)
+        terms = (*_drift(numbers, fitted.law.pieces, _way(tracks)), *terms)
     if fitted.law.kind != kind_with_signature(MEMORY):
         return dataclasses.replace(scenario, law=dataclasses.replace(scenario.law, mu_s=mu, mu_k=mu), effects=terms)
     rise = max(numbers["evolution_effect"], 0.0)
@@ -295,9 +333,14 @@ def _augmented(dataset: Dataset, closest: Fitted, kept: SmoothLaw | None) -> Any
     return dataclasses.replace(scenario, law=law, mechanism=mechanism, effects=(effect, *terms))
 
 
-def _drift(numbers: Mapping[str, float]) -> tuple[Effect, ...]:
-    """Return a drift with the displacement as effects, from the numbers of its law: straight, and what settles beside it."""
+def _drift(numbers: Mapping[str, float], pieces: int, way: float) -> tuple[Effect, ...]:
+    """Return a drift with the displacement as effects, from the numbers of its law.
+
+    It is straight, with what settles beside it, or a course of so many pieces over the whole way [m].
+    """
     kind, mu = kind_with_signature(SLOPE_IN_DISTANCE), numbers["mu_0"]
+    if pieces:
+        return (make_effect(kind, **sized(np.array([numbers[name] for name in COURSE[: pieces + 2]]) / mu, pieces, way)),)
     straight = make_effect(kind, rate=numbers["slope"] / mu)
     if "change" not in numbers:
         return (straight,)

@@ -1,13 +1,14 @@
 """Velocity steps: the laws that are fitted, and what they say of friction that remembers and friction that does not."""
 
 import dataclasses
+import itertools
 
 import numpy as np
 import pytest
 
 from stochfric_mb.discovery.driven_joint.simulation.pictures import step_picture
 from stochfric_mb.discovery.velocity_step.laws import Track, laws, memory_start
-from stochfric_mb.discovery.velocity_step.velocity_steps import spring_slider_outcome, track_of
+from stochfric_mb.discovery.velocity_step.velocity_steps import _with_distance, spring_slider_outcome, track_of
 from tests.discovery.net.joints import slider
 
 
@@ -69,6 +70,63 @@ def test_a_drift_that_settles_and_goes_on_is_no_memory():
     outcome = spring_slider_outcome(dataclasses.replace(data, runs=tuple(worn)), lambda _: None)
     assert [e.kind for e in outcome.result.effects] == ["distance_drift"]
     assert {e.kind for e in outcome.scenario.effects} == {"distance_drift"}
+
+
+def coated(data, course, seed=1):
+    """Velocity steps with friction that follows a course of the distance slid, 0 to 1, whatever the speed."""
+    rng, runs = np.random.default_rng(seed), []
+    first = min(float(r.channels["position"].min()) for r in data.runs)
+    way = max(float(r.channels["position"].max()) for r in data.runs if r.role == "fit") - first
+    for run in data.runs:
+        slid = np.clip((run.channels["position"] - first) / way, 0.0, 1.0)
+        friction = 0.6 + course(slid) + 2e-4 * rng.standard_normal(len(slid))
+        runs.append(dataclasses.replace(run, covariates={"friction_coefficient": friction}))
+    return dataclasses.replace(data, runs=tuple(runs))
+
+
+def test_a_coating_until_it_is_gone_is_a_drift_with_distance_of_its_own_shape():
+    """A memory of 1e-30 of what it remembers, with a straight drift beside it, stood for such a course."""
+    outcome = spring_slider_outcome(
+        coated(slider(0.01, 0.015, 2), lambda s: 0.02 * (1.0 + np.tanh(8.0 * (s - 0.5)))), lambda _: None
+    )
+    (found,) = outcome.result.effects
+    assert found.kind == "distance_drift"
+    (worn,) = outcome.scenario.effects
+    assert worn.any_shape
+    place = np.linspace(0.0, 1.0, 201)
+    true = 0.02 * (np.tanh(8.0 * (place - 0.5)) + np.tanh(4.0))
+    shown = worn.change * worn.shape(place) * outcome.scenario.law.mu_k
+    np.testing.assert_allclose(
+        shown, true, atol=0.001
+    )  # a fortieth of the change: cubic pieces of an eighth of the way miss as much
+    largest = found.parameters["largest_change"]
+    assert abs(largest.value - true[-1]) < 0.001
+    assert largest.low < largest.value < largest.high
+
+
+def test_changes_within_a_transducer_s_class_are_none():
+    data, rng = slider(0.01, 0.015, 2), np.random.default_rng(3)
+    runs = []
+    for run in data.runs:
+        slow = np.convolve(rng.standard_normal(len(run.time) + 30), np.ones(30) / 30.0, "same")[: len(run.time)]
+        friction = 0.6 + 1e-4 * rng.standard_normal(len(run.time)) + 3e-4 * slow / slow.std()
+        runs.append(dataclasses.replace(run, covariates={"friction_coefficient": friction}))
+    for size, verdict in ((1.0, "none"), (20.0, "unknown")):
+        louder = tuple(
+            dataclasses.replace(
+                r, covariates={"friction_coefficient": 0.6 + size * (r.covariates["friction_coefficient"] - 0.6)}
+            )
+            for r in runs
+        )
+        assert spring_slider_outcome(dataclasses.replace(data, runs=louder), lambda _: None).result.verdict == verdict
+
+
+def test_the_way_of_a_machine_that_goes_back_adds_up():
+    data = along_the_way(1)
+    tracks = _with_distance([track_of(r, data) for r in sorted(data.runs, key=lambda r: float(r.time[0]))])
+    for before, after in itertools.pairwise(tracks):
+        assert after.slid[0] == pytest.approx(before.slid[-1])
+        np.testing.assert_allclose(np.diff(after.slid), np.diff(after.run.channels["position"]), atol=1e-15)
 
 
 def test_numbers_of_the_rig_are_those_beside_the_effect(remembering):

@@ -38,8 +38,8 @@ CREEP = {
 """Ways in which a stuck box may creep -> axis and sentence."""
 ELSE = ("stick", "in stick the box does not follow the belt, in a way that no known effect explains")
 """The same where none of them explains enough."""
-STEP_SEEN = "step_in_stick"
-"""Name under which the details hold the score of a step that stands in a stick phase and stays."""
+STEP_SEEN, DRIFT_SEEN = "step_in_stick", "drift_in_stick"
+"""Names under which the details hold the score of a step that stands in a stick phase and stays, and of a zero that drifts."""
 
 STICK_SHARE = "share_in_stick"
 """Name under which they hold the share of what the stick phases show that the effect named there explains [-]."""
@@ -146,11 +146,11 @@ def _in_stick(study: Study, details: dict[str, object]) -> list[Finding] | Where
     if score <= criteria.NAMED:
         _single_moments(study, sticking, details)
         return line if line is not None else []
-    if best == JUMP:
-        details[STEP_SEEN] = score
+    if best in (JUMP, CREEPING_ZERO):
+        details[STEP_SEEN if best == JUMP else DRIFT_SEEN] = score
     if _of_the_sensor(study, sticking, best, score):
         return []
-    if best in CREEP or score < _least(sticking) or _in_noise_alone(best, sticking):
+    if best in CREEP or score < _least(sticking) or _in_noise_alone(best, sticking) or _keeps_to_phases(best, sticking):
         return Where(*CREEP.get(best, ELSE))
     # a ripple that counts as slow noise leaves nothing in excess of that
     shown = sticking.settings[best].get("share", 0.0)
@@ -191,6 +191,15 @@ def _in_noise_alone(best: str, sticking: Sticking) -> bool:
         return False
     settings = sticking.settings[best]
     return settings["plain"] <= criteria.NAMED and settings["share"] < criteria.STICK_EXPLAINED
+
+
+def _keeps_to_phases(best: str, sticking: Sticking) -> bool:
+    """Return whether a ripple has the rate of the slips, and what all stick phases share explains more than its form misses.
+
+    A belt to which slips keep moves in a wave; a sensor that lags, or a contact that gives way, does the same in every phase.
+    """
+    settings = sticking.settings[best]
+    return best == BELT_RIPPLE and settings["alike"] - settings["share"] > criteria.FORM_MISSES
 
 
 def _of_the_zero(study: Study, frequency: float) -> bool:

@@ -14,7 +14,7 @@ from stochfric_mb.discovery.stick_slip.decision.choice import SHAPES, Chosen, ch
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision, Finding
 from stochfric_mb.discovery.stick_slip.decision.kinematics import kinematics
 from stochfric_mb.discovery.stick_slip.decision.random_effects import kicked, kicks, random_effects
-from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_step
+from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_in_stick
 from stochfric_mb.discovery.stick_slip.decision.working_model import WorkingModel, at_estimates
 from stochfric_mb.discovery.stick_slip.screening.folding import comes_back
 from stochfric_mb.discovery.stick_slip.screening.naming import with_candidate
@@ -96,9 +96,9 @@ class _Search:
     def _round(self, round_: int) -> Where | bool:
         """Look for one effect; return whether to look for another one, or where what no known effect explains lives."""
         candidates = self._screened(round_)
-        if round_ == 0 and (step := seen_step(candidates, self.details)) is not None:
+        if round_ == 0 and (seen := seen_in_stick(candidates, self.details)) is not None:
             study = self.working.study
-            self.working.take(Chosen(step, (), with_candidate(self.working.model, step, study.pool), None, False), self.details)
+            self.working.take(Chosen(seen, (), with_candidate(self.working.model, seen, study.pool), None, False), self.details)
             return True
         if not candidates or candidates[0].score < self._needed(round_) or self._by_chance(candidates[0].score):
             return False

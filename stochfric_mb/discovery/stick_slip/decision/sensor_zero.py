@@ -9,7 +9,7 @@ from typing import cast
 import numpy as np
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.stick_slip.decision.kinematics import STEP_SEEN
+from stochfric_mb.discovery.stick_slip.decision.kinematics import DRIFT_SEEN, STEP_SEEN
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.regression import Baseline
@@ -18,17 +18,20 @@ from stochfric_mb.effects import kind_with_signature
 from stochfric_mb.effects.traits import CREEPING_ZERO, JUMP, MOVES_ZERO
 
 
-def seen_step(candidates: Sequence[Candidate], details: Mapping[str, object]) -> Candidate | None:
-    """Return a step of the sensor that was seen in stick, too: it is there, whatever else the forces hold.
+def seen_in_stick(candidates: Sequence[Candidate], details: Mapping[str, object]) -> Candidate | None:
+    """Return a zero that moves as was seen in stick, too, where no force of friction acts: it is there, whatever else is.
 
-    Only another way in which the sensor's zero moves may stand for it: a drift of it jumps a little at every look, but shows
-    in stick as well.
+    Only another way in which the sensor's zero moves may stand for a step: a drift of it jumps a little at every look, but
+    shows in stick as well. A drift has to contend with what explains the forces best.
 
     Args:
-        candidates: the screening's outcome.
+        candidates: the screening's outcome, best first.
         details: what the stick phases show.
     """
-    step = next((c for c in candidates if c.name == kind_with_signature(JUMP)), None)
+    step, drift = (next((c for c in candidates if c.name == kind_with_signature(sign)), None) for sign in (JUMP, CREEPING_ZERO))
+    if DRIFT_SEEN in details and drift is not None:
+        contends = drift.score >= max(criteria.NAMED, criteria.CONTENDS * candidates[0].score)
+        return drift if contends else None
     if STEP_SEEN not in details or step is None or step.score < criteria.NAMED:
         return None
     if all(c.score <= step.score for c in candidates if c.has(MOVES_ZERO)):

@@ -26,6 +26,8 @@ STRETCH = 128.0
 """Cycles of the slips in the stretch of a long record in which a ripple is looked for first [-]."""
 HAT = 1.275
 """Distance of the corners of a creep before a break-away or after a re-stick, as an angle of the natural oscillation [rad]."""
+ALIKE = 9
+"""Corners of a course that all stick phases of a run share, from re-stick to break-away; with 14 it explains no more."""
 WAVES_IN_A_SLIP = 2.0
 """Waves in the time of a slip up to which a ripple is looked for [-]."""
 
@@ -105,7 +107,11 @@ def _gain(runs: Sequence[_Phases], rests: Sequence[Array], columns: Callable[[_P
 
 
 def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tuple[float, dict[str, float]]:
-    """Return the score of a ripple of the belt's speed, its frequency [Hz], and its score and share of chi^2 as plain noise."""
+    """Return the score of a ripple of the belt's speed, its frequency [Hz], and its score and share of chi^2 as plain noise.
+
+    Beside that share stands what one course explains that all phases of a run share: a wave with a rate of its own meets each
+    phase elsewhere.
+    """
     duration = max(run.slips.record.duration for run in runs)
     # a wave that is faster still is a sensor's, not a drive's
     lasting = np.concatenate([run.slips.restick_time - run.slips.onset_time for run in runs])
@@ -125,7 +131,14 @@ def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tu
     best = int(np.argmax(plain if plain.max() > criteria.STICK_EXPLAINED * chi2 else gains))
     cost = 2 * len(runs) * log_n + 2.0 * float(np.log(len(every)))
     settings = {"frequency": float(grid[best]), "plain": float(plain[best]) - cost, "share": float(plain[best]) / chi2}
-    return float(gains[best]) - cost, settings
+    return float(gains[best]) - cost, settings | {"alike": _gain(runs, rests, _alike) / chi2}
+
+
+def _alike(run: _Phases) -> list[Array]:
+    """Return the corners of a course that all stick phases share."""
+    since, left = run.samples.since_restick, run.samples.to_onset
+    place = since / (since + left) * (ALIKE - 1)
+    return [np.clip(1.0 - np.abs(place - corner), 0.0, 1.0) for corner in range(ALIKE)]
 
 
 def _yields(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tuple[float, dict[str, float]]:

@@ -174,6 +174,10 @@ def _patterns(pool: Pool) -> Iterator[_Kind]:
     yield _Kind(SOFTENING, "stiffness, time within the run", softer, len(softer))
 
 
+STEP_SWEEPS = 5
+"""Times that the steps of all runs are looked for anew beside those of the others; two mostly do."""
+
+
 def _steps(baseline: Baseline, without: Sequence[str]) -> Iterator[_Kind]:
     """Yield steps of the friction, which have no name, and of the sensor."""
     for kind, axis, multiplied in (
@@ -229,6 +233,17 @@ def _step(baseline: Baseline, kind: str, *, multiplied: bool) -> Hypothesis:
 
 
 def _best_steps(trials: Sequence[Sequence[Array]], baseline: Baseline) -> tuple[list[int], float]:
-    """Return the number of the best step of each run, and by how much they lower the cost together, run by run."""
-    gains = [baseline.gains([[t] for t in mine]) for mine in trials]
-    return [int(np.argmax(g)) for g in gains], sum(float(g.max()) for g in gains)
+    """Return the number of the best step of each run beside those of the others, and by how much they lower the cost together.
+
+    Coefficients are those of all runs: where the steps of the others are not in, they lie between the levels of these.
+    """
+    best = [int(np.argmax(baseline.gains([[t] for t in mine]))) for mine in trials]
+    for _ in range(STEP_SWEEPS if len(trials) > 1 else 0):
+        before = list(best)
+        for run, mine in enumerate(trials):
+            others = [trials[r][i] for r, i in enumerate(best) if r != run]
+            beside = dataclasses.replace(baseline, terms=baseline.terms.plus(others))
+            best[run] = int(np.argmax(beside.gains([[t] for t in mine])))
+        if best == before:
+            break
+    return best, float(baseline.gains([[mine[i] for mine, i in zip(trials, best, strict=True)]])[0])
