@@ -209,7 +209,25 @@ def _adequate(source: Balances, tell: Progress, places: Sequence[PlaceOutcome]) 
     best, floor = first if inadequate(seen[0][0]) else seen
     if inadequate(best[0]) and best[0].late and best[0].again is not None:  # a delay beside effects that do not stand
         best, floor = simulated(source, tell, [best[0].again(frozenset({kind_with_signature(LATE)})), *best[1:]])
+    best, floor = _less_refuted_delay(source, tell, best, floor)
     return [dataclasses.replace(best[0], beside=stages), *best[1:]], floor
+
+
+def _less_refuted_delay(
+    source: Balances, tell: Progress, best: list[PlaceOutcome], floor: float | None
+) -> tuple[list[PlaceOutcome], float | None]:
+    """Return the places without a delay beside effects that simulate held-out runs better alone, and the noise of the drive.
+
+    Windows are explained better by what brings their times forward, too; a simulation shows what a delay does to all of a run.
+    """
+    place = best[0]
+    if not (place.late and place.selected.named) or place.again is None:
+        return best, floor
+    other, noise = simulated(source, tell, [place.again(frozenset({kind_with_signature(LATE)})), *best[1:]])
+    late, plain = (p.scores["augmented"] for p in (place, other[0]))
+    pairs = [(a, b) for a, b in ((late.loop, plain.loop), (late.forward, plain.forward)) if a is not None and b is not None]
+    refuted = bool(pairs) and all(b < (1.0 - criteria.MATERIAL) * a for a, b in pairs)
+    return (other, noise) if refuted and other[0].selected.named and not inadequate(other[0]) else (best, floor)
 
 
 def _leads(place: PlaceOutcome) -> str:

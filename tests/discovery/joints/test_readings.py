@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.driven_joint.balance.readings import repeated, stray, without
+from stochfric_mb.discovery.driven_joint.balance.readings import repeated, stray
+from stochfric_mb.discovery.inference.stray_readings import without
 
 RATE, NOISE = 1000.0, 1.0e-5
 

@@ -245,12 +245,6 @@ def least_speed(velocity: Array, noise: float) -> float:
     return max(SURE * noise, LEAST_SPEED * float(np.quantile(np.abs(velocity), 0.9)))
 
 
-def stretches(mask: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Return the stretches in which a mask holds without a gap: the first of each, and the one after its last."""
-    edges = np.flatnonzero(np.diff(np.r_[0, mask.astype(np.int8), 0]))
-    return [(int(start), int(end)) for start, end in zip(edges[::2], edges[1::2], strict=True)]
-
-
 def slides(window: Window, velocity: Array, least: float) -> npt.NDArray[np.bool_]:
     """Return at which centres the joint slides one way all through the window, shape (n_centres,)."""
     seen = window.views(velocity)

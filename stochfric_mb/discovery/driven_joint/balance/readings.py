@@ -13,12 +13,10 @@ from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import CubicSpline
-from scipy.ndimage import binary_closing
 
-from stochfric_mb.discovery.driven_joint.balance.force_balance import stretches
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_columns, with_column
 from stochfric_mb.discovery.inference.noise import white_noise
+from stochfric_mb.discovery.inference.stray_readings import LEAST, in_a_row, stretches, without
 from stochfric_mb.effects import Effect, kind_with_signature, make_effect
 from stochfric_mb.effects.traits import REPEATED_READING
 from stochfric_mb.effects.traits import STRAY as STRAY_READING
@@ -40,16 +38,6 @@ MISSED = 4.0
 """Jump after them over the usual change between samples and over the resolution, from which the joint has moved on [-]."""
 FEWEST = 5
 """Fewest of either for a finding: fewer are accidents."""
-CURVE, REACH = 3, 1.5
-"""Degree of the curve that replaces readings, and how far to both sides it is fitted, over the length of the gap [-]."""
-LEAST = 8
-"""Readings on each side at least."""
-BURST = 12
-"""Most readings in a row that a disturbance may reach, the two to either side that see it counted [-]: chosen, of clicks that
-ring over four."""
-SIDES = 3.0
-"""Error of the curve through both sides, over the noise, beyond which it is the motion that is rough there [-]: chosen; noise
-alone makes it about one."""
 
 
 def mended(dataset: Dataset) -> tuple[Dataset, tuple[Effect, ...]]:
@@ -139,47 +127,4 @@ def stray(values: Array) -> Mask:
     alone = far.copy()
     for neighbour in (np.roll(away, 1), np.roll(away, -1)):
         alone &= np.abs(neighbour + away / 1.5) < np.abs(away) / 4.0  # a jump that stays misses that by a third
-    return alone | _in_a_row(values, far, level)
-
-
-def _in_a_row(values: Array, far: Mask, level: float) -> Mask:
-    """Return which readings leave, a few in a row, one curve on which those before and after them lie.
-
-    After a jump that stays, a kick or in an oscillation no curve goes through both sides, and none where so few samples come in
-    a period of the motion that it is no cubic over both sides: there single readings alone are told.
-
-    Args:
-        values: the readings.
-        far: those far off from their neighbours.
-        level: noise of these distances, in the unit of the readings.
-    """
-    joined: Mask = np.asarray(binary_closing(far, np.ones(3)), dtype=np.bool_)
-    near = np.flatnonzero(~joined)
-    off = np.zeros(len(values), dtype=np.bool_)
-    for first, last in stretches(joined):
-        at = int(np.searchsorted(near, first))
-        around = near[max(at - LEAST, 0) : at + LEAST]
-        if last - first > BURST or around[0] > first or around[-1] < last:
-            continue
-        curve = np.polynomial.Polynomial.fit(around.astype(np.float64), values[around], CURVE)
-        if np.std(values[around] - curve(around.astype(np.float64))) < SIDES * level:
-            off[first:last] = np.abs(values[first:last] - curve(np.arange(first, last, dtype=np.float64))) > STRAY * level
-    return off
-
-
-def without(values: Array, held: Sequence[tuple[int, int]], off: Mask) -> Array:
-    """Return the readings with what is repeated or far off replaced by a curve through those around it."""
-    bad = off.copy()
-    for start, end in held:
-        bad[start:end] = True
-    good, better = np.flatnonzero(~bad), values.copy()
-    if len(good) < 0.5 * len(values):
-        return CubicSpline(good, values[good])(np.arange(len(values)))
-    for start, end in stretches(bad):
-        at = int(np.searchsorted(good, start))
-        reach = max(LEAST, round(REACH * (end - start)))
-        known = good[max(at - reach, 0) : at + reach]
-        gap = np.arange(start, end)
-        curve = np.polynomial.Polynomial.fit(known.astype(np.float64), values[known], CURVE)
-        better[start:end] = curve(gap.astype(np.float64))
-    return better
+    return alone | in_a_row(values, far, STRAY, level)

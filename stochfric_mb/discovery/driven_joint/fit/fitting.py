@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance, stretches
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.free_parameters import adjusted, free_parameters
 from stochfric_mb.discovery.driven_joint.fit.joint_model import Forces, JointModel
 from stochfric_mb.discovery.inference.fitter import minimised
 from stochfric_mb.discovery.inference.free_parameter import FreeParameter, steps_of
 from stochfric_mb.discovery.inference.noise import independent_count
+from stochfric_mb.discovery.inference.stray_readings import stretches
 from stochfric_mb.effects.traits import ROUGH
 
 Array = npt.NDArray[np.float64]

@@ -7,10 +7,11 @@ import dataclasses
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, stretches
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
 from stochfric_mb.discovery.driven_joint.fit.fitting import PER_STROKE
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.simulation.scores import APART
+from stochfric_mb.discovery.inference.stray_readings import stretches
 
 Array = npt.NDArray[np.float64]
 

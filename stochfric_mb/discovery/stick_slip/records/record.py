@@ -14,6 +14,7 @@ from scipy.signal import lfilter, savgol_filter
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.noise import white_noise
+from stochfric_mb.discovery.inference.stray_readings import in_a_row, without
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference.augmented_model import TEMPERATURES
 
@@ -197,11 +198,12 @@ def make_record(name: str, time: Array, position: Array, mechanism: BeltBox, tem
     outlier = away > criteria.OUTLIER_DEVIATIONS * max(noise, float(np.quantile(away, 0.85)) / 1.44) + _bend(
         median, turn, width
     )
-    # single samples alone: what lasts longer is motion
+    # what lasts longer than single samples is motion, unless it comes back to the curve that it left
+    row = in_a_row(raw, outlier, criteria.OUTLIER_DEVIATIONS, noise)
     crowd = np.convolve(outlier.astype(np.float64), np.ones(width), mode="same")
-    outlier &= crowd <= width // 2
-    cleaned = np.where(outlier, median, raw)
-    return Record(name, time, cleaned, raw, outlier, noise, mechanism, stated, direction, temperature)
+    outlier &= (crowd <= width // 2) & ~row
+    cleaned = without(np.where(outlier, median, raw), [], row)
+    return Record(name, time, cleaned, raw, outlier | row, noise, mechanism, stated, direction, temperature)
 
 
 def _bend(motion: Array, turn: float, width: int) -> float:

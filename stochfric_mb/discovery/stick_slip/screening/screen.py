@@ -223,8 +223,8 @@ def _step(baseline: Baseline, kind: str, *, multiplied: bool) -> Hypothesis:
     firsts, _ = _best_steps(trials, baseline)
     columns = [mine[best] for mine, best in zip(trials, firsts, strict=True)]
     if not multiplied:
-        beside = dataclasses.replace(baseline, terms=baseline.terms.plus(columns))
-        seconds, gain = _best_steps(trials, beside)
+        # what one step leaves of two is no scatter any more: its components are fitted anew
+        seconds, gain = _best_steps(trials, baseline.plus(columns))
         if 2.0 * gain - pool.n_runs * (baseline.price + 2.0 * np.log(len(place))) >= criteria.SECOND_STEP:
             pairs = list(zip(trials, firsts, seconds, strict=True))
             both = [mine[i] for mine, *pair in pairs for i in pair]

@@ -20,12 +20,13 @@ from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
 from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES
+from stochfric_mb.discovery.stick_slip.screening.competitors import step_times
 from stochfric_mb.discovery.stick_slip.screening.regression import LOWEST, Baseline, Regression, stated_terms
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import deterministic
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.scatter import simulated_slips
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.effects.traits import CLIPPED, LATE, MOVES_ZERO, SHAPES_SLIPS
+from stochfric_mb.effects.traits import CLIPPED, JUMP, LATE, MOVES_ZERO, SHAPES_SLIPS
 from stochfric_mb.errors import SimulationError
 
 PARTS = (
@@ -117,7 +118,7 @@ def _left(pool: Pool, calm: Model, uncertainty: Mapping[str, float], *, random: 
     """Return what a model without chances leaves of slips, and which of them count; None where it misses too many."""
     shaped = any(SHAPES_SLIPS in e.traits for e in calm.effects)
     left = left_over(_zeroed(pool, calm), calm, anew=shaped)
-    kept = pool.kept & left.kept
+    kept = pool.kept & left.kept & ~_jumped(pool, calm)
     if kept.sum() < criteria.LEAST_KEPT * pool.kept.sum():
         return None
     return _misfit(dataclasses.replace(left, kept=kept), uncertainty, random=random), kept
@@ -164,6 +165,18 @@ def _misfit(pool: Pool, uncertainty: Mapping[str, float], *, random: bool) -> _M
 
 def _chi2(rows: Array, covariance: Array) -> float:
     return float(np.einsum("ij,ji->", rows, np.linalg.solve(covariance, rows.T)))
+
+
+def _jumped(pool: Pool, model: Model) -> np.ndarray:
+    """Return the slips whose cycle holds a jump of the reading, as well as its time is known: their forces are not theirs."""
+    doubt = float(np.diff(step_times(pool)[:2])[0])
+    jumped = np.zeros(len(pool.run), dtype=bool)
+    for run, slips in enumerate(pool.slips):
+        onset = pool.onset_time[pool.run == run]
+        for effect in model.effects_in(slips.record.name):
+            if JUMP in effect.signatures:
+                jumped[pool.run == run] |= np.abs(onset - effect.time) < slips.cycle + doubt  # pyright: ignore[reportAttributeAccessIssue]
+    return jumped
 
 
 def _zeroed(pool: Pool, model: Model) -> Pool:
