@@ -116,6 +116,12 @@ def test_the_last_of_a_kind_is_taken_out_with_its_own_numbers():
         ("ninth_step_by_hand-one-1", ["sensor_step"]),
         # slips that stand out by more force at the break-away alone: no kick is always there in time to hold a box back
         ("eighth_scatter_of_first_passages-several-1", ["random_coefficients"]),
+        # each run's step was looked for alone, with levels that lie between those of the others
+        ("ninth_step_by_hand-several-1", ["sensor_step"]),
+        ("eighth_step_that_is_put_right-several-1", ["sensor_step"]),  # what one step leaves of two was scatter
+        ("eighth_outliers_that_ring-one-1", ["sensor_outliers"]),  # four in a row were motion
+        ("ninth_arm_grows_by_friction-one-0.5", ["sensor_drift"]),  # the reading drifts in stick, where no friction acts
+        ("ninth_gauge_has_hysteresis-one-0.5", []),  # alike in every phase, which a ripple at the rate of the slips imitates
     ],
 )
 def test_records_on_which_an_answer_broke_a_principle(name, kinds, tmp_path):

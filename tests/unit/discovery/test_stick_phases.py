@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.stick_slip.records.stick_phases import _step
+from stochfric_mb.discovery.stick_slip.records.stick_phases import _alike, _gain, _Phases, _step
 
 PHASES, SAMPLES = 12, 40
 
@@ -35,3 +35,19 @@ def test_a_step_is_found_on_a_drift(slope):
     assert times[0] == pytest.approx(4.4, abs=0.06)
     # of 36 times n/4 that a step in the middle has, the phase's own slope takes three quarters
     assert fall == pytest.approx(36.0 * SAMPLES / 16.0, rel=0.4)
+
+
+@pytest.mark.parametrize(("rate", "least", "most"), [(1.0, 0.95, 1.0), (1.37, 0.0, 0.2)])
+def test_only_a_wave_that_keeps_to_the_phases_is_the_same_in_all_of_them(rate, least, most):
+    """Ten waves of 1.37 cycles a phase meet the phases elsewhere each: what they share explains a fifth at most."""
+    time = np.arange(PHASES * SAMPLES) / SAMPLES
+    segment = np.repeat(np.arange(PHASES), SAMPLES)
+    since = time % 1.0
+    samples = SimpleNamespace(time=time, segment=segment, since_restick=since, to_onset=1.0 - since)
+    wave = np.sin(2.0 * np.pi * rate * time)
+    values = wave - np.array([wave[segment == s].mean() for s in range(PHASES)])[segment]
+    line = since - since.mean()
+    run = _Phases(SimpleNamespace(), samples, values, line, 1.0)
+    rest = run.rest([])
+    share = _gain([run], [rest], _alike) / float(rest @ rest)
+    assert least <= share <= most

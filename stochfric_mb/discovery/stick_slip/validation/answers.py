@@ -293,8 +293,10 @@ def _with_strengths(answer: Answer, slip_study: Study, recalibrated: Fit) -> Ans
 
 
 def _without_last(answer: Answer, slip_study: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
-    decision, kind = answer.decision, answer.decision.named[-1].kind
-    fewer = dataclasses.replace(decision, named=decision.named[:-1], model=without_last(decision.model, kind))
+    decision, last = answer.decision, answer.decision.named[-1]
+    # beside it the others have been bent to suit it: without it they begin where they were before
+    model = without_last(decision.model, last.kind) if last.before is None else last.before
+    fewer = dataclasses.replace(decision, named=decision.named[:-1], model=model)
     if not fewer.named:
         return Answer(fewer, None, recalibrated.model)
     again = fitted(fewer, slip_study, recalibrated)
