@@ -135,7 +135,7 @@ def test_clicks_that_ring_over_four_samples_are_outliers():
     record = make_record("run", np.arange(n) / RATE, raw, BOX)
     found, loud = set(np.flatnonzero(record.outlier).tolist()), np.concatenate([clicks, clicks + 1, clicks + 2])
     assert set(loud.tolist()) <= found <= {*loud.tolist(), *(clicks + 3).tolist()}  # the last one is near what noise does
-    # a cubic through eight readings on either side errs by half of what one does; a last one that is not seen pulls it by as much
+    # a cubic through eight readings on either side errs by half of what one does; a last one that is not seen pulls it as far
     np.testing.assert_allclose(record.position[loud], truth[loud], atol=4.0 * DEVIATION)
 
 
