@@ -5,6 +5,8 @@ from __future__ import annotations
 import dataclasses
 from typing import cast
 
+import numpy as np
+
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision, Named
@@ -294,12 +296,14 @@ def _with_strengths(answer: Answer, slip_study: Study, recalibrated: Fit) -> Ans
 
 def _without_last(answer: Answer, slip_study: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
     decision, last = answer.decision, answer.decision.named[-1]
-    # beside it the others have been bent to suit it: without it they begin where they were before
-    model = without_last(decision.model, last.kind) if last.before is None else last.before
-    fewer = dataclasses.replace(decision, named=decision.named[:-1], model=model)
+    fewer = dataclasses.replace(decision, named=decision.named[:-1], model=without_last(decision.model, last.kind))
     if not fewer.named:
         return Answer(fewer, None, recalibrated.model)
     again = fitted(fewer, slip_study, recalibrated)
+    if last.before is not None:
+        # beside it the others have been bent to suit it: without it they begin where they were before, too
+        other = fitted(dataclasses.replace(fewer, model=last.before), slip_study, recalibrated)
+        again = min(again, other, key=lambda a: a.fit.objective if a.fit is not None else np.inf)
     return dataclasses.replace(again, model=settled(again.model, runs))
 
 
