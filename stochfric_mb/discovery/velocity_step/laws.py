@@ -150,8 +150,8 @@ def laws(reference: float, stiffness: float, mu: float, shortest: float, way: fl
             Law(
                 kind_with_signature(MEMORY), numbers, ("-", "1/m", "-", "-", "-", "-", "-"),
                 tuple(memory_start(mu, stiffness, *start) for start in MEMORY_STARTS),
-                (0.01, 1.0, 0.002, 0.002, 0.3, 0.3, 0.3), (0.0, -free, 1.0e-4, -free, least, -free, -free),
-                (free, free, free, free, free, stiffest, free), predict, variant,
+                (0.01, 1.0, 0.002, 0.002, 0.3, 0.3, 0.3), (0.0, -free, 1.0e-4, -free, least, -free, -LONG_BEFORE),
+                (free, free, free, free, free, stiffest, LONG_BEFORE), predict, variant,
             )
             for variant, predict in memories.items()
         ),
@@ -194,7 +194,7 @@ def _marched(tracks: Sequence[Track], p: Array, reference: float, state: int) ->
     speed = pull[np.searchsorted(times, grid + 0.5 * step, side="right") - 1]
     speed[0] = tracks[0].speed[0]  # it starts at this speed, which a single step from sample to sample does not show
     mu = np.empty(len(grid))
-    limits = np.array([[1.0e-6, -10.0, -40.0, -10.0, -LONG_BEFORE], [10.0, 10.0, 10.0, 40.0, LONG_BEFORE]])
+    limits = np.array([[1.0e-6, -10.0, -40.0, -10.0, -20.0], [10.0, 10.0, 10.0, 40.0, 20.0]])
     direct, evolution, *logarithms = np.clip(p, *limits)
     friction_path(speed, step, direct, evolution, *np.exp(logarithms), reference, state, mu)
     return [np.interp(t.run.time, grid, mu) for t in tracks]

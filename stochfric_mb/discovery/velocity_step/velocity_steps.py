@@ -290,18 +290,23 @@ def _of_the_rig(fitted: Fitted) -> dict[str, Interval]:
     return {name: number for name, number in _numbers(fitted).items() if name in ("mu_0", "stiffness")}
 
 
+def _largest_change(fitted: Fitted) -> dict[str, Interval]:
+    """Return the largest change of a course, which says more than its weights; nothing where there is none."""
+    pieces = fitted.law.pieces
+    if not pieces:
+        return {}
+    course = splines(np.linspace(0.0, 1.0, 20 * pieces + 1), pieces)
+    changes = course @ fitted.values[1:]
+    largest = course[int(np.argmax(np.abs(changes)))]
+    deviation = float(np.sqrt(largest @ fitted.covariance[1:, 1:] @ largest))
+    return {"largest_change": confidence_interval(float(largest @ fitted.values[1:]), deviation, "-")}
+
+
 def _numbers(fitted: Fitted) -> dict[str, Interval]:
-    intervals: dict[str, Interval] = {}
-    law = fitted.law
-    if law.pieces:
-        course = splines(np.linspace(0.0, 1.0, 20 * law.pieces + 1), law.pieces)
-        changes = course @ fitted.values[1:]
-        at = int(np.argmax(np.abs(changes)))
-        deviation = float(np.sqrt(course[at] @ fitted.covariance[1:, 1:] @ course[at]))
-        intervals["largest_change"] = confidence_interval(float(changes[at]), deviation, "-")
-    for name, value, deviation, unit, low in list(
-        zip(law.names, fitted.values, fitted.deviations, law.units, law.low, strict=True)
-    )[: 1 if law.pieces else None]:
+    law, intervals = fitted.law, _largest_change(fitted)
+    for name, value, deviation, unit, low in zip(law.names, fitted.values, fitted.deviations, law.units, law.low, strict=True):
+        if name in COURSE:
+            continue
         if deviation == 0.0:  # nothing in these data depends on it
             continue
         number = confidence_interval(value, deviation, unit, low)

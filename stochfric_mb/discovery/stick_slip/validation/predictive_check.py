@@ -169,7 +169,7 @@ def _chi2(rows: Array, covariance: Array) -> float:
 
 def _jumped(pool: Pool, model: Model) -> np.ndarray:
     """Return the slips whose cycle holds a jump of the reading, as well as its time is known: their forces are not theirs."""
-    doubt = float(np.diff(step_times(pool)[:2])[0])
+    doubt = float(np.ptp(step_times(pool)[:2]))
     jumped = np.zeros(len(pool.run), dtype=bool)
     for run, slips in enumerate(pool.slips):
         onset = pool.onset_time[pool.run == run]
