@@ -28,7 +28,7 @@ def inadequate(place: PlaceOutcome) -> str:
     why = _lost(place)
     if why:
         return f"{kinds} explains the fit runs, but not the held-out ones ({why}), and is not named"
-    why = _at_bound(place) or _worse_at_most_times(place) or _plainly_left(place)
+    why = at_bound(place) or _worse_at_most_times(place) or _plainly_left(place)
     return f"{kinds} explains much of the record, but {why}, and is not named" if why else ""
 
 
@@ -50,7 +50,7 @@ def _lost(place: PlaceOutcome) -> str:
     return lost[0] if lost else f"it explains {max(100.0 * max(gains), 0.0):.0f} % of the squared error there"
 
 
-def _at_bound(place: PlaceOutcome) -> str:
+def at_bound(place: PlaceOutcome) -> str:
     """Return which believed number the model needs at the end of what is believed; empty: none."""
     model, released = place.selected.final.model, {r.name for r in place.selected.released}
     for belief in beliefs(place.stated, place.nuisances):

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint.decision.adequacy import drawn_by_two, inadequate
+from stochfric_mb.discovery.driven_joint.decision.adequacy import at_bound, drawn_by_two, inadequate
 from stochfric_mb.discovery.driven_joint.decision.evidence import settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
@@ -49,12 +49,14 @@ def with_idle(place: PlaceOutcome) -> PlaceOutcome:
 def lacks(dataset: Dataset, place: PlaceOutcome) -> bool:
     """Return whether a place is mistimed, a curve of two effects, or leaves more than noise explains, if its noise can tell.
 
+    A number of the mechanism that goes as far as beliefs allow for it stands for something else.
+
     Slow and prescribed, without a mass, motion shows the noise of a force sensor alone: what friction itself does is far above
     that.
     """
     mistimed = place.timing is not None and place.timing.puzzling
-    noisy = getattr(dataset.scenario.mechanism, "mass", 1.0) > 0.0 and above_floor(place)
-    return mistimed or noisy or bool(place.curve) or foretells_nothing(place)
+    noisy = getattr(dataset.scenario.mechanism, "mass", 1.0) > 0.0 and (above_floor(place) or runs_apart(place))
+    return mistimed or noisy or bool(place.curve) or bool(at_bound(place)) or foretells_nothing(place)
 
 
 def foretells_nothing(place: PlaceOutcome) -> bool:
@@ -71,25 +73,50 @@ def foretells_nothing(place: PlaceOutcome) -> bool:
 
 
 def above_floor(place: PlaceOutcome) -> bool:
-    """Return whether the final model leaves more than noise explains, on the fit runs."""
-    strokes, runs = place.random, place.runs
+    """Return whether the final model leaves more within runs than noise explains, on the fit runs."""
+    strokes, runs, last = place.random, place.runs, _last(place)
     if strokes is not None and strokes.accounted:
         return not strokes.all_of_it
-    accounted = runs is not None and runs.accounted
-    last = place.selected.recalibrated if place.idle else place.selected.final
     # what is missing may be as quick as the windows, and then shows in their differences
     white = 0.0 if place.mended else white_floor(place.fit)
     floor = min(noise_floor(last.model, place.fit, place.nuisances), criteria.COLOURED * white or np.inf)
-    rest = np.concatenate(last.remainders)
-    # runs that differ for no known reason are said in a note: what counts is what is left within them
-    settings = np.unique(settings_of(place.fit), return_inverse=True)[1]
-    means = np.bincount(settings, rest) / np.bincount(settings)
-    within = rest - means[settings]
-    # a zero of the drive that wanders goes on across reversals; a force as large as this is no zero
-    small = float(np.std(within)) < criteria.ZERO_WANDERS * last.model.law.mu_k * last.model.load
-    accounted = accounted or (strokes is not None and strokes.slow_noise and small)
+    within, between = _parts(place)
+    # a zero of the drive that wanders goes on across reversals; a force that is larger is no zero
+    zero = strokes is not None and strokes.slow_noise and float(np.std(within + between)) < _largest_zero(place)
+    if zero or (runs is not None and runs.accounted):
+        return False
     # where no window has neighbours to differ from, nothing says that noise is all there is
-    return not accounted and (not float(np.std(within)) <= FLOOR * floor or _waves(within, last.independent))
+    return not float(np.std(within)) <= FLOOR * floor or _waves(within, last.independent)
+
+
+def runs_apart(place: PlaceOutcome) -> bool:
+    """Return whether runs differ by more than a zero of the drive may, and than the final model leaves within them.
+
+    What differs by less, for no known reason, is said in a note.
+    """
+    if any(drawn is not None and drawn.accounted for drawn in (place.random, place.runs)):
+        return False
+    within, between = _parts(place)
+    return float(np.std(between)) > max(_largest_zero(place), FLOOR * float(np.std(within)))
+
+
+def _last(place: PlaceOutcome) -> JointFit:
+    """Return the fit that counts: the plain one where names do not stand."""
+    return place.selected.recalibrated if place.idle else place.selected.final
+
+
+def _parts(place: PlaceOutcome) -> tuple[Array, Array]:
+    """Return what the final model leaves of the fit runs, less its mean in each setting and direction, and that mean."""
+    rest = np.concatenate(_last(place).remainders)
+    settings = np.unique(settings_of(place.fit), return_inverse=True)[1]
+    means = (np.bincount(settings, rest) / np.bincount(settings))[settings]
+    return rest - means, means
+
+
+def _largest_zero(place: PlaceOutcome) -> float:
+    """Return up to what size a force is the zero of the drive, in the unit of the balance."""
+    model = _last(place).model
+    return criteria.ZERO_WANDERS * model.law.mu_k * model.load
 
 
 def _waves(rest: Array, independent: float) -> bool:

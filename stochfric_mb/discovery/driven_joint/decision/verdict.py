@@ -10,8 +10,9 @@ import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_clock, confounded, spoken_of, stand_ins
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
+from stochfric_mb.discovery.driven_joint.decision.adequacy import at_bound
 from stochfric_mb.discovery.driven_joint.decision.candidates import candidates, span_of
-from stochfric_mb.discovery.driven_joint.decision.carry_over import above_floor, foretells_nothing, lacks
+from stochfric_mb.discovery.driven_joint.decision.carry_over import above_floor, foretells_nothing, lacks, runs_apart
 from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, mechanism_estimates, parameters
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
@@ -228,8 +229,13 @@ def _released(place: PlaceOutcome) -> list[EffectEstimate]:
 
 
 def _axis(place: PlaceOutcome) -> str:
-    """Return the axis along which most is left: the runs if only those held out are off, time if chance says as much as any."""
-    if foretells_nothing(place) and not above_floor(place):
+    """Return the axis along which most is left: the runs if only those held out are off, time if chance says as much as any.
+
+    The motion, if the numbers of the mechanism have swallowed it.
+    """
+    if at_bound(place):
+        return "motion"
+    if (foretells_nothing(place) or runs_apart(place)) and not above_floor(place):
         return "run"
     rivals = place.selected.stages[-1].competitors
     return rivals[0][0] if rivals and rivals[0][1] > 0.0 else "time"
