@@ -41,7 +41,7 @@ class Track:
     pull: Array
     """Its mean speed from each sample to the next [m/s], shape (n,), > 0."""
     slid: Array
-    """Distance that the load point has gone since the first run began [m], shape (n,)."""
+    """Displacement of the load point since the first run began [m], shape (n,)."""
 
 
 @dataclasses.dataclass(frozen=True)

@@ -19,7 +19,7 @@ from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.inference.noise import independent_count, white_noise
 from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
 from stochfric_mb.discovery.velocity_step.law_fit import Fitted, fit, held_out_error, score_over
-from stochfric_mb.discovery.velocity_step.laws import Track, laws, records
+from stochfric_mb.discovery.velocity_step.laws import Track, laws
 from stochfric_mb.discovery.velocity_step.smooth_law import NOWHERE, SmoothLaw, smooth_law
 from stochfric_mb.effects import Effect, effect_class, effect_kinds, kind_with_signature, kinds_with, make_effect
 from stochfric_mb.effects.course import COURSE, sized, splines
@@ -38,8 +38,6 @@ HALF_WIDTHS = (0, 3, 4, 6, 8, HALF_WIDTH)
 QUIET = 0.3
 """Noise of its way from sample to sample, over the lowest of these (10 % quantile), up to which no wider window is taken [-]:
 the spring adds up the way, so that noise counts only where it turns the motion round."""
-WENT_BACK = 0.01
-"""Share of a track's way by which it must begin behind the end of the last one to have gone back [-]: noise is less."""
 PARTS = 12
 """Parts of an axis along which what is left of friction is looked at."""
 
@@ -51,7 +49,8 @@ def spring_slider_outcome(dataset: Dataset, progress: Callable[[str], None]) -> 
         InputError: no position of the load point, or no friction.
     """
     tracks = sorted((track_of(r, dataset) for r in dataset.runs), key=lambda t: float(t.run.time[0]))
-    tracks = _with_distance(tracks)
+    offset = float(tracks[0].slid[0])
+    tracks = [dataclasses.replace(t, slid=t.slid - offset) for t in tracks]
     fits = _fits(tracks, dataset, progress)
     plain = fits[0]
     best, own, scores = _best(fits)
@@ -86,20 +85,6 @@ def _fits(tracks: Sequence[Track], dataset: Dataset, progress: Callable[[str], N
         alike = next((f for f in fits if f.law.variant == "" and f.law.names == law.names), None)
         fits.append(fit(law, tracks, law.starts if alike is None else [alike.values]))
     return fits
-
-
-def _with_distance(tracks: Sequence[Track]) -> list[Track]:
-    """Return the tracks with the distance slid since the first one began: where a machine goes back, its way adds up."""
-    offset = float(tracks[0].slid[0])
-    slid: dict[int, Array] = {}
-    for record in records(tracks):
-        end = -np.inf
-        for track in record:
-            way = track.slid - offset
-            back = end - float(way[0])
-            way = way + back if WENT_BACK * float(np.ptp(way)) < back < np.inf else way
-            slid[id(track)], end = way, float(way[-1])
-    return [dataclasses.replace(t, slid=slid[id(t)]) for t in tracks]
 
 
 def _way(tracks: Sequence[Track]) -> float:
