@@ -278,8 +278,8 @@ WAVE_FLATTENS, WAVE_CERTAIN = 2.6, 2.6
 must be off by [-]: chance does that in one place of 200. Nulls of tests/discovery/joint_generator stay above 2.7."""
 
 MEASURED_TO = 1.0e-3
-"""Changes of friction in velocity steps, over friction itself, up to which they may be the transducer's own [-]: one of class 1
-(ISO 376) repeats to a thousandth, and drifts by as much."""
+"""Changes of friction in velocity steps, over friction itself, up to which they may be the load cell's own [-]: chosen, the
+accuracy of a usual one. Slow noise of the tests' nulls comes to 0.0005, what is missing without a name to 0.005 and more."""
 
 # Records
 

@@ -9,6 +9,8 @@ import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 from scipy.ndimage import binary_closing
 
+from stochfric_mb.numerics.stretches import stretches
+
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
@@ -22,12 +24,6 @@ ring over four."""
 SIDES = 3.0
 """Error of the curve through both sides, over the noise, beyond which it is the motion that is rough there [-]: chosen; noise
 alone makes it about one."""
-
-
-def stretches(mask: Mask) -> list[tuple[int, int]]:
-    """Return the stretches in which a mask holds without a gap: the first of each, and the one after its last."""
-    edges = np.flatnonzero(np.diff(np.r_[0, mask.astype(np.int8), 0]))
-    return [(int(start), int(end)) for start, end in zip(edges[::2], edges[1::2], strict=True)]
 
 
 def in_a_row(values: Array, far: Mask, least: float, level: float) -> Mask:

@@ -25,7 +25,7 @@ MEMORY_STARTS = [(b, d, k) for b in (0.01, -0.01) for d in (1.0, 10.0, 100.0) fo
 
 LONG_BEFORE = 7.0
 """Most that the logarithm of the state at the start may be from steady sliding [-]: it has been held, or slid, a thousand times
-as long as it remembers. Without a bound a memory of 1e-30 of a second stood for a coating that wears off."""
+as long as it remembers. Further off, the first rise of a memory from nothing stood for a coating that wears off."""
 
 
 @dataclasses.dataclass(frozen=True)

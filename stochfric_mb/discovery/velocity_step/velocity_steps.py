@@ -56,7 +56,8 @@ def spring_slider_outcome(dataset: Dataset, progress: Callable[[str], None]) -> 
     best, own, scores = _best(fits)
     before, after = held_out_error(plain, tracks), held_out_error(best, tracks)
     least = criteria.EXPLAINED_HELD_OUT * (before**2 - min(_noise(tracks, "test"), before) ** 2)
-    accepted = own > criteria.NAMED and before**2 - after**2 > least
+    closes = after < (1.0 - criteria.CLOSES_NOTHING) * before and before**2 - after**2 > least
+    accepted = own > criteria.NAMED and closes
     closest = best if accepted else plain
     where = unexplained([t for t in tracks if t.run.role == "fit"], closest)
     term = smooth_law(closest, tracks) if where is not None else None

@@ -84,7 +84,7 @@ def coated(data, course, seed=1):
 
 
 def test_a_coating_until_it_is_gone_is_a_drift_with_distance_of_its_own_shape():
-    """A memory of 1e-30 of what it remembers, with a straight drift beside it, stood for such a course."""
+    """The first rise of a memory that begins at next to nothing, with a straight drift beside it, stood for such a course."""
     outcome = spring_slider_outcome(
         coated(slider(0.01, 0.015, 2), lambda s: 0.02 * (1.0 + np.tanh(8.0 * (s - 0.5)))), lambda _: None
     )
@@ -190,7 +190,9 @@ def test_what_comes_back_along_the_way_is_a_course_of_it():
     outcome = spring_slider_outcome(along_the_way(1), lambda _: None)
     result = outcome.result
     assert [e.kind for e in result.effects] == ["distance_drift"]
-    assert result.gap.augmented < 1.5 * result.gap.floor  # cubic pieces of an eighth of a wave miss 5e-5 of it
+    assert (
+        result.gap.augmented < 1.5 * result.gap.floor
+    )  # cubic pieces of an eighth of a wave miss 5e-5, a quarter of the noise
     (course,) = outcome.scenario.effects
     assert course.any_shape
 

@@ -16,13 +16,14 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import position_columns, with_column
 from stochfric_mb.discovery.inference.noise import white_noise
-from stochfric_mb.discovery.inference.stray_readings import LEAST, in_a_row, stretches, without
+from stochfric_mb.discovery.inference.stray_readings import LEAST, in_a_row, without
 from stochfric_mb.effects import Effect, kind_with_signature, make_effect
 from stochfric_mb.effects.traits import REPEATED_READING
 from stochfric_mb.effects.traits import STRAY as STRAY_READING
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.numerics.robust import deviation
+from stochfric_mb.numerics.stretches import stretches
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]

@@ -16,8 +16,8 @@ from stochfric_mb.discovery.driven_joint.fit.joint_model import Forces, JointMod
 from stochfric_mb.discovery.inference.fitter import minimised
 from stochfric_mb.discovery.inference.free_parameter import FreeParameter, steps_of
 from stochfric_mb.discovery.inference.noise import independent_count
-from stochfric_mb.discovery.inference.stray_readings import stretches
 from stochfric_mb.effects.traits import ROUGH
+from stochfric_mb.numerics.stretches import stretches
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]

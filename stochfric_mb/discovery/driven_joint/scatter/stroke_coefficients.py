@@ -11,7 +11,7 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalan
 from stochfric_mb.discovery.driven_joint.fit.fitting import PER_STROKE
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.simulation.scores import APART
-from stochfric_mb.discovery.inference.stray_readings import stretches
+from stochfric_mb.numerics.stretches import stretches
 
 Array = npt.NDArray[np.float64]
 

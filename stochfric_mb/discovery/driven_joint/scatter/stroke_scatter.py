@@ -19,7 +19,7 @@ from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.scatter.between_groups import CoefficientScatter, Labels, estimated, means_of
 from stochfric_mb.discovery.driven_joint.scatter.stroke_coefficients import Stroke, dependence, strokes_of, variances
 from stochfric_mb.discovery.driven_joint.simulation.scores import APART, FLOOR, noise_floor
-from stochfric_mb.discovery.inference.stray_readings import stretches
+from stochfric_mb.numerics.stretches import stretches
 
 Array = npt.NDArray[np.float64]
 

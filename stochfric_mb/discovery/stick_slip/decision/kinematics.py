@@ -198,8 +198,10 @@ def _keeps_to_phases(best: str, sticking: Sticking) -> bool:
 
     A belt to which slips keep moves in a wave; a sensor that lags, or a contact that gives way, does the same in every phase.
     """
+    if best != BELT_RIPPLE:
+        return False
     settings = sticking.settings[best]
-    return best == BELT_RIPPLE and settings["alike"] - settings["share"] > criteria.FORM_MISSES
+    return settings["alike"] - settings["share"] > criteria.FORM_MISSES
 
 
 def _of_the_zero(study: Study, frequency: float) -> bool:
