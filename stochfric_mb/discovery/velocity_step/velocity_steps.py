@@ -181,7 +181,7 @@ def _result(
         ranking=tuple(sorted(scores.items(), key=lambda s: -s[1])),
         gap=gap,
         not_identifiable=tuple(k for k in effect_kinds() if k not in (*searched, *kinds_with(ANONYMOUS))),
-        next_experiment="Steps down as well as up, and hold tests: they separate ageing with time from slip with distance.",
+        next_experiment=_advice(effects),
         parameters=_of_the_rig(closest if kept is None else kept.law_alone(closest.law)),
         notes=(
             *gap.notes,
@@ -191,6 +191,13 @@ def _result(
         unnamed=_unnamed(kept) if kept is not None else None,
         details={"laws": {f"{f.law.kind or 'constant'} {f.law.variant}".strip(): _facts(f, tracks) for f in fits}} | unnamed,
     )
+
+
+def _advice(effects: Sequence[EffectEstimate]) -> str:
+    """Return the next experiment."""
+    if any(e.kind == kind_with_signature(SLOPE_IN_DISTANCE) for e in effects):
+        return "The same steps over the same way again, and from another place: they separate the distance slid from the place."
+    return "Steps down as well as up, and hold tests: they separate ageing with time from slip with distance."
 
 
 def _gap(dataset: Dataset, tracks: Sequence[Track], plain: Fitted, final: Fitted) -> Gap:

@@ -95,11 +95,10 @@ def test_a_coating_until_it_is_gone_is_a_drift_with_distance_of_its_own_shape():
     place = np.linspace(0.0, 1.0, 201)
     true = 0.02 * (np.tanh(8.0 * (place - 0.5)) + np.tanh(4.0))
     shown = worn.change * worn.shape(place) * outcome.scenario.law.mu_k
-    np.testing.assert_allclose(
-        shown, true, atol=0.001
-    )  # a fortieth of the change: cubic pieces of an eighth of the way miss as much
+    # the largest change is known to 5e-5 (its interval); six of that: the best of 200 places, and 1.5e-4 seen with other seeds
+    np.testing.assert_allclose(shown, true, atol=3e-4)
     largest = found.parameters["largest_change"]
-    assert abs(largest.value - true[-1]) < 0.001
+    assert abs(largest.value - true[-1]) < 3e-4
     assert largest.low < largest.value < largest.high
 
 

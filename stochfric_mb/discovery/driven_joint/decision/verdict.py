@@ -75,7 +75,8 @@ def verdict(
     where = None
     if unknown is not None:
         axis = unknown.selected.unknown or _axis(unknown)
-        why = "no known effect explains it"
+        bound = at_bound(unknown)
+        why = f"the model {bound}" if bound else "no known effect explains it"
         if unknown.curve:
             axis, why = _curve(unknown.curve)
         where = Where(axis, f"What is missing depends on {axis}{_at(unknown)}; {why}.")
@@ -325,6 +326,8 @@ def _unseen(places: Sequence[PlaceOutcome], effects: Sequence[EffectEstimate]) -
 
 
 def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
+    if not any(p.selected.named for p in places) and any(map(runs_apart, places)):
+        return "The same run several times, with the zero of the drive read at rest before each: is it the zero or friction?"
     quiet = ("position", "time", "distance")
     worst = [p for p in pairs if p.first not in quiet and p.second not in quiet]
     if worst:
