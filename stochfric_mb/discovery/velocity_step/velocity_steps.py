@@ -109,7 +109,7 @@ def track_of(run: Run, dataset: Dataset) -> Track:
     """Return a run as friction against the motion of its load point.
 
     Raises:
-        InputError: no position of the load point, or no friction.
+        InputError: no position of the load point, or no friction, or one that is no coefficient.
     """
     if "position" not in run.channels:
         raise InputError(
@@ -122,11 +122,31 @@ def track_of(run: Run, dataset: Dataset) -> Track:
         friction = run.channels["friction_force"] / load
     else:
         raise InputError(f"run {run.name!r} has neither friction_coefficient nor friction_force; name its column with columns")
+    _require_coefficient(run, float(np.median(friction)), dataset.scenario.law.mu_k)
     x, h = run.channels["position"], run.sample_interval
     speed = _through(x, HALF_WIDTH, h, 1)
     least = 0.05 * float(np.median(speed))
     way = np.diff(_quiet(x, h)) / h
     return Track(run, friction, np.maximum(speed, least), np.maximum(np.r_[way, way[-1]], least), x)
+
+
+def _require_coefficient(run: Run, typical: float, stated: float) -> None:
+    """Return if the typical friction of a run is a coefficient of friction.
+
+    Raises:
+        InputError: it is not positive, or far larger than any.
+    """
+    if typical <= 0.0:
+        name = "friction_coefficient" if "friction_coefficient" in run.covariates else "friction_force"
+        raise InputError(
+            f"run {run.name!r}: friction is {typical:.3g} times the normal force, along the load point's motion; turn its "
+            f"column round with sign = {{ {name} = -1 }}"
+        )
+    if typical > criteria.MOST_FRICTION * max(1.0, stated):
+        raise InputError(
+            f"run {run.name!r}: friction is {typical:.3g} times the normal force, with mu_k stated as {stated:.3g}; give a "
+            "force as friction_force, in its unit, or correct normal_force"
+        )
 
 
 def _quiet(x: Array, interval: float) -> Array:

@@ -8,6 +8,7 @@ import pytest
 from stochfric_mb.discovery.driven_joint.simulation.pictures import step_picture
 from stochfric_mb.discovery.velocity_step.laws import Track, laws, memory_start
 from stochfric_mb.discovery.velocity_step.velocity_steps import spring_slider_outcome, track_of
+from stochfric_mb.errors import InputError
 from tests.discovery.net.joints import slider
 
 
@@ -182,6 +183,17 @@ def along_the_way(seed):
             dataclasses.replace(run, channels={"position": way}, covariates={"friction_coefficient": friction})
         )  # fmt: skip
     return dataclasses.replace(data, runs=tuple(runs))
+
+
+@pytest.mark.parametrize(("factor", "remedy"), [(1.0e3, "friction_force"), (-1.0, "sign = { friction_coefficient = -1 }")])
+def test_friction_that_is_no_coefficient_is_refused(factor, remedy):
+    data = along_the_way(1)
+    wrong = dataclasses.replace(
+        data.runs[0], covariates={"friction_coefficient": factor * data.runs[0].covariates["friction_coefficient"]}
+    )
+    with pytest.raises(InputError, match="times the normal force") as error:
+        track_of(wrong, data)
+    assert remedy in str(error.value)
 
 
 def test_what_comes_back_along_the_way_is_a_course_of_it():
