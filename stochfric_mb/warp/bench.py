@@ -1,5 +1,7 @@
 """What friction costs: Warp's own step beside the step with friction, in one process and in turns.
 
+On a GPU both steps are replayed from captured graphs, as MuJoCo Warp is meant to run there; the callback is part of the graph.
+
 Run it with ``python -m stochfric_mb.warp.bench [--worlds 1,64,4096] [--model MODEL.xml --geom floor]``.
 """
 
@@ -46,6 +48,7 @@ class Stepper:
         self.m, self.d = mjw.put_model(model), mjw.put_data(model, data, nworld=nworld)
         self.callback = 0.0
         """Time spent in the callback [s]."""
+        self.graph = None
         cuda = wp.get_preferred_device().is_cuda
         self.clock = time.perf_counter if cuda else time.process_time  # others' load does not count
         if friction:
@@ -59,7 +62,13 @@ class Stepper:
                 wp.synchronize()
                 self.callback += self.clock() - began
 
-            self.m.callback.passive = timed
+            if not cuda:  # in a graph nothing waits for it
+                self.m.callback.passive = timed
+        self.steps(1)
+        if cuda:
+            with wp.ScopedCapture() as capture:
+                mjw.step(self.m, self.d)
+            self.graph = capture.graph
         self.steps(SETTLING)
 
     def steps(self, n: int) -> float:
@@ -67,13 +76,16 @@ class Stepper:
         wp.synchronize()
         began = self.clock()
         for _ in range(n):
-            mjw.step(self.m, self.d)
+            if self.graph is None:
+                mjw.step(self.m, self.d)
+            else:
+                wp.capture_launch(self.graph)
         wp.synchronize()
         return self.clock() - began
 
 
 def cost(model: mujoco.MjModel, geom: str, nworld: int) -> tuple[float, float, float]:
-    """Return the time of Warp's own step [s], the callback's over it, and that of a step with friction over it."""
+    """Return the time of Warp's own step [s], and the callback's (0 in a graph) and that of a step with friction over it."""
     native, ours = (Stepper(model, geom, nworld, friction=on) for on in (False, True))
     n = max(1, round(SECONDS / native.steps(5) * 5))
     ours.callback = 0.0
@@ -96,7 +108,7 @@ def main(worlds: str, model: str | None, geom: str) -> None:
     device = str(wp.get_preferred_device())
     for nworld in (int(word) for word in worlds.split(",")):
         seconds, callback, ratio = cost(compiled, geom, nworld)
-        took = f"{1e6 * seconds:.0f} us a step, callback {100 * callback:.1f} % of it"
+        took = f"{1e6 * seconds:.0f} us a step" + (f", callback {100 * callback:.1f} % of it" if callback else "")
         click.echo(f"{device}, {nworld} worlds: {took}; a step with friction {ratio:.3f} of it")
 
 

@@ -12,7 +12,7 @@ from stochfric_mb.coefficients import Lognormal, Uniform
 from stochfric_mb.errors import InputError
 from stochfric_mb.mujoco import Joint
 from stochfric_mb.warp import Domain, Spread, add_friction
-from tests.warp.scenes import GRAVITY, box_on_plane, run
+from tests.warp.scenes import GRAVITY, box_on_plane, run, same
 from tests.warp.test_joints import slider
 
 LAW = Coulomb(0.8, 0.46)
@@ -28,8 +28,8 @@ def test_world_k_alone_is_world_k_among_many():
         run(m, d, 0.1, DT)
         final.append((d.qpos.numpy(), d.qvel.numpy()))
     for many, alone in zip(*final, strict=True):
-        assert (many[37] == alone[0]).all()  # to the bit: the CPU device goes through contacts in order
-        assert (many[36] != alone[0]).any()
+        assert same(many[37], alone[0])
+        assert not same(many[36], alone[0])
 
 
 def test_a_reset_world_begins_anew_and_disturbs_no_other():
@@ -49,8 +49,9 @@ def test_a_reset_world_begins_anew_and_disturbs_no_other():
             rows.append(np.column_stack([d.qpos.numpy()[:, 0], friction.mu_s.numpy()]))
         trajectories.append(np.array(rows))
     plain, reset = trajectories
-    assert (plain[:, [0, 2, 3]] == reset[:, [0, 2, 3]]).all()
-    assert (reset[60:, 1] == plain[:60, 1]).all()  # the same path and the same motion, to the bit
+    assert same(plain[:, [0, 2, 3]], reset[:, [0, 2, 3]])
+    assert same(reset[60:, 1], plain[:60, 1])  # the same path and the same motion
+    assert not same(reset[60:, 2], plain[:60, 2])
 
 
 def test_an_episode_of_its_own_path():
@@ -124,6 +125,7 @@ def test_parameters_that_make_no_law_are_refused():
         friction.randomise(Domain(parameters={"v_s": Spread(-0.1)}))
 
 
+@pytest.mark.skipif(wp.get_preferred_device().is_cuda, reason="NumPy reads no memory of a GPU")
 def test_readings_are_arrays_on_the_device_that_others_read_without_a_copy():
     model, m, d = box_on_plane(20.0, DT, nworld=4)
     friction = add_friction(model, m, d, ("box", "floor"), LAW)
@@ -141,7 +143,7 @@ def test_readings_go_to_other_libraries(bridge):
     mjw.step(m, d)
     friction.observe(d)
     there = getattr(wp, f"to_{bridge}")(friction.normal_force)
-    assert np.asarray(there) == pytest.approx(friction.normal_force.numpy())
+    assert np.asarray(there.cpu() if bridge == "torch" else there) == pytest.approx(friction.normal_force.numpy())
 
 
 def test_a_step_copies_nothing_to_the_host(monkeypatch):
