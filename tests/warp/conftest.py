@@ -1,4 +1,4 @@
-"""Every test here runs MuJoCo Warp, on a GPU if there is one, and bears the marker ``warp``; kernels stay in Warp's own cache."""
+"""Every test here runs MuJoCo Warp, on a GPU if there is one, and bears the marker ``warp``; kernels stay in its own cache."""
 
 import importlib.util
 from pathlib import Path

@@ -248,7 +248,7 @@ def _winner(study: Study, sticking: Sticking) -> tuple[str, float]:
     if best in CREEP:
         rings = scores[YIELDING]
         if max(scores["yielding"], rings) > criteria.YIELDS_FOR_CREEP * scores[best]:
-            return YIELDING, scores[best] + max(rings, 0.0)
+            return YIELDING, max(scores[best], sticking.settings[best]["ringing"])
     return best, scores[best]
 
 

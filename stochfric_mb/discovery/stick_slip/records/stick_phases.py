@@ -89,7 +89,9 @@ def analyse(slips: Sequence[Slips]) -> Sticking | None:
     settings: dict[str, dict[str, float]] = {}
     scores[BELT_RIPPLE], settings[BELT_RIPPLE] = _ripple(runs, rests, log_n)
     scores[YIELDING], settings[YIELDING] = _yields(runs, rests, log_n)
+    ring = settings[YIELDING]["angular_frequency"], settings[YIELDING]["damping_ratio"]
     scores |= _creep(runs, rests, log_n)
+    settings |= {name: {"ringing": score} for name, score in _creep(runs, rests, log_n, ring).items()}
     scores[JUMP] = step - len(runs) * (log_n + 2.0 * np.log(max(freedom, 2)))
     settings[JUMP] = {f"time_{i}": t for i, t in enumerate(times)}
     errors = np.array([_belt_error(run) for run in runs]).T
@@ -155,8 +157,18 @@ def _yields(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tu
     return max(score, both) if score > criteria.RINGS * both else score, settings
 
 
-def _creep(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> dict[str, float]:
-    """Return the scores of other ways in which a stuck box, or its reading, may creep."""
+def _creep(
+    runs: Sequence[_Phases], rests: Sequence[Array], log_n: float, ring: tuple[float, float] | None = None
+) -> dict[str, float]:
+    """Return the scores of other ways in which a stuck box, or its reading, may creep.
+
+    Args:
+        runs: the stick phases.
+        rests: what the belt's line leaves of them.
+        log_n: logarithm of the number of independent samples.
+        ring: angular frequency [rad/s] and damping ratio of a contact that rings beside them, if one does.
+    """
+    rings = [] if ring is None else [ring]
 
     def hats(run: _Phases, column: Array, count: int) -> list[Array]:
         turned = column * run.slips.record.angular_frequency / HAT
@@ -168,7 +180,12 @@ def _creep(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> dic
         "yielding": (3, _yielding),
         "creep_after": (3, lambda run: hats(run, run.samples.since_restick, 3)),
     }
-    return {name: _gain(runs, rests, columns) - p * len(runs) * log_n for name, (p, columns) in ways.items()}
+
+    def beside(columns: Callable[[_Phases], Sequence[Array]]) -> Callable[[_Phases], Sequence[Array]]:
+        return lambda run: [*columns(run), *(c for w, z in rings for c in _ringing(run, w, z))]
+
+    more = 2 * len(rings)
+    return {name: _gain(runs, rests, beside(ways_)) - (p + more) * len(runs) * log_n for name, (p, ways_) in ways.items()}
 
 
 def _phases(slips: Slips) -> _Phases:
