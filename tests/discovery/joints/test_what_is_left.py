@@ -142,3 +142,20 @@ def test_a_number_at_the_end_of_its_range_stands_for_something_else():
     balances, nuisances = source.balances("", "fit", 0.0), source.nuisances("")
     selector = Selector(balances, nuisances, source.stated(""))
     assert "mass" not in [f.number.name for f in selector._freed(selector.recalibrated)]
+
+
+@pytest.mark.parametrize(("heavier", "louder", "same"), [(1.0, 1.4, ("drive_gain",)), (1.4, 1.0, ())])
+def test_a_drive_that_is_larger_by_a_factor_may_be_a_mass(heavier, louder, same):
+    """Friction as stated tells a mass, which leaves it, from the factor of a drive that was stated as exact, which does not."""
+
+    def recorded(run):
+        return dataclasses.replace(run, channels=run.channels | {"force": louder * run.channels["force"]})
+
+    measured = pair(coulomb, mass=2.0 * heavier)
+    believed = {"mass": 0.05, "mu_k": 0.3 if same else 0.02}
+    stated = dataclasses.replace(measured.scenario, uncertainty=believed)
+    result = joint_outcome(dataclasses.replace(measured, scenario=stated, runs=tuple(map(recorded, measured.runs)))).result
+    (named,) = result.effects
+    assert named.kind == "payload"
+    assert named.equivalent_to == same
+    assert ("force gauge" in result.next_experiment) is bool(same)

@@ -14,3 +14,4 @@ def test_strokes_are_drawn_anew_where_the_one_before_says_less_than_half(strokes
     )  # fmt: skip
     assert seen.wanders is not anew
     assert seen.named is anew
+    assert seen.remembers is (correlation > 0.5)  # 0 is within chance, 0.6 of 40 strokes is four standard errors

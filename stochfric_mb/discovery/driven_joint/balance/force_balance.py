@@ -23,6 +23,8 @@ LEAST_SPEED = 0.02
 """Speed below which a joint is not taken to slide, over its 90 % speed [-]."""
 REMEMBERED = 16
 """Forces of loads that are kept: a fit moves one number after the other, and comes back."""
+GAIN = "gain"
+"""Column of the whole drive, of which a factor is stated as 1."""
 SURE = 5.0
 """Least sliding speed in standard deviations of the velocity's noise."""
 

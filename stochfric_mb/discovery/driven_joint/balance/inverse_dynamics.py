@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.balance.force_balance import (
+    GAIN,
     ForceBalance,
     Nuisance,
     balance_along,
@@ -107,6 +108,8 @@ class PlainBalances(Balances):
             seen = [t.factor * window.through(t.signal, t.derivative, shift)[window.centres] for t in of]
             columns[number] = np.sum(seen, axis=0)
             total = total - values[number] * columns[number]
+        drive = next(n for n in DRIVEN if n in terms)
+        columns[GAIN] = values[drive] * columns[drive]
         velocity = window.through(q, 1)
         least = least_speed(velocity, window.gain(1) * white_noise(q))
         load, load_by_drive = _transmitted_load(run, joint, window)

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.balance.force_balance import GAIN, ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.decision.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.fit.beliefs import Belief, beliefs
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, settled
@@ -91,6 +91,32 @@ def beyond_beliefs(
         score = evidence(current, fitted, fitted, settings) - float(cost)
         freed.append(Freed(Released(belief, score, current.rms, fitted.rms), fitted, wide))
     return sorted(freed, key=lambda f: -f.number.score)
+
+
+def by_gain(
+    current: JointFit, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance], noise: float
+) -> Released | None:
+    """Return the factor of a drive that is stated as exact, were it not; None: its belief is stated, or no drive is measured.
+
+    A drive that is larger by a factor is a mechanism and friction that are smaller by it: motion alone cannot tell it from a
+    mass.
+
+    Args:
+        current: the fit with all beliefs.
+        balances: fit runs.
+        nuisances: numbers of the mechanism with their priors.
+        noise: weight of beliefs, as of `fit`.
+    """
+    if any(n.name.endswith(GAIN) for n in nuisances) or not all(GAIN in b.columns for b in balances):
+        return None
+    free = [*nuisances, Nuisance(GAIN, 1.0, 1.0, "-", 0.0)]
+    model = dataclasses.replace(current.model, nuisances=dict(current.model.nuisances) | {GAIN: 1.0})
+    fitted, _ = settled(model, balances, free, noise=noise)
+    belief = Belief(MECHANISM, GAIN, 1.0, 1.0)
+    if _at_an_end(belief, fitted):
+        return None
+    cost = np.log(max(fitted.independent, 4.0)) + 2.0 * np.log(len(free))
+    return Released(belief, evidence(current, fitted, fitted, settings_of(balances)) - float(cost), current.rms, fitted.rms)
 
 
 def _at_an_end(belief: Belief, fitted: JointFit) -> bool:

@@ -12,11 +12,11 @@ from scipy.stats import f as fisher
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_state, confounded
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.balance.force_balance import GAIN, ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate, candidates, span_of
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes, witnesses
 from stochfric_mb.discovery.driven_joint.decision.evidence import evidence, settings_of
-from stochfric_mb.discovery.driven_joint.decision.released import Freed, Released, beyond_beliefs
+from stochfric_mb.discovery.driven_joint.decision.released import Freed, Released, beyond_beliefs, by_gain
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import COMPETITORS, SmoothDependences
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight, settled
 from stochfric_mb.discovery.driven_joint.fit.gains import predicted_rms
@@ -184,6 +184,8 @@ class Selector:
         if best is None:
             return None
         others = [f.number for f in freed if f is not best]
+        gain = None if GAIN in self._without else by_gain(current, self._balances, self._nuisances, self._noise)
+        others += [] if gain is None else [gain]
         least = max(best.number.score - criteria.TIE, criteria.STANDS_IN * best.number.score)
         self._nuisances, self._noise = best.nuisances, prior_weight(best.fit)
         released = dataclasses.replace(best.number, alike=tuple(r.name for r in others if r.score > least))

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_clock, confounded, spoken_of, stand_ins
+from stochfric_mb.discovery.driven_joint.balance.force_balance import GAIN
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.adequacy import at_bound
 from stochfric_mb.discovery.driven_joint.decision.candidates import candidates, span_of
@@ -22,7 +23,17 @@ from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
 from stochfric_mb.effects import Effect, effect_class, effect_kinds, kind_with_signature, kinds_with, words_of
-from stochfric_mb.effects.traits import ANONYMOUS, BELT, DRAWN_ANEW, LATE, MORE_DAMPING, OTHER_AREA, REPEATED_READING, STRAY
+from stochfric_mb.effects.traits import (
+    ANONYMOUS,
+    BELT,
+    DRAWN_ANEW,
+    LATE,
+    MORE_DAMPING,
+    OTHER_AREA,
+    REPEATED_READING,
+    STRAY,
+    WANDER,
+)
 from stochfric_mb.measurement.dataset import Dataset
 
 IMITATED = 0.99
@@ -248,18 +259,20 @@ def _drawn(place: PlaceOutcome) -> list[EffectEstimate]:
     found: list[EffectEstimate] = []
     if strokes is not None and strokes.named:
         how = f"{strokes.strokes} strokes), more than its scatter within them explains, and each stroke by itself"
-        found.append(_scattered(strokes, "stroke", place, how))
+        found.append(_scattered(strokes, "stroke", place, how, (kind_with_signature(WANDER),) if strokes.remembers else ()))
     if runs is not None and runs.named:
         how = f"{runs.runs} runs), more than the scatter of their strokes explains; no run says it of another"
         found.append(_scattered(runs, "run", place, how))
     return found
 
 
-def _scattered(seen: CoefficientScatter, axis: str, place: PlaceOutcome, how: str) -> EffectEstimate:
+def _scattered(
+    seen: CoefficientScatter, axis: str, place: PlaceOutcome, how: str, same: tuple[str, ...] = ()
+) -> EffectEstimate:
     share = f"{100.0 * seen.share:.1f} % (standard deviation, {how}."
     where = Where(axis, f"Friction differs from {axis} to {axis}{_at(place)} by {share}")
     size = {"sigma_k": Interval(seen.sigma, seen.low, seen.high, "-")}
-    return EffectEstimate(kind_with_signature(DRAWN_ANEW), (), where, size, seen.score, seen.p_value)
+    return EffectEstimate(kind_with_signature(DRAWN_ANEW), same, where, size, seen.score, seen.p_value)
 
 
 def _at(place: PlaceOutcome) -> str:
@@ -333,6 +346,8 @@ def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
     if worst:
         first, second = worst[0].first, worst[0].second
         return f"Vary {first} and {second} apart: repeat the experiment with the {second} that each {first} has not had yet."
+    if any(GAIN in n.alike for p in places for n in p.selected.released):
+        return "Weigh what moves, or hold the drive against a force gauge: is it the mechanism or the factor of the drive?"
     same = [
         (t.candidate.kind, others)
         for p in places

@@ -54,9 +54,14 @@ class StrokeScatter(CoefficientScatter):
         return self.inside <= FLOOR * self.floor
 
     @property
+    def remembers(self) -> bool:
+        """Whether the stroke before says something of the next one, by two standard errors of a correlation of none."""
+        return bool(self.correlation > 2.0 / np.sqrt(self.strokes))
+
+    @property
     def wanders(self) -> bool:
         """Whether the stroke before says more than half of the next one, which is then not drawn anew."""
-        return self.correlation**2 > criteria.EXPLAINED_HELD_OUT and self.correlation > 2.0 / np.sqrt(self.strokes)
+        return self.remembers and self.correlation**2 > criteria.EXPLAINED_HELD_OUT
 
     @property
     def slow_noise(self) -> bool:
