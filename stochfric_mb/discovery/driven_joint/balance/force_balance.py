@@ -154,6 +154,20 @@ class ForceBalance:
         """Distance slid since the record began, whichever way [m or rad], shape (count,)."""
         return self.before + distance_slid(self.velocity, self.window)
 
+    @functools.cached_property
+    def signals(self) -> tuple[Array, ...]:
+        """What friction is evaluated with, at every stride-th sample, in the order of `friction_along`'s compiled code.
+
+        Time, position, velocity, load, slip, distance, temperature (0: not measured), normal force [N] (0: the stated load),
+        drive and pressure (0: not measured), shape (n_samples,) each.
+        """
+        none = np.zeros(len(self.time))
+        measured = (
+            self.time, self.position, self.velocity, self.load, self.slip, self.travelled, self.temperature, self.normal_force,
+            self.drive, self.pressure,
+        )  # fmt: skip
+        return tuple(np.ascontiguousarray((none if x is None else x)[:: self.window.stride]) for x in measured)
+
     @property
     def factors(self) -> dict[str, Array]:
         """The conditions that friction may depend on: name -> shape (n_centres,)."""

@@ -93,17 +93,10 @@ def friction_along(balance: ForceBalance, law: Law, effects: Sequence[Effect], l
 def _friction_of_one_body(balance: ForceBalance, law: Law, effects: Sequence[Effect], load: float) -> Array:
     """Return the friction of a joint whose load follows the motor; arguments as of `friction_along`."""
     links = chain(law, effects, load, contact=balance.normal_force is not None)
-    n, every = len(balance.time), balance.window.stride
-    pressed = np.ones(n) if balance.normal_force is None else balance.normal_force / load
-    temperature = np.zeros(n) if balance.temperature is None else balance.temperature
-    drive, pressure = (np.zeros(n) if x is None else x for x in (balance.drive, balance.pressure))
-    signals = (
-        balance.time, balance.position, balance.velocity, balance.load, balance.slip, balance.travelled, temperature, pressed,
-        drive, pressure,
-    )  # fmt: skip
-    some = [np.ascontiguousarray(x[::every]) for x in signals]
-    force = np.empty(len(some[0]))
-    along(links.numbers, links.calls, links.parameters, *some, force)
+    *motion, normal_force, drive, pressure = balance.signals
+    pressed = np.ones(len(normal_force)) if balance.normal_force is None else normal_force / load
+    force = np.empty(len(pressed))
+    along(links.numbers, links.calls, links.parameters, *motion, pressed, drive, pressure, force)
     return balance.window.means @ force
 
 
