@@ -15,7 +15,7 @@ from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.balance.late_channel import brought_forward, late_channel
 from stochfric_mb.discovery.driven_joint.balance.readings import mended
 from stochfric_mb.discovery.driven_joint.balance.timing import NAMED
-from stochfric_mb.discovery.driven_joint.decision.adequacy import drawn_by_two, inadequate
+from stochfric_mb.discovery.driven_joint.decision.adequacy import drawn_by_two, endless, inadequate
 from stochfric_mb.discovery.driven_joint.decision.carry_over import with_idle, with_unnamed
 from stochfric_mb.discovery.driven_joint.decision.selection import Stage
 from stochfric_mb.discovery.driven_joint.decision.signs import require_dissipation
@@ -198,8 +198,8 @@ def _adequate(source: Balances, tell: Progress, places: Sequence[PlaceOutcome]) 
     without = frozenset[str]()
     for _ in range(ANSWERS - 1):
         place = seen[0][0]
-        if not inadequate(place) or place.again is None or drawn_by_two(place):
-            break  # without one of two effects that draw one curve the other would be named by chance
+        if not inadequate(place) or place.again is None or drawn_by_two(place) or endless(place):
+            break  # without one of the effects that draw one curve, or a series, the others would be named by chance
         stages += place.selected.stages
         without |= {_leads(place)}
         other = place.again(without)

@@ -105,11 +105,13 @@ def spoken_of(pairs: Sequence[Confounded], kinds: Sequence[str]) -> list[Confoun
 
 
 def stand_ins(kind: str, pairs: Sequence[Confounded]) -> tuple[str, ...]:
-    """Return the effects that could pass for ``kind`` because its condition went together with theirs."""
+    """Return the effects that could pass for ``kind`` because its condition went together with theirs.
+
+    Of clocks among each other the fits have been asked.
+    """
     own = effect_class(kind).answers_to
     others = {p.second if p.first == own else p.first for p in pairs if p.strong and own in (p.first, p.second)}
-    if not own or own in CLOCKS:
-        return ()
+    others -= set(CLOCKS) if own in CLOCKS else set()
     return tuple(k for k in effect_kinds() if k != kind and effect_class(k).answers_to in others)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import confounded, one_curve
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNED
-from stochfric_mb.discovery.driven_joint.fit.beliefs import beliefs
+from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, closed_share, noise_floor
 
@@ -16,7 +16,8 @@ def inadequate(place: PlaceOutcome) -> str:
     """Return why what was selected at a place does not stand; empty if it does, or if nothing was.
 
     It does not where two effects draw one curve, where it explains no more than it leaves on the held-out runs, where a number
-    that is believed has to go as far as beliefs allow for it, and where more than noise is left and either the typical window
+    that is believed has to go as far as beliefs allow for it, where as many effects as
+    are looked for leave more than noise, and where more than noise is left and either the typical window
     errs more with it or what is left plainly depends on conditions that are not its own.
     """
     kinds = ", ".join(place.selected.named)
@@ -28,7 +29,7 @@ def inadequate(place: PlaceOutcome) -> str:
     why = _lost(place)
     if why:
         return f"{kinds} explains the fit runs, but not the held-out ones ({why}), and is not named"
-    why = at_bound(place) or _worse_at_most_times(place) or _plainly_left(place)
+    why = endless(place) or at_bound(place) or _worse_at_most_times(place) or _plainly_left(place)
     return f"{kinds} explains much of the record, but {why}, and is not named" if why else ""
 
 
@@ -53,11 +54,23 @@ def _lost(place: PlaceOutcome) -> str:
 def at_bound(place: PlaceOutcome) -> str:
     """Return which believed number the model needs at the end of what is believed; empty: none."""
     model, released = place.selected.final.model, {r.name for r in place.selected.released}
-    for belief in beliefs(place.stated, place.nuisances):
-        off = belief.off(model)
-        if belief.name not in released and abs(off) > criteria.AT_BOUND * criteria.MOST_OFF:
-            return f"needs {belief.name} off by {off:.1f} of its stated standard deviations, as far as a belief gives way"
-    return ""
+    belief = at_end(model, [b for b in beliefs(place.stated, place.nuisances) if b.name not in released])
+    if belief is None:
+        return ""
+    off = belief.off(model)
+    return f"needs {belief.name} off by {off:.1f} of its stated standard deviations, as far as a belief gives way"
+
+
+def endless(place: PlaceOutcome) -> str:
+    """Return what as many effects as are looked for leave; empty: they are fewer, or leave noise.
+
+    Selection has then ended by their number and not by evidence: they draw what is there as terms of a series would.
+    """
+    selected = place.selected
+    noise = noise_floor(selected.final.model, place.fit, place.nuisances)
+    if len(selected.effects) < criteria.MOST_EFFECTS or selected.final.rms < FLOOR * noise:
+        return ""
+    return f"as many effects as are looked for leave {selected.final.rms / noise:.1f} times the noise"
 
 
 def _worse_at_most_times(place: PlaceOutcome) -> str:

@@ -49,14 +49,16 @@ def with_idle(place: PlaceOutcome) -> PlaceOutcome:
 def lacks(dataset: Dataset, place: PlaceOutcome) -> bool:
     """Return whether a place is mistimed, a curve of two effects, or leaves more than noise explains, if its noise can tell.
 
-    A number of the mechanism that goes as far as beliefs allow for it stands for something else.
+    A number of the mechanism that goes as far as beliefs allow for it stands for something else, and runs that differ as a
+    condition of theirs does are drawn by no chance.
 
     Slow and prescribed, without a mass, motion shows the noise of a force sensor alone: what friction itself does is far above
     that.
     """
     mistimed = place.timing is not None and place.timing.puzzling
     noisy = getattr(dataset.scenario.mechanism, "mass", 1.0) > 0.0 and (above_floor(place) or runs_apart(place))
-    return mistimed or noisy or bool(place.curve) or bool(at_bound(place)) or foretells_nothing(place)
+    told = place.runs is not None and place.runs.foretold
+    return mistimed or noisy or told or bool(place.curve) or bool(at_bound(place)) or foretells_nothing(place)
 
 
 def foretells_nothing(place: PlaceOutcome) -> bool:

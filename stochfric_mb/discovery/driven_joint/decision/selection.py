@@ -18,6 +18,7 @@ from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks
 from stochfric_mb.discovery.driven_joint.decision.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.decision.released import Freed, Released, beyond_beliefs, by_gain
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import COMPETITORS, SmoothDependences
+from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight, settled
 from stochfric_mb.discovery.driven_joint.fit.gains import predicted_rms
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
@@ -155,7 +156,8 @@ class Selector:
             current = self._fit(stage.trials[0].fit.model)
             self._noise = prior_weight(current)
             current, effects = self._re_examined(current, effects)
-        final, effects = self._without_zero(self._fit(current.model), effects)
+            current, released = self._taken_back(current, released)
+        final, effects = self._without_pushing(*self._without_zero(self._fit(current.model), effects))
         unknown = self._unknown(stages[-1]) if not stages[-1].accepted else ("", 0.0)
         left = (unknown, self._smooth.together(final, self._noise) if effects or released else ("", 0.0))
         return Selected(
@@ -176,11 +178,20 @@ class Selector:
         It is a finding of its own, a payload for instance: within its belief it would hide behind what it cannot explain. As
         effects do, it has to foretell parts of the record that were left out.
         """
+        freed = self._freed(current)
+        # all are judged by the same count of independent windows: that of the best fit
+        finest = min((*(t.fit for t in stage.trials), *(f.fit for f in freed)), key=lambda f: f.rms)
+        n = max(finest.independent, 4.0)
+
+        def worth(fitted: JointFit, numbers: int) -> float:
+            return evidence(current, fitted, finest, self._settings) - numbers * float(np.log(n))
+
         # a prior is given up where it explains more than any effect that leaves it alone, or as much with fewer numbers: an
         # effect whose curve is straight is a constant
-        margin = criteria.TIE if stage.trials[0].candidate.parameters <= 1 else -criteria.TIE
-        freed, enough = self._freed(current), max(criteria.NAMED, stage.trials[0].score + margin)
-        best = next((f for f in freed if f.number.score >= enough and self._foretells(current, f)), None)
+        rivals = [(t.fit, _numbers(current, t.candidate, t.fit)) for t in stage.trials]
+        enough = max(worth(f, numbers) + (criteria.TIE if numbers <= 1 else -criteria.TIE) for f, numbers in rivals)
+        named = [f for f in freed if f.number.score >= criteria.NAMED and worth(f.fit, 1) >= enough]
+        best = next((f for f in named if self._foretells(current, f)), None)
         if best is None:
             return None
         others = [f.number for f in freed if f is not best]
@@ -190,6 +201,17 @@ class Selector:
         self._nuisances, self._noise = best.nuisances, prior_weight(best.fit)
         released = dataclasses.replace(best.number, alike=tuple(r.name for r in others if r.score > least))
         return released, self._fit(best.fit.model)
+
+    def _taken_back(self, current: JointFit, released: list[Released]) -> tuple[JointFit, list[Released]]:
+        """Believe again numbers that effects found after them explain: what is left of their evidence no longer names them."""
+        for number in released:
+            model, nuisances = number.belief.held(current.model, self._nuisances)
+            fitted, noise = settled(model, self._balances, nuisances, noise=self._noise)
+            score = evidence(fitted, current, current, self._settings) - float(np.log(max(current.independent, 4.0)))
+            if score < criteria.NAMED:
+                self._nuisances, self._noise, current = nuisances, noise, fitted
+                released = [r for r in released if r is not number]
+        return current, released
 
     def _foretells(self, current: JointFit, freed: Freed) -> bool:
         """Return whether a number beyond its belief predicts parts that were left out better, by a material part."""
@@ -213,6 +235,14 @@ class Selector:
             others = tuple(e for i, e in enumerate(final.model.effects) if i != first + empty)
             final = self._fit(dataclasses.replace(final.model, effects=others))
             effects = [t for i, t in enumerate(effects) if i != empty]
+
+    def _without_pushing(self, final: JointFit, effects: list[Trial]) -> tuple[JointFit, list[Trial]]:
+        """Drop further effects that need a number as far off as beliefs give way, where those before them leave it within."""
+        believed = beliefs(final.model, self._nuisances)
+        shorter, kept = final, effects
+        while at_end(shorter.model, believed) is not None and len(kept) > 1:
+            shorter, kept = self._fit(dataclasses.replace(shorter.model, effects=shorter.model.effects[:-1])), kept[:-1]
+        return (final, effects) if at_end(shorter.model, believed) is not None else (shorter, kept)
 
     def _stage(self, current: JointFit) -> Stage:
         span = span_of(self._balances, current.model.law.mu_k * current.model.load, current.model.load)
@@ -342,8 +372,7 @@ class Selector:
 
     def _trial(self, current: JointFit, candidate: Candidate, fitted: JointFit, best: JointFit, n: float, kinds: int) -> Trial:
         waves = tried(candidate.scan, self._balances) if candidate.scan is not None else 0.0
-        p, grid = candidate.parameters, (len(candidate.starts) + waves) * kinds
-        p += max(len(fitted.model.own) - len(current.model.own) - 1, 0)
+        p, grid = _numbers(current, candidate, fitted), (len(candidate.starts) + waves) * kinds
         ratio = max((current.rms / fitted.rms) ** 2, 1.0)
         score = evidence(current, fitted, best, self._settings) - p * np.log(n) - 2.0 * np.log(grid)
         spare = max(n - len(fitted.free), 1.0)
@@ -424,6 +453,11 @@ def simplest_first(trials: list[Trial], pairs: Sequence[Confounded] = ()) -> lis
     alike = [t for t in tied if (t.candidate.kind, t.candidate.parameters) == (chosen.kind, chosen.parameters)]
     first = min(alike, key=lambda t: t.candidate.form)
     return [first, *(t for t in trials if t is not first)]
+
+
+def _numbers(current: JointFit, candidate: Candidate, fitted: JointFit) -> int:
+    """Return how many numbers a candidate adds to a fit, phases that each run has for itself among them."""
+    return candidate.parameters + max(len(fitted.model.own) - len(current.model.own) - 1, 0)
 
 
 def _is_none(fitted: JointFit, owner: int) -> bool:

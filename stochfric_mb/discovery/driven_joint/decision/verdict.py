@@ -247,6 +247,8 @@ def _axis(place: PlaceOutcome) -> str:
     """
     if at_bound(place):
         return "motion"
+    if place.runs is not None and place.runs.foretold:
+        return place.runs.told_by
     if (foretells_nothing(place) or runs_apart(place)) and not above_floor(place):
         return "run"
     rivals = place.selected.stages[-1].competitors

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import Nuisance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM
@@ -38,13 +39,24 @@ class Belief:
 
     def given_up(self, model: JointModel, nuisances: Sequence[Nuisance]) -> tuple[JointModel, list[Nuisance]]:
         """Return a model and the numbers of its mechanism without this belief."""
+        return self._as_firm(model, nuisances, WIDE * self.deviation)
+
+    def held(self, model: JointModel, nuisances: Sequence[Nuisance]) -> tuple[JointModel, list[Nuisance]]:
+        """Return a model and the numbers of its mechanism with this belief, which had been given up."""
+        return self._as_firm(model, nuisances, self.deviation)
+
+    def _as_firm(self, model: JointModel, nuisances: Sequence[Nuisance], deviation: float) -> tuple[JointModel, list[Nuisance]]:
         if self.owner == LAW:
-            return dataclasses.replace(model, level=(self.value, WIDE * self.deviation)), list(nuisances)
-        wide = [dataclasses.replace(n, deviation=WIDE * n.deviation) if n.name == self.name else n for n in nuisances]
-        return model, wide
+            return dataclasses.replace(model, level=(self.value, deviation)), list(nuisances)
+        return model, [dataclasses.replace(n, deviation=deviation) if n.name == self.name else n for n in nuisances]
 
 
 def beliefs(model: JointModel, nuisances: Sequence[Nuisance]) -> list[Belief]:
     """Return what is believed: mu_k, where its uncertainty is stated, and the numbers of the mechanism."""
     every = [Belief(LAW, "mu_k", *model.level), *(Belief(MECHANISM, n.name, n.value, n.deviation) for n in nuisances)]
     return [b for b in every if np.isfinite(b.deviation)]
+
+
+def at_end(model: JointModel, believed: Sequence[Belief]) -> Belief | None:
+    """Return a belief whose number a model needs as far off as beliefs give way; None: there is none."""
+    return next((b for b in believed if abs(b.off(model)) > criteria.AT_BOUND * criteria.MOST_OFF), None)

@@ -3,7 +3,8 @@
 Each run has its own mu_k, from what the model leaves of it: the mean of both directions, so that a zero of the drive cancels;
 a run may be a single slide one way. What is left within strokes, and how strokes differ, give it a variance (`between_groups`).
 
-No model foretells such a run. Held-out runs are therefore scored by the CRPS of a forecast that knows how far runs scatter.
+No model foretells such a run: where a condition of the runs does, their speed for instance, it is no chance. Held-out runs are
+therefore scored by the CRPS of a forecast that knows how far runs scatter.
 
 Reference: T. Gneiting, A. E. Raftery, J. Am. Stat. Assoc. 102, 2007, 359-378, doi 10.1198/016214506000001437, eq. 21 (CRPS of a
 normal distribution).
@@ -16,8 +17,9 @@ from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
-from scipy.stats import norm
+from scipy.stats import norm, pearsonr
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.scatter.between_groups import CoefficientScatter, estimated
@@ -27,6 +29,8 @@ Array = npt.NDArray[np.float64]
 
 FEWEST = 5
 """Fewest runs from which a scatter between them is asked for: of fewer, any scatter fits."""
+RUN_BY_RUN = ("time", "distance")
+"""Clocks that begin with a run."""
 SIZES = np.logspace(-2.0, 4.0, 300)
 """Scatter that is tried, over the median deviation of a run [-]."""
 
@@ -37,6 +41,18 @@ class RunScatter(CoefficientScatter):
 
     runs: int
     """Number of runs."""
+    told_by: str = ""
+    """The condition of the runs that says most of what the larger part of it is; empty: none does."""
+
+    @property
+    def named(self) -> bool:
+        """Whether it is a finding."""
+        return super().named and not self.told_by
+
+    @property
+    def foretold(self) -> bool:
+        """Whether runs differ as a condition of theirs does, and that has no name."""
+        return super().named and bool(self.told_by)
 
     @property
     def foreseen(self) -> float:
@@ -76,7 +92,30 @@ def run_scatter(
     alike = np.zeros(len(runs), dtype=np.int64)
     known = estimated(delta, variance, alike, SIZES, believed=believed, mu_k=model.law.mu_k)
     left = float(np.mean(variance))
-    return RunScatter(**known, gain=1.0 - float(np.sqrt(left / (known["sigma"] ** 2 + left))), runs=len(runs))
+    told_by = _condition_of(delta, [balances[i] for i in chosen])
+    return RunScatter(**known, gain=1.0 - float(np.sqrt(left / (known["sigma"] ** 2 + left))), runs=len(runs), told_by=told_by)
+
+
+def _condition_of(delta: Array, balances: Sequence[ForceBalance]) -> str:
+    """Return the condition of the runs that says more of their mu_k than it leaves, and not by chance; empty: none does.
+
+    How long a run slides, and how far, friction itself makes where nothing drives: clocks that begin with it are not asked.
+    """
+    names = [n for n in balances[0].factors if n not in RUN_BY_RUN and all(n in s.factors for s in balances)]
+    conditions = {n: np.array([_condition(s, n) for s in balances]) for n in names}
+    asked = {n: x for n, x in conditions.items() if min(np.ptp(x), np.ptp(delta)) > 0.0}
+    told: dict[str, float] = {}
+    for name, values in asked.items():
+        correlation, chance = np.asarray(pearsonr(values, delta), dtype=np.float64).tolist()
+        if correlation**2 > criteria.EXPLAINED_HELD_OUT and chance * len(asked) < criteria.FAMILY_WISE:
+            told[name] = correlation**2
+    return max(told, key=lambda n: told[n], default="")
+
+
+def _condition(balance: ForceBalance, name: str) -> float:
+    """Return a condition of a run: its mean, or how it begins where nothing drives and friction makes what comes after."""
+    values = balance.factors[name][balance.sliding]
+    return float(values.mean() if balance.drive is not None and np.any(balance.drive) else values[0])
 
 
 def _sides(run: Sequence[Stroke]) -> list[Array]:
