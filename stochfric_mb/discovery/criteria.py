@@ -11,7 +11,8 @@ from __future__ import annotations
 FOLLOWED_UP, NAMED = 14.0, 20.0
 """Scores at which a candidate is followed up, and at which it is named [-]."""
 FAMILY_WISE = 0.01
-"""Chance that the best of all candidates is named where a scatter is declared and nothing is missing [-]."""
+"""Chance that the best of all candidates is named where a scatter is declared and nothing is missing, and that the best of the
+conditions of runs seems to foretell friction that is drawn anew for each of them [-]."""
 OUTDONE = 0.5
 """A competitor that names no physics wins at once if the best effect has less than this share of its score [-]."""
 CONTENDS = 0.75

@@ -15,10 +15,10 @@ from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, closed_
 def inadequate(place: PlaceOutcome) -> str:
     """Return why what was selected at a place does not stand; empty if it does, or if nothing was.
 
-    It does not where two effects draw one curve, where it explains no more than it leaves on the held-out runs, where a number
-    that is believed has to go as far as beliefs allow for it, where as many effects as
-    are looked for leave more than noise, and where more than noise is left and either the typical window
-    errs more with it or what is left plainly depends on conditions that are not its own.
+    It does not where two effects draw one curve, where it explains no more than it leaves on the held-out runs, where as many
+    effects as are looked for leave more than noise, where a number that is believed has to go as far as beliefs allow for it,
+    and where more than noise is left and either the typical window errs more with it or what is left plainly depends on
+    conditions that are not its own.
     """
     kinds = ", ".join(place.selected.named)
     if not kinds or place.forecasts is not None or (place.random is not None and place.random.named):

@@ -13,6 +13,7 @@ from stochfric_mb.discovery.stick_slip.decision.decision import Decision, Named
 from stochfric_mb.discovery.stick_slip.decision.kinematics import STICK_SHARE
 from stochfric_mb.discovery.stick_slip.decision.random_effects import kicked
 from stochfric_mb.discovery.stick_slip.decision.rounds import of_wander
+from stochfric_mb.discovery.stick_slip.records.record import CORRECTED
 from stochfric_mb.discovery.stick_slip.screening.folding import comes_back
 from stochfric_mb.discovery.stick_slip.simulation.forecast import score
 from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import (
@@ -150,14 +151,18 @@ def _poor(answer: Answer, slip_study: Study, recalibrated: Fit) -> Decision | No
 
 
 def _far_off(model: Model, recalibrated: Model, slip_study: Study) -> str | None:
-    """Return which coefficient of friction effects push far off from what is stated, and by how much; None: none."""
+    """Return which number of law or mechanism effects push far off from what is stated, and by how much; None: none."""
     stated, doubt = slip_study.dataset.scenario.law, slip_study.uncertainty
-    for name in ("mu_s", "mu_k"):
-        believed, deviation = getattr(stated, name), doubt.get(name, 0.0)
-        off, before = (
-            abs(getattr(m.law, name) - believed) / (believed * deviation) if believed * deviation else 0.0
-            for m in (model, recalibrated)
-        )
+
+    def share(one: Model, name: str) -> float:
+        if name in CORRECTED:
+            return one.corrections.get(name, 0.0)
+        believed = float(getattr(stated, name))
+        return getattr(one.law, name) / believed - 1.0 if believed else 0.0
+
+    for name in (*CORRECTED, "mu_s", "mu_k"):
+        deviation = doubt.get(name, 0.0)
+        off, before = (abs(share(m, name)) / deviation if deviation else 0.0 for m in (model, recalibrated))
         if off > max(criteria.MOST_OFF, before):
             return f"{name} would be {off:.2g}"
     return None
