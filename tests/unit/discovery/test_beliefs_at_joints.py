@@ -42,9 +42,13 @@ def test_a_zero_is_given_up_where_no_effect_that_leaves_it_alone_explains_as_muc
     alone = next(t for t in stage.trials if t.candidate.parameters == 1)
     poor = next(t for t in stage.trials if t.candidate.parameters == 2 and t.fit.rms > 1.2 * alone.fit.rms)
     assert selector._released(current, dataclasses.replace(stage, trials=(poor, alone))) is None
-    released = selector._released(current, dataclasses.replace(stage, trials=(poor,)))
-    assert released is not None
-    assert released[0].name == "offset"
+    assert alone.score > criteria.NAMED
+    weak = dataclasses.replace(alone, score=0.9 * criteria.NAMED)  # what cannot be named itself is no rival
+    for trials in ((poor,), (poor, weak)):
+        selector = selector_of(believing(asymmetric, mass=0.05, offset=0.08, mu_k=0.2))
+        released = selector._released(selector.recalibrated, dataclasses.replace(stage, trials=trials))
+        assert released is not None
+        assert released[0].name == "offset"
 
 
 @pytest.mark.parametrize(("mass", "stays"), [(2.0, False), (4.0, True)])

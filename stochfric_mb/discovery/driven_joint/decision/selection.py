@@ -186,10 +186,11 @@ class Selector:
         def worth(fitted: JointFit, numbers: int) -> float:
             return evidence(current, fitted, finest, self._settings) - numbers * float(np.log(n))
 
-        # a prior is given up where it explains more than any effect that leaves it alone, or as much with fewer numbers: an
-        # effect whose curve is straight is a constant
-        rivals = [(t.fit, _numbers(current, t.candidate, t.fit)) for t in stage.trials]
-        enough = max(worth(f, numbers) + (criteria.TIE if numbers <= 1 else -criteria.TIE) for f, numbers in rivals)
+        # a prior is given up where that explains more than any effect that leaves it alone and could be named, or as much with
+        # fewer numbers: an effect whose curve is straight is a constant
+        rivals = [(t.fit, _numbers(current, t.candidate, t.fit)) for t in stage.trials if t.score > criteria.NAMED]
+        needs = (worth(f, numbers) + (criteria.TIE if numbers <= 1 else -criteria.TIE) for f, numbers in rivals)
+        enough = max(needs, default=-np.inf)
         named = [f for f in freed if f.number.score >= criteria.NAMED and worth(f.fit, 1) >= enough]
         best = next((f for f in named if self._foretells(current, f)), None)
         if best is None:
