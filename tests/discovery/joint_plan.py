@@ -17,6 +17,8 @@ from .joint_generator.unseen_seventh import PAIRS as UNSEEN_SEVENTH_PAIRS
 from .joint_generator.unseen_seventh import UNSEEN_SEVENTH
 from .joint_generator.unseen_sixth import PAIRS as UNSEEN_SIXTH_PAIRS
 from .joint_generator.unseen_sixth import UNSEEN_SIXTH
+from .joint_generator.unseen_tenth import PAIRS as UNSEEN_TENTH_PAIRS
+from .joint_generator.unseen_tenth import UNSEEN_TENTH
 from .joint_generator.unseen_third import UNSEEN_THIRD
 
 STRENGTHS = (1.0, 0.5)
@@ -76,6 +78,7 @@ SERIES = {
     7: (UNSEEN_SEVENTH, UNSEEN_SEVENTH_PAIRS),
     8: (UNSEEN_EIGHTH, UNSEEN_EIGHTH_PAIRS),
     9: (UNSEEN_NINTH, UNSEEN_NINTH_PAIRS),
+    10: (UNSEEN_TENTH, UNSEEN_TENTH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 
