@@ -20,6 +20,7 @@ import numpy as np
 import warp as wp
 
 from stochfric_mb.coefficients import Knots
+from stochfric_mb.errors import InputError
 from stochfric_mb.friction import Friction
 from stochfric_mb.laws import make_law
 from stochfric_mb.warp.attach import add_friction
@@ -94,11 +95,20 @@ def cost(model: mujoco.MjModel, geom: str, nworld: int) -> tuple[float, float, f
     return step, ours.callback / (n * TURNS) / step, float(np.median([b / a for a, b in pairs]))
 
 
+def _numbers_of_worlds(_: click.Context, __: click.Parameter, text: str) -> list[int]:
+    words = text.split(",")
+    if not all(word.strip().isdecimal() and int(word) > 0 for word in words):
+        raise click.BadParameter(f"{text!r} is no list of whole numbers from 1 on; give for instance 1,64,4096")
+    return [int(word) for word in words]
+
+
 @click.command()
-@click.option("--worlds", default="1,64,4096", show_default=True, help="Numbers of worlds, with commas.")
+@click.option(
+    "--worlds", default="1,64,4096", show_default=True, callback=_numbers_of_worlds, help="Numbers of worlds, with commas."
+)
 @click.option("--model", type=click.Path(exists=True), help="MJCF file; a box on a plane if not given.")
 @click.option("--geom", default="floor", show_default=True, help="Geom whose contacts get friction.")
-def main(worlds: str, model: str | None, geom: str) -> None:
+def main(worlds: list[int], model: str | None, geom: str) -> None:
     """Print what a step costs with and without friction."""
     spec = mujoco.MjSpec.from_file(model) if model else mujoco.MjSpec.from_string(BOX)
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
@@ -106,8 +116,11 @@ def main(worlds: str, model: str | None, geom: str) -> None:
     compiled = spec.compile()
     compiled.geom_condim[:] = np.maximum(compiled.geom_condim, 3)
     device = str(wp.get_preferred_device())
-    for nworld in (int(word) for word in worlds.split(",")):
-        seconds, callback, ratio = cost(compiled, geom, nworld)
+    for nworld in worlds:
+        try:
+            seconds, callback, ratio = cost(compiled, geom, nworld)
+        except InputError as error:
+            raise click.ClickException(str(error)) from error
         took = f"{1e6 * seconds:.0f} us a step" + (f", callback {100 * callback:.1f} % of it" if callback else "")
         click.echo(f"{device}, {nworld} worlds: {took}; a step with friction {ratio:.3f} of it")
 

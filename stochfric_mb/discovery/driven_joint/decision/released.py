@@ -107,7 +107,7 @@ def by_gain(
         nuisances: numbers of the mechanism with their priors.
         noise: weight of beliefs, as of `fit`.
     """
-    if any(n.name.endswith(GAIN) for n in nuisances) or not all(GAIN in b.columns for b in balances):
+    if any(n.name.endswith(GAIN) for n in nuisances) or any(b.drive is None for b in balances):
         return None
     free = [*nuisances, Nuisance(GAIN, 1.0, 1.0, "-", 0.0)]
     model = dataclasses.replace(current.model, nuisances=dict(current.model.nuisances) | {GAIN: 1.0})

@@ -42,7 +42,7 @@ class RunScatter(CoefficientScatter):
     runs: int
     """Number of runs."""
     told_by: str = ""
-    """The condition of the runs that says most of what the larger part of it is; empty: none does."""
+    """The condition of the runs that says more of their friction than it leaves; empty: none does."""
 
     @property
     def named(self) -> bool:
