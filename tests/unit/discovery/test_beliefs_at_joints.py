@@ -1,6 +1,7 @@
 """Beliefs of numbers at driven joints: when they are given up, held again, and what may not press against them."""
 
 import dataclasses
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from stochfric_mb.discovery.driven_joint.decision.released import Released
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector, Trial
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.discovery.driven_joint.next_experiment import next_experiment
 from stochfric_mb.discovery.driven_joint.scatter.run_scatter import run_scatter
 from stochfric_mb.discovery.driven_joint.simulation.scores import Score
 from stochfric_mb.discovery.driven_joint.source import source_of
@@ -114,3 +116,14 @@ def test_a_clock_that_went_together_with_a_place_is_in_one_class_with_effects_of
     alike = stand_ins("distance_drift", [Confounded("position", "distance", 0.99), Confounded("time", "distance", 0.99)])
     assert "position_dependent_friction" in alike
     assert "friction_drift" not in alike  # of clocks among each other the fits are asked
+
+
+@pytest.mark.parametrize(
+    ("told", "alike", "says"),
+    [("speed", (), "values of the speed"), ("", ("gain",), "force gauge"), ("", (), "a second load")],
+)
+def test_the_next_experiment_tells_apart_what_these_runs_do_not(told, alike, says):
+    runs = SimpleNamespace(told_by=told, foretold=bool(told))
+    selected = SimpleNamespace(named=alike, released=(SimpleNamespace(alike=alike),), effects=(), equivalents=())
+    place = SimpleNamespace(runs=runs, random=None, selected=selected, forecasts=None, fit=(), test=())
+    assert says in next_experiment([], [place] if told or alike else [])

@@ -361,3 +361,9 @@ def test_an_interval_has_the_digits_that_tell_its_ends_from_its_value():
     assert text == "12.0000 (11.9996 to 12.0004)&nbsp;mm"
     text = re.sub(r"<[^>]*>", "", str(interval({"value": 0.5, "low": 0.4, "high": 0.6, "unit": "N s^2/m^2"})))
     assert text == "0.500 (0.400 to 0.600)&nbsp;N s²/m²"
+
+
+@pytest.mark.parametrize(("asked", "shown"), [("is it the zero?", "is it the zero?<"), ("a second load", "a second load.<")])
+def test_a_question_keeps_its_mark_alone(asked, shown):
+    _, text, _ = written(outcome_of(dataclasses.replace(BASE, next_experiment=asked)))
+    assert shown in re.sub(r"</span>(\.?)", r"\1<", text)

@@ -57,8 +57,12 @@ def lacks(dataset: Dataset, place: PlaceOutcome) -> bool:
     """
     mistimed = place.timing is not None and place.timing.puzzling
     noisy = getattr(dataset.scenario.mechanism, "mass", 1.0) > 0.0 and (above_floor(place) or runs_apart(place))
-    told = place.runs is not None and place.runs.foretold
-    return mistimed or noisy or told or bool(place.curve) or bool(at_bound(place)) or foretells_nothing(place)
+    return mistimed or noisy or bool(told_by(place)) or bool(place.curve) or bool(at_bound(place)) or foretells_nothing(place)
+
+
+def told_by(place: PlaceOutcome) -> str:
+    """Return the condition of the runs that foretells how they differ; empty: none does."""
+    return place.runs.told_by if place.runs is not None and place.runs.foretold else ""
 
 
 def foretells_nothing(place: PlaceOutcome) -> bool:

@@ -14,9 +14,19 @@ from stochfric_mb.discovery.driven_joint.decision.evidence import evidence, sett
 from stochfric_mb.discovery.driven_joint.fit.beliefs import Belief, beliefs
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, settled
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM, FreeParameter
+from stochfric_mb.effects import kind_with_signature
+from stochfric_mb.effects.traits import MORE_DAMPING, OTHER_AREA
 
 Array = npt.NDArray[np.float64]
 
+BEYOND = {
+    "mass": "payload", "inertia": "payload", "armature": "payload", "gain": "drive_gain", "force_gain": "drive_gain",
+    "torque_gain": "drive_gain", "offset": "constant_force",
+    "mu_k": "friction_level",
+}  # fmt: skip
+"""Number of law or mechanism -> what it is called where it is off by more than its uncertainty; other ones are an effect's."""
+OF_EFFECTS = {"damping": MORE_DAMPING, "piston_area": OTHER_AREA}
+"""Number of the mechanism -> the finding of an effect that it is."""
 AT_AN_END = 1.0e-3
 """Distance from the end of its range at which a number has reached it, over its stated standard deviation [-]: rounding."""
 UNDRIVEN = 1.0e-9
@@ -54,6 +64,11 @@ class Freed:
     """The fit."""
     nuisances: list[Nuisance]
     """Numbers of the mechanism, as they are believed in it."""
+
+
+def finding(name: str) -> str:
+    """Return what a number of the mechanism is called where it is off by more than its uncertainty; a kind is called itself."""
+    return kind_with_signature(OF_EFFECTS[name]) if name in OF_EFFECTS else BEYOND.get(name, name)
 
 
 def beyond_beliefs(

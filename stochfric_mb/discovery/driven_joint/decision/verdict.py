@@ -8,16 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_clock, confounded, spoken_of, stand_ins
-from stochfric_mb.discovery.driven_joint.balance.force_balance import GAIN
+from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, confounded, spoken_of, stand_ins
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.adequacy import at_bound
 from stochfric_mb.discovery.driven_joint.decision.candidates import candidates, span_of
-from stochfric_mb.discovery.driven_joint.decision.carry_over import above_floor, foretells_nothing, lacks, runs_apart
+from stochfric_mb.discovery.driven_joint.decision.carry_over import above_floor, foretells_nothing, lacks, runs_apart, told_by
 from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, mechanism_estimates, parameters
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
+from stochfric_mb.discovery.driven_joint.decision.released import finding
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.discovery.driven_joint.next_experiment import next_experiment
 from stochfric_mb.discovery.driven_joint.scatter.between_groups import CoefficientScatter
 from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
 from stochfric_mb.discovery.inference.intervals import confidence_interval
@@ -28,8 +29,6 @@ from stochfric_mb.effects.traits import (
     BELT,
     DRAWN_ANEW,
     LATE,
-    MORE_DAMPING,
-    OTHER_AREA,
     REPEATED_READING,
     STRAY,
     WANDER,
@@ -38,14 +37,6 @@ from stochfric_mb.measurement.dataset import Dataset
 
 IMITATED = 0.99
 """Part of an effect's change of friction that other numbers imitate, from which it cannot be identified [-]."""
-BEYOND = {
-    "mass": "payload", "inertia": "payload", "armature": "payload", "gain": "drive_gain", "force_gain": "drive_gain",
-    "torque_gain": "drive_gain", "offset": "constant_force",
-    "mu_k": "friction_level",
-}  # fmt: skip
-"""Number of law or mechanism -> what it is called where it is off by more than its uncertainty; other ones are an effect's."""
-OF_EFFECTS = {"damping": MORE_DAMPING, "piston_area": OTHER_AREA}
-"""Number of the mechanism -> the finding of an effect that it is."""
 PLAIN = 14.0
 """Fall of the deviance from which a scatter between settings is spoken of."""
 
@@ -83,14 +74,7 @@ def verdict(
     if unknown is None or mostly:  # what is repeated or far off stands in the record, whatever else there is
         effects += [_reading(e) for e in readings]
     kind = "effect" if effects else "unknown" if unknown is not None else "none"
-    where = None
-    if unknown is not None:
-        axis = unknown.selected.unknown or _axis(unknown)
-        bound = at_bound(unknown)
-        why = f"the model {bound}" if bound else "no known effect explains it"
-        if unknown.curve:
-            axis, why = _curve(unknown.curve)
-        where = Where(axis, f"What is missing depends on {axis}{_at(unknown)}; {why}.")
+    where = None if unknown is None else _lacking(unknown)
     nameless = places[0] if places[0].unnamed is not None and kind == "unknown" else None
     return Result(
         verdict=kind,
@@ -99,7 +83,7 @@ def verdict(
         ranking=_ranking(places),
         gap=gap,
         not_identifiable=_unseen(places, effects),
-        next_experiment=_advice(pairs, places),
+        next_experiment=next_experiment(pairs, places),
         parameters={_at_place(p, places, k): v for p in places for k, v in mechanism_estimates(p).items()},
         notes=(
             *gap.notes,
@@ -183,7 +167,7 @@ def _estimates(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[EffectE
     effects: list[EffectEstimate] = []
     for i, (trial, same) in enumerate(zip(place.selected.effects, place.selected.equivalents, strict=True)):
         effect = fit.model.effects[first + i]
-        others = tuple(k for k in dict.fromkeys([*map(_beyond, same), *stand_ins(effect.kind, pairs)]) if k != effect.kind)
+        others = tuple(k for k in dict.fromkeys([*map(finding, same), *stand_ins(effect.kind, pairs)]) if k != effect.kind)
         axis = trial.candidate.where
         stage = next(s for s in place.selected.stages if s.trials[0] is trial)
         # a force of its own is no friction, whatever it depends on
@@ -206,11 +190,6 @@ def _estimates(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[EffectE
     return effects
 
 
-def _beyond(name: str) -> str:
-    """Return what a number of the mechanism is called where it is off by more than its uncertainty; a kind is called itself."""
-    return kind_with_signature(OF_EFFECTS[name]) if name in OF_EFFECTS else BEYOND.get(name, name)
-
-
 def _released(place: PlaceOutcome) -> list[EffectEstimate]:
     """Return the numbers of law and mechanism that are off by more than their uncertainty."""
     fit = place.selected.final
@@ -229,8 +208,8 @@ def _released(place: PlaceOutcome) -> list[EffectEstimate]:
         )
         effects.append(
             EffectEstimate(
-                _beyond(number.name),
-                tuple(k for k in dict.fromkeys(map(_beyond, number.alike)) if k != _beyond(number.name)),
+                finding(number.name),
+                tuple(k for k in dict.fromkeys(map(finding, number.alike)) if k != finding(number.name)),
                 Where("motion", text),
                 {number.name: size},
                 number.score,
@@ -240,6 +219,19 @@ def _released(place: PlaceOutcome) -> list[EffectEstimate]:
     return effects
 
 
+def _lacking(place: PlaceOutcome) -> Where:
+    """Return where what is missing at a place shows, and why it has no name."""
+    axis = place.selected.unknown or _axis(place)
+    why = "no known effect explains it"
+    if place.curve:
+        axis, why = _curve(place.curve)
+    elif bound := at_bound(place):
+        why = f"the model {bound}"
+    elif told_by(place) == axis:
+        why = f"friction differs from run to run as their {axis} does, which is no chance, and {why}"
+    return Where(axis, f"What is missing depends on {axis}{_at(place)}; {why}.")
+
+
 def _axis(place: PlaceOutcome) -> str:
     """Return the axis along which most is left: the runs if only those held out are off, time if chance says as much as any.
 
@@ -247,8 +239,8 @@ def _axis(place: PlaceOutcome) -> str:
     """
     if at_bound(place):
         return "motion"
-    if place.runs is not None and place.runs.foretold:
-        return place.runs.told_by
+    if told_by(place):
+        return told_by(place)
     if (foretells_nothing(place) or runs_apart(place)) and not above_floor(place):
         return "run"
     rivals = place.selected.stages[-1].competitors
@@ -338,31 +330,6 @@ def _unseen(places: Sequence[PlaceOutcome], effects: Sequence[EffectEstimate]) -
     seen |= {kind_with_signature(finding) for finding in (LATE, STRAY, REPEATED_READING)}
     seen |= {kind_with_signature(DRAWN_ANEW)} if any(p.random is not None or p.runs is not None for p in places) else set()
     return tuple(k for k in effect_kinds() if k not in seen and k not in (*kinds_with(BELT), *kinds_with(ANONYMOUS)))
-
-
-def _advice(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
-    if not any(p.selected.named for p in places) and any(map(runs_apart, places)):
-        return "The same run several times, with the zero of the drive read at rest before each: is it the zero or friction?"
-    quiet = ("position", "time", "distance")
-    worst = [p for p in pairs if p.first not in quiet and p.second not in quiet]
-    if worst:
-        first, second = worst[0].first, worst[0].second
-        return f"Vary {first} and {second} apart: repeat the experiment with the {second} that each {first} has not had yet."
-    if any(GAIN in n.alike for p in places for n in p.selected.released):
-        return "Weigh what moves, or hold the drive against a force gauge: is it the mechanism or the factor of the drive?"
-    same = [
-        (t.candidate.kind, others)
-        for p in places
-        for t, e in zip(p.selected.effects, p.selected.equivalents, strict=True)
-        if (others := tuple(k for k in map(_beyond, e) if k != t.candidate.kind))
-    ]
-    if same:
-        kind, others = same[0]
-        which = f"{words_of(kind)} from {', '.join(map(words_of, others))}"
-        if by_clock(kind):
-            return f"To distinguish {which}: pauses, strokes of other lengths, and a start from warm."
-        return f"To distinguish {which}: more speeds, both directions at each, and a second load."
-    return "Rest before break-away, for what rest does to friction; slow reversals, for presliding; a second load."
 
 
 def _forward_notes(place: PlaceOutcome) -> list[str]:
