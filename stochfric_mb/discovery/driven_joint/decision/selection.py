@@ -20,7 +20,7 @@ from stochfric_mb.discovery.driven_joint.decision.released import Freed, Release
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import COMPETITORS, SmoothDependences
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight, settled
-from stochfric_mb.discovery.driven_joint.fit.gains import predicted_rms
+from stochfric_mb.discovery.driven_joint.fit.gains import predicted_left, predicted_rms
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import begun, tried, wave_starts
 from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
@@ -310,15 +310,24 @@ class Selector:
     def _worth_fitting(self, current: JointFit, fits: Fitted, courses: Sequence[Candidate]) -> list[Candidate]:
         """Return, of the courses of each kind, the one of as many pieces as the record supports, if it supports any.
 
-        Friction is linear in their weights, so that what a fit will leave is known before it is made.
+        Friction is linear in their weights, so that what a fit will leave is known before it is made. What leaves least counts
+        the independent windows: to all others a course that is missing leaves slow noise.
 
         Args:
             current: the fit beside which they are asked for.
-            fits: other candidates fitted: the best counts the independent windows, and no course may say less than its kind.
+            fits: other candidates fitted: no course may say less than its kind.
             courses: courses of any shape.
         """
         best = min((f for _, f in fits), key=lambda f: f.rms, default=current)
-        n = max(best.independent, 4.0)
+        least, n = best.rms, max(best.independent, 4.0)
+        ends = np.cumsum([len(r) for r in current.remainders])[:-1]
+        supported: list[tuple[Candidate, float]] = []
+        for one in courses:
+            left = predicted_left(current.model, begun(one.starts[0], self._balances), self._balances, current)
+            rms, own = float(np.sqrt(np.mean(left**2))), current.independent_in(np.split(left, ends))
+            if criteria.WINDOWS_A_NUMBER * one.parameters <= own:
+                supported.append((one, rms))
+                least, n = min((least, n), (rms, own))
 
         def worth(rms: float, numbers: int) -> float:
             return 2.0 * n * float(np.log(current.rms / rms)) - numbers * float(np.log(n))
@@ -327,10 +336,9 @@ class Selector:
         for other, fitted in fits:
             most[other.kind] = max(most.get(other.kind, criteria.NAMED), worth(fitted.rms, other.parameters))
         chosen: dict[str, Candidate] = {}
-        for one in (c for c in courses if criteria.WINDOWS_A_NUMBER * c.parameters <= n):
-            left = predicted_rms(current.model, begun(one.starts[0], self._balances), self._balances, current)
-            if worth(left, one.parameters) > most.get(one.kind, criteria.NAMED):
-                most[one.kind], chosen[one.kind] = worth(left, one.parameters), one
+        for one, rms in supported:
+            if worth(rms, one.parameters) > most.get(one.kind, criteria.NAMED):
+                most[one.kind], chosen[one.kind] = worth(rms, one.parameters), one
         return list(chosen.values())
 
     def _beside(self, current: JointFit) -> Beside:

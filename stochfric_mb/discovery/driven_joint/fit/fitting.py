@@ -62,7 +62,11 @@ class JointFit:
     @property
     def independent(self) -> float:
         """Number of independent windows: from the autocorrelation of what is left, `PER_STROKE` a stroke at most."""
-        return min(sum(independent_count(r) for r in self.remainders), float(PER_STROKE * self.strokes))
+        return self.independent_in(self.remainders)
+
+    def independent_in(self, remainders: Sequence[Array]) -> float:
+        """Return the same of what another model leaves at these centres, balance by balance."""
+        return min(sum(independent_count(r) for r in remainders), float(PER_STROKE * self.strokes))
 
     @property
     def strain(self) -> float:

@@ -10,6 +10,7 @@ contact carries that effect's reference load plus the load that the joint transm
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Sequence
 
 import numpy as np
@@ -38,8 +39,9 @@ class Chain:
     """Parameters of all effects, one after the other."""
 
 
-def chain(law: Law, effects: Sequence[Effect], load: float, *, contact: bool = False) -> Chain:
-    """Return law and effects, in the order in which effects act.
+@functools.lru_cache(maxsize=256)
+def chain(law: Law, effects: tuple[Effect, ...], load: float, *, contact: bool = False) -> Chain:
+    """Return law and effects, in the order in which effects act; made once for all runs of a record.
 
     Args:
         law: the law.
@@ -90,7 +92,7 @@ def friction_along(balance: ForceBalance, law: Law, effects: Sequence[Effect], l
     return seen + np.sum(carried, axis=0) if carried else seen
 
 
-def _friction_of_one_body(balance: ForceBalance, law: Law, effects: Sequence[Effect], load: float) -> Array:
+def _friction_of_one_body(balance: ForceBalance, law: Law, effects: tuple[Effect, ...], load: float) -> Array:
     """Return the friction of a joint whose load follows the motor; arguments as of `friction_along`."""
     links = chain(law, effects, load, contact=balance.normal_force is not None)
     *motion, normal_force, drive, pressure = balance.signals

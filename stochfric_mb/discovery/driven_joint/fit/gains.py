@@ -42,17 +42,21 @@ def effect_columns(model: JointModel, effect: Effect, balances: Sequence[ForceBa
 
 
 def predicted_rms(model: JointModel, start: Start, balances: Sequence[ForceBalance], current: JointFit) -> float:
-    """Return the rms that an effect would leave from a start if the balance were linear in all numbers [N or N m].
+    """Return the rms of `predicted_left` [N or N m]."""
+    return float(np.sqrt(np.mean(predicted_left(model, start, balances, current) ** 2)))
+
+
+def predicted_left(model: JointModel, start: Start, balances: Sequence[ForceBalance], current: JointFit) -> Array:
+    """Return what an effect would leave from a start if the balance were linear in all numbers [N or N m], window by window.
 
     Cheap: one evaluation a parameter. It ranks starting points; the fit itself is not linear. The force of a load that moves by
-    itself is far from linear in most numbers: it is taken as it is where the fit begins.
+    itself is far from linear in most numbers: it is taken as it is where the fit begins, and beliefs count as windows do.
     """
     rest = np.concatenate(current.remainders)
     if start.effect.moves_load:
         left = _left_by_load(start.effect, balances, current)
-        return float(np.sqrt(left @ left / len(rest)))
-    left = left_by(np.column_stack([current.jacobian, effect_columns(model, start.effect, balances)]), rest)
-    return float(np.sqrt(np.mean(left**2)))
+        return left * np.sqrt(len(left) / len(rest))
+    return left_by(np.column_stack([current.jacobian, effect_columns(model, start.effect, balances)]), rest)
 
 
 def hidden_share(effect: Effect, balances: Sequence[ForceBalance], current: JointFit) -> float:
