@@ -45,6 +45,8 @@ class Course(Effect):
 
     course_size: ClassVar[str] = "change"
     """Name of the parameter that is the size of the course."""
+    course_end: ClassVar[str] = "span"
+    """What says where the course ends."""
 
     span: float = parameter(
         "s", "time over which the course runs", scale=30.0, low=0.0, strict=True, infinite=True, default=math.inf,
@@ -111,10 +113,15 @@ class Course(Effect):
             )
         change = float(getattr(self, self.course_size, 0.0))
         flat = not any(getattr(self, name) for name in self.shaped_by)
-        if change != 0.0 and (flat or math.isinf(self.span)):
-            lacking = f"no shape: give {COURSE[0]} to {self.weights[-1]}" if flat else "no end: give span"
+        if change != 0.0 and (flat or math.isinf(self.stretch)):
+            lacking = f"no shape: give {COURSE[0]} to {self.weights[-1]}" if flat else f"no end: give {self.course_end}"
             name = self.course_size
             raise InputError(f"{self.kind}.{name} = {change:g}, but its course has {lacking}, or leave out {name}")
+
+    @property
+    def stretch(self) -> float:
+        """Stretch over which the course runs, in the unit of `span`."""
+        return self.span
 
     def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
         """Return where the course runs and its size: its weights are fitted."""
@@ -186,7 +193,7 @@ class CourseAlongStroke(Course):
 
     def shortest_time(self, speed: float) -> float:
         """Return the time [s] in which the contact passes two pieces, in which a course can rise and fall."""
-        return 2.0 * self.span / (self.pieces * speed) if self.any_shape and speed > 0.0 else math.inf
+        return 2.0 * self.stretch / (self.pieces * speed) if self.any_shape and speed > 0.0 else math.inf
 
 
 def courses_at_joint(flat: Course, axis: str, *, leveled: bool = False) -> tuple[JointSignature, ...]:
@@ -221,6 +228,36 @@ def _raw(place: Array, pieces: int) -> Array:
     apart = np.abs(pieces * np.clip(place, 0.0, 1.0)[..., None] - node)
     near = 2.0 / 3.0 - apart**2 + apart**3 / 2.0
     return np.where(apart < 1.0, near, np.maximum(2.0 - apart, 0.0) ** 3 / 6.0)
+
+
+def returning(turns: Array, pieces: int) -> Array:
+    """Return the splines of a course that comes back with each turn, shape (..., pieces - 1).
+
+    The last one is left out: all of them together are a constant.
+
+    Args:
+        turns: turns from the begin of the course; whole numbers are its begin and its end.
+        pieces: number of pieces in a turn, 4 or more.
+    """
+    raw = _raw(turns - np.floor(turns), pieces)
+    once = raw[..., : pieces - 1].copy()
+    once[..., :2] += raw[..., pieces:]
+    return once
+
+
+def returning_course(weights: Array, pieces: int) -> dict[str, float]:
+    """Return the parameters of a course from the weights of `returning`: its size, and a shape of mean 0 and largest change 1.
+
+    Args:
+        weights: shape (pieces - 1,).
+        pieces: as of `returning`.
+    """
+    course = returning(np.linspace(0.0, 1.0, 20 * PIECES, endpoint=False), pieces) @ weights
+    course, begin = course - course.mean(), float(course[0] - course.mean())
+    size = float(course[np.argmax(np.abs(course))]) or 1.0
+    whole = np.concatenate([weights, [0.0], weights[:2]]) / size
+    shape = {name: float(w) for name, w in zip(COURSE, whole, strict=False)}
+    return {"course": size, "at_begin": begin / size, "pieces": float(pieces)} | shape
 
 
 @compiled

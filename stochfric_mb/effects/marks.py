@@ -143,6 +143,8 @@ WAVE = "wave"
 """Variant of the hypothesis of a wave, see `Wave`."""
 COURSE_OF_ANY_SHAPE = "course of any shape"
 """Variant of that of a course in time that is not held to a form."""
+RETURNING = "course that comes back"
+"""Variant of that of a wave of any smooth shape, the same in all runs but for where it begins."""
 ENTRAINED = "entrained wave"
 """Variant of that of a wave to which the slips keep, so that it shapes all of them alike."""
 
@@ -175,6 +177,9 @@ class Wave:
     """From the frequency [Hz] to the parameter of the effect."""
     pace: float = 1.0
     """How much faster a typical run passes the place than the slowest one [-]."""
+    returning: Callable[..., dict[str, Any]] | None = None
+    """From ``weights`` of a course that comes back with each wave (`stochfric_mb.effects.course.returning`), its ``pieces`` and
+    the ``wavelength`` to values of the effect's parameters; None: it has no such form."""
 
 
 def apart(

@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import BELT_POSITION, MU_K, MU_S, POSITION, JointSignature, Scan, choice, parameter
-from stochfric_mb.effects.course import COURSE, CourseAlongStroke, along, courses_at_joint
+from stochfric_mb.effects.course import COURSE, CourseAlongStroke, along, courses_at_joint, returning_course
 from stochfric_mb.effects.joints import WAVES_ON_STROKE, JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips, Wave, friction_at, times
 from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, COURSE_OF_RUN, WANDERS_ALIKE, WAVES
@@ -32,7 +32,8 @@ class PositionDependentFriction(CourseAlongStroke):
     """mu_s and mu_k times 1 + sum of a_h cos(2 pi h s/wavelength + phase_h) + course c((s - begin)/span), h = 1, 2, 3.
 
     s is the belt coordinate under the body, belt travel - x (axis "belt"), or x (axis "position"); c is a sum of cubic
-    B-splines, so that friction may follow any smooth shape.
+    B-splines, so that friction may follow any smooth shape. With a wavelength the course comes back with each of them, as that
+    of a belt does with each turn, and begins where the first harmonic has no phase: c(frac(s/wavelength + phase/(2 pi))).
 
     Reference: B. Armstrong-Helouvry, Control of Machines with Friction, Kluwer 1991 (friction against joint position).
     """
@@ -58,10 +59,12 @@ class PositionDependentFriction(CourseAlongStroke):
     course: float = parameter("-", "relative size of a course of any shape", scale=0.03, default=0.0, optional=True)
     """Relative size of a course of any shape [-]."""
 
+    course_end: ClassVar[str] = "span, or a wavelength with which it comes back"
+
     kind: ClassVar[str] = "position_dependent_friction"
     equation: ClassVar[str] = (
         "both mu times 1 + sum a_h cos(2 pi h s/wavelength + phase_h) + course c((s - begin)/span), "
-        "s = belt travel - x, or x, c of splines"
+        "s = belt travel - x, or x, c of splines, which comes back with each wavelength if there is one"
     )
     source: ClassVar[str] = "Armstrong-Helouvry 1991"
     group: ClassVar[str] = "friction varies"
@@ -91,6 +94,11 @@ class PositionDependentFriction(CourseAlongStroke):
         if self.axis == "position":
             return "position of the box", "friction varies along the stroke"
         return self.shows_on, "friction varies along the belt"
+
+    @property
+    def stretch(self) -> float:
+        """Stretch over which the course runs [m]: a wavelength, if there is one."""
+        return self.wavelength if math.isfinite(self.wavelength) else self.span
 
     @property
     def own_to_run(self) -> tuple[str, ...]:
@@ -153,7 +161,12 @@ class PositionDependentFriction(CourseAlongStroke):
         position = np.concatenate([slips.typical_onset[:, None], slips.typical_position], axis=1)
         typical = float(np.median([s.record.mechanism.belt_velocity for s in slips.slips]))
         place = (slips.belt_velocity[:, None] * times(slips) - position) / slowest
-        return Wave(place, friction_at(slips), lambda f: slowest / f, typical / slowest)
+        return Wave(place, friction_at(slips), lambda f: slowest / f, typical / slowest, cls.returning)
+
+    @classmethod
+    def returning(cls, weights: Array, pieces: int, wavelength: float) -> dict[str, float | str]:
+        """Return the parameters of a course that comes back with each wavelength, its mean being 0; see `returning`."""
+        return {"wavelength": wavelength, "axis": "belt"} | returning_course(weights, pieces)
 
 
 def friction(world, memory, rates, p):
@@ -164,6 +177,11 @@ def friction(world, memory, rates, p):
     if p[26] != 0.0 or p[28] != 0.0:
         factor += p[26] * math.cos(2.0 * angle + p[27]) + p[28] * math.cos(3.0 * angle + p[29])
     if p[30] != 0.0:
-        factor += p[30] * (p[21] + along(p, (s - p[20]) / p[0]))
+        if math.isinf(p[23]):
+            place = (s - p[20]) / p[0]
+        else:
+            turns = (s - p[20]) / p[23] + p[24] / (2.0 * math.pi)
+            place = turns - math.floor(turns)
+        factor += p[30] * (p[21] + along(p, place))
     world[MU_S] *= factor
     world[MU_K] *= factor

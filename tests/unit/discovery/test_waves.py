@@ -1,4 +1,4 @@
-"""Waves: the quick search against the plain regression, and a force whose crests the slips keep to."""
+"""Waves: the quick search against the plain regression, a force whose crests the slips keep to, a scar of the belt."""
 
 from types import SimpleNamespace
 
@@ -13,9 +13,12 @@ from stochfric_mb.discovery.stick_slip.records.stick_waves import in_slips_too, 
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import waves_in
 from stochfric_mb.discovery.stick_slip.screening.naming import _bounded, with_candidate
 from stochfric_mb.discovery.stick_slip.screening.regression import START, Baseline, Regression, Terms, stated_terms
+from stochfric_mb.discovery.stick_slip.screening.screen import screen
 from stochfric_mb.discovery.stick_slip.screening.waves import _gains, best_wave, frequencies, wave_columns
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.effects import make_effect
+from stochfric_mb.effects.course import returning, returning_course
+from stochfric_mb.effects.marks import RETURNING
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference.augmented import Start, augmented_system
@@ -25,13 +28,15 @@ FREQUENCY = 4.3
 BELTS = (2.5e-3, 1.7e-3)
 
 
-def pool_of(effect) -> Pool:
-    """Two runs of 30 s with an effect, at two belt velocities."""
+def pool_of(effect, other=None) -> Pool:
+    """Two runs of 30 s with an effect, at two belt velocities; in the second one an effect may be another."""
     law = make_law("coulomb", mu_s=0.8, mu_k=0.46)
     items = []
     for run, belt in enumerate(BELTS):
         box = BeltBox(mass=6.08, damping=0.768, stiffness=3956.0, normal_force=13.0, belt_velocity=belt)
-        motion = augmented_system(box, law, [effect]).march(Start(-20.0, 0.0, belt, stick=True), 1e-3, 50_000)
+        motion = augmented_system(box, law, [effect if other is None or run == 0 else other]).march(
+            Start(-20.0, 0.0, belt, stick=True), 1e-3, 50_000
+        )
         position = motion.position[20_000:] + NOISE * np.random.default_rng(run).standard_normal(30_000)
         items.append(extract(make_record(f"run {run}", np.arange(1, 30_001) * 1e-3, position, box)))
     return make_pool(items, [calibrate(s) for s in items])
@@ -82,6 +87,60 @@ def test_a_wave_along_the_belt_is_looked_for_by_the_waves_of_a_typical_run(entra
     assert longest == pytest.approx(np.median(BELTS) * pool.duration / 3.0)
 
 
+TURN, SHIFT = 21.0e-3, 0.3
+"""Length of a scarred belt [m], and where on it the second run begins, less where the first one does [turns]."""
+
+
+def scarred_belt(begin=0.0):
+    """A scar of a tenth of the turn, off the knots of the search's splines; ``begin`` of a record in turns."""
+    weights = 0.12 * np.exp(-(((np.arange(15) / 16.0 - 0.47) / 0.06) ** 2))
+    numbers = returning_course(weights, 16) | {"wavelength": TURN, "phase": 1.1 + 2.0 * np.pi * begin}
+    return make_effect("position_dependent_friction", axis="belt", **numbers)
+
+
+@pytest.fixture(scope="module")
+def scarred() -> tuple[Pool, Baseline]:
+    pool = pool_of(scarred_belt(), scarred_belt(SHIFT))
+    regression, terms = Regression(pool), stated_terms(pool, {"mass": 0.003, "stiffness": 0.01, "damping": 0.2})
+    return pool, Baseline(regression, terms, regression.fit(terms))
+
+
+def test_a_scar_of_the_belt_is_one_course_that_comes_back_in_runs_of_different_speed(scarred):
+    pool, baseline = scarred
+    best, second, *_ = screen(baseline)
+    assert (best.name, best.hypothesis.variant) == ("position_dependent_friction", RETURNING)
+    # harmonics have sizes and phases of their own in each run, a course is shared: what is the same needs fewer numbers
+    assert best.score > second.score + 20.0
+    # the belts pass 75 and 51 mm, three turns together: frequencies are tried a fifteenth of a turn over the record apart
+    assert best.hypothesis.setting[0] == pytest.approx(TURN, rel=0.02)
+    (found,) = with_candidate(Model(make_law("coulomb", mu_s=0.8, mu_k=0.46), {}), best, pool).effects
+    turn, truth = np.linspace(0.0, 1.0, 200, endpoint=False), scarred_belt()
+    shapes = [e.course * e.shape(turn) for e in (truth, found)]
+    # each run's phase is its own: the shapes may be shifted
+    alike = max(float(np.corrcoef(shapes[0], np.roll(shapes[1], k))[0, 1]) for k in range(200))
+    assert alike > 0.95
+    assert np.ptp(shapes[1]) == pytest.approx(np.ptp(shapes[0]), rel=0.2)  # first order in a tenth of the friction
+
+
+def test_a_course_that_comes_back_begins_where_each_run_does(scarred):
+    pool, baseline = scarred
+    best = screen(baseline)[0]
+    model = with_candidate(Model(make_law("coulomb", mu_s=0.8, mu_k=0.46), {}), best, pool)
+    begins = [model.own[f"run {i}"][0]["phase"] / (2.0 * np.pi) for i in range(2)]
+    assert (begins[1] - begins[0]) % 1.0 == pytest.approx(SHIFT, abs=1.0 / 48.0)  # shifts of so much are tried
+
+
+def test_a_wave_that_is_a_sine_is_no_course(entrained):
+    _, regression, terms = entrained
+    names = [c.hypothesis.variant for c in screen(Baseline(regression, terms, regression.fit(terms)))[:3]]
+    assert RETURNING not in names
+    weights = np.cos(2.0 * np.pi * np.arange(1, 8) / 8.0)
+    turns = np.linspace(-1.0, 2.0, 301)
+    np.testing.assert_allclose(returning(turns, 8)[:100], returning(turns + 1.0, 8)[:100], atol=1e-12)
+    assert returning(turns, 8).shape == (301, 7)
+    assert np.isfinite(returning(turns, 8) @ weights).all()
+
+
 @pytest.mark.parametrize("amplitude", [0.3, 1.05, 1300.0])
 def test_a_ripple_that_screening_makes_larger_than_the_load_begins_within_its_bounds(amplitude):
     ripple = _bounded("normal_load_ripple", {"amplitude": amplitude, "frequency": 1.0})
@@ -93,7 +152,7 @@ def test_a_run_that_tells_nothing_of_a_wave_does_not_set_its_size():
     strengths = np.array([0.6, 0.0, 0.0, 0.62, 800.0, 0.0])
     candidate = SimpleNamespace(
         name="harmonic_force", is_wave=True, along_belt=False, strengths=strengths,
-        hypothesis=SimpleNamespace(setting=(FREQUENCY, 1.0)),
+        hypothesis=SimpleNamespace(setting=(FREQUENCY, 1.0), variant="wave"),
         solution=SimpleNamespace(
             coefficients=np.r_[0.8, 0.46, np.zeros(3), strengths],
             deviations=np.r_[np.zeros(5), 0.02, 0.02, 0.02, 0.02, 900.0, 900.0],

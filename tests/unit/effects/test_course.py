@@ -7,8 +7,8 @@ import pytest
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.effects import contract, make_effect
-from stochfric_mb.effects.course import COARSER, COURSE, PIECES, sized, splines
-from stochfric_mb.effects.kinds import distance_drift, friction_drift, temperature_drift
+from stochfric_mb.effects.course import COARSER, COURSE, PIECES, returning, returning_course, sized, splines
+from stochfric_mb.effects.kinds import distance_drift, friction_drift, position_dependent_friction, temperature_drift
 from stochfric_mb.errors import InputError
 
 
@@ -20,6 +20,37 @@ def test_a_course_begins_at_zero():
     assert effect.measure(np.zeros(1), np.zeros(1), rng)[0] == 0.0
     reached = effect.measure(np.linspace(0.0, 20.0, 321), np.zeros(321), rng)
     assert np.abs(reached).max() == pytest.approx(abs(effect.change))
+
+
+@pytest.mark.parametrize("pieces", [4, 8, 16])
+def test_a_course_that_comes_back_is_smooth_across_turns_and_changes_no_mean(pieces):
+    weights = np.random.default_rng(pieces).standard_normal(pieces - 1)
+    numbers = returning_course(weights, pieces)
+    effect = make_effect("position_dependent_friction", wavelength=0.3, phase=0.7, axis="belt", **numbers)
+    multiplied = compiled(position_dependent_friction.friction)
+
+    def factor(place):
+        world, p, none = np.zeros(contract.WORLD), effect.parameters(), np.zeros(1)
+        world[contract.MU_S] = world[contract.MU_K] = 1.0
+        world[contract.BELT_POSITION] = place
+        multiplied(world, none, none, p)
+        assert world[contract.MU_S] == world[contract.MU_K]
+        return world[contract.MU_K]
+
+    turns = np.linspace(-1.0, 2.0, 961)
+    seen = np.array([factor(0.3 * (u - 0.7 / (2.0 * math.pi))) for u in turns])
+    raw = returning(turns, pieces) @ weights
+    np.testing.assert_allclose(seen, 1.0 + raw - raw[:320].mean(), atol=1e-9)
+    np.testing.assert_allclose(seen[:320], seen[320:640], atol=1e-9)
+    # the slope at a seam is that between seams: of a jump or a kink of 1 the second difference would be 1 or h, not h^2
+    assert np.abs(np.diff(seen, 2)[315:325]).max() < 3.0 * np.abs(np.diff(seen, 2)[:300]).max()
+    assert np.abs(seen - 1.0).max() == pytest.approx(abs(effect.course), rel=1e-3)
+    assert effect.shortest_time(0.1) == pytest.approx(2.0 * 0.3 / pieces / 0.1)
+
+
+def test_a_course_needs_a_stretch_or_a_wavelength():
+    with pytest.raises(InputError, match="wavelength"):
+        make_effect("position_dependent_friction", course=0.1, course_1=1.0)
 
 
 def test_a_smooth_course_is_followed():

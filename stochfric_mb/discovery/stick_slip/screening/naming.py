@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
 from stochfric_mb.discovery.stick_slip.screening.waves import wave_columns
 from stochfric_mb.discovery.stick_slip.simulation.model import MOST_FREED, Model
 from stochfric_mb.effects import Effect, effect_class, kind_with_signature, make_effect
-from stochfric_mb.effects.marks import Wave
+from stochfric_mb.effects.marks import RETURNING, Wave
 from stochfric_mb.effects.traits import JUMP, WAVES
 
 HIGHEST_HARMONIC = 9
@@ -103,6 +103,10 @@ def _bounded(kind: str, values: Mapping[str, float | str]) -> Effect:
 
 
 def _periodic(model: Model, candidate: Candidate, pool: Pool, coefficients: Array) -> Model:
+    if candidate.hypothesis.variant == RETURNING:
+        effect = _bounded(candidate.name, candidate.hypothesis.start(coefficients))
+        begins = candidate.hypothesis.setting[1 : 1 + pool.n_runs]
+        return _with_own(model, pool, [effect], [({"phase": 2.0 * np.pi * begin},) for begin in begins])
     harmonics = int(candidate.hypothesis.setting[-1])
     main = candidate.hypothesis.setting[0]
     pairs = coefficients.reshape(pool.n_runs, harmonics, 2)
@@ -117,6 +121,11 @@ def _periodic(model: Model, candidate: Candidate, pool: Pool, coefficients: Arra
         effects, added = _along_belt(candidate.name, main, amplitudes, phases)
     else:
         effects, added = _in_time(candidate.name, main, amplitudes, phases)
+    return _with_own(model, pool, effects, added)
+
+
+def _with_own(model: Model, pool: Pool, effects: Sequence[Effect], added: Sequence[tuple[dict[str, float], ...]]) -> Model:
+    """Return the model with further effects, and what of them is each run's own."""
     own = {
         s.record.name: (*model.own.get(s.record.name, ({},) * len(model.effects)), *mine)
         for s, mine in zip(pool.slips, added, strict=True)

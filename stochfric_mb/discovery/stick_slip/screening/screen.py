@@ -16,9 +16,9 @@ from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING, competitors, softening, step_times, steps
 from stochfric_mb.discovery.stick_slip.screening.hypotheses import hypotheses_in, waves_in
 from stochfric_mb.discovery.stick_slip.screening.regression import Baseline, Solution
-from stochfric_mb.discovery.stick_slip.screening.waves import best_wave, with_harmonics
+from stochfric_mb.discovery.stick_slip.screening.waves import waves_of, with_harmonics
 from stochfric_mb.effects import effect_class, kind_with_signature, kinds_with
-from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, ENTRAINED, WAVE, Hypothesis
+from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, ENTRAINED, RETURNING, WAVE, Hypothesis
 from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, JUMP, POSITIVE
 
 REFITTED = 14
@@ -54,7 +54,7 @@ class Candidate:
     @property
     def is_wave(self) -> bool:
         """Whether it is periodic in time or along the belt, with a phase of its own in each run."""
-        return self.hypothesis.variant in (WAVE, ENTRAINED)
+        return self.hypothesis.variant in (WAVE, RETURNING, ENTRAINED)
 
     @property
     def any_shape(self) -> bool:
@@ -143,7 +143,7 @@ def _refitted(kind: _Kind, hypothesis: Hypothesis, baseline: Baseline) -> Candid
 
 def _others(kind: _Kind, best: Hypothesis, baseline: Baseline, scatter: Array) -> Iterator[Candidate]:
     """Yield ways of a kind whose first setting, on a logarithmic scale, is far from that of the better ones."""
-    if kind.axis or not best.setting or best.variant in (WAVE, ENTRAINED) or kind.name == kind_with_signature(JUMP):
+    if kind.axis or not best.setting or best.variant in (WAVE, RETURNING, ENTRAINED) or kind.name == kind_with_signature(JUMP):
         return
     gains = baseline.regression.gains(baseline.terms, scatter, [h.columns for h in kind.hypotheses])
     taken = [best.setting[0]]
@@ -162,8 +162,8 @@ def _effects(baseline: Baseline, without: Sequence[str]) -> Iterator[_Kind]:
         for variant in dict.fromkeys(h.variant for h in ways):
             yield _Kind(kind, "", [h for h in ways if h.variant == variant], len(ways))
     for kind, wave in waves_in(baseline.pool, without=without).items():
-        best_one, looked_at = best_wave(kind, wave, baseline)
-        yield _Kind(kind, "", [best_one], looked_at)
+        for best_one, looked_at in waves_of(kind, wave, baseline):
+            yield _Kind(kind, "", [best_one], looked_at)
 
 
 def _patterns(pool: Pool) -> Iterator[_Kind]:

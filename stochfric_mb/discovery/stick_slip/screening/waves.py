@@ -10,6 +10,10 @@ differs: such waves count as a whole.
 
 from __future__ import annotations
 
+import dataclasses
+import functools
+from collections.abc import Sequence
+
 import numpy as np
 import numpy.typing as npt
 
@@ -19,7 +23,8 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, legendre_coefficients
 from stochfric_mb.discovery.stick_slip.screening.regression import Baseline, Part
-from stochfric_mb.effects.marks import WAVE, Hypothesis, Wave
+from stochfric_mb.effects.course import returning
+from stochfric_mb.effects.marks import RETURNING, WAVE, Hypothesis, Wave
 
 HARMONICS = 3
 """Harmonics of a wave that is no sine."""
@@ -31,6 +36,12 @@ CHUNK, MOST_AT_ONCE = 64, 400_000
 """Frequencies that are looked at together, and numbers that one such array may hold."""
 EVEN = 1.0e-9
 """Share by which steps of a grid may differ to be even [-]: 64 of them then turn a wave of a thousand cycles by 1e-6 of one."""
+PEAKS = 3
+"""Waves with harmonics that say where to look for a course that comes back."""
+RETURNING_PIECES = (8, 16)
+"""Pieces of such courses; with fewer they are sines."""
+MORE_HARMONICS, BEGINS, ALIGNMENTS = 6, 48, 4
+"""Harmonics by which runs are shifted against each other, shifts that are tried, over a turn, and how often all are aligned."""
 STRETCH = 128.0
 """Cycles of the slips in the stretch of a long record in which waves are looked for first [-]."""
 
@@ -104,26 +115,46 @@ def shared_by_runs(pool: Pool) -> list[Array]:
     return columns
 
 
-def best_wave(kind: str, wave: Wave, baseline: Baseline) -> tuple[Hypothesis, int]:
-    """Return the best wave of a kind, and how many were looked at.
+@dataclasses.dataclass(frozen=True)
+class _Scan:
+    """Waves of a grid of frequencies, as far as they are worth a look."""
+
+    harmonics: int
+    """Harmonics of each."""
+    frequencies: Array
+    """Frequencies [Hz]."""
+    gains: Array
+    """By how much they lower the cost [-]."""
+    looked_at: int
+    """Size of the grid."""
+    slow: bool
+    """Whether they differ from slip to slip."""
+
+
+def waves_of(kind: str, wave: Wave, baseline: Baseline) -> list[tuple[Hypothesis, int]]:
+    """Return the best wave of a kind and the best course that comes back, if there is one, and among how many they were chosen.
 
     Args:
         kind: a periodic effect.
         wave: its wave in the slips.
         baseline: what the model so far leaves of them.
     """
+    scans = _scans(wave, baseline)
+    course = _best_course(kind, wave, baseline, scans) if wave.returning is not None else None
+    return [_best_wave(kind, wave, baseline, scans), *([] if course is None else [course])]
+
+
+def best_wave(kind: str, wave: Wave, baseline: Baseline) -> tuple[Hypothesis, int]:
+    """Return the best wave of a kind, and how many were looked at; arguments as of `waves_of`."""
+    return _best_wave(kind, wave, baseline, _scans(wave, baseline))
+
+
+def _scans(wave: Wave, baseline: Baseline) -> list[_Scan]:
     pool = baseline.pool
     parts = baseline.regression.parts(baseline.terms, baseline.solution.scatter)
-    cost = 2.0 * pool.n_runs * baseline.price
-    whole = frequencies(pool, wave.pace)
-    # a wave that all slips of a run keep to looks like a shape that they share: it must tell more with less
-    alike = shared_by_runs(pool)
-    shaped = 2.0 * float(baseline.gains([alike])[0]) - len(alike) * baseline.price
-    rates = _slip_rates(pool)
-    share = criteria.SHARE_OF_SHAPE if rates.max() > criteria.RATES_DIFFER * rates.min() else 1.0
-    limit = SLOW * _slip_rate(pool)
+    whole, limit = frequencies(pool, wave.pace), SLOW * _slip_rate(pool)
     slow, fast = whole[whole <= limit], whole[whole > limit]
-    best, looked_at = (-np.inf, float(whole[0]), 1), 0
+    scans: list[_Scan] = []
     for harmonics, grid in ((1, slow), (HARMONICS, slow), (1, fast)):
         if len(grid) == 0:
             continue
@@ -138,14 +169,116 @@ def best_wave(kind: str, wave: Wave, baseline: Baseline) -> tuple[Hypothesis, in
         centre = float(near[np.argmax(gains)])
         close = centre + np.arange(-2, 3) / (FINE * pool.duration)
         close = close[(close <= limit) == (centre <= limit)]
-        fine = _gains(pool, wave, parts, close, harmonics)
-        looked_at += len(grid)
-        score = 2.0 * float(fine.max()) - cost * harmonics
-        if grid is not fast or score > share * shaped:
-            best = max(best, (score, float(close[np.argmax(fine)]), harmonics))
+        gains = np.concatenate([gains, _gains(pool, wave, parts, close, harmonics)])
+        scans.append(_Scan(harmonics, np.concatenate([near, close]), gains, len(grid), grid is slow))
+    return scans
+
+
+def _best_wave(kind: str, wave: Wave, baseline: Baseline, scans: Sequence[_Scan]) -> tuple[Hypothesis, int]:
+    pool = baseline.pool
+    cost = 2.0 * pool.n_runs * baseline.price
+    # a wave that all slips of a run keep to looks like a shape that they share: it must tell more with less
+    alike = shared_by_runs(pool)
+    shaped = 2.0 * float(baseline.gains([alike])[0]) - len(alike) * baseline.price
+    rates = _slip_rates(pool)
+    share = criteria.SHARE_OF_SHAPE if rates.max() > criteria.RATES_DIFFER * rates.min() else 1.0
+    best = (-np.inf, float(frequencies(pool, wave.pace)[0]), 1)
+    for scan in scans:
+        score = 2.0 * float(scan.gains.max()) - cost * scan.harmonics
+        if scan.slow or score > share * shaped:
+            best = max(best, (score, float(scan.frequencies[np.argmax(scan.gains)]), scan.harmonics))
     _, frequency, harmonics = best
     columns = wave_columns(pool, wave, frequency, harmonics)
+    looked_at = sum(scan.looked_at for scan in scans)
     return Hypothesis(kind, columns, (wave.setting(frequency), float(harmonics)), variant=WAVE), looked_at
+
+
+def _best_course(kind: str, wave: Wave, baseline: Baseline, scans: Sequence[_Scan]) -> tuple[Hypothesis, int] | None:
+    """Return the best course of any smooth shape that comes back, the same in all runs but for where it begins.
+
+    What comes back is looked for where waves with harmonics explain most, and at twice and thrice their lengths; their
+    harmonics say how the runs are shifted against each other.
+
+    Reference: D. R. Lorimer, M. Kramer, Handbook of Pulsar Astronomy, Cambridge 2005, chapters 6 and 7 (harmonics, folding).
+    """
+    pool = baseline.pool
+    scan = next((s for s in scans if s.harmonics == HARMONICS), None)
+    if scan is None:
+        return None
+    lowest, best = float(frequencies(pool, wave.pace)[0]), None
+    for frequency in _peaks(scan, 1.0 / pool.duration):
+        for main in (frequency, frequency / 2.0, frequency / 3.0):
+            if main < lowest:
+                continue
+            begins = _begins(pool, wave, baseline, main)
+            for pieces in RETURNING_PIECES:
+                columns = returning_columns(pool, wave, main, begins, pieces)
+                score = 2.0 * float(baseline.gains([columns])[0]) - len(columns) * baseline.price
+                if best is None or score > best[0]:
+                    best = score, main, begins, pieces, columns
+    if best is None:
+        return None
+    _, main, begins, pieces, columns = best
+    length, values = wave.setting(main), wave.returning
+    assert values is not None
+    start = functools.partial(values, pieces=pieces, wavelength=length)
+    found = Hypothesis(kind, columns, (length, *begins.tolist(), float(pieces)), start, variant=RETURNING)
+    return found, scan.looked_at * BEGINS ** (pool.n_runs - 1)
+
+
+def _peaks(scan: _Scan, apart: float) -> list[float]:
+    """Return the best frequencies of a scan that are so far apart [Hz]."""
+    chosen: list[float] = []
+    for i in np.argsort(-scan.gains, kind="stable"):
+        frequency = float(scan.frequencies[i])
+        if all(abs(frequency - other) > apart for other in chosen):
+            chosen.append(frequency)
+        if len(chosen) == PEAKS:
+            break
+    return chosen
+
+
+def _begins(pool: Pool, wave: Wave, baseline: Baseline, frequency: float) -> Array:
+    """Return where in a course that comes back each run begins [turns], shape (n_runs,), the runs' own harmonics aligned."""
+    columns = wave_columns(pool, wave, frequency, MORE_HARMONICS)
+    solution = baseline.solved(columns)
+    pairs = solution.coefficients[-len(columns) :].reshape(pool.n_runs, MORE_HARMONICS, 2)
+    variance = (solution.deviations[-len(columns) :] ** 2).reshape(pairs.shape).sum(axis=2) + 1.0e-300
+    # a cos + b sin is the real part of (a - i b) exp(i angle); a mirrored run passes the course backwards
+    waves = pairs[..., 0] - 1j * pairs[..., 1] * _directions(pool)[:, None]
+    order = np.arange(1, MORE_HARMONICS + 1)
+    trials = np.exp(-2j * np.pi * order * np.arange(BEGINS)[:, None] / BEGINS)
+    begins = np.zeros(pool.n_runs, dtype=np.int64)
+    shape = waves[int(np.argmax(np.sum(np.abs(waves) ** 2 / variance, axis=1)))]
+    for _ in range(ALIGNMENTS):
+        fit = np.real(np.conj(shape) * waves[:, None, :] * trials / variance[:, None, :]).sum(axis=2)
+        begins = np.argmax(fit, axis=1)
+        shape = np.average(waves * trials[begins], axis=0, weights=1.0 / variance)
+    return begins / BEGINS
+
+
+def returning_columns(pool: Pool, wave: Wave, frequency: float, begins: Array, pieces: int) -> list[Array]:
+    """Return the regressors of a course that comes back, one a weight, each of shape (n, N_FEATURES).
+
+    Args:
+        pool: the slips.
+        wave: where it runs.
+        frequency: how often it comes back [Hz].
+        begins: where in it each run begins [turns], shape (n_runs,).
+        pieces: its pieces.
+    """
+    turns = (_directions(pool) * frequency)[pool.run][:, None] * wave.place + begins[pool.run][:, None]
+    weighted = wave.weight[..., None] * returning(turns, pieces)
+    columns = [pool.column(weighted[:, 0, k], weighted[:, 1:, k]) for k in range(pieces - 1)]
+    for column in columns:
+        for run in range(pool.n_runs):
+            mine = pool.run == run
+            column[mine] -= column[mine].mean(axis=0)
+    return columns
+
+
+def _directions(pool: Pool) -> Array:
+    return np.array([float(s.record.direction) for s in pool.slips])
 
 
 def with_harmonics(pool: Pool, kind: str, wave: Wave, frequency: float) -> Hypothesis:
