@@ -38,7 +38,7 @@ class PositionDependentFriction(CourseAlongStroke):
     Reference: B. Armstrong-Helouvry, Control of Machines with Friction, Kluwer 1991 (friction against joint position).
     """
 
-    amplitude: float = parameter("-", "relative amplitude of the first harmonic", scale=0.03, default=0.0)
+    amplitude: float = parameter("-", "relative amplitude of the first harmonic", scale=0.03, default=0.0, optional=True)
     """Relative amplitude of the first harmonic [-]."""
     wavelength: float = parameter(
         "m", "wavelength of the first harmonic", scale=0.01, low=0.0, strict=True, infinite=True, default=math.inf

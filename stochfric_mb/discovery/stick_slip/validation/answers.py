@@ -151,7 +151,10 @@ def _poor(answer: Answer, slip_study: Study, recalibrated: Fit) -> Decision | No
 
 
 def _far_off(model: Model, recalibrated: Model, slip_study: Study) -> str | None:
-    """Return which number of law or mechanism effects push far off from what is stated, and by how much; None: none."""
+    """Return which number of law or mechanism effects push far off from what is stated, and by how much; None: none.
+
+    What an effect leaves open is not believed beside it: the stiffness at rest of a curved spring.
+    """
     stated, doubt = slip_study.dataset.scenario.law, slip_study.uncertainty
 
     def share(one: Model, name: str) -> float:
@@ -160,7 +163,8 @@ def _far_off(model: Model, recalibrated: Model, slip_study: Study) -> str | None
         believed = float(getattr(stated, name))
         return getattr(one.law, name) / believed - 1.0 if believed else 0.0
 
-    for name in (*CORRECTED, "mu_s", "mu_k"):
+    left_open = {name for e in model.effects for name in e.frees}
+    for name in (n for n in (*CORRECTED, "mu_s", "mu_k") if n not in left_open):
         deviation = doubt.get(name, 0.0)
         off, before = (abs(share(m, name)) / deviation if deviation else 0.0 for m in (model, recalibrated))
         if off > max(criteria.MOST_OFF, before):
