@@ -63,14 +63,19 @@ def test_a_declared_scatter_hides_no_effect_and_is_none(weakening, names, tmp_pa
     assert said(plain, tmp_path, name="weakening", apply=lambda w, _: drawn_anew(w, weakening), rig="paper") == names
 
 
-@pytest.mark.parametrize("rig", ["paper", "small"])
-def test_a_narrow_bump_that_comes_back_each_turn_is_seen_as_what_it_is(rig, tmp_path):
+@pytest.mark.parametrize(("rig", "named"), [("paper", False), ("small", True)])
+def test_a_narrow_bump_that_comes_back_each_turn_is_seen_as_what_it_is(rig, named, tmp_path):
+    """It is half as wide as what a course of the belt can follow: named where the record is long, else seen by its turns."""
     result = answered(FORMS["position_bump"], tmp_path, name="narrow", apply=narrow_bump, rig=rig)
+    turn = pytest.approx(9.1 * RIGS[rig].slip_length, rel=0.05)
+    if named:
+        assert [e.kind for e in result.effects] == ["position_dependent_friction"]
+        assert result.effects[0].parameters["wavelength"].value == turn
+        return
     assert (result.verdict, result.effects) == ("unknown", ())
     assert result.where is not None
     assert result.where.axis == "belt position"
-    turn = float(re.search(r"once in ([\d.e-]+) m of belt travel", result.where.text)[1])
-    assert turn == pytest.approx(9.1 * RIGS[rig].slip_length, rel=0.05)
+    assert float(re.search(r"once in ([\d.e-]+) m of belt travel", result.where.text)[1]) == turn
 
 
 def test_linear_viscous_friction_of_a_small_rig(tmp_path):
