@@ -7,6 +7,8 @@ from .joint_generator.forms import FORMS
 from .joint_generator.unseen import UNSEEN
 from .joint_generator.unseen_eighth import PAIRS as UNSEEN_EIGHTH_PAIRS
 from .joint_generator.unseen_eighth import UNSEEN_EIGHTH
+from .joint_generator.unseen_eleventh import PAIRS as UNSEEN_ELEVENTH_PAIRS
+from .joint_generator.unseen_eleventh import UNSEEN_ELEVENTH
 from .joint_generator.unseen_fifth import PAIRS as UNSEEN_FIFTH_PAIRS
 from .joint_generator.unseen_fifth import UNSEEN_FIFTH
 from .joint_generator.unseen_fourth import UNSEEN_FOURTH
@@ -79,6 +81,7 @@ SERIES = {
     8: (UNSEEN_EIGHTH, UNSEEN_EIGHTH_PAIRS),
     9: (UNSEEN_NINTH, UNSEEN_NINTH_PAIRS),
     10: (UNSEEN_TENTH, UNSEEN_TENTH_PAIRS),
+    11: (UNSEEN_ELEVENTH, UNSEEN_ELEVENTH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 

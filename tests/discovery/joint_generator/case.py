@@ -16,6 +16,7 @@ from .motion import MOTIONS
 from .plant import PRESSURE, Array, Plant, plain_plant
 from .unseen import UNSEEN
 from .unseen_eighth import UNSEEN_EIGHTH
+from .unseen_eleventh import UNSEEN_ELEVENTH
 from .unseen_fifth import UNSEEN_FIFTH
 from .unseen_fourth import UNSEEN_FOURTH
 from .unseen_ninth import UNSEEN_NINTH
@@ -39,7 +40,7 @@ NUMBERS = frozenset(("payload", "drive_gain", "constant_force"))
 LINKS = frozenset(("joint_compliance", "backlash"))
 """Links between motor and load, which forms from the fifth set on count as names; for earlier ones they are outside."""
 
-_WITH_LINKS = UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH | UNSEEN_EIGHTH | UNSEEN_NINTH | UNSEEN_TENTH
+_WITH_LINKS = UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH | UNSEEN_EIGHTH | UNSEEN_NINTH | UNSEEN_TENTH | UNSEEN_ELEVENTH
 _BEFORE = 1.0  # s under control before a record begins
 
 
