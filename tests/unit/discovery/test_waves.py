@@ -14,7 +14,7 @@ from stochfric_mb.discovery.stick_slip.screening.hypotheses import waves_in
 from stochfric_mb.discovery.stick_slip.screening.naming import _bounded, with_candidate
 from stochfric_mb.discovery.stick_slip.screening.regression import START, Baseline, Regression, Terms, stated_terms
 from stochfric_mb.discovery.stick_slip.screening.screen import screen
-from stochfric_mb.discovery.stick_slip.screening.waves import _gains, best_wave, frequencies, wave_columns
+from stochfric_mb.discovery.stick_slip.screening.waves import _begins, _gains, best_wave, frequencies, wave_columns
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.effects import make_effect
 from stochfric_mb.effects.course import returning, returning_course
@@ -28,11 +28,11 @@ FREQUENCY = 4.3
 BELTS = (2.5e-3, 1.7e-3)
 
 
-def pool_of(effect, other=None) -> Pool:
+def pool_of(effect, other=None, belts=BELTS) -> Pool:
     """Two runs of 30 s with an effect, at two belt velocities; in the second one an effect may be another."""
     law = make_law("coulomb", mu_s=0.8, mu_k=0.46)
     items = []
-    for run, belt in enumerate(BELTS):
+    for run, belt in enumerate(belts):
         box = BeltBox(mass=6.08, damping=0.768, stiffness=3956.0, normal_force=13.0, belt_velocity=belt)
         motion = augmented_system(box, law, [effect if other is None or run == 0 else other]).march(
             Start(-20.0, 0.0, belt, stick=True), 1e-3, 50_000
@@ -128,6 +128,18 @@ def test_a_course_that_comes_back_begins_where_each_run_does(scarred):
     model = with_candidate(Model(make_law("coulomb", mu_s=0.8, mu_k=0.46), {}), best, pool)
     begins = [model.own[f"run {i}"][0]["phase"] / (2.0 * np.pi) for i in range(2)]
     assert (begins[1] - begins[0]) % 1.0 == pytest.approx(SHIFT, abs=1.0 / 48.0)  # shifts of so much are tried
+
+
+def test_a_reversed_belt_passes_its_course_backwards():
+    """A tooth with a gentle and a steep side: passed the wrong way round, no shift would make the runs alike."""
+    u = np.arange(15) / 16.0
+    numbers = returning_course(0.12 * np.clip((u - 0.2) / 0.5, 0.0, 1.0) * (u < 0.75), 16) | {"wavelength": TURN}
+    first, second = (make_effect("position_dependent_friction", axis="belt", phase=p, **numbers) for p in (1.1, 2.9))
+    pool = pool_of(first, second, (BELTS[0], -BELTS[1]))
+    regression, terms = Regression(pool), stated_terms(pool, {"mass": 0.003, "stiffness": 0.01, "damping": 0.2})
+    baseline, wave = Baseline(regression, terms, regression.fit(terms)), waves_in(pool)["position_dependent_friction"]
+    begins = _begins(pool, wave, baseline, BELTS[1] / TURN)
+    assert (begins[1] - begins[0]) % 1.0 == pytest.approx(1.8 / (2.0 * np.pi), abs=1.0 / 48.0)  # shifts of so much are tried
 
 
 def test_a_wave_that_is_a_sine_is_no_course(entrained):
