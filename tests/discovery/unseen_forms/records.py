@@ -10,8 +10,9 @@ from zlib import crc32
 import numpy as np
 from scipy.signal import lfilter
 
-from . import (  # each enters its forms; `tenth` has the others enter theirs first: rigs in turn hang on the order
+from . import (  # each enters its forms; `eleventh` has the others enter theirs first: rigs in turn hang on the order
     eighth,  # noqa: F401
+    eleventh,  # noqa: F401
     fifth,  # noqa: F401
     fourth,  # noqa: F401
     friction_forms,  # noqa: F401
