@@ -190,6 +190,13 @@ class Effect:
         """
         return np.zeros((len(position), self.n_memory))
 
+    def left_open(self) -> Mapping[str, tuple[float, float]]:
+        """Return how far each of the numbers that the effect `frees` may be off beside it, relative to what is stated [-].
+
+        Lowest and highest deviation by name; infinite where the effect says nothing of it.
+        """
+        return {name: (-math.inf, math.inf) for name in self.frees}
+
     def fitted_together(self) -> tuple[tuple[str, ...], Array]:
         """Return parameters whose priors in a fit hang together, and the covariance in units of these priors, shape (k, k)."""
         return (), np.zeros((0, 0))

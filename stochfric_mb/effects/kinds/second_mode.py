@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
@@ -54,6 +55,10 @@ class SecondMode(Effect):
     def shortest_time(self, speed: float) -> float:
         """Return the period [s]."""
         return 1.0 / self.frequency
+
+    def left_open(self) -> Mapping[str, tuple[float, float]]:
+        """Return that the oscillator may be a part of the mass that is stated, and is no more than that."""
+        return {"mass": (-self.mass_ratio / (1.0 + self.mass_ratio), 0.0)}
 
     def rest(self, position: Array, velocity: Array) -> Array:
         """Return (q, q') of an oscillator that moves along with the body, shape (n, 2)."""
