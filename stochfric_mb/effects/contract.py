@@ -195,7 +195,7 @@ class Effect:
 
         Lowest and highest deviation by name; infinite where the effect says nothing of it.
         """
-        return {name: (-math.inf, math.inf) for name in self.frees}
+        return dict.fromkeys(self.frees, (-math.inf, math.inf))
 
     def fitted_together(self) -> tuple[tuple[str, ...], Array]:
         """Return parameters whose priors in a fit hang together, and the covariance in units of these priors, shape (k, k)."""

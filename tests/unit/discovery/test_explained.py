@@ -77,7 +77,7 @@ def test_stick_excuses_worse_forces_where_the_motion_is_explained(share, excused
 
 
 def test_only_a_contact_that_yields_moves_the_edges_of_slips():
-    """A logger that cuts out a band was a ripple of the belt, with which the forces of held-out slips were off by six deviations."""
+    """A logger that cuts out a band was a ripple of the belt; with it forces of held-out slips were off by six deviations."""
     seen = {"before": 10e-6, "after": 2e-6, "floor": 2e-6, "share": 1.0, "doubt": 0.1e-6}
     kind = "belt_speed_ripple"
     assert not _by_its_motion(kind, decided(kind, details={STICK_SHARE: 0.9, "explained": seen}))

@@ -278,7 +278,7 @@ def _refuted_by_forces(seen: Comparison, last: Named, fewer: Answer, answer: Ans
 
 
 def _by_its_motion(kind: str, decision: Decision) -> bool:
-    """Return whether a contact that yields was selected for what it does to a stuck box, and explains the motion as a name must.
+    """Return whether a contact that yields was selected for what it does in stick, and explains the motion as a name must.
 
     The forces of a slip begin at its edges, which such a contact has moved; a belt that does not run evenly has not.
     """
