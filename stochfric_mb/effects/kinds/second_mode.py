@@ -57,8 +57,8 @@ class SecondMode(Effect):
         return 1.0 / self.frequency
 
     def left_open(self) -> Mapping[str, tuple[float, float]]:
-        """Return that the oscillator may be a part of the mass that is stated, and is no more than that."""
-        return {"mass": (-self.mass_ratio / (1.0 + self.mass_ratio), 0.0)}
+        """Return that the oscillator may be a part of the mass that is stated, or as much of what holds it none of that."""
+        return {"mass": (-self.mass_ratio / (1.0 + self.mass_ratio), self.mass_ratio)}
 
     def rest(self, position: Array, velocity: Array) -> Array:
         """Return (q, q') of an oscillator that moves along with the body, shape (n, 2)."""

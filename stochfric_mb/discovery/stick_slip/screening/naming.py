@@ -88,7 +88,7 @@ def with_steps(model: Model, steps: Mapping[str, tuple[float, float]], place: in
 
 
 def _bounded(kind: str, values: Mapping[str, float | str]) -> Effect:
-    """Return the effect with its values moved into their bounds."""
+    """Return the effect with its values moved into the bounds of fits."""
     cls = effect_class(kind)
     about = {f.name: f.metadata for f in dataclasses.fields(cls)}
     kept: dict[str, float | str] = {}
@@ -96,7 +96,7 @@ def _bounded(kind: str, values: Mapping[str, float | str]) -> Effect:
         if isinstance(value, str):
             kept[name] = value
             continue
-        low, high = about[name]["low"], about[name]["high"]
+        low, high = about[name]["fit_low"], about[name]["fit_high"]
         inside = 1.0e-3 * min(abs(value), high - low) if about[name]["strict"] else 0.0
         kept[name] = float(np.clip(value, low + inside, high - inside))
     return make_effect(kind, **kept)
