@@ -57,8 +57,11 @@ class SecondMode(Effect):
         return 1.0 / self.frequency
 
     def left_open(self) -> Mapping[str, tuple[float, float]]:
-        """Return that the oscillator may be a part of the mass that is stated, or as much of what holds it none of that."""
-        return {"mass": (-self.mass_ratio / (1.0 + self.mass_ratio), self.mass_ratio)}
+        """Return that the oscillator may be a part of the mass that is stated, and no more is; what else it brings along may not.
+
+        What holds it, and further oscillators of higher frequencies, move with the body.
+        """
+        return {"mass": (-self.mass_ratio / (1.0 + self.mass_ratio), math.inf)}
 
     def rest(self, position: Array, velocity: Array) -> Array:
         """Return (q, q') of an oscillator that moves along with the body, shape (n, 2)."""
