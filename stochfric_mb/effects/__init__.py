@@ -106,6 +106,8 @@ def make_effect(kind: str, **values: Any) -> Effect:
     """
     cls = effect_class(kind)
     require_fields(f"effect {kind}", cls, values)
+    if cls.needs_one_of and not any(name in values for name in cls.needs_one_of):
+        raise InputError(f"effect {kind} has no size; give {' or '.join(cls.needs_one_of)}")
     return cls(**values)
 
 

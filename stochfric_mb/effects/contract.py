@@ -137,6 +137,8 @@ class Effect:
     """Condition of an experiment without whose change it cannot be seen, or that may be confounded with others."""
     frees: ClassVar[tuple[str, ...]] = ()
     """Numbers of mechanism and law whose priors are widened beside it."""
+    needs_one_of: ClassVar[tuple[str, ...]] = ()
+    """Parameters of which at least one has to be given; empty where those without a default are all that it needs."""
     form_axis: ClassVar[str] = ""
     """Axis of the unnamed term that carries what another form of the effect would add; empty where there is none."""
     separated_by: ClassVar[Mapping[str, str]] = {}

@@ -40,19 +40,14 @@ def _weight(number: int) -> Any:
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class Course(Effect):
-    """An effect that may follow a course of any smooth shape; ``change``, its size, is the effect's own."""
+class Shaped(Effect):
+    """An effect that may have any smooth shape; the size of that is the effect's own."""
 
-    course_size: ClassVar[str] = "change"
+    course_size: ClassVar[str]
     """Name of the parameter that is the size of the course."""
-    course_end: ClassVar[str] = "span"
+    course_end: ClassVar[str]
     """What says where the course ends."""
 
-    span: float = parameter(
-        "s", "time over which the course runs", scale=30.0, low=0.0, strict=True, infinite=True, default=math.inf,
-        fit_prior=0.0, optional=True,
-    )  # fmt: skip
-    """Time over which the course runs [s]; nothing changes after it."""
     course_1: float = _weight(1)
     """Weight of the first spline in the course [-]."""
     course_2: float = _weight(2)
@@ -120,12 +115,8 @@ class Course(Effect):
 
     @property
     def stretch(self) -> float:
-        """Stretch over which the course runs, in the unit of `span`."""
-        return self.span
-
-    def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
-        """Return where the course runs and its size: its weights are fitted."""
-        return self.course_size, "span", "pieces"
+        """Stretch over which the course runs; infinite where it has none."""
+        raise NotImplementedError
 
     @property
     def any_shape(self) -> bool:
@@ -158,6 +149,74 @@ class Course(Effect):
     def shape(self, place: Array) -> Array:
         """Return the course at places, shape as ``place``."""
         return self.columns(place) @ np.array([getattr(self, name) for name in self.shaped_by])
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Course(Shaped):
+    """An effect that may follow a course of any smooth shape; ``change``, its size, is the effect's own."""
+
+    course_size: ClassVar[str] = "change"
+    course_end: ClassVar[str] = "span"
+
+    span: float = parameter(
+        "s", "time over which the course runs", scale=30.0, low=0.0, strict=True, infinite=True, default=math.inf,
+        fit_prior=0.0, optional=True,
+    )  # fmt: skip
+    """Time over which the course runs [s]; nothing changes after it."""
+
+    @property
+    def stretch(self) -> float:
+        """Stretch over which the course runs, in the unit of `span`."""
+        return self.span
+
+    def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
+        """Return where the course runs and its size: its weights are fitted."""
+        return self.course_size, "span", "pieces"
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Periodic(Shaped):
+    """A wave in time that may have any smooth shape; ``amplitude`` and ``course`` have a unit of the effect's own."""
+
+    course_size: ClassVar[str] = "course"
+    course_end: ClassVar[str] = "frequency"
+    needs_one_of: ClassVar[tuple[str, ...]] = ("amplitude", "course")
+
+    at_begin: float = parameter(
+        "-", "value of the course where it begins", scale=1.0, default=0.0, fit_prior=0.0, optional=True
+    )
+    """Value of the course where it begins and ends [-]."""
+    amplitude: float = parameter("-", "amplitude of a cosine", scale=0.03, default=0.0, optional=True)
+    """Amplitude of a cosine, in the unit of the effect."""
+    frequency: float = parameter("Hz", "frequency", scale=5.0, low=0.0, strict=True)
+    """Frequency [Hz]."""
+    phase: float = parameter("rad", "phase at t = 0", scale=1.0, default=0.0)
+    """Phase at t = 0 [rad]."""
+    course: float = parameter("-", "size of a course of any shape", scale=0.03, default=0.0, optional=True)
+    """Size of a course of any shape, in the unit of the effect."""
+
+    @property
+    def stretch(self) -> float:
+        """Time after which the course comes back [s]."""
+        return 1.0 / self.frequency
+
+    @property
+    def shaped_by(self) -> tuple[str, ...]:
+        """Names of all numbers in which the shape is linear."""
+        return *super().shaped_by, "at_begin"
+
+    def columns(self, place: Array) -> Array:
+        """Return the change of the shape with each of the numbers `shaped_by`, shape (..., n)."""
+        return np.concatenate([super().columns(place), np.ones((*place.shape, 1))], axis=-1)
+
+    def shortest_time(self, speed: float) -> float:
+        """Return the period [s], or the time of two pieces of the course, in which it can rise and fall."""
+        return (2.0 / self.pieces if self.any_shape else 1.0) / self.frequency
+
+    @classmethod
+    def returning(cls, weights: Array, pieces: int, frequency: float) -> dict[str, float]:
+        """Return the parameters of a course that comes back with each wave, its mean being 0; see `returning`."""
+        return {"frequency": frequency} | returning_course(weights, pieces)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -263,14 +322,24 @@ def returning_course(weights: Array, pieces: int) -> dict[str, float]:
 @compiled
 def along(p, place):
     """Return the course at a place, 0 at its begin and 1 at its end, from an effect's parameters."""
-    where = p[19] * min(max(place, 0.0), 1.0)
-    value = -(2.0 / 3.0 * p[1] + p[2] / 6.0)  # less what the splines are at the begin
-    for k in range(max(int(where) - 1, 0), min(int(where) + 3, int(p[19]) + 2)):
+    where = p[18] * min(max(place, 0.0), 1.0)
+    value = -(2.0 / 3.0 * p[0] + p[1] / 6.0)  # less what the splines are at the begin
+    for k in range(max(int(where) - 1, 0), min(int(where) + 3, int(p[18]) + 2)):
         away = abs(where - k)
         if away < 1.0:
-            value += p[1 + k] * (2.0 / 3.0 - away * away * (1.0 - away / 2.0))
+            value += p[k] * (2.0 / 3.0 - away * away * (1.0 - away / 2.0))
         elif away < 2.0:
-            value += p[1 + k] * (2.0 - away) * (2.0 - away) * (2.0 - away) / 6.0
+            value += p[k] * (2.0 - away) * (2.0 - away) * (2.0 - away) / 6.0
+    return value
+
+
+@compiled
+def periodic(p, time):
+    """Return what a `Periodic` effect adds at a time [s], from its parameters, those of its own being p[19] to p[23]."""
+    value = p[20] * math.cos(2.0 * math.pi * p[21] * time + p[22])
+    if p[23] != 0.0:
+        turns = p[21] * time + p[22] / (2.0 * math.pi)
+        value += p[23] * (p[19] + along(p, turns - math.floor(turns)))
     return value
 
 

@@ -179,7 +179,9 @@ class Wave:
     """How much faster a typical run passes the place than the slowest one [-]."""
     returning: Callable[..., dict[str, Any]] | None = None
     """From ``weights`` of a course that comes back with each wave (`stochfric_mb.effects.course.returning`), its ``pieces`` and
-    the ``wavelength`` to values of the effect's parameters; None: it has no such form."""
+    its `setting` to values of the effect's parameters; None: it has no such form."""
+    turned: bool = False
+    """Whether a mirrored run passes it the other way."""
 
 
 def apart(

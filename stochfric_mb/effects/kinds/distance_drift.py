@@ -92,7 +92,7 @@ def surroundings(world, memory, rates, p):
 
 def friction(world, memory, rates, p):
     """Multiply both coefficients by the drift."""
-    slid, span, rate, settled, share, change = world[TRAVELLED], p[0], p[20], p[21], p[22], p[23]
+    slid, span, rate, settled, share, change = world[TRAVELLED], p[19], p[20], p[21], p[22], p[23]
     grown = rate * (slid if settled > 1.0e300 else -settled * math.expm1(-slid / settled))
     if change != 0.0:
         grown += change * along(p, slid / span)

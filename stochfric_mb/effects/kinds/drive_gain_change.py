@@ -115,5 +115,5 @@ def surroundings(world, memory, rates, p):
     if p[26] != 0.0:
         grown += p[26] * math.cos(2.0 * math.pi * world[POSITION] / p[27] + p[28])
     if p[32] != 0.0:
-        grown += p[32] * (p[21] + along(p, (world[POSITION] - p[20]) / p[0]))
+        grown += p[32] * (p[21] + along(p, (world[POSITION] - p[20]) / p[19]))
     world[LOAD] += grown * world[DRIVE]

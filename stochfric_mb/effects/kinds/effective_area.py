@@ -79,5 +79,5 @@ def surroundings(world, memory, rates, p):
     if p[24] != 0.0:
         area += 0.5 * p[24] * math.tanh((world[POSITION] - p[25]) / p[26])
     if p[27] != 0.0:
-        area += p[27] * (p[21] + along(p, (world[POSITION] - p[20]) / p[0]))
+        area += p[27] * (p[21] + along(p, (world[POSITION] - p[20]) / p[19]))
     world[LOAD] -= world[PRESSURE] * area

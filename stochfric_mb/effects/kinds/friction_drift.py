@@ -64,7 +64,7 @@ class FrictionDrift(Course):
 
 def friction(world, memory, rates, p):
     """Multiply both coefficients by the drift."""
-    span, rate, settled, share, change = p[0], p[20], p[21], p[22], p[23]
+    span, rate, settled, share, change = p[19], p[20], p[21], p[22], p[23]
     grown = rate * (world[TIME] if settled > 1.0e300 else -settled * math.expm1(-world[TIME] / settled))
     if change != 0.0:
         grown += change * along(p, world[TIME] / span)

@@ -12,7 +12,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import LOAD, TIME, Effect, JointSignature, Scan, parameter
+from stochfric_mb.effects.contract import LOAD, TIME, JointSignature, Scan, parameter
+from stochfric_mb.effects.course import Periodic, periodic
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Slips, Wave, times
 from stochfric_mb.effects.traits import COURSE_OF_RUN, FORCE_IN_TIME, WANDERS_ALIKE, WAVES
@@ -22,21 +23,23 @@ PERIODS = 3.0
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class HarmonicForce(Effect):
-    """Further force amplitude cos(2 pi frequency t + phase).
+class HarmonicForce(Periodic):
+    """Further force amplitude cos(2 pi frequency t + phase) + course c(frac(frequency t + phase/(2 pi))).
+
+    c is a sum of cubic B-splines, so that the force may have any smooth shape that comes back with each period.
 
     Reference: J. P. Den Hartog, Mechanical Vibrations, 4th ed., McGraw-Hill 1956, section 2.9.
     """
 
-    amplitude: float = parameter("N", "amplitude of the force", scale=0.3)
-    """Amplitude of the force [N]."""
-    frequency: float = parameter("Hz", "frequency", scale=5.0, low=0.0, strict=True)
-    """Frequency [Hz]."""
-    phase: float = parameter("rad", "phase at t = 0", scale=1.0, default=0.0)
-    """Phase at t = 0 [rad]."""
+    amplitude: float = parameter("N", "amplitude of a cosine", scale=0.3, default=0.0, optional=True)
+    """Amplitude of a cosine [N]."""
+    course: float = parameter("N", "size of a course of any shape", scale=0.3, default=0.0, optional=True)
+    """Size of a course of any shape [N]."""
 
     kind: ClassVar[str] = "harmonic_force"
-    equation: ClassVar[str] = "further force amplitude cos(2 pi frequency t + phase)"
+    equation: ClassVar[str] = (
+        "further force amplitude cos(2 pi frequency t + phase) + course c(frac(frequency t + phase/(2 pi))), c of splines"
+    )
     source: ClassVar[str] = "Den Hartog 1956, chapter 2 (unbalance)"
     group: ClassVar[str] = "mechanism"
     traits: ClassVar[frozenset[str]] = frozenset({WAVES, FORCE_IN_TIME, COURSE_OF_RUN, WANDERS_ALIKE})
@@ -45,10 +48,6 @@ class HarmonicForce(Effect):
     }
     shows_on: ClassVar[str] = "time"
     shows: ClassVar[str] = "a periodic force acts, in stick and slip alike"
-
-    def shortest_time(self, speed: float) -> float:
-        """Return the period [s]."""
-        return 1.0 / self.frequency
 
     @classmethod
     def at_joint(cls, span: JointSpan) -> JointSignature:
@@ -64,9 +63,10 @@ class HarmonicForce(Effect):
     def wave(cls, slips: Slips) -> Wave:
         """Return a force that is added in time, the same in stick and slip."""
         places = times(slips)
-        return Wave(places, np.broadcast_to(slips.direction.astype(np.float64)[:, None], places.shape), lambda f: f)
+        weight = np.broadcast_to(slips.direction.astype(np.float64)[:, None], places.shape)
+        return Wave(places, weight, lambda f: f, returning=cls.returning)
 
 
 def surroundings(world, memory, rates, p):
     """Add the force."""
-    world[LOAD] += p[0] * math.cos(2.0 * math.pi * p[1] * world[TIME] + p[2])
+    world[LOAD] += periodic(p, world[TIME])

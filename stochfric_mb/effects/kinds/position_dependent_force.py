@@ -109,4 +109,4 @@ def surroundings(world, memory, rates, p):
     angle = 2.0 * math.pi * world[POSITION] / p[26]
     world[LOAD] += p[25] * math.cos(angle + p[27]) + p[28] * math.cos(2.0 * angle + p[29]) - p[22] * d - p[23] * d * d * d
     if p[30] != 0.0:
-        world[LOAD] += p[30] * (p[21] + along(p, (world[POSITION] - p[20]) / p[0]))
+        world[LOAD] += p[30] * (p[21] + along(p, (world[POSITION] - p[20]) / p[19]))

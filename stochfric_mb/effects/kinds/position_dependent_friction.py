@@ -60,6 +60,7 @@ class PositionDependentFriction(CourseAlongStroke):
     """Relative size of a course of any shape [-]."""
 
     course_end: ClassVar[str] = "span, or a wavelength with which it comes back"
+    needs_one_of: ClassVar[tuple[str, ...]] = ("amplitude", "amplitude_2", "amplitude_3", "course")
 
     kind: ClassVar[str] = "position_dependent_friction"
     equation: ClassVar[str] = (
@@ -161,7 +162,7 @@ class PositionDependentFriction(CourseAlongStroke):
         position = np.concatenate([slips.typical_onset[:, None], slips.typical_position], axis=1)
         typical = float(np.median([s.record.mechanism.belt_velocity for s in slips.slips]))
         place = (slips.belt_velocity[:, None] * times(slips) - position) / slowest
-        return Wave(place, friction_at(slips), lambda f: slowest / f, typical / slowest, cls.returning)
+        return Wave(place, friction_at(slips), lambda f: slowest / f, typical / slowest, cls.returning, turned=True)
 
     @classmethod
     def returning(cls, weights: Array, pieces: int, wavelength: float) -> dict[str, float | str]:
@@ -178,7 +179,7 @@ def friction(world, memory, rates, p):
         factor += p[26] * math.cos(2.0 * angle + p[27]) + p[28] * math.cos(3.0 * angle + p[29])
     if p[30] != 0.0:
         if math.isinf(p[23]):
-            place = (s - p[20]) / p[0]
+            place = (s - p[20]) / p[19]
         else:
             turns = (s - p[20]) / p[23] + p[24] / (2.0 * math.pi)
             place = turns - math.floor(turns)

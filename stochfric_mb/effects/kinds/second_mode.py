@@ -57,9 +57,9 @@ class SecondMode(Effect):
         return 1.0 / self.frequency
 
     def left_open(self) -> Mapping[str, tuple[float, float]]:
-        """Return that the oscillator may be a part of the mass that is stated, and no more is; what else it brings along may not.
+        """Return that no more than the oscillator may be missing of the stated mass, and that any mass may come with it.
 
-        What holds it, and further oscillators of higher frequencies, move with the body.
+        It may have been weighed with the body, and what holds it, and oscillators of higher frequencies, may not.
         """
         return {"mass": (-self.mass_ratio / (1.0 + self.mass_ratio), math.inf)}
 

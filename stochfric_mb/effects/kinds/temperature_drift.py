@@ -95,7 +95,7 @@ class TemperatureDrift(Course):
 
 def friction(world, memory, rates, p):
     """Multiply both coefficients by the drift."""
-    above, span, rate, share, curvature, change = world[TEMPERATURE] - p[21], p[0], p[20], p[22], p[23], p[24]
+    above, span, rate, share, curvature, change = world[TEMPERATURE] - p[21], p[19], p[20], p[22], p[23], p[24]
     changed = (rate + curvature * above) * above
     if change != 0.0:
         changed += change * along(p, above / span)

@@ -8,7 +8,14 @@ import pytest
 from stochfric_mb.compile import compiled
 from stochfric_mb.effects import contract, make_effect
 from stochfric_mb.effects.course import COARSER, COURSE, PIECES, returning, returning_course, sized, splines
-from stochfric_mb.effects.kinds import distance_drift, friction_drift, position_dependent_friction, temperature_drift
+from stochfric_mb.effects.kinds import (
+    distance_drift,
+    friction_drift,
+    harmonic_force,
+    normal_load_ripple,
+    position_dependent_friction,
+    temperature_drift,
+)
 from stochfric_mb.errors import InputError
 
 
@@ -46,6 +53,45 @@ def test_a_course_that_comes_back_is_smooth_across_turns_and_changes_no_mean(pie
     assert np.abs(np.diff(seen, 2)[315:325]).max() < 3.0 * np.abs(np.diff(seen, 2)[:300]).max()
     assert np.abs(seen - 1.0).max() == pytest.approx(abs(effect.course), rel=1e-3)
     assert effect.shortest_time(0.1) == pytest.approx(2.0 * 0.3 / pieces / 0.1)
+
+
+@pytest.mark.parametrize(("kind", "module", "where"), [
+    ("normal_load_ripple", normal_load_ripple, contract.NORMAL_FORCE),
+    ("harmonic_force", harmonic_force, contract.LOAD),
+])  # fmt: skip
+def test_a_wave_in_time_may_have_any_shape_beside_a_cosine(kind, module, where):
+    weights = np.random.default_rng(3).standard_normal(7)
+    numbers = returning_course(weights, 8) | {"frequency": 0.5, "phase": 0.9}
+    numbers["course"] *= 0.2
+    effect = make_effect(kind, amplitude=0.1, **numbers)
+    acts = compiled(module.surroundings)
+
+    def value(time):
+        world, p, none = np.zeros(contract.WORLD), effect.parameters(), np.zeros(1)
+        world[contract.NORMAL_FORCE], world[contract.TIME] = 13.0, time
+        acts(world, none, none, p)
+        return world[where]
+
+    time = np.linspace(-1.0, 3.0, 801)
+    raw = returning(0.5 * time + 0.9 / (2.0 * math.pi), 8) @ weights
+    change = 0.1 * np.cos(math.pi * time + 0.9) + 0.2 * (raw - raw[:400].mean())
+    expected = 13.0 * (1.0 + change) if where == contract.NORMAL_FORCE else change
+    np.testing.assert_allclose([value(t) for t in time], expected, atol=1e-9)
+    assert effect.shortest_time(1.0) == pytest.approx(2.0 * 2.0 / 8)
+    assert make_effect(kind, amplitude=0.1, frequency=0.5).shortest_time(1.0) == 2.0
+
+
+@pytest.mark.parametrize(
+    ("kind", "given"),
+    [
+        ("normal_load_ripple", {"frequency": 2.0}),
+        ("harmonic_force", {"frequency": 2.0, "phase": 1.0}),
+        ("position_dependent_friction", {"wavelength": 0.1}),
+    ],
+)
+def test_a_wave_without_a_size_is_refused(kind, given):
+    with pytest.raises(InputError, match=f"effect {kind} has no size; give amplitude or .*course"):
+        make_effect(kind, **given)
 
 
 def test_a_course_needs_a_stretch_or_a_wavelength():
@@ -117,7 +163,7 @@ def test_what_the_stroke_decides_follows_the_course(kind, acts_on, expected, pie
 
 
 def test_friction_along_a_place_needs_a_wave_or_a_course():
-    for given in ({}, {"amplitude": 0.1}, {"amplitude_2": 0.1}):
+    for given in ({"amplitude": 0.1}, {"amplitude_2": 0.1}):
         with pytest.raises(InputError, match="wavelength"):
             make_effect("position_dependent_friction", **given)
 

@@ -17,6 +17,8 @@ from stochfric_mb.effects import Effect, effect_class, kind_with_signature, make
 from stochfric_mb.effects.marks import RETURNING, Wave
 from stochfric_mb.effects.traits import JUMP, WAVES
 
+HARMONIC_BEGINS = 0.2
+"""Size with which a harmonic of another kind than the ripple begins to be fitted, over that of the ripple [-]."""
 HIGHEST_HARMONIC = 9
 """Order up to which a ripple at a multiple of a named one's frequency is its harmonic: beyond, a multiple is always near."""
 
@@ -168,7 +170,8 @@ def _waves_beside(model: Model, candidate: Candidate, pool: Pool) -> list[tuple[
     if not candidate.is_wave or candidate.along_belt:
         return []
     own = candidate.frequency(1.0) * np.arange(1, int(candidate.hypothesis.setting[-1]) + 1)
-    waves = [(i, e) for i, e in enumerate(model.effects) if WAVES in e.traits and e.own_to_run and hasattr(e, "frequency")]
+    held = [(i, e) for i, e in enumerate(model.effects) if WAVES in e.traits and e.own_to_run]
+    waves = [(i, e) for i, e in held if hasattr(e, "frequency") and not getattr(e, "any_shape", False)]
     return [(i, e) for i, e in waves if np.abs(own - _frequency(e, 1.0)).min() > 1.0 / pool.duration]
 
 
@@ -216,8 +219,8 @@ def as_harmonic(model: Model, candidate: Candidate, pool: Pool) -> Model | None:
         return with_candidate(model, candidate, pool)
     # set by the kind that is held; amplitude and phases are fitted next
     setting = {"frequency": order * main} if hasattr(held, "frequency") else {"wavelength": belt / (order * main)}
-    small = dataclasses.replace(held, amplitude=0.2 * held.amplitude, **setting)  # pyright: ignore[reportAttributeAccessIssue, reportCallIssue]
-    return model.plus(small)
+    size = held.amplitude or held.course  # pyright: ignore[reportAttributeAccessIssue]
+    return model.plus(_bounded(held.kind, {"amplitude": HARMONIC_BEGINS * size} | setting))
 
 
 def _frequency(effect: Effect, belt: float) -> float:

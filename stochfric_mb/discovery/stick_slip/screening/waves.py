@@ -11,8 +11,8 @@ differs: such waves count as a whole.
 from __future__ import annotations
 
 import dataclasses
-import functools
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -219,10 +219,13 @@ def _best_course(kind: str, wave: Wave, baseline: Baseline, scans: Sequence[_Sca
     if best is None:
         return None
     _, main, begins, pieces, columns = best
-    length, values = wave.setting(main), wave.returning
+    setting, values = wave.setting(main), wave.returning
     assert values is not None
-    start = functools.partial(values, pieces=pieces, wavelength=length)
-    found = Hypothesis(kind, columns, (length, *begins.tolist(), float(pieces)), start, variant=RETURNING)
+
+    def start(weights: Array) -> dict[str, Any]:
+        return values(weights, pieces, setting)
+
+    found = Hypothesis(kind, columns, (setting, *begins.tolist(), float(pieces)), start, variant=RETURNING)
     return found, scan.looked_at * BEGINS ** (pool.n_runs - 1)
 
 
@@ -245,7 +248,7 @@ def _begins(pool: Pool, wave: Wave, baseline: Baseline, frequency: float) -> Arr
     pairs = solution.coefficients[-len(columns) :].reshape(pool.n_runs, MORE_HARMONICS, 2)
     variance = (solution.deviations[-len(columns) :] ** 2).reshape(pairs.shape).sum(axis=2) + 1.0e-300
     # a cos + b sin is the real part of (a - i b) exp(i angle); a mirrored run passes the course backwards
-    waves = pairs[..., 0] - 1j * pairs[..., 1] * _directions(pool)[:, None]
+    waves = pairs[..., 0] - 1j * pairs[..., 1] * _directions(pool, wave)[:, None]
     order = np.arange(1, MORE_HARMONICS + 1)
     trials = np.exp(-2j * np.pi * order * np.arange(BEGINS)[:, None] / BEGINS)
     begins = np.zeros(pool.n_runs, dtype=np.int64)
@@ -267,7 +270,7 @@ def returning_columns(pool: Pool, wave: Wave, frequency: float, begins: Array, p
         begins: where in it each run begins [turns], shape (n_runs,).
         pieces: its pieces.
     """
-    turns = (_directions(pool) * frequency)[pool.run][:, None] * wave.place + begins[pool.run][:, None]
+    turns = (_directions(pool, wave) * frequency)[pool.run][:, None] * wave.place + begins[pool.run][:, None]
     weighted = wave.weight[..., None] * returning(turns, pieces)
     columns = [pool.column(weighted[:, 0, k], weighted[:, 1:, k]) for k in range(pieces - 1)]
     for column in columns:
@@ -277,8 +280,9 @@ def returning_columns(pool: Pool, wave: Wave, frequency: float, begins: Array, p
     return columns
 
 
-def _directions(pool: Pool) -> Array:
-    return np.array([float(s.record.direction) for s in pool.slips])
+def _directions(pool: Pool, wave: Wave) -> Array:
+    """Return which way each run passes a wave, 1 or -1, shape (n_runs,)."""
+    return np.array([float(s.record.direction) if wave.turned else 1.0 for s in pool.slips])
 
 
 def with_harmonics(pool: Pool, kind: str, wave: Wave, frequency: float) -> Hypothesis:

@@ -154,8 +154,8 @@ def _poor(answer: Answer, slip_study: Study, recalibrated: Fit) -> Decision | No
 def _far_off(model: Model, recalibrated: Model, slip_study: Study, *, most: bool) -> str | None:
     """Return which number of law or mechanism effects push far off from what is stated, and by how much; None: none.
 
-    What an effect leaves open is believed as far as the effect says: an oscillator may have been weighed with the body, and what
-    holds it not; the stiffness at rest of a curved spring is not believed at all.
+    What an effect leaves open is believed as far as the effect says: an oscillator may have been weighed with the body,
+    and what holds it not; the stiffness at rest of a curved spring is not believed at all.
 
     Args:
         model: the model with the effects.
