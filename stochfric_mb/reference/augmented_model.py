@@ -21,7 +21,8 @@ from stochfric_mb.laws import elastic_stick, stribeck
 from stochfric_mb.numerics.runge_kutta import DOPRI5
 
 MAX_EFFECTS = 24
-MAX_PARAMETERS = 8 * MAX_EFFECTS
+MAX_PARAMETERS = 24 * MAX_EFFECTS
+"""As many waves in time, whose course has many weights, as effects."""
 MAX_MEMORY = 8
 UNKNOWNS = 2 + MAX_MEMORY
 """x, x' and the effects' memories."""
