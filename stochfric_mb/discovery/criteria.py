@@ -66,7 +66,7 @@ LEFT_BEYOND = 4.0
 """Standard deviations by which what is left must exceed that share [-]: chance in the edges of single slips passes three."""
 NONE_MISSES = 0.5
 """Reducible error over the error itself above which "none" is no answer [-]: more is wrong with the forecasts than is right.
-Where nothing is missing, noise and declared scatter leave up to a third. A name of which it is true must explain so much."""
+Where nothing is missing, noise and declared scatter leave up to a third."""
 THROWN_OFF, FEWEST_THROWN_OFF = 3.0, 2
 """Error of a forecast over that of most from which on something came between, and how many of them kicks leave at least:
 noise alone, however coloured, leaves forecasts that all miss by about the same [-]."""

@@ -53,7 +53,7 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
         return taken_back(decision, f"comes closest, but its model cannot run by itself: {error}")
     if kinds <= shown_elsewhere(decision.model) or not len(best):
         return _nothing_shown(decision, before, float(with_.mean()), best)
-    little = _too_little(decision, without, with_, best)
+    little = _too_little(decision, _enough(decision), without, with_, best)
     noise = little is not None and len(kinds) == 1 and within_noise(decision.named[0].kind, augmented, study.pool.slips)
     return dataclasses.replace(decision, verdict="none", named=()) if noise else little
 
@@ -74,40 +74,33 @@ def _nothing_shown(decision: Decision, before: float, after: float, best: Array)
     return _missed(decision, after, floor) if after - floor > criteria.NONE_MISSES * after else None
 
 
-def _enough(decision: Decision, *, missed: bool) -> float:
+def _enough(decision: Decision) -> float:
     """Return the share of the reducible error that the names must explain [-].
 
-    Recalibration takes the mean of an effect that all slips have alike, and forecasts then hold little but its form, unless
-    they are more wrong with it than right: it must then explain more than it leaves. Of a wave recalibration takes nothing:
-    forecasts hold as much of it as the stick phases. A contact that gives way in stick breaks away at another time, which
-    forecasts show: what only looks like it there does not.
-
-    Args:
-        decision: what is named.
-        missed: whether forecasts with it are more wrong than right.
+    Recalibration takes the mean of an effect that all slips have alike, and forecasts then hold little but its form. Of a wave
+    it takes nothing: forecasts hold as much of it as the stick phases. A contact that gives way in stick breaks away at another
+    time, which forecasts show: what only looks like it there does not.
     """
     if explained_with_its_form(decision) and not phased(decision.model):
-        if STICK_SHARE in decision.details:
-            return criteria.EXPLAINED_RANDOM
-        return criteria.NONE_MISSES if missed else criteria.CLOSES_NOTHING
+        return criteria.EXPLAINED_RANDOM if STICK_SHARE in decision.details else criteria.CLOSES_NOTHING
     # what is random beside a named effect does not excuse what that one does not explain
     first = next(e for e in decision.model.effects if e.kind == decision.named[0].kind)
     lenient = first.random or any(n.kind == kind_with_signature(JUMP) for n in decision.named)
     return criteria.EXPLAINED_RANDOM if lenient else criteria.EXPLAINED
 
 
-def _too_little(decision: Decision, without: Array, with_: Array, best: Array) -> Decision | None:
-    """Return the decision without its names where forecasts show that these explain less than they must; None if they do not.
+def _too_little(decision: Decision, enough: float, without: Array, with_: Array, best: Array) -> Decision | None:
+    """Return the decision without its names where forecasts show that these explain less than ``enough``; None if they do not.
 
     Args:
         decision: the decision.
+        enough: share of the reducible error [-].
         without: errors of the forecasts without the effects [m], shape (n,).
         with_: the same with them.
         best: what they would be if the model with the effects were true, shape (m,).
     """
     before, after = float(without.mean()), float(with_.mean())
     floor = min(float(best.mean()), after)
-    enough = _enough(decision, missed=after - floor > criteria.NONE_MISSES * after)
     # what is left beyond the share that may be, and how well so few forecasts tell it
     left = with_ - (1.0 - enough) * without
     doubt = float(np.hypot(_error_of_mean(left), enough * _error_of_mean(best)))
