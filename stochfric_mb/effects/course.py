@@ -28,6 +28,8 @@ COARSER = (4, 8, PIECES)
 """Pieces of the courses that are looked for."""
 FLAT = 1.0e-3
 """Weights from which fits of a course begin [-]: friction is linear in them."""
+RETURNS = 1.0e-9
+"""Difference of weights over the largest one up to which a course returns to its begin [-]: rounding of written numbers."""
 SHARES = (1.0, 0.0, 0.5, 2.0)
 """Shares of the change that mu_s takes, of courses of friction [-]."""
 
@@ -128,6 +130,21 @@ class Shaped(Effect):
         """Names of the weights that count."""
         return COURSE[: int(self.pieces) + 2]
 
+    def require_return(self) -> None:
+        """Raise an error unless the course goes on smoothly where it comes back.
+
+        Raises:
+            InputError: its end is not its begin.
+        """
+        n, weight = int(self.pieces), [0.0, *(getattr(self, name) for name in COURSE)]
+        most = RETURNS * max(map(abs, weight))
+        if any(abs(weight[n + k] - weight[k]) > most for k in range(3)):
+            ends = ", ".join(f"course_{n + k} = {weight[n + k]:g}" for k in range(3))
+            raise InputError(
+                f"{self.kind}: its course comes back, but has a jump or a kink there: {ends}; of {n} pieces give course_{n} = 0, "
+                f"course_{n + 1} = course_1 and course_{n + 2} = course_2"
+            )
+
     def normalised(self) -> Self:
         """Return the same effect, its size being the largest change and its weights relative to that."""
         shape = self.shape(np.linspace(0.0, 1.0, 20 * PIECES + 1))
@@ -195,6 +212,11 @@ class Periodic(Shaped):
     course: float = parameter("-", "size of a course of any shape", scale=0.03, default=0.0, optional=True)
     """Size of a course of any shape, in the unit of the effect."""
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.any_shape:
+            self.require_return()
+
     @property
     def stretch(self) -> float:
         """Time after which the course comes back [s]."""
@@ -212,6 +234,11 @@ class Periodic(Shaped):
     def shortest_time(self, speed: float) -> float:
         """Return the period [s], or the time of two pieces of the course, in which it can rise and fall."""
         return (2.0 / self.pieces if self.any_shape else 1.0) / self.frequency
+
+    def over_a_turn(self) -> Array:
+        """Return cosine and course over a turn, as finely as a course's largest change is looked for."""
+        turn = np.linspace(0.0, 1.0, 20 * PIECES, endpoint=False)
+        return self.amplitude * np.cos(2.0 * np.pi * turn) + self.course * self.shape(turn)
 
     @classmethod
     def returning(cls, weights: Array, pieces: int, frequency: float) -> dict[str, float]:

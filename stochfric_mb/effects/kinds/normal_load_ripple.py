@@ -13,6 +13,7 @@ from stochfric_mb.effects.contract import NORMAL_FORCE, TIME, parameter
 from stochfric_mb.effects.course import Periodic, periodic
 from stochfric_mb.effects.marks import Slips, Wave, friction_at, times
 from stochfric_mb.effects.traits import COURSE_OF_RUN, WANDERS_ALIKE, WAVES
+from stochfric_mb.errors import InputError
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -46,6 +47,15 @@ class NormalLoadRipple(Periodic):
     }
     shows_on: ClassVar[str] = "time"
     shows: ClassVar[str] = "friction in stick and slip varies periodically in time by the same share"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        lowest = 1.0 + float(self.over_a_turn().min()) if self.any_shape else 1.0
+        if lowest < 0.0:
+            raise InputError(
+                f"{self.kind}: the normal force falls to {lowest:.2g} of what it is, and no contact pulls; "
+                "give a smaller amplitude or course"
+            )
 
     @classmethod
     def wave(cls, slips: Slips) -> Wave:

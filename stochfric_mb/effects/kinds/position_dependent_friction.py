@@ -89,6 +89,8 @@ class PositionDependentFriction(CourseAlongStroke):
                 f"{self.kind} needs amplitude and wavelength of a wave, or course, span and {COURSE[0]} to {COURSE[-1]} of a "
                 f"course; amplitude = {self.amplitude:g} has no wavelength"
             )
+        if self.course and math.isfinite(self.wavelength):
+            self.require_return()
 
     def appears(self) -> tuple[str, str]:
         """Return belt or stroke, whichever the friction varies along."""

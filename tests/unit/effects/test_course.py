@@ -94,6 +94,32 @@ def test_a_wave_without_a_size_is_refused(kind, given):
         make_effect(kind, **given)
 
 
+@pytest.mark.parametrize(
+    ("kind", "given"),
+    [
+        ("normal_load_ripple", {"frequency": 2.0}),
+        ("harmonic_force", {"frequency": 2.0}),
+        ("position_dependent_friction", {"wavelength": 0.1, "axis": "belt"}),
+    ],
+)
+def test_a_course_that_comes_back_goes_on_where_it_began(kind, given):
+    with pytest.raises(InputError, match=r"kink.* course_18 = 1; of 16 pieces give .*course_18 = course_2"):
+        make_effect(kind, **given, course=0.1, course_3=1.0, course_18=1.0)
+    with pytest.raises(InputError, match=r"kink there: course_8 = 1,"):
+        make_effect(kind, **given, course=0.1, course_8=1.0, pieces=8)
+    make_effect(kind, **given, course=0.1, course_2=1.0, course_18=1.0)
+
+
+def test_a_load_of_any_shape_pulls_at_no_time():
+    """Cosine and course are each smaller than the load, and so is no weight that is given by hand."""
+    ends = {"course_1": 1.0, "course_17": 1.0}
+    for given in ({"course": 0.8, "amplitude": 0.7, **ends}, {"course": 0.8, "course_5": -9.0}):
+        with pytest.raises(InputError, match=r"falls to -[0-9.]+ of what it is, and no contact pulls; give a smaller"):
+            make_effect("normal_load_ripple", frequency=2.0, **given)
+    make_effect("normal_load_ripple", frequency=2.0, course=0.3, amplitude=0.7, **ends)
+    make_effect("harmonic_force", frequency=2.0, course=0.8, course_5=-9.0)
+
+
 def test_a_course_needs_a_stretch_or_a_wavelength():
     with pytest.raises(InputError, match="wavelength"):
         make_effect("position_dependent_friction", course=0.1, course_1=1.0)
