@@ -141,8 +141,8 @@ class Shaped(Effect):
         if any(abs(weight[n + k] - weight[k]) > most for k in range(3)):
             ends = ", ".join(f"course_{n + k} = {weight[n + k]:g}" for k in range(3))
             raise InputError(
-                f"{self.kind}: its course comes back, but has a jump or a kink there: {ends}; of {n} pieces give course_{n} = 0, "
-                f"course_{n + 1} = course_1 and course_{n + 2} = course_2"
+                f"{self.kind}: its course comes back, but has a jump or a kink there: {ends}; of {n} pieces "
+                f"give course_{n} = 0, course_{n + 1} = course_1 and course_{n + 2} = course_2"
             )
 
     def normalised(self) -> Self:
