@@ -146,7 +146,9 @@ class Effect:
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
-            _check(f"{self.kind}.{field.name}", getattr(self, field.name), field)
+            value = getattr(self, field.name)
+            if value is not field.default:  # defaults are valid, and fits make effects by the thousand
+                _check(f"{self.kind}.{field.name}", value, field)
 
     @property
     def own_to_run(self) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ and it comes back in the next run. Reference: C. de Boor, A Practical Guide to S
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 from typing import Any, ClassVar, Self
 
@@ -102,15 +103,18 @@ class Shaped(Effect):
         super().__post_init__()
         if self.pieces != int(self.pieces):
             raise InputError(f"{self.kind}.pieces = {self.pieces:g} is no whole number; give one from 1 to {PIECES}")
-        idle = [name for name in COURSE if name not in self.weights and getattr(self, name)]
+        count = int(self.pieces) + 2
+        idle = [name for name in COURSE[count:] if getattr(self, name)]
         if idle:
             raise InputError(
                 f"{self.kind}.{idle[0]} = {getattr(self, idle[0]):g} counts for nothing in a course of {self.pieces:g} pieces; "
-                f"give more pieces, or {COURSE[0]} to {self.weights[-1]} alone"
+                f"give more pieces, or {COURSE[0]} to {COURSE[count - 1]} alone"
             )
         change = float(getattr(self, self.course_size, 0.0))
+        if change == 0.0:
+            return
         flat = not any(getattr(self, name) for name in self.shaped_by)
-        if change != 0.0 and (flat or math.isinf(self.stretch)):
+        if flat or math.isinf(self.stretch):
             lacking = f"no shape: give {COURSE[0]} to {self.weights[-1]}" if flat else f"no end: give {self.course_end}"
             name = self.course_size
             raise InputError(f"{self.kind}.{name} = {change:g}, but its course has {lacking}, or leave out {name}")
@@ -237,8 +241,9 @@ class Periodic(Shaped):
 
     def over_a_turn(self) -> Array:
         """Return cosine and course over a turn, as finely as a course's largest change is looked for."""
-        turn = np.linspace(0.0, 1.0, 20 * PIECES, endpoint=False)
-        return self.amplitude * np.cos(2.0 * np.pi * turn) + self.course * self.shape(turn)
+        cosine, course = _turn(int(self.pieces))
+        weights = np.array([getattr(self, name) for name in self.weights])
+        return self.amplitude * cosine + self.course * (self.at_begin + course @ weights)
 
     @classmethod
     def returning(cls, weights: Array, pieces: int, frequency: float) -> dict[str, float]:
@@ -314,6 +319,13 @@ def _raw(place: Array, pieces: int) -> Array:
     apart = np.abs(pieces * np.clip(place, 0.0, 1.0)[..., None] - node)
     near = 2.0 / 3.0 - apart**2 + apart**3 / 2.0
     return np.where(apart < 1.0, near, np.maximum(2.0 - apart, 0.0) ** 3 / 6.0)
+
+
+@functools.cache
+def _turn(pieces: int) -> tuple[Array, Array]:
+    """Return a cosine, shape (n,), and the splines of a course, shape (n, pieces + 2), at places all over a turn."""
+    turn = np.linspace(0.0, 1.0, 20 * PIECES, endpoint=False)
+    return np.cos(2.0 * np.pi * turn), splines(turn, pieces)
 
 
 def returning(turns: Array, pieces: int) -> Array:

@@ -26,7 +26,7 @@ from stochfric_mb.discovery.stick_slip.screening.waves import shared_by_runs
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study
 from stochfric_mb.effects import kind_with_signature, kinds_with
 from stochfric_mb.effects.course import PIECES
-from stochfric_mb.effects.traits import BETWEEN_POINTS, CLIPPED, DRIFTS, SHAPES_SLIPS, WANDER, WANDERS_ALIKE, WAVES
+from stochfric_mb.effects.traits import BETWEEN_POINTS, CLIPPED, DRIFTS, SHAPES_SLIPS, WANDER, WANDERS_ALIKE
 
 SCORE_LEFT = "left_over_score"
 """Name under which the details hold the score of a pattern without a name in what the effects named leave."""
@@ -131,8 +131,7 @@ class _Search:
 
     def _screened(self, round_: int) -> list[Candidate]:
         """Return what may be missing beside the effects that are named, best first."""
-        kinds = [kind for kind in self.working.kinds if kind not in kinds_with(WAVES)]
-        candidates = screen(self.working.baseline, without=kinds)
+        candidates = screen(self.working.baseline, held=self.working.kinds)
         if any(c.any_course for c in self.working.taken):
             candidates = [c for c in candidates if not (c.has(DRIFTS) or c.any_course or self._slow(c))]
         # what the simulated effects leave of all slips alike may be no more than another form of theirs would

@@ -19,7 +19,7 @@ from stochfric_mb.discovery.stick_slip.screening.regression import Baseline, Sol
 from stochfric_mb.discovery.stick_slip.screening.waves import waves_of, with_harmonics
 from stochfric_mb.effects import effect_class, kind_with_signature, kinds_with
 from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, ENTRAINED, RETURNING, WAVE, Hypothesis
-from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, JUMP, POSITIVE
+from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, JUMP, POSITIVE, WAVES
 
 REFITTED = 14
 """Candidates, best first at fixed variance components, whose variance components are fitted anew."""
@@ -100,14 +100,15 @@ class _Kind:
     """Among how many they were chosen."""
 
 
-def screen(baseline: Baseline, *, without: Sequence[str] = ()) -> list[Candidate]:
+def screen(baseline: Baseline, *, held: Sequence[str] = ()) -> list[Candidate]:
     """Return the best hypothesis of each kind, and of each variant of a kind, best first.
 
     Args:
         baseline: what the model so far leaves of the slips.
-        without: kinds that the model holds already.
+        held: kinds that the model holds already, of which waves alone may have further tones.
     """
-    kinds = (*_effects(baseline, without), *_patterns(baseline.pool), *_steps(baseline, without))
+    without = [kind for kind in held if kind not in kinds_with(WAVES)]
+    kinds = (*_effects(baseline, without, held), *_patterns(baseline.pool), *_steps(baseline, without))
     rough = sorted((_best(kind, baseline, baseline.solution.scatter) for kind in kinds), key=lambda r: -r[0])
     items = [
         _refitted(kind, hypothesis, baseline)
@@ -156,13 +157,13 @@ def _others(kind: _Kind, best: Hypothesis, baseline: Baseline, scatter: Array) -
             yield Candidate(kind.name, "", 2.0 * float(gains[place]), way, baseline.solved(way.columns))
 
 
-def _effects(baseline: Baseline, without: Sequence[str]) -> Iterator[_Kind]:
+def _effects(baseline: Baseline, without: Sequence[str], held: Sequence[str]) -> Iterator[_Kind]:
     """Yield the effects by their variants, then those that are waves."""
     for kind, ways in hypotheses_in(baseline.pool, without=without).items():
         for variant in dict.fromkeys(h.variant for h in ways):
             yield _Kind(kind, "", [h for h in ways if h.variant == variant], len(ways))
     for kind, wave in waves_in(baseline.pool, without=without).items():
-        for best_one, looked_at in waves_of(kind, wave, baseline):
+        for best_one, looked_at in waves_of(kind, wave, baseline, held=kind in held):
             yield _Kind(kind, "", [best_one], looked_at)
 
 

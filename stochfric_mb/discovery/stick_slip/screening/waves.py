@@ -131,16 +131,17 @@ class _Scan:
     """Whether they differ from slip to slip."""
 
 
-def waves_of(kind: str, wave: Wave, baseline: Baseline) -> list[tuple[Hypothesis, int]]:
+def waves_of(kind: str, wave: Wave, baseline: Baseline, *, held: bool = False) -> list[tuple[Hypothesis, int]]:
     """Return the best wave of a kind and the best course that comes back, if there is one, and among how many they were chosen.
 
     Args:
         kind: a periodic effect.
         wave: its wave in the slips.
         baseline: what the model so far leaves of them.
+        held: whether the model has such an effect: what that leaves has further tones, and no shape of its own.
     """
     scans = _scans(wave, baseline)
-    course = _best_course(kind, wave, baseline, scans) if wave.returning is not None else None
+    course = None if held or wave.returning is None else _best_course(kind, wave, baseline, scans)
     return [_best_wave(kind, wave, baseline, scans), *([] if course is None else [course])]
 
 
