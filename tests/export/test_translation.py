@@ -128,6 +128,8 @@ def example(kind):
         values[field.name] = (
             about["choices"][-1] if "choices" in about else np.clip(about["scale"], about["low"], about["high"])
         )
+    if "course_16" in values:
+        values["course_16"] = 0.0  # of 16 pieces with the other weights alike, so that it goes on where it comes back
     if kind == "impacts":
         values["duration"] = 1.0 / values["rate"]  # so long that a few hundred moments meet some
     return make_effect(kind, **values)
