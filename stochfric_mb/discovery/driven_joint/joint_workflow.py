@@ -15,7 +15,7 @@ from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.balance.late_channel import brought_forward, late_channel
 from stochfric_mb.discovery.driven_joint.balance.readings import mended
 from stochfric_mb.discovery.driven_joint.balance.timing import NAMED
-from stochfric_mb.discovery.driven_joint.decision.adequacy import drawn_by_two, endless, inadequate
+from stochfric_mb.discovery.driven_joint.decision.adequacy import drawn_by_one, drawn_by_two, endless, inadequate
 from stochfric_mb.discovery.driven_joint.decision.carry_over import with_idle, with_unnamed
 from stochfric_mb.discovery.driven_joint.decision.selection import Stage
 from stochfric_mb.discovery.driven_joint.decision.signs import require_dissipation
@@ -192,19 +192,24 @@ def _outcome(
 
 
 def _adequate(source: Balances, tell: Progress, places: Sequence[PlaceOutcome]) -> tuple[list[PlaceOutcome], float | None]:
-    """Return the places simulated, the first one with the first of its answers that is adequate, and the noise of the drive."""
+    """Return the places simulated, the first one with the first of its answers that is adequate, and the noise of the drive.
+
+    One effect is asked for in the place of two that draw one curve: what is of neither kind would be named by chance then, as
+    what is left of a series would.
+    """
     first = seen = simulated(source, tell, places)
     stages: tuple[Stage, ...] = ()
     without = frozenset[str]()
     for _ in range(ANSWERS - 1):
         place = seen[0][0]
-        if not inadequate(place) or place.again is None or drawn_by_two(place) or endless(place):
-            break  # without one of the effects that draw one curve, or a series, the others would be named by chance
-        stages += place.selected.stages
-        without |= {_leads(place)}
-        other = place.again(without)
-        if not (other.selected.named or other.late):
+        if not inadequate(place) or place.again is None or endless(place):
             break
+        couple = drawn_by_two(place)
+        without |= drawn_by_one(place) or {_leads(place)}
+        other = place.again(without)
+        if not (other.selected.named or other.late) or (couple and not set(couple).intersection(other.selected.named)):
+            break
+        stages += place.selected.stages
         seen = simulated(source, tell, [other, *places[1:]])
     best, floor = first if inadequate(seen[0][0]) else seen
     if inadequate(best[0]) and best[0].late and best[0].again is not None:  # a delay beside effects that do not stand

@@ -6,6 +6,7 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import confounded, one_curve
+from stochfric_mb.discovery.driven_joint.decision.candidates import stated_forms
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNED
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
@@ -36,6 +37,21 @@ def inadequate(place: PlaceOutcome) -> str:
 def drawn_by_two(place: PlaceOutcome) -> tuple[str, ...]:
     """Return the two effects of a place that answer to conditions which went together; empty: there are none."""
     return one_curve([t.candidate.kind for t in place.selected.effects], confounded(place.fit))
+
+
+def drawn_by_one(place: PlaceOutcome) -> set[str]:
+    """Return what is left out so that one effect draws the curve that two have drawn; empty: none was.
+
+    It is the later one, where the form of the first is right but for what no model need explain; or else all stated forms of
+    both: neither is right, and a course of any shape is asked for in their place.
+    """
+    couple = drawn_by_two(place)
+    if not couple:
+        return set()
+    later = next(s for s in place.selected.stages if s.accepted and s.trials[0].candidate.kind == couple[1])
+    mended = later.before.rms**2 - later.trials[0].fit.rms**2
+    small = mended < criteria.PLAINLY_LEFT * place.selected.recalibrated.rms**2
+    return {couple[1]} if small else {stated_forms(kind) for kind in couple}
 
 
 def _lost(place: PlaceOutcome) -> str:

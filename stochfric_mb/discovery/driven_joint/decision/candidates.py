@@ -40,14 +40,24 @@ class Candidate:
         return any(isinstance(s, Course) and s.any_shape for s in self.starts)
 
     @property
+    def names(self) -> set[str]:
+        """What it is left out by: its kind, or the course of any shape, or the stated forms, of that kind alone."""
+        return {self.kind, f"{self.kind} of any shape" if self.any_shape else stated_forms(self.kind)}
+
+    @property
     def name(self) -> str:
-        """What it is left out by: its kind, of a course of any shape that course alone."""
+        """What leaves out no more than what speaks against it does: of a course of any shape that course alone."""
         return f"{self.kind} of any shape" if self.any_shape else self.kind
 
     @property
     def moves_load(self) -> bool:
         """Whether the load moves by itself with it."""
         return any(s.moves_load for s in self.starts)
+
+
+def stated_forms(kind: str) -> str:
+    """Return what all candidates of a kind are left out by but a course of any shape."""
+    return f"{kind} of a stated form"
 
 
 def span_of(balances: Sequence[ForceBalance], friction: float, load: float) -> JointSpan:

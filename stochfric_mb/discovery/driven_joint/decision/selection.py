@@ -124,7 +124,8 @@ class Selector:
     ) -> None:
         self._balances, self._nuisances = list(balances), list(nuisances)
         self._without: frozenset[str] = frozenset()
-        self._known: dict[Beside, tuple[frozenset[str], Fitted]] = {}
+        self._forms: dict[Beside, tuple[frozenset[str], Fitted]] = {}
+        self._courses: dict[Beside, JointFit | None] = {}
         self._tell = progress or (lambda _: None)
         self._settings, self._smooth, self._pairs = settings_of(balances), SmoothDependences(balances), confounded(balances)
         self.recalibrated, self._noise = settled(start, balances, nuisances, noise=_typical(balances))
@@ -291,15 +292,20 @@ class Selector:
     def _fits(self, current: JointFit, span: JointSpan, *, of_loads: bool) -> Fitted:
         """Return candidates, those of moving loads or all others, fitted; beside the same effects that is done once."""
         key = (of_loads, *self._beside(current))
-        left_out, fits = self._known.get(key, (frozenset[str](), None))
-        if fits is None or not left_out <= self._without:
-            asked = [c for c in candidates(span, current.model.effects) if c.moves_load == of_loads]
-            asked = [c for c in asked if not {c.kind, c.name} & self._without]
-            fits = [(c, f) for c in asked if not c.any_shape and (f := self._searched(current, c)) is not None]
-            courses = self._worth_fitting(current, fits, [c for c in asked if c.any_shape])
-            fits += [(c, f) for c in courses if (f := self._searched(current, c)) is not None]
-            self._known[key] = self._without, fits
-        return [(c, f) for c, f in fits if not {c.kind, c.name} & self._without]
+        left_out, forms = self._forms.get(key, (frozenset[str](), None))
+        asked = [c for c in candidates(span, current.model.effects) if c.moves_load == of_loads]
+        asked = [c for c in asked if not c.names & self._without]
+        if forms is None or not left_out <= self._without:
+            forms = [(c, f) for c in asked if not c.any_shape and (f := self._searched(current, c)) is not None]
+            self._forms[key] = self._without, forms
+        fits = [(c, f) for c, f in forms if not c.names & self._without]
+        for course in self._worth_fitting(current, fits, [c for c in asked if c.any_shape]):
+            one = (*key, course.name, course.parameters)
+            if one not in self._courses:
+                self._courses[one] = self._searched(current, course)
+            fitted = self._courses[one]
+            fits += [] if fitted is None else [(course, fitted)]
+        return fits
 
     def _searched(self, current: JointFit, candidate: Candidate) -> JointFit | None:
         """Return a candidate fitted; None: it has no fit, or as fitted is none of its kind."""
