@@ -39,7 +39,7 @@ def late_channel(source: Any, places: Sequence[PlaceOutcome]) -> tuple[str, Timi
         return dataclasses.replace(source, dataset=moved, remembered={}).balances(name, "fit", source.stated_delay, width)
 
     numbers = [n.name for n in worst.nuisances]
-    seen = [(c, sought(lambda d, c=c: made(c, d), numbers, interval, generous=True, width=width)) for c in columns]
+    seen = [(c, sought(lambda d, c=c: made(c, d), numbers, generous=True, width=width)) for c in columns]
     named = [(c, t) for c, t in seen if t.shows]
     return max(named, key=lambda pair: pair[1].score) if named else None
 

@@ -26,8 +26,8 @@ from stochfric_mb.errors import InputError
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-LONGEST = 0.05
-"""Longest delay that is looked for, either way [s]."""
+LONGEST, SHORT_RUN = 0.05, 0.125
+"""Longest delay that is looked for, either way [s], and the part of the shortest run that it may be [-]."""
 GRID = 41
 """Delays on the first grid."""
 HALF_WIDTHS = (0.25, 0.5, 1.0)
@@ -100,27 +100,26 @@ def timing(
         seen: list[Timing] = []
         for width in sorted({max(round(w * half_width / interval), NARROWEST) for w in HALF_WIDTHS}):
             with contextlib.suppress(InputError):  # a run is too short for this window
-                seen.append(sought(lambda d, w=width: make(d, w), names, interval, generous=generous, width=width))
+                seen.append(sought(lambda d, w=width: make(d, w), names, generous=generous, width=width))
         timings += sorted(seen, key=lambda t: -t.score)[:1]
     return next((t for t in timings if t.shows), None)
 
 
 def sought(
-    make: Callable[[float], Sequence[ForceBalance]], names: Sequence[str], interval: float, *, generous: bool, width: int
+    make: Callable[[float], Sequence[ForceBalance]], names: Sequence[str], *, generous: bool, width: int
 ) -> Timing:
     """Return the delay with which windows of one width are explained best.
 
     Args:
         make: delay [s] -> the balances of the fit runs, that delay compensated.
         names: numbers of the mechanism, which are free here.
-        interval: distance between samples [s].
         generous: whether the friction law beside it is a generous one, or the stated one.
         width: half width of the windows [samples].
 
     Raises:
         InputError: the runs are too short for the longest delays.
     """
-    span = min(LONGEST, 40.0 * interval)
+    span = min(LONGEST, SHORT_RUN * min(float(np.ptp(b.time)) for b in make(0.0)))
     grid = np.linspace(-span, span, GRID)
     same = shared([make(d) for d in grid[[0, -1]]])
     if sum(int(m.sum()) for m in same) < FEWEST:
