@@ -140,6 +140,8 @@ FEWEST_PHASES = 8
 WAVE_EXPLAINED = 0.1
 """Share of the variance that a wave must explain [-]: noise of 50 phases, ten independent numbers each, gives the best of a
 thousand waves 3 %."""
+FAINT_TONE = 0.03
+"""Size of a tone of the belt's speed over that of the largest up to which it is left out [-]: its square is a thousandth."""
 FEWEST_VISITS = 4
 """Level visits to an end that a run needs."""
 LEVEL_VISITS = 0.5

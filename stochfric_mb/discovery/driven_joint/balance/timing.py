@@ -105,9 +105,7 @@ def timing(
     return next((t for t in timings if t.shows), None)
 
 
-def sought(
-    make: Callable[[float], Sequence[ForceBalance]], names: Sequence[str], *, generous: bool, width: int
-) -> Timing:
+def sought(make: Callable[[float], Sequence[ForceBalance]], names: Sequence[str], *, generous: bool, width: int) -> Timing:
     """Return the delay with which windows of one width are explained best.
 
     Args:

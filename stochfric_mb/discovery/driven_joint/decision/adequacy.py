@@ -49,7 +49,7 @@ def drawn_by_one(place: PlaceOutcome) -> set[str]:
     if not couple:
         return set()
     later = next(s for s in place.selected.stages if s.accepted and s.trials[0].candidate.kind == couple[1])
-    mended = later.before.rms**2 - later.trials[0].fit.rms**2
+    mended = later.before.rms**2 - later.trials[0].fit.rms ** 2
     small = mended < criteria.PLAINLY_LEFT * place.selected.recalibrated.rms**2
     return {couple[1]} if small else {stated_forms(kind) for kind in couple}
 

@@ -22,7 +22,7 @@ from stochfric_mb.discovery.stick_slip.screening.competitors import step_times, 
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import refit
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.effects import effect_class, kind_with_signature, make_effect
+from stochfric_mb.effects import Effect, effect_class, kind_with_signature, make_effect
 from stochfric_mb.effects.course import PIECES
 from stochfric_mb.effects.traits import BELT_RIPPLE, CLIPPED, CREEPING_ZERO, JUMP, LATE, STRAY, YIELDING
 from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
@@ -49,12 +49,7 @@ def with_kinematic(study: Study, model: Model, finding: Finding) -> Model:
     """Return the model with an effect that the stick phases showed; a ripple's phases and amplitude are fitted at once."""
     first = make_effect(finding.kind, **finding.values)
     if finding.kind == kind_with_signature(BELT_RIPPLE):
-        frequency, others = float(finding.values["frequency"]), ({},) * len(model.effects)
-        seen = {s.record.name: _ripple(s, frequency) for s in study.pool.slips}
-        amplitude = float(np.median([size for size, _ in seen.values()]))
-        own = {run: (*others, {"phase": phase}) for run, (_, phase) in seen.items()}
-        trial = dataclasses.replace(model.plus(dataclasses.replace(first, amplitude=amplitude)), own=own)  # pyright: ignore[reportCallIssue]
-        return _best_in_forecasts(study, [trial], most=12, evaluations=20)
+        return _best_in_forecasts(study, [_rippling(study, model, first)], most=12, evaluations=20)
     if finding.kind == kind_with_signature(YIELDING):
         grid = itertools.product(study.records[0].deflection * np.array(LIMITS), (0.05, 0.3))
         ways = [dataclasses.replace(first, elastic_limit=float(limit), damping_ratio=ratio) for limit, ratio in grid]  # pyright: ignore[reportCallIssue]
@@ -69,11 +64,27 @@ def _best_in_forecasts(study: Study, trials: Sequence[Model], *, most: int, eval
     return min(fits, key=lambda f: f.cost).model
 
 
-def _ripple(slips: Slips, frequency: float) -> tuple[float, float]:
-    """Return amplitude [-] and phase [rad] of a ripple of the belt's speed, by what its integral leaves in the stick phases."""
-    a, b = wave_in_stick(slips, frequency)
+def _rippling(study: Study, model: Model, first: Effect) -> Model:
+    """Return the model with a ripple of the belt's speed, of several tones where stick shows that, at the sizes seen there."""
+    assert study.sticking is not None
+    count = int(study.sticking.settings[BELT_RIPPLE]["tones"])
+    frequency = float(first.frequency)  # pyright: ignore[reportAttributeAccessIssue]
+    seen = {s.record.name: _ripple(s, frequency, count) for s in study.pool.slips}
+    sizes = np.median([size for size, _ in seen.values()], axis=0)
+    kept = [k for k in range(count) if sizes[k] > criteria.FAINT_TONE * sizes.max()]
+    others = ({},) * len(model.effects)
+    for k in kept:
+        model = model.plus(dataclasses.replace(first, amplitude=float(sizes[k]), frequency=(k + 1) * frequency))  # pyright: ignore[reportCallIssue]
+    own = {run: (*others, *({"phase": float(phases[k])} for k in kept)) for run, (_, phases) in seen.items()}
+    return dataclasses.replace(model, own=own)
+
+
+def _ripple(slips: Slips, frequency: float, count: int) -> tuple[Array, Array]:
+    """Return amplitudes [-] and phases [rad] of a ripple's tones, by what their integrals leave in the stick phases."""
+    a, b = wave_in_stick(slips, frequency, count).T
     # the position is the integral, v_b A/w sin(w t + phase) = v_b A/w (cos w t sin phase + sin w t cos phase)
-    return float(np.hypot(a, b) * 2.0 * np.pi * frequency / slips.record.mechanism.belt_velocity), float(np.arctan2(a, b))
+    pace = 2.0 * np.pi * frequency * np.arange(1, count + 1)
+    return np.hypot(a, b) * pace / slips.record.mechanism.belt_velocity, np.arctan2(a, b)
 
 
 def kinematics(study: Study, details: dict[str, object]) -> list[Finding] | Where:

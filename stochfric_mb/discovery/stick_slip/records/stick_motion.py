@@ -20,6 +20,23 @@ STRIDE = 20
 FASTEST = 1.23
 """Highest frequency that is looked for, over the natural one [-]."""
 
+MAINS, TONES = (1, 2, 3), 6
+"""Of which of its tones the best wave may be one, and tones of a wave of any shape."""
+FINE = 0.25
+"""Steps between the rates of such a wave that are tried, over 1/(length of the record x tones) [-]."""
+
+
+def tones(time: Array, frequency: float, count: int) -> list[Array]:
+    """Return cosine and sine of so many tones of a wave."""
+    angles = (2.0 * np.pi * k * frequency * time for k in range(1, count + 1))
+    return [f(angle) for angle in angles for f in (np.cos, np.sin)]
+
+
+def mains(frequency: float, duration: float) -> Array:
+    """Return the rates [Hz] at which a wave of any shape may come back of which one tone is seen, and rates about these."""
+    near = np.arange(-int(TONES / FINE), int(TONES / FINE) + 1) * FINE / (4.0 * TONES * duration)
+    return np.concatenate([(frequency + near) / k for k in MAINS if frequency / k > 2.0 / duration])
+
 
 def without_wave(phases: Sequence[Array], times: Sequence[Array], natural: float) -> list[Array] | None:
     """Return the phases without the wave that is in them; None where there is none.
@@ -53,10 +70,26 @@ def without_wave(phases: Sequence[Array], times: Sequence[Array], natural: float
     best = int(np.argmax(gains))
     if gains[best] < criteria.WAVE_EXPLAINED * sum(float(p @ p) for _, p in means):
         return None
-    a = (bb[best] * ar[best] - ab[best] * br[best]) / determinant[best]
-    b = (aa[best] * br[best] - ab[best] * ar[best]) / determinant[best]
-    angles = (2.0 * np.pi * grid[best] * t for t in times)
-    return [p - _levelled((a * np.cos(angle) + b * np.sin(angle))[None])[0] for p, angle in zip(phases, angles, strict=True)]
+    ways = [(float(grid[best]), 1), *((f, TONES) for f in mains(float(grid[best]), duration))]
+    left = [_less_tones(means, means, *way) for way in ways]
+    squares = [sum(float(p @ p) for p in parts) for parts in left]
+    shaped = int(np.argmin(squares))
+    way = ways[shaped] if squares[shaped] < (1.0 - criteria.WAVE_EXPLAINED) * squares[0] else ways[0]
+    return _less_tones(means, list(zip(times, phases, strict=True)), *way)
+
+
+def _less_tones(seen: Sequence[tuple[Array, Array]], of: Sequence[tuple[Array, Array]], rate: float, count: int) -> list[Array]:
+    """Return phases less the tones of a wave, of the size that others show.
+
+    Args:
+        seen: times [s] and residuals [m] of the phases that show it.
+        of: the same of those from which it is taken.
+        rate: rate of the wave [Hz].
+        count: number of its tones.
+    """
+    columns = [np.concatenate([_levelled(np.stack(tones(t, rate, count))) for t, _ in seen], axis=1).T]
+    size = np.linalg.lstsq(columns[0], np.concatenate([_levelled(p[None])[0] for _, p in seen]), rcond=None)[0]
+    return [p - size @ _levelled(np.stack(tones(t, rate, count))) for t, p in of]
 
 
 def without_pattern(phases: Sequence[Array]) -> list[Array] | None:

@@ -17,6 +17,7 @@ from stochfric_mb.discovery.inference.frequency_search import worth_a_look
 from stochfric_mb.discovery.inference.threads import CORES, in_threads
 from stochfric_mb.discovery.stick_slip.records.record import Array, Noise
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, StickSamples
+from stochfric_mb.discovery.stick_slip.records.stick_motion import TONES, mains, tones
 from stochfric_mb.discovery.stick_slip.records.stick_waves import centred, wave_gains
 from stochfric_mb.effects.traits import BELT_RIPPLE, CREEPING_ZERO, JUMP, YIELDING
 
@@ -133,7 +134,31 @@ def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tu
     best = int(np.argmax(plain if plain.max() > criteria.STICK_EXPLAINED * chi2 else gains))
     cost = 2 * len(runs) * log_n + 2.0 * float(np.log(len(every)))
     settings = {"frequency": float(grid[best]), "plain": float(plain[best]) - cost, "share": float(plain[best]) / chi2}
-    return float(gains[best]) - cost, settings | {"alike": _gain(runs, rests, _alike) / chi2}
+    settings |= {"alike": _gain(runs, rests, _alike) / chi2, "tones": 1.0}
+    shaped = _any_shape(runs, rests, float(grid[best]), duration)
+    if shaped is None:
+        return float(gains[best]) - cost, settings
+    frequency, gain = shaped
+    cost += 2 * (TONES - 1) * len(runs) * log_n
+    if gain - cost <= max(settings["plain"], float(gains[best]) - cost):
+        return float(gains[best]) - cost, settings
+    return gain - cost, settings | {"frequency": frequency, "plain": gain - cost, "share": gain / chi2, "tones": float(TONES)}
+
+
+def _any_shape(
+    runs: Sequence[_Phases], rests: Sequence[Array], frequency: float, duration: float
+) -> tuple[float, float] | None:
+    """Return the rate [Hz] of the best wave of any shape of which a tone is seen, and what it explains; None: there is none.
+
+    What has the rate of the slips may be what every phase repeats, which is of any shape, too.
+    """
+    slip_rate, apart = 1.0 / float(np.median([run.slips.cycle for run in runs])), 2.0 / duration
+    every = [f for f in mains(frequency, duration) if abs(f - slip_rate * max(round(f / slip_rate), 1)) > apart]
+    every = [f for f in every if abs(slip_rate - f * max(round(slip_rate / f), 1)) > apart]
+    if not every:
+        return None
+    gains = [_gain(runs, rests, lambda run, f=f: tones(run.samples.time, f, TONES)) for f in every]
+    return float(every[int(np.argmax(gains))]), float(max(gains))
 
 
 def _alike(run: _Phases) -> list[Array]:

@@ -16,6 +16,7 @@ import numpy as np
 from stochfric_mb.compile import compiled
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
+from stochfric_mb.discovery.stick_slip.records.stick_motion import tones
 
 SPACED = 1.0e-9
 """Share by which two distances between samples may differ to be the same [-]: a hundred such steps turn a wave by 1e-7."""
@@ -82,13 +83,12 @@ def centred(column: Array, segment: np.ndarray) -> Array:
     return column - (np.bincount(segment, column) / np.maximum(np.bincount(segment), 1))[segment]
 
 
-def wave_in_stick(slips: Slips, frequency: float) -> Array:
-    """Return the amplitudes of cosine and sine of a wave in the position [m], as a run's stick phases show it, shape (2,)."""
+def wave_in_stick(slips: Slips, frequency: float, count: int = 1) -> Array:
+    """Return the amplitudes of cosine and sine of a wave's tones in the position [m], as stick shows them, shape (count, 2)."""
     samples = slips.stick
-    angle = 2.0 * np.pi * frequency * samples.time
-    columns = [centred(c, samples.segment) for c in (np.cos(angle), np.sin(angle), samples.time)]
-    wave = np.linalg.lstsq(np.stack(columns, axis=1), centred(samples.residual, samples.segment), rcond=None)[0][:2]
-    return np.asarray(wave, dtype=np.float64)
+    columns = [centred(c, samples.segment) for c in (*tones(samples.time, frequency, count), samples.time)]
+    wave = np.linalg.lstsq(np.stack(columns, axis=1), centred(samples.residual, samples.segment), rcond=None)[0][:-1]
+    return np.asarray(wave, dtype=np.float64).reshape(count, 2)
 
 
 def in_slips_too(slips: Slips, frequency: float) -> float:
@@ -97,7 +97,7 @@ def in_slips_too(slips: Slips, frequency: float) -> float:
     A slip's own motion, a free oscillation about a level that may drift, is fitted beside it in each slip.
     """
     record = slips.record
-    wave, total = wave_in_stick(slips, frequency), 0.0
+    wave, total = wave_in_stick(slips, frequency)[0], 0.0
     half = np.pi * frequency * slips.stick.bin_size / record.rate  # means over bins show less of it
     wave = wave / max(np.sinc(half / np.pi), 0.1)
     for begin, end in zip(slips.onset_time, slips.restick_time, strict=True):
