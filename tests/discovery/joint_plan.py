@@ -22,6 +22,8 @@ from .joint_generator.unseen_sixth import UNSEEN_SIXTH
 from .joint_generator.unseen_tenth import PAIRS as UNSEEN_TENTH_PAIRS
 from .joint_generator.unseen_tenth import UNSEEN_TENTH
 from .joint_generator.unseen_third import UNSEEN_THIRD
+from .joint_generator.unseen_twelfth import PAIRS as UNSEEN_TWELFTH_PAIRS
+from .joint_generator.unseen_twelfth import UNSEEN_TWELFTH
 
 STRENGTHS = (1.0, 0.5)
 
@@ -82,6 +84,7 @@ SERIES = {
     9: (UNSEEN_NINTH, UNSEEN_NINTH_PAIRS),
     10: (UNSEEN_TENTH, UNSEEN_TENTH_PAIRS),
     11: (UNSEEN_ELEVENTH, UNSEEN_ELEVENTH_PAIRS),
+    12: (UNSEEN_TWELFTH, UNSEEN_TWELFTH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 
