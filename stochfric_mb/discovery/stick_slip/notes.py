@@ -13,6 +13,7 @@ from stochfric_mb.discovery.stick_slip.records.long_records import FORECAST, SIM
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import NOT_STATED
 from stochfric_mb.discovery.stick_slip.study import Study
+from stochfric_mb.discovery.stick_slip.validation.explained import MORE_MISSING
 from stochfric_mb.measurement.dataset import Dataset
 
 NOT_IN_AUGMENTED = "not_in_augmented"
@@ -42,7 +43,7 @@ def notes(
             for kind, seen in details.get("not_borne_out", {}).items()
         ),
         *(gap.notes if gap is not None else ()),
-        *([details["unnamed_term"]] if "unnamed_term" in details else []),
+        *(details[key] for key in (MORE_MISSING, "unnamed_term") if key in details),
         *not_simulated(model),
         *_of_one_pace(model, study),
         *_seen_in_forces(gap, forces),

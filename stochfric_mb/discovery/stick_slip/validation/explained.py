@@ -27,6 +27,8 @@ GOLDEN = 0.6180339887498949
 """The ratio whose multiples repeat least."""
 JUDGED_WINDOWS = 24
 """Forecasts of each run that are judged."""
+MORE_MISSING = "more_missing"
+"""Name under which the details hold what is missing beside what is named."""
 
 
 def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented: Model) -> Decision | None:
@@ -135,7 +137,12 @@ def shown_elsewhere(model: Model) -> set[str]:
 
     A delay behind a measured velocity is measured itself; a forecast that starts late as well shows little of it.
     """
-    return {*kinds_with(OUTSIDE_FORECASTS), *(e.kind for e in model.effects if any(hasattr(e, n) for n in model.measured))}
+    return {*kinds_with(OUTSIDE_FORECASTS), *_measured(model)}
+
+
+def _measured(model: Model) -> set[str]:
+    """Return the effects a number of which two channels of the record have given."""
+    return {e.kind for e in model.effects if any(hasattr(e, name) for name in model.measured)}
 
 
 def _error_of_mean(values: Array) -> float:
@@ -189,7 +196,8 @@ def _scattered(windows: Windows, most: int) -> Windows:
     return windows.part(np.sort(order[:most]))
 
 
-def _missed(decision: Decision, before: float, floor: float) -> Decision:
+def _missed(decision: Decision, before: float, floor: float) -> Decision | None:
+    """Return the decision that something is missing; None: what is named stands, for two channels show it whatever that is."""
     faults = ", ".join(n.kind for n in decision.named)
     beside = f" beside {faults}" if faults else ""
     where = Where(
@@ -197,4 +205,7 @@ def _missed(decision: Decision, before: float, floor: float) -> Decision:
         f"no effect{beside} stands out in the forces of the slips, but forecasts of the fit runs miss by {before:.2g} m, where "
         f"the model would miss by {floor:.2g} m if it were true",
     )
+    if decision.named and {n.kind for n in decision.named} <= _measured(decision.model):
+        decision.details[MORE_MISSING] = where.text
+        return None
     return dataclasses.replace(decision, verdict="unknown", named=(), where=where)
