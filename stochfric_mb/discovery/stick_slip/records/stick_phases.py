@@ -135,7 +135,7 @@ def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tu
     cost = 2 * len(runs) * log_n + 2.0 * float(np.log(len(every)))
     settings = {"frequency": float(grid[best]), "plain": float(plain[best]) - cost, "share": float(plain[best]) / chi2}
     settings |= {"alike": _gain(runs, rests, _alike) / chi2, "tones": 1.0}
-    shaped = _any_shape(runs, rests, float(grid[best]), duration)
+    shaped = _any_shape(runs, rests, float(grid[best]), duration) if settings["plain"] > criteria.NAMED else None
     if shaped is None:
         return float(gains[best]) - cost, settings
     frequency, gain = shaped
