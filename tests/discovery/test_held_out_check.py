@@ -118,6 +118,9 @@ def test_the_last_of_a_kind_is_taken_out_with_its_own_numbers():
         ("eighth_outliers_that_ring-one-1", ["sensor_outliers"]),  # four in a row were motion
         ("ninth_arm_grows_by_friction-one-0.5", ["sensor_drift"]),  # the reading drifts in stick, where no friction acts
         ("tenth_probe_is_overcompensated-one-0.5", []),  # a contact that gives way, to stick; forecasts show 7 % of it
+        ("twelfth_belt_of_a_geneva_wheel-one-1", ["belt_speed_ripple"]),  # all but its first tone was slow noise of the sensor
+        ("twelfth_clipping_of_a_transformer-one-1", ["sensor_clipping"]),  # it leaves a tenth, "none" would leave less
+        ("twelfth_delay_of_a_long_cable-one-1", ["sensor_delay"]),  # two channels show it, and forecasts something else besides
         ("ninth_gauge_has_hysteresis-one-0.5", []),  # alike in every phase, which a ripple at the rate of the slips imitates
     ],
 )

@@ -204,8 +204,10 @@ def _adequate(source: Balances, tell: Progress, places: Sequence[PlaceOutcome]) 
         place = seen[0][0]
         if not inadequate(place) or place.again is None or endless(place):
             break
-        couple = drawn_by_two(place)
-        without |= drawn_by_one(place) or {_leads(place)}
+        couple, instead = drawn_by_two(place), drawn_by_one(place)
+        if couple and not instead:
+            break
+        without |= instead or {_leads(place)}
         other = place.again(without)
         if not (other.selected.named or other.late) or (couple and not set(couple).intersection(other.selected.named)):
             break

@@ -45,9 +45,11 @@ def test_what_was_a_delay_a_scatter_or_nothing_has_its_name(form, design, streng
         ("correlated_coefficients.debris_from_stroke_to_stroke", "mjcf_hinge", 61, ["random_coefficients"]),
         ("stale_samples.token_goes_round", "hinge", 61, ["stale_samples"]),
         ("friction_drift.thermostat_overshoots", "mjcf_slide", 1001, ["friction_drift"]),
+        ("distance_drift.grooves_stroke_by_stroke", "mjcf_hinge", 1101, ["friction_drift"]),  # a second drift mends 1 % of it
+        ("sensor_delay.averages_and_then_sends", "mjcf_slide", 1101, ["sensor_delay", "joint_compliance"]),  # 25 ms at 2 kHz
     ],
 )
-def test_noise_debris_a_token_ring_and_a_thermostat_are_what_they_are(form, design, seed, kinds, tmp_path):
+def test_what_broke_a_principle_is_what_it_is(form, design, seed, kinds, tmp_path):
     result = answered(form, design, 1.0, tmp_path, seed)
     assert [e.kind for e in result.effects] == kinds
     assert result.verdict == ("effect" if kinds else "none")

@@ -14,7 +14,12 @@ from stochfric_mb.discovery.stick_slip.decision.decision import Decision, select
 from stochfric_mb.discovery.stick_slip.decision.kinematics import STICK_SHARE
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.validation.answers import _by_its_motion, _far_off
-from stochfric_mb.discovery.stick_slip.validation.explained import _enough, _nothing_shown, explained_with_its_form
+from stochfric_mb.discovery.stick_slip.validation.explained import (
+    MORE_MISSING,
+    _enough,
+    _nothing_shown,
+    explained_with_its_form,
+)
 from stochfric_mb.effects import make_effect
 
 
@@ -24,6 +29,7 @@ def decided(*kinds: str, details: dict | None = None, shape_left: float = 1.0) -
         "friction_drift": make_effect("friction_drift", change=0.1, span=9.0, course_1=1.0),
         "random_coefficients": make_effect("random_coefficients", sigma_s=0.01, sigma_k=0.01),
         "sensor_outliers": make_effect("sensor_outliers", fraction=0.01, size=1e-4),
+        "sensor_delay": make_effect("sensor_delay", delay=4e-3),
         "presliding_compliance": make_effect("presliding_compliance", elastic_limit=1e-4),
     }
     model = Model(law=None, corrections={}, effects=tuple(effects[k] for k in kinds))
@@ -39,6 +45,16 @@ def test_what_forecasts_do_not_show_excuses_nothing_that_they_do(kinds):
     assert (refused.verdict, refused.named) == ("unknown", ())
     assert all(kind in refused.where.text for kind in kinds)
     assert _nothing_shown(decided(*kinds), 1.3e-6, 1.3e-6, best) is None  # noise leaves up to a third
+
+
+def test_a_delay_that_two_channels_show_stands_whatever_is_missing():
+    """It was measured to a thousandth, and forgotten since forecasts held something else."""
+    delay = decided("sensor_delay")
+    best = np.full(10, 1.0e-6)
+    assert _nothing_shown(delay, 16e-6, 16e-6, best).verdict == "unknown"  # nobody has measured it
+    measured = dataclasses.replace(delay, model=dataclasses.replace(delay.model, measured={"delay": 1e-6}))
+    assert _nothing_shown(measured, 16e-6, 16e-6, best) is None
+    assert "forecasts of the fit runs miss by 1.6e-05 m" in measured.details[MORE_MISSING]
 
 
 def test_scatter_beside_a_name_does_not_lower_what_that_must_explain():

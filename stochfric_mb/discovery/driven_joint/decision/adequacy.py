@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint.balance.confounding import confounded, one_curve
+from stochfric_mb.discovery.driven_joint.balance.confounding import by_clock, confounded, one_curve
 from stochfric_mb.discovery.driven_joint.decision.candidates import stated_forms
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNED
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
@@ -40,18 +40,19 @@ def drawn_by_two(place: PlaceOutcome) -> tuple[str, ...]:
 
 
 def drawn_by_one(place: PlaceOutcome) -> set[str]:
-    """Return what is left out so that one effect draws the curve that two have drawn; empty: none was.
+    """Return what is left out so that one effect draws the curve that two have drawn; empty: none was, or no one effect can.
 
-    It is the later one, where the form of the first is right but for what no model need explain; or else all stated forms of
-    both: neither is right, and a course of any shape is asked for in their place.
+    It is the later one, where the form of the first is right but for what no model need explain. Of two drifts it is all
+    stated forms of both: neither is right, and a course of any shape is asked for in their place.
     """
     couple = drawn_by_two(place)
     if not couple:
         return set()
     later = next(s for s in place.selected.stages if s.accepted and s.trials[0].candidate.kind == couple[1])
-    mended = later.before.rms**2 - later.trials[0].fit.rms ** 2
-    small = mended < criteria.PLAINLY_LEFT * place.selected.recalibrated.rms**2
-    return {couple[1]} if small else {stated_forms(kind) for kind in couple}
+    mended = later.before.rms**2 - later.trials[0].fit.rms**2
+    if mended < criteria.PLAINLY_LEFT * place.selected.recalibrated.rms**2:
+        return {couple[1]}
+    return {stated_forms(kind) for kind in couple} if all(map(by_clock, couple)) else set()
 
 
 def _lost(place: PlaceOutcome) -> str:
