@@ -22,8 +22,12 @@ def inadequate(place: PlaceOutcome) -> str:
     conditions that are not its own.
     """
     kinds = ", ".join(place.selected.named)
-    if not kinds or place.forecasts is not None or (place.random is not None and place.random.named):
+    if not kinds or place.forecasts is not None:
         return ""
+    if place.random is not None and place.random.named:
+        # strokes drawn anew hide how much it explains of others, but not that it explains nothing
+        worse = max(_gains(place)) <= 0.0
+        return f"{kinds} explains the fit runs, and nothing of the held-out ones, and is not named" if worse else ""
     why = " and ".join(drawn_by_two(place))
     if why:
         return f"{kinds} explains the record, but {why} answer to conditions that went together: one curve, and not named"
@@ -62,10 +66,18 @@ def _lost(place: PlaceOutcome) -> str:
     pairs = ((before.forward, after.forward, criteria.FAR_AHEAD), (before.loop, after.loop, nothing))
     ahead = [(b, a, most) for b, a, most in pairs if a is not None and b is not None]
     lost = [f"simulated, it is off by {a:.3g} for {b:.3g}" for b, a, most in ahead if not a < most * b]
-    gains = [closed_share(before.sliding, after.sliding, place.floor), *(closed_share(b, a, 0.0) for b, a, _ in ahead)]
-    if not lost and max(gains) >= criteria.EXPLAINED_HELD_OUT:
+    most_explained = max(_gains(place))
+    if not lost and most_explained >= criteria.EXPLAINED_HELD_OUT:
         return ""
-    return lost[0] if lost else f"it explains {max(100.0 * max(gains), 0.0):.0f} % of the squared error there"
+    return lost[0] if lost else f"it explains {max(100.0 * most_explained, 0.0):.0f} % of the squared error there"
+
+
+def _gains(place: PlaceOutcome) -> list[float]:
+    """Return the shares of the squared error on held-out runs that the selected effects explain, by each measure there is."""
+    before, after = (place.scores[k] for k in ("recalibrated", "augmented"))
+    pairs = ((before.forward, after.forward), (before.loop, after.loop))
+    ahead = [closed_share(b, a, 0.0) for b, a in pairs if a is not None and b is not None]
+    return [closed_share(before.sliding, after.sliding, place.floor), *ahead]
 
 
 def at_bound(place: PlaceOutcome) -> str:
