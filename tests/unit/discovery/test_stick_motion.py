@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.stick_slip.records.stick_motion import without_pattern, without_wave
+from stochfric_mb.discovery.stick_slip.records.stick_motion import mains, without_pattern, without_wave
 
 RATE, PHASES, SAMPLES, PAUSE = 1000.0, 40, 600, 350
 FREQUENCY = 2.13
@@ -56,6 +56,13 @@ def test_a_wave_of_another_shape_is_taken_out_with_its_tones():
     assert left is not None
     # tones beyond the sixth have 0.1 % of its variance, the noise 3 %; rates are an eighth of a step off at most
     assert np.var(np.concatenate(left)) < 0.05 * np.var(np.concatenate(parts))
+
+
+def test_the_slowest_wave_may_be_one_of_any_shape():
+    """Its rate is the least that is looked for: of pink noise at several belt speeds nothing was left to look at."""
+    rates = mains(2.0 / 30.0, 30.0)
+    assert 2.0 / 30.0 in rates
+    assert np.ptp(rates) < 1.0 / 30.0  # no slower one fits into the record twice
 
 
 def test_what_every_phase_repeats_is_taken_out_and_slow_noise_is_left_alone():

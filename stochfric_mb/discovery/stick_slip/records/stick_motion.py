@@ -35,7 +35,7 @@ def tones(time: Array, frequency: float, count: int) -> list[Array]:
 def mains(frequency: float, duration: float) -> Array:
     """Return the rates [Hz] at which a wave of any shape may come back of which one tone is seen, and rates about these."""
     near = np.arange(-int(TONES / FINE), int(TONES / FINE) + 1) * FINE / (4.0 * TONES * duration)
-    return np.concatenate([(frequency + near) / k for k in MAINS if frequency / k > 2.0 / duration])
+    return np.concatenate([(frequency + near) / k for k in MAINS if k == 1 or frequency / k > 2.0 / duration])
 
 
 def without_wave(phases: Sequence[Array], times: Sequence[Array], natural: float) -> list[Array] | None:
