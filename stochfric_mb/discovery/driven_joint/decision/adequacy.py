@@ -53,7 +53,7 @@ def drawn_by_one(place: PlaceOutcome) -> set[str]:
     if not couple:
         return set()
     later = next(s for s in place.selected.stages if s.accepted and s.trials[0].candidate.kind == couple[1])
-    mended = later.before.rms**2 - later.trials[0].fit.rms**2
+    mended = later.before.rms**2 - later.trials[0].fit.rms ** 2
     if mended < criteria.PLAINLY_LEFT * place.selected.recalibrated.rms**2:
         return {couple[1]}
     return {stated_forms(kind) for kind in couple} if all(map(by_clock, couple)) else set()
