@@ -140,6 +140,9 @@ FEWEST_PHASES = 8
 WAVE_EXPLAINED = 0.1
 """Share of the variance that a wave must explain [-]: noise of 50 phases, ten independent numbers each, gives the best of a
 thousand waves 3 %."""
+TONES_EXPLAIN = 0.5
+"""Share of what a wave's best tone leaves of the stick phases that its other tones must explain, to be no noise [-]: more than
+they leave. Ten numbers follow a quarter of the noise of ten phases."""
 FAINT_TONE = 0.03
 """Size of a tone of the belt's speed over that of the largest up to which it is left out [-]: its square is a thousandth."""
 FEWEST_VISITS = 4

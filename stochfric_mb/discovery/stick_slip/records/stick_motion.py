@@ -74,7 +74,7 @@ def without_wave(phases: Sequence[Array], times: Sequence[Array], natural: float
     left = [_less_tones(means, means, *way) for way in ways]
     squares = [sum(float(p @ p) for p in parts) for parts in left]
     shaped = int(np.argmin(squares))
-    way = ways[shaped] if squares[shaped] < (1.0 - criteria.WAVE_EXPLAINED) * squares[0] else ways[0]
+    way = ways[shaped] if squares[shaped] < (1.0 - criteria.TONES_EXPLAIN) * squares[0] else ways[0]
     return _less_tones(means, list(zip(times, phases, strict=True)), *way)
 
 
@@ -87,8 +87,8 @@ def _less_tones(seen: Sequence[tuple[Array, Array]], of: Sequence[tuple[Array, A
         rate: rate of the wave [Hz].
         count: number of its tones.
     """
-    columns = [np.concatenate([_levelled(np.stack(tones(t, rate, count))) for t, _ in seen], axis=1).T]
-    size = np.linalg.lstsq(columns[0], np.concatenate([_levelled(p[None])[0] for _, p in seen]), rcond=None)[0]
+    columns = np.concatenate([_levelled(np.stack(tones(t, rate, count))) for t, _ in seen], axis=1).T
+    size = np.linalg.lstsq(columns, np.concatenate([_levelled(p[None])[0] for _, p in seen]), rcond=None)[0]
     return [p - size @ _levelled(np.stack(tones(t, rate, count))) for t, p in of]
 
 
