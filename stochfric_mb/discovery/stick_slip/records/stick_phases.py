@@ -135,14 +135,18 @@ def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tu
     cost = 2 * len(runs) * log_n + 2.0 * float(np.log(len(every)))
     settings = {"frequency": float(grid[best]), "plain": float(plain[best]) - cost, "share": float(plain[best]) / chi2}
     settings |= {"alike": _gain(runs, rests, _alike) / chi2, "tones": 1.0}
-    shaped = _any_shape(runs, rests, float(grid[best]), duration) if settings["plain"] > criteria.NAMED else None
+    score, shaped = float(gains[best]) - cost, None
+    if settings["plain"] > criteria.NAMED:
+        shaped = _any_shape(runs, rests, float(grid[best]), duration)
     if shaped is None:
-        return float(gains[best]) - cost, settings
+        return score, settings
     frequency, gain = shaped
-    cost += 2 * (TONES - 1) * len(runs) * log_n
-    if gain - cost <= max(settings["plain"], float(gains[best]) - cost):
-        return float(gains[best]) - cost, settings
-    return gain - cost, settings | {"frequency": frequency, "plain": gain - cost, "share": gain / chi2, "tones": float(TONES)}
+    plain_score = gain - cost - 2 * (TONES - 1) * len(runs) * log_n
+    # both as plain noise: slow noise favours a single tone that is fast
+    if plain_score <= settings["plain"]:
+        return score, settings
+    shape = {"frequency": frequency, "plain": plain_score, "share": gain / chi2, "tones": float(TONES)}
+    return max(score, plain_score), settings | shape
 
 
 def _any_shape(
