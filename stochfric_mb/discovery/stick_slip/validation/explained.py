@@ -53,10 +53,18 @@ def unexplained(study: Study, decision: Decision, recalibrated: Model, augmented
         best = floor_scores(augmented, runs, recalibrated if kind_with_signature(KICKS) in kinds else None)
     except SimulationError as error:
         return taken_back(decision, f"comes closest, but its model cannot run by itself: {error}")
-    little = _too_little(decision, _enough(decision), without, with_, best) if kinds and len(best) else None
-    if (kinds <= shown_elsewhere(decision.model) and (little is not None or not kinds)) or not len(best):
+    return _judged(study, decision, augmented, without, with_, best)
+
+
+def _judged(study: Study, decision: Decision, augmented: Model, without: Array, with_: Array, best: Array) -> Decision | None:
+    """Return what `unexplained` does, from errors of forecasts without and with the effects, and if they are true."""
+    kinds, before, after = {n.kind for n in decision.named}, float(without.mean()), float(with_.mean())
+    if not kinds or not len(best):
+        return _nothing_shown(decision, before, after, best)
+    little = _too_little(decision, _enough(decision), without, with_, best)
+    if little is not None and kinds <= shown_elsewhere(decision.model):
         # what forecasts do not show need not explain them, but neither may anything else be missing from them
-        return _nothing_shown(decision, before, float(with_.mean()), best)
+        return _nothing_shown(decision, before, after, best)
     noise = little is not None and len(kinds) == 1 and within_noise(decision.named[0].kind, augmented, study.pool.slips)
     return dataclasses.replace(decision, verdict="none", named=()) if noise else little
 
