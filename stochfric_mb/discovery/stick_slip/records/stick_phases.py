@@ -142,8 +142,8 @@ def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tu
         return score, settings
     frequency, gain = shaped
     plain_score = gain - cost - 2 * (TONES - 1) * len(runs) * log_n
-    # both as plain noise: slow noise favours a single tone that is fast
-    if plain_score <= settings["plain"]:
+    # both as plain noise: slow noise favours a single tone that is fast; a form that nearly fits has further tones to no end
+    if plain_score <= settings["plain"] or chi2 - gain > (1.0 - criteria.TONES_EXPLAIN) * (chi2 - float(plain[best])):
         return score, settings
     shape = {"frequency": frequency, "plain": plain_score, "share": gain / chi2, "tones": float(TONES)}
     return max(score, plain_score), settings | shape
