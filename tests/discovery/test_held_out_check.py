@@ -103,7 +103,7 @@ def test_the_last_of_a_kind_is_taken_out_with_its_own_numbers():
             [],
             marks=pytest.mark.xfail(
                 strict=True,
-                reason="a gain of the sensor that ripples moves stick and forces at once: three waves, the belt's at its very rate, "
+                reason="a gain of the sensor that ripples moves stick and forces at once: three waves, the belt's at its rate, "
                 "explain 95 % of the forecasts, held-out ones as well; at a rate 0.6 % off they were refused",
             ),
         ),
