@@ -98,15 +98,8 @@ def test_the_last_of_a_kind_is_taken_out_with_its_own_numbers():
         ("seventh_mode_of_a_liquid_column-one-1", ["second_mode"]),
         ("seventh_weakening_cubic_step-one-0.5", ["velocity_weakening"]),  # the same, and the damping that imitates it best
         ("seventh_spring_levels_itself-one-1", []),  # the drift named made predicted forces of held-out slips worse
-        pytest.param(
-            "seventh_supply_of_the_bridge_sways-one-0.5",
-            [],
-            marks=pytest.mark.xfail(
-                strict=True,
-                reason="a gain of the sensor that ripples moves stick and forces at once: three waves, the belt's at its rate, "
-                "explain 95 % of the forecasts, held-out ones as well; at a rate 0.6 % off they were refused",
-            ),
-        ),
+        # a gain of the sensor that ripples moves stick and forces at once: the belt's ripple made predicted forces worse
+        ("seventh_supply_of_the_bridge_sways-one-0.5", []),
         # the sensor's zero drifts faster than in the middle of a record at its end: no step, though it looks like one
         ("seventh_drift_of_a_sunny_stand-several-1", ["sensor_drift"]),
         # a zero within a reading's error: a ripple that is 4 % of the noise, then scatter

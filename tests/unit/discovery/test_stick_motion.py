@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stochfric_mb.discovery.stick_slip.records.stick_motion import mains, without_pattern, without_wave
+from stochfric_mb.discovery.stick_slip.records.stick_motion import TONES, shapes, without_pattern, without_wave
 
 RATE, PHASES, SAMPLES, PAUSE = 1000.0, 40, 600, 350
 FREQUENCY = 2.13
@@ -60,9 +60,11 @@ def test_a_wave_of_another_shape_is_taken_out_with_its_tones():
 
 def test_the_slowest_wave_may_be_one_of_any_shape():
     """Its rate is the least that is looked for: of pink noise at several belt speeds nothing was left to look at."""
-    rates = mains(2.0 / 30.0, 30.0)
-    assert 2.0 / 30.0 in rates
+    ways = shapes(2.0 / 30.0, 30.0)
+    assert {count for _, count in ways} == {1, TONES}
+    rates = [rate for rate, count in ways if count == TONES]
     assert np.ptp(rates) < 1.0 / 30.0  # no slower one fits into the record twice
+    assert sorted(rates) == sorted(rate for rate, count in ways if count == 1)
 
 
 def test_what_every_phase_repeats_is_taken_out_and_slow_noise_is_left_alone():

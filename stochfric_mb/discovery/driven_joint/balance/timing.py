@@ -27,7 +27,8 @@ Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 LONGEST, SHORT_RUN = 0.05, 0.125
-"""Longest delay that is looked for, either way [s], and the part of the shortest run that it may be [-]."""
+"""Longest delay that is looked for, either way [s], and the part of the shortest run that it may be [-]: three quarters of that
+run hold windows which all delays share."""
 GRID = 41
 """Delays on the first grid."""
 HALF_WIDTHS = (0.25, 0.5, 1.0)

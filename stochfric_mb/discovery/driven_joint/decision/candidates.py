@@ -42,7 +42,7 @@ class Candidate:
     @property
     def names(self) -> set[str]:
         """What it is left out by: its kind, or the course of any shape, or the stated forms, of that kind alone."""
-        return {self.kind, f"{self.kind} of any shape" if self.any_shape else stated_forms(self.kind)}
+        return {self.kind, self.name if self.any_shape else stated_forms(self.kind)}
 
     @property
     def name(self) -> str:

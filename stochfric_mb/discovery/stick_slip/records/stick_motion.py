@@ -22,8 +22,9 @@ FASTEST = 1.23
 
 MAINS, TONES = (1, 2, 3), 6
 """Of which of its tones the best wave may be one, and tones of a wave of any shape."""
-FINE = 0.25
-"""Steps between the rates of such a wave that are tried, over 1/(length of the record x tones) [-]."""
+NEAR = 12
+"""Rates that are tried to either side of the best one, up to the next of the grid: the last tone is then off by a fifth of a
+radian at most, at the ends of a record."""
 
 
 def tones(time: Array, frequency: float, count: int) -> list[Array]:
@@ -32,10 +33,14 @@ def tones(time: Array, frequency: float, count: int) -> list[Array]:
     return [f(angle) for angle in angles for f in (np.cos, np.sin)]
 
 
-def mains(frequency: float, duration: float) -> Array:
-    """Return the rates [Hz] at which a wave of any shape may come back of which one tone is seen, and rates about these."""
-    near = np.arange(-int(TONES / FINE), int(TONES / FINE) + 1) * FINE / (4.0 * TONES * duration)
-    return np.concatenate([(frequency + near) / k for k in MAINS if k == 1 or frequency / k > 2.0 / duration])
+def shapes(frequency: float, duration: float) -> list[tuple[float, int]]:
+    """Return the rates [Hz] at which a wave of which one tone is seen may come back, each with its number of tones.
+
+    One tone and a wave of any shape are tried at the same rates: what a better rate explains is no merit of further tones.
+    """
+    near = frequency + np.arange(-NEAR, NEAR + 1) / (NEAR * 4.0 * duration)
+    whole = [float(f) / k for k in MAINS if k == 1 or frequency / k > 2.0 / duration for f in near]
+    return [*((float(f), 1) for f in near), *((f, TONES) for f in whole)]
 
 
 def without_wave(phases: Sequence[Array], times: Sequence[Array], natural: float) -> list[Array] | None:
@@ -70,12 +75,14 @@ def without_wave(phases: Sequence[Array], times: Sequence[Array], natural: float
     best = int(np.argmax(gains))
     if gains[best] < criteria.WAVE_EXPLAINED * sum(float(p @ p) for _, p in means):
         return None
-    ways = [(float(grid[best]), 1), *((f, TONES) for f in mains(float(grid[best]), duration))]
-    left = [_less_tones(means, means, *way) for way in ways]
-    squares = [sum(float(p @ p) for p in parts) for parts in left]
-    shaped = int(np.argmin(squares))
-    way = ways[shaped] if squares[shaped] < (1.0 - criteria.TONES_EXPLAIN) * squares[0] else ways[0]
-    return _less_tones(means, list(zip(times, phases, strict=True)), *way)
+
+    def left(way: tuple[float, int]) -> float:
+        return sum(float(p @ p) for p in _less_tones(means, means, *way))
+
+    ways = shapes(float(grid[best]), duration)
+    one, shaped = (min((w for w in ways if w[1] == count), key=left) for count in (1, TONES))
+    more = left(shaped) < (1.0 - criteria.TONES_EXPLAIN) * left(one)
+    return _less_tones(means, list(zip(times, phases, strict=True)), *(shaped if more else (float(grid[best]), 1)))
 
 
 def _less_tones(seen: Sequence[tuple[Array, Array]], of: Sequence[tuple[Array, Array]], rate: float, count: int) -> list[Array]:

@@ -17,7 +17,7 @@ from stochfric_mb.discovery.inference.frequency_search import worth_a_look
 from stochfric_mb.discovery.inference.threads import CORES, in_threads
 from stochfric_mb.discovery.stick_slip.records.record import Array, Noise
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, StickSamples
-from stochfric_mb.discovery.stick_slip.records.stick_motion import TONES, mains, tones
+from stochfric_mb.discovery.stick_slip.records.stick_motion import TONES, shapes, tones
 from stochfric_mb.discovery.stick_slip.records.stick_waves import centred, wave_gains
 from stochfric_mb.effects.traits import BELT_RIPPLE, CREEPING_ZERO, JUMP, YIELDING
 
@@ -135,16 +135,12 @@ def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tu
     cost = 2 * len(runs) * log_n + 2.0 * float(np.log(len(every)))
     settings = {"frequency": float(grid[best]), "plain": float(plain[best]) - cost, "share": float(plain[best]) / chi2}
     settings |= {"alike": _gain(runs, rests, _alike) / chi2, "tones": 1.0}
-    score, shaped = float(gains[best]) - cost, None
-    if settings["plain"] > criteria.NAMED:
-        shaped = _any_shape(runs, rests, float(grid[best]), duration)
+    score = float(gains[best]) - cost
+    shaped = _any_shape(runs, rests, float(grid[best]), duration) if settings["plain"] > criteria.NAMED else None
     if shaped is None:
         return score, settings
     frequency, gain = shaped
     plain_score = gain - cost - 2 * (TONES - 1) * len(runs) * log_n
-    # both as plain noise: slow noise favours a single tone that is fast; a form that nearly fits has further tones to no end
-    if plain_score <= settings["plain"] or chi2 - gain > (1.0 - criteria.TONES_EXPLAIN) * (chi2 - float(plain[best])):
-        return score, settings
     shape = {"frequency": frequency, "plain": plain_score, "share": gain / chi2, "tones": float(TONES)}
     return max(score, plain_score), settings | shape
 
@@ -152,17 +148,28 @@ def _ripple(runs: Sequence[_Phases], rests: Sequence[Array], log_n: float) -> tu
 def _any_shape(
     runs: Sequence[_Phases], rests: Sequence[Array], frequency: float, duration: float
 ) -> tuple[float, float] | None:
-    """Return the rate [Hz] of the best wave of any shape of which a tone is seen, and what it explains; None: there is none.
+    """Return the rate [Hz] of the best wave of any shape of which a tone is seen, and what it explains; None: one tone is all.
 
-    What has the rate of the slips may be what every phase repeats, which is of any shape, too.
+    Its other tones explain more than they leave: a form that nearly fits has further tones to no end. What has the rate of the
+    slips may be what every phase repeats, which is of any shape, too.
     """
     slip_rate, apart = 1.0 / float(np.median([run.slips.cycle for run in runs])), 2.0 / duration
-    every = [f for f in mains(frequency, duration) if abs(f - slip_rate * max(round(f / slip_rate), 1)) > apart]
-    every = [f for f in every if abs(slip_rate - f * max(round(slip_rate / f), 1)) > apart]
-    if not every:
+
+    def keeps_step(f: float) -> bool:
+        fast, slow = max(f, slip_rate), min(f, slip_rate)
+        return abs(f - slip_rate * max(round(f / slip_rate), 1)) < apart or abs(fast - slow * round(fast / slow)) < apart
+
+    def explained(way: tuple[float, int]) -> float:
+        return _gain(runs, rests, lambda run: tones(run.samples.time, *way))
+
+    ways = shapes(frequency, duration)
+    whole = [w for w in ways if w[1] == TONES and not keeps_step(w[0])]
+    if not whole:
         return None
-    gains = [_gain(runs, rests, lambda run, f=f: tones(run.samples.time, f, TONES)) for f in every]
-    return float(every[int(np.argmax(gains))]), float(max(gains))
+    chi2, one = sum(float(r @ r) for r in rests), max(explained(w) for w in ways if w[1] == 1)
+    best = max(whole, key=explained)
+    gain = explained(best)
+    return (best[0], gain) if chi2 - gain < (1.0 - criteria.TONES_EXPLAIN) * (chi2 - one) else None
 
 
 def _alike(run: _Phases) -> list[Array]:
