@@ -13,7 +13,7 @@ import numpy as np
 
 from stochfric_mb import load_scenario
 from stochfric_mb.effects import EFFECTS, GROUPS, Effect, effect_class, make_effect
-from stochfric_mb.effects.course import COURSE
+from stochfric_mb.effects.course import COURSE, PIECES
 from stochfric_mb.engines import adapter
 
 ENGINES = ("mujoco", "exudyn", "pymunk")
@@ -26,6 +26,8 @@ def example(kind: str) -> Effect:
     values: dict[str, Any] = {
         f.name: f.metadata["scale"] for f in dataclasses.fields(effect_class(kind)) if "choices" not in f.metadata
     }
+    if COURSE[PIECES - 1] in values:
+        values[COURSE[PIECES - 1]] = 0.0  # the others being alike, what comes back goes on where it began
     values |= {"sensor_clipping": {"low": 0.0, "high": 2.0e-3}, "sensor_step": {"time": 1.0}}.get(kind, {})
     return make_effect(kind, **values)
 

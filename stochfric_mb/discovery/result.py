@@ -12,6 +12,8 @@ from stochfric_mb.discovery import criteria
 SCHEMA = "stochfric.discovery/1"
 
 Verdict = Literal["effect", "none", "unknown"]
+ROUNDING = 1.0e-8
+"""Relative difference of two errors up to which they are equal [-]: fits of one model end so close, and files hold no more."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -104,7 +106,10 @@ class Gap:
         """Share of the reducible gap that the effects close; None where there is none."""
         reducible = self.reducible
         measurable = reducible > criteria.CLOSES_NOTHING * self.recalibrated
-        return (self.recalibrated - self.augmented) / reducible if measurable else None
+        if not measurable:
+            return None
+        removed = self.recalibrated - self.augmented
+        return removed / reducible if abs(removed) > ROUNDING * self.recalibrated else 0.0
 
 
 @dataclasses.dataclass(frozen=True)

@@ -45,11 +45,26 @@ def notes(
         *(gap.notes if gap is not None else ()),
         *(details[key] for key in (MORE_MISSING, "unnamed_term") if key in details),
         *not_simulated(model),
+        *_of_several_tones(model),
         *_of_one_pace(model, study),
         *_seen_in_forces(gap, forces),
         *(f"{name} is {abs(by):.2g} stated standard deviations off from what is stated" for name, by in beyond.items()),
         *([] if given.scenario.uncertainty else [NOT_STATED]),
     )
+
+
+def _of_several_tones(model: Model) -> list[str]:
+    """Return which effects are waves of several tones: the numbers of an effect are those of the first one."""
+    rates: dict[str, list[float]] = {}
+    for effect in model.effects:
+        if effect.own_to_run and hasattr(effect, "frequency"):
+            rates.setdefault(effect.kind, []).append(float(effect.frequency))  # pyright: ignore[reportAttributeAccessIssue]
+    return [
+        f"{kind} is a wave of {len(tones)} tones, {', '.join(f'{f:.4g}' for f in tones)} Hz: the numbers are those of the "
+        "first one, all tones stand in augmented.toml"
+        for kind, tones in rates.items()
+        if len(tones) > 1
+    ]
 
 
 def _of_one_pace(model: Model, study: Study) -> list[str]:

@@ -33,7 +33,7 @@ class SensorDelay(Effect):
     signatures: ClassVar[tuple[str, ...]] = (LATE,)
     answers_to: ClassVar[str] = "known force"
     shows_on: ClassVar[str] = "time, sensor"
-    shows: ClassVar[str] = "the record lags behind the known excitation"
+    shows: ClassVar[str] = "the position comes late in the record"
 
     def measure(self, time: Array, position: Array, rng: np.random.Generator) -> Array:
         """Return what the sensor shows [m]; arguments as in `Effect.measure`."""

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from stochfric_mb.discovery.result import Gap
-from stochfric_mb.discovery.stick_slip.notes import _of_one_pace
+from stochfric_mb.discovery.stick_slip.notes import _of_one_pace, _of_several_tones
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.effects import make_effect
 
@@ -35,3 +35,12 @@ def test_ripples_of_one_frequency_may_have_one_cause():
     (note,) = said(belt, load, other)
     assert note.startswith("belt_speed_ripple and normal_load_ripple have one frequency, 0.169 Hz")
     assert said(belt, other) == said(load, load) == []  # another frequency; tones of one kind
+
+
+def test_tones_beside_the_first_one_are_spoken_of():
+    """A table with the first of six tones looked like all of a belt's ripple."""
+    tones = [make_effect("belt_speed_ripple", amplitude=0.1 / k, frequency=3.57 * k) for k in (1, 2)]
+    alone = make_effect("normal_load_ripple", amplitude=0.02, frequency=0.25)
+    (note,) = _of_several_tones(Model(law=None, corrections={}, effects=(*tones, alone)))
+    assert note.startswith("belt_speed_ripple is a wave of 2 tones, 3.57, 7.14 Hz")
+    assert _of_several_tones(Model(law=None, corrections={}, effects=(tones[0], alone))) == []

@@ -20,6 +20,12 @@ def test_closed_is_the_share_of_what_is_reducible(scores, closed):
     assert gap(*scores).closed == pytest.approx(closed, rel=1e-15)
 
 
+def test_rounding_closes_nothing():
+    """A page said that a delay closed -5.01e-11 % of the gap."""
+    assert gap(10.0, 10.0 * (1.0 + 1.0e-12), 1.0).closed == 0.0
+    assert gap(10.0, 10.0 * (1.0 + 1.0e-6), 1.0).closed < 0.0
+
+
 @pytest.mark.parametrize("floor", [9.81, 10.0, 11.0])
 def test_nothing_is_closed_where_hardly_anything_is_reducible(floor):
     assert gap(10.0, 9.9, floor).closed is None
