@@ -34,6 +34,9 @@ WORTH_SIMULATING = 0.1
 FORM_MISSES = 0.03
 """Share of the stated model's misfit that an effect of another form than the simulated one may leave [-]: a sixth of its
 strength. The tests' forms leave 0.016 at most, those of other kinds 0.08 where friction varies along the stroke."""
+OWN_FORM = 0.5
+"""Share of the evidence of an effect and a smooth term along its own axis together that the effect's form must have by itself,
+for the term to be taken for its shape [-]: the larger part."""
 SECOND_SHARE = 0.1
 """A further effect needs at least this share of the first one's score [-]."""
 LEFT_OVER = 0.35

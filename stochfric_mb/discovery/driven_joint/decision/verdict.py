@@ -253,7 +253,7 @@ def _drawn(place: PlaceOutcome) -> list[EffectEstimate]:
     found: list[EffectEstimate] = []
     if strokes is not None and strokes.named:
         how = f"{strokes.strokes} strokes), more than its scatter within them explains, and each stroke by itself"
-        found.append(_scattered(strokes, "stroke", place, how, (kind_with_signature(WANDER),) if strokes.remembers else ()))
+        found.append(_scattered(strokes, "stroke", place, how, (kind_with_signature(WANDER),) if strokes.may_wander else ()))
     if runs is not None and runs.named:
         how = f"{runs.runs} runs), more than the scatter of their strokes explains; no run says it of another"
         found.append(_scattered(runs, "run", place, how))

@@ -13,10 +13,10 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
-from stochfric_mb.discovery.driven_joint.scatter.between_groups import CoefficientScatter, Labels, estimated, means_of
+from stochfric_mb.discovery.driven_joint.scatter.between_groups import CoefficientScatter, estimated
+from stochfric_mb.discovery.driven_joint.scatter.memory import Memory, foretells, memory_of
 from stochfric_mb.discovery.driven_joint.scatter.stroke_coefficients import Stroke, dependence, strokes_of, variances
 from stochfric_mb.discovery.driven_joint.simulation.scores import APART, FLOOR, noise_floor
 from stochfric_mb.numerics.stretches import stretches
@@ -35,8 +35,8 @@ SIZES = np.logspace(-2.0, 2.5, 200)
 class StrokeScatter(CoefficientScatter):
     """How mu_k differs from stroke to stroke."""
 
-    correlation: float
-    """Correlation of strokes that follow each other in one direction [-]."""
+    memory: Memory
+    """Correlation of strokes that follow each other."""
     across: float
     """Correlation of the force that is left just before a reversal with that just after it [-]."""
     strokes: int
@@ -54,14 +54,14 @@ class StrokeScatter(CoefficientScatter):
         return self.inside <= FLOOR * self.floor
 
     @property
-    def remembers(self) -> bool:
-        """Whether the stroke before says something of the next one, by two standard errors of a correlation of none."""
-        return bool(self.correlation > 2.0 / np.sqrt(self.strokes))
-
-    @property
     def wanders(self) -> bool:
         """Whether the stroke before says more than half of the next one, which is then not drawn anew."""
-        return self.remembers and self.correlation**2 > criteria.EXPLAINED_HELD_OUT
+        return self.memory.shown and foretells(self.memory.correlation)
+
+    @property
+    def may_wander(self) -> bool:
+        """Whether the stroke before says something of the next one, or may as well say more than half of it."""
+        return self.memory.shown or foretells(self.memory.high)
 
     @property
     def slow_noise(self) -> bool:
@@ -87,6 +87,7 @@ def stroke_scatter(
     """
     strokes: list[Stroke] = []
     settings: list[int] = []
+    runs: list[int] = []
     reversals: list[tuple[float, float]] = []
     for i, balance in enumerate(balances):
         rest = model.remainder(balance, nuisances)
@@ -94,6 +95,7 @@ def stroke_scatter(
         own = strokes_of(rest, dependence(model, balance), balance, 2 * APART)
         strokes += own
         settings += [2 * i + int(s.forward) for s in own]
+        runs += [i] * len(own)
     groups = np.unique(settings, return_inverse=True)[1] if settings else np.zeros(0, dtype=np.int64)
     if len(strokes) - (int(groups.max(initial=-1)) + 1) < FEWEST:
         return None
@@ -105,7 +107,7 @@ def stroke_scatter(
     return StrokeScatter(
         **known,
         gain=1.0 - float(np.sqrt(left)),
-        correlation=_following(delta, sigma**2 + variance, groups),
+        memory=memory_of(delta, variance, groups, np.asarray(runs)),
         across=_correlation(reversals),
         strokes=len(delta),
         level=force,
@@ -128,16 +130,3 @@ def _correlation(pairs: Sequence[tuple[float, float]]) -> float:
         return 0.0
     before, after = (np.array(x) for x in zip(*pairs, strict=True))
     return float(before @ after / max(float(np.sqrt((before @ before) * (after @ after))), 1.0e-300))
-
-
-def _following(delta: Array, total: Array, groups: Labels) -> float:
-    """Return the correlation of a stroke with the one after it in its setting [-]."""
-    mean, _ = means_of(delta, total, groups)
-    z = (delta - mean) / np.sqrt(total)
-    products: list[float] = []
-    for g in range(int(groups.max()) + 1):
-        own = z[groups == g]
-        products += list(own[1:] * own[:-1])
-    # the mean of a setting takes part of each of its strokes: that alone gives -1/size
-    size = len(delta) / (int(groups.max()) + 1)
-    return float(np.mean(products) / max(float(np.mean(z**2)), 1.0e-300) + 1.0 / size) if products else 0.0

@@ -14,7 +14,7 @@ from stochfric_mb.discovery.stick_slip.decision.random_effects import kicked, ki
 from stochfric_mb.discovery.stick_slip.screening.folding import comes_back
 from stochfric_mb.discovery.stick_slip.screening.regression import Baseline
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
-from stochfric_mb.discovery.stick_slip.screening.switching import JUMPS, SWITCHES, levels_score, switching
+from stochfric_mb.discovery.stick_slip.screening.switching import levels_score, switching
 from stochfric_mb.discovery.stick_slip.screening.variance_components import randomness
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import kind_with_signature
@@ -61,21 +61,16 @@ def _wanders(baseline: Baseline, candidates: Sequence[Candidate]) -> bool:
 
 
 def _sudden(baseline: Baseline, candidates: Sequence[Candidate], details: dict[str, object]) -> Where | None:
-    """Return where friction switches, if it does and the best effect does not explain that as well; None if not."""
+    """Return where friction switches, if there is more evidence for that than for the best effect; None if not."""
     levels = switching(baseline.pool, baseline.residuals())
     details["switching"] = dataclasses.asdict(levels)
-    best = next((c for c in candidates if c.is_effect), None)
-    if levels.two_levels:
-        score = levels_score(baseline)
-        details["two_levels"] = score
-        return None if best is not None and best.score > score else SWITCHES
     # what all slips share is explained first; what jumps beside it is judged last of all
-    if levels.where is None or candidates[0].name in SHAPES or candidates[0].has(SHAPES_SLIPS):
+    shared = not levels.two_levels and (candidates[0].name in SHAPES or candidates[0].has(SHAPES_SLIPS))
+    if levels.where is None or shared:
         return None
-    if best is not None:
-        with_best = dataclasses.replace(baseline, terms=baseline.terms.plus(best.hypothesis.columns), solution=best.solution)
-        levels = switching(baseline.pool, with_best.residuals())
-    return JUMPS if levels.at_rest_between_jumps else None
+    score = details["levels"] = levels_score(baseline, jumps=not levels.two_levels)
+    best = max((c.score for c in candidates if c.is_effect), default=-np.inf)
+    return None if best > score else levels.where
 
 
 def without_accidents(baseline: Baseline) -> Baseline:

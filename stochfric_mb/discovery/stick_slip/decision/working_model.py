@@ -158,7 +158,7 @@ class WorkingModel:
             return
         share = float(np.clip(1.0 - rest / shown, 0.0, 1.0))
         details["form"] = {"axis": own, "score": term.score, "share": share}
-        if term.score <= criteria.NAMED or share < criteria.EXPLAINED:
+        if term.score <= criteria.NAMED or share < criteria.OWN_FORM:
             return
         model = term.model
         if self.confirmed is not None:

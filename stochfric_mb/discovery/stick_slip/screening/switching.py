@@ -70,8 +70,7 @@ class Switching:
 
 def switching(pool: Pool, residuals: Array) -> Switching:
     """Return what residuals of the features [N], shape (n, N_FEATURES), tell of levels and jumps."""
-    # what the extraction itself scatters is no change
-    finest = np.stack([np.sqrt(np.diag(c.covariance)[:2]) for c in pool.calibrations])
+    finest = _finest(pool)
     levels = [_levels(pool, residuals[:, c], finest[:, c]) for c in (0, 1)]
     separation, column = max((levels[c][0], c) for c in (0, 1))
     upper = levels[column][1]
@@ -82,24 +81,38 @@ def switching(pool: Pool, residuals: Array) -> Switching:
     return Switching(separation, changes, regular, rarer, jumps, still)
 
 
-def levels_score(baseline: Baseline) -> float:
-    """Return the evidence for two levels of friction, each run's own, between which slips change without a rule [-].
+def levels_score(baseline: Baseline, jumps: bool = False) -> float:
+    """Return the evidence for levels of friction between which slips change without a rule [-].
 
     Which slip is at which level costs the logarithm of the number of ways in which as many changes may fall.
+
+    Args:
+        baseline: what is known of the slips.
+        jumps: False: two levels, each run's own; True: after each jump another one.
     """
     pool, residuals = baseline.pool, baseline.residuals()
-    finest = np.stack([np.sqrt(np.diag(c.covariance)[:2]) for c in pool.calibrations])
+    finest = _finest(pool)
     values: list[float] = []
     for column in (0, 1):
         upper = _levels(pool, residuals[:, column], finest[:, column])[1]
         columns, cost = list[Array](), 0.0
-        for run in range(pool.n_runs):
-            mine = pool.run == run
-            columns += [pool.column(pool.static * upper * mine, None), pool.column(None, pool.kinetic * upper * mine)]
-            n, changes = int(mine.sum()), int(np.count_nonzero(np.diff(upper[mine])))
-            cost += 2.0 * baseline.price + 2.0 * float(gammaln(n) - gammaln(changes + 1) - gammaln(n - changes))
+        for run, rows in enumerate(pool.rows):
+            changed = _jumped(residuals[rows, column], finest[run, column]) if jumps else np.diff(upper[rows])
+            after = np.r_[0, np.cumsum(changed)]
+            levels = [after == k for k in range(1, int(after[-1]) + 1)] if jumps else [upper[rows]]
+            for there in levels:
+                mine = np.zeros(len(residuals))
+                mine[rows[there]] = 1.0
+                columns += [pool.column(pool.static * mine, None), pool.column(None, pool.kinetic * mine)]
+            n, changes = len(rows), int(np.count_nonzero(changed))
+            cost += 2.0 * len(levels) * baseline.price + 2.0 * float(gammaln(n) - gammaln(changes + 1) - gammaln(n - changes))
         values.append(2.0 * (baseline.solution.cost - baseline.fitted(columns).cost) - cost)
     return max(values)
+
+
+def _finest(pool: Pool) -> Array:
+    """Return what the extraction itself scatters of onset force and mean force in slip [N], shape (runs, 2): no change."""
+    return np.stack([np.sqrt(np.diag(c.covariance)[:2]) for c in pool.calibrations])
 
 
 def _levels(pool: Pool, values: Array, finest: Array) -> tuple[float, np.ndarray]:
@@ -134,20 +147,22 @@ def _halves(values: Array) -> tuple[Array, Array]:
 
 def _jumps(pool: Pool, values: Array, finest: Array) -> tuple[int, float]:
     """Return the number of jumps, and the share of changes that are none; runs are in units of their own small changes."""
-    changes: list[np.ndarray] = []
-    for run, rows in enumerate(pool.rows):
-        mine = values[rows]
-        if len(mine) < 4:
-            continue
-        steps = np.abs(np.diff(mine))
-        jumps = steps > criteria.LEVEL_JUMP * max(deviation(steps, about=0.0), np.sqrt(2.0) * finest[run])
-        # a single slip that stands out is an accident: after it friction is where it was
-        back = jumps[1:] & jumps[:-1] & (np.abs(mine[2:] - mine[:-2]) < np.minimum(steps[1:], steps[:-1]) / 2.0)
-        changes.append(jumps & ~(np.r_[back, False] | np.r_[False, back]))
+    changes = [_jumped(values[rows], finest[run]) for run, rows in enumerate(pool.rows) if len(rows) >= 4]
     if sum(map(len, changes)) < criteria.LEVELS_FEWEST:
         return 0, 1.0
     jumped = np.concatenate(changes)
     return int(np.count_nonzero(jumped)), float(1.0 - jumped.mean())
+
+
+def _jumped(values: Array, finest: float) -> np.ndarray:
+    """Return which changes between the slips of a run are jumps, shape (n - 1,)."""
+    if len(values) < 4:
+        return np.zeros(max(len(values) - 1, 0), dtype=bool)
+    steps = np.abs(np.diff(values))
+    jumps = steps > criteria.LEVEL_JUMP * max(deviation(steps, about=0.0), np.sqrt(2.0) * finest)
+    # a single slip that stands out is an accident: after it friction is where it was
+    back = jumps[1:] & jumps[:-1] & (np.abs(values[2:] - values[:-2]) < np.minimum(steps[1:], steps[:-1]) / 2.0)
+    return np.asarray(jumps & ~(np.r_[back, False] | np.r_[False, back]))
 
 
 def _regular(pool: Pool, upper: np.ndarray) -> bool:
