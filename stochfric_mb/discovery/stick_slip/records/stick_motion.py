@@ -27,10 +27,15 @@ NEAR = 12
 radian at most, at the ends of a record."""
 
 
+CHUNK = 64
+"""Rates that are looked at together."""
+
+
 def tones(time: Array, frequency: float, count: int) -> list[Array]:
     """Return cosine and sine of so many tones of a wave."""
-    angles = (2.0 * np.pi * k * frequency * time for k in range(1, count + 1))
-    return [f(angle) for angle in angles for f in (np.cos, np.sin)]
+    turned = np.exp(2.0j * np.pi * frequency * time)
+    powers = np.cumprod(np.broadcast_to(turned, (count, len(time))), axis=0)
+    return [part for power in powers for part in (power.real, power.imag)]
 
 
 def shapes(frequency: float, duration: float) -> list[tuple[float, int]]:
@@ -53,50 +58,87 @@ def without_wave(phases: Sequence[Array], times: Sequence[Array], natural: float
     """
     if len(phases) < criteria.FEWEST_PHASES:
         return None
-    means = [(_averaged(t), _averaged(p)) for t, p in zip(times, phases, strict=True) if len(p) >= 4 * STRIDE]
-    if len(means) < criteria.FEWEST_PHASES:
+    long = [(t, p) for t, p in zip(times, phases, strict=True) if len(p) >= 4 * STRIDE]
+    if len(long) < criteria.FEWEST_PHASES:
         return None
-    duration = float(means[-1][0][-1] - means[0][0][0])
+    seen = _Stretches([_averaged(t) for t, _ in long])
+    rest = np.concatenate([_averaged(p) for _, p in long])
+    duration = float(seen.time[-1] - seen.time[0])
     grid = np.arange(2.0 / duration, FASTEST * natural / (2.0 * np.pi), 1.0 / (4.0 * duration))
     if not grid.size:  # no wave as slow as that fits into the record twice
         return None
-    # Gram matrix of cosine and sine, and their products with the phases, at each frequency
-    aa, bb, ab, ar, br = np.zeros((5, len(grid)))
-    for t, p in means:
-        angle = 2.0 * np.pi * grid[:, None] * t
-        cosine, sine = _levelled(np.cos(angle)), _levelled(np.sin(angle))
-        aa += (cosine**2).sum(axis=1)
-        bb += (sine**2).sum(axis=1)
-        ab += (cosine * sine).sum(axis=1)
-        ar += cosine @ p
-        br += sine @ p
-    determinant = np.maximum(aa * bb - ab**2, 1.0e-12 * np.maximum(aa, 1.0e-150) ** 2)
-    gains = (bb * ar**2 - 2.0 * ab * ar * br + aa * br**2) / determinant
+    gains = _of_one_tone(seen, rest, grid)
     best = int(np.argmax(gains))
-    if gains[best] < criteria.WAVE_EXPLAINED * sum(float(p @ p) for _, p in means):
+    total = float(rest @ rest)
+    if gains[best] < criteria.WAVE_EXPLAINED * total:
         return None
-
-    def left(way: tuple[float, int]) -> float:
-        return sum(float(p @ p) for p in _less_tones(means, means, *way))
-
     ways = shapes(float(grid[best]), duration)
-    one, shaped = (min((w for w in ways if w[1] == count), key=left) for count in (1, TONES))
-    more = left(shaped) < (1.0 - criteria.TONES_EXPLAIN) * left(one)
-    return _less_tones(means, list(zip(times, phases, strict=True)), *(shaped if more else (float(grid[best]), 1)))
+    explained = {way: _explained(seen, rest, *way) for way in ways}
+    one, shaped = (max((w for w in ways if w[1] == count), key=explained.__getitem__) for count in (1, TONES))
+    more = total - explained[shaped] < (1.0 - criteria.TONES_EXPLAIN) * (total - explained[one])
+    return _less_tones(seen, rest, times, phases, *(shaped if more else (float(grid[best]), 1)))
 
 
-def _less_tones(seen: Sequence[tuple[Array, Array]], of: Sequence[tuple[Array, Array]], rate: float, count: int) -> list[Array]:
-    """Return phases less the tones of a wave, of the size that others show.
+class _Stretches:
+    """Times of samples, stretch by stretch."""
+
+    def __init__(self, times: Sequence[Array]) -> None:
+        self.time = np.concatenate(times)
+        """Times [s], shape (n,)."""
+        self.counts = np.array([len(t) for t in times])
+        """Samples of each stretch."""
+        self.ends = np.cumsum(self.counts)
+        """Number of the sample after the last one of each."""
+        self._place = np.concatenate([np.linspace(-1.0, 1.0, n) for n in self.counts])
+        self._square = self._sums(self._place**2)
+
+    def _sums(self, values: Array) -> Array:
+        return np.asarray(np.add.reduceat(values, self.ends - self.counts, axis=-1), dtype=np.float64)
+
+    def levelled(self, rows: Array) -> Array:
+        """Return rows, shape (m, n), less their mean and their line in each stretch."""
+        rows = rows - np.repeat(self._sums(rows) / self.counts, self.counts, axis=-1)
+        slopes = self._sums(rows * self._place) / self._square
+        return rows - np.repeat(slopes, self.counts, axis=-1) * self._place
+
+
+def _of_one_tone(seen: _Stretches, rest: Array, grid: Array) -> Array:
+    """Return what `_explained` does of one tone, at each of the rates ``grid`` [Hz], shape (f,)."""
+    gains = np.empty(len(grid))
+    for first in range(0, len(grid), CHUNK):
+        angle = 2.0 * np.pi * grid[first : first + CHUNK, None] * seen.time
+        cosine, sine = seen.levelled(np.cos(angle)), seen.levelled(np.sin(angle))
+        aa, bb, ab = (np.einsum("ij,ij->i", *pair) for pair in ((cosine, cosine), (sine, sine), (cosine, sine)))
+        ar, br = cosine @ rest, sine @ rest
+        determinant = np.maximum(aa * bb - ab**2, 1.0e-12 * np.maximum(aa, 1.0e-150) ** 2)
+        gains[first : first + CHUNK] = (bb * ar**2 - 2.0 * ab * ar * br + aa * br**2) / determinant
+    return gains
+
+
+def _explained(seen: _Stretches, rest: Array, rate: float, count: int) -> float:
+    """Return the fall of the squares [m^2] of samples ``rest`` [m], shape (n,), by the tones of a wave."""
+    columns = seen.levelled(np.stack(tones(seen.time, rate, count)))
+    products = columns @ rest
+    return float(products @ np.linalg.lstsq(columns @ columns.T, products, rcond=None)[0])
+
+
+def _less_tones(
+    seen: _Stretches, rest: Array, times: Sequence[Array], phases: Sequence[Array], rate: float, count: int
+) -> list[Array]:
+    """Return phases less the tones of a wave, of the size that their means show.
 
     Args:
-        seen: times [s] and residuals [m] of the phases that show it.
-        of: the same of those from which it is taken.
+        seen: times of means.
+        rest: means of the residuals [m], shape (n,).
+        times: times of the samples of the phases [s].
+        phases: residuals of the phases [m].
         rate: rate of the wave [Hz].
         count: number of its tones.
     """
-    columns = np.concatenate([_levelled(np.stack(tones(t, rate, count))) for t, _ in seen], axis=1).T
-    size = np.linalg.lstsq(columns, np.concatenate([_levelled(p[None])[0] for _, p in seen]), rcond=None)[0]
-    return [p - size @ _levelled(np.stack(tones(t, rate, count))) for t, p in of]
+    size = np.linalg.lstsq(seen.levelled(np.stack(tones(seen.time, rate, count))).T, rest, rcond=None)[0]
+    every = _Stretches(times)
+    wave = size @ every.levelled(np.stack(tones(every.time, rate, count)))
+    return [p - w for p, w in zip(phases, np.split(wave, every.ends[:-1]), strict=True)]
 
 
 def without_pattern(phases: Sequence[Array]) -> list[Array] | None:
@@ -132,10 +174,3 @@ def _averaged(values: Array) -> Array:
     """Return means of `STRIDE` samples."""
     count = len(values) // STRIDE
     return values[: count * STRIDE].reshape(count, STRIDE).mean(axis=1)
-
-
-def _levelled(waves: Array) -> Array:
-    """Return rows less their mean and their line."""
-    place = np.linspace(-1.0, 1.0, waves.shape[1])
-    waves = waves - waves.mean(axis=1, keepdims=True)
-    return waves - np.outer(waves @ place, place) / (place @ place)
