@@ -163,8 +163,6 @@ class WorkingModel:
         model = term.model
         if self.confirmed is not None:
             fitted = confirm(self.cases, model, self.study.uncertainty)
-            if fitted.criterion >= self.confirmed.criterion:  # simulated slips say no more than the regression's first order
-                return
             self.confirmed, model = fitted, fitted.model
         self.model, self.form = model, term_of(model, term.score)
 
