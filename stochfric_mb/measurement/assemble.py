@@ -159,7 +159,13 @@ def _named(entry: RunEntry, table: Table, *, any_name: bool) -> tuple[dict[str, 
             f"{entry.file}: no column is a known quantity; its columns are {_listed(table)}: name them after "
             f"{', '.join(k for k in KNOWN if k != 'time')}, or with columns = {{ position = ... }}"
         )
-    units = {q: table.units[name] for q, name in sources.items() if name in table.units} | dict(entry.units)
+    stated = {q: table.units[name] for q, name in sources.items() if name in table.units}
+    notes += [
+        f"{q} is taken to be in {entry.units[q]}, as its run says, and not in {unit}, as the file's header does"
+        for q, unit in stated.items()
+        if entry.units.get(q, unit) != unit
+    ]
+    units = stated | dict(entry.units)
     return {q: table.columns[name] for q, name in sources.items()}, units, notes
 
 

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.assemble import RunEntry, assemble
@@ -91,6 +94,8 @@ def _described(path: Path, scenario: str | Path | Scenario[Any] | None, plausibl
     runs = tuple(run for entry in entries for run in _pieces(entry, model))
     if plausible:
         runs = tuple(_checked(run, model, stated_in) for run in runs)
+    fit = tuple(run for run in runs if run.role == "fit")
+    runs = tuple(_seen_in_fit(run, fit) if run.role == "test" else run for run in runs)
     dataset = Dataset(title=str(tables.get("title", "")), scenario_path=source, scenario=model, runs=runs)
     _require_roles(path, dataset)
     return dataset
@@ -181,6 +186,27 @@ def _require_roles(path: Path, dataset: Dataset) -> None:
             f'{path}: no run is held out ({roles}), so that nothing could be scored; give a run role = "test", or cut one file '
             "into two runs with time_range"
         )
+
+
+def _seen_in_fit(test: Run, fit: tuple[Run, ...]) -> Run:
+    """Return a run that is held out, with a note if samples of it are fitted."""
+    shared = {run.name: n for run in fit if (n := _shared(run, test)) > 1}  # ranges may meet in a sample
+    notes = tuple(
+        f"{n} of its samples are in run {name!r}, which is fitted: scores on them are not of held-out data; give another file, "
+        "or time_range = [first, last] that do not overlap"
+        for name, n in shared.items()
+    )
+    return dataclasses.replace(test, notes=(*test.notes, *notes)) if notes else test
+
+
+def _shared(one: Run, other: Run) -> int:
+    """Return how many samples two runs have in common: those of one file at one time, in the same columns."""
+    start, end = max(one.time[0], other.time[0]), min(one.time[-1], other.time[-1])
+    if one.source != other.source or start > end:
+        return 0
+    first, second = (run.between(start, np.nextafter(end, np.inf), name=run.name, role=run.role) for run in (one, other))
+    pairs = [(values, second.channels[name]) for name, values in first.channels.items() if name in second.channels]
+    return first.time.size if pairs and all(itertools.starmap(np.array_equal, pairs)) else 0
 
 
 __all__ = ["FILE", "SCHEMA", "Dataset", "Run", "load_dataset", "rotates"]

@@ -99,7 +99,7 @@ FACTORS: dict[str, tuple[float, ...]] = {
     "mass": (1e3, 1e-3),
     "normal_force": (1e3, 1e-3),
     "force": (1e3, 1e-3),
-    "torque": (1e3, 1e-3),
+    "torque": (1e3, 1e-3, 1e2, 1e-2),
     "angle": (180.0 / math.pi, math.pi / 180.0),
     "length": (1e3, 1e-3),
 }

@@ -48,7 +48,9 @@ def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | No
         wanted = units.Unit(_spelled(target))
         if _alike(units, given, wanted):
             return np.asarray(units.Quantity(values, given).to(wanted).magnitude, dtype=np.float64), target
-    raise InputError(f"{wrong}; give {_choices(quantity, targets)}")
+    arm = "; the torque of a pulley or screw is a force once it is divided by radius or lead / 2 pi"
+    lever = arm if targets == ("N",) and given.dimensionality == units.Unit("N*m").dimensionality else ""
+    raise InputError(f"{wrong}; give {_choices(quantity, targets)}{lever}")
 
 
 def _parsed(units: Any, unit: str, quantity: Quantity, targets: Sequence[str]) -> Any:

@@ -11,7 +11,6 @@ from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.measurement.sampling import FROZEN, longest_still
 from stochfric_mb.measurement.scales import FACTORS, SPEED_FITS, Array, Cause, Shown, inertia, likeliest, shown
-from stochfric_mb.measurement.smoothing import smooth
 from stochfric_mb.mechanisms import BeltBox, HingePendulum, PrismaticJoint
 from stochfric_mb.scenario import Scenario
 
@@ -19,7 +18,7 @@ CHANNEL_UNITS: dict[str, dict[str, float]] = {
     "position": {"m": 1.0, "mm": 1e-3, "um": 1e-6, "cm": 1e-2, "in": 0.0254},
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0},
     "force": {"N": 1.0, "kN": 1e3, "mN": 1e-3},
-    "torque": {"N m": 1.0, "mN m": 1e-3, "kN m": 1e3},
+    "torque": {"N m": 1.0, "mN m": 1e-3, "kN m": 1e3, "N cm": 1e-2},
     "angle": {"rad": 1.0, "deg": math.pi / 180.0},
     "belt_velocity": {"m/s": 1.0, "mm/s": 1e-3, "um/s": 1e-6, "cm/s": 1e-2, "mm/min": 1e-3 / 60.0},
 }
@@ -35,7 +34,11 @@ STATED_UNITS: dict[str, dict[str, float]] = {
 ALIKE = 0.9
 """Correlation of a measured velocity with the rate of the position from which the two are of one motion [-]."""
 RATE_FITS = 5.0
-"""Largest factor between them: filters and lag cost less, the nearest wrong unit is off by 6 (rpm for rad/s: 9.5)."""
+"""Largest factor by which it may be the smaller one: filters cost less, the nearest wrong unit is off by 6."""
+RATE_EXCEEDS = 1.5
+"""Largest factor by which it may be the larger one: filters take away, and noise adds one in ten where the two are alike."""
+SWAPPED = 0.95
+"""Correlation from which on two columns that are not alike are alike once they are swapped [-]."""
 MASS_FITS = 1.5
 """|log10| of force over acceleration over the stated mass from which units are looked at: payloads double a mass."""
 STILL = 20.0
@@ -53,7 +56,7 @@ POWERS_ABOUT: dict[str, tuple[float, float]] = {
 }  # fmt: skip
 """The same at a hinge, whose inertia is m l^2 and some of its own."""
 HALF_WIDTH = 8
-"""Half the length of the window through which a velocity is taken from a position [samples]."""
+"""Half the length of the window over which a position changes [samples]."""
 
 
 def require_plausible(run: Run, scenario: Scenario[Any], stated_in: str) -> str:
@@ -144,21 +147,45 @@ def _moves_at(position: Array | None, speed: float, interval: float) -> bool:
 
 
 def _require_rate(run: Run) -> None:
-    """Require that a measured velocity is of the size of the rate at which the position changes."""
+    """Require that a measured velocity is the rate at which the position changes, as far as the two are of one motion.
+
+    The position's change over a window is compared with the velocity's integral: no window is too long for that.
+    """
     position, velocity = run.channels.get("position"), run.channels.get("velocity")
     if position is None or velocity is None or position.size < 4 * HALF_WIDTH:
         return
-    inside = slice(HALF_WIDTH + 1, -HALF_WIDTH - 1)
-    h = run.sample_interval
-    rate, speed = smooth(position, HALF_WIDTH * h, h, derivative=1)[inside], velocity[inside]
-    if not (rate.std() > 0.0 and speed.std() > 0.0) or abs(float(np.corrcoef(rate, speed)[0, 1])) < ALIKE:
-        return
-    factor = float(speed.std() / rate.std())
-    if not 1.0 / RATE_FITS <= factor <= RATE_FITS:
+    likeness, factor = _as_integral(position, velocity, run.sample_interval)
+    turned = likeness < -ALIKE and _may_be(factor)
+    likeness_swapped, factor_swapped = _as_integral(velocity, position, run.sample_interval)
+    if likeness < ALIKE and not turned and abs(likeness_swapped) > SWAPPED and _may_be(factor_swapped):
+        raise InputError(
+            f"{run.source}: column velocity changes as the integral of column position does: the two are swapped; give each "
+            "its own column, columns = { position = ..., velocity = ... }"
+        )
+    if likeness < -ALIKE:
+        raise InputError(
+            f"{run.source}: velocity is negative where position rises, and positive where it falls (correlation "
+            f"{likeness:.2f}): turn one of the two, sign = {{ velocity = -1 }}"
+        )
+    if likeness > ALIKE and not _may_be(factor):
         raise InputError(
             f"{run.source}: velocity is {_times(factor)} the rate at which position changes: one of the two columns has a "
-            "wrong unit; correct its header, or give units = { velocity = ... } or { position = ... }"
+            "wrong unit or scale; correct its header, or give units = { velocity = ... } or { position = ... }"
         )
+
+
+def _may_be(factor: float) -> bool:
+    """Return whether a velocity so many times the rate may be a filtered or noisy one in the right unit."""
+    return 1.0 / RATE_FITS <= factor <= RATE_EXCEEDS
+
+
+def _as_integral(position: Array, velocity: Array, interval: float) -> tuple[float, float]:
+    """Return the correlation of a position's changes with what a velocity makes of them, and the size of that over theirs."""
+    travelled = np.r_[0.0, np.cumsum(0.5 * interval * (velocity[1:] + velocity[:-1]))]
+    moved, expected = (x[2 * HALF_WIDTH :] - x[: -2 * HALF_WIDTH] for x in (position, travelled))
+    if not (moved.std() > 0.0 and expected.std() > 0.0):
+        return 0.0, 1.0
+    return float(np.corrcoef(moved, expected)[0, 1]), float(expected.std() / moved.std())
 
 
 def _require_as_stated(run: Run, box: BeltBox, stated_in: str) -> None:

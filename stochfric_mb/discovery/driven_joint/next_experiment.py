@@ -11,15 +11,24 @@ from stochfric_mb.discovery.driven_joint.decision.released import finding
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.effects import words_of
 
+ALONG = {
+    "time": "The same motion for longer, with a log of what else changes or runs meanwhile: temperature, supply, others.",
+    "position": "Slow strokes over all of the travel at several speeds: is it the place, or how fast it is passed?",
+    "speed": "More speeds, each both ways over the same part of the travel.",
+    "load": "The same motion under two more loads.",
+}
+"""Condition -> what to measure where what is missing depends on it, and nothing has a name."""
 
-def next_experiment(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome]) -> str:
+
+def next_experiment(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome], axis: str = "") -> str:
     """Return what to measure next.
 
     Args:
         pairs: conditions that went together.
         places: what was found at each place.
+        axis: on what depends what is missing and has no name; empty: nothing is.
     """
-    if not any(p.selected.named for p in places) and (advice := _where_runs_differ(places)):
+    if not any(p.selected.named for p in places) and (advice := _where_runs_differ(places) or _along(axis)):
         return advice
     quiet = ("position", "time", "distance")
     worst = [p for p in pairs if p.first not in quiet and p.second not in quiet]
@@ -41,6 +50,11 @@ def next_experiment(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome])
             return f"To distinguish {which}: pauses, strokes of other lengths, and a start from warm."
         return f"To distinguish {which}: more speeds, both directions at each, and a second load."
     return "Rest before break-away, for what rest does to friction; slow reversals, for presliding; a second load."
+
+
+def _along(axis: str) -> str:
+    """Return the next experiment where what is missing depends on ``axis``; empty: none is known."""
+    return next((advice for condition, advice in ALONG.items() if axis.startswith(condition)), "")
 
 
 def _where_runs_differ(places: Sequence[PlaceOutcome]) -> str:

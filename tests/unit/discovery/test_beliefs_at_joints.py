@@ -142,3 +142,9 @@ def test_the_next_experiment_tells_apart_what_these_runs_do_not(told, alike, say
     selected = SimpleNamespace(named=alike, released=(SimpleNamespace(alike=alike),), effects=(), equivalents=())
     place = SimpleNamespace(runs=runs, random=None, selected=selected, forecasts=None, fit=(), test=())
     assert says in next_experiment([], [place] if told or alike else [])
+
+
+def test_the_next_experiment_goes_along_the_axis_of_what_has_no_name():
+    assert "log of what else" in next_experiment([], [], "time")
+    assert "several speeds" in next_experiment([], [], "position and direction")
+    assert next_experiment([], [], "run") == next_experiment([], [])

@@ -93,6 +93,20 @@ def test_columns_by_name_leave_the_others_as_covariates(rig):
     assert run.notes == ("column 'position' is left out: position is column 'qm'",)
 
 
+def test_samples_that_are_fitted_and_held_out_are_spoken_of(rig):
+    data = load_dataset(dataset(rig, FIT, TEST))
+    assert not data.fit[0].notes
+    assert data.test[0].notes[0].startswith(f"{TIME.size} of its samples are in run 'run #1', which is fitted")
+    cut = float(TIME[TIME.size // 2])
+    apart = load_dataset(dataset(rig, f"{FIT}\ntime_range = [0, {cut}]", f"{TEST}\ntime_range = [{cut}, 9]"))
+    assert not any("which is fitted" in note for note in apart.test[0].notes)  # they meet in a sample
+
+
+def test_a_unit_given_in_the_place_of_the_header_s_is_spoken_of(rig):
+    notes = load_dataset(dataset(rig, FIT, f'{TEST}\nunits = {{ position = "mm" }}')).test[0].notes
+    assert "position is taken to be in mm, as its run says, and not in m, as the file's header does" in notes
+
+
 def test_covariate_with_missing_values_is_left_out_and_said(rig):
     csv(rig / "run.csv", time__s=TIME, position__m=POSITION, light__lx=[*TIME[1:], np.nan])
     run = only(rig)
@@ -249,6 +263,7 @@ def broken(sample, value):
             r"line \d+: 1\.001 s without a sample.*max_gap = 1\.1",
         ),
         ({"time__s": TIME, "position__s": POSITION}, r"unit 's' is not one of position"),
+        ({"time__s": TIME, "position__m": POSITION, "force__mN m": TIME}, r"unit 'mN m' .* divided by radius or lead"),
     ],
 )
 def test_content_of_a_file(rig, columns, message):
@@ -324,7 +339,7 @@ def test_a_gap_is_left_out_and_each_piece_is_a_run(rig):
     for run in data.runs:
         np.testing.assert_allclose(run.channels["position"], np.sin(30.0 * run.time), atol=1e-9)
         note = "samples are missing: 2 pieces between the gaps are runs of their own"
-        said = tuple(n for n in run.notes if "samples" in n)  # a sine of 1 m is no motion of this rig, which is noted, too
+        said = tuple(n for n in run.notes if "samples are missing" in n)  # a sine of 1 m is no motion of this rig, which is noted, too
         assert said == ((note,) if run.name.endswith("piece 1") else ())  # said once a file
 
 

@@ -185,6 +185,17 @@ def test_a_velocity_that_is_not_the_rate_of_the_position(tmp_path, motion, truth
     assert _load(tmp_path, motion, truth, **{"velocity__m/s": smooth}).fit
     with pytest.raises(InputError, match=r"velocity is .* times the rate at which position changes"):
         _load(tmp_path, motion, truth, **{"velocity__m/s": 1e3 * smooth})
+    with pytest.raises(InputError, match=r"velocity is 2\.\d+ times the rate at which position changes"):
+        _load(tmp_path, motion, truth, **{"velocity__m/s": 2.2 * smooth})
+    with pytest.raises(InputError, match=r"velocity is negative where position rises.*sign = { velocity = -1 }"):
+        _load(tmp_path, motion, truth, **{"velocity__m/s": -smooth})
+
+
+def test_columns_that_are_swapped(tmp_path, motion, truth):
+    time, position = motion
+    rate = np.convolve(np.gradient(position, time), np.ones(15) / 15.0, mode="same")
+    with pytest.raises(InputError, match=r"the two are swapped"):
+        _load(tmp_path, (time, rate), truth, **{"velocity__m/s": position})
 
 
 def test_an_empty_file(tmp_path, truth):

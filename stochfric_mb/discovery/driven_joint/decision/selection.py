@@ -35,7 +35,7 @@ STARTS, STARTS_ROUGH = 2, 6
 """Best starts of an effect from which it is fitted; of a rough one the best is often in a wrong valley."""
 SIZES = ("amplitude", "coefficient", "asymmetry", "viscous_difference", "rate", "load_share", "gap")
 """Parameters that are zero where an effect is none."""
-VARIES = ("slope", "curvature")
+VARIES = ("slope", "curvature", "ripple")
 """Parameters that are all zero where what varies along the stroke is a constant."""
 SHARE, AT_AN_END = "load_share", 1.0e-3
 """Part of the inertia that moves by itself, and how close to an end of its range it has reached it, over that range [-]:

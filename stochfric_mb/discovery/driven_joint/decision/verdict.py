@@ -16,11 +16,12 @@ from stochfric_mb.discovery.driven_joint.decision.carry_over import above_floor,
 from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, mechanism_estimates, parameters
 from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
 from stochfric_mb.discovery.driven_joint.decision.released import finding
+from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNED
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.next_experiment import next_experiment
 from stochfric_mb.discovery.driven_joint.scatter.between_groups import CoefficientScatter
-from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
+from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD, FLOOR, noise_floor
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
 from stochfric_mb.effects import Effect, effect_class, effect_kinds, kind_with_signature, kinds_with, words_of
@@ -83,7 +84,7 @@ def verdict(
         ranking=_ranking(places),
         gap=gap,
         not_identifiable=_unseen(places, effects),
-        next_experiment=next_experiment(pairs, places),
+        next_experiment=next_experiment(pairs, places, where.axis if where is not None and kind == "unknown" else ""),
         parameters={_at_place(p, places, k): v for p in places for k, v in mechanism_estimates(p).items()},
         notes=(
             *gap.notes,
@@ -229,7 +230,20 @@ def _lacking(place: PlaceOutcome) -> Where:
         why = f"the model {bound}"
     elif told_by(place) == axis:
         why = f"friction differs from run to run as their {axis} does, which is no chance, and {why}"
-    return Where(axis, f"What is missing depends on {axis}{_at(place)}; {why}.")
+    when = _most_at(place) if axis == "time" else ""
+    return Where(axis, f"What is missing depends on {axis}{_at(place)}{when}; {why}.")
+
+
+def _most_at(place: PlaceOutcome) -> str:
+    """Return in which run, and when, a second of the record or a twentieth of the run misses most."""
+    worst = (0.0, "")
+    for rest, balance in zip(place.selected.final.remainders, place.fit, strict=True):
+        time = balance.time[balance.window.centres][balance.sliding]
+        width = max((time[-1] - time[0]) / 20.0, 1.0)
+        squares = np.bincount(((time - time[0]) / width).astype(np.int64), rest**2)
+        at = int(np.argmax(squares))
+        worst = max(worst, (float(squares[at]), f", most about {time[0] + (at + 0.5) * width:.3g} s of run {balance.run}"))
+    return worst[1]
 
 
 def _axis(place: PlaceOutcome) -> str:
@@ -367,7 +381,22 @@ def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
             remarks.append(f"friction {how} by {share:.1f} % from stroke to stroke ({strokes} strokes){_at(place)}{why}")
         if place.selected.effects and place.selected.unknown:
             remarks.append(f"what remains depends on {place.selected.unknown}{_at(place)}; no known effect explains it")
+        remarks += _more_missing(place)
     return remarks
+
+
+def _more_missing(place: PlaceOutcome) -> list[str]:
+    """Return a remark if what is named, effects and scatter, leaves more than noise."""
+    final = place.selected.final
+    drawn = any(s is not None and s.accounted for s in (place.random, place.runs))
+    noise = noise_floor(final.model, place.fit, place.nuisances)
+    if not place.selected.effects or drawn or final.rms < FLOOR * noise:
+        return []
+    axes = ", ".join(axis.removesuffix(SIGNED) for axis, _ in place.selected.left)
+    return [
+        f"{final.rms / noise:.1f} times the noise is left{_at(place)} with what is named: more is missing"
+        + (f"; it depends on {axes}" if axes else "")
+    ]
 
 
 def _between_settings(place: PlaceOutcome) -> list[str]:
