@@ -339,7 +339,9 @@ def test_a_gap_is_left_out_and_each_piece_is_a_run(rig):
     for run in data.runs:
         np.testing.assert_allclose(run.channels["position"], np.sin(30.0 * run.time), atol=1e-9)
         note = "samples are missing: 2 pieces between the gaps are runs of their own"
-        said = tuple(n for n in run.notes if "samples are missing" in n)  # a sine of 1 m is no motion of this rig, which is noted, too
+        said = tuple(
+            n for n in run.notes if "samples are missing" in n
+        )  # a sine of 1 m is no motion of this rig, which is noted, too
         assert said == ((note,) if run.name.endswith("piece 1") else ())  # said once a file
 
 
