@@ -349,7 +349,8 @@ def test_a_new_shape_at_a_freed_address_is_a_new_contact() -> None:
     process = Knots(sigma_s=0.01, sigma_k=0.01, spacing=0.01)
     handle = add_friction(space, floor, "*", Friction(law("elastic_stick"), process), seed=2, max_contacts=2)
     addresses, contacts, mu_s = [], [], []
-    for i in range(30):
+    # until memory has been reused: where the heap has many holes, that takes more shapes
+    while len(addresses) < 30 or (len(set(addresses)) == len(addresses) < 3000):
         shape = box(space)
         addresses.append(int(pymunk.shapes.ffi.cast("uintptr_t", shape._shape)))
         shape.body.velocity = (1.0, 0.0)
@@ -361,12 +362,12 @@ def test_a_new_shape_at_a_freed_address_is_a_new_contact() -> None:
         mu_s.append(reading.mu_s)
         space.remove(shape.body, shape)
         del shape, reading
-        if i % 10 == 9:
+        if len(addresses) % 10 == 0:
             gc.collect()
         space.step(1e-3)
     assert len(set(addresses)) < len(addresses)  # memory is reused, or this test shows nothing
-    assert contacts == list(range(30))
-    assert len(set(mu_s)) == 30
+    assert contacts == list(range(len(addresses)))
+    assert len(set(mu_s)) == len(addresses)
 
 
 def test_a_shape_taken_out_and_put_back_starts_anew() -> None:
