@@ -55,8 +55,8 @@ class StrokeScatter(CoefficientScatter):
 
     @property
     def wanders(self) -> bool:
-        """Whether the stroke before says more than half of the next one, which is then not drawn anew."""
-        return self.memory.shown and foretells(self.memory.correlation)
+        """Whether the stroke before says more than half of the next one beyond doubt: that is then not drawn anew."""
+        return foretells(self.memory.low)
 
     @property
     def may_wander(self) -> bool:
