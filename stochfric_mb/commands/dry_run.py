@@ -19,7 +19,7 @@ SECONDS_A_SLIP = (0.025, 0.2)
 """Processor time of a discovery, least and most, measured on simulated belt rigs with one effect or none [s]."""
 SECONDS = (2.0, 10.0)
 """Time that is added to it [s]."""
-SECONDS_A_JOINT = (2.0, 40.0)
+SECONDS_A_JOINT = (5.0, 45.0)
 """Processor time of a discovery for each joint, least and most of nine tenths of 98 generated records, on a busy machine
 [s]; records in which much is missing take minutes."""
 OFF_SPEED = 0.1

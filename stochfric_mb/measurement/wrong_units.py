@@ -38,7 +38,8 @@ RATE_FITS = 5.0
 RATE_EXCEEDS = 1.5
 """Largest factor by which it may be the larger one: filters take away, and noise adds one in ten where the two are alike."""
 SWAPPED = 0.95
-"""Correlation from which on two columns that are not alike are alike once they are swapped [-]."""
+"""Correlation from which on two columns that are not alike are alike once they are swapped [-]: noise costs less.
+Position and acceleration of an oscillation are as alike, but for a factor of its squared frequency, which is asked, too."""
 MASS_FITS = 1.5
 """|log10| of force over acceleration over the stated mass from which units are looked at: payloads double a mass."""
 STILL = 20.0

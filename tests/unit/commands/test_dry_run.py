@@ -148,7 +148,7 @@ def test_what_a_joint_lacks_is_said_before_anything_is_computed(tmp_path, kind, 
     done = invoke("discover", tmp_path / "run.csv", "--scenario", tmp_path / "rig.toml", "--dry-run", "--out", tmp_path / "raw")
     assert done.exit_code == 2
     assert searched in done.output
-    assert "Expected time: 2 to 40 s of one processor" in done.output
+    assert "Expected time: 5 to 45 s of one processor" in done.output
     assert lacks in " ".join(done.stderr.split())
     assert (tmp_path / "raw" / "records.html").exists()
 

@@ -8,10 +8,11 @@ import pytest
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, stand_ins
+from stochfric_mb.discovery.driven_joint.decision import verdict
 from stochfric_mb.discovery.driven_joint.decision.adequacy import endless, inadequate
 from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate
 from stochfric_mb.discovery.driven_joint.decision.released import Released
-from stochfric_mb.discovery.driven_joint.decision.selection import Selector, Trial
+from stochfric_mb.discovery.driven_joint.decision.selection import Selector, Trial, _is_none
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.next_experiment import next_experiment
@@ -148,3 +149,43 @@ def test_the_next_experiment_goes_along_the_axis_of_what_has_no_name():
     assert "log of what else" in next_experiment([], [], "time")
     assert "several speeds" in next_experiment([], [], "position and direction")
     assert next_experiment([], [], "run") == next_experiment([], [])
+
+
+@pytest.mark.parametrize(("deviation", "none"), [(0.01, False), (1000.0, True)])
+def test_a_ripple_of_the_gain_whose_size_may_be_zero_is_none(deviation, none):
+    """A wrong unit was a ripple of 100.8 (-2109 .. 2310) with a pitch of 918 rad."""
+    ripple = make_effect("drive_gain_change", ripple=0.06 if not none else 100.8, pitch=0.1, phase=0.0)
+    free = (SimpleNamespace(owner=0, name="ripple", low=-np.inf, high=np.inf),)
+    fitted = SimpleNamespace(
+        model=SimpleNamespace(effects=(ripple,)),
+        free=free,
+        values=np.array([ripple.ripple]),
+        covariance=np.array([[deviation**2]]),
+    )
+    assert _is_none(fitted, 0) is none
+
+
+def test_when_most_is_missing_is_told_and_runs_in_which_nothing_slides_are_passed_over():
+    time, rest = np.arange(100.0), np.where(np.arange(100) == 73, 5.0, 0.1)
+    window = SimpleNamespace(centres=np.arange(100))
+    slid, still = (
+        SimpleNamespace(run=n, time=time, window=window, sliding=np.full(100, s)) for n, s in (("a", True), ("b", False))
+    )
+    place = SimpleNamespace(selected=SimpleNamespace(final=SimpleNamespace(remainders=(np.zeros(0), rest))), fit=(still, slid))
+    assert verdict._most_at(place) == ", most about 71.8 s of run a"  # the middle of the fifteenth twentieth
+    place.fit, place.selected.final.remainders = (still,), (np.zeros(0),)
+    assert verdict._most_at(place) == ""
+
+
+@pytest.mark.parametrize(("left", "drawn", "says"), [(2.3, False, True), (1.2, False, False), (2.3, True, False)])
+def test_names_that_leave_more_than_noise_say_so(monkeypatch, left, drawn, says):
+    """Drag over part of a stroke was three names, with 3.5 times the noise left, and not a word of it."""
+    monkeypatch.setattr(verdict, "noise_floor", lambda *_: 1.0)
+    selected = SimpleNamespace(
+        final=SimpleNamespace(rms=left, model=None), effects=("one",), left=(("speed and direction", 0.1),)
+    )
+    random = SimpleNamespace(accounted=drawn)
+    place = SimpleNamespace(selected=selected, random=random, runs=None, fit=(), nuisances=(), place="", thing="joint")
+    said = verdict._more_missing(place)
+    assert bool(said) is says
+    assert not says or said[0].endswith("2.3 times the noise is left with what is named: more is missing; it depends on speed")

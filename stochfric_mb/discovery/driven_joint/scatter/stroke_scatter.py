@@ -16,7 +16,7 @@ import numpy.typing as npt
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.scatter.between_groups import CoefficientScatter, estimated
-from stochfric_mb.discovery.driven_joint.scatter.memory import Memory, foretells, memory_of
+from stochfric_mb.discovery.driven_joint.scatter.memory import UNKNOWN, Memory, foretells, memory_of
 from stochfric_mb.discovery.driven_joint.scatter.stroke_coefficients import Stroke, dependence, strokes_of, variances
 from stochfric_mb.discovery.driven_joint.simulation.scores import APART, FLOOR, noise_floor
 from stochfric_mb.numerics.stretches import stretches
@@ -107,7 +107,7 @@ def stroke_scatter(
     return StrokeScatter(
         **known,
         gain=1.0 - float(np.sqrt(left)),
-        memory=memory_of(delta, variance, groups, np.asarray(runs)),
+        memory=memory_of(delta, variance, groups, np.asarray(runs)) if known["low"] > 0.0 else UNKNOWN,
         across=_correlation(reversals),
         strokes=len(delta),
         level=force,

@@ -97,6 +97,8 @@ def levels_score(baseline: Baseline, jumps: bool = False) -> float:
         upper = _levels(pool, residuals[:, column], finest[:, column])[1]
         columns, cost = list[Array](), 0.0
         for run, rows in enumerate(pool.rows):
+            if not len(rows):  # none of its slips counts
+                continue
             changed = _jumped(residuals[rows, column], finest[run, column]) if jumps else np.diff(upper[rows])
             after = np.r_[0, np.cumsum(changed)]
             levels = [after == k for k in range(1, int(after[-1]) + 1)] if jumps else [upper[rows]]
