@@ -84,6 +84,15 @@ def outcome_of(result):
     return Outcome(result, SCENARIO, Dataset(title="rig 7", scenario_path=None, scenario=SCENARIO, runs=runs))
 
 
+def test_what_the_result_says_of_several_runs_is_not_said_of_each_again():
+    note = "voltage is taken to be in mV (of run 7)"
+    outcome = outcome_of(dataclasses.replace(BASE, notes=(f"2 runs, such as run_1: {note}",)))
+    runs = tuple(dataclasses.replace(r, notes=(note, "sampled by hand")) for r in outcome.dataset.runs)
+    _, text, _ = written(dataclasses.replace(outcome, dataset=dataclasses.replace(outcome.dataset, runs=runs)))
+    assert text.count("voltage is taken to be in mV") == 1
+    assert text.count("sampled by hand") == 2
+
+
 def written(outcome):
     """Return what result.json holds, and the page, of an outcome."""
     evidence = gather(outcome)
