@@ -38,7 +38,8 @@ def dry_run(dataset: str, scenario: str | None, out: str, *, force: bool) -> Non
         except InputError as error:
             raise with_records(dataset, scenario, target, error) from None
         runs, refused = _facts(data), _refusal(data)
-        lines = [*(_line(run) for run in runs), *_off_speed(data), *_plan(data, runs)]
+        lines = [*(_line(run) for run in runs), *_off_speed(data), _stated(data)]
+        lines += [] if refused else _plan(data, runs)
         with whole_folder(target, replace=force) as folder:
             draw(data, folder, lines, refused)
     answer({"out": str(target), "runs": runs, "refused": refused})
@@ -122,6 +123,15 @@ def _off_speed(data: Dataset) -> list[str]:
                 f"{box.belt_velocity:.3g} m/s is stated: no effect would be named; measure the belt's speed and state it"
             )
     return said
+
+
+def _stated(data: Dataset) -> str:
+    """Return how sure the scenario is of its numbers: what it does not name is believed as it stands."""
+    of, doubts = "N m" if getattr(data.scenario.mechanism, "rotational", False) else "N", data.scenario.uncertainty
+    if not any(doubts.values()):
+        return "No [uncertainty] is stated: every number of the scenario is taken as exact"
+    said = (f"{k} ± {v:.3g} {of}" if k == "offset" else f"{k} ± {100.0 * v:.3g} %" for k, v in doubts.items() if v)
+    return f"Stated: {', '.join(said)}; every other number of the scenario is taken as exact"
 
 
 def _plan(data: Dataset, runs: list[dict[str, Any]]) -> list[str]:

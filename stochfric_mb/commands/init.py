@@ -131,6 +131,8 @@ def _placeholder() -> str:
 
 def _runs(mechanism: str, file: Path, target: Path) -> tuple[str, list[str]]:
     """Return the ``[[runs]]`` of one measured file, its last third held out, and what was guessed, in words."""
+    import numpy as np
+
     from stochfric_mb.commands.guess import guesses
     from stochfric_mb.measurement.dataset import HELD_OUT
     from stochfric_mb.measurement.quantities import KNOWN
@@ -150,7 +152,7 @@ def _runs(mechanism: str, file: Path, target: Path) -> tuple[str, list[str]]:
     clock = by_name["time"]
     column = table.columns[str(clock.column)]
     time, _ = to_si(column, clock.unit, KNOWN["time"], rotational=None)
-    cut = float(f"{time[-1] - HELD_OUT * (time[-1] - time[0]):.6g}")
+    after = int(np.searchsorted(time, time[-1] - HELD_OUT * (time[-1] - time[0])))  # no sample is in both
     unsure = [guess for guess in guessed if not guess.sure]
     keys = []
     if unsure:
@@ -158,7 +160,7 @@ def _runs(mechanism: str, file: Path, target: Path) -> tuple[str, list[str]]:
         units = ", ".join(f"{g.quantity} = {_toml(g.unit)}" for g in unsure if g.unit)
         keys = [f"columns = {{ {pairs} }}  # GUESS, from the header", f"units = {{ {units} }}  # GUESS"]
     name = _toml(os.path.relpath(file.resolve(), target.resolve()))
-    spans = (("fit", f"[{time[0]:.9g}, {cut:.9g}]"), ("test", f"[{cut:.9g}, {time[-1]:.9g}]"))
+    spans = (("fit", f"[{time[0]:.9g}, {time[max(after - 1, 0)]:.9g}]"), ("test", f"[{time[after]:.9g}, {time[-1]:.9g}]"))
     missing = [quantities for quantities in NEEDED[mechanism] if not set(quantities) & set(by_name)]
     entries = [
         "\n".join(["[[runs]]", f"file = {name}", f'role = "{role}"', f"time_range = {span}  # s", *keys]) + "\n"
@@ -169,7 +171,8 @@ def _runs(mechanism: str, file: Path, target: Path) -> tuple[str, list[str]]:
         for g in guessed
     ]
     said += [
-        f"{' or '.join(q)}: no column looks like it; if there is one, add columns = {{ {q[0]} = ... }} to dataset.toml"
+        f"{' or '.join(q)}: none of {', '.join(map(repr, table.columns))} looks like it; if one is, add columns = "
+        f"{{ {q[0]} = ... }} to dataset.toml"
         for q in missing
     ]
     return "\n".join(entries), said

@@ -22,6 +22,8 @@ from .joint_generator.unseen_sixth import UNSEEN_SIXTH
 from .joint_generator.unseen_tenth import PAIRS as UNSEEN_TENTH_PAIRS
 from .joint_generator.unseen_tenth import UNSEEN_TENTH
 from .joint_generator.unseen_third import UNSEEN_THIRD
+from .joint_generator.unseen_thirteenth import PAIRS as UNSEEN_THIRTEENTH_PAIRS
+from .joint_generator.unseen_thirteenth import UNSEEN_THIRTEENTH
 from .joint_generator.unseen_twelfth import PAIRS as UNSEEN_TWELFTH_PAIRS
 from .joint_generator.unseen_twelfth import UNSEEN_TWELFTH
 
@@ -85,6 +87,7 @@ SERIES = {
     10: (UNSEEN_TENTH, UNSEEN_TENTH_PAIRS),
     11: (UNSEEN_ELEVENTH, UNSEEN_ELEVENTH_PAIRS),
     12: (UNSEEN_TWELFTH, UNSEEN_TWELFTH_PAIRS),
+    13: (UNSEEN_THIRTEENTH, UNSEEN_THIRTEENTH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 

@@ -25,6 +25,7 @@ from .unseen_seventh import UNSEEN_SEVENTH
 from .unseen_sixth import UNSEEN_SIXTH
 from .unseen_tenth import UNSEEN_TENTH
 from .unseen_third import UNSEEN_THIRD
+from .unseen_thirteenth import UNSEEN_THIRTEENTH
 from .unseen_twelfth import UNSEEN_TWELFTH
 
 VOCABULARY = frozenset(
@@ -42,7 +43,7 @@ LINKS = frozenset(("joint_compliance", "backlash"))
 """Links between motor and load, which forms from the fifth set on count as names; for earlier ones they are outside."""
 
 _WITH_LINKS = UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH | UNSEEN_EIGHTH | UNSEEN_NINTH
-_WITH_LINKS |= UNSEEN_TENTH | UNSEEN_ELEVENTH | UNSEEN_TWELFTH
+_WITH_LINKS |= UNSEEN_TENTH | UNSEEN_ELEVENTH | UNSEEN_TWELFTH | UNSEEN_THIRTEENTH
 _BEFORE = 1.0  # s under control before a record begins
 
 

@@ -10,7 +10,7 @@ from zlib import crc32
 import numpy as np
 from scipy.signal import lfilter
 
-from . import (  # each enters its forms; `twelfth` has the others enter theirs first: rigs in turn hang on the order
+from . import (  # each enters its forms; `thirteenth` has the others enter theirs first: rigs in turn hang on the order
     eighth,  # noqa: F401
     eleventh,  # noqa: F401
     fifth,  # noqa: F401
@@ -25,6 +25,7 @@ from . import (  # each enters its forms; `twelfth` has the others enter theirs 
     sixth,  # noqa: F401
     tenth,  # noqa: F401
     third,  # noqa: F401
+    thirteenth,  # noqa: F401
     twelfth,  # noqa: F401
 )
 from .forms import FORMS, NONE, UNKNOWN, Form

@@ -37,6 +37,7 @@ def test_records_are_drawn_and_the_plan_is_told(tmp_path, motion):
     assert done.exit_code == 0, done.output
     assert "Would search" in done.output
     assert "Expected time" in done.output
+    assert "every other number of the scenario is taken as exact" in done.output
     page = (tmp_path / "raw" / "records.html").read_text()
     assert page.count("<svg ") == 2
     assert not re.findall(r'(?:src|href)="(?!data:|#)|url\((?!#)|@import|<script ', page)
@@ -127,30 +128,49 @@ output_step = 1.0e-3
 """
 
 
-@pytest.mark.parametrize(
-    ("kind", "numbers", "searched", "lacks"),
-    [
-        (
-            "prismatic_joint",
-            "mass = 95.0\nnormal_force = 932.0",
-            "kinds of effects in 1 run and score on 1, prismatic_joint",
-            "has no force (it has position)",
-        ),
-        ("spring_slider", "stiffness = 2000.0", "Would search friction with memory", "neither friction_coefficient"),
-    ],
-)
-def test_what_a_joint_lacks_is_said_before_anything_is_computed(tmp_path, kind, numbers, searched, lacks):
+JOINTS = [
+    (
+        "prismatic_joint",
+        "mass = 95.0\nnormal_force = 932.0",
+        "kinds of effects in 1 run and score on 1, prismatic_joint",
+        "force [N]",
+        "has no force (it has position)",
+    ),
+    (
+        "spring_slider",
+        "stiffness = 2000.0",
+        "Would search friction with memory",
+        "friction_coefficient [-]",
+        "neither friction_coefficient",
+    ),
+]
+
+
+def look_at_joint(tmp_path, kind, numbers, *more):
+    """A dry run of a joint whose record has positions, and further columns of what moves with them."""
     (tmp_path / "rig.toml").write_text(JOINT.format(kind=kind, numbers=numbers))
-    time = np.arange(4000) * 1e-3
-    np.savetxt(
-        tmp_path / "run.csv", np.column_stack([time, np.sin(time)]), header="time [s],position [m]", comments="", delimiter=","
-    )
-    done = invoke("discover", tmp_path / "run.csv", "--scenario", tmp_path / "rig.toml", "--dry-run", "--out", tmp_path / "raw")
+    time = np.arange(20000) * 1e-3
+    columns = np.column_stack([time, np.sin(time), *(0.6 + np.cos(time) * 20.0 * ("force" in name) for name in more)])
+    head = ",".join(("time [s]", "position [m]", *more))
+    np.savetxt(tmp_path / "run.csv", columns, header=head, comments="", delimiter=",")
+    return invoke("discover", tmp_path / "run.csv", "--scenario", tmp_path / "rig.toml", "--dry-run", "--out", tmp_path / "raw")
+
+
+@pytest.mark.parametrize(("kind", "numbers", "searched", "column", "lacks"), JOINTS)
+def test_what_a_joint_lacks_is_said_before_anything_is_computed(tmp_path, kind, numbers, searched, column, lacks):
+    done = look_at_joint(tmp_path, kind, numbers)
     assert done.exit_code == 2
+    assert lacks in " ".join(done.stderr.split())
+    assert searched not in done.output  # what is refused is not searched
+    assert (tmp_path / "raw" / "records.html").exists()
+
+
+@pytest.mark.parametrize(("kind", "numbers", "searched", "column", "lacks"), JOINTS)
+def test_what_would_be_done_at_a_joint_is_said(tmp_path, kind, numbers, searched, column, lacks):
+    done = look_at_joint(tmp_path, kind, numbers, column)
+    assert done.exit_code == 0, done.output
     assert searched in done.output
     assert "Expected time: 5 to 45 s of one processor" in done.output
-    assert lacks in " ".join(done.stderr.split())
-    assert (tmp_path / "raw" / "records.html").exists()
 
 
 def test_too_few_slips_are_said(tmp_path, motion):
@@ -197,3 +217,16 @@ def test_a_drive_that_is_dead_or_turned_round_is_refused(tmp_path, factor, words
     done = invoke("discover", tmp_path / "run.csv", "--scenario", tmp_path / "rig.toml", "--dry-run", "--out", tmp_path / "raw")
     assert done.exit_code == 2
     assert words in " ".join(done.stderr.split())
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ("", "No [uncertainty] is stated: every number of the scenario is taken as exact"),
+        ("[uncertainty]\nmass = 0.0\n", "No [uncertainty] is stated: every number of the scenario is taken as exact"),
+        ("[uncertainty]\nmass = 5.0\noffset = 0.5\n", "Stated: mass ± 500 %, offset ± 0.5 N; every other number"),
+    ],
+)
+def test_how_sure_the_scenario_is_of_its_numbers_is_said(tmp_path, table, said):
+    kind, numbers, _, column, _ = JOINTS[0]
+    assert said in look_at_joint(tmp_path, kind, f"{numbers}\n{table}", column).output
