@@ -31,7 +31,7 @@ A dataset has `schema = "stochfric.dataset/1"`, `title`, `scenario` (a file besi
 `[[runs]]`; see [Measured data](datasets.md).
 """
 FALLBACK = {
-    "name": "slow belt", "set": "{ belt_velocity = 1e-3 }", "sign": "{ force = -1 }",
+    "name": "slow belt", "set": "{ belt_velocity = 1e-3 }", "sign": "{ force = -1 }", "scale": "{ force = 25.0 }",
     "signed_bits": "{ load = 16 }", "max_gap": "0.1", "correlation_time": "0.5", "spacing": "0.01",
     "values": "[0.41, 0.43, ...]", "upper": "0.9", "tendons": '["cable"]', "pairs": '{ foot = { geoms = ["foot", "floor"] } }',
     "offset": "{ elbow = 0.1 }", "factors": "{ mass = 1.1 }", "effects_in": '["elbow"]', "sigma_s": "0.015", "sigma_k": "0.023",

@@ -152,7 +152,7 @@ def _runs(mechanism: str, file: Path, target: Path) -> tuple[str, list[str]]:
     clock = by_name["time"]
     column = table.columns[str(clock.column)]
     time, _ = to_si(column, clock.unit, KNOWN["time"], rotational=None)
-    after = int(np.searchsorted(time, time[-1] - HELD_OUT * (time[-1] - time[0])))  # no sample is in both
+    after = int(np.count_nonzero(time < time[-1] - HELD_OUT * (time[-1] - time[0])))  # no sample is in both
     unsure = [guess for guess in guessed if not guess.sure]
     keys = []
     if unsure:

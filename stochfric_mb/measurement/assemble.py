@@ -41,6 +41,8 @@ class RunEntry:
     """Quantity -> unit, where the file does not say it or says it wrongly."""
     sign: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Quantity -> 1 or -1, by which it is multiplied."""
+    scale: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
+    """Quantity -> number by which its column is multiplied, before its unit counts: of a pulley, a gear, counts."""
     signed_bits: Mapping[str, int] = dataclasses.field(default_factory=dict[str, int])
     """Column -> word length of signed integers that the file holds as unsigned ones (two's complement)."""
     skip_rows: int = 0
@@ -67,9 +69,11 @@ def assemble(entry: RunEntry, *, rotational: bool | None) -> Run:
     columns, units, notes = _named(entry, table, any_name=rotational is None)
     _require_keys("units", entry.units, columns, entry)
     _require_keys("sign", entry.sign, columns, entry)
+    _require_keys("scale", entry.scale, columns, entry)
     _require_keys("signed_bits", entry.signed_bits, columns, entry)
     for name, bits in entry.signed_bits.items():  # before interpolation, which would mix the two ends of the range
         columns[name] = np.where(columns[name] >= 2.0 ** (bits - 1), columns[name] - 2.0**bits, columns[name])
+    columns |= {name: factor * columns[name] for name, factor in entry.scale.items()}
     file_units = {name: unit for name, unit in units.items() if name in KNOWN}
     columns, units = _in_si(entry, columns, units, rotational=rotational)
     time = columns.pop("time")
@@ -163,7 +167,7 @@ def _named(entry: RunEntry, table: Table, *, any_name: bool) -> tuple[dict[str, 
     notes += [
         f"{q} is taken to be in {entry.units[q]}, as its run says, and not in {unit}, as the file's header does"
         for q, unit in stated.items()
-        if entry.units.get(q, unit) != unit
+        if entry.units.get(q, unit) != unit and q not in entry.scale  # what is scaled may be in another unit
     ]
     units = stated | dict(entry.units)
     return {q: table.columns[name] for q, name in sources.items()}, units, notes

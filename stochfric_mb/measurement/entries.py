@@ -17,7 +17,9 @@ DATA = "STOCHFRIC_DATA"
 """Environment variable of the folder with measured data."""
 
 _TABLES = ("schema", "title", "scenario", "runs")
-RUN_KEYS = ("file", "name", "role", "set", "columns", "units", "sign", "signed_bits", "skip_rows", "time_range", "max_gap")
+RUN_KEYS = (
+    "file", "name", "role", "set", "columns", "units", "sign", "scale", "signed_bits", "skip_rows", "time_range", "max_gap",
+)  # fmt: skip
 
 
 def run_entries(tables: Mapping[str, Any], folder: Path) -> list[RunEntry]:
@@ -89,6 +91,7 @@ def _entry(run: Mapping[str, Any], number: int, folder: Path) -> RunEntry:
         columns={k: _column(v, f"{where}: columns.{k}") for k, v in _table(run, "columns", where).items()},
         units={k: _text(v, f"{where}: units.{k}") for k, v in _table(run, "units", where).items()},
         sign={k: _sign(v, f"{where}: sign.{k}") for k, v in _table(run, "sign", where).items()},
+        scale={k: _scale(v, f"{where}: scale.{k}") for k, v in _table(run, "scale", where).items()},
         signed_bits={k: _count(v, f"{where}: signed_bits.{k}") for k, v in _table(run, "signed_bits", where).items()},
         skip_rows=_count(run.get("skip_rows", 0), f"{where}: skip_rows"),
         time_range=_range(run["time_range"], where) if "time_range" in run else None,
@@ -131,8 +134,14 @@ def _text(value: Any, where: str) -> str:
 
 def _sign(value: Any, where: str) -> float:
     if isinstance(value, bool) or value not in (1, -1):
-        raise InputError(f"{where} = {value!r}; a sign is 1 or -1 (other factors are units)")
+        raise InputError(f"{where} = {value!r}; a sign is 1 or -1 (units and scale hold other factors)")
     return float(value)
+
+
+def _scale(value: Any, where: str) -> float:
+    if (factor := require_number(where, value)) == 0.0:
+        raise InputError(f"{where} = {value!r}; a column times 0 shows nothing: give the factor, such as 1/radius of a pulley")
+    return factor
 
 
 def _count(value: Any, where: str) -> int:

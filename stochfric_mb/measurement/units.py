@@ -48,7 +48,10 @@ def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | No
         wanted = units.Unit(_spelled(target))
         if _alike(units, given, wanted):
             return np.asarray(units.Quantity(values, given).to(wanted).magnitude, dtype=np.float64), target
-    arm = "; the torque of a pulley or screw is a force once it is divided by radius or lead / 2 pi"
+    arm = (
+        "; the torque of a pulley or screw is a force once it is divided by radius or lead / 2 pi: "
+        'scale = { force = 1/radius }, units = { force = "N" }'
+    )
     lever = arm if targets == ("N",) and given.dimensionality == units.Unit("N*m").dimensionality else ""
     raise InputError(f"{wrong}; give {_choices(quantity, targets)}{lever}")
 
