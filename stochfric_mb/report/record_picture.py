@@ -27,6 +27,8 @@ MOST_RUNS = 6
 """Runs that a page shows."""
 SHOWN = ("position", "velocity", "force", "torque", "friction_force")
 """Channels of which the first that was measured is drawn."""
+MANY_SLIPS, CLOSE_UP = 40, 6
+"""Slips of a run beyond which shading says little, and slips from its middle that are drawn beside it then."""
 SAME_SPEED = 0.1
 """Difference from the usual speed in stick up to which a record's beginning or end is stick as well [-]."""
 STICK, SLIP = "#56b4e9", "#d55e00"
@@ -43,13 +45,14 @@ def record_pictures(data: Dataset) -> list[tuple[str, str]]:
             slips = slip_spans(run.channels[name], run.sample_interval) if name == "position" and sticks else []
             use = "used to fit" if run.role == "fit" else "held out"
             caption = f"{run.name} ({use}): {name} as measured" + ("; stick and slip shaded" if slips else "")
+            caption += f", {CLOSE_UP} of {len(slips)} slips beside it" if len(slips) > MANY_SLIPS else ""
             unit = f" [{run.units[name]}]" if run.units.get(name) else ""
             drawn.append((caption, record(run.time, run.channels[name], name + unit, slips)))
     return drawn
 
 
 def record(time: Array, values: Array, label: str, slips: Sequence[tuple[int, int]] = ()) -> str:
-    """Return a measured curve over time as SVG, with stick and slip shaded where slips were detected.
+    """Return a measured curve over time as SVG, with stick and slip shaded where slips were detected; of many, some closely.
 
     Args:
         time: [s], shape (n,).
@@ -61,20 +64,28 @@ def record(time: Array, values: Array, label: str, slips: Sequence[tuple[int, in
 
 
 def _draw(time: Array, values: Array, label: str, slips: Sequence[tuple[int, int]]) -> Figure:
-    figure, (axes,) = new_figure(9.2, 2.6)
-    _shade(axes, time, values, slips)
-    axes.plot(*_thinned(time, values), color="#1f2933", linewidth=0.9, label=label.partition(" [")[0] if slips else None)
-    axes.set(xlabel="time [s]", ylabel=label, xlim=(float(time[0]), float(time[-1])))
-    axes.grid(visible=False, axis="x")
+    parts = [slice(0, len(time))]
+    if len(slips) > MANY_SLIPS:
+        first = (len(slips) - CLOSE_UP) // 2
+        parts.append(slice(slips[first - 1][1], slips[first + CLOSE_UP][0]))
+    figure, panels = new_figure(9.2, 2.6, len(parts))
+    spans = _sticks(time, values, slips)
+    for axes, part in zip(panels, parts, strict=True):
+        _shade(axes, time, spans, slips)
+        shown = _thinned(time[part], values[part])
+        axes.plot(*shown, color="#1f2933", linewidth=0.9, label=label.partition(" [")[0] if slips else None)
+        axes.set(xlabel="time [s]", xlim=(float(shown[0][0]), float(shown[0][-1])))
+        axes.grid(visible=False, axis="x")
+    panels[0].set_ylabel(label)
     if slips:
-        legend(figure, axes)
+        legend(figure, panels[0])
     return figure
 
 
-def _shade(axes: Axes, time: Array, values: Array, slips: Sequence[tuple[int, int]]) -> None:
+def _shade(axes: Axes, time: Array, sticks: Sequence[tuple[int, int]], slips: Sequence[tuple[int, int]]) -> None:
     """Shade what lies between slips as stick, the slips as slip."""
     across = axes.get_xaxis_transform()
-    for spans, colour, word in ((_sticks(time, values, slips), STICK, "stick"), (slips, SLIP, "slip")):
+    for spans, colour, word in ((sticks, STICK, "stick"), (slips, SLIP, "slip")):
         bars = [(float(time[i]), float(time[j] - time[i])) for i, j in spans]
         if not bars:
             continue

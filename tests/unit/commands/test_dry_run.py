@@ -107,6 +107,13 @@ def test_a_thinned_curve_keeps_every_peak():
     assert {3.0, -2.0, 5.0} <= set(thin)
 
 
+def test_of_many_slips_some_are_drawn_closely(motion):
+    slips = slip_spans(motion.position, 1e-3)
+    many = [(i, i + 4) for i in range(10, 29_000, 300)]
+    assert record(motion.time, motion.position, "position", slips).count('class="axes"') == 1
+    assert record(motion.time, motion.position, "position", many).count('class="axes"') == 2
+
+
 def test_names_from_a_file_are_escaped():
     svg = record(np.arange(10.0), np.arange(10.0), "<script>")
     assert "<script>" not in svg
