@@ -16,9 +16,7 @@ A report runs it once::
 from . import law, mechanism, nameless, null, sensor
 from .enter import UNSEEN_THIRTEENTH
 
-PAIRS: tuple[str, ...] = (
-
-)
+PAIRS: tuple[str, ...] = ()
 """Two effects at once, each to the other's mechanisms."""
 
 __all__ = ["PAIRS", "UNSEEN_THIRTEENTH", "law", "mechanism", "nameless", "null", "sensor"]
