@@ -16,7 +16,12 @@ A report runs it once::
 from . import law, mechanism, nameless, null, sensor
 from .enter import UNSEEN_THIRTEENTH
 
-PAIRS: tuple[str, ...] = ()
+PAIRS = (
+    "viscous_friction.short_journal_bearing+position_dependent_friction.telescope_drawn_out",
+    "velocity_weakening.wheels_aquaplane+position_dependent_force.float_dips_in",
+    "direction_asymmetry.over_a_counterbalance_valve+temperature_drift.rails_fit_at_one_temperature",
+    "quadratic_damping.rough_boom_in_water+drive_gain_change.tank_between_two_switch_points",
+)
 """Two effects at once, each to the other's mechanisms."""
 
 __all__ = ["PAIRS", "UNSEEN_THIRTEENTH", "law", "mechanism", "nameless", "null", "sensor"]

@@ -1,6 +1,6 @@
-"""A thirteenth set, written from the literature by an author who has read neither the method nor its results.
+"""A thirteenth set, written from the literature by two authors who have read neither the method nor its results.
 
-rigs                          six rigs of their own: belt rigs of the set
+rigs                          six rigs of their own: three are read worse than those of the eleventh set, three better
 friction, mechanism, sensor   shapes of known effects, one a kind
 nameless                      effects that no name describes
 nulls                         rigs that are as believed
