@@ -252,18 +252,16 @@ class Periodic(Shaped):
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class CourseAlongStroke(Course):
-    """An effect that may follow a course of any smooth shape along the stroke; ``course``, its size, is the effect's own."""
+class LeveledCourse(Course):
+    """An effect that may follow a course from a place on, with a value of its own there; ``course`` is its size.
+
+    The units of `span` and `begin`, and what they are places in, are the effect's own.
+    """
 
     course_size: ClassVar[str] = "course"
 
-    span: float = parameter(
-        "m", "stretch of the stroke over which the course runs", scale=0.1, low=0.0, strict=True, infinite=True,
-        default=math.inf, fit_prior=0.0, optional=True,
-    )  # fmt: skip
-    """Stretch of the stroke over which the course runs [m]; nothing changes before and after it."""
-    begin: float = parameter("m", "position at which the course begins", scale=0.1, default=0.0, fit_prior=0.0, optional=True)
-    """Position at which the course begins [m]."""
+    begin: float = parameter("-", "where the course begins", scale=1.0, default=0.0, fit_prior=0.0, optional=True)
+    """Where the course begins, in the unit of `span`."""
     at_begin: float = parameter(
         "-", "value of the course where it begins", scale=1.0, default=0.0, fit_prior=0.0, optional=True
     )
@@ -281,6 +279,19 @@ class CourseAlongStroke(Course):
     def columns(self, place: Array) -> Array:
         """Return the change of the shape with each of the numbers `shaped_by`, shape (..., n); 0 at its begin, 1 at its end."""
         return np.concatenate([super().columns(place), np.ones((*place.shape, 1))], axis=-1)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class CourseAlongStroke(LeveledCourse):
+    """An effect that may follow a course of any smooth shape along the stroke; ``course``, its size, is the effect's own."""
+
+    span: float = parameter(
+        "m", "stretch of the stroke over which the course runs", scale=0.1, low=0.0, strict=True, infinite=True,
+        default=math.inf, fit_prior=0.0, optional=True,
+    )  # fmt: skip
+    """Stretch of the stroke over which the course runs [m]; nothing changes before and after it."""
+    begin: float = parameter("m", "position at which the course begins", scale=0.1, default=0.0, fit_prior=0.0, optional=True)
+    """Position at which the course begins [m]."""
 
     def shortest_time(self, speed: float) -> float:
         """Return the time [s] in which the contact passes two pieces, in which a course can rise and fall."""

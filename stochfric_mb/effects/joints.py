@@ -42,3 +42,7 @@ class JointSpan:
     """Half width of the windows through which it is seen [s]."""
     inertia: float = 0.0
     """Inertia of motor and load together as stated [kg or kg m^2]; 0: none is known of one body that moves."""
+    least_load: float = 0.0
+    """Least load that the joint transmits, or normal force of a contact, while it slides [N or N m]."""
+    load_range: float = 0.0
+    """What that ranges over [N or N m]."""

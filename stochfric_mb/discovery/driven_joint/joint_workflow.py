@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.balances import Balances
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
 from stochfric_mb.discovery.driven_joint.balance.late_channel import brought_forward, late_channel
 from stochfric_mb.discovery.driven_joint.balance.readings import mended
 from stochfric_mb.discovery.driven_joint.balance.timing import NAMED
@@ -87,16 +88,26 @@ def _left_by(given: Dataset, better: Dataset) -> float:
             return 0.0
         width = round(float(np.median([s.window.half_width / s.window.interval for s in before])))
         nuisances, model = as_given.nuisances(name), as_given.stated(name)
-        seen = [s.balances(name, "fit", s.stated_delay, width) for s in (as_given, repaired)]
-        raw, replaced = (fit(model, s, nuisances, noise=model.law.mu_k * model.load).rms for s in seen)
-        parts.append(replaced / raw)
+        raw, mended_ones = (s.balances(name, "fit", s.stated_delay, width) for s in (as_given, repaired))
+        seen = [_where_sliding(raw, mended_ones), mended_ones]
+        error, replaced = (fit(model, s, nuisances, noise=model.law.mu_k * model.load).rms for s in seen)
+        parts.append(replaced / error)
     return min(parts)
+
+
+def _where_sliding(as_read: Sequence[ForceBalance], repaired: Sequence[ForceBalance]) -> list[ForceBalance]:
+    """Return balances of readings as they were, where the joint slides: a stray reading turns a motion round in its window."""
+    return [
+        dataclasses.replace(raw, sliding=better.sliding) if len(raw.sliding) == len(better.sliding) else raw
+        for raw, better in zip(as_read, repaired, strict=True)
+    ]
 
 
 def _with_readings(place: PlaceOutcome, as_read: Balances) -> PlaceOutcome:
     """Return a place whose errors without effects are those of the readings as they were, seen through the same windows."""
     width = round(float(np.median([s.window.half_width / s.window.interval for s in place.test])))
     seen = [as_read.balances(place.place, role, as_read.stated_delay, width) for role in ("fit", "test")]
+    seen = [_where_sliding(*pair) for pair in zip(seen, (place.fit, place.test), strict=True)]
     if not all(any(s.sliding.any() for s in some) for some in seen):
         return place
     fitted = fit(place.stated, seen[0], place.nuisances, noise=place.stated.law.mu_k * place.stated.load).model

@@ -6,11 +6,13 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from typing import ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import MU_K, MU_S, NORMAL_FORCE, Effect, JointSignature, parameter
+from stochfric_mb.effects.contract import MU_K, MU_S, NORMAL_FORCE, JointSignature, parameter
+from stochfric_mb.effects.course import LeveledCourse, along, courses_at_joint
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips, apart
 from stochfric_mb.effects.traits import BETWEEN_POINTS, READS_LOAD
@@ -20,15 +22,27 @@ MOST_ADHESIVE = 0.9
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class LoadDependence(Effect):
-    """mu_s and mu_k times (N/N_0)^exponent (1 + A/N)/(1 + A/N_0), with the reference load N_0 and the adhesion A.
+class LoadDependence(LeveledCourse):
+    """mu_s and mu_k times (N/N_0)^exponent (1 + A/N)/(1 + A/N_0) (1 + course c((N - begin)/span)).
 
-    Elastic contact of a sphere has exponent -1/3; surfaces that adhere rub as if pressed together by A more.
+    N_0 is the reference load, A the adhesion. Elastic contact of a sphere has exponent -1/3; surfaces that adhere rub as if
+    pressed together by A more; c, a sum of cubic B-splines, lets friction follow any smooth shape along the load, as that of a
+    soft liner which shears from one load on.
 
     References: J. F. Archard, Proc. R. Soc. A 243, 1957, 190-205, doi 10.1098/rspa.1957.0214; B. V. Derjaguin, Z. Phys. 88,
-    1934, 661-675, doi 10.1007/BF01333114 (adhesion).
+    1934, 661-675, doi 10.1007/BF01333114 (adhesion); F. P. Bowden, D. Tabor, The Friction and Lubrication of Solids, Oxford
+    1950, chapter 5 (films and liners).
     """
 
+    span: float = parameter(
+        "N", "range of normal forces over which the course runs", scale=10.0, low=0.0, strict=True, infinite=True,
+        default=math.inf, fit_prior=0.0, optional=True,
+    )  # fmt: skip
+    """Range of normal forces over which the course runs [N]; nothing changes below and above it."""
+    begin: float = parameter(
+        "N", "normal force at which the course begins", scale=10.0, default=0.0, fit_prior=0.0, optional=True
+    )
+    """Normal force at which the course begins [N]."""
     exponent: float = parameter("-", "exponent of the normal force", scale=0.2, low=-2.0, high=2.0)
     """Exponent of the normal force [-]."""
     reference_load: float = parameter("N", "normal force at which nothing changes", scale=10.0, low=0.0, strict=True)
@@ -37,11 +51,13 @@ class LoadDependence(Effect):
     """Exponent of mu_s over that of mu_k [-]: 1, both coefficients alike; 0, mu_k alone."""
     adhesion: float = parameter("N", "force by which the surfaces attract each other", scale=5.0, low=0.0, default=0.0)
     """Force by which the surfaces attract each other [N]; it acts on both coefficients alike."""
+    course: float = parameter("-", "relative size of a course of any shape", scale=0.03, default=0.0, optional=True)
+    """Relative size of a course of any shape, of both coefficients alike [-]."""
 
     kind: ClassVar[str] = "load_dependence"
     equation: ClassVar[str] = (
         "mu_k times (N/reference_load)^exponent, mu_s times (N/reference_load)^(static_share exponent), "
-        "both times (1 + adhesion/N)/(1 + adhesion/reference_load)"
+        "both times (1 + adhesion/N)/(1 + adhesion/reference_load) (1 + course c((N - begin)/span)), c of splines"
     )
     source: ClassVar[str] = "Derjaguin 1934; Bowden and Tabor 1950; Archard 1957"
     group: ClassVar[str] = "friction law"
@@ -55,19 +71,26 @@ class LoadDependence(Effect):
     def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
         """Return the exponent at a joint, whose friction grows with what it transmits beyond a preload; else the preload.
 
-        Of a contact either the exponent is fitted, or the adhesion.
+        Of a contact the exponent is fitted, or the adhesion, or the course.
         """
+        if self.any_shape:
+            return *super().kept_at_joints(contact), "reference_load", "exponent"
         return ("reference_load", *(("exponent",) if self.adhesion > 0.0 else ())) if contact else ("exponent",)
 
     @classmethod
     def at_joint(cls, span: JointSpan) -> JointSignature | tuple[JointSignature, ...] | None:
-        """Return a power of a contact's normal force and surfaces that adhere, or what a joint transmits beyond its preload."""
+        """Return a power of a contact's normal force, adhesion and any shape; or what a joint transmits beyond its preload."""
         if not span.load:
             return None
         if span.contact:  # mu_k holds at the stated load, and the exponent or the adhesion is searched
             powers = tuple(cls(exponent=x, reference_load=span.stated_load) for x in (-0.3, 0.3))
             pulls = tuple(cls(exponent=0.0, reference_load=span.stated_load, adhesion=x * span.stated_load) for x in (0.1, 1.0))
-            return JointSignature(powers, "normal force", 1), JointSignature(pulls, "normal force", 1)
+            flat = cls(exponent=0.0, reference_load=span.stated_load, span=span.load_range, begin=span.least_load)
+            return (
+                JointSignature(powers, "normal force", 1),
+                JointSignature(pulls, "normal force", 1),
+                *courses_at_joint(flat, "normal force", leveled=True),
+            )
         return JointSignature(tuple(cls(exponent=1.0, reference_load=part * span.load) for part in (0.3, 1.0, 4.0)), "load", 1)
 
     @classmethod
@@ -90,8 +113,10 @@ class LoadDependence(Effect):
 
 
 def friction(world, memory, rates, p):
-    """Multiply both coefficients by the power of the load and by what adhesion adds."""
+    """Multiply both coefficients by the power of the load, by what adhesion adds and by the course."""
     if world[NORMAL_FORCE] > 0.0:
-        more = (1.0 + p[3] / world[NORMAL_FORCE]) / (1.0 + p[3] / p[1])
-        world[MU_S] *= more * (world[NORMAL_FORCE] / p[1]) ** (p[0] * p[2])
-        world[MU_K] *= more * (world[NORMAL_FORCE] / p[1]) ** p[0]
+        more = (1.0 + p[25] / world[NORMAL_FORCE]) / (1.0 + p[25] / p[23])
+        if p[26] != 0.0:
+            more *= 1.0 + p[26] * (p[21] + along(p, (world[NORMAL_FORCE] - p[20]) / p[19]))
+        world[MU_S] *= more * (world[NORMAL_FORCE] / p[23]) ** (p[22] * p[24])
+        world[MU_K] *= more * (world[NORMAL_FORCE] / p[23]) ** p[22]

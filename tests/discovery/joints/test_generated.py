@@ -47,9 +47,17 @@ def test_what_was_a_delay_a_scatter_or_nothing_has_its_name(form, design, streng
         ("friction_drift.thermostat_overshoots", "mjcf_slide", 1001, ["friction_drift"]),
         ("distance_drift.grooves_stroke_by_stroke", "mjcf_hinge", 1101, ["friction_drift"]),  # a second drift mends 1 % of it
         ("sensor_delay.averages_and_then_sends", "mjcf_slide", 1101, ["sensor_delay", "joint_compliance"]),  # 25 ms at 2 kHz
+        ("load_dependence.soft_liner_shears", "slide", 1301, ["load_dependence"]),  # no power: level from one load on
     ],
 )
 def test_what_broke_a_principle_is_what_it_is(form, design, seed, kinds, tmp_path):
     result = answered(form, design, 1.0, tmp_path, seed)
     assert [e.kind for e in result.effects] == kinds
     assert result.verdict == ("effect" if kinds else "none")
+
+
+def test_a_reading_at_the_end_of_the_scale_is_told_though_its_windows_turn_round(tmp_path):
+    result = answered("sensor_outliers.wiper_lifts", "slide", 0.5, tmp_path, 1301)
+    assert [e.kind for e in result.effects] == ["sensor_outliers"]
+    assert result.gap.metric == "inverse_dynamics_sliding"  # no simulation reads a sensor
+    assert result.gap.closed > 0.99

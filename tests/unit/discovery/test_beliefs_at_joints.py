@@ -12,7 +12,7 @@ from stochfric_mb.discovery.driven_joint.decision import verdict
 from stochfric_mb.discovery.driven_joint.decision.adequacy import endless, inadequate
 from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate
 from stochfric_mb.discovery.driven_joint.decision.released import Released
-from stochfric_mb.discovery.driven_joint.decision.selection import Selector, Trial, _is_none
+from stochfric_mb.discovery.driven_joint.decision.selection import Selector, Trial, _is_none, simplest_first
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.next_experiment import next_experiment
@@ -189,3 +189,16 @@ def test_names_that_leave_more_than_noise_say_so(monkeypatch, left, drawn, says)
     said = verdict._more_missing(place)
     assert bool(said) is says
     assert not says or said[0].endswith("2.3 times the noise is left with what is named: more is missing; it depends on speed")
+
+
+@pytest.mark.parametrize(
+    ("best", "simpler", "first"),
+    [(45.0, 37.0, "viscous_friction"), (45.0, 33.0, SPRING.kind), (25.0, 17.0, SPRING.kind), (15.0, 9.0, "viscous_friction")],
+)
+def test_what_could_not_be_named_stands_before_nothing_that_can(best, simpler, first):
+    """Of two within a tie the simpler one is named; below a name it would have left both without one."""
+    nothing = selector_of(pair(coulomb)).recalibrated
+    trials = [Trial(Candidate(SPRING.kind, (SPRING,), "", 3), nothing, best, 0.0)]
+    trials += [Trial(Candidate(VISCOUS.kind, (VISCOUS,), "", 1), nothing, simpler, 0.0)]
+    assert simplest_first(trials)[0].candidate.kind == first
+    assert (criteria.NAMED, criteria.TIE) == (20.0, 10.0)

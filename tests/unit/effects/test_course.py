@@ -12,6 +12,7 @@ from stochfric_mb.effects.kinds import (
     distance_drift,
     friction_drift,
     harmonic_force,
+    load_dependence,
     normal_load_ripple,
     position_dependent_friction,
     temperature_drift,
@@ -186,6 +187,23 @@ def test_what_the_stroke_decides_follows_the_course(kind, acts_on, expected, pie
     alike, largest = effect.normalised(), effect.normalised().shape(np.linspace(0.0, 1.0, 321))
     assert np.abs(largest).max() == pytest.approx(1.0)
     np.testing.assert_allclose(alike.course * largest, effect.course * effect.shape(np.linspace(0.0, 1.0, 321)), atol=1e-12)
+
+
+@pytest.mark.parametrize("pieces", COARSER)
+def test_friction_follows_a_course_along_the_load(pieces):
+    numbers = sized(np.cos(np.arange(pieces + 2)), pieces, 30.0)
+    size = numbers.pop("change")
+    more = {"exponent": -0.2, "reference_load": 12.0, "static_share": 0.5}
+    effect = make_effect("load_dependence", **numbers, course=size, begin=5.0, at_begin=0.1, **more)
+    nothing, p = np.zeros(1), effect.parameters()
+    for function in (load_dependence.friction, compiled(load_dependence.friction)):
+        for load in (2.0, 5.0, 11.0, 20.0, 35.0, 40.0):
+            world = np.zeros(contract.WORLD)
+            world[contract.NORMAL_FORCE], world[contract.MU_S], world[contract.MU_K] = load, 1.0, 1.0
+            function(world, nothing, nothing, p)
+            course = 1.0 + size * float(effect.shape(np.array([(load - 5.0) / 30.0]))[0])
+            assert world[contract.MU_K] == pytest.approx(course * (load / 12.0) ** -0.2, rel=1e-12)
+            assert world[contract.MU_S] == pytest.approx(course * (load / 12.0) ** -0.1, rel=1e-12)
 
 
 def test_friction_along_a_place_needs_a_wave_or_a_course():

@@ -85,6 +85,8 @@ def span_of(balances: Sequence[ForceBalance], friction: float, load: float) -> J
         drive=_driven(balances, at),
         pressure=float(np.median(np.abs(np.concatenate(pressures)))) if pressures else 0.0,
         window=max(s.window.half_width for s in balances),
+        least_load=float(carries.min()),
+        load_range=float(np.ptp(carries)),
         inertia=min(0.0 if (motor := s.motor()) is None else motor.inertia for s in balances),
     )
 

@@ -25,7 +25,7 @@ from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import begun, tried, wave_starts
 from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
 from stochfric_mb.discovery.inference.paired import Paired
-from stochfric_mb.effects.course import CourseAlongStroke
+from stochfric_mb.effects.course import LeveledCourse
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.traits import ROUGH
 
@@ -457,9 +457,10 @@ def simplest_first(trials: list[Trial], pairs: Sequence[Confounded] = ()) -> lis
         pairs: conditions that went together.
     """
     best = trials[0]
+    least = criteria.NAMED if best.score > criteria.NAMED else 0.0  # what could not be named stands before nothing that can
     # a course follows what has fewer freedoms: in front of it stands what explains as much but for what names need
     margins = [criteria.NAMED if best.candidate.any_shape and not t.candidate.any_shape else criteria.TIE for t in trials]
-    tied = [t for t, margin in zip(trials, margins, strict=True) if t.score > max(best.score - margin, 0.0)]
+    tied = [t for t, margin in zip(trials, margins, strict=True) if t.score > max(best.score - margin, least)]
     if not tied:
         return trials
     by_size = sorted(tied, key=lambda t: (t.candidate.parameters, -t.score))
@@ -486,7 +487,7 @@ def _is_none(fitted: JointFit, owner: int) -> bool:
         share = next(k for k in fitted.free if (k.owner, k.name) == (owner, SHARE))
         value = float(getattr(effect, SHARE))
         return _may_be_zero(fitted, owner) or min(value - share.low, share.high - value) < AT_AN_END * (share.high - share.low)
-    varies = effect.weights if isinstance(effect, CourseAlongStroke) and effect.any_shape else VARIES
+    varies = effect.weights if isinstance(effect, LeveledCourse) and effect.any_shape else VARIES
     at = [i for i, k in enumerate(fitted.free) if k.owner == owner and k.name in varies]
     numbers, covariance = fitted.values[at], fitted.covariance[np.ix_(at, at)]
     if not at or not np.isfinite(covariance).all():

@@ -70,7 +70,7 @@ def verdict(
     for place in places:
         effects += _delay(place) + ([] if place.idle else _released(place) + _estimates(place, pairs))
         effects += _drawn(place)
-    gap = _gap(places, loop_floor)
+    gap = _gap(places, None if mostly else loop_floor)  # what a reading is worth shows in no simulation
     effects = _late_column(channel) + effects
     lacking = (p for p in places if p.selected.unknown or p.unnamed is not None or lacks(dataset, p))
     unknown = None if effects else next(lacking, None)
