@@ -128,3 +128,17 @@ def test_records_on_which_an_answer_broke_a_principle(name, kinds, tmp_path):
     case = next(c for c in unseen_cases() if c.name == name)
     write_record(case, tmp_path / name, 31)
     assert [e.kind for e in discover(tmp_path / name / "data").result.effects] == kinds
+
+
+@pytest.mark.parametrize(
+    ("name", "verdict"),
+    [
+        ("thirteenth_noise_of_traps-one-1", "none"),  # a zero that moves by half of what a reading errs was a step
+        ("thirteenth_clock_has_a_spur-one-1", "none"),  # noise of fast motion alone, which no forecast feels, was missing
+        ("thirteenth_motor_makes_a_part_of_the_spring-one-0.5", "unknown"),  # jumps said ten times what the name explained
+    ],
+)
+def test_what_is_noise_is_none_and_a_name_says_more_than_what_it_leaves(name, verdict, tmp_path):
+    case = next(c for c in unseen_cases() if c.name == name)
+    write_record(case, tmp_path / name, 131)
+    assert discover(tmp_path / name / "data").result.verdict == verdict

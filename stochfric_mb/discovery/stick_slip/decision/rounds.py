@@ -228,6 +228,8 @@ class _Search:
         if not kinds or (self.in_forces and left > criteria.LEFT_OVER):
             return result
         self.details["left_over"] = dataclasses.asdict(result)
+        before = cast("float", self.details.get(SCORE_LEFT, 0.0))
+        self.details[SCORE_LEFT] = max(before, scatter.static, scatter.kinetic, scatter.within)
         return None
 
     def _unknown(self, where: Where) -> Decision:

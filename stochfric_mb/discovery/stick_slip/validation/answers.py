@@ -38,7 +38,7 @@ from stochfric_mb.discovery.stick_slip.validation.explained import (
 )
 from stochfric_mb.discovery.stick_slip.validation.feature_skill import slip_force_gap
 from stochfric_mb.discovery.stick_slip.validation.held_out_check import Comparison, compared, without_last
-from stochfric_mb.discovery.stick_slip.validation.predictive_check import inadequate
+from stochfric_mb.discovery.stick_slip.validation.predictive_check import VARYING, inadequate
 from stochfric_mb.effects import kind_with_signature, kinds_with
 from stochfric_mb.effects.traits import SCATTER, WANDER, YIELDING
 
@@ -147,6 +147,9 @@ def _poor(answer: Answer, slip_study: Study, recalibrated: Fit) -> Decision | No
     where, decision.details["adequacy"] = inadequate(slip_study, answer.model)
     if where is None:
         return None
+    reducible = 1.0 - seen["floor"] / seen["before"] if "floor" in seen else 1.0
+    if where in VARYING and reducible < criteria.LEAST_REDUCIBLE:  # slips that truly vary are felt: this is noise of readings
+        return dataclasses.replace(decision, verdict="none", named=())
     text = f"{decision.named[0].kind} comes closest, but {where.text}"
     return dataclasses.replace(decision, verdict="unknown", named=(), where=Where(where.axis, text))
 

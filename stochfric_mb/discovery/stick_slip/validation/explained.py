@@ -61,11 +61,14 @@ def _judged(study: Study, decision: Decision, augmented: Model, without: Array, 
     kinds, before, after = {n.kind for n in decision.named}, float(without.mean()), float(with_.mean())
     if not kinds or not len(best):
         return _nothing_shown(decision, before, after, best)
-    little = _too_little(decision, _enough(decision), without, with_, best)
+    enough = _enough(decision)
+    little = _too_little(decision, enough, without, with_, best)
     if little is not None and kinds <= shown_elsewhere(decision.model):
         # what forecasts do not show need not explain them, but neither may anything else be missing from them
         return _nothing_shown(decision, before, after, best)
-    noise = little is not None and len(kinds) == 1 and within_noise(decision.named[0].kind, augmented, study.pool.slips)
+    # a zero that moves by less than a reading errs is noise unless it is seen to explain something: doubt speaks against it
+    little_seen = before - after <= enough * max(before - min(float(best.mean()), after), 0.0)
+    noise = little_seen and len(kinds) == 1 and within_noise(decision.named[0].kind, augmented, study.pool.slips)
     return dataclasses.replace(decision, verdict="none", named=()) if noise else little
 
 

@@ -36,6 +36,8 @@ PARTS = (
     Where("shape of the friction force within a slip, time within the run", "the shape of the slips varies"),
 )
 """Parts of the evidence: axis, and what is said if a name leaves it."""
+VARYING = PARTS[2:]
+"""Those in which the slips of a run differ from one another."""
 LEVELS = 2
 """Features that are levels, force at break-away and mean force in slip; the others are shape."""
 DRAWS = 2
