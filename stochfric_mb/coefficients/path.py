@@ -187,11 +187,19 @@ def independent_pair(descriptor, seed, sample, contact, knot):
         return descriptor[4], descriptor[5]
     for attempt in range(MAX_ATTEMPTS):
         z_s, z_k = normals(seed, sample, contact, knot, attempt)
-        mu_s, mu_k = _pair_of_normals(descriptor, z_s, z_k)
+        mu_s, mu_k = _pair_of_normals(descriptor, z_s, mixed(descriptor, z_s, z_k))
         inside = descriptor[10] <= mu_s <= descriptor[11] and descriptor[12] <= mu_k <= descriptor[13]
         if inside and mu_k >= 0.0 and mu_k < mu_s:
             return mu_s, mu_k
     return descriptor[4], descriptor[5]
+
+
+@compiled
+def mixed(descriptor, z_s, z_k):
+    """Return the normal of mu_k, whose correlation with that of mu_s is the descriptor's, from two independent ones."""
+    if descriptor[17] == 0.0:
+        return z_k
+    return descriptor[17] * z_s + math.sqrt(1.0 - descriptor[17] * descriptor[17]) * z_k
 
 
 @compiled
@@ -206,11 +214,12 @@ def _pair_of_normals(descriptor, z_s, z_k):
 @compiled
 def _clipped_pair(descriptor, z_s, z_k):
     """Return the pair clipped to 0 <= mu_k <= mu_s (correlated processes cannot be redrawn); bounds truncate."""
-    mu_s, mu_k = _pair_of_normals(descriptor, z_s, z_k)
+    y_k = mixed(descriptor, z_s, z_k)
+    mu_s, mu_k = _pair_of_normals(descriptor, z_s, y_k)
     if descriptor[10] > -UNBOUNDED or descriptor[11] < UNBOUNDED:
         mu_s = truncated(z_s, descriptor[4], descriptor[6], descriptor[10], descriptor[11])
     if descriptor[12] > -UNBOUNDED or descriptor[13] < UNBOUNDED:
-        mu_k = truncated(z_k, descriptor[5], descriptor[7], descriptor[12], descriptor[13])
+        mu_k = truncated(y_k, descriptor[5], descriptor[7], descriptor[12], descriptor[13])
     mu_s = max(mu_s, 0.0)
     return mu_s, min(max(mu_k, 0.0), mu_s)
 

@@ -38,6 +38,8 @@ class Process:
     """Marginal distribution of mu_s."""
     distribution_k: Distribution = NORMAL
     """Marginal distribution of mu_k."""
+    cross_correlation: float = 0.0
+    """Correlation of the standard normals that mu_s and mu_k are drawn from [-], -1 to 1: 1, both scatter together."""
 
     kind: ClassVar[str]
     """Name in scenario files."""
@@ -55,6 +57,7 @@ class Process:
     def __post_init__(self) -> None:
         require_number("sigma_s", self.sigma_s, low=0.0)
         require_number("sigma_k", self.sigma_k, low=0.0)
+        require_number("cross_correlation", self.cross_correlation, low=-1.0, high=1.0)
 
     @property
     def knot_spacing(self) -> float:
@@ -73,7 +76,7 @@ class Process:
             InputError: infeasible pairs (mu_k >= mu_s or mu_k < 0) are beyond reason.
 
         Warns:
-            FeasibilityWarning: below d = (mu_s - mu_k)/sqrt(sigma_s^2 + sigma_k^2) = 2.
+            FeasibilityWarning: below d = (mu_s - mu_k)/sigma = 2, sigma being the standard deviation of mu_s - mu_k.
         """
         self._check_feasible(law)
         tables = [self.distribution_s.quantile_table(), self.distribution_k.quantile_table()]
@@ -83,7 +86,7 @@ class Process:
             self.distribution_s.code, self.distribution_k.code, self.distribution_s.low, self.distribution_s.high,
             self.distribution_k.low, self.distribution_k.high, self.correlation, len(tables[0]),
         )  # fmt: skip
-        head[16] = len(tables[1])
+        head[16:18] = len(tables[1]), self.cross_correlation
         return np.concatenate([head, *tables])
 
     def to_dict(self) -> dict[str, Any]:
@@ -92,7 +95,7 @@ class Process:
         table: dict[str, Any] = {"process": self.kind}
         for name, value in own.items():
             if not isinstance(value, Distribution):
-                if value is not None:
+                if value is not None and (name, value) != ("cross_correlation", 0.0):
                     table[name] = value
             elif not isinstance(value, Normal):
                 table[name] = {"kind": value.kind} | {
@@ -102,7 +105,8 @@ class Process:
         return table
 
     def _check_feasible(self, law: Law) -> None:
-        spread = math.hypot(self.sigma_s, self.sigma_k)
+        both = self.sigma_s**2 + self.sigma_k**2 - 2.0 * self.cross_correlation * self.sigma_s * self.sigma_k
+        spread = math.sqrt(max(both, 0.0))
         if spread == 0.0:
             return
         d = (law.mu_s - law.mu_k) / spread

@@ -254,9 +254,14 @@ class Effect:
         return float(slips)
 
     def deviations(self, draws: float) -> dict[str, float]:
-        """Return the standard deviations of its random numbers, estimated from independent draws: of sigmas s/sqrt(2 n)."""
-        named = (f.name for f in dataclasses.fields(self) if f.name.startswith("sigma"))
-        return {name: getattr(self, name) / math.sqrt(2.0 * draws) for name in named}
+        """Return the standard deviations of its random numbers, estimated from independent draws.
+
+        Of sigmas s/sqrt(2 n), of correlations (1 - r^2)/sqrt(n).
+        """
+        values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+        sigmas = {name: value / math.sqrt(2.0 * draws) for name, value in values.items() if name.startswith("sigma")}
+        crosses = {name: (1.0 - r * r) / math.sqrt(draws) for name, r in values.items() if name.startswith("cross")}
+        return sigmas | crosses
 
     def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
         """Return the parameters that a fit at a driven joint leaves alone; ``contact``: its normal force is known."""

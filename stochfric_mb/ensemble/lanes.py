@@ -108,7 +108,7 @@ def next_pairs(descriptor, cursors, seed, first, knot, a_s, a_k, b_s, b_k):
 @compiled
 def _pairs(descriptor, cursors, seed, first, knot, mu_s, mu_k):
     """Write the pair at ``knot`` of every lane, to the bit the one of a `CoefficientPath`."""
-    normal = descriptor[8] == NORMAL_CODE and descriptor[9] == NORMAL_CODE
+    normal = descriptor[8] == NORMAL_CODE and descriptor[9] == NORMAL_CODE and descriptor[17] == 0.0
     bounded = max(descriptor[10], descriptor[12], -descriptor[11], -descriptor[13]) > -math.inf
     if descriptor[0] > 1.0 and normal and not bounded and knot > 0:
         _filtered_pairs(descriptor, cursors, seed, first, knot, mu_s, mu_k)

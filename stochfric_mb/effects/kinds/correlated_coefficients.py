@@ -12,7 +12,7 @@ from stochfric_mb.effects.traits import SCATTER, WANDER, WANDERS_ALIKE
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class CorrelatedCoefficients(Effect):
-    """Two independent stationary Ornstein-Uhlenbeck processes around mu_s and mu_k.
+    """Stationary Ornstein-Uhlenbeck processes around mu_s and mu_k, independent of one another or not.
 
     The effect is the scenario's coefficient process; it is not evaluated with the other effects.
 
@@ -25,6 +25,10 @@ class CorrelatedCoefficients(Effect):
     """Standard deviation of mu_k [-]."""
     correlation_time: float = parameter("s", "time in which the correlation falls to 1/e", scale=3.0, low=0.0, strict=True)
     """Time in which the correlation falls to 1/e [s]."""
+    cross_correlation: float = parameter(
+        "-", "correlation of mu_s and mu_k", scale=0.5, low=-1.0, high=1.0, default=0.0, optional=True
+    )
+    """Correlation of mu_s and mu_k [-]: 1, both scatter together; 0, independently."""
 
     kind: ClassVar[str] = "correlated_coefficients"
     equation: ClassVar[str] = "mu_s, mu_k with correlation exp(-abs(dt)/correlation_time)"
@@ -41,4 +45,9 @@ class CorrelatedCoefficients(Effect):
 
     def coefficient_process(self) -> Process:
         """Return the coefficient process that the effect sets."""
-        return OrnsteinUhlenbeck(sigma_s=self.sigma_s, sigma_k=self.sigma_k, correlation_time=self.correlation_time)
+        return OrnsteinUhlenbeck(
+            sigma_s=self.sigma_s,
+            sigma_k=self.sigma_k,
+            cross_correlation=self.cross_correlation,
+            correlation_time=self.correlation_time,
+        )

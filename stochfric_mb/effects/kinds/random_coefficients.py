@@ -1,4 +1,4 @@
-"""Random coefficients: mu_s and mu_k that are drawn anew, independently."""
+"""Random coefficients: mu_s and mu_k that are drawn anew."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ FOREVER = 1.0e12
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class RandomCoefficients(Effect):
-    """Independent normal pairs (mu_s, mu_k), one per knot in time, one per stick phase, or one per run.
+    """Normal pairs (mu_s, mu_k), one per knot in time, one per stick phase, or one per run, each independent of the others.
 
     The effect is the scenario's coefficient process; it is not evaluated with the other effects.
 
@@ -32,6 +32,10 @@ class RandomCoefficients(Effect):
     """Standard deviation of mu_k [-]."""
     spacing: float = parameter("s", "distance between knots", scale=0.01, low=0.0, strict=True, default=0.01, optional=True)
     """Distance between knots [s]; not used by the others."""
+    cross_correlation: float = parameter(
+        "-", "correlation of mu_s and mu_k", scale=0.5, low=-1.0, high=1.0, default=0.0, optional=True
+    )
+    """Correlation of mu_s and mu_k [-]: 1, both scatter together; 0, independently."""
 
     kind: ClassVar[str] = "random_coefficients"
     equation: ClassVar[str] = (
@@ -50,7 +54,9 @@ class RandomCoefficients(Effect):
     def coefficient_process(self) -> Process:
         """Return the coefficient process that the effect sets."""
         if self.process == "knots":
-            return Knots(sigma_s=self.sigma_s, sigma_k=self.sigma_k, spacing=self.spacing)
+            return Knots(
+                sigma_s=self.sigma_s, sigma_k=self.sigma_k, cross_correlation=self.cross_correlation, spacing=self.spacing
+            )
         if self.process == "per_run":
-            return Knots(sigma_s=self.sigma_s, sigma_k=self.sigma_k, spacing=FOREVER)
-        return PerEvent(sigma_s=self.sigma_s, sigma_k=self.sigma_k)
+            return Knots(sigma_s=self.sigma_s, sigma_k=self.sigma_k, cross_correlation=self.cross_correlation, spacing=FOREVER)
+        return PerEvent(sigma_s=self.sigma_s, sigma_k=self.sigma_k, cross_correlation=self.cross_correlation)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -149,15 +149,25 @@ def random_effects(
         return levels.where or _offset(study, scatter)
     declared = study.model.process is not None
     if not declared or scatter.correlation > _declared(study).correlation + criteria.SCATTER_MORE_MEMORY:
-        memory = _memory(scatter, mu_s, mu_k)
+        memory = _memory(scatter, mu_s, mu_k, _cross(study, scatter))
         if memory is not None or declared:
             return memory
     else:
         return None
-    return _drawn_anew(scatter, sigma_s, sigma_k, mu_k / mu_s, KNOTS_APART / study.pool.angular_frequency)
+    spacing = KNOTS_APART / study.pool.angular_frequency
+    return _drawn_anew(scatter, sigma_s, sigma_k, mu_k / mu_s, spacing, _cross(study, scatter))
 
 
-def _drawn_anew(scatter: Randomness, sigma_s: float, sigma_k: float, ratio: float, spacing: float) -> Finding | Where:
+def _cross(study: Study, scatter: Randomness) -> dict[str, float]:
+    """Return the correlation of the two coefficients as a parameter, where both scatter beyond doubt and chance."""
+    certain = min(scatter.static, scatter.kinetic) > criteria.SCATTER_CERTAIN
+    shown = abs(scatter.together) * np.sqrt(len(study.pool.run)) > criteria.SCATTER_ALIKE
+    return {"cross_correlation": scatter.cross} if certain and shown else {}
+
+
+def _drawn_anew(
+    scatter: Randomness, sigma_s: float, sigma_k: float, ratio: float, spacing: float, cross: Mapping[str, float]
+) -> Finding | Where:
     """Return coefficients that are drawn anew, or where a force is.
 
     Args:
@@ -166,6 +176,7 @@ def _drawn_anew(scatter: Randomness, sigma_s: float, sigma_k: float, ratio: floa
         sigma_k: that of mu_k [-].
         ratio: mu_k over mu_s [-].
         spacing: distance of knots [s].
+        cross: correlation of the coefficients, if it is told: within a slip no pair is one that both levels have.
     """
     # in stick and slip alike, a factor of both coefficients goes with them, a force does not
     if scatter.together > criteria.SCATTER_TOGETHER and sigma_k > sigma_s * np.sqrt(ratio):
@@ -175,10 +186,11 @@ def _drawn_anew(scatter: Randomness, sigma_s: float, sigma_k: float, ratio: floa
     values: dict[str, float | str] = {
         "process": "knots" if within else "per_event", "sigma_s": float(sigma_s), "sigma_k": float(sigma_k), "spacing": spacing
     }  # fmt: skip
+    values |= {} if within else cross
     return Finding(kind_with_signature(DRAWN_ANEW), likely("scatter", strongest), values)
 
 
-def _memory(scatter: Randomness, mu_s: float, mu_k: float) -> Finding | Where | None:
+def _memory(scatter: Randomness, mu_s: float, mu_k: float, cross: Mapping[str, float]) -> Finding | Where | None:
     """Return what a scatter with a memory is; None where it has none."""
     if (
         scatter.wander > criteria.NAMED and scatter.correlation > criteria.SCATTER_MEMORY
@@ -187,7 +199,7 @@ def _memory(scatter: Randomness, mu_s: float, mu_k: float) -> Finding | Where | 
         return Finding(
             kind_with_signature(WANDER),
             likely("wander", scatter.wander),
-            {"sigma_s": float(share * mu_s), "sigma_k": float(share * mu_k), "correlation_time": float(scatter.wander_time)},
+            {"sigma_s": share * mu_s, "sigma_k": share * mu_k, "correlation_time": float(scatter.wander_time), **cross},
         )
     if scatter.correlation > 2.0 * criteria.SCATTER_MEMORY:
         return Where("scatter, time", "friction varies from slip to slip with a memory that no known random process has")

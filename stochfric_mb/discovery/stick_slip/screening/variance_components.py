@@ -34,6 +34,8 @@ class Randomness:
     """What wanders, a key of `MODES`: "both" coefficients, "mu_s", "mu_k", or an "offset", the same force in stick and slip."""
     together: float
     """Correlation of the onset force with the mean force of the slip that follows [-]."""
+    cross: float = 0.0
+    """Correlation of the two coefficients: that of these forces less what noise makes of it [-]."""
 
 
 def randomness(baseline: Baseline) -> Randomness:
@@ -48,7 +50,8 @@ def randomness(baseline: Baseline) -> Randomness:
     correlation = _correlation(baseline.pool, rest)
     nothing = (0.0, 0.0, 1.0, "both")
     wander, share, time, what = _wander(baseline, rest) if correlation > criteria.WANDER_WORTH_A_LOOK else nothing
-    return Randomness(ratio(0), ratio(1), ratio(2), correlation, wander, share, time, what, _together(baseline.pool, rest))
+    together, cross = _together(baseline.pool, rest), _cross(baseline, rest)
+    return Randomness(ratio(0), ratio(1), ratio(2), correlation, wander, share, time, what, together, cross)
 
 
 def _together(pool: Pool, rest: Array) -> float:
@@ -56,6 +59,20 @@ def _together(pool: Pool, rest: Array) -> float:
     parts = [rest[rows] for rows in pool.rows]
     first, second = np.concatenate([p - p.mean(axis=0) for p in parts if len(p)]).T
     return float(first @ second / (np.sqrt((first @ first) * (second @ second)) or 1.0))
+
+
+def _cross(baseline: Baseline, rest: Array) -> float:
+    """Return the covariance of the two forces of a slip that noise does not make, over the scatter of the coefficients."""
+    pool, (sigma_s, sigma_k) = baseline.pool, np.exp(baseline.solution.scatter[:2])
+    shared = np.zeros(2)
+    for run, rows in enumerate(pool.rows):
+        away = (
+            (rest[rows] - rest[rows].mean(axis=0)) / pool.slips[run].record.mechanism.normal_force if len(rows) else rest[rows]
+        )
+        noise = pool.calibrations[run].covariance[0, 1] / pool.slips[run].record.mechanism.normal_force ** 2
+        free = max(len(rows) - 1, 0)
+        shared += np.r_[float(away[:, 0] @ away[:, 1]) - free * noise, free * sigma_s * sigma_k]
+    return float(np.clip(shared[0] / (shared[1] or 1.0), -1.0, 1.0))
 
 
 def _correlation(pool: Pool, rest: Array) -> float:
