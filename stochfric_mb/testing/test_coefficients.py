@@ -32,6 +32,13 @@ def test_a_path_in_time_is_equal_to_the_bit(engine: Candidate, process: Process)
     assert np.array_equal(run.mu_k, path[:, 1])
 
 
+def test_coefficients_that_scatter_together_are_equal_to_the_bit(engine: Candidate) -> None:
+    s = table_1("elastic_stick", 0.1, process=Knots(**SIGMA, spacing=0.003, cross_correlation=0.7))
+    run, path = engine.simulate(s, seed=7, dt=STEP), s.path(7).at_times(s.output_times())
+    assert np.array_equal(run.mu_s, path[:, 0])
+    assert np.array_equal(run.mu_k, path[:, 1])
+
+
 @pytest.mark.parametrize("process", ELSEWHERE, ids=lambda p: p.kind)
 def test_a_path_along_the_belt_or_by_event_is_equal(engine: Candidate, process: Process) -> None:
     s = table_1("elastic_stick", 1.3, process=process)

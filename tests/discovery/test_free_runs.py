@@ -8,8 +8,11 @@ from scipy.signal import find_peaks, savgol_filter
 
 from stochfric_mb.discovery import discover
 from stochfric_mb.engines import adapter
+from stochfric_mb.measurement import load_dataset
 from tests.discovery.generator.case import Case
 from tests.discovery.test_discover import SEED, made
+from tests.discovery.unseen_forms.records import cases as unseen_cases
+from tests.discovery.unseen_forms.records import write_record
 
 pytestmark = pytest.mark.slow
 
@@ -62,3 +65,25 @@ def test_a_free_run_has_the_cycles_of_the_held_out_record(form, kind):
         # what noise and sampling leave of a cycle that repeats is no spread of its own: half a sample, or the noise
         least = run.sample_interval if name == "period" else noise.deviation
         assert spread == pytest.approx(seen.std(), rel=CLOSE + doubt, abs=least), name
+
+
+def test_coefficients_that_scatter_together_do_so_in_free_runs(tmp_path):
+    """Drawn independently, the bottoms of the cycles scattered six times as much as those of the record."""
+    case = next(c for c in unseen_cases() if c.name == "thirteenth_scatter_of_crests-one-1")
+    write_record(case, tmp_path, 131)
+    outcome = discover(load_dataset(tmp_path / "data"))
+    assert [e.kind for e in outcome.result.effects] == ["random_coefficients"]
+    assert outcome.result.effects[0].parameters["cross_correlation"].value > 0.95
+    run, noise = outcome.dataset.test[0], outcome.study.pool.slips[0].noise
+    free = []
+    for seed in range(DRAWS):
+        scenario = dataclasses.replace(
+            outcome.scenario, duration=float(np.ptp(run.time)) * 1.5, output_step=run.sample_interval
+        )
+        moved = adapter("reference").simulate(scenario, seed=seed)
+        shown = moved.position + noise.draw(len(moved.position), np.random.default_rng(seed))
+        kept = moved.time > 0.2 * scenario.duration
+        free.append(cycles(moved.time[kept], shown[kept]))
+    for name, seen in cycles(run.time, run.channels["position"]).items():
+        doubt = 2.0 * np.sqrt(0.5 / len(seen) + 0.5 / sum(len(f[name]) for f in free))
+        assert np.mean([f[name].std() for f in free]) == pytest.approx(seen.std(), rel=CLOSE + doubt), name

@@ -1,5 +1,6 @@
 """Random numbers, distributions and coefficient paths."""
 
+import dataclasses
 import math
 import re
 import warnings
@@ -98,6 +99,29 @@ def test_moments_and_feasibility_of_every_process(process):
         assert abs(pairs[:, column].std() / sigma - 1.0) < 4 / math.sqrt(2 * independent)
     assert np.all(pairs[:, 1] < pairs[:, 0])
     assert np.all(pairs[:, 1] >= 0.0)
+
+
+@pytest.mark.parametrize("process", PROCESSES, ids=lambda p: p.kind)
+@pytest.mark.parametrize("cross", [-0.6, 0.8, 1.0])
+def test_coefficients_scatter_together_as_much_as_they_are_said_to(process, cross):
+    plain = CoefficientPath(process, LAW, seed=3).pairs(20_000)
+    pairs = CoefficientPath(dataclasses.replace(process, cross_correlation=cross), LAW, seed=3).pairs(20_000)
+    independent = 20_000 if process.correlation == 0.0 else 20_000 / 40.0  # 20 knots a correlation time
+    error = 4.0 * (1.0 - cross**2) / math.sqrt(independent)
+    assert np.corrcoef(pairs.T)[0, 1] == pytest.approx(cross, abs=max(error, 1e-9))
+    assert abs(pairs[:, 1].std() / 0.023 - 1.0) < 4 / math.sqrt(2 * independent)
+    np.testing.assert_array_equal(pairs[:, 0], plain[:, 0])  # mu_s is drawn as before
+
+
+def test_a_cross_correlation_beyond_one_is_refused_and_pairs_that_move_together_are_feasible():
+    with pytest.raises(InputError, match=r"cross_correlation = 1\.2"):
+        PerEvent(**SIGMAS, cross_correlation=1.2)
+    close = ElasticStick(mu_s=0.5, mu_k=0.46)
+    with pytest.warns(FeasibilityWarning):
+        CoefficientPath(PerEvent(sigma_s=0.02, sigma_k=0.02), close)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        CoefficientPath(PerEvent(sigma_s=0.02, sigma_k=0.02, cross_correlation=1.0), close)
 
 
 @pytest.mark.parametrize(

@@ -107,6 +107,8 @@ PROCESSES = [
     OrnsteinUhlenbeck(**SIGMAS, correlation_time=0.05),
     OrnsteinUhlenbeck(**SIGMAS, correlation_time=0.05, distribution_k=Lognormal()),
     OrnsteinUhlenbeck(sigma_s=0.1, sigma_k=0.1, correlation_time=0.05),  # clipped where infeasible
+    Knots(**SIGMAS, spacing=0.01, cross_correlation=0.7),
+    OrnsteinUhlenbeck(**SIGMAS, correlation_time=0.05, cross_correlation=-0.4),
     Matern(**SIGMAS, correlation_time=0.05),
     Matern(**SIGMAS, correlation_time=0.05, distribution_s=TruncatedNormal(lower=0.79, upper=0.82)),
     None,
