@@ -97,12 +97,13 @@ def coefficient_paths(process, law, times, seed, contact, worlds):
     "process",
     [
         Knots(sigma_s=0.015, sigma_k=0.023, spacing=0.01),
+        Knots(sigma_s=0.015, sigma_k=0.023, spacing=0.01, cross_correlation=0.7),
         Knots(sigma_s=0.05, sigma_k=0.05, spacing=0.01, distribution_s=Lognormal(), distribution_k=Uniform()),
         Knots(sigma_s=0.0, sigma_k=0.02, spacing=0.1, distribution_s=Empirical(tuple(np.linspace(0.7, 0.9, 31)))),
         OrnsteinUhlenbeck(sigma_s=0.015, sigma_k=0.023, correlation_time=0.05),
         Matern(sigma_s=0.015, sigma_k=0.023, correlation_time=0.05),
     ],
-    ids=["knots", "lognormal", "empirical", "ornstein_uhlenbeck", "matern"],
+    ids=["knots", "cross_correlated", "lognormal", "empirical", "ornstein_uhlenbeck", "matern"],
 )
 def test_coefficient_paths_are_the_cpus(process):
     law = make_law("coulomb", mu_s=0.8, mu_k=0.46)
