@@ -256,11 +256,13 @@ class Effect:
     def deviations(self, draws: float) -> dict[str, float]:
         """Return the standard deviations of its random numbers, estimated from independent draws.
 
-        Of sigmas s/sqrt(2 n), of correlations (1 - r^2)/sqrt(n).
+        Of sigmas s/sqrt(2 n), of correlations (1 - r^2 + 1/n)/sqrt(n): n draws do not tell 1 from 1 - 1/n.
         """
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         sigmas = {name: value / math.sqrt(2.0 * draws) for name, value in values.items() if name.startswith("sigma")}
-        crosses = {name: (1.0 - r * r) / math.sqrt(draws) for name, r in values.items() if name.startswith("cross")}
+        crosses = {
+            name: (1.0 - r * r + 1.0 / draws) / math.sqrt(draws) for name, r in values.items() if name.startswith("cross")
+        }
         return sigmas | crosses
 
     def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
