@@ -197,8 +197,6 @@ def independent_pair(descriptor, seed, sample, contact, knot):
 @compiled
 def mixed(descriptor, z_s, z_k):
     """Return the normal of mu_k, whose correlation with that of mu_s is the descriptor's, from two independent ones."""
-    if descriptor[17] == 0.0:
-        return z_k
     return descriptor[17] * z_s + math.sqrt(1.0 - descriptor[17] * descriptor[17]) * z_k
 
 

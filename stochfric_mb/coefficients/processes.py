@@ -91,14 +91,14 @@ class Process:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the process as the ``[coefficients]`` table of a scenario."""
-        own = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         table: dict[str, Any] = {"process": self.kind}
-        for name, value in own.items():
-            if not isinstance(value, Distribution):
-                if value is not None and (name, value) != ("cross_correlation", 0.0):
-                    table[name] = value
-            elif not isinstance(value, Normal):
-                table[name] = {"kind": value.kind} | {
+        for field in dataclasses.fields(self):
+            value = getattr(self, field.name)
+            if value == field.default:
+                continue
+            table[field.name] = value
+            if isinstance(value, Distribution):
+                table[field.name] = {"kind": value.kind} | {
                     k: list(cast(tuple[float, ...], v)) if isinstance(v, tuple) else v
                     for k, v in dataclasses.asdict(value).items()
                 }

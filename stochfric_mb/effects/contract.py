@@ -260,10 +260,8 @@ class Effect:
         """
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         sigmas = {name: value / math.sqrt(2.0 * draws) for name, value in values.items() if name.startswith("sigma")}
-        crosses = {
-            name: (1.0 - r * r + 1.0 / draws) / math.sqrt(draws) for name, r in values.items() if name.startswith("cross")
-        }
-        return sigmas | crosses
+        r = values.get("cross_correlation")
+        return sigmas if r is None else sigmas | {"cross_correlation": (1.0 - r * r + 1.0 / draws) / math.sqrt(draws)}
 
     def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
         """Return the parameters that a fit at a driven joint leaves alone; ``contact``: its normal force is known."""

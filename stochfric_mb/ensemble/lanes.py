@@ -15,7 +15,7 @@ import math
 import numpy as np
 from numba import types
 
-from stochfric_mb.coefficients.path import independent_pair, matern_step, seek
+from stochfric_mb.coefficients.path import independent_pair, matern_step, mixed, seek
 from stochfric_mb.coefficients.philox import bits_of, double_of, normals
 from stochfric_mb.coefficients.processes import ORNSTEIN_UHLENBECK
 from stochfric_mb.compile import compiled, compiled_inline
@@ -108,7 +108,7 @@ def next_pairs(descriptor, cursors, seed, first, knot, a_s, a_k, b_s, b_k):
 @compiled
 def _pairs(descriptor, cursors, seed, first, knot, mu_s, mu_k):
     """Write the pair at ``knot`` of every lane, to the bit the one of a `CoefficientPath`."""
-    normal = descriptor[8] == NORMAL_CODE and descriptor[9] == NORMAL_CODE and descriptor[17] == 0.0
+    normal = descriptor[8] == NORMAL_CODE and descriptor[9] == NORMAL_CODE
     bounded = max(descriptor[10], descriptor[12], -descriptor[11], -descriptor[13]) > -math.inf
     if descriptor[0] > 1.0 and normal and not bounded and knot > 0:
         _filtered_pairs(descriptor, cursors, seed, first, knot, mu_s, mu_k)
@@ -131,11 +131,12 @@ def _normal_pairs(descriptor, seed, first, knot, mu_s, mu_k):
     """Write the first draw at ``knot`` of every lane; return how many of them are feasible."""
     mean_s, mean_k, sigma_s, sigma_k = descriptor[4], descriptor[5], descriptor[6], descriptor[7]
     low_s, high_s, low_k, high_k = descriptor[10], descriptor[11], max(descriptor[12], 0.0), descriptor[13]
+    shared, own = descriptor[17], math.sqrt(1.0 - descriptor[17] * descriptor[17])
     feasible = 0
     for j in range(LANES):
         z_s, z_k = normals(seed, first + j, 0, knot, 0)
         s = mean_s + sigma_s * z_s
-        k = mean_k + sigma_k * z_k
+        k = mean_k + sigma_k * (shared * z_s + own * z_k)
         mu_s[j] = s
         mu_k[j] = k
         feasible += 1 if (low_s <= s) & (s <= high_s) & (low_k <= k) & (k <= high_k) & (k < s) else 0
@@ -165,7 +166,7 @@ def _filtered_pairs(descriptor, cursors, seed, first, knot, mu_s, mu_k):
     for j in range(LANES):
         s = max(descriptor[4] + descriptor[6] * f_s[j], 0.0)
         mu_s[j] = s
-        mu_k[j] = min(max(descriptor[5] + descriptor[7] * f_k[j], 0.0), s)
+        mu_k[j] = min(max(descriptor[5] + descriptor[7] * mixed(descriptor, f_s[j], f_k[j]), 0.0), s)
 
 
 @compiled

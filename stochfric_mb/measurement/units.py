@@ -50,7 +50,7 @@ def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | No
             return np.asarray(units.Quantity(values, given).to(wanted).magnitude, dtype=np.float64), target
     arm = (
         "; the torque of a pulley or screw is a force once it is divided by radius or lead / 2 pi: "
-        'scale = { force = 1/radius }, units = { force = "N" }'
+        'of 40 mm, scale = { force = 25.0 } and units = { force = "N" }'
     )
     lever = arm if targets == ("N",) and given.dimensionality == units.Unit("N*m").dimensionality else ""
     raise InputError(f"{wrong}; give {_choices(quantity, targets)}{lever}")

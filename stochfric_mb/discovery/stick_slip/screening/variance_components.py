@@ -64,15 +64,15 @@ def _together(pool: Pool, rest: Array) -> float:
 def _cross(baseline: Baseline, rest: Array) -> float:
     """Return the covariance of the two forces of a slip that noise does not make, over the scatter of the coefficients."""
     pool, (sigma_s, sigma_k) = baseline.pool, np.exp(baseline.solution.scatter[:2])
-    shared = np.zeros(2)
+    shared = most = 0.0
     for run, rows in enumerate(pool.rows):
-        away = (
-            (rest[rows] - rest[rows].mean(axis=0)) / pool.slips[run].record.mechanism.normal_force if len(rows) else rest[rows]
-        )
-        noise = pool.calibrations[run].covariance[0, 1] / pool.slips[run].record.mechanism.normal_force ** 2
-        free = max(len(rows) - 1, 0)
-        shared += np.r_[float(away[:, 0] @ away[:, 1]) - free * noise, free * sigma_s * sigma_k]
-    return float(np.clip(shared[0] / (shared[1] or 1.0), -1.0, 1.0))
+        if len(rows) < 2:
+            continue
+        load = pool.slips[run].record.mechanism.normal_force
+        first, second = (rest[rows] - rest[rows].mean(axis=0)).T / load
+        shared += float(first @ second) - (len(rows) - 1) * float(pool.calibrations[run].covariance[0, 1]) / load**2
+        most += (len(rows) - 1) * sigma_s * sigma_k
+    return float(np.clip(shared / (most or 1.0), -1.0, 1.0))
 
 
 def _correlation(pool: Pool, rest: Array) -> float:

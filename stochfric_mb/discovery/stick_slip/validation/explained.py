@@ -67,7 +67,8 @@ def _judged(study: Study, decision: Decision, augmented: Model, without: Array, 
         # what forecasts do not show need not explain them, but neither may anything else be missing from them
         return _nothing_shown(decision, before, after, best)
     # a zero that moves by less than a reading errs is noise unless it is seen to explain something: doubt speaks against it
-    little_seen = before - after <= enough * max(before - min(float(best.mean()), after), 0.0)
+    floor = min(float(best.mean()), after)
+    little_seen = before - after <= enough * max(before - floor, 0.0)
     noise = little_seen and len(kinds) == 1 and within_noise(decision.named[0].kind, augmented, study.pool.slips)
     return dataclasses.replace(decision, verdict="none", named=()) if noise else little
 
