@@ -242,6 +242,7 @@ def _see(t, ux, vx, state, mu_s, mu_k, p, begins, w, memory):
     for i in range(int(q[N_AROUND]), int(q[N_AROUND] + q[N_FRICTION])):
         row = TABLE + 3 * i
         call_effect(int(q[row]), w.ctypes.data, 0, 0, where + 8 * int(q[row + 1]))
+    w[e.MU_K] = max(w[e.MU_K], 0.0)  # friction takes energy, whatever factors effects multiply it by
     return u, speed, max(w[e.MU_S], w[e.MU_K]), w[e.MU_K]
 
 

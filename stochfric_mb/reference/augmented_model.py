@@ -143,6 +143,7 @@ def rub(r, d, t, direction, speed, dwell, slip, slip_time):
     w[e.MU_S], w[e.MU_K], w[e.VISCOUS_FORCE] = mu_s, mu_k, 0.0
     for i in range(r.counts[1]):
         call_effect(r.friction[i, 0], w.ctypes.data, 0, 0, r.p.ctypes.data + 8 * r.friction[i, 1])
+    w[e.MU_K] = max(w[e.MU_K], 0.0)  # friction takes energy, whatever factors effects multiply it by
     w[e.MU_S] = max(w[e.MU_S], w[e.MU_K])
     if c[CURVE] == ELASTIC:
         w[e.MU_K] = elastic_stick.slip_coefficient(speed, w[e.MU_S], w[e.MU_K], c[RESTICK], c[DECAY])

@@ -247,3 +247,30 @@ def test_a_box_thrown_out_by_its_spring_is_an_error() -> None:
     held = make_effect("nonlinear_stiffness", cubic=-6.0e9, reach=4.0e-4)
     motion = augmented_system(BOX, COULOMB, [held]).march(Start(position=-3.0e-3, velocity=-0.1), 1.0e-3, 3000)
     assert np.isfinite(motion.position).all()
+
+
+@pytest.mark.parametrize(
+    ("kind", "numbers"),
+    [
+        ("friction_drift", {"rate": -0.5}),
+        ("position_dependent_friction", {"amplitude": 1.6, "wavelength": 1.0e-3}),
+        (
+            "load_dependence",
+            {"exponent": 0.0, "reference_load": 13.0, "course": -1.5, "course_1": 1.0, "at_begin": 2.0, "span": 100.0},
+        ),
+    ],
+)
+def test_coefficients_that_would_turn_friction_round_are_none(kind: str, numbers: dict[str, float]) -> None:
+    """A drift of -1.5 drove the box with 4 W."""
+    motion = _motion(make_effect(kind, **numbers))
+    relative = BOX.belt_velocity - motion.velocity
+    assert (motion.friction_force * relative).min() >= -1.0e-12  # rounding of a speed in stick
+    assert np.abs(motion.friction_force).min() < 1.0e-9  # for some of the time there is none
+
+
+def test_nor_does_a_law_in_an_engine_drive() -> None:
+    law = augmented_law(make_law("elastic_stick", mu_s=0.8, mu_k=0.46), BOX, [make_effect("friction_drift", rate=-0.5)])
+    contact = Contact(law, effective_mass=6.08, dt=1.0e-3)
+    contact.start(0.0, 0.0, 0.1, 13.0)
+    assert contact.force(0.0, 0.0, 0.1, 13.0) > 1.0
+    assert contact.force(4.0, 0.4, 0.1, 13.0) == pytest.approx(0.0, abs=1.0e-12)
