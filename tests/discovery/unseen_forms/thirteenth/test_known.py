@@ -5,9 +5,9 @@ import re
 import numpy as np
 import pytest
 
+from tests.discovery.unseen_forms import series_checks
 from tests.discovery.unseen_forms.forms import FORMS, KINDS, NONE, UNKNOWN
-from tests.discovery.unseen_forms.motion import World, simulate
-from tests.discovery.unseen_forms.records import UNCERTAINTY, Case, effect_sizes, make_runs, points, rig_of
+from tests.discovery.unseen_forms.motion import World
 
 from .friction import (
     asymmetry_of_an_insects_pad,
@@ -92,50 +92,29 @@ def test_half_of_the_rigs_are_read_worse_than_those_of_the_eleventh_set_and_half
 
 @pytest.mark.parametrize("name", KNOWN)
 def test_records_keep_the_preconditions_of_the_page(name):
-    form, rig = KNOWN[name], rig_of(KNOWN[name])
-    sd = form.options.get("uncertainty", UNCERTAINTY)
-    stiffest = 1.0 + sd["stiffness"] + sd["mass"]  # of two standard deviations each, half in the root
-    assert rig.rate * 2 * np.pi / rig.pulsation / stiffest > 40.0
-    assert rig.rate * rig.period > 60.0
-    assert 50.0 < rig.slip_length / rig.noise < 1e4  # a real sensor has noise, and sees the slips
-    fall = rig.mu_s * (1.0 - 2.0 * sd["mu_s"]) - rig.mu_k * (1.0 + 2.0 * sd["mu_k"])
-    assert fall > 0.4 * rig.gap  # it sticks and slips, however wrong the stated numbers are
-    for design in form.designs:
-        assert min(cycles for _, _, role, cycles in points(Case(form, design, 1.0)) if role == "fit") >= 20.0
+    series_checks.assert_preconditions(KNOWN[name])
 
 
 @pytest.mark.parametrize("name", KNOWN)
 def test_a_form_moves_what_is_shown_by_tens_of_floors(name):
-    case = Case(KNOWN[name], KNOWN[name].designs[0], 1.0)
-    share = 0.3  # seven cycles of each run at least
-    runs, halves, twins = (make_runs(case, 3, strength=strength, share=share) for strength in (1.0, 0.5, 0.0))
-    assert all(np.all(np.isfinite(run.reading)) and len(run.motion.sticks) > 4 for run in runs)
-    sizes, half = (effect_sizes(moved, twins, rig_of(KNOWN[name])) for moved in (runs, halves))
+    sizes, half = series_checks.sizes_moved(KNOWN[name])
     assert max(sizes.values()) > 20.0
     assert 10.0 < max(half.values()) < 0.9 * max(sizes.values())
 
 
 @pytest.mark.parametrize("name", [name for name in KNOWN if len(KNOWN[name].designs) > 1])
 def test_it_is_stick_slip_in_each_run_of_the_last_design(name):
-    runs = make_runs(Case(KNOWN[name], KNOWN[name].designs[-1], 1.0), 131, share=0.21)  # five cycles
-    assert all(np.all(np.isfinite(run.reading)) and len(run.motion.sticks) > 2 for run in runs)
+    series_checks.assert_stick_slip(KNOWN[name], 131, share=0.21, sticks=2)  # five cycles
 
 
 @pytest.mark.parametrize("name", KNOWN)
 def test_no_strength_is_no_form(name):
-    for run in make_runs(Case(KNOWN[name], KNOWN[name].designs[0], 1.0), 3, strength=0.0, share=0.05):
-        world = run.world
-        plain = World(world.rig, world.nominal, world.belt_velocity, world.normal_force, world.duration, world.rng)
-        motion = simulate(plain, run.motion.time)
-        assert np.abs(motion.position - run.reading).max() < 0.1 * world.nominal.noise
+    series_checks.assert_no_strength_is_no_form(KNOWN[name], share=0.05)
 
 
 @pytest.mark.parametrize("name", ["scatter_of_crests", "correlated_patches_of_film", "step_with_aftershocks"])
 def test_the_same_seed_makes_the_same_record_and_another_one_does_not(name):
-    case = Case(KNOWN[f"thirteenth_{name}"], "one", 1.0)
-    first, again, other = (make_runs(case, seed, share=0.1)[0].reading for seed in (3, 3, 4))
-    np.testing.assert_array_equal(first, again)
-    assert np.std(first - other) > 10.0 * rig_of(case.form).noise
+    series_checks.assert_repeatable(KNOWN[f"thirteenth_{name}"])
 
 
 def draws_of(world: World, count: int) -> np.ndarray:

@@ -6,9 +6,10 @@ import re
 import numpy as np
 import pytest
 
+from tests.discovery.unseen_forms import series_checks
 from tests.discovery.unseen_forms.forms import FORMS, KINDS, NONE, UNKNOWN
 from tests.discovery.unseen_forms.motion import World, simulate
-from tests.discovery.unseen_forms.records import UNCERTAINTY, Case, effect_sizes, make_runs, noise, points, rig_of
+from tests.discovery.unseen_forms.records import Case, make_runs, noise, rig_of
 
 from .nameless import (
     box_clings_to_its_guide,
@@ -32,10 +33,6 @@ UNKNOWNS = [name for name, form in SET.items() if UNKNOWN in form.truth]
 NULLS = [name for name, form in SET.items() if NONE in form.truth]
 DECLARED = "thirteenth_scatter_declared_per_stick"
 OF_THE_SENSOR = [name for name in UNKNOWNS if not re.search("slow_slips|motor|box_", name)]
-
-
-def stated(form) -> dict[str, float]:
-    return form.options.get("uncertainty", UNCERTAINTY)
 
 
 def world_of(name: str, *, cycles: float = 1.0) -> World:
@@ -85,41 +82,23 @@ def test_each_form_has_a_source_that_no_other_form_of_its_kind_has():
 
 @pytest.mark.parametrize("name", SET)
 def test_records_keep_the_preconditions_of_the_page(name):
-    form, rig = SET[name], rig_of(SET[name])
-    sd = stated(form)
-    stiffest = 1.0 + sd["stiffness"] + sd["mass"]  # of two standard deviations each, half in the root
-    assert rig.rate * 2 * np.pi / rig.pulsation / stiffest > 40.0
-    assert rig.rate * rig.period > 60.0
-    assert 50.0 < rig.slip_length / rig.noise < 1e4  # a real sensor has noise, and sees the slips
-    fall = rig.mu_s * (1.0 - 2.0 * sd["mu_s"]) - rig.mu_k * (1.0 + 2.0 * sd["mu_k"])
-    assert fall > 0.4 * rig.gap  # it sticks and slips, however wrong the stated numbers are
-    for design in form.designs:
-        assert min(cycles for _, _, role, cycles in points(Case(form, design, 1.0)) if role == "fit") >= 20.0
+    series_checks.assert_preconditions(SET[name])
 
 
 @pytest.mark.parametrize("name", UNKNOWNS)
 def test_an_unknown_form_moves_what_is_shown_by_tens_of_floors_and_by_less_at_half(name):
-    case = Case(SET[name], SET[name].designs[0], 1.0)
-    share = 0.3  # seven cycles of each run at least
-    runs, halves, twins = (make_runs(case, 3, strength=strength, share=share) for strength in (1.0, 0.5, 0.0))
-    assert all(np.all(np.isfinite(run.reading)) and len(run.motion.sticks) > 4 for run in runs)
-    sizes, half = (effect_sizes(moved, twins, rig_of(SET[name])) for moved in (runs, halves))
+    sizes, half = series_checks.sizes_moved(SET[name])
     assert any(sizes[key] > 20.0 and 10.0 < half[key] < 0.9 * sizes[key] for key in sizes)
 
 
 @pytest.mark.parametrize("name", SET)
 def test_it_is_stick_slip_in_each_run_of_the_last_design(name):
-    runs = make_runs(Case(SET[name], SET[name].designs[-1], 1.0), 131, share=0.21)  # five cycles
-    assert all(np.all(np.isfinite(run.reading)) and len(run.motion.sticks) > 2 for run in runs)
+    series_checks.assert_stick_slip(SET[name], 131, share=0.21, sticks=2)  # five cycles
 
 
 @pytest.mark.parametrize("name", UNKNOWNS)
 def test_no_strength_is_no_form(name):
-    for run in make_runs(Case(SET[name], SET[name].designs[0], 1.0), 3, strength=0.0, share=0.05):
-        world = run.world
-        plain = World(world.rig, world.nominal, world.belt_velocity, world.normal_force, world.duration, world.rng)
-        motion = simulate(plain, run.motion.time)
-        assert np.abs(motion.position - run.reading).max() < 0.1 * world.nominal.noise
+    series_checks.assert_no_strength_is_no_form(SET[name], share=0.05)
 
 
 @pytest.mark.parametrize("name", OF_THE_SENSOR)
@@ -131,10 +110,7 @@ def test_a_form_of_the_sensor_leaves_the_motion_alone(name):
 
 @pytest.mark.parametrize("name", ["readings_wait_in_a_queue", "box_clings_to_its_guide", "scatter_declared_per_stick"])
 def test_the_same_seed_makes_the_same_record_and_another_one_does_not(name):
-    case = Case(SET[f"thirteenth_{name}"], "one", 1.0)
-    first, again, other = (make_runs(case, seed, share=0.1)[0].reading for seed in (3, 3, 4))
-    np.testing.assert_array_equal(first, again)
-    assert np.std(first - other) > 10.0 * rig_of(case.form).noise
+    series_checks.assert_repeatable(SET[f"thirteenth_{name}"])
 
 
 @pytest.mark.parametrize("name", NULLS)
@@ -149,7 +125,7 @@ def test_a_null_moves_as_the_stated_law_says_and_is_off_by_no_more_than_is_state
     assert np.std(error) < 2.0 * rig.noise
     assert abs(np.mean(error)) < 0.5 * rig.noise
     assert np.any(error) or form.options
-    for key, sd in stated(form).items():
+    for key, sd in series_checks.stated(form).items():
         off = abs(getattr(true, key) / getattr(rig, key) - 1.0) / sd
         assert off == pytest.approx(2.0) if "at_limits" in form.options else off <= 1.5 + 1e-12
 

@@ -5,9 +5,10 @@ import re
 import numpy as np
 import pytest
 
+from tests.discovery.unseen_forms import series_checks
 from tests.discovery.unseen_forms.forms import FORMS, KINDS, NONE, UNKNOWN
 from tests.discovery.unseen_forms.motion import World, simulate
-from tests.discovery.unseen_forms.records import UNCERTAINTY, Case, effect_sizes, make_runs, points, rig_of
+from tests.discovery.unseen_forms.records import Case, make_runs, rig_of
 
 from .friction import (
     asymmetry_of_loaded_fibres,
@@ -56,10 +57,6 @@ from .sensor import (
 SET = {name: form for name, form in FORMS.items() if form.series == 12}
 NULLS = [name for name, form in SET.items() if NONE in form.truth]
 DECLARED = "twelfth_scatter_declared_in_knots"
-
-
-def stated(form) -> dict[str, float]:
-    return form.options.get("uncertainty", UNCERTAINTY)
 
 
 def world_of(name: str, *, load: float = 1.0, cycles: float = 1.0, direction: float = 1.0) -> World:
@@ -112,25 +109,12 @@ def test_half_of_the_rigs_are_read_worse_than_those_of_the_eleventh_set_and_half
 
 @pytest.mark.parametrize("name", SET)
 def test_records_keep_the_preconditions_of_the_page(name):
-    form, rig = SET[name], rig_of(SET[name])
-    sd = stated(form)
-    stiffest = 1.0 + sd["stiffness"] + sd["mass"]  # of two standard deviations each, half in the root
-    assert rig.rate * 2 * np.pi / rig.pulsation / stiffest > 40.0
-    assert rig.rate * rig.period > 60.0
-    assert 50.0 < rig.slip_length / rig.noise < 1e4  # a real sensor has noise, and sees the slips
-    fall = rig.mu_s * (1.0 - 2.0 * sd["mu_s"]) - rig.mu_k * (1.0 + 2.0 * sd["mu_k"])
-    assert fall > 0.4 * rig.gap  # it sticks and slips, however wrong the stated numbers are
-    for design in form.designs:
-        assert min(cycles for _, _, role, cycles in points(Case(form, design, 1.0)) if role == "fit") >= 20.0
+    series_checks.assert_preconditions(SET[name])
 
 
 @pytest.mark.parametrize("name", SET)
 def test_a_form_moves_what_is_shown_by_tens_of_floors_and_a_null_by_nothing(name):
-    case = Case(SET[name], SET[name].designs[0], 1.0)
-    share = 0.3  # seven cycles of each run at least
-    runs, halves, twins = (make_runs(case, 3, strength=strength, share=share) for strength in (1.0, 0.5, 0.0))
-    assert all(np.all(np.isfinite(run.reading)) and len(run.motion.sticks) > 4 for run in runs)
-    sizes, half = (effect_sizes(moved, twins, rig_of(SET[name])) for moved in (runs, halves))
+    sizes, half = series_checks.sizes_moved(SET[name])
     if name in NULLS:
         assert max(sizes.values()) == 0.0
     else:
@@ -140,25 +124,16 @@ def test_a_form_moves_what_is_shown_by_tens_of_floors_and_a_null_by_nothing(name
 
 @pytest.mark.parametrize("name", SET)
 def test_it_is_stick_slip_in_each_run_of_the_last_design(name):
-    runs = make_runs(Case(SET[name], SET[name].designs[-1], 1.0), 121, share=0.3)
-    assert all(np.all(np.isfinite(run.reading)) and len(run.motion.sticks) > 4 for run in runs)
+    series_checks.assert_stick_slip(SET[name], 121, share=series_checks.SHARE, sticks=4)
 
 
 @pytest.mark.parametrize("name", [name for name in SET if name not in NULLS])
 def test_no_strength_is_no_form(name):
-    runs = make_runs(Case(SET[name], SET[name].designs[0], 1.0), 3, strength=0.0, share=0.1)
-    for run in runs:
-        world = run.world
-        plain = World(world.rig, world.nominal, world.belt_velocity, world.normal_force, world.duration, world.rng)
-        motion = simulate(plain, run.motion.time)
-        assert np.abs(motion.position - run.reading).max() < 0.1 * world.nominal.noise
+    series_checks.assert_no_strength_is_no_form(SET[name], share=0.1)
 
 
 def test_the_same_seed_makes_the_same_record_and_another_one_does_not():
-    case = Case(SET["twelfth_scatter_of_the_better_spot"], "one", 1.0)
-    first, again, other = (make_runs(case, seed, share=0.1)[0].reading for seed in (3, 3, 4))
-    np.testing.assert_array_equal(first, again)
-    assert np.std(first - other) > 10.0 * rig_of(case.form).noise
+    series_checks.assert_repeatable(SET["twelfth_scatter_of_the_better_spot"])
 
 
 @pytest.mark.parametrize("name", [name for name in NULLS if name != DECLARED])
@@ -172,7 +147,7 @@ def test_a_null_moves_as_the_stated_law_says_and_is_off_by_no_more_than_is_state
     assert np.std(error) < 2.0 * rig.noise
     assert abs(np.mean(error)) < 0.5 * rig.noise
     assert np.any(error) or "at_limits" in form.options
-    for key, sd in stated(form).items():
+    for key, sd in series_checks.stated(form).items():
         off = abs(getattr(true, key) / getattr(rig, key) - 1.0) / sd
         assert off == pytest.approx(2.0) if "at_limits" in form.options else off <= 1.5 + 1e-12
 
