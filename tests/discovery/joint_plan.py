@@ -11,6 +11,8 @@ from .joint_generator.unseen_eleventh import PAIRS as UNSEEN_ELEVENTH_PAIRS
 from .joint_generator.unseen_eleventh import UNSEEN_ELEVENTH
 from .joint_generator.unseen_fifth import PAIRS as UNSEEN_FIFTH_PAIRS
 from .joint_generator.unseen_fifth import UNSEEN_FIFTH
+from .joint_generator.unseen_fourteenth import PAIRS as UNSEEN_FOURTEENTH_PAIRS
+from .joint_generator.unseen_fourteenth import UNSEEN_FOURTEENTH
 from .joint_generator.unseen_fourth import UNSEEN_FOURTH
 from .joint_generator.unseen_ninth import PAIRS as UNSEEN_NINTH_PAIRS
 from .joint_generator.unseen_ninth import UNSEEN_NINTH
@@ -88,6 +90,7 @@ SERIES = {
     11: (UNSEEN_ELEVENTH, UNSEEN_ELEVENTH_PAIRS),
     12: (UNSEEN_TWELFTH, UNSEEN_TWELFTH_PAIRS),
     13: (UNSEEN_THIRTEENTH, UNSEEN_THIRTEENTH_PAIRS),
+    14: (UNSEEN_FOURTEENTH, UNSEEN_FOURTEENTH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 
