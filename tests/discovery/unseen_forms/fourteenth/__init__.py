@@ -1,6 +1,6 @@
 """A fourteenth set, written from the literature by two authors who have read neither the method nor its results.
 
-rigs                          six rigs of their own: three are read worse than those of the earlier sets, three better
+rigs                          six rigs of their own: three are read worse than those of the eleventh set, three better
 friction, mechanism, sensor   shapes of known effects, one a kind
 nameless                      effects that no name describes
 nulls                         rigs that are as believed
