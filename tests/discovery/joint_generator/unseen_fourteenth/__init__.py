@@ -16,7 +16,12 @@ A report runs it once::
 from . import law, mechanism, nameless, null, sensor
 from .enter import UNSEEN_FOURTEENTH
 
-PAIRS: tuple[str, ...] = ()
+PAIRS = (
+    "viscous_friction.rollers_of_polyurethane+temperature_drift.rails_sweat",
+    "velocity_weakening.cast_iron_slideway+harmonic_force.splice_of_a_belt_passes",
+    "direction_asymmetry.scraper_of_a_clarifier+position_dependent_friction.nut_out_of_line",
+    "quadratic_damping.float_makes_waves+position_dependent_force.follower_on_a_cam",
+)
 """Two effects at once, each to the other's mechanisms."""
 
 __all__ = ["PAIRS", "UNSEEN_FOURTEENTH", "law", "mechanism", "nameless", "null", "sensor"]
