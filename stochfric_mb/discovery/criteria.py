@@ -146,8 +146,6 @@ thousand waves 3 %."""
 TONES_EXPLAIN = 0.5
 """Share of what a wave's best tone leaves of the stick phases that its other tones must explain, to be no noise [-]: more than
 they leave. Ten numbers follow a quarter of the noise of ten phases."""
-FAINT_TONE = 0.03
-"""Size of a tone of the belt's speed over that of the largest up to which it is left out [-]: its square is a thousandth."""
 FEWEST_VISITS = 4
 """Level visits to an end that a run needs."""
 LEVEL_VISITS = 0.5

@@ -393,6 +393,65 @@ def periodic(p, time):
     return value
 
 
+@compiled
+def periodic_slope(p, time):
+    """Return the rate at which `periodic` changes at a time [s], per second."""
+    pace = 2.0 * math.pi * p[21]
+    value = -p[20] * pace * math.sin(pace * time + p[22])
+    if p[23] != 0.0:
+        turns = p[21] * time + p[22] / (2.0 * math.pi)
+        value += p[23] * p[21] * _along_slope(p, turns - math.floor(turns))
+    return value
+
+
+@compiled
+def periodic_integral(p, time):
+    """Return the integral of `periodic` from 0 to a time [s], in seconds."""
+    pace = 2.0 * math.pi * p[21]
+    value = p[20] / pace * (math.sin(pace * time + p[22]) - math.sin(p[22]))
+    if p[23] != 0.0:
+        begin = p[22] / (2.0 * math.pi)
+        turns = p[21] * time + begin
+        whole = math.floor(turns) - math.floor(begin)
+        course = whole * _along_integral(p, 1.0)
+        course += _along_integral(p, turns - math.floor(turns)) - _along_integral(p, begin - math.floor(begin))
+        value += p[23] / p[21] * (course + p[19] * (turns - begin))
+    return value
+
+
+@compiled
+def _along_slope(p, place):
+    """Return the slope of `along` between its begin, at 0, and its end, at 1."""
+    where, value = p[18] * place, 0.0
+    for k in range(int(p[18]) + 2):
+        away, side = abs(where - k), math.copysign(1.0, where - k)
+        if away < 1.0:
+            value += side * p[k] * away * (1.5 * away - 2.0)
+        elif away < 2.0:
+            value -= side * p[k] * (2.0 - away) * (2.0 - away) / 2.0
+    return p[18] * value
+
+
+@compiled
+def _along_integral(p, place):
+    """Return the integral of `along` from its begin, at 0, to a place up to its end, at 1."""
+    value = -p[18] * place * (2.0 / 3.0 * p[0] + p[1] / 6.0)
+    for k in range(int(p[18]) + 2):
+        value += p[k] * (_half_of_spline(p[18] * place - k) - _half_of_spline(-1.0 * k))
+    return value / p[18]
+
+
+@compiled
+def _half_of_spline(away):
+    """Return the integral of a cubic B-spline from its middle, at 0, to a distance from that in pieces, of either sign."""
+    far = min(abs(away), 2.0)
+    if far < 1.0:
+        half = far * (2.0 / 3.0 - far * far * (1.0 / 3.0 - far / 8.0))
+    else:
+        half = 0.5 - (2.0 - far) * (2.0 - far) * (2.0 - far) * (2.0 - far) / 24.0
+    return math.copysign(half, away)
+
+
 def friction_along(
     kind: str, at_onset: Array, in_slip: Array, span: float, slips: Slips, more: dict[str, float] | None = None
 ) -> list[Hypothesis]:

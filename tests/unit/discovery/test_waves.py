@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from stochfric_mb.discovery.stick_slip.decision.kinematics import in_step
 from stochfric_mb.discovery.stick_slip.records.calibration import calibrate
 from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.record import make_record
@@ -220,3 +221,14 @@ def test_a_wave_of_the_sensor_is_in_the_slips_one_of_the_belt_is_not(of_the_sens
     slips = extract(make_record("run", time, position, box))
     assert np.hypot(*wave_in_stick(slips, frequency)[0]) == pytest.approx(size, rel=0.2)
     assert sign * in_slips_too(slips, frequency) > 20.0
+
+
+def test_runs_of_a_belt_are_put_in_step_whichever_tone_is_the_largest():
+    rng = np.random.default_rng(4)
+    shape = np.array([0.1, 1.0, 0.0, 0.3j, 0.2, 0.0])  # twice a turn in the main: its phase alone leaves half a turn open
+    begins = rng.uniform(0.0, 2.0 * np.pi, 5)
+    noise = 0.02 * (rng.standard_normal((5, 6)) + 1j * rng.standard_normal((5, 6)))
+    found, phases = in_step(shape * np.exp(1j * np.outer(begins, np.arange(1, 7))) + noise)
+    away = np.angle(np.exp(1j * (phases - begins)))
+    assert np.ptp(away) < 0.05  # all by the same, where the first one begins
+    np.testing.assert_allclose(found * np.exp(1j * away.mean() * np.arange(1, 7)), shape, atol=0.05)

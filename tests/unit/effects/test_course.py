@@ -9,6 +9,7 @@ from stochfric_mb.compile import compiled
 from stochfric_mb.effects import contract, make_effect
 from stochfric_mb.effects.course import COARSER, COURSE, PIECES, returning, returning_course, sized, splines
 from stochfric_mb.effects.kinds import (
+    belt_speed_ripple,
     distance_drift,
     friction_drift,
     harmonic_force,
@@ -82,9 +83,39 @@ def test_a_wave_in_time_may_have_any_shape_beside_a_cosine(kind, module, where):
     assert make_effect(kind, amplitude=0.1, frequency=0.5).shortest_time(1.0) == 2.0
 
 
+@pytest.mark.parametrize("pieces", [4, 8, 16])
+def test_a_belt_of_any_shape_moves_as_far_as_its_speed_says(pieces):
+    """Velocity is the derivative of the travel, and the acceleration that of the velocity, across turns as well."""
+    numbers = returning_course(np.random.default_rng(pieces).standard_normal(pieces - 1), pieces)
+    numbers |= {"frequency": 0.5, "phase": -2.9, "course": 0.2, "at_begin": numbers["at_begin"] + 0.3}  # its mean is not 0
+    effect = make_effect("belt_speed_ripple", amplitude=0.1, **numbers)
+    acts = compiled(belt_speed_ripple.surroundings)
+    wanted = [contract.BELT_TRAVEL, contract.BELT_VELOCITY, contract.BELT_ACCELERATION]
+
+    def values(time):
+        world, p, none = np.zeros(contract.WORLD), effect.parameters(), np.zeros(1)
+        world[contract.MEAN_BELT_VELOCITY], world[contract.TIME] = -0.4, time
+        acts(world, none, none, p)
+        return world[wanted]
+
+    step = 1e-3
+    time = step * np.arange(-1000, 5000)
+    travel, velocity, acceleration = np.array([values(t) for t in time]).T
+    assert travel[1000] == 0.0  # at t = 0
+    # central differences: errors of h^2/6 of the third derivatives
+    np.testing.assert_allclose((travel[2:] - travel[:-2]) / (2.0 * step), velocity[1:-1], atol=3e-5 * np.ptp(velocity))
+    np.testing.assert_allclose(
+        (velocity[2:] - velocity[:-2]) / (2.0 * step), acceleration[1:-1], atol=3e-3 * np.ptp(acceleration)
+    )
+    assert travel[3000] == pytest.approx(-0.4 * 2.0 * 0.2 * 0.3, rel=1e-9)  # a turn leaves the mean alone
+    shape = effect.course * effect.shape((0.5 * time - 2.9 / (2.0 * math.pi)) % 1.0)
+    np.testing.assert_allclose(velocity, -0.4 * (0.1 * np.cos(math.pi * time - 2.9) + shape), atol=1e-12)
+
+
 @pytest.mark.parametrize(
     ("kind", "given"),
     [
+        ("belt_speed_ripple", {"frequency": 2.0}),
         ("normal_load_ripple", {"frequency": 2.0}),
         ("harmonic_force", {"frequency": 2.0, "phase": 1.0}),
         ("position_dependent_friction", {"wavelength": 0.1}),

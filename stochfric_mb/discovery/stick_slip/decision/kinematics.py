@@ -23,12 +23,15 @@ from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import refit
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import Effect, effect_class, kind_with_signature, make_effect
-from stochfric_mb.effects.course import PIECES
+from stochfric_mb.effects.course import PIECES, returning
 from stochfric_mb.effects.traits import BELT_RIPPLE, CLIPPED, CREEPING_ZERO, JUMP, LATE, STRAY, YIELDING
 from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
 
 LIMITS = (1.52e-3, 4.56e-3, 1.52e-2, 4.56e-2)
 """Elastic limits at which fits of a yielding contact begin, over the deflection of the spring under the normal force [-]."""
+
+TURN = 720
+"""Places of a turn at which its shape is taken, and by which runs are put in step."""
 
 CREEP = {
     "creep_before": ("stick, before the break-away", "the box departs from the belt's motion before it breaks away"),
@@ -65,26 +68,44 @@ def _best_in_forecasts(study: Study, trials: Sequence[Model], *, most: int, eval
 
 
 def _rippling(study: Study, model: Model, first: Effect) -> Model:
-    """Return the model with a ripple of the belt's speed, of several tones where stick shows that, at the sizes seen there."""
+    """Return the model with a ripple of the belt's speed as large as stick shows; of any shape where it has several tones."""
     assert study.sticking is not None
     count = int(study.sticking.settings[BELT_RIPPLE]["tones"])
     frequency = float(first.frequency)  # pyright: ignore[reportAttributeAccessIssue]
-    seen = {s.record.name: _ripple(s, frequency, count) for s in study.pool.slips}
-    sizes = np.median([size for size, _ in seen.values()], axis=0)
-    kept = [k for k in range(count) if sizes[k] > criteria.FAINT_TONE * sizes.max()]
+    shape, phases = in_step(np.array([_ripple(s, frequency, count) for s in study.pool.slips]))
+    if count == 1:
+        ripple = dataclasses.replace(first, amplitude=float(np.abs(shape[0])))  # pyright: ignore[reportCallIssue]
+        phases = phases + np.angle(shape[0])
+    else:
+        turns = np.arange(TURN) / TURN
+        speed = (np.exp(2j * np.pi * np.outer(turns, np.arange(1, count + 1))) @ shape).real
+        weights = np.linalg.lstsq(returning(turns, PIECES), speed, rcond=None)[0]
+        ripple = make_effect(first.kind, **type(first).returning(weights, PIECES, frequency))  # pyright: ignore[reportAttributeAccessIssue]
     others = ({},) * len(model.effects)
-    for k in kept:
-        model = model.plus(dataclasses.replace(first, amplitude=float(sizes[k]), frequency=(k + 1) * frequency))  # pyright: ignore[reportCallIssue]
-    own = {run: (*others, *({"phase": float(phases[k])} for k in kept)) for run, (_, phases) in seen.items()}
-    return dataclasses.replace(model, own=own)
+    runs = (s.record.name for s in study.pool.slips)
+    own = {run: (*others, {"phase": float(phase)}) for run, phase in zip(runs, phases, strict=True)}
+    return dataclasses.replace(model.plus(ripple), own=own)
 
 
-def _ripple(slips: Slips, frequency: float, count: int) -> tuple[Array, Array]:
-    """Return amplitudes [-] and phases [rad] of a ripple's tones, by what their integrals leave in the stick phases."""
+def in_step(tones: Array) -> tuple[Array, Array]:
+    """Return the tones that runs share, complex, shape (count,), and where in its turn each run begins [rad], shape (runs,).
+
+    Args:
+        tones: tones of each run's wave, complex, shape (runs, count): the wave is the real part of the sum of
+            tone_k exp(i k turn), k = 1, 2, ...
+    """
+    begins = 2.0 * np.pi * np.arange(TURN) / TURN
+    away = np.exp(-1j * np.outer(begins, np.arange(1, tones.shape[1] + 1)))
+    best = np.argmax((away @ (tones * tones[0].conj()).T).real, axis=0)
+    return np.mean(tones * away[best], axis=0), begins[best]
+
+
+def _ripple(slips: Slips, frequency: float, count: int) -> Array:
+    """Return the tones of a ripple by what their integrals leave in the stick phases [-], complex, shape (count,)."""
     a, b = wave_in_stick(slips, frequency, count).T
     # the position is the integral, v_b A/w sin(w t + phase) = v_b A/w (cos w t sin phase + sin w t cos phase)
     pace = 2.0 * np.pi * frequency * np.arange(1, count + 1)
-    return np.hypot(a, b) * pace / slips.record.mechanism.belt_velocity, np.arctan2(a, b)
+    return np.asarray((b + 1j * a) * pace / slips.record.mechanism.belt_velocity)
 
 
 def kinematics(study: Study, details: dict[str, object]) -> list[Finding] | Where:
