@@ -109,6 +109,9 @@ ROUNDING = 0.5
 """Deviation of rounding over that of the noise from which on noise is mostly rounding [-]: the larger half."""
 SINGLE_MOMENTS = 0.2
 """Share of what stick phases show beyond noise from which on jumps at single moments count [-]: chosen."""
+HIDES = 0.5
+"""Slope of the reading over the position at an end of the range below which the sensor is clipped by and by [-]: it hides the
+larger half of the motion."""
 YIELDS_FOR_CREEP = 0.5
 """Share of the evidence for creep that a yielding or ringing contact must reach to be named in its place [-]."""
 LEAST_OUTLIERS, FEWEST_OUTLIERS = 5.0e-5, 5

@@ -121,6 +121,7 @@ def test_the_last_of_a_kind_is_taken_out_with_its_own_numbers():
         ("twelfth_belt_of_a_geneva_wheel-one-1", ["belt_speed_ripple"]),  # all but its first tone was slow noise of the sensor
         ("twelfth_clipping_of_a_transformer-one-1", ["sensor_clipping"]),  # it leaves a tenth, "none" would leave less
         ("twelfth_delay_of_a_long_cable-one-1", ["sensor_delay"]),  # two channels show it, and forecasts something else besides
+        ("thirteenth_clipping_of_a_core-one-1", ["sensor_clipping"]),  # a reading that bends over was creep, or a slow belt
         ("ninth_gauge_has_hysteresis-one-0.5", []),  # alike in every phase, which a ripple at the rate of the slips imitates
     ],
 )

@@ -13,7 +13,7 @@ from stochfric_mb.discovery.stick_slip.records import preconditions
 from stochfric_mb.discovery.stick_slip.records.calibration import calibrate
 from stochfric_mb.discovery.stick_slip.records.pool import Pool, make_pool
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Record, corrections_of, make_record
-from stochfric_mb.discovery.stick_slip.records.sensor_range import SensorRange, sensor_range
+from stochfric_mb.discovery.stick_slip.records.sensor_range import ReadingCurve, SensorRange, reading_curve, sensor_range
 from stochfric_mb.discovery.stick_slip.records.slips import Slips, extract
 from stochfric_mb.discovery.stick_slip.records.stick_phases import Sticking, analyse
 from stochfric_mb.discovery.stick_slip.screening.regression import Baseline, baseline_of
@@ -66,6 +66,8 @@ class Study:
     """The kinematic channel."""
     range: SensorRange
     """The sensor's range, as far as its ends are reached."""
+    curve: ReadingCurve | None
+    """How the reading bends over; None where there is hardly any stick."""
     outliers: float
     """Share of samples that were outliers [-]."""
 
@@ -114,6 +116,7 @@ def study(dataset: Dataset, *, progress: Progress = lambda _: None) -> Study | N
         baseline=baseline,
         sticking=analyse(pool.slips),
         range=sensor_range(pool.slips),
+        curve=reading_curve(pool.slips),
         outliers=float(np.mean(np.concatenate([r.outlier for r in records]))),
     )
 

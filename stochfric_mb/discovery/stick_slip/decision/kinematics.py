@@ -15,6 +15,7 @@ from stochfric_mb.discovery.inference.false_alarms import Evidence, detected, li
 from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.decision import Finding
 from stochfric_mb.discovery.stick_slip.records.record import Array, Record
+from stochfric_mb.discovery.stick_slip.records.sensor_range import ReadingCurve
 from stochfric_mb.discovery.stick_slip.records.slips import Slips
 from stochfric_mb.discovery.stick_slip.records.stick_phases import Sticking
 from stochfric_mb.discovery.stick_slip.records.stick_waves import in_slips_too, wave_in_stick
@@ -23,7 +24,7 @@ from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import refit
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import Effect, effect_class, kind_with_signature, make_effect
-from stochfric_mb.effects.course import PIECES, returning
+from stochfric_mb.effects.course import PIECES, LeveledCourse, returning
 from stochfric_mb.effects.traits import BELT_RIPPLE, CLIPPED, CREEPING_ZERO, JUMP, LATE, STRAY, YIELDING
 from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
 
@@ -58,6 +59,10 @@ def with_kinematic(study: Study, model: Model, finding: Finding) -> Model:
         ways = [dataclasses.replace(first, elastic_limit=float(limit), damping_ratio=ratio) for limit, ratio in grid]  # pyright: ignore[reportCallIssue]
         rough = _best_in_forecasts(study, [model.plus(way) for way in ways], most=5, evaluations=4)
         return _best_in_forecasts(study, [rough], most=12, evaluations=20)
+    if finding.kind == kind_with_signature(CLIPPED):
+        # what is shown at the break-away is not where the box is: the stated friction may be nearer than the forces
+        ways = [m.plus(first) for m in (model, dataclasses.replace(study.model, corrections=model.corrections))]
+        return _best_in_forecasts(study, ways, most=12, evaluations=20)
     return model.plus(first)
 
 
@@ -114,10 +119,27 @@ def kinematics(study: Study, details: dict[str, object]) -> list[Finding] | Wher
     if study.range.clipped:
         ends = {"high": study.range.high, "low": study.range.low}
         return [Finding(kind_with_signature(CLIPPED), detected("clipped", study.range.share), ends)]
+    if (curve := study.curve) is not None and curve.bends:
+        return [Finding(kind_with_signature(CLIPPED), likely("stick", curve.score), bent(curve))]
     stray, in_stick = _outliers(study, details), _in_stick(study, details)
     if isinstance(stray, Where) or isinstance(in_stick, Where):
         return stray if isinstance(stray, Where) else in_stick
     return _delays(study, details) + stray + in_stick
+
+
+def bent(curve: ReadingCurve) -> dict[str, float | str]:
+    """Return the parameters of a reading that bends over: a course along the stroke, and the ends that it comes to."""
+    begin, span = float(curve.position[0]), float(np.ptp(curve.position))
+    place = np.linspace(0.0, 1.0, TURN)
+    shown = np.interp(begin + span * place, curve.position, curve.reading)
+    flat = make_effect(kind_with_signature(CLIPPED), begin=begin, span=span, course=1.0, course_1=1.0)
+    assert isinstance(flat, LeveledCourse)
+    weights = np.linalg.lstsq(flat.columns(place), shown - (begin + span * place), rcond=None)[0]
+    effect = dataclasses.replace(flat, **dict(zip(flat.shaped_by, map(float, weights), strict=True))).normalised()
+    lower, upper = curve.slopes
+    ends = {"low": float(shown[0])} if lower < criteria.HIDES else {}
+    ends |= {"high": float(shown[-1])} if upper < criteria.HIDES else {}
+    return {name: value for name, value in effect.given().items() if name != "kind"} | ends
 
 
 def _outliers(study: Study, details: dict[str, object]) -> list[Finding] | Where:
