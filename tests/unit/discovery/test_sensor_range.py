@@ -20,11 +20,12 @@ LAW = make_law("coulomb", mu_s=0.8, mu_k=0.46)
 NOISE = 5e-6
 
 
-def slips(low: float, high: float, *, box: BeltBox = BOX, effects=(), seed: int = 1, sensor=lambda x: x):
+def slips(low: float, high: float, *, box: BeltBox = BOX, effects=(), seed: int = 1, sensor=lambda x: x, step: float = 0.0):
     """Slips of 40 s as a sensor with this range shows them; its noise comes after the range's ends."""
     motion = augmented_system(box, LAW, effects).march(Start(velocity=box.belt_velocity, stick=True), 1e-3, 40_000)
     shown = np.clip(sensor(motion.position), low, high) + NOISE * np.random.default_rng(seed).standard_normal(40_000)
-    return extract(make_record("run", motion.time, shown, box))
+    written = step * np.round(shown / step) if step else shown
+    return extract(make_record("run", motion.time, written, box))
 
 
 def test_both_ends_are_found():
@@ -96,6 +97,12 @@ def test_a_mirrored_run_bends_over_at_the_lower_end():
 def test_what_moves_the_box_bends_no_reading(effects):
     made = [make_effect(kind, **values) for kind, values in effects]
     assert not reading_curve([whole(effects=made)]).bends
+
+
+@pytest.mark.parametrize("step", [0.02e-3, 0.2e-3])
+def test_coarse_readings_bend_nowhere(step):
+    curve = reading_curve([whole(step=step)])
+    assert not curve.bends
 
 
 @pytest.mark.parametrize("gain", [0.7, 1.3])

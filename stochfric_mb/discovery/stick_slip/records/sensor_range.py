@@ -22,7 +22,7 @@ QUIETEST = 3.0e-7
 """Noise that is always allowed, over the deflection of the spring under the normal force [-]."""
 
 KNOTS = 16
-"""Places of the range at which the reading may bend; between quantiles of what stick phases show."""
+"""Most places of the range at which the reading may bend; between quantiles of what stick phases show."""
 ENDS = 0.05, 0.97
 """The first and the last of these quantiles [-]."""
 MEANS = 30
@@ -133,11 +133,11 @@ class ReadingCurve:
     score: float
     """Fall of chi^2 of the stick phases less what its numbers cost [-]."""
     share: float
-    """Share of what they show beyond noise that it explains [-]."""
+    """Share of what they show beyond noise that it explains [-]; 0 where that is nothing."""
     position: Array
-    """Where the box is [m], rising, not mirrored, shape (KNOTS + 2,)."""
+    """Where the box is [m], rising, not mirrored, shape (n,)."""
     reading: Array
-    """What the sensor shows there [m]."""
+    """What the sensor shows there [m], shape (n,)."""
 
     @property
     def slopes(self) -> tuple[float, float]:
@@ -170,9 +170,9 @@ def reading_curve(slips: Sequence[Slips]) -> ReadingCurve | None:
     if len(flanks) < criteria.FEWEST_PHASES:
         return None
     shown = np.concatenate([f.reading for f in flanks])
-    knots = np.quantile(shown, np.linspace(*ENDS, KNOTS))
+    knots = np.unique(np.quantile(shown, np.linspace(*ENDS, KNOTS)))  # of coarse readings some are the same
     bends, free = (np.concatenate(parts) for parts in zip(*(_rows(f, knots) for f in flanks), strict=True))
-    design = np.r_[bends, np.c_[np.zeros((2, 2 * KNOTS)), np.eye(2) / BELT]]
+    design = np.r_[bends, np.c_[np.zeros((2, 2 * len(knots))), np.eye(2) / BELT]]
     target = np.r_[free, 0.0, 0.0]
     size = np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
     best, left = nnls(design / size, target)
@@ -181,20 +181,21 @@ def reading_curve(slips: Sequence[Slips]) -> ReadingCurve | None:
     freedom = len(free) - len(flanks) - 1
     gain = before - left**2
     score = gain - np.count_nonzero(steeper) * np.log(freedom)
-    reading = np.r_[shown.min(), knots, shown.max()]
+    reading = np.unique(np.r_[shown.min(), knots, shown.max()])
     position = reading + _hinges(reading, knots) @ steeper
-    return ReadingCurve(float(score), float(gain / max(before - freedom, 1.0e-300)), position, reading)
+    share = gain / (before - freedom) if before > freedom else 0.0
+    return ReadingCurve(float(score), float(share), position, reading)
 
 
 def _rows(flank: _Flank, knots: Array) -> tuple[Array, Array]:
-    """Return regressors, shape (n, 2 KNOTS + 2), and what they are to explain, shape (n,), in standard deviations."""
+    """Return regressors, shape (n, 2 len(knots) + 2), and what they are to explain, shape (n,), in standard deviations."""
     columns = np.c_[_hinges(flank.reading, knots), -flank.carried, flank.carried]
     missed = flank.carried - flank.reading
     return (columns - columns.mean(axis=0)) / flank.deviation, (missed - missed.mean()) / flank.deviation
 
 
 def _hinges(reading: Array, knots: Array) -> Array:
-    """Return what is added to a reading that gets steeper above each knot, and below each, shape (n, 2 KNOTS)."""
+    """Return what is added to a reading that gets steeper above each knot, and below each, shape (n, 2 len(knots))."""
     away = reading[:, None] - knots
     return np.c_[np.maximum(away, 0.0), np.minimum(away, 0.0)]
 
