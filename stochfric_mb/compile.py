@@ -15,6 +15,7 @@ all those it imports from this package are (`sources`); code of other versions i
 from __future__ import annotations
 
 import contextlib
+import functools
 import glob
 import importlib.metadata
 import inspect
@@ -174,7 +175,10 @@ class _StoredCode(IndexDataCacheFile):
 
 def _engine_version(file: str) -> str:
     """Return the version of MuJoCo for code of its room, which holds the layout of MuJoCo's structs; "" for other code."""
-    return importlib.metadata.version("mujoco") if "mujoco" in Path(file).parts else ""
+    return _version("mujoco") if "mujoco" in Path(file).parts else ""
+
+
+_version = functools.cache(importlib.metadata.version)
 
 
 def _remove_others(folder: Path, base: str, stamp: str) -> None:

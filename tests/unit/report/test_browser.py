@@ -3,6 +3,7 @@
 Needs playwright and a Chromium: ``pip install -e '.[pages]'`` and, on Debian, ``apt-get install chromium``.
 """
 
+import functools
 import json
 import re
 import shutil
@@ -32,28 +33,23 @@ def browser():
         running.close()
 
 
-def _pages():
-    for name, result in RESULTS.items():
-        content, _, drawn = written(outcome_of(result))
-        yield name, page(content, drawn, records=3 * [RECORD]), content
-    yield "records", render("records.html", title="Rig", refused="too few samples", records=[RECORD], lines=["a line"]), {}
+NAMES = [*RESULTS, "records", *COMMANDS]
 
 
-PAGES = {name: (text, content) for name, text, content in _pages()}
-NAMES = [*PAGES, *COMMANDS]
+def _page(name, folder):
+    """Return the text of a page and the content of its result file."""
+    if name in RESULTS:
+        content, _, drawn = written(outcome_of(RESULTS[name]))
+        return page(content, drawn, records=3 * [RECORD]), content
+    if name == "records":
+        return render("records.html", title="Rig", refused="too few samples", records=[RECORD], lines=["a line"]), {}
+    return made(name, folder)
 
 
 @pytest.fixture(scope="module")
 def pages(tmp_path_factory):
     """Return a function that gives the text of a page and the content of its result file, each made once."""
-    known = dict(PAGES)
-
-    def of(name):
-        if name not in known:
-            known[name] = made(name, tmp_path_factory.mktemp("page"))
-        return known[name]
-
-    return of
+    return functools.cache(lambda name: _page(name, tmp_path_factory.mktemp("page")))
 
 
 @pytest.fixture
@@ -184,5 +180,5 @@ def test_what_is_folded_away_is_printed(opened):
     shown.wait_for_function(f"() => ({seen})([...document.querySelectorAll('{inner}')]).every(Boolean)")
 
 
-def test_the_result_itself_is_json():
-    assert json.dumps(PAGES["none"][1])
+def test_the_result_itself_is_json(pages):
+    assert json.dumps(pages("none")[1])
