@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import numpy.typing as npt
-from scipy.signal import correlate
+from scipy.signal import correlate, welch
 
 from stochfric_mb.numerics.robust import deviation
 
 Array = npt.NDArray[np.float64]
+
+
+PIECE = 512
+"""Samples of the pieces of which a spectrum is made."""
+BANDS, LEVEL, EVEN = 12, 4, 2.0
+"""Half octaves that are looked at, from half of the sample rate down, and how many of them in a row are level within which
+factor where the spectrum is that of noise [-]: that of a motion that jumps in its acceleration falls by 64 an octave."""
 
 
 def white_noise(signal: Array) -> float:
@@ -17,6 +26,27 @@ def white_noise(signal: Array) -> float:
     The variance of a third difference of white noise is 1 + 9 + 9 + 1 = 20 times that of the noise.
     """
     return float(deviation(np.diff(signal, 3), about=0.0) / np.sqrt(20.0))
+
+
+def noise_level(signal: Array) -> float:
+    """Return the standard deviation of white noise as strong as what means over several samples see of a signal's own.
+
+    Where readings were interpolated, or smoothed, differences between samples show next to nothing: the spectrum ends below
+    half of the sample rate. It is then that of the quickest two octaves in which it is level, as no motion's is.
+    """
+    white = white_noise(signal)
+    if len(signal) < 2 * PIECE or white <= 0.0:
+        return white
+    # third differences leave little of the motion, which would leak into all frequencies
+    frequency, power = welch(np.diff(signal, 3), nperseg=PIECE, detrend=False)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        density = power / (2.0 * np.sin(np.pi * frequency)) ** 6
+    edges = 0.5 / np.sqrt(2.0) ** np.arange(BANDS + 1)
+    bands = np.array([np.median(density[(frequency > low) & (frequency <= high)]) for high, low in itertools.pairwise(edges)])
+    level = (bands[i : i + LEVEL] for i in range(BANDS - LEVEL + 1))
+    first = next((part for part in level if part.max() <= EVEN * part.min()), np.zeros(1))
+    slow = float(np.sqrt(np.median(first) / 2.0))  # of white noise the density is twice the variance, up to half the rate
+    return slow if slow > EVEN * white else white
 
 
 def independent_count(values: Array) -> float:

@@ -21,7 +21,7 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import (
     slides,
 )
 from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, narrowest, window_of
-from stochfric_mb.discovery.inference.noise import white_noise
+from stochfric_mb.discovery.inference.noise import noise_level
 from stochfric_mb.effects.load_side import MotorMotion
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
@@ -111,7 +111,7 @@ class PlainBalances(Balances):
         drive = next(n for n in DRIVEN if n in terms)
         columns[GAIN] = values[drive] * columns[drive]
         velocity = window.through(q, 1)
-        least = least_speed(velocity, window.gain(1) * white_noise(q))
+        least = least_speed(velocity, window.gain(1) * noise_level(q))
         load, load_by_drive = _transmitted_load(run, joint, window)
         return balance_along(
             run,
@@ -201,8 +201,8 @@ def _noise(terms: Mapping[str, Sequence[Term]], values: Mapping[str, float], q: 
             if term.signal is q:
                 factors[term.derivative] = factors.get(term.derivative, 0.0) + factor
             elif np.ptp(term.signal) > 0.0 and name in (*DRIVEN, "piston_area"):
-                other += (factor * white_noise(term.signal)) ** 2
-    noise = {d: abs(f) * white_noise(q) for d, f in factors.items()}
+                other += (factor * noise_level(term.signal)) ** 2
+    noise = {d: abs(f) * noise_level(q) for d, f in factors.items()}
     noise[0] = float(np.hypot(noise.get(0, 0.0), np.sqrt(other)))
     return noise
 

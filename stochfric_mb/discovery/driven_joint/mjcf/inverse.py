@@ -32,7 +32,7 @@ from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import by_mass, effective_inertia, inverse
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import drive_of, in_si, position_of_joint
 from stochfric_mb.discovery.driven_joint.mjcf.motion import Path, Rig
-from stochfric_mb.discovery.inference.noise import white_noise
+from stochfric_mb.discovery.inference.noise import noise_level
 from stochfric_mb.effects.load_side import MotorMotion
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import ProportionalDerivative
@@ -252,4 +252,4 @@ class MjcfSource(Rig):
 
 
 def _level(signal: Array) -> float:
-    return white_noise(signal) if np.ptp(signal) else 0.0
+    return noise_level(signal) if np.ptp(signal) else 0.0
