@@ -37,8 +37,8 @@ def noise_level(signal: Array) -> float:
     white = white_noise(signal)
     if len(signal) < 2 * PIECE or white <= 0.0:
         return white
-    # third differences leave little of the motion, which would leak into all frequencies
-    frequency, power = welch(np.diff(signal, 3), nperseg=PIECE, detrend=False)
+    # third differences leave little of the motion, which would leak into all frequencies; stray readings are in few pieces
+    frequency, power = welch(np.diff(signal, 3), nperseg=PIECE, detrend=False, average="median")
     with np.errstate(divide="ignore", invalid="ignore"):
         density = power / (2.0 * np.sin(np.pi * frequency)) ** 6
     edges = 0.5 / np.sqrt(2.0) ** np.arange(BANDS + 1)

@@ -46,6 +46,13 @@ def test_a_filter_hides_no_noise_of_slow_means(size):
     assert noise_level(signal) == pytest.approx(size * 1e-3, rel=0.15)
 
 
+def test_stray_readings_are_no_noise():
+    signal = MOTIONS["sweep"] + 1e-2 * NOISE
+    for first in (1000, 7000, 7900, 15_000):  # a wiper that lifts for a while
+        signal[first : first + 60] = 0.3
+    assert noise_level(signal) == white_noise(signal)
+
+
 def test_motion_that_is_interpolated_is_no_noise():
     for motion in MOTIONS.values():
         signal = by_spline(motion)
