@@ -15,6 +15,8 @@ Array = npt.NDArray[np.float64]
 
 PIECE = 512
 """Samples of the pieces of which a spectrum is made."""
+REPEATED = 1.0e-3
+"""Share of readings that are those before, from which the spectrum says nothing [-]: jumps after them are level, too."""
 BANDS, LEVEL, EVEN = 12, 4, 2.0
 """Half octaves that are looked at, from half of the sample rate down, and how many of them in a row are level within which
 factor where the spectrum is that of noise [-]: that of a motion that jumps in its acceleration falls by 64 an octave."""
@@ -35,7 +37,7 @@ def noise_level(signal: Array) -> float:
     half of the sample rate. It is then that of the quickest two octaves in which it is level, as no motion's is.
     """
     white = white_noise(signal)
-    if len(signal) < 2 * PIECE or white <= 0.0:
+    if len(signal) < 2 * PIECE or white <= 0.0 or np.mean(np.diff(signal) == 0.0) > REPEATED:
         return white
     # third differences leave little of the motion, which would leak into all frequencies; stray readings are in few pieces
     frequency, power = welch(np.diff(signal, 3), nperseg=PIECE, detrend=False, average="median")

@@ -53,6 +53,13 @@ def test_stray_readings_are_no_noise():
     assert noise_level(signal) == white_noise(signal)
 
 
+def test_jumps_after_repeated_readings_are_no_noise():
+    signal = MOTIONS["sweep"] + 1e-2 * NOISE
+    stale = np.random.default_rng(2).random(len(TIME)) < 0.02
+    last = np.maximum.accumulate(np.where(stale, 0, np.arange(len(TIME))))
+    assert noise_level(signal[last]) == white_noise(signal[last])
+
+
 def test_motion_that_is_interpolated_is_no_noise():
     for motion in MOTIONS.values():
         signal = by_spline(motion)
