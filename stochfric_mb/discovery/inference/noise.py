@@ -40,7 +40,7 @@ def noise_level(signal: Array) -> float:
     if len(signal) < 2 * PIECE or white <= 0.0 or np.mean(np.diff(signal) == 0.0) > REPEATED:
         return white
     # third differences leave little of the motion, which would leak into all frequencies; stray readings are in few pieces
-    frequency, power = welch(np.diff(signal, 3), nperseg=PIECE, detrend=False, average="median")
+    frequency, power = welch(np.diff(signal, 3), nperseg=PIECE, detrend="constant", average="median")
     with np.errstate(divide="ignore", invalid="ignore"):
         density = power / (2.0 * np.sin(np.pi * frequency)) ** 6
     edges = 0.5 / np.sqrt(2.0) ** np.arange(BANDS + 1)
