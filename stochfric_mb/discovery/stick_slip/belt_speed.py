@@ -56,7 +56,7 @@ class BeltSpeed:
 def belt_speed(study: Study) -> BeltSpeed | None:
     """Return the run whose belt is furthest from its stated speed, where that is beyond doubt; None if all are right."""
     sticking = study.sticking
-    if sticking is None:
+    if sticking is None or (study.curve is not None and study.curve.bends):  # what bends over says nothing of the belt
         return None
     errors, doubts = sticking.belt_velocity_error, sticking.belt_velocity_deviation
     worst = int(np.argmax(np.abs(errors)))

@@ -39,7 +39,7 @@ class SensorClipping(CourseAlongStroke):
     traits: ClassVar[frozenset[str]] = frozenset({OUTSIDE_FORECASTS})
     signatures: ClassVar[tuple[str, ...]] = (CLIPPED,)
     shows_on: ClassVar[str] = "position, sensor"
-    shows: ClassVar[str] = "the position reading is clipped at one value"
+    shows: ClassVar[str] = "the position reading ends at a limit of the sensor's range"
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -48,7 +48,7 @@ class SensorClipping(CourseAlongStroke):
 
     def appears(self) -> tuple[str, str]:
         """Return the axis and whether the reading ends at once or by and by."""
-        return self.shows_on, "the position reading bends over towards an end of the range" if self.any_shape else self.shows
+        return self.shows_on, f"{self.shows}, towards which it bends over" if self.any_shape else self.shows
 
     def shortest_time(self, speed: float) -> float:
         """Return infinity: a sensor moves nothing."""

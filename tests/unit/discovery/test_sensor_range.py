@@ -2,14 +2,17 @@
 
 import dataclasses
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from stochfric_mb.discovery.stick_slip.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.kinematics import bent
 from stochfric_mb.discovery.stick_slip.records.record import make_record
 from stochfric_mb.discovery.stick_slip.records.sensor_range import reading_curve, sensor_range
 from stochfric_mb.discovery.stick_slip.records.slips import extract
+from stochfric_mb.discovery.stick_slip.records.stick_phases import analyse
 from stochfric_mb.effects import make_effect
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
@@ -133,3 +136,10 @@ def test_the_effect_shows_what_the_sensor_shows():
     assert np.ptp(shown - core(true)) < 3.0 * NOISE  # sixteen pieces round off where it begins to bend
     beyond = effect.measure(np.zeros(1), true[-1:] + 1e-3, np.random.default_rng(0))
     assert beyond[0] == pytest.approx(shown[-1], abs=NOISE)  # the reading has come to its end
+
+
+@pytest.mark.parametrize(("sensor", "told"), [(core, False), (lambda x: 0.9 * x, True)])
+def test_a_reading_that_bends_over_says_nothing_of_the_belt(sensor, told):
+    seen = whole(sensor=sensor)
+    study = SimpleNamespace(sticking=analyse([seen]), curve=reading_curve([seen]))
+    assert (belt_speed(study) is not None) == told
