@@ -9,6 +9,8 @@ from .joint_generator.unseen_eighth import PAIRS as UNSEEN_EIGHTH_PAIRS
 from .joint_generator.unseen_eighth import UNSEEN_EIGHTH
 from .joint_generator.unseen_eleventh import PAIRS as UNSEEN_ELEVENTH_PAIRS
 from .joint_generator.unseen_eleventh import UNSEEN_ELEVENTH
+from .joint_generator.unseen_fifteenth import PAIRS as UNSEEN_FIFTEENTH_PAIRS
+from .joint_generator.unseen_fifteenth import UNSEEN_FIFTEENTH
 from .joint_generator.unseen_fifth import PAIRS as UNSEEN_FIFTH_PAIRS
 from .joint_generator.unseen_fifth import UNSEEN_FIFTH
 from .joint_generator.unseen_fourteenth import PAIRS as UNSEEN_FOURTEENTH_PAIRS
@@ -91,6 +93,7 @@ SERIES = {
     12: (UNSEEN_TWELFTH, UNSEEN_TWELFTH_PAIRS),
     13: (UNSEEN_THIRTEENTH, UNSEEN_THIRTEENTH_PAIRS),
     14: (UNSEEN_FOURTEENTH, UNSEEN_FOURTEENTH_PAIRS),
+    15: (UNSEEN_FIFTEENTH, UNSEEN_FIFTEENTH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 

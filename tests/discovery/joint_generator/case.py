@@ -17,6 +17,7 @@ from .plant import PRESSURE, Array, Plant, plain_plant
 from .unseen import UNSEEN
 from .unseen_eighth import UNSEEN_EIGHTH
 from .unseen_eleventh import UNSEEN_ELEVENTH
+from .unseen_fifteenth import UNSEEN_FIFTEENTH
 from .unseen_fifth import UNSEEN_FIFTH
 from .unseen_fourteenth import UNSEEN_FOURTEENTH
 from .unseen_fourth import UNSEEN_FOURTH
@@ -44,7 +45,7 @@ LINKS = frozenset(("joint_compliance", "backlash"))
 """Links between motor and load, which forms from the fifth set on count as names; for earlier ones they are outside."""
 
 _WITH_LINKS = UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH | UNSEEN_EIGHTH | UNSEEN_NINTH
-_WITH_LINKS |= UNSEEN_TENTH | UNSEEN_ELEVENTH | UNSEEN_TWELFTH | UNSEEN_THIRTEENTH | UNSEEN_FOURTEENTH
+_WITH_LINKS |= UNSEEN_TENTH | UNSEEN_ELEVENTH | UNSEEN_TWELFTH | UNSEEN_THIRTEENTH | UNSEEN_FOURTEENTH | UNSEEN_FIFTEENTH
 _BEFORE = 1.0  # s under control before a record begins
 
 

@@ -1,0 +1,1 @@
+"""What no effect of the vocabulary describes."""
