@@ -16,7 +16,12 @@ A report runs it once::
 from . import law, mechanism, nameless, null, sensor
 from .enter import UNSEEN_FIFTEENTH
 
-PAIRS: tuple[str, ...] = ()
+PAIRS = (
+    "quadratic_damping.flaps_bend_back+position_dependent_force.bridge_sags_under_its_trolley",
+    "viscous_friction.open_wet_brake+joint_compliance.limb_in_an_exoskeleton",
+    "friction_drift.oil_sets_in_the_cold+position_dependent_friction.rail_is_corrugated_behind_a_weld",
+    "temperature_drift.two_transitions_of_ptfe+harmonic_force.geneva_wheel_on_the_frame",
+)
 """Two effects at once, each to the other's mechanisms."""
 
 __all__ = ["PAIRS", "UNSEEN_FIFTEENTH", "law", "mechanism", "nameless", "null", "sensor"]
