@@ -57,6 +57,21 @@ def test_what_broke_a_principle_is_what_it_is(form, design, seed, kinds, tmp_pat
     assert result.verdict == ("effect" if kinds else "none")
 
 
+@pytest.mark.parametrize(
+    ("form", "design", "seed", "why"),
+    [
+        # a mass and viscous friction that forward simulation liked, and that explained 14 % of the held-out balance
+        ("unknown.cutter_meets_its_last_pass", "mjcf_slide", 1401, "explains the fit runs, but not the held-out ones"),
+        # damping by speed and a drift in time, which went together: beside the scatter between runs they stood
+        ("unknown.ball_begins_to_roll", "thrown", 1301, "one curve, and not named"),
+    ],
+)
+def test_what_explains_no_held_out_balance_or_takes_two_names_for_one_curve_is_unknown(form, design, seed, why, tmp_path):
+    result = answered(form, design, 0.5, tmp_path, seed)
+    assert result.verdict == "unknown"
+    assert any(why in note for note in result.notes)
+
+
 def test_a_reading_at_the_end_of_the_scale_is_told_though_its_windows_turn_round(tmp_path):
     result = answered("sensor_outliers.wiper_lifts", "slide", 0.5, tmp_path, 1301)
     assert [e.kind for e in result.effects] == ["sensor_outliers"]

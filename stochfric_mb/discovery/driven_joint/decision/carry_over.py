@@ -30,10 +30,16 @@ BEGIN = 1.0e-3
 
 
 def with_idle(place: PlaceOutcome) -> PlaceOutcome:
-    """Return the outcome at a place with why its effects are not named; the model without it, where no delay is."""
+    """Return the outcome at a place with why its effects are not named; the model without it, where no delay is.
+
+    Scatter beside a curve that is not named is none of its own: without the curve it is part of what is missing.
+    """
     reason = inadequate(place)
+    curve = drawn_by_two(place)
+    if curve:
+        place = dataclasses.replace(place, random=None, runs=None, forecasts=None)
     if not reason or place.late:
-        return dataclasses.replace(place, idle=reason, curve=drawn_by_two(place) if reason else ())
+        return dataclasses.replace(place, idle=reason, curve=curve)
     plain = dataclasses.replace(
         place.selected,
         final=place.selected.recalibrated,
@@ -43,7 +49,7 @@ def with_idle(place: PlaceOutcome) -> PlaceOutcome:
         nuisances=place.nuisances,
     )
     scores = place.scores | {"augmented": place.scores["recalibrated"]}
-    return dataclasses.replace(place, selected=plain, scores=scores, idle=reason, curve=drawn_by_two(place))
+    return dataclasses.replace(place, selected=plain, scores=scores, idle=reason, curve=curve)
 
 
 def lacks(dataset: Dataset, place: PlaceOutcome) -> bool:

@@ -12,6 +12,7 @@ from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.cases import Case
 from stochfric_mb.discovery.stick_slip.decision.confirmation import Confirmed, confirm
 from stochfric_mb.discovery.stick_slip.decision.entrainment import Trial, entrained
+from stochfric_mb.discovery.stick_slip.records.record import CORRECTED
 from stochfric_mb.discovery.stick_slip.screening.competitors import SOFTENING
 from stochfric_mb.discovery.stick_slip.screening.naming import beside_waves, with_candidate
 from stochfric_mb.discovery.stick_slip.screening.regression import Baseline
@@ -229,6 +230,9 @@ class _Simulation:
         best, fitted = min(fits, key=lambda t: t[1].scaled(spread))
         if self.before.criterion - fitted.criterion < criteria.FOLLOWED_UP:
             return None
+        alone = self._left_open_alone(fitted)
+        if alone is not None and alone.criterion - fitted.criterion < criteria.FOLLOWED_UP:
+            return _of_another_rig(alone.model, best.name)
         if _lacking(fitted, self.before):
             return Where(
                 "shape of the friction force within a slip",
@@ -237,6 +241,18 @@ class _Simulation:
         alike = _alike(best, fitted, tried, spread, self.before)
         best, fitted, alike = self._against_waves((best, fitted), alike, tried)
         return Chosen(best, alike, fitted.model, fitted, True)
+
+    def _left_open_alone(self, fitted: Confirmed) -> Confirmed | None:
+        """Return what the numbers of the mechanism that the last effect of a fit leaves open explain without it; None: none.
+
+        An effect has to explain more than these by themselves: otherwise it is a way to leave them open.
+        """
+        numbers = frozenset(fitted.model.effects[-1].frees).intersection(CORRECTED)
+        if not numbers:
+            return None
+        begins = fitted.model.without_last(fitted.kinds[-1]), self.before.model
+        ways = [confirm(self.cases, dataclasses.replace(m, freed=numbers), self.study.uncertainty) for m in begins]
+        return min(ways, key=lambda w: w.chi2)
 
     def _against_waves(
         self, chosen: Trial, alike: tuple[str, ...], tried: Sequence[Trial]
@@ -281,6 +297,14 @@ class _Simulation:
             return ways[0]
         rough = [confirm(self.cases, way, self.study.uncertainty, evaluations=ROUGH) for way in ways]
         return min(rough, key=lambda r: r.chi2).model
+
+
+def _of_another_rig(model: Model, kind: str) -> Where:
+    """Return where the unknown lives if a model whose mechanism is not as stated explains the slips as well as an effect."""
+    off = {name: model.corrections.get(name, 0.0) for name in sorted(model.freed)}
+    numbers = " and ".join(f"{name} {100.0 * abs(by):.2g} % {'above' if by > 0.0 else 'below'}" for name, by in off.items())
+    text = f"the slips are those of a rig with its {numbers} what is stated; beside that, {kind} explains no more"
+    return Where("mechanism", text)
 
 
 def _near(one: float, other: float) -> bool:

@@ -153,8 +153,7 @@ def _free_in(
 
 def _own(candidate: Model, free: Sequence[FreeParameter]) -> int:
     """Return the number of the effects' parameters, and of those of the stated model that they leave open."""
-    freed = {name for e in candidate.effects for name in e.frees if name in CORRECTED}
-    return sum(k.owner >= 0 or k.name in freed for k in free)
+    return sum(k.owner >= 0 or (k.name in CORRECTED and k.name in candidate.left_open) for k in free)
 
 
 def _levels_away(model: Model, cases: Sequence[Case]) -> dict[str, float]:

@@ -50,8 +50,7 @@ def left_over(pool: Pool, model: Model, *, anew: bool = False) -> Pool:
         anew: whether its effects change how a slip begins and ends, so that noise makes other errors in its features.
     """
     # what an effect freed of the mechanism goes with it
-    freed = {name for effect in model.effects for name in effect.frees}
-    corrections = {name: 0.0 if name in freed else value for name, value in model.corrections.items()}
+    corrections = {name: 0.0 if name in model.left_open else value for name, value in model.corrections.items()}
     plain = dataclasses.replace(model, effects=(), own={}, corrections=corrections)
     features = pool.features.copy()
     kept = pool.kept.copy()

@@ -63,8 +63,7 @@ def beside(model: Model, coefficients: Array) -> Model:
     """
     mu_s, mu_k = (max(float(c), 1.0e-3) for c in coefficients[:2])
     # what is left holds what the effects so far free of the mechanism no more
-    freed = {name for e in model.effects for name in e.frees}
-    held = np.array([model.corrections.get(name, 0.0) if name in freed else 0.0 for name in CORRECTED])
+    held = np.array([model.corrections.get(name, 0.0) if name in model.left_open else 0.0 for name in CORRECTED])
     corrections = corrections_of(coefficients[2 : 2 + len(CORRECTED)] + held)
     return dataclasses.replace(model.with_law(mu_s, mu_k), corrections=corrections)
 

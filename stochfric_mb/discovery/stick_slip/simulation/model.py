@@ -56,6 +56,8 @@ class Model:
     """Run -> values of the parameters that are its own (`Effect.own_to_run`), one mapping an effect."""
     measured: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Parameter of an effect that neither forces nor forecasts show, and that no fit may move -> its standard deviation."""
+    freed: frozenset[str] = frozenset()
+    """Numbers of the mechanism that are not believed although no effect leaves them open."""
 
     def mechanism(self, stated: BeltBox) -> BeltBox:
         """Return a run's mechanism with the corrections applied."""
@@ -94,6 +96,17 @@ class Model:
         own = {run: (*values, *({} for _ in effects)) for run, values in self.own.items()}
         return dataclasses.replace(self, effects=(*self.effects, *effects), own=own)
 
+    def without_last(self, kind: str) -> Model:
+        """Return the model without its last effect of a kind."""
+        place = max(i for i, e in enumerate(self.effects) if e.kind == kind)
+        own = {run: (*v[:place], *v[place + 1 :]) for run, v in self.own.items()}
+        return dataclasses.replace(self, effects=(*self.effects[:place], *self.effects[place + 1 :]), own=own)
+
+    @property
+    def left_open(self) -> frozenset[str]:
+        """Names of the numbers whose priors are widened: those that effects leave open, and `freed` ones."""
+        return self.freed.union(*(e.frees for e in self.effects))
+
     @property
     def late(self) -> float:
         """By how much its sensor is late [s]."""
@@ -129,7 +142,7 @@ def free_parameters(
 def _correction(model: Model, name: str, deviation: float) -> FreeParameter | None:
     """Return the relative correction of a number of the mechanism; None where it is certain."""
     most, prior = 3.0 * deviation, deviation
-    if any(name in e.frees for e in model.effects):
+    if name in model.left_open:
         most, prior = most + MOST_FREED, math.hypot(prior, MOST_FREED / 2.0)
     if prior <= 0.0:
         return None

@@ -37,7 +37,7 @@ from stochfric_mb.discovery.stick_slip.validation.explained import (
     within_noise,
 )
 from stochfric_mb.discovery.stick_slip.validation.feature_skill import slip_force_gap
-from stochfric_mb.discovery.stick_slip.validation.held_out_check import Comparison, compared, without_last
+from stochfric_mb.discovery.stick_slip.validation.held_out_check import Comparison, compared
 from stochfric_mb.discovery.stick_slip.validation.predictive_check import VARYING, inadequate
 from stochfric_mb.effects import kind_with_signature, kinds_with
 from stochfric_mb.effects.traits import SCATTER, WANDER, YIELDING
@@ -255,7 +255,7 @@ def _less_refused(
 
 def _with_form(answer: Answer, term: str, slip_study: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
     """Return the answer without the term for what its effect's form leaves, unless held-out forecasts are better with it."""
-    decision = dataclasses.replace(answer.decision, model=without_last(answer.decision.model, term), form=None)
+    decision = dataclasses.replace(answer.decision, model=answer.decision.model.without_last(term), form=None)
     plain = explaining(fitted(decision, slip_study, recalibrated), slip_study, recalibrated)
     plain = dataclasses.replace(plain, model=settled(plain.model, runs))
     seen = compared(plain.model, answer.model, runs)
@@ -302,7 +302,7 @@ def _with_strengths(answer: Answer, slip_study: Study, recalibrated: Fit) -> Ans
             continue
         model = answer.decision.model
         while any(e.kind == kind for e in model.effects):
-            model = without_last(model, kind)
+            model = model.without_last(kind)
         rest = tuple(n for n in answer.decision.named if n.kind != kind)
         fewer = dataclasses.replace(answer.decision, named=rest, model=model)
         assert fit is not None
@@ -318,7 +318,7 @@ def _with_strengths(answer: Answer, slip_study: Study, recalibrated: Fit) -> Ans
 
 def _without_last(answer: Answer, slip_study: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
     decision, last = answer.decision, answer.decision.named[-1]
-    fewer = dataclasses.replace(decision, named=decision.named[:-1], model=without_last(decision.model, last.kind))
+    fewer = dataclasses.replace(decision, named=decision.named[:-1], model=decision.model.without_last(last.kind))
     if not fewer.named:
         return Answer(fewer, None, recalibrated.model)
     again = fitted(fewer, slip_study, recalibrated)

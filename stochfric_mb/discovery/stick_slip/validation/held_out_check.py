@@ -57,10 +57,3 @@ def compared(without: Model, with_: Model, runs: HeldOut) -> Comparison | None:
     seen = paired(first, second)
     most_better = seen.better - seen.worse > criteria.HELD_OUT_MOST * np.sqrt(seen.better + seen.worse)
     return Comparison(seen.without, seen.with_, seen.deviation, floor_of(with_, runs), bool(most_better))
-
-
-def without_last(model: Model, kind: str) -> Model:
-    """Return the model without its last effect of a kind."""
-    place = max(i for i, e in enumerate(model.effects) if e.kind == kind)
-    own = {run: (*v[:place], *v[place + 1 :]) for run, v in model.own.items()}
-    return dataclasses.replace(model, effects=(*model.effects[:place], *model.effects[place + 1 :]), own=own)
