@@ -22,6 +22,12 @@ MARKS = {mark: _lines(f"{mark}.txt") for mark in ("slow", "long")}
 """Beginnings of the names of slow and of long tests; what follows a star may stand anywhere in the name."""
 
 
+def pytest_ignore_collect(collection_path, config):
+    """Leave files and folders of long tests alone where none is asked for: to collect them takes as long as to run many."""
+    name = collection_path.relative_to(config.rootpath).as_posix() + "/" * collection_path.is_dir()
+    return True if name in MARKS["long"] and "not long" in config.option.markexpr else None
+
+
 @pytest.hookimpl(tryfirst=True)  # before options select by marker
 def pytest_collection_modifyitems(items):
     """Mark the slow and the long tests."""
