@@ -319,6 +319,10 @@ class Scan:
     """Most of them."""
     begin: Callable[[float, float, float], Effect]
     """Wave number k, a and b of the force a cos(2 pi k x) + b sin(2 pi k x) against the motion [N or N m] -> effect."""
+    pieces: int = 0
+    """Pieces of a shape that comes back with each wave; 0: it is a sine."""
+    shaped: Callable[[float, Array], Effect] | None = None
+    """Wave number and weights, shape (pieces - 1,), of such a force against the motion (`course.returning`) -> effect."""
 
 
 @dataclasses.dataclass(frozen=True)

@@ -27,6 +27,8 @@ COURSE = tuple(f"course_{i}" for i in range(1, PIECES + 3))
 """Parameters that are its shape; a course begins at 0, so that the spline before them is left out."""
 COARSER = (4, 8, PIECES)
 """Pieces of the courses that are looked for."""
+RETURNING_PIECES = (8, PIECES)
+"""Pieces of the courses that come back; with fewer they are sines."""
 FLAT = 1.0e-3
 """Weights from which fits of a course begin [-]: friction is linear in them."""
 RETURNS = 1.0e-9
@@ -234,6 +236,10 @@ class Periodic(Shaped):
     def columns(self, place: Array) -> Array:
         """Return the change of the shape with each of the numbers `shaped_by`, shape (..., n)."""
         return np.concatenate([super().columns(place), np.ones((*place.shape, 1))], axis=-1)
+
+    def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
+        """Return what a course is shaped by: it has to come back, so that its size alone is fitted."""
+        return *COURSE, "at_begin", "pieces"
 
     def shortest_time(self, speed: float) -> float:
         """Return the period [s], or the time of two pieces of the course, in which it can rise and fall."""

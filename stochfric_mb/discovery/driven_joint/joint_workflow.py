@@ -236,15 +236,19 @@ def _less_refuted_delay(
 ) -> tuple[list[PlaceOutcome], float | None]:
     """Return the places without a delay beside effects that simulate held-out runs better alone, and the noise of the drive.
 
-    Windows are explained better by what brings their times forward, too; a simulation shows what a delay does to all of a run.
+    Windows are explained better by what brings their times forward, too, narrow ones above all; a simulation shows what a delay
+    does to all of a run.
     """
     place = best[0]
     if not (place.late and place.selected.named) or place.again is None:
         return best, floor
     other, noise = simulated(source, tell, [place.again(frozenset({kind_with_signature(LATE)})), *best[1:]])
     late, plain = (p.scores["augmented"] for p in (place, other[0]))
-    pairs = [(a, b) for a, b in ((late.loop, plain.loop), (late.forward, plain.forward)) if a is not None and b is not None]
-    refuted = bool(pairs) and all(b < (1.0 - criteria.MATERIAL) * a for a, b in pairs)
+    simulated_ones = [
+        (a, b) for a, b in ((late.loop, plain.loop), (late.forward, plain.forward)) if a is not None and b is not None
+    ]
+    pairs = simulated_ones or [(late.sliding, plain.sliding)]  # nothing simulates a load that moves by itself
+    refuted = all(b < (1.0 - criteria.MATERIAL) * a for a, b in pairs)
     return (other, noise) if refuted and other[0].selected.named and not inadequate(other[0]) else (best, floor)
 
 

@@ -12,8 +12,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from stochfric_mb.effects.contract import LOAD, TIME, JointSignature, Scan, parameter
-from stochfric_mb.effects.course import Periodic, periodic
+from stochfric_mb.effects.contract import LOAD, TIME, Array, JointSignature, Scan, parameter
+from stochfric_mb.effects.course import RETURNING_PIECES, Periodic, periodic
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Slips, Wave, times
 from stochfric_mb.effects.traits import COURSE_OF_RUN, FORCE_IN_TIME, WANDERS_ALIKE, WAVES
@@ -50,14 +50,22 @@ class HarmonicForce(Periodic):
     shows: ClassVar[str] = "a periodic force acts, in stick and slip alike"
 
     @classmethod
-    def at_joint(cls, span: JointSpan) -> JointSignature:
-        """Return a force in time whose phase differs from run to run: slower than three periods a record it is a drift."""
+    def at_joint(cls, span: JointSpan) -> tuple[JointSignature, ...]:
+        """Return forces in time whose phase differs from run to run: slower than three periods a record they are drifts."""
 
         def begin(frequency: float, a: float, b: float) -> HarmonicForce:
             return cls(amplitude=math.hypot(a, b), frequency=frequency, phase=math.atan2(b, -a))
 
+        def scan(pieces: int) -> Scan:
+            def shaped(frequency: float, weights: Array) -> HarmonicForce:
+                return cls(**cls.returning(-weights, pieces, frequency))
+
+            return Scan("time", False, PERIODS / span.duration, highest, begin, pieces, shaped if pieces else None)
+
         highest = 0.5 / span.window if span.window > 0.0 else PERIODS / span.duration
-        return JointSignature((), "time", 3, Scan("time", False, PERIODS / span.duration, highest, begin))
+        # weights but one, frequency and phase
+        shapes = (JointSignature((), "time", pieces + 1, scan(pieces)) for pieces in RETURNING_PIECES)
+        return JointSignature((), "time", 3, scan(0)), *shapes
 
     @classmethod
     def wave(cls, slips: Slips) -> Wave:

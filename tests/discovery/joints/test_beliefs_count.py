@@ -7,7 +7,7 @@ import pytest
 
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
-from stochfric_mb.discovery.driven_joint.fit.wave_scan import wave_starts
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import wave_starts, waves_left
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.effects import make_effect
 from stochfric_mb.effects.contract import Scan
@@ -23,6 +23,10 @@ def fitted(measured: Dataset):
     balances, nuisances = source.balances("", "fit", 0.0), source.nuisances("")
     model = source.stated("")
     return balances, fit(model, balances, nuisances, noise=0.2)
+
+
+def starts_of(scan, seen, balances):
+    return wave_starts(scan, waves_left(scan, seen, balances), balances)
 
 
 def test_a_force_at_the_frequency_of_the_motion_is_sought_where_the_mass_is_believed():
@@ -43,7 +47,7 @@ def test_a_force_at_the_frequency_of_the_motion_is_sought_where_the_mass_is_beli
     def begin(frequency: float, a: float, b: float):
         return make_effect("harmonic_force", amplitude=float(np.hypot(a, b)), frequency=frequency, phase=0.0)
 
-    starts = wave_starts(Scan("time", False, 0.5, 3.0, begin), seen, balances)
+    starts = starts_of(Scan("time", False, 0.5, 3.0, begin), seen, balances)
     assert starts[0].effect.frequency == pytest.approx(FREQUENCY, abs=1.0 / (time[-1]))  # as well as waves are told apart
     assert starts[0].effect.amplitude == pytest.approx(3.0, rel=0.2)  # friction takes some of it
 
@@ -57,7 +61,7 @@ def test_a_wave_is_sought_in_the_runs_that_slide():
     def begin(number: float, a: float, b: float):
         return make_effect("position_dependent_friction", amplitude=float(np.hypot(a, b)), wavelength=1.0 / number, phase=0.0)
 
-    starts = wave_starts(Scan("position", True, 5.0, 20.0, begin), seen, balances)
+    starts = starts_of(Scan("position", True, 5.0, 20.0, begin), seen, balances)
     stroke = float(np.ptp(balances[0].position))
     assert 1.0 / starts[0].effect.wavelength == pytest.approx(1.0 / 0.08, abs=0.5 / stroke)  # the wave of 0.08 m
 

@@ -22,9 +22,11 @@ from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight, settled
 from stochfric_mb.discovery.driven_joint.fit.gains import predicted_left, predicted_rms
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
-from stochfric_mb.discovery.driven_joint.fit.wave_scan import begun, tried, wave_starts
+from stochfric_mb.discovery.driven_joint.fit.periodic_shape import shaped_starts
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import Start, Waves, begun, tried, wave_starts, waves_left
 from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
 from stochfric_mb.discovery.inference.paired import Paired
+from stochfric_mb.effects.contract import Scan
 from stochfric_mb.effects.course import LeveledCourse
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.traits import ROUGH
@@ -126,6 +128,7 @@ class Selector:
         self._without: frozenset[str] = frozenset()
         self._forms: dict[Beside, tuple[frozenset[str], Fitted]] = {}
         self._courses: dict[Beside, JointFit | None] = {}
+        self._seen_waves: tuple[JointFit, tuple[str, bool, float, float], Waves] | None = None
         self._tell = progress or (lambda _: None)
         self._settings, self._smooth, self._pairs = settings_of(balances), SmoothDependences(balances), confounded(balances)
         self.recalibrated, self._noise = settled(start, balances, nuisances, noise=_typical(balances))
@@ -368,7 +371,7 @@ class Selector:
         starts = [begun(e, self._balances) for e in candidate.starts]
         if len(starts) > STARTS:
             starts.sort(key=lambda s: predicted_rms(current.model, s, self._balances, current))
-        waves = wave_starts(candidate.scan, current, self._balances) if candidate.scan is not None else []
+        waves = [] if candidate.scan is None else self._wave_starts(candidate.scan, current)
         count = STARTS_ROUGH if any(ROUGH in s.effect.traits for s in starts) else STARTS
         fits = [self._fit(s.added_to(current.model), refined=False, fixed=fixed) for s in (*starts[:count], *waves)]
         best = min((f for f in fits if np.isfinite(f.rms)), key=lambda f: f.rms, default=None)
@@ -377,6 +380,15 @@ class Selector:
         if any(ROUGH in s.effect.traits for s in starts):
             best = self._fit(best.model, fixed=fixed)
         return settled(best.model, self._balances, self._nuisances, noise=self._noise, fitted=best, fixed=fixed)[0]
+
+    def _wave_starts(self, scan: Scan, current: JointFit) -> list[Start]:
+        """Return the waves, or forces of any shape that comes back, from which fits begin."""
+        of, seen = (scan.axis, scan.signed, scan.low, scan.high), self._seen_waves
+        if seen is None or seen[0] is not current or seen[1] != of:
+            seen = self._seen_waves = current, of, waves_left(scan, current, self._balances)
+        if scan.shaped is None:
+            return wave_starts(scan, seen[2], self._balances)
+        return shaped_starts(scan, seen[2], current, self._balances)
 
     def _scored(self, current: JointFit, fits: Sequence[tuple[Candidate, JointFit]]) -> list[Trial]:
         # all are judged by the same count of independent windows: that of the best fit

@@ -13,13 +13,16 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
+from scipy.optimize import minimize_scalar
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.fitting import EVALUATIONS, JointFit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel, Own
+from stochfric_mb.discovery.inference.alignment import BEGINS
 from stochfric_mb.discovery.inference.fitter import minimised
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects.contract import Scan
+from stochfric_mb.effects.course import Periodic
 
 Array = npt.NDArray[np.float64]
 
@@ -51,35 +54,49 @@ def begun(effect: Effect, balances: Sequence[ForceBalance]) -> Start:
 
 def tried(scan: Scan, balances: Sequence[ForceBalance]) -> float:
     """Return how many waves can be distinguished in the range of a scan [-]."""
-    return max((scan.high - scan.low) * _length(scan, balances), 1.0)
+    return max((scan.high - scan.low) * length(scan, balances), 1.0)
 
 
-def wave_starts(scan: Scan, current: JointFit, balances: Sequence[ForceBalance]) -> list[Start]:
-    """Return the waves that would explain most of what a fit leaves, best first."""
-    step = 1.0 / (FINE * _length(scan, balances))
-    numbers = np.arange(scan.low, scan.high, step)
+@dataclasses.dataclass(frozen=True)
+class Waves:
+    """Cosine and sine that explain most of what a fit leaves, at each wave number; their groups are runs, or all of these."""
+
+    numbers: Array
+    """Wave numbers [1/s or 1/m or 1/rad], shape (n,)."""
+    cosine: Array
+    """Size of the cosine [N or N m], shape (n_groups, n)."""
+    sine: Array
+    """Size of the sine, shape as `cosine`."""
+    gain: Array
+    """By how much both lower the sum of squares, shape as `cosine`."""
+
+
+def waves_left(scan: Scan, current: JointFit, balances: Sequence[ForceBalance]) -> Waves:
+    """Return the waves of a scan in what a fit leaves, all that is fitted free to move; none where the scan holds none."""
+    numbers = np.arange(scan.low, scan.high, 1.0 / (FINE * length(scan, balances)))
     if len(numbers) < 2:
-        return []
-    own = scan.begin(float(numbers[0]), 1.0, 0.0).own_to_run
+        return Waves(*(np.zeros((1, 0)) for _ in range(4)))
     known = np.vstack([current.jacobian, prior_rows(current, prior_weight(current))[0]])
     scaled = known / np.maximum(np.linalg.norm(known, axis=0), 1.0e-300)
     basis = np.linalg.svd(scaled, full_matrices=False)[0][: len(current.jacobian)]
     ends = np.cumsum([len(r) for r in current.remainders])[:-1]
     parts = zip(balances, current.remainders, np.split(basis, ends), strict=True)
     sums = np.array([_sums(scan, s, r, q, numbers) for s, r, q in parts])
-    sums = sums if own else sums.sum(axis=0, keepdims=True)
-    a, b, gain = _solved(sums)
+    own = scan.begin(float(numbers[0]), 1.0, 0.0).own_to_run
+    return Waves(numbers, *_solved(sums if own else sums.sum(axis=0, keepdims=True)))
+
+
+def wave_starts(scan: Scan, waves: Waves, balances: Sequence[ForceBalance]) -> list[Start]:
+    """Return the waves that would explain most of what a fit leaves, best first."""
     starts: list[Start] = []
-    power = gain.sum(axis=0)
-    while len(starts) < BEST and power.max() > 0.0:
-        i = int(np.argmax(power))
-        power[max(i - int(2.0 * FINE), 0) : i + int(2.0 * FINE) + 1] = 0.0
-        each = [scan.begin(float(numbers[i]), float(x), float(y)) for x, y in zip(a[:, i], b[:, i], strict=True)]
+    for i in peaks(waves.gain.sum(axis=0), BEST):
+        number, a, b = float(waves.numbers[i]), waves.cosine[:, i], waves.sine[:, i]
+        each = [scan.begin(number, float(x), float(y)) for x, y in zip(a, b, strict=True)]
+        own = each[0].own_to_run
         if not own:
             starts.append(Start(each[0]))
             continue
-        size = float(np.sqrt(np.mean(a[:, i] ** 2 + b[:, i] ** 2)))
-        first = scan.begin(float(numbers[i]), size, 0.0)
+        first = scan.begin(number, float(np.sqrt(np.mean(a**2 + b**2))), 0.0)
         phases = {
             (first.kind, s.run, n): float(getattr(e, n))
             for s, e in zip(balances, each, strict=True)
@@ -88,6 +105,16 @@ def wave_starts(scan: Scan, current: JointFit, balances: Sequence[ForceBalance])
         }
         starts.append(Start(dataclasses.replace(first, **{n: getattr(each[0], n) for n in own}), phases))
     return starts
+
+
+def peaks(power: Array, most: int) -> list[int]:
+    """Return where a power over the wave numbers of a scan is largest, peaks that are apart alone, best first."""
+    power, chosen = power.copy(), list[int]()
+    while len(chosen) < most and len(power) and power.max() > 0.0:
+        i = int(np.argmax(power))
+        power[max(i - int(2.0 * FINE), 0) : i + int(2.0 * FINE) + 1] = 0.0
+        chosen.append(i)
+    return chosen
 
 
 def with_phases(model: JointModel, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]) -> JointModel:
@@ -105,6 +132,9 @@ def with_phases(model: JointModel, balances: Sequence[ForceBalance], nuisances: 
         for name in names:
             others = tuple(e for e in model.effects if e is not effect)
             for balance in balances:
+                if isinstance(effect, Periodic) and effect.any_shape:
+                    own[effect.kind, balance.run, name] = _phase_of_shape(model, effect, balance)
+                    continue
                 parts = [dataclasses.replace(effect, **{name: x}) for x in (0.0, 0.5 * np.pi)]
                 plain = dataclasses.replace(model, effects=others).remainder(balance, ())
                 columns = [
@@ -114,6 +144,20 @@ def with_phases(model: JointModel, balances: Sequence[ForceBalance], nuisances: 
                 b = np.linalg.lstsq(design, plain[balance.sliding], rcond=1.0e-10)[0]
                 own[effect.kind, balance.run, name] = float(np.arctan2(b[2], b[1]))
     return dataclasses.replace(model, own=own)
+
+
+def _phase_of_shape(model: JointModel, effect: Effect, balance: ForceBalance) -> float:
+    """Return the phase of a force of any shape in a run at which it leaves least, but for a constant [rad]."""
+    others = tuple(e for e in model.effects if e is not effect)
+
+    def left(phase: float) -> float:
+        trial = dataclasses.replace(model, effects=(*others, dataclasses.replace(effect, phase=phase)), own={})
+        return float(np.var(trial.remainder(balance, ())[balance.sliding]))
+
+    turns = 2.0 * np.pi * np.arange(BEGINS) / BEGINS
+    best = float(turns[int(np.argmin([left(float(x)) for x in turns]))])
+    step = 2.0 * np.pi / BEGINS
+    return float(minimize_scalar(left, bounds=(best - step, best + step), method="bounded").x)
 
 
 def _swinging(
@@ -136,7 +180,8 @@ def _swinging(
     return own
 
 
-def _length(scan: Scan, balances: Sequence[ForceBalance]) -> float:
+def length(scan: Scan, balances: Sequence[ForceBalance]) -> float:
+    """Return how far the axis of a scan is gone along, in the longest run where it is time."""
     values = [v for s in balances if len(v := _along(scan, s))]  # a joint may slide in some of the runs alone
     if scan.axis == "time":
         return max(float(np.ptp(v)) for v in values)

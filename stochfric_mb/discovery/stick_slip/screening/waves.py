@@ -18,12 +18,13 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
+from stochfric_mb.discovery.inference import alignment
 from stochfric_mb.discovery.inference.frequency_search import worth_a_look
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, legendre_coefficients
 from stochfric_mb.discovery.stick_slip.screening.regression import Baseline, Part
-from stochfric_mb.effects.course import returning
+from stochfric_mb.effects.course import RETURNING_PIECES, returning
 from stochfric_mb.effects.marks import RETURNING, WAVE, Hypothesis, Wave
 
 HARMONICS = 3
@@ -38,10 +39,6 @@ EVEN = 1.0e-9
 """Share by which steps of a grid may differ to be even [-]: 64 of them then turn a wave of a thousand cycles by 1e-6 of one."""
 PEAKS = 3
 """Waves with harmonics that say where to look for a course that comes back."""
-RETURNING_PIECES = (8, 16)
-"""Pieces of such courses; with fewer they are sines."""
-MORE_HARMONICS, BEGINS, ALIGNMENTS = 6, 48, 4
-"""Harmonics by which runs are shifted against each other, shifts that are tried, over a turn, and how often all are aligned."""
 STRETCH = 128.0
 """Cycles of the slips in the stretch of a long record in which waves are looked for first [-]."""
 
@@ -227,7 +224,7 @@ def _best_course(kind: str, wave: Wave, baseline: Baseline, scans: Sequence[_Sca
         return values(weights, pieces, setting)
 
     found = Hypothesis(kind, columns, (setting, *begins.tolist(), float(pieces)), start, variant=RETURNING)
-    return found, scan.looked_at * BEGINS ** (pool.n_runs - 1)
+    return found, scan.looked_at * alignment.BEGINS ** (pool.n_runs - 1)
 
 
 def _peaks(scan: _Scan, apart: float) -> list[float]:
@@ -244,21 +241,12 @@ def _peaks(scan: _Scan, apart: float) -> list[float]:
 
 def _begins(pool: Pool, wave: Wave, baseline: Baseline, frequency: float) -> Array:
     """Return where in a course that comes back each run begins [turns], shape (n_runs,), the runs' own harmonics aligned."""
-    columns = wave_columns(pool, wave, frequency, MORE_HARMONICS)
+    columns = wave_columns(pool, wave, frequency, alignment.HARMONICS)
     solution = baseline.solved(columns)
-    pairs = solution.coefficients[-len(columns) :].reshape(pool.n_runs, MORE_HARMONICS, 2)
+    pairs = solution.coefficients[-len(columns) :].reshape(pool.n_runs, alignment.HARMONICS, 2)
     variance = (solution.deviations[-len(columns) :] ** 2).reshape(pairs.shape).sum(axis=2) + 1.0e-300
     # a cos + b sin is the real part of (a - i b) exp(i angle); a mirrored run passes the course backwards
-    waves = pairs[..., 0] - 1j * pairs[..., 1] * _directions(pool, wave)[:, None]
-    order = np.arange(1, MORE_HARMONICS + 1)
-    trials = np.exp(-2j * np.pi * order * np.arange(BEGINS)[:, None] / BEGINS)
-    begins = np.zeros(pool.n_runs, dtype=np.int64)
-    shape = waves[int(np.argmax(np.sum(np.abs(waves) ** 2 / variance, axis=1)))]
-    for _ in range(ALIGNMENTS):
-        fit = np.real(np.conj(shape) * waves[:, None, :] * trials / variance[:, None, :]).sum(axis=2)
-        begins = np.argmax(fit, axis=1)
-        shape = np.average(waves * trials[begins], axis=0, weights=1.0 / variance)
-    return begins / BEGINS
+    return alignment.aligned(pairs[..., 0] - 1j * pairs[..., 1] * _directions(pool, wave)[:, None], variance)
 
 
 def returning_columns(pool: Pool, wave: Wave, frequency: float, begins: Array, pieces: int) -> list[Array]:

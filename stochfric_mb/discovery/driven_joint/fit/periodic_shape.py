@@ -1,0 +1,117 @@
+"""From where fits of a force begin that has any smooth shape and comes back: frequency, shape, and where in it each run begins.
+
+What comes back is looked for where a wave with its overtones explains most, and at twice and thrice its length; the overtones
+say how the runs are shifted against each other, and the shape is then linear. As in `wave_scan`, numbers that are fitted
+already may move.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
+from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import FINE, Start, Waves, length, peaks
+from stochfric_mb.discovery.inference.alignment import HARMONICS, aligned
+from stochfric_mb.effects.contract import Scan
+from stochfric_mb.effects.course import returning
+
+Array = npt.NDArray[np.float64]
+
+OVERTONES, PEAKS, MAINS = 3, 3, (1, 2, 3)
+"""Harmonics by which such waves are looked for, how many of them are, and by what each is divided for it may be an overtone."""
+
+
+def shaped_starts(scan: Scan, waves: Waves, current: JointFit, balances: Sequence[ForceBalance]) -> list[Start]:
+    """Return the force of any shape from which a fit begins, if the scan has a wave at all.
+
+    Args:
+        scan: what is looked for, with the pieces of the shape.
+        waves: sines in what the fit leaves.
+        current: the fit.
+        balances: its runs.
+    """
+    assert scan.shaped is not None
+    found: list[tuple[float, float, Array, Array]] = []
+    for number in _numbers(scan, waves):
+        main = _sharpened(number, current, balances, length(scan, balances))
+        begins = aligned(*_harmonics(main, current, balances))
+        weights, left = _shape(main, begins, scan.pieces, current, balances)
+        found.append((left, main, begins, weights))
+    if not found:
+        return []
+    _, main, begins, weights = min(found, key=lambda f: f[0])
+    effect = scan.shaped(main, weights)
+    phases = {
+        (effect.kind, s.run, n): 2.0 * np.pi * float(b)
+        for s, b in zip(balances, begins, strict=True)
+        for n in effect.own_to_run
+    }
+    return [Start(dataclasses.replace(effect, phase=2.0 * np.pi * float(begins[0])), phases)]
+
+
+def _numbers(scan: Scan, waves: Waves) -> Iterator[float]:
+    """Yield the wave numbers of what may come back."""
+    numbers, power = waves.numbers.ravel(), waves.gain.sum(axis=0)
+    if len(numbers) < 2:
+        return
+    step = numbers[1] - numbers[0]
+    together = np.zeros(len(numbers))
+    for order in range(1, OVERTONES + 1):
+        at = np.round((order * numbers - numbers[0]) / step).astype(np.int64)
+        together[at < len(numbers)] += power[at[at < len(numbers)]]
+    mains = [numbers[i] / divisor for i in peaks(together, PEAKS) for divisor in MAINS]
+    yield from (float(m) for m in mains if m >= scan.low)
+
+
+def _sharpened(number: float, current: JointFit, balances: Sequence[ForceBalance], length: float) -> float:
+    """Return the wave number near one at which all harmonics explain most: the highest of them tell it best."""
+    trials = number + np.arange(-2 * HARMONICS, 2 * HARMONICS + 1) / (2.0 * FINE * HARMONICS * length)
+    power = np.zeros(len(trials))
+    for time, rest in _seen(current, balances):
+        first = np.exp(-2j * np.pi * np.outer(time, trials))
+        turned = np.ones_like(first)
+        for _ in range(HARMONICS):
+            turned = turned * first
+            power += np.abs(rest @ turned) ** 2 / len(rest)
+    return float(trials[int(np.argmax(power))])
+
+
+def _harmonics(number: float, current: JointFit, balances: Sequence[ForceBalance]) -> tuple[npt.NDArray[np.complex128], Array]:
+    """Return the harmonics of each run, and their variances, shape (n_runs, HARMONICS) each."""
+    order = np.arange(1, HARMONICS + 1)
+    waves = np.array(
+        [2.0 / len(r) * (r @ np.exp(-2j * np.pi * number * np.outer(t, order))) for t, r in _seen(current, balances)]
+    )
+    spread = np.array([4.0 * current.rms**2 / len(r) for _, r in _seen(current, balances)])
+    return waves, np.repeat(spread[:, None], HARMONICS, axis=1)
+
+
+def _shape(
+    number: float, begins: Array, pieces: int, current: JointFit, balances: Sequence[ForceBalance]
+) -> tuple[Array, float]:
+    """Return the weights of a shape beside all that is fitted, and the sum of squares that it leaves [N^2 or N^2 m^2]."""
+    columns: list[Array] = []
+    for balance, begin in zip(balances, begins, strict=True):
+        splines = returning(number * balance.time + begin, pieces)
+        columns.append(np.column_stack([balance.window.at_centres(x) for x in splines.T])[balance.sliding])
+    prior, off = prior_rows(current, prior_weight(current))
+    design = np.vstack([
+        np.column_stack([current.jacobian, np.concatenate(columns)]),
+        np.column_stack([prior, np.zeros((len(prior), pieces - 1))]),
+    ])  # fmt: skip
+    scale = np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
+    values = np.r_[np.concatenate(current.remainders), off]
+    solved = np.linalg.lstsq(design / scale, values, rcond=1.0e-10)[0] / scale
+    return solved[-(pieces - 1) :], float(np.sum((values - design @ solved) ** 2))
+
+
+def _seen(current: JointFit, balances: Sequence[ForceBalance]) -> Iterator[tuple[Array, Array]]:
+    """Yield times of the windows of sliding, and what the fit leaves of them, run by run; of a run that stands still a zero."""
+    for balance, rest in zip(balances, current.remainders, strict=True):
+        time = balance.time[balance.window.centres][balance.sliding]
+        yield (time, rest) if len(rest) else (np.zeros(1), np.zeros(1))
