@@ -13,7 +13,7 @@ from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.inference.free_parameter import FreeParameter
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Interval
-from stochfric_mb.effects.course import PIECES, Course
+from stochfric_mb.effects.course import PIECES, Course, Periodic
 
 LEAST_WAVE = 1.0e-3
 """Shortest wavelength that is tried, over the fitted one [-]: there is none of length 0."""
@@ -43,6 +43,8 @@ def parameters(place: PlaceOutcome, owner: int) -> dict[str, Interval]:
     if isinstance(effect, Course) and effect.any_shape:  # augmented.toml has its weights
         intervals[effect.course_size] = _course_size(place, owner, effect)
         shape = effect.course_size, *effect.shaped_by
+    elif isinstance(effect, Periodic) and effect.any_shape:
+        shape = effect.shaped_by
     for field in dataclasses.fields(effect):
         if field.name in shape:
             continue

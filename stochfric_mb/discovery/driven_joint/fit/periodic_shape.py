@@ -26,32 +26,52 @@ OVERTONES, PEAKS, MAINS = 3, 3, (1, 2, 3)
 """Harmonics by which such waves are looked for, how many of them are, and by what each is divided for it may be an overtone."""
 
 
-def shaped_starts(scan: Scan, waves: Waves, current: JointFit, balances: Sequence[ForceBalance]) -> list[Start]:
-    """Return the force of any shape from which a fit begins, if the scan has a wave at all.
+@dataclasses.dataclass(frozen=True)
+class Returning:
+    """What may come back, whatever its shape."""
+
+    number: float
+    """Its wave number [1/s]."""
+    begins: Array
+    """Where in it each run begins [turns], shape (n_runs,)."""
+
+
+def returning_waves(scan: Scan, waves: Waves, current: JointFit, balances: Sequence[ForceBalance]) -> list[Returning]:
+    """Return what may come back in what a fit leaves.
 
     Args:
-        scan: what is looked for, with the pieces of the shape.
+        scan: range of the wave numbers.
         waves: sines in what the fit leaves.
         current: the fit.
         balances: its runs.
     """
+    along = length(scan, balances)
+    mains = [_sharpened(number, current, balances, along) for number in _numbers(scan, waves)]
+    return [Returning(main, aligned(*_harmonics(main, current, balances))) for main in mains]
+
+
+def shaped_starts(scan: Scan, found: Sequence[Returning], current: JointFit, balances: Sequence[ForceBalance]) -> list[Start]:
+    """Return the force of any shape from which a fit begins; none where the best one explains no more than its numbers cost.
+
+    Args:
+        scan: what is looked for, with the pieces of the shape.
+        found: what may come back.
+        current: the fit.
+        balances: its runs.
+    """
     assert scan.shaped is not None
-    found: list[tuple[float, float, Array, Array]] = []
-    for number in _numbers(scan, waves):
-        main = _sharpened(number, current, balances, length(scan, balances))
-        begins = aligned(*_harmonics(main, current, balances))
-        weights, left = _shape(main, begins, scan.pieces, current, balances)
-        found.append((left, main, begins, weights))
-    if not found:
+    shapes = [_shape(one, scan.pieces, current, balances) for one in found]
+    if not shapes:
         return []
-    _, main, begins, weights = min(found, key=lambda f: f[0])
-    effect = scan.shaped(main, weights)
-    phases = {
-        (effect.kind, s.run, n): 2.0 * np.pi * float(b)
-        for s, b in zip(balances, begins, strict=True)
-        for n in effect.own_to_run
-    }
-    return [Start(dataclasses.replace(effect, phase=2.0 * np.pi * float(begins[0])), phases)]
+    best = int(np.argmin([np.sum(left**2) for _, left in shapes]))
+    weights, left = shapes[best]
+    rest = left[: len(current.jacobian)]
+    n = max(current.independent_in(np.split(rest, np.cumsum([len(r) for r in current.remainders])[:-1])), 4.0)
+    if 2.0 * n * float(np.log(current.rms / np.sqrt(np.mean(rest**2)))) < (scan.pieces + 1) * float(np.log(n)):
+        return []
+    effect, begins = scan.shaped(found[best].number, weights), 2.0 * np.pi * found[best].begins
+    own = {(effect.kind, s.run, n): float(b) for s, b in zip(balances, begins, strict=True) for n in effect.own_to_run}
+    return [Start(dataclasses.replace(effect, phase=float(begins[0])), own)]
 
 
 def _numbers(scan: Scan, waves: Waves) -> Iterator[float]:
@@ -91,13 +111,11 @@ def _harmonics(number: float, current: JointFit, balances: Sequence[ForceBalance
     return waves, np.repeat(spread[:, None], HARMONICS, axis=1)
 
 
-def _shape(
-    number: float, begins: Array, pieces: int, current: JointFit, balances: Sequence[ForceBalance]
-) -> tuple[Array, float]:
-    """Return the weights of a shape beside all that is fitted, and the sum of squares that it leaves [N^2 or N^2 m^2]."""
+def _shape(one: Returning, pieces: int, current: JointFit, balances: Sequence[ForceBalance]) -> tuple[Array, Array]:
+    """Return the weights of a shape beside all that is fitted, and what it leaves, of beliefs as well [N or N m]."""
     columns: list[Array] = []
-    for balance, begin in zip(balances, begins, strict=True):
-        splines = returning(number * balance.time + begin, pieces)
+    for balance, begin in zip(balances, one.begins, strict=True):
+        splines = returning(one.number * balance.time + begin, pieces)
         columns.append(np.column_stack([balance.window.at_centres(x) for x in splines.T])[balance.sliding])
     prior, off = prior_rows(current, prior_weight(current))
     design = np.vstack([
@@ -107,7 +125,7 @@ def _shape(
     scale = np.maximum(np.linalg.norm(design, axis=0), 1.0e-300)
     values = np.r_[np.concatenate(current.remainders), off]
     solved = np.linalg.lstsq(design / scale, values, rcond=1.0e-10)[0] / scale
-    return solved[-(pieces - 1) :], float(np.sum((values - design @ solved) ** 2))
+    return solved[-(pieces - 1) :], values - design @ solved
 
 
 def _seen(current: JointFit, balances: Sequence[ForceBalance]) -> Iterator[tuple[Array, Array]]:
