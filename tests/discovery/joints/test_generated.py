@@ -49,6 +49,7 @@ def test_what_was_a_delay_a_scatter_or_nothing_has_its_name(form, design, streng
         ("distance_drift.grooves_stroke_by_stroke", "mjcf_hinge", 1101, ["friction_drift"]),  # a second drift mends 1 % of it
         ("sensor_delay.averages_and_then_sends", "mjcf_slide", 1101, ["sensor_delay", "joint_compliance"]),  # 25 ms at 2 kHz
         ("load_dependence.soft_liner_shears", "slide", 1301, ["load_dependence"]),  # no power: level from one load on
+        ("harmonic_force.splice_of_a_belt_passes", "mjcf_slide", 1401, ["harmonic_force"]),  # a pulse a turn is no sine
     ],
 )
 def test_what_broke_a_principle_is_what_it_is(form, design, seed, kinds, tmp_path):

@@ -104,9 +104,8 @@ def _sharpened(number: float, current: JointFit, balances: Sequence[ForceBalance
 def _harmonics(number: float, current: JointFit, balances: Sequence[ForceBalance]) -> tuple[npt.NDArray[np.complex128], Array]:
     """Return the harmonics of each run, and their variances, shape (n_runs, HARMONICS) each."""
     order = np.arange(1, HARMONICS + 1)
-    waves = np.array(
-        [2.0 / len(r) * (r @ np.exp(-2j * np.pi * number * np.outer(t, order))) for t, r in _seen(current, balances)]
-    )
+    each = [2.0 / len(r) * (r @ np.exp(-2j * np.pi * number * np.outer(t, order))) for t, r in _seen(current, balances)]
+    waves: npt.NDArray[np.complex128] = np.array(each, dtype=np.complex128)
     spread = np.array([4.0 * current.rms**2 / len(r) for _, r in _seen(current, balances)])
     return waves, np.repeat(spread[:, None], HARMONICS, axis=1)
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -157,7 +158,8 @@ def _phase_of_shape(model: JointModel, effect: Effect, balance: ForceBalance) ->
     turns = 2.0 * np.pi * np.arange(BEGINS) / BEGINS
     best = float(turns[int(np.argmin([left(float(x)) for x in turns]))])
     step = 2.0 * np.pi / BEGINS
-    return float(minimize_scalar(left, bounds=(best - step, best + step), method="bounded").x)
+    found: Any = minimize_scalar(left, bounds=(best - step, best + step), method="bounded")
+    return float(found.x)
 
 
 def _swinging(
