@@ -1,4 +1,4 @@
-"""Forces at a joint that come back with any shape: frequency, shape, and where in it each run begins, from what a fit leaves."""
+"""Forces at a joint that come back with any shape: frequency, shape and begins, from what a fit leaves."""
 
 import dataclasses
 
