@@ -26,7 +26,7 @@ import importlib
 import math
 from collections.abc import Callable, Mapping
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -262,6 +262,10 @@ class Effect:
         sigmas = {name: value / math.sqrt(2.0 * draws) for name, value in values.items() if name.startswith("sigma")}
         r = values.get("cross_correlation")
         return sigmas if r is None else sigmas | {"cross_correlation": (1.0 - r * r + 1.0 / draws) / math.sqrt(draws)}
+
+    def changed(self, **numbers: float) -> Self:
+        """Return the effect with some of its numbers changed, and those that hang on them."""
+        return dataclasses.replace(self, **numbers)
 
     def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
         """Return the parameters that a fit at a driven joint leaves alone; ``contact``: its normal force is known."""

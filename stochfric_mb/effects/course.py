@@ -237,9 +237,19 @@ class Periodic(Shaped):
         """Return the change of the shape with each of the numbers `shaped_by`, shape (..., n)."""
         return np.concatenate([super().columns(place), np.ones((*place.shape, 1))], axis=-1)
 
+    def changed(self, **numbers: float) -> Self:
+        """Return the effect with some of its numbers changed; a course still comes back, and its mean is still 0."""
+        if not self.any_shape:
+            return super().changed(**numbers)
+        pieces = int(self.pieces)
+        weights = [numbers.get(name, getattr(self, name)) for name in COURSE[: pieces - 1]]
+        whole = np.array([*weights, 0.0, *weights[:2]])
+        closed = dict(zip(COURSE, whole.tolist(), strict=False)) | {"at_begin": -float(np.mean(_turn(pieces)[1] @ whole))}
+        return dataclasses.replace(self, **numbers | closed)
+
     def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
-        """Return what a course is shaped by: it has to come back, so that its size alone is fitted."""
-        return *COURSE, "at_begin", "pieces"
+        """Return the size of a course, and what hangs on the weights that are fitted since it comes back."""
+        return "course", "at_begin", "pieces", *COURSE[int(self.pieces) - 1 :]
 
     def shortest_time(self, speed: float) -> float:
         """Return the period [s], or the time of two pieces of the course, in which it can rise and fall."""

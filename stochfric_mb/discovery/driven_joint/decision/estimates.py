@@ -13,7 +13,7 @@ from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.inference.free_parameter import FreeParameter
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Interval
-from stochfric_mb.effects.course import PIECES, Course, Periodic
+from stochfric_mb.effects.course import PIECES, Shaped
 
 LEAST_WAVE = 1.0e-3
 """Shortest wavelength that is tried, over the fitted one [-]: there is none of length 0."""
@@ -40,11 +40,9 @@ def parameters(place: PlaceOutcome, owner: int) -> dict[str, Interval]:
     effect = fit.model.effects[owner]
     intervals: dict[str, Interval] = {}
     shape: tuple[str, ...] = ()
-    if isinstance(effect, Course) and effect.any_shape:  # augmented.toml has its weights
+    if isinstance(effect, Shaped) and effect.any_shape:  # augmented.toml has its weights
         intervals[effect.course_size] = _course_size(place, owner, effect)
         shape = effect.course_size, *effect.shaped_by
-    elif isinstance(effect, Periodic) and effect.any_shape:
-        shape = effect.shaped_by
     for field in dataclasses.fields(effect):
         if field.name in shape:
             continue
@@ -70,15 +68,15 @@ def parameters(place: PlaceOutcome, owner: int) -> dict[str, Interval]:
     return intervals
 
 
-def _course_size(place: PlaceOutcome, owner: int, effect: Course) -> Interval:
+def _course_size(place: PlaceOutcome, owner: int, effect: Shaped) -> Interval:
     """Return the largest change along a course of any shape, which is linear in the numbers fitted."""
     fit = place.selected.final
     along = np.linspace(0.0, 1.0, 20 * PIECES + 1)
-    columns, course = effect.columns(along), effect.shape(along)
+    course = effect.shape(along)
     most = int(np.argmax(np.abs(course)))
-    numbers = [(k.owner, k.name) for k in fit.free]
-    at = [numbers.index((owner, name)) for name in effect.shaped_by if (owner, name) in numbers]
-    row = np.array([columns[most, i] for i, name in enumerate(effect.shaped_by) if (owner, name) in numbers])
+    at = [i for i, k in enumerate(fit.free) if k.owner == owner and k.name in effect.shaped_by]
+    values = {fit.free[i].name: float(getattr(effect, fit.free[i].name)) for i in at}
+    row = np.array([effect.changed(**{n: x + 1.0}).shape(along[[most]])[0] - course[most] for n, x in values.items()])
     size = float(getattr(effect, effect.course_size))
     deviation = abs(size) * float(np.sqrt(max(row @ fit.covariance[np.ix_(at, at)] @ row, 0.0)))
     unit = unit_at(effect.unit_of(effect.course_size), place.fit[0].unit)

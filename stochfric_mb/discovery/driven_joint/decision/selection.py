@@ -22,11 +22,10 @@ from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight, settled
 from stochfric_mb.discovery.driven_joint.fit.gains import predicted_left, predicted_rms
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
-from stochfric_mb.discovery.driven_joint.fit.periodic_shape import Returning, returning_waves, shaped_starts
-from stochfric_mb.discovery.driven_joint.fit.wave_scan import Start, Waves, begun, tried, wave_starts, waves_left
+from stochfric_mb.discovery.driven_joint.fit.periodic_shape import WaveSearch
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import begun, tried
 from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
 from stochfric_mb.discovery.inference.paired import Paired
-from stochfric_mb.effects.contract import Scan
 from stochfric_mb.effects.course import LeveledCourse
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.traits import ROUGH
@@ -114,20 +113,6 @@ Fitted = list[tuple[Candidate, JointFit]]
 """Candidates with their fits."""
 
 
-@dataclasses.dataclass
-class _SeenWaves:
-    """What a scan has seen in what a fit leaves: several forms of an effect begin there."""
-
-    left_by: JointFit
-    """The fit."""
-    of: tuple[str, bool, float, float]
-    """Axis of the scan, whether its waves turn with the motion, and its range."""
-    waves: Waves
-    """Its waves."""
-    returning: list[Returning] | None = None
-    """What may come back, whatever its shape; None: not looked for yet."""
-
-
 class Selector:
     """Selection at one joint."""
 
@@ -142,7 +127,7 @@ class Selector:
         self._without: frozenset[str] = frozenset()
         self._forms: dict[Beside, tuple[frozenset[str], Fitted]] = {}
         self._courses: dict[Beside, JointFit | None] = {}
-        self._seen_waves: _SeenWaves | None = None
+        self._waves = WaveSearch(balances)
         self._tell = progress or (lambda _: None)
         self._settings, self._smooth, self._pairs = settings_of(balances), SmoothDependences(balances), confounded(balances)
         self.recalibrated, self._noise = settled(start, balances, nuisances, noise=_typical(balances))
@@ -385,7 +370,7 @@ class Selector:
         starts = [begun(e, self._balances) for e in candidate.starts]
         if len(starts) > STARTS:
             starts.sort(key=lambda s: predicted_rms(current.model, s, self._balances, current))
-        waves = [] if candidate.scan is None else self._wave_starts(candidate.scan, current)
+        waves = [] if candidate.scan is None else self._waves.starts(candidate.scan, current)
         count = STARTS_ROUGH if any(ROUGH in s.effect.traits for s in starts) else STARTS
         fits = [self._fit(s.added_to(current.model), refined=False, fixed=fixed) for s in (*starts[:count], *waves)]
         best = min((f for f in fits if np.isfinite(f.rms)), key=lambda f: f.rms, default=None)
@@ -394,18 +379,6 @@ class Selector:
         if any(ROUGH in s.effect.traits for s in starts):
             best = self._fit(best.model, fixed=fixed)
         return settled(best.model, self._balances, self._nuisances, noise=self._noise, fitted=best, fixed=fixed)[0]
-
-    def _wave_starts(self, scan: Scan, current: JointFit) -> list[Start]:
-        """Return the waves, or forces of any shape that comes back, from which fits begin."""
-        of = scan.axis, scan.signed, scan.low, scan.high
-        seen = self._seen_waves
-        if seen is None or seen.left_by is not current or seen.of != of:
-            seen = self._seen_waves = _SeenWaves(current, of, waves_left(scan, current, self._balances))
-        if scan.shaped is None:
-            return wave_starts(scan, seen.waves, self._balances)
-        if seen.returning is None:
-            seen.returning = returning_waves(scan, seen.waves, current, self._balances)
-        return shaped_starts(scan, seen.returning, current, self._balances)
 
     def _scored(self, current: JointFit, fits: Sequence[tuple[Candidate, JointFit]]) -> list[Trial]:
         # all are judged by the same count of independent windows: that of the best fit

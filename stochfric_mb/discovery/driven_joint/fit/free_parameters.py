@@ -100,5 +100,5 @@ def adjusted(model: JointModel, free: Sequence[FreeParameter], values: Array) ->
             changes[one.owner][one.name] = value
     # while a joint slides mu_s plays no part: it keeps its ratio to mu_k
     law["mu_s"] = max(law.get("mu_s", law["mu_k"] * model.law.mu_s / model.law.mu_k), law["mu_k"])
-    effects = tuple(dataclasses.replace(e, **c) if c else e for e, c in zip(model.effects, changes, strict=True))
+    effects = tuple(e.changed(**c) if c else e for e, c in zip(model.effects, changes, strict=True))
     return dataclasses.replace(model, law=dataclasses.replace(model.law, **law), effects=effects, nuisances=nuisances, own=own)

@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
-from stochfric_mb.discovery.driven_joint.fit.wave_scan import FINE, Start, Waves, length, peaks
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import BEST, FINE, Start, Waves, length, peaks, wave_starts, waves_left
 from stochfric_mb.discovery.inference.alignment import HARMONICS, aligned
 from stochfric_mb.effects.contract import Scan
 from stochfric_mb.effects.course import returning
@@ -36,6 +36,29 @@ class Returning:
     """Where in it each run begins [turns], shape (n_runs,)."""
 
 
+class WaveSearch:
+    """Where fits of waves begin, and of forces of any shape that comes back: what a scan sees serves all forms of an effect."""
+
+    def __init__(self, balances: Sequence[ForceBalance]) -> None:
+        self._balances = balances
+        self._left_by: JointFit | None = None
+        self._of: tuple[str, bool, float, float] | None = None
+        self._waves: Waves | None = None
+        self._returning: list[Returning] | None = None
+
+    def starts(self, scan: Scan, current: JointFit) -> list[Start]:
+        """Return where fits begin in what ``current`` leaves."""
+        of = scan.axis, scan.signed, scan.low, scan.high
+        if self._waves is None or self._left_by is not current or self._of != of:
+            self._left_by, self._of, self._returning = current, of, None
+            self._waves = waves_left(scan, current, self._balances)
+        if scan.shaped is None:
+            return wave_starts(scan, self._waves, self._balances)
+        if self._returning is None:
+            self._returning = returning_waves(scan, self._waves, current, self._balances)
+        return shaped_starts(scan, self._returning, current, self._balances)
+
+
 def returning_waves(scan: Scan, waves: Waves, current: JointFit, balances: Sequence[ForceBalance]) -> list[Returning]:
     """Return what may come back in what a fit leaves.
 
@@ -51,7 +74,7 @@ def returning_waves(scan: Scan, waves: Waves, current: JointFit, balances: Seque
 
 
 def shaped_starts(scan: Scan, found: Sequence[Returning], current: JointFit, balances: Sequence[ForceBalance]) -> list[Start]:
-    """Return the force of any shape from which a fit begins; none where the best one explains no more than its numbers cost.
+    """Return forces of any shape from which fits begin, best first, that explain more than their numbers cost.
 
     Args:
         scan: what is looked for, with the pieces of the shape.
@@ -60,18 +83,18 @@ def shaped_starts(scan: Scan, found: Sequence[Returning], current: JointFit, bal
         balances: its runs.
     """
     assert scan.shaped is not None
-    shapes = [_shape(one, scan.pieces, current, balances) for one in found]
-    if not shapes:
-        return []
-    best = int(np.argmin([np.sum(left**2) for _, left in shapes]))
-    weights, left = shapes[best]
-    rest = left[: len(current.jacobian)]
-    n = max(current.independent_in(np.split(rest, np.cumsum([len(r) for r in current.remainders])[:-1])), 4.0)
-    if 2.0 * n * float(np.log(current.rms / np.sqrt(np.mean(rest**2)))) < (scan.pieces + 1) * float(np.log(n)):
-        return []
-    effect, begins = scan.shaped(found[best].number, weights), 2.0 * np.pi * found[best].begins
-    own = {(effect.kind, s.run, n): float(b) for s, b in zip(balances, begins, strict=True) for n in effect.own_to_run}
-    return [Start(dataclasses.replace(effect, phase=float(begins[0])), own)]
+    starts: list[Start] = []
+    ends = np.cumsum([len(r) for r in current.remainders])[:-1]
+    shapes = [(one, *_shape(one, scan.pieces, current, balances)) for one in found]
+    for one, weights, left in sorted(shapes, key=lambda s: float(np.sum(s[2] ** 2)))[:BEST]:
+        rest = left[: len(current.jacobian)]
+        n = max(current.independent_in(np.split(rest, ends)), 4.0)
+        if 2.0 * n * float(np.log(current.rms / np.sqrt(np.mean(rest**2)))) < (scan.pieces + 1) * float(np.log(n)):
+            break
+        effect, begins = scan.shaped(one.number, weights), 2.0 * np.pi * one.begins
+        own = {(effect.kind, s.run, n): float(b) for s, b in zip(balances, begins, strict=True) for n in effect.own_to_run}
+        starts.append(Start(dataclasses.replace(effect, phase=float(begins[0])), own))
+    return starts
 
 
 def _numbers(scan: Scan, waves: Waves) -> Iterator[float]:

@@ -134,7 +134,7 @@ def with_phases(model: JointModel, balances: Sequence[ForceBalance], nuisances: 
             others = tuple(e for e in model.effects if e is not effect)
             for balance in balances:
                 if isinstance(effect, Periodic) and effect.any_shape:
-                    own[effect.kind, balance.run, name] = _phase_of_shape(model, effect, balance)
+                    own[effect.kind, balance.run, name] = _phase_of_shape(model, effect, balance, nuisances)
                     continue
                 parts = [dataclasses.replace(effect, **{name: x}) for x in (0.0, 0.5 * np.pi)]
                 plain = dataclasses.replace(model, effects=others).remainder(balance, ())
@@ -147,13 +147,13 @@ def with_phases(model: JointModel, balances: Sequence[ForceBalance], nuisances: 
     return dataclasses.replace(model, own=own)
 
 
-def _phase_of_shape(model: JointModel, effect: Effect, balance: ForceBalance) -> float:
+def _phase_of_shape(model: JointModel, effect: Effect, balance: ForceBalance, nuisances: Sequence[Nuisance]) -> float:
     """Return the phase of a force of any shape in a run at which it leaves least, but for a constant [rad]."""
     others = tuple(e for e in model.effects if e is not effect)
 
     def left(phase: float) -> float:
         trial = dataclasses.replace(model, effects=(*others, dataclasses.replace(effect, phase=phase)), own={})
-        return float(np.var(trial.remainder(balance, ())[balance.sliding]))
+        return float(np.var(trial.remainder(balance, nuisances)[balance.sliding]))
 
     turns = 2.0 * np.pi * np.arange(BEGINS) / BEGINS
     best = float(turns[int(np.argmin([left(float(x)) for x in turns]))])
