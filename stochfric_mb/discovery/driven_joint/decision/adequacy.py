@@ -18,8 +18,8 @@ def inadequate(place: PlaceOutcome) -> str:
 
     It does not where two effects draw one curve, where it explains no more than it leaves on the held-out runs, where as many
     effects as are looked for leave more than noise, where a number that is believed has to go as far as beliefs allow for it,
-    and where more than noise is left and either the typical window errs more with it or what is left plainly depends on
-    conditions that are not its own.
+    where one explains nothing beside what they leave, and where more than noise is left and either the typical window errs more
+    with it or what is left plainly depends on conditions that are not its own.
     """
     kinds = ", ".join(place.selected.named)
     if why := " and ".join(drawn_by_two(place)):
@@ -33,7 +33,7 @@ def inadequate(place: PlaceOutcome) -> str:
     why = _lost(place)
     if why:
         return f"{kinds} explains the fit runs, but not the held-out ones ({why}), and is not named"
-    why = endless(place) or at_bound(place) or _worse_at_most_times(place) or _plainly_left(place)
+    why = endless(place) or at_bound(place) or _imitated(place) or _worse_at_most_times(place) or _plainly_left(place)
     return f"{kinds} explains much of the record, but {why}, and is not named" if why else ""
 
 
@@ -115,6 +115,12 @@ def _worse_at_most_times(place: PlaceOutcome) -> str:
     if typical[1] < (1.0 + criteria.MATERIAL) * typical[0]:
         return ""
     return f"the median error rises from {typical[0]:.3g} to {typical[1]:.3g} {place.fit[0].unit} with it"
+
+
+def _imitated(place: PlaceOutcome) -> str:
+    """Return what takes the place of what an effect explains, and explains more; empty: nothing does."""
+    axis = place.selected.imitated
+    return f"beside a dependence on {axis}, which it leaves, it explains nothing" if axis else ""
 
 
 def _plainly_left(place: PlaceOutcome) -> str:

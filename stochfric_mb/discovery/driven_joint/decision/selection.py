@@ -17,7 +17,7 @@ from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate, c
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes, witnesses
 from stochfric_mb.discovery.driven_joint.decision.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.decision.released import Freed, Released, beyond_beliefs, by_gain
-from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import COMPETITORS, SmoothDependences
+from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import COMPETITORS, SIGNED, TIMES, SmoothDependences
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight, settled
 from stochfric_mb.discovery.driven_joint.fit.gains import predicted_left, predicted_rms
@@ -98,6 +98,8 @@ class Selected:
     """Numbers of law and mechanism that are off by more than their uncertainty."""
     nuisances: tuple[Nuisance, ...] = ()
     """Numbers of the mechanism with their priors in the final fit: those released have none that holds them."""
+    imitated: str = ""
+    """Two conditions of a smooth dependence beside which an effect of others explains nothing; empty: all explain something."""
 
     @property
     def named(self) -> tuple[str, ...]:
@@ -163,6 +165,7 @@ class Selector:
         final, effects = self._without_pushing(*self._without_zero(self._fit(current.model), effects))
         unknown = self._unknown(stages[-1]) if not stages[-1].accepted else ("", 0.0)
         left = (unknown, self._smooth.together(final, self._noise) if effects or released else ("", 0.0))
+        imitated = left[1][0] if any(self._imitated(final, i, t, left[1][0]) for i, t in enumerate(effects)) else ""
         return Selected(
             self.recalibrated,
             final,
@@ -173,7 +176,23 @@ class Selector:
             tuple((axis, gain) for axis, gain in left if axis),
             tuple(released),
             tuple(self._nuisances),
+            imitated,
         )
+
+    def _imitated(self, final: JointFit, number: int, trial: Trial, axis: str) -> bool:
+        """Return whether an effect of other conditions explains nothing beside two on which what is left depends together.
+
+        The motion comes back, and the clock goes on with it: a course in time of many pieces can draw a part of what the state
+        does, and leave the rest.
+        """
+        if not axis or trial.candidate.where in axis.removesuffix(SIGNED).split(TIMES):
+            return False
+        effects = final.model.effects
+        own = len(self.recalibrated.model.effects) + number
+        without = self._fit(dataclasses.replace(final.model, effects=tuple(e for i, e in enumerate(effects) if i != own)))
+        numbers = _numbers(without, trial.candidate, final)
+        keeps = self._smooth.left_to(final, without, self._noise, axis)
+        return keeps - numbers * float(np.log(max(final.independent, 4.0))) < criteria.NAMED
 
     def _released(self, current: JointFit, stage: Stage) -> tuple[Released, JointFit] | None:
         """Return the number that is off by more than its uncertainty, if that explains more than any effect.

@@ -86,6 +86,8 @@ def _load(balance: ForceBalance, _: int) -> Array:
 
 SIGNED = " and direction"
 """What the name of an axis ends with where the dependence turns with the direction, as friction does."""
+TIMES = " times "
+"""What stands between the two conditions of an axis."""
 ALONG: dict[str, Axis] = {"position": _position, "speed": _speed, "time": _time, "load": _load}
 """Conditions that vary within a run."""
 COMPETITORS = (
@@ -95,7 +97,7 @@ COMPETITORS = (
 )
 TOGETHER = tuple(
     (
-        Competitor(f"{first} times {second}{end}", (ALONG[first], ALONG[second]), signed, 1),
+        Competitor(f"{first}{TIMES}{second}{end}", (ALONG[first], ALONG[second]), signed, 1),
         tuple(Competitor(name, (ALONG[name],), signed) for name in (first, second)),
     )
     for first, second in itertools.combinations(ALONG, 2)
@@ -153,25 +155,33 @@ class SmoothDependences:
         Beside them stands by what part the error on blocks left out falls with them.
         """
         n = max(current.independent, 4.0)
-        prior, offsets = prior_rows(current, noise)
-        rest, kept = np.concatenate(current.remainders), adjustable(current)
-        ratio = scatter(rest, self._settings, n).ratio
+        ratio = scatter(np.concatenate(current.remainders), self._settings, n).ratio
         scores: list[float] = []
         for both, alone in TOGETHER:
-            deviances: list[float] = []
-            for some in (alone, (*alone, both)):
-                columns = np.column_stack([self._sliding_columns(c) for c in some])
-                design = np.column_stack([current.jacobian[:, kept], columns])
-                below = np.column_stack([prior[:, kept], np.zeros((len(prior), columns.shape[1]))])
-                slopes = np.column_stack([self._by_drive(c) for c in some])
-                deviances.append(self._deviance_without(rest, offsets, design, below, n, ratio, slopes))
-            scores.append(deviances[0] - deviances[1] - float(np.log(n)))
+            before, after = (self._deviance_beside(current, noise, some, n, ratio) for some in (alone, (*alone, both)))
+            scores.append(before - after - float(np.log(n)))
         best = int(np.argmax(scores))
         if scores[best] < criteria.NAMED + 2.0 * np.log(len(TOGETHER)):
             return "", 0.0
         both, alone = TOGETHER[best]
         gain = self.gain(current, noise, both, alone)
         return (both.axis, gain) if gain > criteria.MATERIAL else ("", 0.0)
+
+    def left_to(self, richer: JointFit, plain: JointFit, noise: float, axis: str) -> float:
+        """Return the evidence [-] that an effect keeps beside any smooth dependence on two conditions; numbers are not counted.
+
+        Args:
+            richer: the fit with the effect, which counts the independent windows.
+            plain: the fit without it.
+            noise: weight of beliefs, as of `fit`.
+            axis: the two conditions, as `together` names them.
+        """
+        pair = next(b for b, _ in TOGETHER if b.axis == axis).conditions
+        some = [c for both, alone in TOGETHER if both.conditions == pair for c in (*alone, both)]
+        n = max(richer.independent, 4.0)
+        ratio = scatter(np.concatenate(richer.remainders), self._settings, n).ratio
+        before, after = (self._deviance_beside(f, noise, some, n, ratio) for f in (plain, richer))
+        return before - after
 
     def gain(self, current: JointFit, noise: float, rival: Competitor, beside: Sequence[Competitor] = ()) -> float:
         """Return by what part a competitor lowers the error on blocks left out, beyond what those ``beside`` it do."""
@@ -197,6 +207,16 @@ class SmoothDependences:
         """Return the columns of a competitor at the windows of sliding, shape (n_windows, k)."""
         seen = rival.columns(self._balances)
         return np.concatenate([c[s.sliding] for c, s in zip(seen, self._balances, strict=True)])
+
+    def _deviance_beside(self, current: JointFit, noise: float, some: Sequence[Competitor], n: float, ratio: float) -> float:
+        """Return the deviance of what a fit leaves beside some dependences, for one ratio of the variances."""
+        prior, offsets = prior_rows(current, noise)
+        kept = adjustable(current)
+        columns = np.column_stack([self._sliding_columns(c) for c in some])
+        design = np.column_stack([current.jacobian[:, kept], columns])
+        below = np.column_stack([prior[:, kept], np.zeros((len(prior), columns.shape[1]))])
+        slopes = np.column_stack([self._by_drive(c) for c in some])
+        return self._deviance_without(np.concatenate(current.remainders), offsets, design, below, n, ratio, slopes)
 
     def _deviance_without(
         self, rest: Array, offsets: Array, design: Array, below: Array, n: float, ratio: float, slopes: Array

@@ -260,6 +260,8 @@ def _axis(place: PlaceOutcome) -> str:
         return told_by(place)
     if (foretells_nothing(place) or runs_apart(place)) and not above_floor(place):
         return "run"
+    if place.selected.left:  # names that do not stand leave it
+        return max(place.selected.left, key=lambda axis_and_gain: axis_and_gain[1])[0]
     rivals = place.selected.stages[-1].competitors
     return rivals[0][0] if rivals and rivals[0][1] > 0.0 else "time"
 
