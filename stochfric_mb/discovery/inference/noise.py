@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import itertools
 
 import numpy as np
@@ -22,6 +23,12 @@ BANDS, LEVEL, EVEN = 12, 4, 2.0
 factor where the spectrum is that of noise [-]: that of a motion that jumps in its acceleration falls by 64 an octave."""
 
 
+_LEVELS: dict[bytes, float] = {}
+"""Digest of a signal -> its `noise_level`: a record is asked for once for each delay that is tried and each window."""
+MOST_LEVELS = 4096
+"""Levels that are kept."""
+
+
 def white_noise(signal: Array) -> float:
     """Return the standard deviation of white noise on a smooth signal, from the median size of its third differences.
 
@@ -36,6 +43,15 @@ def noise_level(signal: Array) -> float:
     Where readings were interpolated, or smoothed, differences between samples show next to nothing: the spectrum ends below
     half of the sample rate. It is then that of the quickest two octaves in which it is level, as no motion's is.
     """
+    digest = hashlib.blake2b(np.ascontiguousarray(signal, dtype=np.float64).data).digest()
+    if digest not in _LEVELS:
+        if len(_LEVELS) >= MOST_LEVELS:
+            _LEVELS.clear()
+        _LEVELS[digest] = _noise_level(signal)
+    return _LEVELS[digest]
+
+
+def _noise_level(signal: Array) -> float:
     white = white_noise(signal)
     if len(signal) < 2 * PIECE or white <= 0.0 or np.mean(np.diff(signal) == 0.0) > REPEATED:
         return white

@@ -124,16 +124,17 @@ def sought(make: Callable[[float], Sequence[ForceBalance]], names: Sequence[str]
     if sum(int(m.sum()) for m in same) < FEWEST:
         raise InputError(f"no {FEWEST} windows of the runs can be seen with delays of up to {span:.3g} s")
 
-    def left(delay: float) -> tuple[float, float]:
+    def left(delay: float) -> list[Array]:
         return _left(make(delay), same, names, generous)
 
-    errors = np.array([left(d)[0] for d in grid])
+    errors = np.array([_square(left(d)) for d in grid])
     best = int(np.argmin(errors))
     step = grid[1] - grid[0]
     fine = np.linspace(grid[best] - step, grid[best] + step, 9)
-    delay = lowest(fine, np.array([left(d)[0] for d in fine]))
-    rest, n = left(delay)
-    still, _ = left(0.0)
+    delay = lowest(fine, np.array([_square(left(d)) for d in fine]))
+    remains = left(delay)
+    rest, n = _square(remains), max(sum(map(independent_count, remains)), 4.0)
+    still = _square(left(0.0))
     # S(T) = S (1 + (T - T0)^2 curvature): one standard deviation raises n S by S
     inside = 0 < best < GRID - 1
     rise = max(errors[best - 1], errors[best + 1]) / rest - 1.0 if inside else 0.0
@@ -161,15 +162,17 @@ def shared(delayed: Sequence[Sequence[ForceBalance]]) -> list[Mask]:
     return [np.logical_and.reduce([s.sliding for s in each]) for each in zip(*delayed, strict=True)]
 
 
-def _left(
-    balances: Sequence[ForceBalance], windows: Sequence[Mask], names: Sequence[str], generous: bool
-) -> tuple[float, float]:
-    """Return the mean square that a friction law leaves in ``windows``, and the number of independent ones."""
+def _left(balances: Sequence[ForceBalance], windows: Sequence[Mask], names: Sequence[str], generous: bool) -> list[Array]:
+    """Return what a friction law leaves in ``windows`` of each balance."""
     columns = np.concatenate([_columns(s, names, generous)[m] for s, m in zip(balances, windows, strict=True)])
     driven = np.concatenate([s.driven[m] for s, m in zip(balances, windows, strict=True)])
     rest = left_by(columns, driven)
-    ends = np.cumsum([int(m.sum()) for m in windows])[:-1]
-    return float(np.mean(rest**2)), max(sum(independent_count(r) for r in np.split(rest, ends)), 4.0)
+    return np.split(rest, np.cumsum([int(m.sum()) for m in windows])[:-1])
+
+
+def _square(remains: Sequence[Array]) -> float:
+    """Return the mean square of what is left."""
+    return float(np.mean(np.concatenate(remains) ** 2))
 
 
 def _columns(balance: ForceBalance, names: Sequence[str], generous: bool) -> Array:
