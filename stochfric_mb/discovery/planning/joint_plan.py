@@ -14,10 +14,11 @@ from typing import Any
 import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.balances import Balances
-from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate, candidates, span_of
-from stochfric_mb.discovery.driven_joint.decision.selection import SIZES, Selector
+from stochfric_mb.discovery.driven_joint.decision.selection import Selector
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.gains import effect_columns
+from stochfric_mb.discovery.driven_joint.search.candidate_fits import SIZES
+from stochfric_mb.discovery.driven_joint.search.candidates import Candidate, candidates, span_of
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.discovery.planning.joint_motion import measured_at_joint, measured_in_model
 from stochfric_mb.discovery.planning.planned_run import PlannedRun

@@ -8,9 +8,10 @@ import pytest
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.discovery.driven_joint.decision.adequacy import _worse_at_most_times
-from stochfric_mb.discovery.driven_joint.decision.selection import Selector, _is_none
+from stochfric_mb.discovery.driven_joint.decision.selection import Selector
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.discovery.driven_joint.search.candidate_fits import is_none
 from stochfric_mb.discovery.driven_joint.simulation.scores import noise_floor, white_floor
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.effects import make_effect
@@ -53,7 +54,7 @@ def test_a_gain_that_is_less_everywhere_does_not_change_along_the_stroke():
     given = pair(coulomb)
     more = [dataclasses.replace(r, channels={**r.channels, "force": r.channels["force"] / 0.9}) for r in given.runs]
     weak, *_ = fitted(dataclasses.replace(given, runs=tuple(more)), curve)
-    assert _is_none(weak, 0)
+    assert is_none(weak, 0)
 
 
 def test_a_load_whose_share_ends_at_its_bound_stands_for_something_else():
@@ -65,8 +66,8 @@ def test_a_load_whose_share_ends_at_its_bound_stands_for_something_else():
         effect = dataclasses.replace(known.model.effects[0], load_share=share, gap=0.01)
         return dataclasses.replace(known, model=dataclasses.replace(known.model, effects=(effect,)))
 
-    assert _is_none(of_share(0.95), 0)
-    assert not _is_none(of_share(0.7), 0)
+    assert is_none(of_share(0.95), 0)
+    assert not is_none(of_share(0.7), 0)
 
 
 def test_names_that_trade_most_windows_for_a_few_do_not_stand():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, strokes
-from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of, whitened
+from stochfric_mb.discovery.driven_joint.fit.evidence import scatter, settings_of, whitened
 from stochfric_mb.discovery.driven_joint.fit.fitting import stroke_count
 from tests.discovery.joints.test_parts import balance_of, coulomb, scenario, sine_run
 

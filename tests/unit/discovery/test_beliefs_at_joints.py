@@ -10,13 +10,14 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, stand_ins
 from stochfric_mb.discovery.driven_joint.decision import verdict
 from stochfric_mb.discovery.driven_joint.decision.adequacy import endless, inadequate
-from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate
 from stochfric_mb.discovery.driven_joint.decision.released import Released
-from stochfric_mb.discovery.driven_joint.decision.selection import Selector, Trial, _is_none, simplest_first
+from stochfric_mb.discovery.driven_joint.decision.selection import Selector, Trial, simplest_first
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.next_experiment import next_experiment
 from stochfric_mb.discovery.driven_joint.scatter.run_scatter import run_scatter
+from stochfric_mb.discovery.driven_joint.search.candidate_fits import is_none
+from stochfric_mb.discovery.driven_joint.search.candidates import Candidate
 from stochfric_mb.discovery.driven_joint.simulation.scores import Score
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.effects import make_effect
@@ -162,7 +163,7 @@ def test_a_ripple_of_the_gain_whose_size_may_be_zero_is_none(deviation, none):
         values=np.array([ripple.ripple]),
         covariance=np.array([[deviation**2]]),
     )
-    assert _is_none(fitted, 0) is none
+    assert is_none(fitted, 0) is none
 
 
 def test_when_most_is_missing_is_told_and_runs_in_which_nothing_slides_are_passed_over():

@@ -1,1 +1,1 @@
-"""Which effects a joint lacks: candidates, selection, confounding, and the verdict with its numbers."""
+"""Which effects a joint lacks: selection, what speaks against it, and the verdict with its numbers."""

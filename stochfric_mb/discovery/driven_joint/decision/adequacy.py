@@ -6,10 +6,10 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import by_clock, confounded, one_curve
-from stochfric_mb.discovery.driven_joint.decision.candidates import stated_forms
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNED
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
+from stochfric_mb.discovery.driven_joint.search.candidates import stated_forms
 from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, closed_share, noise_floor
 
 

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.decision.adequacy import at_bound, drawn_by_two, inadequate
-from stochfric_mb.discovery.driven_joint.decision.evidence import settings_of
+from stochfric_mb.discovery.driven_joint.fit.evidence import settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, closed_share, noise_floor, score, white_floor

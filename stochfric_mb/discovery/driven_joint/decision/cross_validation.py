@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.decision.evidence import FEWEST
+from stochfric_mb.discovery.driven_joint.fit.evidence import FEWEST
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import with_phases

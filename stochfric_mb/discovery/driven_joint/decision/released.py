@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import GAIN, ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.decision.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.fit.beliefs import Belief, beliefs
+from stochfric_mb.discovery.driven_joint.fit.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, settled
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM, FreeParameter
 from stochfric_mb.effects import kind_with_signature

@@ -3,44 +3,28 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import numpy.typing as npt
-from scipy.stats import chi2
 from scipy.stats import f as fisher
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_state, confounded
 from stochfric_mb.discovery.driven_joint.balance.force_balance import GAIN, ForceBalance, Nuisance
-from stochfric_mb.discovery.driven_joint.decision.candidates import Candidate, candidates, span_of
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes, witnesses
-from stochfric_mb.discovery.driven_joint.decision.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.decision.released import Freed, Released, beyond_beliefs, by_gain
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import COMPETITORS, SIGNED, TIMES, SmoothDependences
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
+from stochfric_mb.discovery.driven_joint.fit.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, fit, prior_weight, settled
-from stochfric_mb.discovery.driven_joint.fit.gains import predicted_left, predicted_rms
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
-from stochfric_mb.discovery.driven_joint.fit.periodic_shape import WaveSearch
-from stochfric_mb.discovery.driven_joint.fit.wave_scan import begun, tried
-from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import tried
+from stochfric_mb.discovery.driven_joint.search.candidate_fits import Beside, CandidateFits, Found, may_be_zero
+from stochfric_mb.discovery.driven_joint.search.candidates import Candidate
 from stochfric_mb.discovery.inference.paired import Paired
-from stochfric_mb.effects.course import LeveledCourse
-from stochfric_mb.effects.joints import JointSpan
-from stochfric_mb.effects.traits import ROUGH
 
 Array = npt.NDArray[np.float64]
-
-STARTS, STARTS_ROUGH = 2, 6
-"""Best starts of an effect from which it is fitted; of a rough one the best is often in a wrong valley."""
-SIZES = ("amplitude", "coefficient", "asymmetry", "viscous_difference", "rate", "load_share", "gap")
-"""Parameters that are zero where an effect is none."""
-VARIES = ("slope", "curvature", "ripple")
-"""Parameters that are all zero where what varies along the stroke is a constant."""
-SHARE, AT_AN_END = "load_share", 1.0e-3
-"""Part of the inertia that moves by itself, and how close to an end of its range it has reached it, over that range [-]:
-rounding."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -64,7 +48,7 @@ class Stage:
     before: JointFit
     """Model before it."""
     trials: tuple[Trial, ...]
-    """Every candidate, best first."""
+    """Every candidate that is worth a fit, best first."""
     competitors: tuple[tuple[str, float], ...]
     """Axis of each smooth competitor, with its score."""
     blocks: Paired
@@ -73,6 +57,8 @@ class Stage:
     """What it is worth on strokes left out, where this was asked."""
     accepted: bool
     """Whether it was taken into the model."""
+    faint: tuple[tuple[Candidate, float], ...] = ()
+    """Candidates that are not worth a fit, with the score that it might give them at best [-]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -107,12 +93,8 @@ class Selected:
         return (*(t.candidate.kind for t in self.effects), *(r.name for r in self.released))
 
 
-Beside = tuple[Hashable, ...]
-"""The effects of a model by kind and adjusted numbers, and what is believed of law and mechanism."""
 Fixed = Sequence[tuple[int, str]]
 """Numbers of effects, by their places in a model and names, that a fit leaves as they are."""
-Fitted = list[tuple[Candidate, JointFit]]
-"""Candidates with their fits."""
 
 
 class Selector:
@@ -127,10 +109,8 @@ class Selector:
     ) -> None:
         self._balances, self._nuisances = list(balances), list(nuisances)
         self._without: frozenset[str] = frozenset()
-        self._forms: dict[Beside, tuple[frozenset[str], Fitted]] = {}
-        self._courses: dict[Beside, JointFit | None] = {}
-        self._waves = WaveSearch(balances)
         self._tell = progress or (lambda _: None)
+        self._candidates = CandidateFits(self._balances, self._tell)
         self._settings, self._smooth, self._pairs = settings_of(balances), SmoothDependences(balances), confounded(balances)
         self.recalibrated, self._noise = settled(start, balances, nuisances, noise=_typical(balances))
         self._begin = self._noise, self._nuisances
@@ -252,7 +232,7 @@ class Selector:
         """Drop effects whose size may be zero beside those selected after them: nothing is said by them."""
         while True:
             first = len(final.model.effects) - len(effects)
-            empty = next((i for i in range(len(effects)) if _may_be_zero(final, first + i)), None)
+            empty = next((i for i in range(len(effects)) if may_be_zero(final, first + i)), None)
             if empty is None:
                 return final, effects
             others = tuple(e for i, e in enumerate(final.model.effects) if i != first + empty)
@@ -268,9 +248,8 @@ class Selector:
         return (final, effects) if at_end(shorter.model, believed) is not None else (shorter, kept)
 
     def _stage(self, current: JointFit) -> Stage:
-        span = span_of(self._balances, current.model.law.mu_k * current.model.load, current.model.load)
-        fits = self._fitted(current, span)
-        trials = self._scored(current, fits)
+        found = self._found(current)
+        trials = self._scored(current, found)
         rivals = self._smooth.scores(current, trials[0].fit, self._noise)
         models = current.model, trials[0].fit.model
         phased = len(models[1].own) > len(models[0].own) and len(self._balances) > 1
@@ -293,85 +272,23 @@ class Selector:
                 and repeats.p_value < criteria.STROKES_BY_CHANCE
                 and self._predicted_better(*models)
             )
-        return Stage(current, tuple(trials), tuple(rivals), inside, repeats, enough)
+        return Stage(current, tuple(trials), tuple(rivals), inside, repeats, enough, found.faint)
 
-    def _fitted(self, current: JointFit, span: JointSpan) -> Fitted:
+    def _found(self, current: JointFit) -> Found:
         """Return the candidates that the model does not have yet, fitted.
 
         A load that moves by itself is looked for where all other candidates leave more than noise: it can take noise of the
         acceleration away, whether there is such a load or not. Its force takes long to work out: it is looked for first, and
         again where nothing else has a name.
         """
-        fits = self._fits(current, span, of_loads=False)
-        least = min((current, *(f for _, f in fits)), key=lambda f: f.rms)
+        beside = Beside(current, self._nuisances, self._noise, self._without)
+        found = self._candidates.others(beside)
         first = len(current.model.effects) == len(self.recalibrated.model.effects)
-        asked = first or self._scored(current, fits)[0].score <= criteria.NAMED
-        if asked and least.rms > FLOOR * noise_floor(least.model, self._balances, self._nuisances):
-            fits += self._fits(current, span, of_loads=True)
-        return fits
-
-    def _fits(self, current: JointFit, span: JointSpan, *, of_loads: bool) -> Fitted:
-        """Return candidates, those of moving loads or all others, fitted; beside the same effects that is done once."""
-        key = (of_loads, *self._beside(current))
-        left_out, forms = self._forms.get(key, (frozenset[str](), None))
-        asked = [c for c in candidates(span, current.model.effects) if c.moves_load == of_loads]
-        asked = [c for c in asked if not c.names & self._without]
-        if forms is None or not left_out <= self._without:
-            forms = [(c, f) for c in asked if not c.any_shape and (f := self._searched(current, c)) is not None]
-            self._forms[key] = self._without, forms
-        fits = [(c, f) for c, f in forms if not c.names & self._without]
-        for course in self._worth_fitting(current, fits, [c for c in asked if c.any_shape]):
-            one = (*key, course.name, course.parameters)
-            if one not in self._courses:
-                self._courses[one] = self._searched(current, course)
-            fitted = self._courses[one]
-            fits += [] if fitted is None else [(course, fitted)]
-        return fits
-
-    def _searched(self, current: JointFit, candidate: Candidate) -> JointFit | None:
-        """Return a candidate fitted; None: it has no fit, or as fitted is none of its kind."""
-        self._tell(candidate.kind)
-        fitted = self._best(current, candidate)
-        return fitted if fitted is not None and not _is_none(fitted, len(fitted.model.effects) - 1) else None
-
-    def _worth_fitting(self, current: JointFit, fits: Fitted, courses: Sequence[Candidate]) -> list[Candidate]:
-        """Return, of the courses of each kind, the one of as many pieces as the record supports, if it supports any.
-
-        Friction is linear in their weights, so that what a fit will leave is known before it is made. What leaves least counts
-        the independent windows: to all others a course that is missing leaves slow noise.
-
-        Args:
-            current: the fit beside which they are asked for.
-            fits: other candidates fitted: no course may say less than its kind.
-            courses: courses of any shape.
-        """
-        best = min((f for _, f in fits), key=lambda f: f.rms, default=current)
-        least, n = best.rms, max(best.independent, 4.0)
-        ends = np.cumsum([len(r) for r in current.remainders])[:-1]
-        supported: list[tuple[Candidate, float]] = []
-        for one in courses:
-            left = predicted_left(current.model, begun(one.starts[0], self._balances), self._balances, current)
-            rms, own = float(np.sqrt(np.mean(left**2))), current.independent_in(np.split(left, ends))
-            if criteria.WINDOWS_A_NUMBER * one.parameters <= own:
-                supported.append((one, rms))
-                least, n = min((least, n), (rms, own))
-
-        def worth(rms: float, numbers: int) -> float:
-            return 2.0 * n * float(np.log(current.rms / rms)) - numbers * float(np.log(n))
-
-        most: dict[str, float] = {}
-        for other, fitted in fits:
-            most[other.kind] = max(most.get(other.kind, criteria.NAMED), worth(fitted.rms, other.parameters))
-        chosen: dict[str, Candidate] = {}
-        for one, rms in supported:
-            if worth(rms, one.parameters) > most.get(one.kind, criteria.NAMED):
-                most[one.kind], chosen[one.kind] = worth(rms, one.parameters), one
-        return list(chosen.values())
-
-    def _beside(self, current: JointFit) -> Beside:
-        numbers = {(k.owner, k.name) for k in current.free}
-        forms = [(e.kind, *sorted(n for o, n in numbers if o == i)) for i, e in enumerate(current.model.effects)]
-        return *sorted(forms), *self._nuisances, current.model.level
+        asked = first or self._scored(current, found)[0].score <= criteria.NAMED
+        if asked and self._candidates.leaves_more_than_noise(found, current, self._nuisances):
+            loads = self._candidates.loads(beside)
+            found = Found(found.fits + loads.fits, found.faint)
+        return found
 
     def _predicted_better(self, plain: JointModel, richer: JointModel) -> bool:
         """Return whether each half of the record, left out, is predicted better by the richer model by a material part."""
@@ -379,31 +296,11 @@ class Selector:
         seen = [compared(plain, richer, self._balances, self._nuisances, self._noise, [half]) for half in halves]
         return min(s.rms_gain for s in seen) > criteria.MATERIAL
 
-    def _best(self, current: JointFit, candidate: Candidate) -> JointFit | None:
-        """Return the best fit with a candidate; None: it is no number, or nothing is left for a wave.
-
-        How a load moves by itself that is in the model already stays as it is: another motion of it is no merit of this one.
-        """
-        loads = [(i, e) for i, e in enumerate(current.model.effects) if e.moves_load]
-        fixed = [(i, field.name) for i, e in loads for field in dataclasses.fields(e)]
-        starts = [begun(e, self._balances) for e in candidate.starts]
-        if len(starts) > STARTS:
-            starts.sort(key=lambda s: predicted_rms(current.model, s, self._balances, current))
-        waves = [] if candidate.scan is None else self._waves.starts(candidate.scan, current)
-        count = STARTS_ROUGH if any(ROUGH in s.effect.traits for s in starts) else STARTS
-        fits = [self._fit(s.added_to(current.model), refined=False, fixed=fixed) for s in (*starts[:count], *waves)]
-        best = min((f for f in fits if np.isfinite(f.rms)), key=lambda f: f.rms, default=None)
-        if best is None:
-            return None
-        if any(ROUGH in s.effect.traits for s in starts):
-            best = self._fit(best.model, fixed=fixed)
-        return settled(best.model, self._balances, self._nuisances, noise=self._noise, fitted=best, fixed=fixed)[0]
-
-    def _scored(self, current: JointFit, fits: Sequence[tuple[Candidate, JointFit]]) -> list[Trial]:
+    def _scored(self, current: JointFit, found: Found) -> list[Trial]:
         # all are judged by the same count of independent windows: that of the best fit
-        best = min((f for _, f in fits), key=lambda f: f.rms)
+        best = min((f for _, f in found.fits), key=lambda f: f.rms)
         n = max(best.independent, 4.0)
-        trials = [self._trial(current, c, f, best, n, len(fits)) for c, f in fits]
+        trials = [self._trial(current, c, f, best, n, found.asked) for c, f in found.fits]
         return simplest_first(sorted(trials, key=lambda t: -t.score), self._pairs)
 
     def _trial(self, current: JointFit, candidate: Candidate, fitted: JointFit, best: JointFit, n: float, kinds: int) -> Trial:
@@ -438,8 +335,7 @@ class Selector:
         own = final.model.effects[len(final.model.effects) - added + number]
         others = tuple(e for e in final.model.effects if e is not own)
         without = self._fit(dataclasses.replace(final.model, effects=others))
-        span = span_of(self._balances, without.model.law.mu_k * without.model.load, without.model.load)
-        fits = [(c, f) for c, f in self._fitted(without, span) if c.kind != own.kind]
+        fits = [(c, f) for c, f in self._found(without).fits if c.kind != own.kind]
         n = max(final.independent, 4.0)
         mine = evidence(without, final, final, self._settings)
         theirs = [(c.kind, c.parameters, evidence(without, f, final, self._settings)) for c, f in fits]
@@ -495,35 +391,6 @@ def simplest_first(trials: list[Trial], pairs: Sequence[Confounded] = ()) -> lis
 def _numbers(current: JointFit, candidate: Candidate, fitted: JointFit) -> int:
     """Return how many numbers a candidate adds to a fit, phases that each run has for itself among them."""
     return candidate.parameters + max(len(fitted.model.own) - len(current.model.own) - 1, 0)
-
-
-def _is_none(fitted: JointFit, owner: int) -> bool:
-    """Return whether an effect as fitted is none of its kind.
-
-    It is not where a load that moves by itself may as well not be there or ends at the end of what its share can be, where it
-    stands for something else, and where what varies along the stroke does not vary, so that a constant does.
-    """
-    effect = fitted.model.effects[owner]
-    if effect.moves_load:
-        share = next(k for k in fitted.free if (k.owner, k.name) == (owner, SHARE))
-        value = float(getattr(effect, SHARE))
-        return _may_be_zero(fitted, owner) or min(value - share.low, share.high - value) < AT_AN_END * (share.high - share.low)
-    varies = effect.weights if isinstance(effect, LeveledCourse) and effect.any_shape else VARIES
-    at = [i for i, k in enumerate(fitted.free) if k.owner == owner and k.name in varies]
-    numbers, covariance = fitted.values[at], fitted.covariance[np.ix_(at, at)]
-    if not at or not np.isfinite(covariance).all():
-        return False
-    # weights of a course share the doubt of what it begins with: together they tell
-    return float(numbers @ np.linalg.pinv(covariance, hermitian=True) @ numbers) < float(chi2.ppf(0.95, len(at)))
-
-
-def _may_be_zero(fitted: JointFit, owner: int) -> bool:
-    """Return whether the 95 % interval of an effect's size holds zero; that of a wave is asked for otherwise."""
-    effect = fitted.model.effects[owner]
-    if hasattr(effect, "wavelength"):
-        return False
-    sizes = [(abs(getattr(effect, name)), fitted.deviation(owner, name)) for name in SIZES if hasattr(effect, name)]
-    return any(np.isfinite(deviation) and size < 1.96 * deviation for size, deviation in sizes)
 
 
 def _typical(balances: Sequence[ForceBalance]) -> float:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks
-from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of, whitened
+from stochfric_mb.discovery.driven_joint.fit.evidence import scatter, settings_of, whitened
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows
 from stochfric_mb.discovery.driven_joint.fit.joint_model import STEP, change_of
 from stochfric_mb.discovery.inference.free_parameter import MECHANISM

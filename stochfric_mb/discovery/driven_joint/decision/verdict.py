@@ -11,16 +11,16 @@ import numpy as np
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, confounded, spoken_of, stand_ins
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.adequacy import at_bound
-from stochfric_mb.discovery.driven_joint.decision.candidates import candidates, span_of
 from stochfric_mb.discovery.driven_joint.decision.carry_over import above_floor, foretells_nothing, lacks, runs_apart, told_by
 from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, mechanism_estimates, parameters
-from stochfric_mb.discovery.driven_joint.decision.evidence import scatter, settings_of
 from stochfric_mb.discovery.driven_joint.decision.released import finding
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNED
+from stochfric_mb.discovery.driven_joint.fit.evidence import scatter, settings_of
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.driven_joint.next_experiment import next_experiment
 from stochfric_mb.discovery.driven_joint.scatter.between_groups import CoefficientScatter
+from stochfric_mb.discovery.driven_joint.search.candidates import candidates, span_of
 from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD, FLOOR, noise_floor
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import EffectEstimate, Gap, Interval, Result, Where
@@ -296,9 +296,9 @@ def _ranking(places: Sequence[PlaceOutcome]) -> tuple[tuple[str, float], ...]:
     best: dict[str, float] = {}
     for place in places:
         for stage in place.searched:
-            for trial in stage.trials:
-                name = f"{trial.candidate.kind} ({place.place})" if len(places) > 1 else trial.candidate.kind
-                best[name] = max(best.get(name, -np.inf), trial.score)
+            for candidate, score in (*((t.candidate, t.score) for t in stage.trials), *stage.faint):
+                name = f"{candidate.kind} ({place.place})" if len(places) > 1 else candidate.kind
+                best[name] = max(best.get(name, -np.inf), score)
     late = [p.timing.score for p in places if p.timing is not None]
     if late:
         best[kind_with_signature(LATE)] = max(late)
@@ -331,11 +331,15 @@ def _imitated(place: PlaceOutcome) -> list[str]:
     """Return the one-parameter effects, not selected, that corrections of the mechanism imitate."""
     fit = place.selected.final
     selected = {t.candidate.kind for t in place.selected.effects}
-    tried = [t.candidate for t in place.selected.stages[0].trials if t.candidate.parameters == 1]
+    stage = place.selected.stages[0]
+    tried = [*(t.candidate for t in stage.trials), *(c for c, _ in stage.faint)]
     return [
         c.kind
         for c in tried
-        if c.kind not in selected and place.nuisances and hidden_share(c.starts[0], place.fit, fit) > IMITATED
+        if c.parameters == 1
+        and c.kind not in selected
+        and place.nuisances
+        and hidden_share(c.starts[0], place.fit, fit) > IMITATED
     ]
 
 
@@ -444,6 +448,7 @@ def _details(places: Sequence[PlaceOutcome], pairs: Sequence[Confounded]) -> dic
                     {
                         "before": s.before.rms,
                         "trials": [[t.candidate.kind, t.score, t.fit.rms] for t in s.trials],
+                        "not_worth_a_fit": [[c.kind, score] for c, score in s.faint],
                         "competitors": [list(c) for c in s.competitors],
                         "gain_on_blocks_left_out": s.blocks.rms_gain,
                         "blocks_better": s.blocks.better,
