@@ -255,8 +255,9 @@ MOST_OFF, AT_BOUND = 4.0, 0.95
 """Standard deviations by which data may move what is believed of law and mechanism, and the part of that from which on a number
 is held by it [-]; 6e-5 of all priors are off by more. What is off by more is a finding, or not that number at all."""
 FAR_AHEAD = 2.0
-"""Factor on the error of forward simulation from which an effect is not named, whatever else it explains [-]: chosen, so that
-the scatter of such errors, which starts and contacts decide, rejects nothing."""
+"""Factor on the error of forward simulation from which an effect is not named, whatever else it explains, where one with
+the controller in the loop has the last word [-]: chosen, so that the scatter of such errors, which starts and contacts decide,
+rejects nothing. Where no controller is known that error may rise by `CLOSES_NOTHING`."""
 EXPLAINED_HELD_OUT = 0.5
 """Part of the squared error, noise apart, that effects have to explain on held-out runs to be named [-]: more than they
 leave."""

@@ -21,6 +21,8 @@ from .joint_generator.unseen_ninth import UNSEEN_NINTH
 from .joint_generator.unseen_second import UNSEEN_SECOND
 from .joint_generator.unseen_seventh import PAIRS as UNSEEN_SEVENTH_PAIRS
 from .joint_generator.unseen_seventh import UNSEEN_SEVENTH
+from .joint_generator.unseen_sixteenth import PAIRS as UNSEEN_SIXTEENTH_PAIRS
+from .joint_generator.unseen_sixteenth import UNSEEN_SIXTEENTH
 from .joint_generator.unseen_sixth import PAIRS as UNSEEN_SIXTH_PAIRS
 from .joint_generator.unseen_sixth import UNSEEN_SIXTH
 from .joint_generator.unseen_tenth import PAIRS as UNSEEN_TENTH_PAIRS
@@ -94,6 +96,7 @@ SERIES = {
     13: (UNSEEN_THIRTEENTH, UNSEEN_THIRTEENTH_PAIRS),
     14: (UNSEEN_FOURTEENTH, UNSEEN_FOURTEENTH_PAIRS),
     15: (UNSEEN_FIFTEENTH, UNSEEN_FIFTEENTH_PAIRS),
+    16: (UNSEEN_SIXTEENTH, UNSEEN_SIXTEENTH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 

@@ -113,6 +113,22 @@ def test_beside_strokes_drawn_anew_effects_have_to_explain_something_of_the_held
     assert bool(inadequate(place)) is not stands
 
 
+@pytest.mark.parametrize(
+    ("loops", "forward", "stands"),
+    [((None, None), 0.9, True), ((None, None), 1.4, False), ((10.0, 4.0), 1.4, True), ((10.0, 4.0), 2.1, False)],
+)
+def test_what_makes_forward_simulation_worse_does_not_stand_unless_the_loop_is_simulated(loops, forward, stands):
+    selector = selector_of(pair(coulomb))
+    nothing = selector.run()
+    trial = Trial(Candidate(VISCOUS.kind, (VISCOUS,), "", 1), nothing.final, 50.0, 0.0)
+    before, after = (Score(x, x, loop, ahead) for x, loop, ahead in zip((10.0, 1.0), loops, (1.0, forward), strict=True))
+    selected = dataclasses.replace(nothing, effects=(trial,))
+    balances, model = tuple(selector._balances), nothing.recalibrated.model
+    scores = {"recalibrated": before, "augmented": after}
+    place = PlaceOutcome("", selected, tuple(selector._nuisances), model, balances, balances, scores, 0.01)
+    assert bool(inadequate(place)) is not stands
+
+
 @pytest.mark.parametrize("told", [True, False])
 def test_runs_that_a_condition_foretells_are_not_drawn_anew(told):
     """Ten runs, each faster than the one before: their friction rises with the speed, or has another order."""

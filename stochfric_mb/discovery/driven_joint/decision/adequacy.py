@@ -61,8 +61,10 @@ def drawn_by_one(place: PlaceOutcome) -> set[str]:
 def _lost(place: PlaceOutcome) -> str:
     """Return what held-out runs say against the selected effects; empty: nothing."""
     before, after = (place.scores[k] for k in ("recalibrated", "augmented"))
-    nothing = 1.0 + criteria.CLOSES_NOTHING  # a controller keeps the motion on its course: where a run starts decides nothing
-    pairs = ((before.forward, after.forward, criteria.FAR_AHEAD), (before.loop, after.loop, nothing))
+    nothing = 1.0 + criteria.CLOSES_NOTHING
+    # a controller keeps the motion on its course, where without one starts and contacts decide much: it has the last word
+    far = criteria.FAR_AHEAD if before.loop is not None else nothing
+    pairs = ((before.forward, after.forward, far), (before.loop, after.loop, nothing))
     ahead = [(b, a, most) for b, a, most in pairs if a is not None and b is not None]
     lost = [f"simulated, it is off by {a:.3g} for {b:.3g}" for b, a, most in ahead if not a < most * b]
     explained = _gain(place)

@@ -113,16 +113,22 @@ def fit(
     rough = any(ROUGH in e.traits for e in model.effects)
     free = free_parameters(model, nuisances, fixed)
     steps = steps_of(free)
-    known: dict[Any, list[Forces]] = {}
+    known: dict[Any, Forces] = {}
+
+    def forces(trial: JointModel, balance: ForceBalance, number: int) -> Forces:
+        # corrections leave friction as it is, and what is another run's own that in this one
+        own = tuple(x for (_, run, _), x in trial.own.items() if run == balance.run)
+        key = number, trial.law, trial.effects, own
+        if key not in known:
+            known[key] = trial.forces(balance)
+        return known[key]
 
     def errors(step: Array) -> Array:
         values = steps.values(step)
         trial = adjusted(model, free, values)
-        key = trial.law, trial.effects, tuple(trial.own.items())  # what corrections leave as it is
-        if key not in known:
-            known[key] = [trial.forces(s) for s in balances]
-        seen = zip(balances, used, known[key], strict=True)
-        parts = [trial.remainder(s, nuisances, forces)[m] for s, m, forces in seen]
+        each = [forces(trial, s, i) for i, s in enumerate(balances)]
+        seen = zip(balances, used, each, strict=True)
+        parts = [trial.remainder(s, nuisances, f)[m] for s, m, f in seen]
         return np.concatenate([*parts, noise * steps.surprise(values)])
 
     differences = LARGE_DIFFERENCES[: 2 if refined else 1] if rough else (DIFFERENCE,)

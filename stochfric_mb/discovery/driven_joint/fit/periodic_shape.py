@@ -89,7 +89,7 @@ def shaped_starts(scan: Scan, found: Sequence[Returning], current: JointFit, bal
     for one, weights, left in sorted(shapes, key=lambda s: float(np.sum(s[2] ** 2)))[:BEST]:
         rest = left[: len(current.jacobian)]
         n = max(current.independent_in(np.split(rest, ends)), 4.0)
-        if 2.0 * n * float(np.log(current.rms / np.sqrt(np.mean(rest**2)))) < (scan.pieces + 1) * float(np.log(n)):
+        if 2.0 * n * float(np.log(current.rms / np.sqrt(np.mean(rest**2)))) < (scan.pieces + len(balances)) * float(np.log(n)):
             break
         effect, begins = scan.shaped(one.number, weights), 2.0 * np.pi * one.begins
         own = {(effect.kind, s.run, n): float(b) for s, b in zip(balances, begins, strict=True) for n in effect.own_to_run}

@@ -35,6 +35,8 @@ class Prospect:
     """Where fits of its waves begin, best first."""
     left: Array | None
     """What it would leave [N or N m], window by window; None: it is too far from linear for that to say anything."""
+    numbers: int
+    """How many numbers it adds to a fit, phases that each run has for itself among them."""
 
     @property
     def rough(self) -> bool:
@@ -66,8 +68,10 @@ def prospect(candidate: Candidate, waves: Sequence[Start], current: JointFit, ba
     size = [float(np.mean(left**2)) for left in each]
     order = sorted(range(len(starts)), key=lambda i: size[i])
     far = candidate.moves_load or any(ROUGH in s.effect.traits for s in starts) or not (each and np.isfinite(size).all())
-    left = None if far else each[int(np.argmin(size))]
-    return Prospect(candidate, tuple(starts[i] for i in order), tuple(waves), left)
+    best = int(np.argmin(size)) if size else -1
+    own = len((*starts, *waves)[best].own) if size else 0
+    numbers = candidate.parameters + max(own - 1, 0)
+    return Prospect(candidate, tuple(starts[i] for i in order), tuple(waves), None if far else each[best], numbers)
 
 
 def prospects(each: Sequence[Prospect], current: JointFit, settings: Labels) -> Prospects:
@@ -92,7 +96,7 @@ def prospects(each: Sequence[Prospect], current: JointFit, settings: Labels) -> 
     for ratio in {0.0, scatter(best, settings, n).ratio}:
         before, *after = (scatter(x, settings, n, ratios=np.array([ratio])).deviance for x in (rest, *left))
         evidence = np.maximum(evidence, before - np.array(after))
-    own = evidence - np.array([p.candidate.parameters for p in known]) * np.log(n)
+    own = evidence - np.array([p.numbers for p in known]) * np.log(n)
     tried = np.array([max(len(p.starts) + len(p.waves), 1) for p in known])
     scores = own - 2.0 * np.log(tried * len(each))
     fitted = (own >= 0.0) & (evidence >= criteria.FAINT * evidence.max())
