@@ -47,7 +47,7 @@ class HarmonicForce(Periodic):
         "nonlinear_stiffness": "a run at a second belt speed",
     }
     shows_on: ClassVar[str] = "time"
-    shows: ClassVar[str] = "a periodic force acts, in stick and slip alike"
+    shows: ClassVar[str] = "a periodic force acts, at rest and in sliding alike"
 
     @classmethod
     def at_joint(cls, span: JointSpan) -> tuple[JointSignature, ...]:
