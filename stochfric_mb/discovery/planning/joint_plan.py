@@ -17,6 +17,7 @@ from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows, prior_weight
 from stochfric_mb.discovery.driven_joint.fit.gains import effect_columns
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import Start
 from stochfric_mb.discovery.driven_joint.search.candidate_fits import SIZES
 from stochfric_mb.discovery.driven_joint.search.candidates import Candidate, candidates, span_of
 from stochfric_mb.discovery.driven_joint.source import source_of
@@ -141,7 +142,7 @@ def _form(candidate: Candidate, effect: Effect, balances: Any, fitted: JointFit,
     name = _size_of(effect)
     if not getattr(effect, name):
         effect = dataclasses.replace(effect, **{name: effect.__dataclass_fields__[name].metadata["scale"]})
-    columns = effect_columns(fitted.model, effect, balances)
+    columns = effect_columns(fitted.model, Start(effect), balances)
     rows, _ = prior_rows(fitted, prior_weight(fitted))
     known = np.vstack([fitted.jacobian, rows])
     basis, _ = np.linalg.qr(known / np.maximum(np.linalg.norm(known, axis=0), 1.0e-300))

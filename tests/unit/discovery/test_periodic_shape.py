@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
+from stochfric_mb.discovery.driven_joint.fit.gains import predicted_left
 from stochfric_mb.discovery.driven_joint.fit.periodic_shape import returning_waves, shaped_starts
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import waves_left, with_phases
 from stochfric_mb.discovery.driven_joint.source import source_of
@@ -49,6 +50,15 @@ def span():
         speed=0.5, stroke=0.2, lowest=-0.1, duration=8.0, load=0.0, both_ways=True, friction=2.0, distance=2.0,
         temperature=None, contact=False, stated_load=20.0, window=0.01,
     )  # fmt: skip
+
+
+def test_what_a_start_would_leave_knows_where_each_run_begins():
+    _, balances, current = seen()
+    (start, *_) = starts_of(balances, current)
+    left = predicted_left(current.model, start, balances, current)
+    assert np.sqrt(np.mean(left**2)) < 0.25 * current.rms  # half a turn off in one run it would leave half of the square
+    together = dataclasses.replace(start, own={})
+    assert np.sqrt(np.mean(predicted_left(current.model, together, balances, current) ** 2)) > 0.5 * current.rms
 
 
 # one of another draw ended at half the frequency, and one far from the shape, while the shape stayed as fits began with it

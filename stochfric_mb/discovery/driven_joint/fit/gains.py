@@ -20,9 +20,9 @@ from stochfric_mb.effects import Effect
 Array = npt.NDArray[np.float64]
 
 
-def effect_columns(model: JointModel, effect: Effect, balances: Sequence[ForceBalance]) -> Array:
-    """Return how an effect and its parameters would change the friction of a model, shape (n, 1 + n_parameters)."""
-    trial = model.plus(effect)
+def effect_columns(model: JointModel, start: Start, balances: Sequence[ForceBalance]) -> Array:
+    """Return how an effect and its parameters, each run's own too, would change the friction of a model, shape (n, 1 + p)."""
+    effect, trial = start.effect, start.added_to(model)
     owner = len(trial.effects) - 1
     free = [k for k in free_parameters(trial, ()) if k.owner == owner]
     if "mu_s" in effect.frees:
@@ -56,12 +56,12 @@ def predicted_left(model: JointModel, start: Start, balances: Sequence[ForceBala
     if start.effect.moves_load:
         left = _left_by_load(start.effect, balances, current)
         return left * np.sqrt(len(left) / len(rest))
-    return left_by(np.column_stack([current.jacobian, effect_columns(model, start.effect, balances)]), rest)
+    return left_by(np.column_stack([current.jacobian, effect_columns(model, start, balances)]), rest)
 
 
 def hidden_share(effect: Effect, balances: Sequence[ForceBalance], current: JointFit) -> float:
     """Return what part of an effect's change of friction the numbers fitted already would imitate, beliefs counted [-]."""
-    columns = effect_columns(current.model, effect, balances)
+    columns = effect_columns(current.model, Start(effect), balances)
     change = columns[:, int(np.argmax(np.abs(columns).max(axis=0) > 0.0))]
     size = float(change @ change)
     prior, _ = prior_rows(current, prior_weight(current))
