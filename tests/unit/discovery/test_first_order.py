@@ -8,6 +8,7 @@ import pytest
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector
 from stochfric_mb.discovery.driven_joint.fit.fitting import fit
+from stochfric_mb.discovery.driven_joint.search import candidate_fits
 from stochfric_mb.discovery.driven_joint.search.candidate_fits import Beside, CandidateFits
 from stochfric_mb.discovery.driven_joint.search.candidates import candidates, span_of
 from stochfric_mb.discovery.driven_joint.search.first_order import FEWEST, prospect, prospects
@@ -63,6 +64,20 @@ def test_where_nothing_is_missing_a_few_are_fitted_nevertheless():
     _, _, found = seen(coulomb)
     assert len(found.fits) >= FEWEST - 1  # one may be none of its kind
     assert max(score for _, score in found.faint) < 0.0
+
+
+def test_where_those_that_are_worth_a_fit_are_none_of_their_kind_others_are_fitted(monkeypatch):
+    asked = []
+
+    def none_at_first(fitted, owner):
+        asked.append(owner)
+        return len(asked) <= FEWEST
+
+    monkeypatch.setattr(candidate_fits, "is_none", none_at_first)
+    selector, beside, found = seen(coulomb)
+    assert len(asked) > FEWEST
+    assert found.fits
+    assert selector._scored(beside.current, found)  # a stage has something to compare with
 
 
 def test_few_candidates_are_all_fitted():

@@ -91,10 +91,14 @@ class CandidateFits:
         asked = _asked(span, beside, of_loads=False)
         seen = prospects([self._seen(beside, c) for c in asked if not c.any_shape], beside.current, self._settings)
         fits = [(p.candidate, f) for p in seen.worth if (f := self._once(beside, p)) is not None]
+        faint = list(seen.faint)
+        while faint and not fits:  # what is none of its kind when it is fitted is nothing to compare with
+            one, _ = faint.pop(0)
+            fits += [] if (f := self._once(beside, one)) is None else [(one.candidate, f)]
         for course in self._worth_fitting(beside, fits, [c for c in asked if c.any_shape]):
             fitted = self._once(beside, self._seen(beside, course))
             fits += [] if fitted is None else [(course, fitted)]
-        return Found(fits, seen.faint)
+        return Found(fits, tuple((p.candidate, score) for p, score in faint))
 
     def loads(self, beside: Beside) -> Found:
         """Return loads that move by themselves: too far from linear for what they are worth to first order to say anything."""

@@ -50,8 +50,8 @@ class Prospects:
 
     worth: tuple[Prospect, ...]
     """Those to be fitted, in the order in which they were given."""
-    faint: tuple[tuple[Candidate, float], ...]
-    """The others, with the score that a fit might give them at best [-]."""
+    faint: tuple[tuple[Prospect, float], ...]
+    """The others, with the score that a fit might give them at best [-], best first."""
 
 
 def prospect(candidate: Candidate, waves: Sequence[Start], current: JointFit, balances: Sequence[ForceBalance]) -> Prospect:
@@ -101,8 +101,6 @@ def prospects(each: Sequence[Prospect], current: JointFit, settings: Labels) -> 
     scores = own - 2.0 * np.log(tried * len(each))
     fitted = (own >= 0.0) & (evidence >= criteria.FAINT * evidence.max())
     fitted[np.argsort(-scores)[:FEWEST]] = True
-    faint = {id(p): float(s) for p, s, f in zip(known, scores, fitted, strict=True) if not f}
-    return Prospects(
-        tuple(p for p in each if id(p) not in faint),
-        tuple((p.candidate, faint[id(p)]) for p in known if id(p) in faint),
-    )
+    faint = [(p, float(score)) for p, score, is_fitted in zip(known, scores, fitted, strict=True) if not is_fitted]
+    left_out = {id(p) for p, _ in faint}
+    return Prospects(tuple(p for p in each if id(p) not in left_out), tuple(sorted(faint, key=lambda f: -f[1])))
