@@ -1,6 +1,6 @@
 """Judge discovery at driven joints: python -m tests.discovery.joint_suite --out DIR [--seeds A..B] [--sample N] [--jobs 2].
 
-`--unseen 1` to `12` take the forms for a report in place of those for tuning.
+`--unseen N` takes the forms of report N in place of those for tuning.
 
 Leaves DIR/cases/CASE.json (truth, result, seconds), DIR/summary.md and DIR/summary.json. Cases that are there are not run
 again.
@@ -129,7 +129,7 @@ def main() -> None:
     parser.add_argument("--keep", action="store_true", help="keep datasets and answers")
     parser.add_argument("--list", action="store_true", help="print the cases and end")
     parser.add_argument(
-        "--unseen", type=int, nargs="?", const=1, choices=joint_plan.SERIES, help="forms for a report (1 to 12), not for tuning"
+        "--unseen", type=int, nargs="?", const=1, choices=joint_plan.SERIES, help="forms of this report, not those for tuning"
     )
     chosen = parser.parse_args()
     series = chosen.unseen

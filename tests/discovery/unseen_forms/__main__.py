@@ -48,7 +48,7 @@ def main() -> None:
     parser.add_argument(
         "--series",
         type=int,
-        choices=(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12),
+        choices=sorted({case.form.series for case in cases()}),
         default=1,
         help="the set: the first, or one written later",
     )

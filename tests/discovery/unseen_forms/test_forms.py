@@ -2,18 +2,21 @@
 
 import dataclasses
 import re
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from stochfric_mb import load_dataset
+from tests.discovery.unseen_forms.__main__ import main
 from tests.discovery.unseen_forms.forms import AT_JOINTS, FORMS, KINDS, NONE, UNKNOWN
 from tests.discovery.unseen_forms.motion import World, simulate
 from tests.discovery.unseen_forms.records import Case, cases, make_runs, write_record
 from tests.discovery.unseen_forms.rigs import PAPER
 from tests.discovery.unseen_forms.tables import judged, table
 
+PAGE = Path(__file__).parents[3] / "docs/discovery_suite.md"
 SHARE = 0.12  # of the usual length: 7 cycles at one operating point, 3 at each of several
 QUICK = ("stribeck_gaussian", "mode_heavy", "sensor_play", "delay_bessel", "samples_missing", "clock_jitters", "plain_small")
 ALL = [
@@ -121,3 +124,12 @@ def test_the_table_counts():
     assert re.search(r"class right\s+1/1 \(100 %\)\s+-\s+1/1", text)
     assert re.search(r"false alarms\s+-\s+0/1", text)
     assert "a-one-1: backlash -> second_mode" in text
+
+
+@pytest.mark.parametrize("series", re.findall(r"unseen_forms --series (\d+)", PAGE.read_text()))
+def test_each_command_of_the_page_of_results_runs(series, tmp_path, monkeypatch, capsys):
+    plain = next(case for case in cases() if case.form.series == int(series) and case.family == NONE)
+    arguments = ("--series", series, "--only", plain.name, "--plan", "all", "--here", "--records-only", "--out", str(tmp_path))
+    monkeypatch.setattr(sys, "argv", ["unseen_forms", *arguments])
+    main()
+    assert plain.name in capsys.readouterr().out
