@@ -13,7 +13,7 @@ import numpy as np
 
 from stochfric_mb import load_scenario
 from stochfric_mb.effects import EFFECTS, GROUPS, Effect, effect_class, make_effect
-from stochfric_mb.effects.course import COURSE, PIECES
+from stochfric_mb.effects.shapes.splines import COURSE, PIECES
 from stochfric_mb.engines import adapter
 
 ENGINES = ("mujoco", "exudyn", "pymunk")

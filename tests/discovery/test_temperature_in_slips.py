@@ -8,7 +8,7 @@ import pytest
 from stochfric_mb.discovery import discover
 from stochfric_mb.discovery.stick_slip.screening.smooth_term import axes_of
 from stochfric_mb.effects import make_effect
-from stochfric_mb.effects.course import COURSE, PIECES, splines
+from stochfric_mb.effects.shapes.splines import COURSE, PIECES, splines
 from stochfric_mb.laws import make_law
 from stochfric_mb.measurement.dataset import Dataset, Run
 from stochfric_mb.mechanisms import BeltBox

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.velocity_step.rate_and_state import AGEING, QUADRATIC, SLIP, friction_path
 from stochfric_mb.effects import kind_with_signature
-from stochfric_mb.effects.course import COARSER, COURSE, splines
+from stochfric_mb.effects.shapes.splines import COARSER, COURSE, splines
 from stochfric_mb.effects.traits import MEMORY, RATE, SLOPE_IN_DISTANCE
 from stochfric_mb.measurement.run import Run
 

@@ -22,7 +22,7 @@ from stochfric_mb.discovery.velocity_step.law_fit import Fitted, fit, held_out_e
 from stochfric_mb.discovery.velocity_step.laws import Track, laws
 from stochfric_mb.discovery.velocity_step.smooth_law import NOWHERE, SmoothLaw, smooth_law
 from stochfric_mb.effects import Effect, effect_class, effect_kinds, kind_with_signature, kinds_with, make_effect
-from stochfric_mb.effects.course import COURSE, sized, splines
+from stochfric_mb.effects.shapes.splines import COURSE, sized, splines
 from stochfric_mb.effects.traits import ANONYMOUS, LATE, MEMORY, MORE_DAMPING, RATE, SLOPE_IN_DISTANCE
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.dataset import Dataset

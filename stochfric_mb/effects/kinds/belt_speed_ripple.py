@@ -15,7 +15,7 @@ from stochfric_mb.effects.contract import (
     MEAN_BELT_VELOCITY,
     TIME,
 )
-from stochfric_mb.effects.course import Periodic, periodic, periodic_integral, periodic_slope
+from stochfric_mb.effects.shapes.periodic import Periodic, periodic, periodic_integral, periodic_slope
 from stochfric_mb.effects.traits import BELT, BELT_RIPPLE
 
 

@@ -13,9 +13,10 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import BELT_VELOCITY, MU_K, MU_S, TRAVELLED, VELOCITY, JointSignature, parameter
-from stochfric_mb.effects.course import Course, along, courses_at_joint, friction_along
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Hypothesis, Slips, drifting
+from stochfric_mb.effects.shapes.course import Course, courses_at_joint, friction_along
+from stochfric_mb.effects.shapes.splines import along
 from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, SLOPE_IN_DISTANCE, WANDERS_ALIKE
 
 PACES_DIFFER = 1.1

@@ -11,8 +11,9 @@ from collections.abc import Mapping
 from typing import ClassVar
 
 from stochfric_mb.effects.contract import DRIVE, LOAD, POSITION, TEMPERATURE, TIME, JointSignature, parameter
-from stochfric_mb.effects.course import CourseAlongStroke, along, courses_at_joint
 from stochfric_mb.effects.joints import JointSpan
+from stochfric_mb.effects.shapes.course import CourseAlongStroke, courses_at_joint
+from stochfric_mb.effects.shapes.splines import along
 from stochfric_mb.effects.traits import READS_DRIVE
 
 SETTLED = (0.1, 0.2, 0.4, 0.8)

@@ -11,8 +11,9 @@ from collections.abc import Mapping
 from typing import ClassVar
 
 from stochfric_mb.effects.contract import LOAD, POSITION, PRESSURE, JointSignature, parameter
-from stochfric_mb.effects.course import CourseAlongStroke, along, courses_at_joint
 from stochfric_mb.effects.joints import JointSpan
+from stochfric_mb.effects.shapes.course import CourseAlongStroke, courses_at_joint
+from stochfric_mb.effects.shapes.splines import along
 from stochfric_mb.effects.traits import OTHER_AREA
 
 

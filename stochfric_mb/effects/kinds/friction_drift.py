@@ -10,9 +10,10 @@ import math
 from typing import ClassVar
 
 from stochfric_mb.effects.contract import MU_K, MU_S, TIME, JointSignature, parameter
-from stochfric_mb.effects.course import Course, along, courses_at_joint, friction_along
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Hypothesis, Slips, drifting
+from stochfric_mb.effects.shapes.course import Course, courses_at_joint, friction_along
+from stochfric_mb.effects.shapes.splines import along
 from stochfric_mb.effects.traits import COURSE_OF_RUN, DRIFTS, WANDERS_ALIKE
 
 

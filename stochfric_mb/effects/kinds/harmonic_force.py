@@ -13,9 +13,10 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import LOAD, TIME, Array, JointSignature, Scan, parameter
-from stochfric_mb.effects.course import RETURNING_PIECES, Periodic, periodic
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Slips, Wave, times
+from stochfric_mb.effects.shapes.periodic import Periodic, periodic
+from stochfric_mb.effects.shapes.splines import RETURNING_PIECES
 from stochfric_mb.effects.traits import COURSE_OF_RUN, FORCE_IN_TIME, WANDERS_ALIKE, WAVES
 
 PERIODS = 3.0

@@ -12,9 +12,10 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import MU_K, MU_S, NORMAL_FORCE, JointSignature, parameter
-from stochfric_mb.effects.course import LeveledCourse, along, courses_at_joint
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips, apart
+from stochfric_mb.effects.shapes.course import LeveledCourse, courses_at_joint
+from stochfric_mb.effects.shapes.splines import along
 from stochfric_mb.effects.traits import BETWEEN_POINTS, READS_LOAD
 
 MOST_ADHESIVE = 0.9

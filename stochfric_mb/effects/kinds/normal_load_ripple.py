@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from typing import ClassVar
 
 from stochfric_mb.effects.contract import NORMAL_FORCE, TIME, parameter
-from stochfric_mb.effects.course import Periodic, periodic
 from stochfric_mb.effects.marks import Slips, Wave, friction_at, times
+from stochfric_mb.effects.shapes.periodic import Periodic, periodic
 from stochfric_mb.effects.traits import COURSE_OF_RUN, WANDERS_ALIKE, WAVES
 from stochfric_mb.errors import InputError
 

@@ -11,8 +11,9 @@ from collections.abc import Mapping
 from typing import ClassVar
 
 from stochfric_mb.effects.contract import LOAD, POSITION, JointSignature, Scan, parameter
-from stochfric_mb.effects.course import CourseAlongStroke, along, courses_at_joint
 from stochfric_mb.effects.joints import WAVES_ON_STROKE, JointSpan
+from stochfric_mb.effects.shapes.course import CourseAlongStroke, courses_at_joint
+from stochfric_mb.effects.shapes.splines import along
 
 WAVES_OF_STROKE = (4.0, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08)
 """Wavelengths from which fits begin, over the stroke [-]; the longest is an unbalance seen over a part of its turn."""

@@ -14,9 +14,10 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import BELT_POSITION, MU_K, MU_S, POSITION, JointSignature, Scan, choice, parameter
-from stochfric_mb.effects.course import COURSE, CourseAlongStroke, along, courses_at_joint, returning_course
 from stochfric_mb.effects.joints import WAVES_ON_STROKE, JointSpan
 from stochfric_mb.effects.marks import Array, Hypothesis, Slips, Wave, friction_at, times
+from stochfric_mb.effects.shapes.course import CourseAlongStroke, courses_at_joint
+from stochfric_mb.effects.shapes.splines import COURSE, along, returning_course
 from stochfric_mb.effects.traits import ALONG_BELT, ANY_SHAPE, COURSE_OF_RUN, WANDERS_ALIKE, WAVES
 from stochfric_mb.errors import InputError
 

@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import Array, parameter
-from stochfric_mb.effects.course import CourseAlongStroke
+from stochfric_mb.effects.shapes.course import CourseAlongStroke
 from stochfric_mb.effects.traits import CLIPPED, OUTSIDE_FORECASTS
 from stochfric_mb.errors import InputError
 

@@ -9,8 +9,9 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import Array, parameter
-from stochfric_mb.effects.course import COARSER, Course, sized, splines
 from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, Hypothesis, Slips
+from stochfric_mb.effects.shapes.course import Course
+from stochfric_mb.effects.shapes.splines import COARSER, sized, splines
 from stochfric_mb.effects.traits import COURSE_OF_RUN, CREEPING_ZERO, DRIFTS, MOVES_ZERO
 
 

@@ -12,9 +12,10 @@ from typing import ClassVar
 import numpy as np
 
 from stochfric_mb.effects.contract import MU_K, MU_S, TEMPERATURE, Array, JointSignature, parameter
-from stochfric_mb.effects.course import Course, along, courses_at_joint, friction_along
 from stochfric_mb.effects.joints import JointSpan
 from stochfric_mb.effects.marks import Hypothesis, Slips, apart, levels
+from stochfric_mb.effects.shapes.course import Course, courses_at_joint, friction_along
+from stochfric_mb.effects.shapes.splines import along
 from stochfric_mb.effects.traits import COURSE_OF_RUN
 
 

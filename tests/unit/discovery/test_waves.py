@@ -18,8 +18,8 @@ from stochfric_mb.discovery.stick_slip.screening.screen import screen
 from stochfric_mb.discovery.stick_slip.screening.waves import _begins, _gains, best_wave, frequencies, wave_columns
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.effects import make_effect
-from stochfric_mb.effects.course import returning, returning_course
 from stochfric_mb.effects.marks import RETURNING
+from stochfric_mb.effects.shapes.splines import returning, returning_course
 from stochfric_mb.laws import make_law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference.augmented import Start, augmented_system

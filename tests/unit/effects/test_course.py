@@ -7,7 +7,6 @@ import pytest
 
 from stochfric_mb.compile import compiled
 from stochfric_mb.effects import contract, make_effect
-from stochfric_mb.effects.course import COARSER, COURSE, PIECES, returning, returning_course, sized, splines
 from stochfric_mb.effects.kinds import (
     belt_speed_ripple,
     distance_drift,
@@ -18,6 +17,7 @@ from stochfric_mb.effects.kinds import (
     position_dependent_friction,
     temperature_drift,
 )
+from stochfric_mb.effects.shapes.splines import COARSER, COURSE, PIECES, returning, returning_course, sized, splines
 from stochfric_mb.errors import InputError
 
 

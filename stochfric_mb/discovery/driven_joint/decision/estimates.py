@@ -13,7 +13,8 @@ from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.discovery.inference.free_parameter import FreeParameter
 from stochfric_mb.discovery.inference.intervals import confidence_interval
 from stochfric_mb.discovery.result import Interval
-from stochfric_mb.effects.course import PIECES, Shaped
+from stochfric_mb.effects.shapes.course import Shaped
+from stochfric_mb.effects.shapes.splines import PIECES
 
 LEAST_WAVE = 1.0e-3
 """Shortest wavelength that is tried, over the fitted one [-]: there is none of length 0."""

@@ -18,7 +18,7 @@ from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, prior_rows
 from stochfric_mb.discovery.driven_joint.fit.wave_scan import BEST, FINE, Start, Waves, length, peaks, wave_starts, waves_left
 from stochfric_mb.discovery.inference.alignment import HARMONICS, aligned
 from stochfric_mb.effects.contract import Scan
-from stochfric_mb.effects.course import returning
+from stochfric_mb.effects.shapes.splines import returning
 
 Array = npt.NDArray[np.float64]
 

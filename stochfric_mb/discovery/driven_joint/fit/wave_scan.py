@@ -23,7 +23,7 @@ from stochfric_mb.discovery.inference.alignment import BEGINS
 from stochfric_mb.discovery.inference.fitter import minimised
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects.contract import Scan
-from stochfric_mb.effects.course import Periodic
+from stochfric_mb.effects.shapes.periodic import Periodic
 
 Array = npt.NDArray[np.float64]
 

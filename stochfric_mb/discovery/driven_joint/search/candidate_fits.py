@@ -20,8 +20,8 @@ from stochfric_mb.discovery.driven_joint.fit.wave_scan import begun
 from stochfric_mb.discovery.driven_joint.search.candidates import Candidate, candidates, span_of
 from stochfric_mb.discovery.driven_joint.search.first_order import Prospect, prospect, prospects
 from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, noise_floor
-from stochfric_mb.effects.course import LeveledCourse
 from stochfric_mb.effects.joints import JointSpan
+from stochfric_mb.effects.shapes.course import LeveledCourse
 
 Array = npt.NDArray[np.float64]
 

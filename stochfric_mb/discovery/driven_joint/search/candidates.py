@@ -11,8 +11,8 @@ import numpy.typing as npt
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance
 from stochfric_mb.effects import Effect, effect_class, effect_kinds
 from stochfric_mb.effects.contract import JointSignature, Scan
-from stochfric_mb.effects.course import Course
 from stochfric_mb.effects.joints import JointSpan
+from stochfric_mb.effects.shapes.course import Course
 
 Array = npt.NDArray[np.float64]
 

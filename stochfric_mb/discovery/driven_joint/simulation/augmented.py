@@ -11,7 +11,7 @@ import numpy as np
 from stochfric_mb.discovery.driven_joint.balance.balances import BESIDE
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
 from stochfric_mb.effects import Effect, kind_with_signature, make_effect
-from stochfric_mb.effects.course import Course
+from stochfric_mb.effects.shapes.course import Course
 from stochfric_mb.effects.traits import DRAWN_ANEW, LATE
 from stochfric_mb.mechanisms import Mjcf
 from stochfric_mb.scenario import Scenario

@@ -24,7 +24,8 @@ from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.refit import refit
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import Effect, effect_class, kind_with_signature, make_effect
-from stochfric_mb.effects.course import PIECES, LeveledCourse, returning
+from stochfric_mb.effects.shapes.course import LeveledCourse
+from stochfric_mb.effects.shapes.splines import PIECES, returning
 from stochfric_mb.effects.traits import BELT_RIPPLE, CLIPPED, CREEPING_ZERO, JUMP, LATE, STRAY, YIELDING
 from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
 

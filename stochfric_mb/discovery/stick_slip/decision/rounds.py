@@ -25,7 +25,7 @@ from stochfric_mb.discovery.stick_slip.screening.variance_components import Rand
 from stochfric_mb.discovery.stick_slip.screening.waves import shared_by_runs
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study
 from stochfric_mb.effects import kind_with_signature, kinds_with
-from stochfric_mb.effects.course import PIECES
+from stochfric_mb.effects.shapes.splines import PIECES
 from stochfric_mb.effects.traits import BETWEEN_POINTS, CLIPPED, DRIFTS, SHAPES_SLIPS, WANDER, WANDERS_ALIKE
 
 SCORE_LEFT = "left_over_score"

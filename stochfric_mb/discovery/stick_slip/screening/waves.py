@@ -24,8 +24,8 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array
 from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, legendre_coefficients
 from stochfric_mb.discovery.stick_slip.screening.regression import Baseline, Part
-from stochfric_mb.effects.course import RETURNING_PIECES, returning
 from stochfric_mb.effects.marks import RETURNING, WAVE, Hypothesis, Wave
+from stochfric_mb.effects.shapes.splines import RETURNING_PIECES, returning
 
 HARMONICS = 3
 """Harmonics of a wave that is no sine."""

@@ -1,34 +1,22 @@
 """A course of any smooth shape along time, distance, temperature or the stroke: a sum of cubic B-splines over a stretch of it.
 
 A slow course differs from a random drift by its length scale: it bends over a part of the record that many slips fall into,
-and it comes back in the next run. Reference: C. de Boor, A Practical Guide to Splines, Springer 1978, chapter IX.
+and it comes back in the next run.
 """
-
-# pyright: standard
-# (compiled functions are typed by numba)
 
 from __future__ import annotations
 
 import dataclasses
-import functools
 import math
 from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from stochfric_mb.compile import compiled
 from stochfric_mb.effects.contract import Array, Effect, JointSignature, parameter
 from stochfric_mb.effects.marks import COURSE_OF_ANY_SHAPE, Hypothesis, Slips, levels
+from stochfric_mb.effects.shapes.splines import COARSER, COURSE, PIECES, sized, splines
 from stochfric_mb.errors import InputError
 
-PIECES = 16
-"""Most pieces of a course between its beginning and its end."""
-COURSE = tuple(f"course_{i}" for i in range(1, PIECES + 3))
-"""Parameters that are its shape; a course begins at 0, so that the spline before them is left out."""
-COARSER = (4, 8, PIECES)
-"""Pieces of the courses that are looked for."""
-RETURNING_PIECES = (8, PIECES)
-"""Pieces of the courses that come back; with fewer they are sines."""
 FLAT = 1.0e-3
 """Weights from which fits of a course begin [-]: friction is linear in them."""
 RETURNS = 1.0e-9
@@ -198,76 +186,6 @@ class Course(Shaped):
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class Periodic(Shaped):
-    """A wave in time that may have any smooth shape; ``amplitude`` and ``course`` have a unit of the effect's own."""
-
-    course_size: ClassVar[str] = "course"
-    course_end: ClassVar[str] = "frequency"
-    needs_one_of: ClassVar[tuple[str, ...]] = ("amplitude", "course")
-
-    at_begin: float = parameter(
-        "-", "value of the course where it begins", scale=1.0, default=0.0, fit_prior=0.0, optional=True
-    )
-    """Value of the course where it begins and ends [-]."""
-    amplitude: float = parameter("-", "amplitude of a cosine", scale=0.03, default=0.0, optional=True)
-    """Amplitude of a cosine, in the unit of the effect."""
-    frequency: float = parameter("Hz", "frequency", scale=5.0, low=0.0, strict=True)
-    """Frequency [Hz]."""
-    phase: float = parameter("rad", "phase at t = 0", scale=1.0, default=0.0)
-    """Phase at t = 0 [rad]."""
-    course: float = parameter("-", "size of a course of any shape", scale=0.03, default=0.0, optional=True)
-    """Size of a course of any shape, in the unit of the effect."""
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.any_shape:
-            self.require_return()
-
-    @property
-    def stretch(self) -> float:
-        """Time after which the course comes back [s]."""
-        return 1.0 / self.frequency
-
-    @property
-    def shaped_by(self) -> tuple[str, ...]:
-        """Names of all numbers in which the shape is linear."""
-        return *super().shaped_by, "at_begin"
-
-    def columns(self, place: Array) -> Array:
-        """Return the change of the shape with each of the numbers `shaped_by`, shape (..., n)."""
-        return np.concatenate([super().columns(place), np.ones((*place.shape, 1))], axis=-1)
-
-    def changed(self, **numbers: float) -> Self:
-        """Return the effect with some of its numbers changed; a course still comes back, and its mean is still 0."""
-        if not self.any_shape:
-            return super().changed(**numbers)
-        pieces = int(self.pieces)
-        weights = [numbers.get(name, getattr(self, name)) for name in COURSE[: pieces - 1]]
-        whole = np.array([*weights, 0.0, *weights[:2]])
-        closed = dict(zip(COURSE, whole.tolist(), strict=False)) | {"at_begin": -float(np.mean(_turn(pieces)[1] @ whole))}
-        return dataclasses.replace(self, **numbers | closed)
-
-    def kept_at_joints(self, contact: bool) -> tuple[str, ...]:
-        """Return the size of a course, and what hangs on the weights that are fitted since it comes back."""
-        return "course", "at_begin", "pieces", *COURSE[int(self.pieces) - 1 :]
-
-    def shortest_time(self, speed: float) -> float:
-        """Return the period [s], or the time of two pieces of the course, in which it can rise and fall."""
-        return (2.0 / self.pieces if self.any_shape else 1.0) / self.frequency
-
-    def over_a_turn(self) -> Array:
-        """Return cosine and course over a turn, as finely as a course's largest change is looked for."""
-        cosine, course = _turn(int(self.pieces))
-        weights = np.array([getattr(self, name) for name in self.weights])
-        return self.amplitude * cosine + self.course * (self.at_begin + course @ weights)
-
-    @classmethod
-    def returning(cls, weights: Array, pieces: int, frequency: float) -> dict[str, float]:
-        """Return the parameters of a course that comes back with each wave, its mean being 0; see `returning`."""
-        return {"frequency": frequency} | returning_course(weights, pieces)
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
 class LeveledCourse(Course):
     """An effect that may follow a course from a place on, with a value of its own there; ``course`` is its size.
 
@@ -330,144 +248,6 @@ def courses_at_joint(flat: Course, axis: str, *, leveled: bool = False) -> tuple
     return tuple(forms)
 
 
-def splines(place: Array, pieces: int) -> Array:
-    """Return the splines of a course with so many pieces, each less its value at the begin, shape (..., pieces + 2).
-
-    Args:
-        place: 0 at the begin of the course, 1 at its end.
-        pieces: number of pieces.
-    """
-    value = _raw(place, pieces)
-    return value - _raw(np.zeros(1), pieces)[0]
-
-
-def _raw(place: Array, pieces: int) -> Array:
-    node = np.arange(pieces + 2, dtype=np.float64)
-    apart = np.abs(pieces * np.clip(place, 0.0, 1.0)[..., None] - node)
-    near = 2.0 / 3.0 - apart**2 + apart**3 / 2.0
-    return np.where(apart < 1.0, near, np.maximum(2.0 - apart, 0.0) ** 3 / 6.0)
-
-
-@functools.cache
-def _turn(pieces: int) -> tuple[Array, Array]:
-    """Return a cosine, shape (n,), and the splines of a course, shape (n, pieces + 2), at places all over a turn."""
-    turn = np.linspace(0.0, 1.0, 20 * PIECES, endpoint=False)
-    return np.cos(2.0 * np.pi * turn), splines(turn, pieces)
-
-
-def returning(turns: Array, pieces: int) -> Array:
-    """Return the splines of a course that comes back with each turn, shape (..., pieces - 1).
-
-    The last one is left out: all of them together are a constant.
-
-    Args:
-        turns: turns from the begin of the course; whole numbers are its begin and its end.
-        pieces: number of pieces in a turn, 4 or more.
-    """
-    raw = _raw(turns - np.floor(turns), pieces)
-    once = raw[..., : pieces - 1].copy()
-    once[..., :2] += raw[..., pieces:]
-    return once
-
-
-def returning_course(weights: Array, pieces: int) -> dict[str, float]:
-    """Return the parameters of a course from the weights of `returning`: its size, and a shape of mean 0 and largest change 1.
-
-    Args:
-        weights: shape (pieces - 1,).
-        pieces: as of `returning`.
-    """
-    course = returning(np.linspace(0.0, 1.0, 20 * PIECES, endpoint=False), pieces) @ weights
-    course, begin = course - course.mean(), float(course[0] - course.mean())
-    size = float(course[np.argmax(np.abs(course))]) or 1.0
-    whole = np.concatenate([weights, [0.0], weights[:2]]) / size
-    shape = {name: float(w) for name, w in zip(COURSE, whole, strict=False)}
-    return {"course": size, "at_begin": begin / size, "pieces": float(pieces)} | shape
-
-
-@compiled
-def along(p, place):
-    """Return the course at a place, 0 at its begin and 1 at its end, from an effect's parameters."""
-    where = p[18] * min(max(place, 0.0), 1.0)
-    value = -(2.0 / 3.0 * p[0] + p[1] / 6.0)  # less what the splines are at the begin
-    for k in range(max(int(where) - 1, 0), min(int(where) + 3, int(p[18]) + 2)):
-        away = abs(where - k)
-        if away < 1.0:
-            value += p[k] * (2.0 / 3.0 - away * away * (1.0 - away / 2.0))
-        elif away < 2.0:
-            value += p[k] * (2.0 - away) * (2.0 - away) * (2.0 - away) / 6.0
-    return value
-
-
-@compiled
-def periodic(p, time):
-    """Return what a `Periodic` effect adds at a time [s], from its parameters, those of its own being p[19] to p[23]."""
-    value = p[20] * math.cos(2.0 * math.pi * p[21] * time + p[22])
-    if p[23] != 0.0:
-        turns = p[21] * time + p[22] / (2.0 * math.pi)
-        value += p[23] * (p[19] + along(p, turns - math.floor(turns)))
-    return value
-
-
-@compiled
-def periodic_slope(p, time):
-    """Return the rate at which `periodic` changes at a time [s], per second."""
-    pace = 2.0 * math.pi * p[21]
-    value = -p[20] * pace * math.sin(pace * time + p[22])
-    if p[23] != 0.0:
-        turns = p[21] * time + p[22] / (2.0 * math.pi)
-        value += p[23] * p[21] * _along_slope(p, turns - math.floor(turns))
-    return value
-
-
-@compiled
-def periodic_integral(p, time):
-    """Return the integral of `periodic` from 0 to a time [s], in seconds."""
-    pace = 2.0 * math.pi * p[21]
-    value = p[20] / pace * (math.sin(pace * time + p[22]) - math.sin(p[22]))
-    if p[23] != 0.0:
-        begin = p[22] / (2.0 * math.pi)
-        turns = p[21] * time + begin
-        whole = math.floor(turns) - math.floor(begin)
-        course = whole * _along_integral(p, 1.0)
-        course += _along_integral(p, turns - math.floor(turns)) - _along_integral(p, begin - math.floor(begin))
-        value += p[23] / p[21] * (course + p[19] * (turns - begin))
-    return value
-
-
-@compiled
-def _along_slope(p, place):
-    """Return the slope of `along` between its begin, at 0, and its end, at 1."""
-    where, value = p[18] * place, 0.0
-    for k in range(int(p[18]) + 2):
-        away, side = abs(where - k), math.copysign(1.0, where - k)
-        if away < 1.0:
-            value += side * p[k] * away * (1.5 * away - 2.0)
-        elif away < 2.0:
-            value -= side * p[k] * (2.0 - away) * (2.0 - away) / 2.0
-    return p[18] * value
-
-
-@compiled
-def _along_integral(p, place):
-    """Return the integral of `along` from its begin, at 0, to a place up to its end, at 1."""
-    value = -p[18] * place * (2.0 / 3.0 * p[0] + p[1] / 6.0)
-    for k in range(int(p[18]) + 2):
-        value += p[k] * (_half_of_spline(p[18] * place - k) - _half_of_spline(-1.0 * k))
-    return value / p[18]
-
-
-@compiled
-def _half_of_spline(away):
-    """Return the integral of a cubic B-spline from its middle, at 0, to a distance from that in pieces, of either sign."""
-    far = min(abs(away), 2.0)
-    if far < 1.0:
-        half = far * (2.0 / 3.0 - far * far * (1.0 / 3.0 - far / 8.0))
-    else:
-        half = 0.5 - (2.0 - far) * (2.0 - far) * (2.0 - far) * (2.0 - far) / 24.0
-    return math.copysign(half, away)
-
-
 def friction_along(
     kind: str, at_onset: Array, in_slip: Array, span: float, slips: Slips, more: dict[str, float] | None = None
 ) -> list[Hypothesis]:
@@ -493,11 +273,3 @@ def friction_along(
         return Hypothesis(kind, columns, (), start, COURSE_OF_ANY_SHAPE)
 
     return [way(pieces, share) for pieces in COARSER for share in SHARES]
-
-
-def sized(weights: Array, pieces: int, span: float) -> dict[str, float]:
-    """Return the parameters of a course: its size, its shape with a largest change of 1, its pieces and its span."""
-    course = splines(np.linspace(0.0, 1.0, 20 * PIECES + 1), pieces) @ weights
-    size = float(course[np.argmax(np.abs(course))]) or 1.0
-    shape = {name: float(w / size) for name, w in zip(COURSE, weights, strict=False)}
-    return {"change": size, "span": span, "pieces": float(pieces)} | shape

@@ -1,0 +1,1 @@
+"""Smooth shapes that effects may follow: courses along a quantity, and waves that come back."""
