@@ -178,8 +178,8 @@ class Wave:
     pace: float = 1.0
     """How much faster a typical run passes the place than the slowest one [-]."""
     returning: Callable[..., dict[str, Any]] | None = None
-    """From ``weights`` of a course that comes back with each wave (`stochfric_mb.effects.course.returning`), its ``pieces`` and
-    its `setting` to values of the effect's parameters; None: it has no such form."""
+    """From ``weights`` of a course that comes back with each wave (`stochfric_mb.effects.shapes.splines.returning`), its
+    ``pieces`` and its `setting` to values of the effect's parameters; None: it has no such form."""
     turned: bool = False
     """Whether a mirrored run passes it the other way."""
 
