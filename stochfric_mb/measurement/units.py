@@ -41,7 +41,8 @@ def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | No
         f"unit {unit!r} is not one of {quantity.name}, which is kept in {' or '.join(targets)}{_motion(quantity, rotational)}"
     )
     if unit in quantity.units_of(None):  # of the other kind of motion: no library is needed to say so
-        raise InputError(f"{wrong}; give {' or '.join(targets)}, or a unit of that kind")
+        arc = _as_arc(quantity, targets) if "rad" in unit else ""
+        raise InputError(f"{wrong}; give {' or '.join(targets)}, or a unit of that kind{arc}")
     units = _registry()
     given = _parsed(units, unit, quantity, targets)
     for target in targets:
@@ -53,7 +54,18 @@ def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | No
         'of 40 mm, scale = { force = 25.0 } and units = { force = "N" }'
     )
     lever = arm if targets == ("N",) and given.dimensionality == units.Unit("N*m").dimensionality else ""
+    lever = _as_arc(quantity, targets) if _turns(units, given) else lever
     raise InputError(f"{wrong}; give {_choices(quantity, targets)}{lever}")
+
+
+def _as_arc(quantity: Quantity, targets: Sequence[str]) -> str:
+    """Return how an angle, or its rate, is read where friction acts along a line; empty: it is read in metres nowhere."""
+    if len(targets) != 1 or not targets[0].startswith("m"):
+        return ""
+    return (
+        f"; what turns moves along an arc, its angle in rad times the radius of the contact: of 40 mm, scale = {{ {quantity.name} "
+        f'= 0.04 }} and units = {{ {quantity.name} = "{targets[0]}" }} (docs/datasets.md, "A rig that turns")'
+    )
 
 
 def _parsed(units: Any, unit: str, quantity: Quantity, targets: Sequence[str]) -> Any:

@@ -76,3 +76,17 @@ scale = {scale}
 """)
     with pytest.raises(InputError, match=message):
         load_dataset(tmp_path)
+
+
+@pytest.mark.parametrize("unit", ["deg", "rad"])
+def test_the_angle_of_a_rig_that_turns_is_read_as_an_arc_as_the_error_says(tmp_path, unit):
+    file = tmp_path / "log.csv"
+    file.write_text("\n".join([f"time [s],position [{unit}]", *(f"{1e-3 * i:.3f},{0.5 * i}" for i in range(N))]) + "\n")
+    with pytest.raises(InputError, match=r"radius of the contact: of 40 mm, scale = \{ position = 0.04 \}") as caught:
+        assemble(RunEntry(file=file, name="log"), rotational=False)
+    assert 'units = { position = "m" }' in str(caught.value)
+    in_rad = {"deg": np.pi / 180.0, "rad": 1.0}[unit]
+    run = assemble(
+        RunEntry(file=file, name="log", units={"position": "m"}, scale={"position": 0.04 * in_rad}), rotational=False
+    )
+    np.testing.assert_allclose(run.channels["position"][:3], 0.04 * in_rad * np.array([0.0, 0.5, 1.0]))
