@@ -63,8 +63,9 @@ def _as_arc(quantity: Quantity, targets: Sequence[str]) -> str:
     if len(targets) != 1 or not targets[0].startswith("m"):
         return ""
     return (
-        f"; what turns moves along an arc, its angle in rad times the radius of the contact: of 40 mm, scale = {{ {quantity.name} "
-        f'= 0.04 }} and units = {{ {quantity.name} = "{targets[0]}" }} (docs/datasets.md, "A rig that turns")'
+        "; what turns moves along an arc, its angle in rad times the radius of the contact: of 40 mm, "
+        f'scale = {{ {quantity.name} = 0.04 }} and units = {{ {quantity.name} = "{targets[0]}" }} '
+        '(docs/datasets.md, "A rig that turns")'
     )
 
 

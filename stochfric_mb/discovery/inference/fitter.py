@@ -49,6 +49,7 @@ def minimised(
     evaluations: int,
     tolerance: float,
     outlying: float | Array = np.inf,
+    stride: float | Array = np.inf,
     threads: bool = False,
 ) -> Minimum:
     """Return where the sum of squares is smallest; where it or its slopes are no numbers, the last point at which they were.
@@ -63,6 +64,7 @@ def minimised(
         tolerance: relative fall of the cost, seen or promised by the slopes, below which it ends [-].
         outlying: residuals beyond this, one for all or shape (n,), count by their size, not its square: the loss is
             C^2 (sqrt(1 + (r/C)^2) - 1).
+        stride: largest change of a number in one iteration, one for all or shape (p,): a step that is longer is shortened.
         threads: whether derivatives are taken in several threads, where compiled code makes the residuals: they stay the same.
     """
     anew = functools.partial(_slopes, errors, low=low, high=high, difference=difference, threads=threads)
@@ -82,6 +84,7 @@ def minimised(
         while True:
             step = np.zeros(len(x))
             step[free] = -np.linalg.lstsq(matrix + np.diag(damping * size), gradient[free], rcond=1.0e-14)[0]
+            step /= max(1.0, float(np.max(np.abs(step) / stride, initial=0.0)))
             trial = np.clip(x + step, low, high)
             new = errors(trial)
             after = _cost(new, outlying)

@@ -40,6 +40,8 @@ class FreeParameter:
     """Standard deviation of the prior; inf where there is none."""
     run: str = ""
     """Run that it belongs to, empty for all."""
+    stride: float = np.inf
+    """Most natural steps in one iteration of a fit: beyond, derivatives say nothing."""
 
     def inside(self, value: float) -> float:
         """Return a value, moved between the bounds."""
@@ -62,6 +64,8 @@ class Steps:
     """Prior mean; the start where there is no prior, shape (p,)."""
     prior: Array
     """Standard deviations of that, shape (p,)."""
+    stride: Array
+    """Largest steps in one iteration, shape (p,)."""
 
     def values(self, step: Array) -> Array:
         """Return the values after a step, shape (p,)."""
@@ -77,4 +81,5 @@ def steps_of(free: Sequence[FreeParameter], scale: Array | None = None) -> Steps
     start, low, high, prior = (np.array([getattr(k, n) for k in free]) for n in ("value", "low", "high", "prior"))
     scale = np.array([k.scale for k in free]) if scale is None else scale
     nominal = np.where(np.isfinite(prior), [k.nominal for k in free], start)
-    return Steps(start, scale, (low - start) / scale - INSIDE, (high - start) / scale + INSIDE, nominal, prior)
+    stride = np.array([k.stride * k.scale for k in free]) / scale
+    return Steps(start, scale, (low - start) / scale - INSIDE, (high - start) / scale + INSIDE, nominal, prior, stride)

@@ -17,8 +17,12 @@ from stochfric_mb.effects.marks import Hypothesis, Slips
 from stochfric_mb.effects.oscillator import oscillator_pull
 from stochfric_mb.effects.traits import POSITIVE, SHAPES_SLIPS
 
-MOST_DAMPED = 0.1
+RATIOS = (0.01, 0.03, 0.1)
+"""Damping ratios with which a second mode is looked for [-]; its frequencies lie as close, relatively, as it is wide."""
+MOST_DAMPED = RATIOS[-1]
 """Damping ratio up to which a second mode is looked for [-]: one that hardly rings could stand for any shape."""
+FREQUENCIES = (1.5, 7.0)
+"""Frequencies between which it is looked for, over that of the box on its spring [-]."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -74,8 +78,8 @@ class SecondMode(Effect):
         mass = slips.per_run(lambda s: s.record.mechanism.mass)
         inertia = slips.column(None, -mass[:, None] * slips.node_acceleration)
         items: list[Hypothesis] = []
-        for frequency in natural * np.geomspace(1.5, 7.0, 100):
-            for ratio in (0.01, 0.03, 0.1):
+        for ratio in RATIOS:
+            for frequency in natural * np.geomspace(*FREQUENCIES, 1 + round(math.log(FREQUENCIES[1] / FREQUENCIES[0]) / ratio)):
                 onset, nodes = oscillator_pull(slips, frequency, ratio)
 
                 def start(b: Array, frequency: float = frequency, ratio: float = ratio) -> dict[str, float]:

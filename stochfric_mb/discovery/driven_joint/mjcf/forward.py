@@ -39,6 +39,8 @@ STIFF = (2.0, 1.0)
 """Reference time [steps] and damping ratio of the friction constraints: as stiff as the step allows, so that rest is rest."""
 HARD = (0.9999, 0.9999, 0.001, 0.5, 2.0)
 """Their impedance."""
+HELD = 1.0e8
+"""Inertia of a joint that is held, over its own: nothing moves it."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -103,7 +105,12 @@ class _Plant:
         narrow = narrowest(run)
         self._state = tuple(source.joints(run, narrow, d) for d in (0, 1))
         rows = [position_of_joint(run, source.mechanism, n) for n in source.names]
-        self._stays = np.array([not isinstance(source.mechanism.positions[n], str) for n in source.names])
+        # what a contact carries finds its own place; something else, a brake or a drive, holds the other joints that stay
+        stays = np.array([not isinstance(source.mechanism.positions[n], str) for n in source.names])
+        parts = [source.path(run, pair, narrow).part for pair in source.mechanism.pairs]
+        self._carried = stays & np.any([np.zeros(len(stays)), *(np.abs(p).max(axis=0) for p in parts if p is not None)], axis=0)
+        held = stays & ~self._carried
+        model.dof_armature[held] = HELD * model.dof_M0[held]
         self.start, self.end = int(narrow.centres[0]), int(narrow.centres[-1])
         self.measured: Array = np.column_stack(rows)[self.start : self.end]
         """Measured positions, shape (n, n_joints)."""
@@ -153,12 +160,12 @@ class _Plant:
         return np.interp(at, np.arange(len(drive)), drive)
 
     def _start(self, sample: int) -> None:
-        mujoco, data, stays = self._source.mujoco, self._data, self._stays
+        mujoco, data, carried = self._source.mujoco, self._data, self._carried
         before = data.qpos.copy(), data.qvel.copy()
         mujoco.mj_resetData(self._model, data)
         data.qpos[:], data.qvel[:] = self._state[0][sample], self._state[1][sample]
-        if sample > self.start:  # what is held by a contact has found its place
-            data.qpos[stays], data.qvel[stays] = before[0][stays], before[1][stays]
+        if sample > self.start:  # what is carried by a contact has found its place
+            data.qpos[carried], data.qvel[carried] = before[0][carried], before[1][carried]
         mujoco.mj_forward(self._model, data)
 
     def _push(self, place: str, force: float) -> None:

@@ -126,6 +126,7 @@ def confirm(
         difference=DIFFERENCE,
         evaluations=evaluations,
         tolerance=1.0e-3,
+        stride=steps.stride,
     )
     n_parameters = _own(candidate, free)
     model = adjusted(candidate, free, steps.values(minimum.x))

@@ -111,7 +111,8 @@ def refit(
         weight = misfit.believe(x)
         minimum = minimised(
             misfit.errors, x, misfit.steps.low, misfit.steps.high, difference=DIFFERENCE,
-            evaluations=evaluations, tolerance=1.0e-4, outlying=misfit.outlying(typical), threads=True,
+            evaluations=evaluations, tolerance=1.0e-4, outlying=misfit.outlying(typical), stride=misfit.steps.stride,
+            threads=True,
         )  # fmt: skip
         x = minimum.x
         if not misfit.believed(x) < LIGHTER * weight:
