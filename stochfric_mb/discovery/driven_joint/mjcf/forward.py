@@ -39,8 +39,9 @@ STIFF = (2.0, 1.0)
 """Reference time [steps] and damping ratio of the friction constraints: as stiff as the step allows, so that rest is rest."""
 HARD = (0.9999, 0.9999, 0.001, 0.5, 2.0)
 """Their impedance."""
-HELD = 1.0e8
-"""Inertia of a joint that is held, over its own: nothing moves it."""
+HELD = 1.0e4
+"""Inertia of a joint that is held, over its own: little moves it within a step, after which it is put back; of more, the
+engine's solver loses the friction of other joints to rounding."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -109,8 +110,8 @@ class _Plant:
         stays = np.array([not isinstance(source.mechanism.positions[n], str) for n in source.names])
         parts = [source.path(run, pair, narrow).part for pair in source.mechanism.pairs]
         self._carried = stays & np.any([np.zeros(len(stays)), *(np.abs(p).max(axis=0) for p in parts if p is not None)], axis=0)
-        held = stays & ~self._carried
-        model.dof_armature[held] = HELD * model.dof_M0[held]
+        self._held = stays & ~self._carried
+        model.dof_armature[self._held] = HELD * model.dof_M0[self._held]
         self.start, self.end = int(narrow.centres[0]), int(narrow.centres[-1])
         self.measured: Array = np.column_stack(rows)[self.start : self.end]
         """Measured positions, shape (n, n_joints)."""
@@ -123,7 +124,8 @@ class _Plant:
     def simulated(self) -> tuple[Array, dict[str, Array]]:
         """Return positions, shape (n, n_joints), and what each controller gives, shape (n,)."""
         mujoco, model, data, run = self._source.mujoco, self._model, self._data, self._run
-        n, h = self.end - self.start, run.sample_interval
+        n, h, held = self.end - self.start, run.sample_interval, self._held
+        places_held = self.measured[0, held]
         places = [place_of(self._source, p, self._models[p], run) for p in self._source.places]
         period = getattr(self._source.dataset.scenario.controller, "period", 0.0)
         hold = max(1, round(period / h * self._steps)) if period > 0.0 else 1
@@ -153,6 +155,7 @@ class _Plant:
                 for place in places:
                     self._push(place.name, place.set(model, data, now, applied.get(place.name, 0.0), self.start + i))
                 mujoco.mj_step(model, data)
+                data.qpos[held], data.qvel[held] = places_held, 0.0
         return positions, given
 
     def _late(self, drive: Array) -> Array:

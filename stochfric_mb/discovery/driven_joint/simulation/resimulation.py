@@ -89,16 +89,19 @@ def as_mjcf(dataset: Dataset, model: JointModel) -> tuple[Any, Models]:
     stated: Any = dataset.scenario.mechanism
     mechanism = dataclasses.replace(stated, **model.nuisances)
     name, factor = drive_channel(mechanism)
+    electric = name == "voltage"  # damping is that of the motor's back-emf as well: no torque that the joint transmits
     place = Mjcf(
         file=Path(),
         friction={JOINT: model.load},
         positions={JOINT: "position"},
         drives={JOINT: Drive(columns=(name,), gain=factor)},
-        damping={JOINT: mechanism.damping},
+        damping={JOINT: mechanism.damping} if electric else {},
         offset={JOINT: mechanism.offset},
     )
     scenario = dataclasses.replace(dataset.scenario, mechanism=place, controller=None)
-    compiled = mujoco.MjModel.from_xml_string(plain_mjcf(dataclasses.replace(mechanism, damping=0.0)))
+    compiled = mujoco.MjModel.from_xml_string(
+        plain_mjcf(dataclasses.replace(mechanism, damping=0.0) if electric else mechanism)
+    )
     known = {run.name: measured_load(run, stated) for run in dataset.runs}
     source = MjcfSource(dataclasses.replace(dataset, scenario=scenario), place, mujoco, compiled, (JOINT,), ())
     source = dataclasses.replace(source, loads={name: load for name, load in known.items() if load is not None})
