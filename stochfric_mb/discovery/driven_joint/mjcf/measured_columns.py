@@ -43,6 +43,17 @@ def drive_of(run: Run, mechanism: Mjcf, place: str) -> Array:
     return np.zeros(len(run.time)) if drive is None else product(run, drive.gain, drive.columns)
 
 
+def back_emf(run: Run, mechanism: Mjcf, place: str) -> float:
+    """Return the damping that is no part of the load of a joint or tendon: a motor's back-EMF [N s/m or N m s/rad].
+
+    Where the drive is a voltage, alone or as a part of it, the stated damping is that; a torque or force has it taken off.
+    """
+    drive = mechanism.drives.get(place)
+    if drive is None or not (len(drive.columns) > 1 or any(c == "voltage" or run.units.get(c) == "V" for c in drive.columns)):
+        return 0.0
+    return mechanism.damping.get(place, 0.0)
+
+
 def product(run: Run, gain: float, names: Sequence[str]) -> Array:
     """Return a gain times columns of a run, shape (count,)."""
     force = np.full(len(run.time), gain)

@@ -18,7 +18,7 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import distance_b
 from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, narrowest
 from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import tendon_along
 from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import geom_numbers, line, pair_along, two_forces
-from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import drive_of, position_of_joint
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import back_emf, drive_of, position_of_joint
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import Mjcf
 
@@ -121,7 +121,7 @@ class Rig(Balances):
 
     def _transmitted(self, run: Run, place: str, window: Window, velocity: Array) -> tuple[Array, Array]:
         """Return the load that a joint or tendon transmits [N or N m], and its change with the drive, shape (count,) each."""
-        drive = window.through(drive_of(run, self.mechanism, place)) - self.mechanism.damping.get(place, 0.0) * velocity
+        drive = window.through(drive_of(run, self.mechanism, place)) - back_emf(run, self.mechanism, place) * velocity
         return np.abs(drive), np.sign(drive)
 
     def _of_pair(self, run: Run, place: str, window: Window) -> Path:

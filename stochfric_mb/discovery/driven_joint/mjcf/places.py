@@ -16,7 +16,7 @@ from stochfric_mb.discovery.driven_joint.balance.weak_form import narrowest
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
 from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import touch
 from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
-from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import in_si
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import back_emf, in_si
 from stochfric_mb.discovery.driven_joint.simulation.friction_function import FrictionAt
 from stochfric_mb.measurement.run import Run
 
@@ -74,7 +74,7 @@ class LossPlace(_Place):
         self._joint = name in source.names
         self._number = (source.names if self._joint else source.tendons).index(name)
         self._gain = model.nuisances.get("gain", 1.0)
-        self._damping = source.mechanism.damping.get(name, 0.0)
+        self._damping = back_emf(run, source.mechanism, name)
         self._loads = source.loads.get(run.name)
 
     def _seen(self, data: Any) -> tuple[float, float]:
