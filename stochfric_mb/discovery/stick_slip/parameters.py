@@ -64,7 +64,7 @@ def effect_estimate(named: Named, fit: Fit | None, model: Model, study: Study) -
 def own_parameters(fit: Fit, model: Model, study: Study) -> dict[str, Interval]:
     """Return the parameters of mechanism and law beside the effects, of the model that the result tells.
 
-    Where the forecasts tell less of a number than its prior does, the interval is that of both together.
+    Intervals are of forecasts and priors together: forecasts of positions alone know friction over stiffness, and no more.
 
     Args:
         fit: the fit of that model.
@@ -72,13 +72,12 @@ def own_parameters(fit: Fit, model: Model, study: Study) -> dict[str, Interval]:
         study: what the fit runs show.
     """
     rows: dict[str, Interval] = {}
-    for one, data_share, deviation, posterior in zip(fit.free, fit.data_share, fit.deviations, fit.posterior, strict=True):
+    for one, posterior in zip(fit.free, fit.posterior, strict=True):
         if one.owner >= 0 or one.run:
             continue
         stated = getattr(study.dataset.scenario.mechanism, one.name, 0.0) if one.name in CORRECTED else 1.0
         value = 1.0 + model.corrections[one.name] if one.name in CORRECTED else getattr(model.law, one.name)
-        doubt = posterior if data_share < criteria.DECIDED_BY_DATA else deviation
-        rows[one.name] = confidence_interval(value * stated, doubt * stated, UNITS.get(one.name, "-"), low=0.0)
+        rows[one.name] = confidence_interval(value * stated, float(posterior) * stated, UNITS.get(one.name, "-"), low=0.0)
     return rows
 
 
