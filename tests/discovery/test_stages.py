@@ -7,13 +7,13 @@ import pytest
 
 from stochfric_mb.discovery import criteria, discover
 from stochfric_mb.discovery.inference.paired import paired
-from stochfric_mb.discovery.result import Gap
+from stochfric_mb.discovery.result import Gap, Where
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.stick_slip.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision import choice
 from stochfric_mb.discovery.stick_slip.decision.cases import cases_of, predict
 from stochfric_mb.discovery.stick_slip.decision.chance import before_effects, without_accidents
-from stochfric_mb.discovery.stick_slip.decision.choice import Chosen, choose
+from stochfric_mb.discovery.stick_slip.decision.choice import OTHER_RIG, Chosen, choose
 from stochfric_mb.discovery.stick_slip.decision.confirmation import confirm
 from stochfric_mb.discovery.stick_slip.decision.entrainment import entrained
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
@@ -258,6 +258,19 @@ def test_advice_and_notes_speak_of_this_experiment(data, slip_study, decision):
     sentences = notes(slip_study, dataclasses.replace(decision, details=details), slip_study.model, gap, None, data)
     assert any("mass is 3.2 stated standard deviations" in note for note in sentences)
     assert any("off by more" in note for note in sentences)
+
+
+def test_advice_asks_for_nothing_that_the_record_has(slip_study, decision):
+    nameless = dataclasses.replace(decision, verdict="unknown", named=(), where=Where("scatter", "x"))
+    assert "a force sensor and a second belt speed and a second normal load" in next_experiment(nameless, slip_study)
+    run = slip_study.dataset.fit[0]
+    weighed = dataclasses.replace(run, channels={**run.channels, "force": run.channels["position"]})
+    dataset = dataclasses.replace(slip_study.dataset, runs=(weighed, *slip_study.dataset.runs[1:]))
+    both = dataclasses.replace(slip_study, dataset=dataset)
+    assert "force sensor" not in next_experiment(nameless, both)
+    assert any("force is read and not used" in note for note in of_the_record(both))
+    elsewhere = dataclasses.replace(nameless, where=Where(OTHER_RIG, "x"))
+    assert "weighing" in next_experiment(elsewhere, slip_study)
 
 
 def test_a_run_without_slips_is_said_to_be_left_out(slip_study):

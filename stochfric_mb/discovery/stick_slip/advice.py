@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from stochfric_mb.discovery.stick_slip.belt_speed import belt_speed
+from stochfric_mb.discovery.stick_slip.decision.choice import OTHER_RIG
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.study import Study
@@ -38,6 +39,12 @@ def _separating_experiment(first: str, second: str) -> str | None:
     return effect_class(first).separated_by.get(second) or effect_class(second).separated_by.get(first)
 
 
+def _untried(study: Study) -> list[str]:
+    """Return which speeds and loads would tell more."""
+    constant = constant_conditions(study.pool)
+    return [SEEN_BY[c] for c in ("dwell", "load") if c in constant] or ["speeds and loads further apart"]
+
+
 def next_experiment(decision: Decision, study: Study) -> str:
     """Return the experiment that would decide what is open."""
     belt = belt_speed(study)
@@ -49,9 +56,13 @@ def next_experiment(decision: Decision, study: Study) -> str:
                 return f"{advice}, to distinguish {words_of(named.kind)} from {words_of(other)}"
         if named.class_:
             which = f"{words_of(named.kind)} from {words_of(named.class_[0])}"
-            return f"runs at a second belt speed and a second normal load, to distinguish {which}"
+            return f"runs with {' and '.join(_untried(study))}, to distinguish {which}"
     if decision.verdict == "unknown" and decision.where is not None:
-        return f"a repeat with a force sensor and a second belt speed, to see what varies along: {decision.where.axis}"
+        if decision.where.axis == OTHER_RIG:
+            return "a load test of the spring and a weighing of the box: with them as stated, what is missing has no name"
+        measured = any("force" in run.channels for run in study.dataset.fit)
+        wanted = _untried(study) if measured else ["a force sensor", *_untried(study)]
+        return f"a repeat with {' and '.join(wanted)}, to see what varies along: {decision.where.axis}"
     blind = [kind for kind in not_identifiable(study) if effect_class(kind).answers_to in SEEN_BY]
     wanted = dict.fromkeys(SEEN_BY[effect_class(kind).answers_to] for kind in blind)
     return f"runs with {', '.join(wanted)}: they would show {', '.join(map(words_of, blind))}" if blind else "none needed"

@@ -14,8 +14,12 @@ from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import NOT_STATED
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.discovery.stick_slip.validation.explained import MORE_MISSING
+from stochfric_mb.effects import effect_class
+from stochfric_mb.effects.traits import BELT
 from stochfric_mb.measurement.dataset import Dataset
 
+FORCE = "force"
+"""Channel of a measured force."""
 NOT_IN_AUGMENTED = "not_in_augmented"
 """Name under which the details hold the effects that augmented.toml does not."""
 
@@ -36,7 +40,7 @@ def notes(
     details: dict[str, Any] = decision.details
     beyond = details["parameters"]["moved_beyond_uncertainty"]
     return (
-        *of_the_record(study),
+        *of_the_record(study, varies=any(BELT in effect_class(n.kind).traits for n in decision.named)),
         *(
             f"{kind} is not validated on the held-out runs: error {seen['with_']:.3g} m with it, "
             f"{seen['without']:.3g} m without"
@@ -95,8 +99,13 @@ def not_in_augmented(model: Model) -> dict[str, object]:
     return {NOT_IN_AUGMENTED: elsewhere} if elsewhere else {}
 
 
-def of_the_record(study: Study) -> list[str]:
-    """Return what to know of the fit runs: which are not used, outliers, noise, length, the belt's speed."""
+def of_the_record(study: Study, *, varies: bool = False) -> list[str]:
+    """Return what to know of the fit runs: which are not used, outliers, noise, length, the belt's speed.
+
+    Args:
+        study: what the fit runs show.
+        varies: whether the belt's speed is known to vary: slips that keep step with it do not stick at its mean.
+    """
     used = {slips.record.name for slips in study.pool.slips}
     said = [
         f"run {record.name} is not used: it holds fewer than {criteria.FEWEST_OF_RUN} slips (a dead sensor, a rig at rest, or "
@@ -114,7 +123,9 @@ def of_the_record(study: Study) -> list[str]:
             f"long records: all {len(study.pool.run)} slips count; what is simulated stands for {SIMULATED} slips in the "
             f"middle of a run, and {min(most, FORECAST)} forecasts of a run are scored, spread evenly"
         )
-    if (belt := belt_speed(study)) is not None:
+    if any(FORCE in run.channels for run in study.dataset.fit):
+        said.append(f"the column {FORCE} is read and not used: forces follow from the measured motion and the stated spring")
+    if not varies and (belt := belt_speed(study)) is not None:
         said.append(belt.note)
     return said
 

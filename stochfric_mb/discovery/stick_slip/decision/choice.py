@@ -36,6 +36,8 @@ REFIT_WINDOWS = 12
 REFUTED = "shapes_refuted"
 """Name under which the details hold that simulating effects which shape every slip alike has not borne them out."""
 
+OTHER_RIG = "mechanism"
+"""Axis of what a rig of other numbers than those stated would explain."""
 SHAPES = ("slip_shape", "position")
 """Competitors on the axes on which those effects act."""
 IN_TIME = ("time", "friction_step", "parity")
@@ -303,8 +305,8 @@ def _of_another_rig(model: Model, kind: str) -> Where:
     """Return where the unknown lives if a model whose mechanism is not as stated explains the slips as well as an effect."""
     off = {name: model.corrections.get(name, 0.0) for name in sorted(model.freed)}
     numbers = " and ".join(f"{name} {100.0 * abs(by):.2g} % {'above' if by > 0.0 else 'below'}" for name, by in off.items())
-    text = f"the slips are those of a rig with its {numbers} what is stated; beside that, {kind} explains no more"
-    return Where("mechanism", text)
+    text = f"a rig with its {numbers} what is stated would slip so; beside that, {kind} explains no more"
+    return Where(OTHER_RIG, text)
 
 
 def _near(one: float, other: float) -> bool:
