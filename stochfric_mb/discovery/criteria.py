@@ -323,6 +323,9 @@ TOO_LOUD = 0.1
 break-away puts into the record, which is a tenth of the travel after a fifth of the slip."""
 RIDES = 0.9
 """Share of the belt's travel that a box follows if it sticks throughout [-]."""
+BEYOND_SPRING = 3.0
+"""Travel of a box over the largest deflection that friction of the stated mu_s allows, from which its position is no deflection
+[-]: the stated mu_s may be off by a half, and a zero does not move."""
 SLIDES = 0.1
 """Share of it that a box stays below if it slides throughout [-]."""
 

@@ -152,8 +152,20 @@ def drowned(_: pytest.MonkeyPatch) -> Dataset:
     return replace(plain(), runs=tuple(noisy(run) for run in plain().runs))
 
 
+def block_on_the_table(_: pytest.MonkeyPatch) -> Dataset:
+    """A block that a drive pulls is logged by its own place, not by how far its spring is stretched."""
+
+    def placed(run):
+        speed = run.mechanism(plain().scenario).belt_velocity
+        return replace(run, channels={**run.channels, "position": speed * run.time - run.channels["position"]})
+
+    return replace(plain(), runs=tuple(placed(run) for run in plain().runs))
+
+
 @pytest.mark.parametrize(
-    "record", [few_cycles, always_stick, never_stick, wrong_belt_speed, drowned], ids=lambda record: record.__name__
+    "record",
+    [few_cycles, always_stick, never_stick, wrong_belt_speed, drowned, block_on_the_table],
+    ids=lambda record: record.__name__,
 )
 def test_records_that_say_little_get_an_honest_answer(record: Callable[[pytest.MonkeyPatch], Dataset], monkeypatch):
     """No name, and a sentence for the reader; a refusal counts as one."""
@@ -174,6 +186,7 @@ SAID = {
     always_stick: ("rides on the belt", "a faster belt"),
     never_stick: ("slides for all its 20 s", "a belt slower than 0.5 m/s"),
     drowned: ("drowned in noise: 0.0005 m", "a position sensor with a noise below 0.00022 m"),
+    block_on_the_table: ("its position is not the spring's deflection", "the drive's travel less the block's"),
     wrong_belt_speed: ("0.833 times the stated belt velocity", "measure the belt's speed"),
 }
 """What a record that says little is told: the reason, and the experiment to make."""

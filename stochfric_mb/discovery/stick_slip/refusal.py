@@ -42,7 +42,15 @@ def _of(record: Record, scenario: Scenario) -> tuple[str, str]:
             f"a position sensor with a noise below {criteria.TOO_LOUD * travel:.2g} m, or slips that are longer than "
             f"{record.noise / criteria.TOO_LOUD:.2g} m (a softer spring, a higher normal load)",
         )
-    followed = _followed(record)
+    followed, farthest = _followed(record), law.mu_s * box.normal_force / box.stiffness
+    reached = float(np.ptp(record.position))
+    if followed > criteria.RIDES and reached > criteria.BEYOND_SPRING * farthest:
+        return (
+            f"moves on with the belt by {reached:.3g} m, where friction can stretch the stated spring by {farthest:.2g} m: its "
+            "position is not the spring's deflection",
+            "the spring's deflection as position: of a block that a drive pulls, the drive's travel less the block's "
+            '(docs/datasets.md, "A block that is pulled")',
+        )
     if result == 0 and followed > criteria.RIDES:
         return (
             f"rides on the belt for all its {seconds:.3g} s",
