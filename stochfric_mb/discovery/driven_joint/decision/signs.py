@@ -19,6 +19,8 @@ from stochfric_mb.mechanisms import Mjcf
 
 TURNED = 0.5
 """Part of the error that is left with the drive turned round, below which its sign is probably wrong."""
+BY_SCALE = 1.5
+"""Factor from which a drive is too small by its scale [-]: gains and masses are believed to be nearer."""
 DRIVES = ("voltage", "force", "torque")
 """Channels that drive a slide or hinge."""
 
@@ -46,7 +48,8 @@ def require_dissipation(dataset: Dataset, place: str, balances: Sequence[ForceBa
     """
     turned = f"the sign of the driving force, or of the position, is wrong; {_remedy(dataset, place)}"
     for balance in balances:
-        _require_dissipation(balance, _dead_drive(dataset, balance.run) or turned)
+        causes = _dead_drive(dataset, balance.run), _wrong_scale(dataset, place, balance), turned
+        _require_dissipation(balance, next(filter(None, causes)))
 
 
 def _dead_drive(dataset: Dataset, run: str) -> str:
@@ -57,6 +60,26 @@ def _dead_drive(dataset: Dataset, run: str) -> str:
     dead = [k for k in DRIVES if k in channels and np.ptp(channels[k]) == 0.0]
     value = channels[dead[0]][0] + 0.0 if dead else 0.0
     return f"{dead[0]} is {value:g} in all samples: repair a dead channel, or leave the run out" if dead else ""
+
+
+def _wrong_scale(dataset: Dataset, place: str, balance: ForceBalance) -> str:
+    """Return what is said of a drive that a factor makes what the motion and a friction against it need; empty: none does."""
+    if balance.drive is None:
+        return ""
+    drive = balance.window.at_centres(balance.drive)
+    needed, at = drive - balance.driven, balance.sliding
+    basis = np.stack([drive, -np.sign(balance.velocity[balance.window.centres])], axis=1)[at]
+    (factor, friction), *_ = np.linalg.lstsq(basis, needed[at])
+    left = float(np.mean((needed[at] - basis @ [factor, friction]) ** 2))
+    if factor < BY_SCALE or friction < 0.0 or left > TURNED**2 * float(np.mean(needed[at] ** 2)):
+        return ""
+    if isinstance(dataset.scenario.mechanism, Mjcf):
+        remedy = f"multiply the gain of mechanism.drives.{place or next(iter(dataset.scenario.mechanism.friction))} by it"
+    else:
+        name = next((k for k in DRIVES if k in dataset.fit[0].channels), DRIVES[0])
+        remedy = f"give scale = {{ {name} = {factor:.3g} }}, or the gain that is meant"
+    wrong = "its unit or gain is wrong (a current is no torque)"
+    return f"{factor:.3g} times the driving force would move the joint so: {wrong}; {remedy}"
 
 
 def _require_dissipation(balance: ForceBalance, cause: str) -> None:
