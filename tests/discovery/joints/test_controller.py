@@ -65,6 +65,14 @@ def test_the_right_controller_gives_the_recorded_drive_and_is_simulated():
     assert not any("stated controller" in note for note in result.notes)
 
 
+def test_a_reference_in_another_unit_is_converted_as_positions_are():
+    in_mm = tuple(
+        dataclasses.replace(r, covariates=r.covariates | {"goal": 1e3 * r.covariates["goal"]}, units={"goal": "mm"})
+        for r in RUNS
+    )
+    assert controller_misfit(dataclasses.replace(data(), runs=in_mm)) == pytest.approx(controller_misfit(data()), rel=1e-9)
+
+
 def test_what_is_added_to_the_output_is_needed():
     without = controller_misfit(data(added=""))
     pulses = np.concatenate([r.covariates["pulses"] for r in RUNS if r.role == "test"])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import column, product
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import column, in_si, product
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
 from stochfric_mb.mechanisms import JointLoop, Mjcf, ProportionalDerivative
@@ -29,7 +29,7 @@ class RunLoop:
         drive = mechanism.drives[joint]
         self._loop, self._factor = loop, run.constants[loop.factor] if loop.factor else 1.0
         self._added = column(run, loop.added) if loop.added else np.zeros(len(run.time))
-        self.reference = column(run, loop.reference)
+        self.reference = in_si(run, loop.reference, "position")
         """Reference position [m or rad], shape (count,)."""
         self.recorded = column(run, drive.columns[0])
         """What it gave, shape (count,): the first column of the joint's drive."""

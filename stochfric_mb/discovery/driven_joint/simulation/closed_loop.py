@@ -12,6 +12,7 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import known_temp
 from stochfric_mb.discovery.driven_joint.balance.inverse_dynamics import channel, drive_channel, measured_load, position_of
 from stochfric_mb.discovery.driven_joint.fit.friction_along import chain, resistance
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import in_si
 from stochfric_mb.effects import contract as e
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement.run import Run
@@ -39,7 +40,7 @@ class CascadeLoop:
                 raise InputError(f"run {run.name!r} has no covariate {name!r} for the controller (it has: {given})")
         added = run.covariates[controller.added] if controller.added else np.zeros(len(run.time))
         self._controller = controller
-        self.reference = np.ascontiguousarray(run.covariates[controller.reference])
+        self.reference = np.ascontiguousarray(in_si(run, controller.reference, "position"))
         """Reference position [m], shape (n,)."""
         self.added = np.ascontiguousarray(added)
         """What is added to its output [V or N], shape (n,)."""
