@@ -266,7 +266,7 @@ def any_scenario_from_dict(tables: Mapping[str, Any], *, folder: Path = Path()) 
         raise InputError(f"schema = {tables.get('schema')!r}; this version reads {SCHEMA!r}")
     simulation = _table(tables, "simulation")
     for key in simulation:
-        require_name("key simulation.", key, ("duration", "output_step"))
+        require_name("key of simulation", key, ("duration", "output_step"))
     numbers = {k: require_number(f"simulation.{k}", _need(simulation, "simulation", k)) for k in ("duration", "output_step")}
     return Scenario(
         title=require_text("title", tables.get("title", "")),
@@ -377,7 +377,7 @@ def _mechanism(table: Mapping[str, Any], folder: Path) -> Mechanism:
     fields = {f.name: f for f in dataclasses.fields(cls)}
     values = {k: v for k, v in table.items() if k != "kind"}
     for key in values:
-        require_name("key mechanism.", key, fields)
+        require_name("key of mechanism", key, fields)
     for key, field in fields.items():
         if field.default is dataclasses.MISSING:
             _need(values, "mechanism", key)

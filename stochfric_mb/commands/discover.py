@@ -60,7 +60,7 @@ def discover(dataset: str, scenario: str | None, out: str, dry_run: bool, force:
         shown.note("drawing the report")
         with whole_folder(target, replace=force or refused_before) as folder:
             # the same data give the same bytes, wherever they are written to
-            content = write(outcome, folder, command_line(without=("out", "force")))
+            content = write(outcome, folder, f"{command_line(without=('out', 'force'))} --out DIR")
     answer(content)
     _show(content)
     say(f"{target / 'report.html'}")

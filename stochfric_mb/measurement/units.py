@@ -55,6 +55,11 @@ def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | No
     )
     lever = arm if targets == ("N",) and given.dimensionality == units.Unit("N*m").dimensionality else ""
     lever = _as_arc(quantity, targets) if _turns(units, given) else lever
+    if given.dimensionality == units.Unit("A").dimensionality and targets in (("N",), ("N m",)):
+        lever = (
+            f"; a motor's current is a force or torque once it is multiplied by its constant: of 0.1 {targets[0]}/A, "
+            f'scale = {{ {quantity.name} = 0.1 }} and units = {{ {quantity.name} = "{targets[0]}" }}'
+        )
     raise InputError(f"{wrong}; give {_choices(quantity, targets)}{lever}")
 
 

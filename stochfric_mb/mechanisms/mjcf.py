@@ -67,7 +67,7 @@ class Mjcf:
                 "them, and give what is known of others as damping"
             )
         for name, factor in self.factors.items():
-            require_name("key mechanism.factors.", name, ("mass", "armature"))
+            require_name("key of mechanism.factors", name, ("mass", "armature"))
             require_number(f"mechanism.factors.{name}", factor, low=0.0)
         for joint in self.damping:
             require_name("joint (a joint of mechanism.positions)", joint, self.positions)
@@ -97,7 +97,7 @@ class Mjcf:
         """
         fields = [f.name for f in dataclasses.fields(cls)]
         for key in table:
-            require_name("key mechanism.", key, [*fields, "kind"])
+            require_name("key of mechanism", key, [*fields, "kind"])
         for key in ("file", "friction", "positions"):
             if key not in table:
                 raise InputError(f"key mechanism.{key} is missing; add it to [mechanism]")

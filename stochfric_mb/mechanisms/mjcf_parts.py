@@ -46,7 +46,7 @@ def pair_from(name: str, value: Any) -> Pair:
             f'mechanism.pairs.{name} = {value!r} names no two geoms; write {name} = {{ geoms = ["block", "rail"] }}'
         )
     for key in table:
-        require_name(f"key mechanism.pairs.{name}.", key, ("geoms", "normal_force"))
+        require_name(f"key of mechanism.pairs.{name}", key, ("geoms", "normal_force"))
     body, surface = (str(g) for g in cast(list[Any], geoms))
     return Pair(geoms=(body, surface), normal_force=str(table.get("normal_force", "")))
 
@@ -89,7 +89,7 @@ def drive_from(joint: str, value: Any) -> Drive:
             f'mechanism.drives.{joint} = {value!r}; give a channel, or {{ columns = ["duty", "voltage"], gain = 0.4 }}'
         )
     for key in table:
-        require_name(f"key mechanism.drives.{joint}.", key, ("columns", "gain"))
+        require_name(f"key of mechanism.drives.{joint}", key, ("columns", "gain"))
     return Drive(
         columns=tuple(require_text(f"mechanism.drives.{joint}.columns", c) for c in cast(list[Any], columns)),
         gain=require_number(f"mechanism.drives.{joint}.gain", table.get("gain", 1.0)),

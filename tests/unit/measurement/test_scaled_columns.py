@@ -90,3 +90,10 @@ def test_the_angle_of_a_rig_that_turns_is_read_as_an_arc_as_the_error_says(tmp_p
         RunEntry(file=file, name="log", units={"position": "m"}, scale={"position": 0.04 * in_rad}), rotational=False
     )
     np.testing.assert_allclose(run.channels["position"][:3], 0.04 * in_rad * np.array([0.0, 0.5, 1.0]))
+
+
+def test_a_current_is_refused_with_the_constant_that_makes_it_a_torque(tmp_path):
+    file = tmp_path / "log.csv"
+    file.write_text("\n".join(["time [s],torque [mA]", *(f"{1e-3 * i:.3f},{0.5 * i}" for i in range(N))]) + "\n")
+    with pytest.raises(InputError, match=r"of 0.1 N m/A, scale = \{ torque = 0.1 \} and units = \{ torque = \"N m\" \}"):
+        assemble(RunEntry(file=file, name="log"), rotational=True)
