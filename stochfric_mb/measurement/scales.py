@@ -40,6 +40,8 @@ SURE = 0.05
 """Largest relative standard error of a mass that counts as seen [-]."""
 SHARE = 0.1
 """Least share of the driving force's deviation that inertia must have for a mass to be seen [-]."""
+REPEATED = 0.25
+"""Different readings over all, below which a sensor reads in steps [-]."""
 LAGS = 8
 """Distances over which slopes are taken: powers of 2 [samples]."""
 
@@ -137,8 +139,10 @@ def stuck_speed(position: Array, interval: float) -> tuple[float, int] | None:
     """Return the speed at which a record moves most of the time [units of position/s], and the lag that shows it [samples].
 
     Slopes are taken over several distances, because noise blurs short ones and slips long ones: the shortest distance at
-    which a share of `STUCK_SHARE` lies within `STUCK_SPREAD` of one speed decides. None: there is no such speed.
+    which a share of `STUCK_SHARE` lies within `STUCK_SPREAD` of one speed decides, and at which steps of the sensor are finer
+    than that. None: there is no such speed.
     """
+    step = _sensor_step(position)
     for lag in (2**i for i in range(LAGS)):
         if 20 * lag > position.size:
             break
@@ -147,9 +151,15 @@ def stuck_speed(position: Array, interval: float) -> tuple[float, int] | None:
         widths = slopes[count - 1 :] - slopes[: slopes.size - count + 1]
         first = int(np.argmin(widths))
         middle = float(np.median(slopes[first : first + count]))
-        if widths[first] < STUCK_SPREAD * abs(middle):
+        if max(widths[first], step / (lag * interval)) < STUCK_SPREAD * abs(middle):
             return middle, lag
     return None
+
+
+def _sensor_step(position: Array) -> float:
+    """Return the step in which a sensor reads [units of position]; 0 where most readings are of their own."""
+    levels = np.unique(position)
+    return float(np.diff(levels).min()) if 1 < levels.size < REPEATED * position.size else 0.0
 
 
 def slip_time(position: Array, interval: float, speed: float, lag: int) -> float | None:

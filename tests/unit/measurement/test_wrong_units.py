@@ -347,3 +347,12 @@ def test_measured_joints_are_read(monkeypatch, name, file):
     """A servo axis, and two seals that move too slowly to show a mass."""
     monkeypatch.setenv("STOCHFRIC_DATA", str(measured(file).parents[1]))
     assert load_dataset(ROOT / "models" / name).fit
+
+
+def test_the_speed_of_stick_is_not_that_at_which_a_coarse_sensor_counts():
+    """At 5 mm/s and 500 Hz a sensor of 50 um counts every fifth sample: over 8 samples, one count is 3.1 mm/s."""
+    time = np.arange(15000) * 2e-3
+    position = 5e-3 * (time % 0.6)  # 3 mm of stick, and back at once
+    speed, lag = stuck_speed(50e-6 * np.round(position / 50e-6), 2e-3)
+    assert speed == pytest.approx(5e-3, rel=0.05)
+    assert stuck_speed(position, 2e-3)[1] < lag
