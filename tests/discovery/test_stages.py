@@ -260,6 +260,19 @@ def test_advice_and_notes_speak_of_this_experiment(data, slip_study, decision):
     assert any("off by more" in note for note in sentences)
 
 
+@pytest.mark.parametrize(("left", "said"), [(0.75, False), (2.0, True)])
+def test_a_name_that_leaves_more_than_noise_in_the_forces_of_slips_is_said_not_to_be_all(
+    data, slip_study, decision, left, said
+):
+    forces = Gap("crps_slip_forces", "-", True, 28.0, 27.0, left, 0.56)
+    details = decision.details | {"parameters": {"moved_beyond_uncertainty": {}}}
+    details.pop("more_missing", None)
+    named = dataclasses.replace(decision, details=details)
+    assert named.named
+    sentences = notes(slip_study, named, slip_study.model, None, forces, data)
+    assert any("more is missing" in note for note in sentences) is said
+
+
 def test_advice_asks_for_nothing_that_the_record_has(slip_study, decision):
     nameless = dataclasses.replace(decision, verdict="unknown", named=(), where=Where("scatter", "x"))
     assert "a force sensor and a second belt speed and a second normal load" in next_experiment(nameless, slip_study)

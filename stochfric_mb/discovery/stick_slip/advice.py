@@ -45,6 +45,15 @@ def _untried(study: Study) -> list[str]:
     return [SEEN_BY[c] for c in ("dwell", "load") if c in constant] or ["speeds and loads further apart"]
 
 
+def _to_find(axis: str, study: Study) -> str:
+    """Return the experiment that would tell more of what is missing along an axis."""
+    if axis == OTHER_RIG:
+        return "a load test of the spring and a weighing of the box: with them as stated, what is missing has no name"
+    measured = any("force" in run.channels for run in study.dataset.fit)
+    wanted = _untried(study) if measured else ["a force sensor", *_untried(study)]
+    return f"a repeat with {' and '.join(wanted)}, to see what varies along: {axis}"
+
+
 def next_experiment(decision: Decision, study: Study) -> str:
     """Return the experiment that would decide what is open."""
     belt = belt_speed(study)
@@ -58,11 +67,7 @@ def next_experiment(decision: Decision, study: Study) -> str:
             which = f"{words_of(named.kind)} from {words_of(named.class_[0])}"
             return f"runs with {' and '.join(_untried(study))}, to distinguish {which}"
     if decision.verdict == "unknown" and decision.where is not None:
-        if decision.where.axis == OTHER_RIG:
-            return "a load test of the spring and a weighing of the box: with them as stated, what is missing has no name"
-        measured = any("force" in run.channels for run in study.dataset.fit)
-        wanted = _untried(study) if measured else ["a force sensor", *_untried(study)]
-        return f"a repeat with {' and '.join(wanted)}, to see what varies along: {decision.where.axis}"
+        return _to_find(decision.where.axis, study)
     blind = [kind for kind in not_identifiable(study) if effect_class(kind).answers_to in SEEN_BY]
     wanted = dict.fromkeys(SEEN_BY[effect_class(kind).answers_to] for kind in blind)
     return f"runs with {', '.join(wanted)}: they would show {', '.join(map(words_of, blind))}" if blind else "none needed"

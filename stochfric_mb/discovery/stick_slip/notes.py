@@ -52,6 +52,7 @@ def notes(
         *_of_several_tones(model),
         *_of_one_pace(model, study),
         *_seen_in_forces(gap, forces),
+        *([] if MORE_MISSING in details or not decision.named else _left_in_forces(forces)),
         *(f"{name} is {abs(by):.2g} stated standard deviations off from what is stated" for name, by in beyond.items()),
         *([] if given.scenario.uncertainty else [NOT_STATED]),
     )
@@ -128,6 +129,19 @@ def of_the_record(study: Study, *, varies: bool = False) -> list[str]:
     if not varies and (belt := belt_speed(study)) is not None:
         said.append(belt.note)
     return said
+
+
+def _left_in_forces(forces: Gap | None) -> list[str]:
+    """Return that what is named is not all, where the forces of held-out slips say so.
+
+    Forecasts follow what friction does on average, and not how it varies within a slip.
+    """
+    if forces is None or not forces.augmented > criteria.LEFT_IN_FORCES * forces.floor:
+        return []
+    return [
+        f"the forces of held-out slips are off by {forces.augmented:.3g} times their noise with what is named, "
+        f"{forces.floor:.3g} if the model were true: more is missing, and intervals may be too narrow"
+    ]
 
 
 def _seen_in_forces(gap: Gap | None, forces: Gap | None) -> tuple[str, ...]:
