@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery import criteria, discover
+from stochfric_mb.discovery.inference.false_alarms import detected
 from stochfric_mb.discovery.inference.paired import paired
 from stochfric_mb.discovery.result import Gap, Where
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
@@ -15,8 +16,10 @@ from stochfric_mb.discovery.stick_slip.decision.cases import cases_of, predict
 from stochfric_mb.discovery.stick_slip.decision.chance import before_effects, without_accidents
 from stochfric_mb.discovery.stick_slip.decision.choice import OTHER_RIG, Chosen, choose
 from stochfric_mb.discovery.stick_slip.decision.confirmation import confirm
+from stochfric_mb.discovery.stick_slip.decision.decision import Finding
 from stochfric_mb.discovery.stick_slip.decision.entrainment import entrained
 from stochfric_mb.discovery.stick_slip.decision.innovations import left_over
+from stochfric_mb.discovery.stick_slip.decision.kinematics import kinematics
 from stochfric_mb.discovery.stick_slip.decision.rounds import decide
 from stochfric_mb.discovery.stick_slip.decision.sensor_zero import seen_in_stick, steady
 from stochfric_mb.discovery.stick_slip.decision.working_model import WorkingModel
@@ -35,6 +38,7 @@ from stochfric_mb.discovery.stick_slip.validation.explained import unexplained
 from stochfric_mb.discovery.stick_slip.validation.predictive_check import inadequate
 from stochfric_mb.discovery.stick_slip.workflow import recalibrated_model
 from stochfric_mb.effects import make_effect
+from stochfric_mb.laws import make_law
 from tests.discovery.generator.case import Case
 from tests.discovery.net.rigs import belt_box
 from tests.discovery.unseen_forms.records import cases as unseen_cases
@@ -271,6 +275,18 @@ def test_a_name_that_leaves_more_than_noise_in_the_forces_of_slips_is_said_not_t
     assert named.named
     sentences = notes(slip_study, named, slip_study.model, None, forces, data)
     assert any("more is missing" in note for note in sentences) is said
+
+
+def test_a_law_that_is_elastic_takes_no_second_compliance(slip_study, monkeypatch):
+    """The simulator has room for one: the second ended discovery with an error."""
+    yielding = Finding("presliding_compliance", detected("stick", 1.0), {"elastic_limit": 1e-5, "damping_ratio": 0.05})
+    monkeypatch.setattr("stochfric_mb.discovery.stick_slip.decision.kinematics._in_stick", lambda *_: [yielding])
+    assert yielding in kinematics(slip_study, {})
+    law = make_law("elastic_stick", mu_s=slip_study.model.law.mu_s, mu_k=slip_study.model.law.mu_k)
+    elastic = dataclasses.replace(slip_study, model=dataclasses.replace(slip_study.model, law=law))
+    where = kinematics(elastic, {})
+    assert isinstance(where, Where)
+    assert "elastic itself" in where.text
 
 
 def test_advice_asks_for_nothing_that_the_record_has(slip_study, decision):

@@ -27,6 +27,7 @@ from stochfric_mb.effects import Effect, effect_class, kind_with_signature, make
 from stochfric_mb.effects.shapes.course import LeveledCourse
 from stochfric_mb.effects.shapes.splines import PIECES, returning
 from stochfric_mb.effects.traits import BELT_RIPPLE, CLIPPED, CREEPING_ZERO, JUMP, LATE, STRAY, YIELDING
+from stochfric_mb.laws.elastic_stick import ElasticStick
 from stochfric_mb.measurement.delay import Delay, Term, estimate_delay
 
 LIMITS = (1.52e-3, 4.56e-3, 1.52e-2, 4.56e-2)
@@ -43,6 +44,11 @@ CREEP = {
 """Ways in which a stuck box may creep -> axis and sentence."""
 ELSE = ("stick", "in stick the box does not follow the belt, in a way that no known effect explains")
 """The same where none of them explains enough."""
+OTHERWISE_ELASTIC = Where(
+    "stick",
+    "in stick the contact gives way otherwise than the stated law, which is elastic itself: state another limit, or coulomb",
+)
+"""What is said of a contact whose law has a compliance of its own."""
 STEP_SEEN, DRIFT_SEEN = "step_in_stick", "drift_in_stick"
 """Names under which the details hold the score of a step that stands in a stick phase and stays, and of a zero that drifts."""
 
@@ -125,6 +131,8 @@ def kinematics(study: Study, details: dict[str, object]) -> list[Finding] | Wher
     stray, in_stick = _outliers(study, details), _in_stick(study, details)
     if isinstance(stray, Where) or isinstance(in_stick, Where):
         return stray if isinstance(stray, Where) else in_stick
+    if isinstance(study.model.law, ElasticStick) and any(f.kind == kind_with_signature(YIELDING) for f in in_stick):
+        return OTHERWISE_ELASTIC
     return _delays(study, details) + stray + in_stick
 
 
