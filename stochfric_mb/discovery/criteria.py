@@ -93,7 +93,8 @@ UNNAMED_LEAST = 0.0
 """Score that an axis must reach: more evidence than its numbers and the choice between the axes cost."""
 LEFT_IN_FORCES = 1.5
 """Error of the forces of held-out slips, over what it would be if the model were true, from which more is said to be missing
-[-], as at joints: eight right names of a stranger's records left up to 1.35, names that were not all 3.6 and more."""
+[-], as at joints: eight right names of a stranger's records left up to 1.35, one of a rig whose
+engine smooths friction 2.0, names that were not all 3.6 and more."""
 FORCES_FEWEST = 6
 """Slips below which there is no score."""
 DECIDED_BY_DATA = 0.5

@@ -11,6 +11,8 @@ from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import effect_class, effect_kinds, words_of
 
+FORCE = "force"
+"""Channel of a measured force."""
 SEEN_BY = {"dwell": "a second belt speed", "direction": "a reversed belt", "load": "a second normal load"}
 """Condition that effects answer to -> what an experiment must hold to change it."""
 
@@ -49,7 +51,7 @@ def _to_find(axis: str, study: Study) -> str:
     """Return the experiment that would tell more of what is missing along an axis."""
     if axis == OTHER_RIG:
         return "a load test of the spring and a weighing of the box: with them as stated, what is missing has no name"
-    measured = any("force" in run.channels for run in study.dataset.fit)
+    measured = any(FORCE in run.channels for run in study.dataset.fit)
     wanted = _untried(study) if measured else ["a force sensor", *_untried(study)]
     return f"a repeat with {' and '.join(wanted)}, to see what varies along: {axis}"
 

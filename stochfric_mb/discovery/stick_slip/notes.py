@@ -7,6 +7,7 @@ from typing import Any
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.result import Gap
+from stochfric_mb.discovery.stick_slip.advice import FORCE
 from stochfric_mb.discovery.stick_slip.belt_speed import belt_speed
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision
 from stochfric_mb.discovery.stick_slip.records.long_records import FORECAST, SIMULATED
@@ -18,8 +19,6 @@ from stochfric_mb.effects import effect_class
 from stochfric_mb.effects.traits import BELT
 from stochfric_mb.measurement.dataset import Dataset
 
-FORCE = "force"
-"""Channel of a measured force."""
 NOT_IN_AUGMENTED = "not_in_augmented"
 """Name under which the details hold the effects that augmented.toml does not."""
 

@@ -123,3 +123,19 @@ def test_a_joint_that_is_stated_to_stay_is_held(tmp_path):
     right = JointModel(make_law("coulomb", mu_s=1.0, mu_k=1.0), (), {}, friction)
     # over both joints; the wrist errs by what its velocity at the start of a piece is off
     assert forward(source, {"wrist": right}, 0.0).position < 0.01
+
+
+@pytest.mark.parametrize(("unit", "load"), [("N m", 3.0), ("V", 3.0 - 2.0 * 0.5)])
+def test_the_load_of_an_mjcf_joint_is_its_torque_and_of_a_voltage_less_the_back_emf(unit, load):
+    from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import back_emf
+    from stochfric_mb.mechanisms import Mjcf
+    from stochfric_mb.mechanisms.mjcf_parts import Drive
+
+    mechanism = Mjcf(
+        file=None, friction={"j": 1.0}, positions={"j": "q"}, drives={"j": Drive(columns=("u",))}, damping={"j": 2.0}
+    )
+    run = Run(
+        name="r", role="fit", time=np.zeros(1), channels={}, sample_interval=1.0, covariates={"u": np.full(1, 3.0)},
+        units={"u": unit},
+    )  # fmt: skip
+    assert 3.0 - back_emf(run, mechanism, "j") * 0.5 == load

@@ -46,7 +46,8 @@ def drive_of(run: Run, mechanism: Mjcf, place: str) -> Array:
 def back_emf(run: Run, mechanism: Mjcf, place: str) -> float:
     """Return the damping that is no part of the load of a joint or tendon: a motor's back-EMF [N s/m or N m s/rad].
 
-    Where the drive is a voltage, alone or as a part of it, the stated damping is that; a torque or force has it taken off.
+    Where the drive is a voltage, alone or as a part of it, the stated damping is that. What a torque or force drives transmits
+    all of it: 0.
     """
     drive = mechanism.drives.get(place)
     if drive is None or not (len(drive.columns) > 1 or any(c == "voltage" or run.units.get(c) == "V" for c in drive.columns)):
