@@ -19,6 +19,8 @@ from .joint_generator.unseen_fourth import UNSEEN_FOURTH
 from .joint_generator.unseen_ninth import PAIRS as UNSEEN_NINTH_PAIRS
 from .joint_generator.unseen_ninth import UNSEEN_NINTH
 from .joint_generator.unseen_second import UNSEEN_SECOND
+from .joint_generator.unseen_seventeenth import PAIRS as UNSEEN_SEVENTEENTH_PAIRS
+from .joint_generator.unseen_seventeenth import UNSEEN_SEVENTEENTH
 from .joint_generator.unseen_seventh import PAIRS as UNSEEN_SEVENTH_PAIRS
 from .joint_generator.unseen_seventh import UNSEEN_SEVENTH
 from .joint_generator.unseen_sixteenth import PAIRS as UNSEEN_SIXTEENTH_PAIRS
@@ -97,6 +99,7 @@ SERIES = {
     14: (UNSEEN_FOURTEENTH, UNSEEN_FOURTEENTH_PAIRS),
     15: (UNSEEN_FIFTEENTH, UNSEEN_FIFTEENTH_PAIRS),
     16: (UNSEEN_SIXTEENTH, UNSEEN_SIXTEENTH_PAIRS),
+    17: (UNSEEN_SEVENTEENTH, UNSEEN_SEVENTEENTH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 

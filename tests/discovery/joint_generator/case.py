@@ -23,6 +23,7 @@ from .unseen_fourteenth import UNSEEN_FOURTEENTH
 from .unseen_fourth import UNSEEN_FOURTH
 from .unseen_ninth import UNSEEN_NINTH
 from .unseen_second import UNSEEN_SECOND
+from .unseen_seventeenth import UNSEEN_SEVENTEENTH
 from .unseen_seventh import UNSEEN_SEVENTH
 from .unseen_sixteenth import UNSEEN_SIXTEENTH
 from .unseen_sixth import UNSEEN_SIXTH
@@ -47,7 +48,7 @@ LINKS = frozenset(("joint_compliance", "backlash"))
 
 _WITH_LINKS = UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH | UNSEEN_EIGHTH | UNSEEN_NINTH
 _WITH_LINKS |= UNSEEN_TENTH | UNSEEN_ELEVENTH | UNSEEN_TWELFTH | UNSEEN_THIRTEENTH | UNSEEN_FOURTEENTH | UNSEEN_FIFTEENTH
-_WITH_LINKS |= UNSEEN_SIXTEENTH
+_WITH_LINKS |= UNSEEN_SIXTEENTH | UNSEEN_SEVENTEENTH
 _BEFORE = 1.0  # s under control before a record begins
 
 

@@ -10,9 +10,10 @@ from zlib import crc32
 import numpy as np
 from scipy.signal import lfilter
 
-from . import (  # each enters its forms; `fourteenth` has the others enter theirs first: rigs in turn hang on the order
+from . import (  # each enters its forms; `fifteenth` has the others enter theirs first: rigs in turn hang on the order
     eighth,  # noqa: F401
     eleventh,  # noqa: F401
+    fifteenth,  # noqa: F401
     fifth,  # noqa: F401
     fourteenth,  # noqa: F401
     fourth,  # noqa: F401

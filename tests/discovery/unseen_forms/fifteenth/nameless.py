@@ -1,0 +1,1 @@
+"""Effects that no name describes."""

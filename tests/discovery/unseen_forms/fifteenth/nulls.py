@@ -1,0 +1,1 @@
+"""Rigs that are as believed: nothing is missing."""
