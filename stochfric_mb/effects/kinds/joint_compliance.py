@@ -28,11 +28,12 @@ follow at all, and one that is quicker swings within a window."""
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class JointCompliance(Effect):
-    """J_l q_l'' = k (q_m - q_l) + d (q_m' - q_l') - load_friction sign(q_l') - gravity, and the motor bears the reaction.
+    """J_l q_l'' = k (q_m - q_l) + d (q_m' - q_l') - load_friction sign(q_l') - load_damping q_l' - gravity.
 
-    J_l = load_share J, k = J_l (2 pi frequency)^2, d = 2 damping_ratio sqrt(k J_l). J is the inertia of motor and load
-    together, which the mechanism states; q_m, the motor's position, is measured. ``load_friction`` is part of the friction of
-    the joint. A load that swings when a record begins is the record's own: ``start_in_phase`` and ``start_quadrature``.
+    The motor bears the reaction. J_l = load_share J, k = J_l (2 pi frequency)^2, d = 2 damping_ratio sqrt(k J_l). J is the
+    inertia of motor and load together, which the mechanism states; q_m, the motor's position, is measured. ``load_friction``
+    and ``load_damping`` are part of the friction and of the damping of the joint. A load that swings when a record begins is
+    the record's own: ``start_in_phase`` and ``start_quadrature``.
 
     References: M. W. Spong, J. Dyn. Syst. Meas. Control 109, 1987, 310-319, doi 10.1115/1.3143860, eqs. 1-2; A. De Luca,
     W. Book, Robots with flexible elements, in Springer Handbook of Robotics, 2nd ed. 2016, section 11.1.
@@ -52,6 +53,8 @@ class JointCompliance(Effect):
     """Damping ratio of the same [-]."""
     load_friction: float = parameter("N", "Coulomb friction at the load", scale=0.1, low=0.0, default=0.0)
     """Coulomb friction at the load [N]."""
+    load_damping: float = parameter("N s/m", "viscous friction at the load", scale=0.1, low=0.0, default=0.0)
+    """Viscous friction at the load, part of that of the joint [N s/m]."""
     start_in_phase: float = parameter("N", "free oscillation at the record's start, in phase", scale=0.1, default=0.0)
     """What the spring carries beyond equilibrium when the record begins [N]."""
     start_quadrature: float = parameter("N", "the same, a quarter of a period ahead", scale=0.1, default=0.0)
@@ -59,7 +62,8 @@ class JointCompliance(Effect):
 
     kind: ClassVar[str] = "joint_compliance"
     equation: ClassVar[str] = (
-        "J_l q_l'' = k (q_m - q_l) + d (q_m' - q_l') - load_friction sign(q_l'), J_l = load_share J, k = J_l (2 pi frequency)^2"
+        "J_l q_l'' = k (q_m - q_l) + d (q_m' - q_l') - load_friction sign(q_l') - load_damping q_l', J_l = load_share J, "
+        "k = J_l (2 pi frequency)^2"
     )
     source: ClassVar[str] = "Spong 1987, eqs. 1-2; De Luca and Book 2016"
     group: ClassVar[str] = "mechanism"
@@ -84,7 +88,7 @@ class JointCompliance(Effect):
         """Return the force of the load that swings by itself [N or N m], shape (count,); as `Effect.load_force`."""
         link = Link(
             self.load_share * motor.inertia, self.frequency, self.damping_ratio, friction=self.load_friction,
-            start=(self.start_in_phase, self.start_quadrature),
+            damping=self.load_damping, start=(self.start_in_phase, self.start_quadrature),
         )  # fmt: skip
         return load_force(motor, link)
 
@@ -98,9 +102,9 @@ class JointCompliance(Effect):
         starts = tuple(
             cls(
                 load_share=SHARE, frequency=float(f), damping_ratio=ratio, load_friction=RUBS * span.friction,
-                start_in_phase=own, start_quadrature=own,
+                load_damping=RUBS * span.friction / span.speed, start_in_phase=own, start_quadrature=own,
             )
             for f in np.geomspace(low, max(high, 2.0 * low), FREQUENCIES)
             for ratio in DAMPING_RATIOS
         )  # fmt: skip
-        return JointSignature(starts, cls.shows_on, 5)
+        return JointSignature(starts, cls.shows_on, 6)

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector
+from stochfric_mb.discovery.driven_joint.fit.fitting import fit
+from stochfric_mb.discovery.driven_joint.fit.wave_scan import begun
 from stochfric_mb.discovery.driven_joint.joint_workflow import joint_outcome
 from stochfric_mb.discovery.driven_joint.simulation.friction_function import joint_friction
 from stochfric_mb.discovery.driven_joint.source import source_of
@@ -17,20 +19,26 @@ from tests.discovery.joint_generator.case import Case, write
 MASS, SHARE, FREQUENCY, RATIO = 2.0, 0.4, 8.0, 0.05
 LINES = ((0.1, 0.64), (0.03, 1.43), (0.002, 5.1))
 """Amplitude [m] and frequency [Hz] of the motion's parts."""
+MANY = (*((0.1, 0.64), (0.03, 1.43)), *((0.006 / f**2, f) for f in (2.3, 3.1, 4.1, 5.3, 6.7, 7.9, 9.1, 10.3)))
+"""The same of a motion that tells both sides of the resonance."""
 
 
-def two_masses(share=SHARE, *, seed=0, noise=0.02, rate=500.0, duration=6.0):
-    """Two records of a slide whose load swings in a steady state, by the transfer function of Spong 1987; a third held out."""
+def two_masses(share=SHARE, *, seed=0, noise=0.02, rate=500.0, duration=6.0, drag=0.0, lines=LINES):
+    """Two records of a slide whose load swings in a steady state, by the transfer function of Spong 1987; a third held out.
+
+    The joint's damping, stated, is ``drag`` [N s/m], all of it at the load.
+    """
     runs, t = [], np.arange(round(duration * rate)) / rate
     for i in range(3):
         rng = np.random.default_rng([seed, i])
         q, v, force = np.zeros(len(t)), np.zeros(len(t)), np.zeros(len(t))
-        for size, line in LINES:
+        for size, line in lines:
             s, w = 2.0j * np.pi * line, 2.0 * np.pi * FREQUENCY
             turn = size * np.exp(s * t + 2.0j * np.pi * rng.random())
-            follows = (2.0 * RATIO * w * s + w**2) / (s**2 + 2.0 * RATIO * w * s + w**2)
+            rubs = drag / (share * MASS) if share else 0.0
+            follows = (2.0 * RATIO * w * s + w**2) / (s**2 + (2.0 * RATIO * w + rubs) * s + w**2)
             q, v = q + turn.imag, v + (s * turn).imag
-            force = force + (MASS * (1.0 - share + share * follows) * s**2 * turn).imag
+            force = force + ((MASS * (1.0 - share + share * follows) * s**2 + drag * follows * s) * turn).imag
         force = force + 2.0 * np.tanh(v / 1.0e-3) + noise * rng.standard_normal(len(t))
         channels = {"position": q + 1.0e-6 * rng.standard_normal(len(t)), "force": force}
         role = "test" if i == 2 else "fit"
@@ -38,9 +46,9 @@ def two_masses(share=SHARE, *, seed=0, noise=0.02, rate=500.0, duration=6.0):
     tables = {
         "schema": "stochfric.scenario/1",
         "title": "two masses",
-        "mechanism": {"kind": "prismatic_joint", "mass": MASS, "normal_force": 10.0},
+        "mechanism": {"kind": "prismatic_joint", "mass": MASS, "normal_force": 10.0, "damping": drag},
         "law": {"kind": "coulomb", "mu_s": 0.2, "mu_k": 0.2},
-        "uncertainty": {"mass": 0.03, "offset": 0.1, "mu_s": 0.3, "mu_k": 0.3},
+        "uncertainty": {"mass": 0.03, "offset": 0.1, "mu_s": 0.3, "mu_k": 0.3} | ({"damping": 0.1} if drag else {}),
         "simulation": {"duration": duration, "output_step": 1.0e-3},
     }
     return Dataset(title="two masses", scenario_path=None, scenario=any_scenario_from_dict(tables), runs=tuple(runs))
@@ -68,6 +76,26 @@ def test_what_no_engine_of_one_body_carries_says_so(tmp_path):
         joint_friction(stated, smoothing_velocity=1.0e-3)
     assert any_scenario_from_dict(stated.to_dict()).effects == (effect,)
     assert 'kind = "joint_compliance"' in scenario_toml(stated)
+
+
+@pytest.mark.parametrize("drag_is_looked_for", [True, False])
+def test_viscous_friction_of_a_load_on_its_own_rail_is_not_taken_for_damping_of_its_spring(drag_is_looked_for):
+    drag = 6.0
+    source = source_of(two_masses(drag=drag, lines=MANY))
+    balances, nuisances = source.balances("", "fit", 0.0), source.nuisances("")
+    rubs = {"load_damping": 1.0} if drag_is_looked_for else {}
+    start = make_effect(
+        "joint_compliance", load_share=0.5, frequency=9.0, damping_ratio=0.1, start_in_phase=0.1, start_quadrature=0.1, **rubs
+    )
+    found = fit(begun(start, balances).added_to(source.stated("")), balances, nuisances, noise=0.02).model.effects[0]
+    # noise of the positions in the inertia, which the share of the load takes up, is a third of what is left
+    if drag_is_looked_for:
+        assert found.load_share == pytest.approx(SHARE, rel=0.05)
+        assert found.frequency == pytest.approx(FREQUENCY, rel=0.01)
+        assert found.damping_ratio == pytest.approx(RATIO, rel=0.1)
+        assert found.load_damping == pytest.approx(drag, rel=0.1)
+    else:
+        assert found.damping_ratio > 2.0 * RATIO
 
 
 @pytest.mark.slow

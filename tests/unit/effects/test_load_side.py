@@ -22,16 +22,16 @@ def motion(position, inertia=2.0, gravity=0.0, interval=H):
     return MotorMotion(interval, position, velocity, np.gradient(velocity, interval), inertia, held, (2, n - 2))
 
 
-@pytest.mark.parametrize(("drive", "ratio"), [(1.0, 0.05), (3.0, 0.1), (9.0, 0.3)])
-def test_a_load_on_a_spring_answers_a_sine_as_its_transfer_function_says(drive, ratio):
-    # q_l/q_m = (d s + k)/(J s^2 + d s + k), Spong 1987; after ten decay times the start is forgotten
+@pytest.mark.parametrize(("drive", "ratio", "drag"), [(1.0, 0.05, 0.0), (3.0, 0.1, 0.0), (9.0, 0.3, 0.0), (3.0, 0.05, 5.0)])
+def test_a_load_on_a_spring_answers_a_sine_as_its_transfer_function_says(drive, ratio, drag):
+    # q_l/q_m = (d s + k)/(J s^2 + (d + d_l) s + k), Spong 1987; after ten decay times the start is forgotten
     inertia, frequency = 0.7, 5.0
     w, t = 2.0 * np.pi * frequency, np.arange(0.0, 25.0, H)
     s = 2.0j * np.pi * drive
-    follows = (2.0 * ratio * w * s + w**2) / (s**2 + 2.0 * ratio * w * s + w**2)
+    follows = (2.0 * ratio * w * s + w**2) / (s**2 + (2.0 * ratio * w + drag / inertia) * s + w**2)
     q = 0.01 * np.sin(2.0 * np.pi * drive * t)
-    expected = np.imag(inertia * s**2 * 0.01 * (follows - 1.0) * np.exp(s * t))
-    force = load_force(motion(q), Link(inertia, frequency, ratio))
+    expected = np.imag((inertia * s**2 + drag * s) * 0.01 * (follows - 1.0) * np.exp(s * t))
+    force = load_force(motion(q), Link(inertia, frequency, ratio, damping=drag))
     late = slice(20_000, -10)
     # frequency to FINE^2/24 and differences to (w_drive h)^2/6, both of the load's own force
     tolerance = (FINE**2 / 24.0 / ratio + (abs(s) * H) ** 2) * inertia * abs(s) ** 2 * 0.01 * abs(follows)

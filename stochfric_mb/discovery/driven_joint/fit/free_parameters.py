@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -45,7 +45,7 @@ def free_parameters(
             value = getattr(effect, field.name)
             if (i, field.name) in fixed or not isinstance(value, int | float) or not _fitted(model, effect, field.name, value):
                 continue
-            one = _parameter(model, i, field.name, float(value), field.metadata)
+            one = _parameter(model, i, field, float(value))
             runs = [(run, x) for (kind, run, name), x in model.own.items() if (kind, name) == (effect.kind, field.name)]
             free += [dataclasses.replace(one, run=run, value=x) for run, x in runs] or [one]
     return free + [_with_prior(model, n) for n in nuisances]
@@ -72,11 +72,13 @@ def _fitted(model: JointModel, effect: Effect, name: str, value: float) -> bool:
     return bool(np.isfinite(value)) and value != default and name not in (*GIVEN, *effect.kept_at_joints(model.contact))
 
 
-def _parameter(model: JointModel, owner: int, name: str, value: float, about: Mapping[str, Any]) -> FreeParameter:
+def _parameter(model: JointModel, owner: int, field: dataclasses.Field[Any], value: float) -> FreeParameter:
     """Return a number of an effect as what a fit adjusts."""
+    name, about = field.name, field.metadata
     scale = max(abs(value), 1.0e-3 * about["scale"])
-    margin = INSIDE * scale if about["strict"] else 0.0
     low = about["fit_low"]
+    # at its default it would be no part of this form, and stay there
+    margin = INSIDE * scale if about["strict"] or low == field.default else 0.0
     # a smaller preload could not be measured, and would leave no friction without load
     low = LEAST_PRELOAD * model.load if name == "reference_load" else low
     return FreeParameter(owner, name, value, scale, low + margin, about["fit_high"] - margin, about["unit"])
