@@ -39,7 +39,7 @@ from stochfric_mb.mechanisms import ProportionalDerivative
 
 Array = npt.NDArray[np.float64]
 
-CORRECTED = {"mass": "-", "armature": "-", "gain": "-", "damping": "-", "offset": "N or N m"}
+CORRECTED = {"mass": "-", "armature": "-", "gain": "-", "damping": "-", "offset": "N"}
 """What data may correct: factors on masses, armature, drive and damping of the joint, and an offset of its drive."""
 NOT_OF_TENDONS, NOT_OF_PAIRS = ("damping",), ("damping", "gain")
 """A tendon has no damping of its own here, and nothing drives a pair but through the joints."""
@@ -75,6 +75,7 @@ class MjcfSource(Rig):
         for name, unit in CORRECTED.items():
             if spread.get(name, 0.0) > 0.0 and name not in missing:
                 value, low = (0.0, -np.inf) if name == "offset" else (1.0, 0.0)
+                unit = "N m" if name == "offset" and self.rotates(place) else unit
                 nuisances.append(Nuisance(name, value, spread[name], unit, low))
         return nuisances
 
