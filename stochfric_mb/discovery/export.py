@@ -137,10 +137,24 @@ def _corrected(mujoco: Any, mechanism: Mjcf) -> Any:
     for body in spec.bodies:
         if body.explicitinertial:
             body.mass, body.inertia = body.mass * factor, body.inertia * factor
+    if mechanism.payload:
+        _load(mujoco, spec, mechanism)
     for joint in spec.joints:
         joint.armature = joint.armature * mechanism.factors.get("armature", 1.0)
         _damp(joint, mechanism.damping.get(joint.name, 0.0))
     return spec
+
+
+def _load(mujoco: Any, spec: Any, mechanism: Mjcf) -> None:
+    """Add a payload to the body that carries it, as bodies of their own."""
+    from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import carrier, places_of_payload
+
+    model = spec.compile()
+    places = places_of_payload(mujoco, model)
+    for name, mass in mechanism.payload.items():
+        held = spec.bodies[carrier(model)].add_body(name=f"payload_{name}", pos=places[name])
+        small = mujoco.mjMINVAL * np.ones(3)  # a point
+        held.mass, held.inertia, held.ipos, held.explicitinertial = mass, small, np.zeros(3), True
 
 
 def _damp(joint: Any, coefficient: float) -> None:

@@ -45,6 +45,9 @@ class Mjcf:
     """Joint or tendon -> constant force against its coordinate [N or N m]."""
     factors: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
     """``mass``, ``armature`` -> factor on the model's own, as corrected by data [-]."""
+    payload: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
+    """Mass beside the model's own in the body at the end of the longest chain of joints [kg], as points: ``centre``, at its
+    centre of mass, and ``end``, at the far end of its geoms."""
     effects_in: tuple[str, ...] = ()
     """Joints and tendons in which the scenario's effects act; empty: all that have friction."""
 
@@ -69,6 +72,9 @@ class Mjcf:
         for name, factor in self.factors.items():
             require_name("key of mechanism.factors", name, ("mass", "armature"))
             require_number(f"mechanism.factors.{name}", factor, low=0.0)
+        for name, mass in self.payload.items():
+            require_name("key of mechanism.payload", name, ("centre", "end"))
+            require_number(f"mechanism.payload.{name}", mass, low=0.0, unit="kg")
         for joint in self.damping:
             require_name("joint (a joint of mechanism.positions)", joint, self.positions)
         for place in self.drives:
@@ -109,7 +115,7 @@ class Mjcf:
             tendons=names_of(table, "tendons"),
             pairs={k: pair_from(k, v) for k, v in table_of(table, "pairs").items()},
             effects_in=names_of(table, "effects_in"),
-            **{key: numbers_of(table, key) for key in ("damping", "offset", "factors")},
+            **{key: numbers_of(table, key) for key in ("damping", "offset", "factors", "payload")},
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -123,6 +129,7 @@ class Mjcf:
             "damping": dict(self.damping),
             "offset": dict(self.offset),
             "factors": dict(self.factors),
+            "payload": dict(self.payload),
             "tendons": list(self.tendons),
             "pairs": {name: pair.to_dict() for name, pair in self.pairs.items()},
             "effects_in": list(self.effects_in),

@@ -107,7 +107,7 @@ class Record:
 
 def _require_forward(scenario: Scenario[Mjcf]) -> None:
     mechanism = scenario.mechanism
-    for key in ("drives", "damping", "offset", "factors"):
+    for key in ("drives", "damping", "offset", "factors", "payload"):
         if getattr(mechanism, key):
             raise InputError(
                 f"mechanism.{key} belongs to measured data, which a simulation does not have; write it into "

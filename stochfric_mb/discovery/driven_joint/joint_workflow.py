@@ -82,10 +82,10 @@ def _left_by(given: Dataset, better: Dataset) -> float:
     """Return the least part that the error of a place's balance keeps with wrong readings replaced, seen alike [-]."""
     parts: list[float] = []
     as_given, repaired = (source_of(x) for x in (given, better))
+    if _hardly_sliding(as_given) is not None:  # as it was read, nothing could be said: a position that is new now and then
+        return 0.0
     for name in as_given.places:
         before = as_given.balances(name, "fit", as_given.stated_delay)
-        if not any(s.sliding.any() for s in before):  # a position that is new at every 40th sample alone moves in no window
-            return 0.0
         width = round(float(np.median([s.window.half_width / s.window.interval for s in before])))
         nuisances, model = as_given.nuisances(name), as_given.stated(name)
         raw, mended_ones = (s.balances(name, "fit", s.stated_delay, width) for s in (as_given, repaired))
@@ -292,16 +292,28 @@ def _require_sliding(source: Balances) -> None:
     Raises:
         InputError: one hardly does.
     """
+    found = _hardly_sliding(source)
+    if found is not None:
+        name, role, balances = found
+        runs = ", ".join(s.run for s in balances)
+        where = f"joint {name!r}" if name else "the joint"
+        raise InputError(
+            f"{where} slides one way in only {_windows(balances)} windows of the runs with role {role!r} ({runs}); at least "
+            f"{FEWEST} are needed: record longer or livelier motion, or check the units of position and load"
+        )
+
+
+def _hardly_sliding(source: Balances) -> tuple[str, str, list[ForceBalance]] | None:
+    """Return a place that slides in too few windows of the runs of a role, with these; None: there is none."""
     for name, role in itertools.product(source.places, ("fit", "test")):
         balances = source.balances(name, role, source.stated_delay)
-        windows = sum(int(s.sliding.sum()) for s in balances)
-        if windows < FEWEST:
-            runs = ", ".join(s.run for s in balances)
-            where = f"joint {name!r}" if name else "the joint"
-            raise InputError(
-                f"{where} slides one way in only {windows} windows of the runs with role {role!r} ({runs}); at least {FEWEST} "
-                "are needed: record longer or livelier motion, or check the units of position and load"
-            )
+        if _windows(balances) < FEWEST:
+            return name, role, balances
+    return None
+
+
+def _windows(balances: Sequence[ForceBalance]) -> int:
+    return sum(int(s.sliding.sum()) for s in balances)
 
 
 def _run_notes(dataset: Dataset) -> list[str]:

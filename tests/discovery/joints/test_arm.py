@@ -1,19 +1,22 @@
 """Friction hidden in one joint of a simulated two-joint arm: which joint, which effect, how much."""
 
 import dataclasses
+import importlib
 import importlib.util
 import math
+import tomllib
 from pathlib import Path
 
 import pytest
 
 from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.discovery.driven_joint.mjcf.loaded_model import mjcf_balances
+from stochfric_mb.discovery.export import files
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import Dataset
 from stochfric_mb.scenario import load_any_scenario
 
-pytest.importorskip("mujoco", reason="the arm is a MuJoCo model")
+mujoco = pytest.importorskip("mujoco", reason="the arm is a MuJoCo model")
 
 
 def example():
@@ -61,6 +64,31 @@ def test_the_joint_the_effect_and_its_size(hidden, kind, name, truth, tolerance,
 @pytest.mark.parametrize("seed", [11, 12, 13])
 def test_nothing_hidden_nothing_found(seed):
     assert ARM.discovered(ARM.nothing, seed).result.verdict == "none"
+
+
+@pytest.mark.parametrize(("where", "place"), [("0 0 -0.15", "centre"), ("0 0 -0.325", "end")])
+def test_a_tool_in_the_hand_is_a_payload_and_no_friction(where, place, tmp_path, monkeypatch):
+    text = (ARM.MODEL / "two_joint_arm.xml").read_text(encoding="utf-8")
+    tool = f'<body pos="{where}"><inertial pos="0 0 0" mass="0.4" diaginertia="1e-6 1e-6 1e-6"/></body>'
+    geom = '<geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.025" mass="1.1"/>'
+    (tmp_path / "two_joint_arm.xml").write_text(text.replace(geom, geom + tool), encoding="utf-8")
+    scenario = load_any_scenario(ARM.MODEL / "scenario.toml")
+    monkeypatch.setattr(ARM, "MODEL", tmp_path)
+    runs = tuple(ARM.measured(ARM.nothing, seed=s, role=r) for s, r in ((11, "fit"), (1011, "test")))
+    outcome = joint_outcome(Dataset(title="tool", scenario_path=None, scenario=scenario, runs=runs))
+    assert {e.kind for e in outcome.result.effects} == {"payload"}
+    for effect in outcome.result.effects:
+        size = effect.parameters[f"payload_{place}"]
+        assert size.low < 0.4 < size.high
+    assert outcome.result.gap.closed > 0.8  # of the drive in the loop: 0.4 kg are a seventh of what moves
+    assert any("last body of the model" in note for note in outcome.result.notes)
+    written = files(outcome)
+    payload = tomllib.loads(written["augmented.toml"])["mechanism"]["payload"]
+    assert max(payload, key=lambda name: payload[name]) == place
+    importlib.import_module("stochfric_mb.mujoco")  # has the plugin whose laws the file names
+    heavier = mujoco.MjModel.from_xml_string(written["augmented.xml"])
+    found = outcome.places[0].selected.final.model.nuisances[f"payload_{place}"]
+    assert heavier.body(f"payload_{place}").mass[0] == pytest.approx(found)
 
 
 def test_a_controller_needs_its_reference_and_a_drive():

@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 
 from stochfric_mb.discovery.driven_joint.balance.readings import repeated, stray
+from stochfric_mb.discovery.driven_joint.joint_workflow import require_usable
 from stochfric_mb.discovery.inference.stray_readings import without
+from stochfric_mb.measurement import load_dataset
+from tests.discovery.joint_generator.case import Case, write
 
 RATE, NOISE = 1000.0, 1.0e-5
 
@@ -83,3 +86,10 @@ def test_single_stray_readings_are_found_however_few_samples_come_in_a_period(ev
     hit = np.arange(29, len(x) - 20, 31)
     x[hit] += np.where(hit % 2 == 0, 6.0e-3, -6.0e-3)
     assert np.array_equal(np.flatnonzero(stray(x)), hit)
+
+
+def test_a_position_that_a_multiplexer_mixes_with_another_channel_is_seen_without_it(tmp_path):
+    """As it is read, its noise asks for windows so wide that the joint slides in none: no reason to refuse the record."""
+    case = Case("sensor_outliers.multiplexer_at_the_drive", "mjcf_hinge", 1.0, 1701)
+    write(case, tmp_path / "set", tmp_path / "truth.json")
+    require_usable(load_dataset(tmp_path / "set"))

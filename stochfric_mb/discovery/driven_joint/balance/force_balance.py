@@ -25,6 +25,8 @@ REMEMBERED = 16
 """Forces of loads that are kept: a fit moves one number after the other, and comes back."""
 GAIN = "gain"
 """Column of the whole drive, of which a factor is stated as 1."""
+PAYLOADS = {"centre": "payload_centre", "end": "payload_end"}
+"""Place of further mass in the last body of a chain of joints -> its column; none is stated."""
 SURE = 5.0
 """Least sliding speed in standard deviations of the velocity's noise."""
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint.balance.force_balance import GAIN, ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.balance.force_balance import GAIN, PAYLOADS, ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.beliefs import Belief, beliefs
 from stochfric_mb.discovery.driven_joint.fit.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, settled
@@ -20,7 +20,8 @@ from stochfric_mb.effects.traits import MORE_DAMPING, OTHER_AREA
 Array = npt.NDArray[np.float64]
 
 BEYOND = {
-    "mass": "payload", "inertia": "payload", "armature": "payload", "gain": "drive_gain", "force_gain": "drive_gain",
+    "mass": "payload", **dict.fromkeys(PAYLOADS.values(), "payload"), "inertia": "payload", "armature": "payload",
+    "gain": "drive_gain", "force_gain": "drive_gain",
     "torque_gain": "drive_gain", "offset": "constant_force",
     "mu_k": "friction_level",
 }  # fmt: skip

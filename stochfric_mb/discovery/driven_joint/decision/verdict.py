@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, confounded, spoken_of, stand_ins
+from stochfric_mb.discovery.driven_joint.balance.force_balance import PAYLOADS
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.adequacy import at_bound
 from stochfric_mb.discovery.driven_joint.decision.carry_over import above_floor, foretells_nothing, lacks, runs_apart, told_by
-from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, mechanism_estimates, parameters
+from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, mechanism_estimates, parameters, unit_at
 from stochfric_mb.discovery.driven_joint.decision.released import finding
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNED
 from stochfric_mb.discovery.driven_joint.fit.evidence import scatter, settings_of
@@ -75,7 +76,7 @@ def verdict(
     lacking = (p for p in places if p.selected.unknown or p.unnamed is not None or lacks(dataset, p))
     unknown = None if effects else next(lacking, None)
     if unknown is None or mostly:  # what is repeated or far off stands in the record, whatever else there is
-        effects += [_reading(e) for e in readings]
+        effects += [_reading(e, places[0].fit[0].unit) for e in readings]
     kind = "effect" if effects else "unknown" if unknown is not None else "none"
     where = None if unknown is None else _lacking(unknown)
     nameless = places[0] if places[0].unnamed is not None and kind == "unknown" else None
@@ -129,11 +130,13 @@ def _late(timing: Timing, text: str) -> EffectEstimate:
     return EffectEstimate(kind_with_signature(LATE), (), Where("time", text), {"delay": size}, timing.score, None)
 
 
-def _reading(effect: Effect) -> EffectEstimate:
+def _reading(effect: Effect, unit_of_friction: str) -> EffectEstimate:
     """Return the finding that readings are wrong, which have been replaced before anything else was asked."""
     axis, how = effect.appears()
     numbers = {f.name: float(getattr(effect, f.name)) for f in dataclasses.fields(effect)}
-    about = {name: Interval(value, value, value, effect.unit_of(name)) for name, value in numbers.items()}
+    about = {
+        name: Interval(value, value, value, unit_at(effect.unit_of(name), unit_of_friction)) for name, value in numbers.items()
+    }
     text = f"{how[0].upper()}{how[1:]}; they are replaced by a curve through the readings around them."
     return EffectEstimate(effect.kind, (), Where(axis, text), about, None, None)
 
@@ -381,6 +384,11 @@ def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
             remarks.append(
                 f"{words_of(kind)} cannot be distinguished from a correction of {names} here{_at(place)}: any of it is "
                 "included in these numbers"
+            )
+        if any(number.name in PAYLOADS.values() for number in place.selected.released):
+            remarks.append(
+                f"a payload{_at(place)} is that of points in the last body of the model, at its centre of mass and at its far "
+                "end: one that sits elsewhere weighs otherwise"
             )
         remarks += _between_settings(place)
         if place.random is not None and place.random.low > 0.0 and not place.random.accounted:

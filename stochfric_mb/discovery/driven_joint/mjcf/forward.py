@@ -20,11 +20,11 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.weak_form import narrowest
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
-from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import scale_masses, tendon_row
+from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import add_payload, scale_masses, tendon_row
 from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
 from stochfric_mb.discovery.driven_joint.mjcf.joint_loops import joint_loops
 from stochfric_mb.discovery.driven_joint.mjcf.loaded_model import without_friction
-from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import corrected, drive_of, position_of_joint
+from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import corrected, drive_of, payload_of, position_of_joint
 from stochfric_mb.discovery.driven_joint.mjcf.places import pair_direction, place_of
 from stochfric_mb.discovery.driven_joint.simulation.scores import AHEAD
 from stochfric_mb.measurement.run import Run
@@ -92,6 +92,7 @@ class _Plant:
         else:
             model = copy.copy(source.model)
         scale_masses(mujoco, model, first.get("mass", 1.0))
+        add_payload(mujoco, model, payload_of(first))
         model.dof_armature *= first.get("armature", 1.0)
         for i, name in enumerate(source.names):
             factor = models[name].nuisances.get("damping", 1.0) if name in models else 1.0

@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.force_balance import (
+    PAYLOADS,
     ForceBalance,
     Nuisance,
     balance_along,
@@ -29,7 +30,14 @@ from stochfric_mb.discovery.driven_joint.balance.force_balance import (
 )
 from stochfric_mb.discovery.driven_joint.balance.weak_form import Window, narrowest, window_of
 from stochfric_mb.discovery.driven_joint.fit.joint_model import JointModel
-from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import by_mass, effective_inertia, inverse
+from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import (
+    by_mass,
+    by_payload,
+    carrier,
+    effective_inertia,
+    inverse,
+    places_of_payload,
+)
 from stochfric_mb.discovery.driven_joint.mjcf.measured_columns import drive_of, in_si, position_of_joint
 from stochfric_mb.discovery.driven_joint.mjcf.motion import Path, Rig
 from stochfric_mb.discovery.inference.noise import noise_level
@@ -75,8 +83,12 @@ class MjcfSource(Rig):
         for name, unit in CORRECTED.items():
             if spread.get(name, 0.0) > 0.0 and name not in missing:
                 value, low = (0.0, -np.inf) if name == "offset" else (1.0, 0.0)
-                unit = "N m" if name == "offset" and self.rotates(place) else unit
-                nuisances.append(Nuisance(name, value, spread[name], unit, low))
+                own = "N m" if name == "offset" and self.rotates(place) else unit
+                nuisances.append(Nuisance(name, value, spread[name], own, low))
+        if spread.get("mass", 0.0) > 0.0:  # the last body is believed to carry no more as surely as its own mass is known
+            for name in places_of_payload(self.mujoco, self.model):
+                mass = float(self.model.body_mass[carrier(self.model)])
+                nuisances.append(Nuisance(PAYLOADS[name], 0.0, spread["mass"] * mass, "kg", 0.0))
         return nuisances
 
     def coupled(self, place: str) -> bool:
@@ -106,7 +118,7 @@ class MjcfSource(Rig):
         """Return a run as a balance of a place."""
         window = self.window(run, place, samples)
         at = window.centres
-        motion, needed, mass = self._dynamics(run, window)
+        motion, needed, mass, payload = self._dynamics(run, window)
         path = self.path(run, place, window)
         weights = path.weights
         damped = np.column_stack([self.mechanism.damping.get(n, 0.0) * v for n, v in zip(self.names, motion[1].T, strict=True)])
@@ -120,6 +132,7 @@ class MjcfSource(Rig):
         least = self._least(run, window, path)
         columns = {
             "mass": np.sum(weights * mass, axis=1),
+            **{PAYLOADS[name]: np.sum(weights * change, axis=1) for name, change in payload.items()},
             "armature": np.sum(weights * (self.model.dof_armature * motion[2]), axis=1),
             "gain": -own,
             "damping": np.sum(weights * own_damping, axis=1),
@@ -238,16 +251,17 @@ class MjcfSource(Rig):
             taken += model.friction(motion)[:, None] * path.direction
         return taken, known
 
-    def _dynamics(self, run: Run, window: Window) -> tuple[tuple[Array, Array, Array], Array, Array]:
-        """Return motion at the centres, forces that it needs, and their change with a factor on all masses.
+    def _dynamics(self, run: Run, window: Window) -> tuple[tuple[Array, Array, Array], Array, Array, dict[str, Array]]:
+        """Return motion at the centres, forces that it needs, and their change with a factor on all masses and with payloads.
 
         Each is of shape (n_centres, n_joints); the motion is positions, rates and accelerations.
         """
 
-        def anew() -> tuple[tuple[Array, Array, Array], Array, Array]:
+        def anew() -> tuple[tuple[Array, Array, Array], Array, Array, dict[str, Array]]:
             q, v, a = (self.joints(run, window, d)[window.centres] for d in (0, 1, 2))
             needed = inverse(self.mujoco, self.model, (q, v, a))
-            return (q, v, a), needed, by_mass(self.mujoco, self.model, (q, v, a), needed)
+            asked = self.mujoco, self.model, (q, v, a), needed
+            return (q, v, a), needed, by_mass(*asked), by_payload(*asked)
 
         return self._once(("dynamics", run.name, window.half_width), anew)
 

@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import scale_masses
+from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import add_payload, scale_masses
 from stochfric_mb.discovery.driven_joint.mjcf.geom_pairs import geom_numbers, reach_out
 from stochfric_mb.discovery.driven_joint.mjcf.inverse import MjcfSource
 from stochfric_mb.discovery.driven_joint.mjcf.joint_loops import joint_loops
@@ -123,5 +123,6 @@ def without_friction(mujoco: Any, mechanism: Mjcf, friction: tuple[str, float, f
     model.dof_frictionloss[:] = 0.0
     model.tendon_frictionloss[:] = 0.0
     scale_masses(mujoco, model, mechanism.factors.get("mass", 1.0))
+    add_payload(mujoco, model, mechanism.payload)
     model.dof_armature *= mechanism.factors.get("armature", 1.0)
     return model

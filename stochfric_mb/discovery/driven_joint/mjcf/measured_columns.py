@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.discovery.driven_joint.balance.force_balance import PAYLOADS
 from stochfric_mb.errors import InputError, require_name
 from stochfric_mb.measurement.quantities import KNOWN
 from stochfric_mb.measurement.run import Run
@@ -21,7 +22,7 @@ Array = npt.NDArray[np.float64]
 def corrected(mechanism: Mjcf, corrections: Mapping[str, Mapping[str, float]]) -> Mjcf:
     """Return the mechanism with what data have corrected: place -> number -> value.
 
-    Masses and armature belong to the whole model: those of the first place given are taken.
+    Masses, payload and armature belong to the whole model: those of the first place given are taken.
     """
     first = next(iter(corrections.values()))
     drives = {
@@ -30,7 +31,13 @@ def corrected(mechanism: Mjcf, corrections: Mapping[str, Mapping[str, float]]) -
     damping = {j: c * corrections.get(j, {}).get("damping", 1.0) for j, c in mechanism.damping.items()}
     offset = {j: mechanism.offset.get(j, 0.0) + values.get("offset", 0.0) for j, values in corrections.items()}
     factors = {k: mechanism.factors.get(k, 1.0) * first.get(k, 1.0) for k in ("mass", "armature")}
-    return dataclasses.replace(mechanism, drives=drives, damping=damping, offset=offset, factors=factors)
+    payload = {place: x for place in PAYLOADS if (x := mechanism.payload.get(place, 0.0) + payload_of(first).get(place, 0.0))}
+    return dataclasses.replace(mechanism, drives=drives, damping=damping, offset=offset, factors=factors, payload=payload)
+
+
+def payload_of(numbers: Mapping[str, float]) -> dict[str, float]:
+    """Return the payload among the corrected numbers of a model: place -> mass [kg]."""
+    return {place: numbers[name] for place, name in PAYLOADS.items() if name in numbers}
 
 
 def drive_of(run: Run, mechanism: Mjcf, place: str) -> Array:
