@@ -34,7 +34,8 @@ FALLBACK = {
     "name": "slow belt", "set": "{ belt_velocity = 1e-3 }", "sign": "{ force = -1 }", "scale": "{ force = 25.0 }",
     "signed_bits": "{ load = 16 }", "max_gap": "0.1", "correlation_time": "0.5", "spacing": "0.01",
     "values": "[0.41, 0.43, ...]", "upper": "0.9", "tendons": '["cable"]', "pairs": '{ foot = { geoms = ["foot", "floor"] } }',
-    "offset": "{ elbow = 0.1 }", "factors": "{ mass = 1.1 }", "effects_in": '["elbow"]', "sigma_s": "0.015", "sigma_k": "0.023",
+    "offset": "{ elbow = 0.1 }", "factors": "{ mass = 1.1 }", "payload": "{ end = 0.5 }",
+    "effects_in": '["elbow"]', "sigma_s": "0.015", "sigma_k": "0.023",
     "distribution_s": '"lognormal"', "distribution_k": '"lognormal"', "excitation_amplitude": "5e-4",
     "excitation_angular_frequency": "13.8", "velocity_gain": "4.0", "piston_area": "1e-3", "mu_s": "0.8", "mu_k": "0.46",
 }  # fmt: skip

@@ -26,6 +26,8 @@ BEYOND = {
     "mu_k": "friction_level",
 }  # fmt: skip
 """Number of law or mechanism -> what it is called where it is off by more than its uncertainty; other ones are an effect's."""
+TOGETHER = (("mass", "inertia"), tuple(PAYLOADS.values()))
+"""Numbers that one thing moves: a payload has a weight and a lever of its own."""
 OF_EFFECTS = {"damping": MORE_DAMPING, "piston_area": OTHER_AREA}
 """Number of the mechanism -> the finding of an effect that it is."""
 AT_AN_END = 1.0e-3
@@ -57,7 +59,7 @@ class Released:
 
 @dataclasses.dataclass(frozen=True)
 class Freed:
-    """A fit in which one number may be anything."""
+    """A fit in which a number may be anything, or two that one thing moves."""
 
     number: Released
     """The number."""
@@ -65,6 +67,13 @@ class Freed:
     """The fit."""
     nuisances: list[Nuisance]
     """Numbers of the mechanism, as they are believed in it."""
+    also: tuple[Released, ...] = ()
+    """A further number that may be anything in it, which one thing moves together with the first."""
+
+    @property
+    def count(self) -> int:
+        """How many numbers may be anything."""
+        return 1 + len(self.also)
 
 
 def finding(name: str) -> str:
@@ -83,6 +92,8 @@ def beyond_beliefs(
 ) -> list[Freed]:
     """Return the numbers that data take beyond their priors, best first, each with the fit in which it may be anything.
 
+    Two that one thing moves stand there together as well, where each of them is off.
+
     Args:
         current: the fit with all beliefs.
         balances: fit runs.
@@ -93,20 +104,28 @@ def beyond_beliefs(
     """
     freed: list[Freed] = []
     believed, driven, settings = beliefs(current.model, nuisances), _driven(balances, nuisances), settings_of(balances)
-    for belief in believed:
-        if belief.name in without or (belief.owner == MECHANISM and not driven):
-            continue
-        # beside an effect that imitates inertia less mass would only be less noise: it must press against its bound
-        if beside and abs(belief.off(current.model)) < criteria.AT_BOUND * criteria.MOST_OFF:
-            continue
-        model, wide = belief.given_up(current.model, nuisances)
+    asked = [b for b in believed if b.name not in without and (b.owner != MECHANISM or driven)]
+    # beside an effect that imitates inertia less mass would only be less noise: it must press against its bound
+    pressing = [b for b in asked if not beside or abs(b.off(current.model)) >= criteria.AT_BOUND * criteria.MOST_OFF]
+    for several in [*((b,) for b in pressing), *_together(asked, pressing)]:
+        model, wide = current.model, list(nuisances)
+        for belief in several:
+            model, wide = belief.given_up(model, wide)
         fitted, _ = settled(model, balances, wide, noise=noise)
-        if abs(belief.off(fitted.model)) < criteria.MOST_OFF or _at_an_end(belief, fitted):
+        if any(abs(b.off(fitted.model)) < criteria.MOST_OFF or _at_an_end(b, fitted) for b in several):
             continue
-        cost = np.log(max(fitted.independent, 4.0)) + 2.0 * np.log(len(believed))
+        cost = len(several) * np.log(max(fitted.independent, 4.0)) + 2.0 * np.log(len(believed))
         score = evidence(current, fitted, fitted, settings) - float(cost)
-        freed.append(Freed(Released(belief, score, current.rms, fitted.rms), fitted, wide))
+        first, *others = (Released(b, score, current.rms, fitted.rms) for b in several)
+        freed.append(Freed(first, fitted, wide, tuple(others)))
     return sorted(freed, key=lambda f: -f.number.score)
+
+
+def _together(asked: Sequence[Belief], pressing: Sequence[Belief]) -> list[tuple[Belief, ...]]:
+    """Return the beliefs that one thing moves together, of which at least one presses."""
+    by_name = {b.name: b for b in asked}
+    groups = [tuple(by_name[name] for name in names if name in by_name) for names in TOGETHER]
+    return [g for g in groups if len(g) > 1 and any(b in pressing for b in g)]
 
 
 def by_gain(

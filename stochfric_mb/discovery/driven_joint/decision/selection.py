@@ -130,8 +130,8 @@ class Selector:
             stage = self._stage(current)
             freed = self._released(current, stage)
             if freed is not None:
-                number, current = freed
-                released.append(number)
+                numbers, current = freed
+                released += numbers
                 continue
             stages.append(stage)
             if not stage.accepted:
@@ -174,8 +174,8 @@ class Selector:
         keeps = self._smooth.left_to(final, without, self._noise, axis)
         return keeps - numbers * float(np.log(max(final.independent, 4.0))) < criteria.NAMED
 
-    def _released(self, current: JointFit, stage: Stage) -> tuple[Released, JointFit] | None:
-        """Return the number that is off by more than its uncertainty, if that explains more than any effect.
+    def _released(self, current: JointFit, stage: Stage) -> tuple[list[Released], JointFit] | None:
+        """Return the number that is off by more than its uncertainty, or two, if that explains more than any effect.
 
         It is a finding of its own, a payload for instance: within its belief it would hide behind what it cannot explain. As
         effects do, it has to foretell parts of the record that were left out.
@@ -193,17 +193,17 @@ class Selector:
         rivals = [(t.fit, _numbers(current, t.candidate, t.fit)) for t in stage.trials if t.score > criteria.NAMED]
         needs = (worth(f, numbers) + (criteria.TIE if numbers <= 1 else -criteria.TIE) for f, numbers in rivals)
         enough = max(needs, default=-np.inf)
-        named = [f for f in freed if f.number.score >= criteria.NAMED and worth(f.fit, 1) >= enough]
+        named = [f for f in freed if f.number.score >= criteria.NAMED and worth(f.fit, f.count) >= enough]
         best = next((f for f in named if self._foretells(current, f)), None)
         if best is None:
             return None
-        others = [f.number for f in freed if f is not best]
+        others = [f.number for f in freed if f.count == 1 and f.number.name not in {r.name for r in (best.number, *best.also)}]
         gain = None if GAIN in self._without else by_gain(current, self._balances, self._nuisances, self._noise)
         others += [] if gain is None else [gain]
         least = max(best.number.score - criteria.TIE, criteria.STANDS_IN * best.number.score)
         self._nuisances, self._noise = best.nuisances, prior_weight(best.fit)
-        released = dataclasses.replace(best.number, alike=tuple(r.name for r in others if r.score > least))
-        return released, self._fit(best.fit.model)
+        alike = tuple(r.name for r in others if r.score > least)
+        return [dataclasses.replace(r, alike=alike) for r in (best.number, *best.also)], self._fit(best.fit.model)
 
     def _taken_back(self, current: JointFit, released: list[Released]) -> tuple[JointFit, list[Released]]:
         """Believe again numbers that effects found after them explain: what is left of their evidence no longer names them."""
@@ -339,7 +339,7 @@ class Selector:
         n = max(final.independent, 4.0)
         mine = evidence(without, final, final, self._settings)
         theirs = [(c.kind, c.parameters, evidence(without, f, final, self._settings)) for c, f in fits]
-        theirs += [(f.number.name, 1, evidence(without, f.fit, final, self._settings)) for f in self._freed(without)]
+        theirs += [(f.number.name, f.count, evidence(without, f.fit, final, self._settings)) for f in self._freed(without)]
         # one that explains next to nothing stands in for nothing, however close the scores
         return tuple(
             dict.fromkeys(

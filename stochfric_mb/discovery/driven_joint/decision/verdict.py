@@ -14,8 +14,9 @@ from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision.adequacy import at_bound
 from stochfric_mb.discovery.driven_joint.decision.carry_over import above_floor, foretells_nothing, lacks, runs_apart, told_by
 from stochfric_mb.discovery.driven_joint.decision.estimates import against_priors, mechanism_estimates, parameters, unit_at
-from stochfric_mb.discovery.driven_joint.decision.released import finding
+from stochfric_mb.discovery.driven_joint.decision.released import Released, finding
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNED
+from stochfric_mb.discovery.driven_joint.fit.beliefs import Belief
 from stochfric_mb.discovery.driven_joint.fit.evidence import scatter, settings_of
 from stochfric_mb.discovery.driven_joint.fit.gains import hidden_share
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
@@ -197,32 +198,39 @@ def _estimates(place: PlaceOutcome, pairs: Sequence[Confounded]) -> list[EffectE
 
 
 def _released(place: PlaceOutcome) -> list[EffectEstimate]:
-    """Return the numbers of law and mechanism that are off by more than their uncertainty."""
-    fit = place.selected.final
+    """Return the numbers of law and mechanism that are off by more than their uncertainty: those of one name together."""
     effects: list[EffectEstimate] = []
-    for number in place.selected.released:
-        belief = number.belief
-        one = next(k for k in fit.free if (k.owner, k.name) == (belief.owner, belief.name))
-        deviation = fit.deviation(belief.owner, belief.name)
-        size = confidence_interval(belief.in_model(fit.model), deviation, one.unit, one.low, one.high)
-        off = abs(belief.off(fit.model))
-        unit = "" if one.unit == "-" else f" {one.unit}"
+    named = place.selected.released
+    for name in dict.fromkeys(finding(n.name) for n in named):
+        numbers = [n for n in named if finding(n.name) == name]
+        sizes = {n.name: _size(place, n.belief) for n in numbers}
+        said = [_off(place, n, sizes[n.name]) for n in numbers]
+        first = numbers[0]
         text = (
-            f"{number.name}{_at(place)} is {size.value:.4g}{unit} and not {belief.value:.4g}: off by {off:.0f} of its "
-            f"stated standard deviations. With it the error falls from {number.before:.4g} to {number.after:.4g} "
+            f"{' and '.join(said)}. With it the error falls from {first.before:.4g} to {numbers[-1].after:.4g} "
             f"{place.fit[0].unit} on the fit runs."
         )
-        effects.append(
-            EffectEstimate(
-                finding(number.name),
-                tuple(k for k in dict.fromkeys(map(finding, number.alike)) if k != finding(number.name)),
-                Where("motion", text),
-                {number.name: size},
-                number.score,
-                None,
-            )
-        )
+        alike = dict.fromkeys(k for n in numbers for k in map(finding, n.alike) if k != name)
+        effects.append(EffectEstimate(name, tuple(alike), Where("motion", text), sizes, first.score, None))
     return effects
+
+
+def _size(place: PlaceOutcome, belief: Belief) -> Interval:
+    """Return a number of law or mechanism with its interval."""
+    fit = place.selected.final
+    one = next(k for k in fit.free if (k.owner, k.name) == (belief.owner, belief.name))
+    deviation = fit.deviation(belief.owner, belief.name)
+    return confidence_interval(belief.in_model(fit.model), deviation, one.unit, one.low, one.high)
+
+
+def _off(place: PlaceOutcome, number: Released, size: Interval) -> str:
+    """Return by how much a number is off, in words."""
+    off = abs(number.belief.off(place.selected.final.model))
+    unit = "" if size.unit == "-" else f" {size.unit}"
+    return (
+        f"{number.name}{_at(place)} is {size.value:.4g}{unit} and not {number.belief.value:.4g}: off by {off:.0f} of its "
+        "stated standard deviations"
+    )
 
 
 def _lacking(place: PlaceOutcome) -> Where:
