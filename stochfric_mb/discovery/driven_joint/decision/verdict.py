@@ -386,17 +386,17 @@ def _forward_notes(place: PlaceOutcome) -> list[str]:
 
 def _remarks(places: Sequence[PlaceOutcome]) -> list[str]:
     remarks: list[str] = []
+    if any(number.name in PAYLOADS.values() for place in places for number in place.selected.released):
+        remarks.append(
+            "a payload is that of points in the last body of the model, at its centre of mass and at its far end: one that "
+            "sits elsewhere weighs otherwise"
+        )
     for place in places:
         for kind in dict.fromkeys(_imitated(place)):  # several forms of a kind are one name
             names = ", ".join(n.name for n in place.nuisances)
             remarks.append(
                 f"{words_of(kind)} cannot be distinguished from a correction of {names} here{_at(place)}: any of it is "
                 "included in these numbers"
-            )
-        if any(number.name in PAYLOADS.values() for number in place.selected.released):
-            remarks.append(
-                f"a payload{_at(place)} is that of points in the last body of the model, at its centre of mass and at its far "
-                "end: one that sits elsewhere weighs otherwise"
             )
         remarks += _between_settings(place)
         if place.random is not None and place.random.low > 0.0 and not place.random.accounted:
