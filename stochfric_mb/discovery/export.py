@@ -92,7 +92,7 @@ def mjcf(scenario: Scenario[Any]) -> str:
     attach: Any = importlib.import_module("stochfric_mb.mujoco")
     mechanism = scenario.mechanism
     if isinstance(mechanism, Mjcf):
-        spec, loads, acts_in = _corrected(mujoco, mechanism), dict(mechanism.friction), mechanism.effects_in
+        spec, loads, acts_in = corrected_model(mujoco, mechanism), dict(mechanism.friction), mechanism.effects_in
     elif isinstance(mechanism, PrismaticJoint | HingePendulum):
         spec, loads, acts_in = mujoco.MjSpec.from_string(plain_mjcf(mechanism)), {"joint": mechanism.normal_force}, ()
     else:
@@ -128,8 +128,8 @@ def _left_out(scenario: Scenario[Any]) -> str:
     return f"\n<!-- not in this file, since neither damping nor the plugin's laws hold it: {', '.join(left)} -->\n"
 
 
-def _corrected(mujoco: Any, mechanism: Mjcf) -> Any:
-    """Return the user's model with what data have corrected."""
+def corrected_model(mujoco: Any, mechanism: Mjcf) -> Any:
+    """Return the user's model with what data have corrected, a MuJoCo spec."""
     spec = mujoco.MjSpec.from_file(str(mechanism.file))
     factor = mechanism.factors.get("mass", 1.0)
     for geom in spec.geoms:

@@ -7,11 +7,13 @@ import math
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from stochfric_mb.discovery.driven_joint import joint_outcome
-from stochfric_mb.discovery.driven_joint.mjcf.loaded_model import mjcf_balances
-from stochfric_mb.discovery.export import files
+from stochfric_mb.discovery.driven_joint.mjcf.compiled_model import inverse
+from stochfric_mb.discovery.driven_joint.mjcf.loaded_model import mjcf_balances, without_friction
+from stochfric_mb.discovery.export import corrected_model, files
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import Dataset
 from stochfric_mb.scenario import load_any_scenario
@@ -94,6 +96,41 @@ def test_a_tool_in_the_hand_is_a_payload_and_no_friction(where, place, tmp_path,
     heavier = mujoco.MjModel.from_xml_string(written["augmented.xml"])
     name = f"payload_{place or 'centre'}"
     assert heavier.body(name).mass[0] == pytest.approx(outcome.places[0].selected.final.model.nuisances[name])
+
+
+def test_a_payload_is_that_of_bodies_of_their_own():
+    """Mass matrix and gravity of the model that is fitted are those of the file that is written."""
+    mechanism = dataclasses.replace(
+        load_any_scenario(ARM.MODEL / "scenario.toml").mechanism, payload={"centre": 0.2, "end": 0.4}
+    )
+    written = corrected_model(mujoco, mechanism).compile()
+    for model in (written, fitted := without_friction(mujoco, mechanism)):
+        assert model.body_subtreemass[0] == pytest.approx(1.8 + 1.1 + 0.2 + 0.4)
+    needed = [inverse(mujoco, m, tuple(np.array([[x, 2.0 * x]]) for x in (0.4, 1.1, 3.0))) for m in (written, fitted)]
+    np.testing.assert_allclose(needed[0], needed[1], rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("payload", "message"),
+    [
+        ({"end": -1.0}, r"payload\.end = -1 kg is out of range"),
+        ({"tip": 1.0}, r"unknown key of mechanism\.payload 'tip'. Known: centre, end"),
+    ],
+)
+def test_a_payload_elsewhere_or_less_than_none_is_refused(payload, message):
+    mechanism = load_any_scenario(ARM.MODEL / "scenario.toml").mechanism
+    with pytest.raises(InputError, match=message):
+        dataclasses.replace(mechanism, payload=payload)
+
+
+def test_where_one_body_moves_a_payload_is_a_factor_on_its_mass(tmp_path):
+    (tmp_path / "arm.xml").write_text(
+        '<mujoco><worldbody><body><joint name="shoulder"/><geom type="sphere" size="0.1" mass="2"/></body></worldbody></mujoco>'
+    )
+    mechanism = load_any_scenario(ARM.MODEL / "scenario.toml").mechanism
+    mechanism = dataclasses.replace(mechanism, file=tmp_path / "arm.xml", payload={"end": 1.0})
+    with pytest.raises(InputError, match=r"payload\.end = 1 kg.*only one of its bodies moves; use mechanism\.factors\.mass"):
+        without_friction(mujoco, mechanism)
 
 
 def test_a_controller_needs_its_reference_and_a_drive():

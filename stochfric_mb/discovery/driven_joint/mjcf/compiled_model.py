@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from stochfric_mb.errors import InputError
+
 Array = npt.NDArray[np.float64]
 
 STEP = 1.0e-3
@@ -91,12 +93,20 @@ def places_of_payload(mujoco: Any, model: Any) -> dict[str, Array]:
 
 
 def add_payload(mujoco: Any, model: Any, payload: Mapping[str, float]) -> None:
-    """Add point masses [kg] to a model, by their places among `places_of_payload`."""
+    """Add point masses [kg] to a model, by their places among `places_of_payload`.
+
+    Raises:
+        InputError: the model has no such place.
+    """
     held = {place: payload[place] for place in payload if payload[place]}
     if not held:
         return
     body, places = carrier(model), places_of_payload(mujoco, model)
     for place, mass in held.items():
+        if place not in places:
+            why = "its last body has no geoms" if places else "only one of its bodies moves"
+            remedy = "use centre" if places else "use mechanism.factors.mass"
+            raise InputError(f"mechanism.payload.{place} = {mass:g} kg: the model has no such place, since {why}; {remedy}")
         own, centre, turn = float(model.body_mass[body]), np.array(model.body_ipos[body]), np.empty(9)
         mujoco.mju_quat2Mat(turn, model.body_iquat[body])
         axes = turn.reshape(3, 3)
