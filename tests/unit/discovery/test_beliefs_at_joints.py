@@ -22,6 +22,7 @@ from stochfric_mb.discovery.driven_joint.simulation.scores import Score
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.effects import make_effect
 from stochfric_mb.measurement import Dataset
+from stochfric_mb.mechanisms import HingePendulum
 from tests.discovery.joints.test_parts import coulomb, pair, scenario, sine_run
 
 SPRING = make_effect("position_dependent_force", stiffness=1.0)
@@ -53,6 +54,27 @@ def test_a_zero_is_given_up_where_no_effect_that_leaves_it_alone_explains_as_muc
         released = selector._released(selector.recalibrated, dataclasses.replace(stage, trials=trials))
         assert released is not None
         assert [number.name for number in released[0]] == ["offset"]
+
+
+@pytest.mark.parametrize(("lever", "names"), [(0.3, ["mass"]), (0.6, ["mass", "inertia"])])
+def test_weight_and_lever_of_a_payload_are_given_up_together(lever, names):
+    """As far out as the stated mass a payload is more of that; elsewhere its weight says less of its inertia."""
+    stated = HingePendulum(mass=2.0, length=0.3, inertia=0.05, normal_force=5.0)
+    weight = (stated.mass * stated.length + 0.3 * lever) * stated.gravity
+    inertia = stated.inertia + stated.mass * stated.length**2 + 0.3 * lever**2
+    numbers = {"mechanism": stated, "uncertainty": {"mass": 0.02, "inertia": 0.05, "mu_k": 0.1}}
+    slid = pair(lambda q, v: 0.5 * np.sign(v) + weight * np.sin(q), mass=inertia, gain=8.0)
+    runs = (
+        dataclasses.replace(r, channels={"position": r.channels["position"], "torque": r.channels["force"]}) for r in slid.runs
+    )
+    selected = selector_of(dataclasses.replace(slid, scenario=scenario(**numbers), runs=tuple(runs))).run()
+    assert [r.name for r in selected.released] == names
+    assert not selected.effects
+    found = selected.final.model.nuisances
+    assert (
+        found["mass"] * stated.length * stated.gravity,
+        found["inertia"] + found["mass"] * stated.length**2,
+    ) == pytest.approx((weight, inertia), rel=0.01)
 
 
 @pytest.mark.parametrize(("mass", "stays"), [(2.0, False), (4.0, True)])
