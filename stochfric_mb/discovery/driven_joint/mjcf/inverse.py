@@ -14,7 +14,7 @@ the normal force is part of the balance (`mjcf_pairs`). What other places take o
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -85,11 +85,17 @@ class MjcfSource(Rig):
                 value, low = (0.0, -np.inf) if name == "offset" else (1.0, 0.0)
                 own = "N m" if name == "offset" and self.rotates(place) else unit
                 nuisances.append(Nuisance(name, value, spread[name], own, low))
-        if spread.get("mass", 0.0) > 0.0:  # the last body is believed to carry no more as surely as its own mass is known
-            for name in places_of_payload(self.mujoco, self.model):
-                mass = float(self.model.body_mass[carrier(self.model)])
-                nuisances.append(Nuisance(PAYLOADS[name], 0.0, spread["mass"] * mass, "kg", 0.0))
+        for name in self._payloads:  # the last body is believed to carry no more as surely as its own mass is known
+            mass = float(self.model.body_mass[carrier(self.model)])
+            nuisances.append(Nuisance(PAYLOADS[name], 0.0, spread["mass"] * mass, "kg", 0.0))
         return nuisances
+
+    @property
+    def _payloads(self) -> Sequence[str]:
+        """Where a payload is looked for: nowhere if the mass is stated as exact, or a payload is stated."""
+        if self.mechanism.payload or self.dataset.scenario.uncertainty.get("mass", 0.0) <= 0.0:
+            return ()
+        return self._once(("payloads",), lambda: tuple(places_of_payload(self.mujoco, self.model)))
 
     def coupled(self, place: str) -> bool:
         """Return whether friction elsewhere enters the balance of a place."""
@@ -261,7 +267,7 @@ class MjcfSource(Rig):
             q, v, a = (self.joints(run, window, d)[window.centres] for d in (0, 1, 2))
             needed = inverse(self.mujoco, self.model, (q, v, a))
             asked = self.mujoco, self.model, (q, v, a), needed
-            return (q, v, a), needed, by_mass(*asked), by_payload(*asked)
+            return (q, v, a), needed, by_mass(*asked), by_payload(*asked) if self._payloads else {}
 
         return self._once(("dynamics", run.name, window.half_width), anew)
 

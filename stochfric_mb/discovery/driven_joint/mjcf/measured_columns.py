@@ -31,7 +31,8 @@ def corrected(mechanism: Mjcf, corrections: Mapping[str, Mapping[str, float]]) -
     damping = {j: c * corrections.get(j, {}).get("damping", 1.0) for j, c in mechanism.damping.items()}
     offset = {j: mechanism.offset.get(j, 0.0) + values.get("offset", 0.0) for j, values in corrections.items()}
     factors = {k: mechanism.factors.get(k, 1.0) * first.get(k, 1.0) for k in ("mass", "armature")}
-    payload = {place: x for place in PAYLOADS if (x := mechanism.payload.get(place, 0.0) + payload_of(first).get(place, 0.0))}
+    # one that is stated is a mass of the model, and none is looked for beside it
+    payload = {place: x * first.get("mass", 1.0) for place, x in mechanism.payload.items()} or payload_of(first)
     return dataclasses.replace(mechanism, drives=drives, damping=damping, offset=offset, factors=factors, payload=payload)
 
 
