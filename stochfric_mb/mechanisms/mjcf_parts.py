@@ -59,11 +59,16 @@ def positions_from(table: Mapping[str, Any]) -> dict[str, str | float]:
     }
 
 
+OF_MODEL = {"factors": ("factors", "mass = 1.1"), "payload": ("masses", "end = 0.5")}
+"""Tables whose keys are no joints -> what they hold, and an example."""
+
+
 def table_of(table: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-    """Return a table of joints; an empty one if there is none."""
+    """Return a table, of joints mostly; an empty one if there is none."""
     value = table.get(key, {})
     if not isinstance(value, Mapping):
-        raise InputError(f"mechanism.{key} = {value!r} is not a table of joints; write {key} = {{ elbow = ... }}")
+        of, example = OF_MODEL.get(key, ("joints", "elbow = ..."))
+        raise InputError(f"mechanism.{key} = {value!r} is not a table of {of}; write {key} = {{ {example} }}")
     return cast(Mapping[str, Any], value)
 
 

@@ -16,7 +16,7 @@ from stochfric_mb.discovery.driven_joint.mjcf.loaded_model import mjcf_balances,
 from stochfric_mb.discovery.export import corrected_model, files
 from stochfric_mb.errors import InputError
 from stochfric_mb.measurement import Dataset
-from stochfric_mb.scenario import load_any_scenario
+from stochfric_mb.scenario import any_scenario_from_dict, load_any_scenario
 
 mujoco = pytest.importorskip("mujoco", reason="the arm is a MuJoCo model")
 
@@ -121,6 +121,13 @@ def test_a_payload_elsewhere_or_less_than_none_is_refused(payload, message):
     mechanism = load_any_scenario(ARM.MODEL / "scenario.toml").mechanism
     with pytest.raises(InputError, match=message):
         dataclasses.replace(mechanism, payload=payload)
+
+
+def test_a_payload_that_is_one_number_is_told_its_table():
+    tables = load_any_scenario(ARM.MODEL / "scenario.toml").to_dict()
+    tables["mechanism"]["payload"] = 0.4
+    with pytest.raises(InputError, match=r"payload = 0\.4 is not a table of masses; write payload = \{ end = 0\.5 \}"):
+        any_scenario_from_dict(tables)
 
 
 def test_where_one_body_moves_a_payload_is_a_factor_on_its_mass(tmp_path):
