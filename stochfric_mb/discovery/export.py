@@ -131,7 +131,7 @@ def _left_out(scenario: Scenario[Any]) -> str:
 def corrected_model(mujoco: Any, mechanism: Mjcf) -> Any:
     """Return the user's model with what data have corrected, a MuJoCo spec."""
     spec = mujoco.MjSpec.from_file(str(mechanism.file))
-    factor = mechanism.factors.get("mass", 1.0)
+    factor = mechanism.factors.get("mass", 1.0) * _to_total_mass(spec)
     for geom in spec.geoms:
         geom.mass, geom.density = geom.mass * factor, geom.density * factor
     for body in spec.bodies:
@@ -143,6 +143,18 @@ def corrected_model(mujoco: Any, mechanism: Mjcf) -> Any:
         joint.armature = joint.armature * mechanism.factors.get("armature", 1.0)
         _damp(joint, mechanism.damping.get(joint.name, 0.0))
     return spec
+
+
+def _to_total_mass(spec: Any) -> float:
+    """Return the factor by which a file that sets its total mass scales all of them, and set none any more.
+
+    It would undo each correction of a mass.
+    """
+    total = float(spec.compiler.settotalmass)
+    if total <= 0.0:
+        return 1.0
+    spec.compiler.settotalmass = -1.0
+    return total / float(np.sum(spec.compile().body_mass))
 
 
 def _load(mujoco: Any, spec: Any, mechanism: Mjcf) -> None:

@@ -98,14 +98,18 @@ def test_a_tool_in_the_hand_is_a_payload_and_no_friction(where, place, tmp_path,
     assert heavier.body(name).mass[0] == pytest.approx(outcome.places[0].selected.final.model.nuisances[name])
 
 
-def test_a_payload_is_that_of_bodies_of_their_own():
-    """Mass matrix and gravity of the model that is fitted are those of the file that is written."""
-    mechanism = dataclasses.replace(
-        load_any_scenario(ARM.MODEL / "scenario.toml").mechanism, payload={"centre": 0.2, "end": 0.4}
-    )
+@pytest.mark.filterwarnings("ignore:compiler attribute 'settotalmass':UserWarning")
+@pytest.mark.parametrize("total", [2.9, 5.8])
+def test_a_payload_is_that_of_bodies_of_their_own(total, tmp_path):
+    """Forces of the model that is fitted are those of the file that is written, whose total mass may be set."""
+    text = (ARM.MODEL / "two_joint_arm.xml").read_text(encoding="utf-8")
+    sets = "" if total == 2.9 else f' settotalmass="{total}"'
+    (tmp_path / "arm.xml").write_text(text.replace('angle="radian"', f'angle="radian"{sets}'), encoding="utf-8")
+    changes = {"file": tmp_path / "arm.xml", "factors": {"mass": 1.1}, "payload": {"centre": 0.2, "end": 0.4}}
+    mechanism = dataclasses.replace(load_any_scenario(ARM.MODEL / "scenario.toml").mechanism, **changes)
     written = corrected_model(mujoco, mechanism).compile()
     for model in (written, fitted := without_friction(mujoco, mechanism)):
-        assert model.body_subtreemass[0] == pytest.approx(1.8 + 1.1 + 0.2 + 0.4)
+        assert model.body_subtreemass[0] == pytest.approx(1.1 * total + 0.2 + 0.4)
     needed = [inverse(mujoco, m, tuple(np.array([[x, 2.0 * x]]) for x in (0.4, 1.1, 3.0))) for m in (written, fitted)]
     np.testing.assert_allclose(needed[0], needed[1], rtol=1e-12)
 
