@@ -5,6 +5,8 @@ from collections.abc import Iterable, Iterator
 from .joint_generator.case import Case
 from .joint_generator.forms import FORMS
 from .joint_generator.unseen import UNSEEN
+from .joint_generator.unseen_eighteenth import PAIRS as UNSEEN_EIGHTEENTH_PAIRS
+from .joint_generator.unseen_eighteenth import UNSEEN_EIGHTEENTH
 from .joint_generator.unseen_eighth import PAIRS as UNSEEN_EIGHTH_PAIRS
 from .joint_generator.unseen_eighth import UNSEEN_EIGHTH
 from .joint_generator.unseen_eleventh import PAIRS as UNSEEN_ELEVENTH_PAIRS
@@ -100,6 +102,7 @@ SERIES = {
     15: (UNSEEN_FIFTEENTH, UNSEEN_FIFTEENTH_PAIRS),
     16: (UNSEEN_SIXTEENTH, UNSEEN_SIXTEENTH_PAIRS),
     17: (UNSEEN_SEVENTEENTH, UNSEEN_SEVENTEENTH_PAIRS),
+    18: (UNSEEN_EIGHTEENTH, UNSEEN_EIGHTEENTH_PAIRS),
 }
 """Sets of forms for a report, with their pairs."""
 

@@ -15,6 +15,7 @@ from .integrator import simulate
 from .motion import MOTIONS
 from .plant import PRESSURE, Array, Plant, plain_plant
 from .unseen import UNSEEN
+from .unseen_eighteenth import UNSEEN_EIGHTEENTH
 from .unseen_eighth import UNSEEN_EIGHTH
 from .unseen_eleventh import UNSEEN_ELEVENTH
 from .unseen_fifteenth import UNSEEN_FIFTEENTH
@@ -48,7 +49,7 @@ LINKS = frozenset(("joint_compliance", "backlash"))
 
 _WITH_LINKS = UNSEEN_FIFTH | UNSEEN_SIXTH | UNSEEN_SEVENTH | UNSEEN_EIGHTH | UNSEEN_NINTH
 _WITH_LINKS |= UNSEEN_TENTH | UNSEEN_ELEVENTH | UNSEEN_TWELFTH | UNSEEN_THIRTEENTH | UNSEEN_FOURTEENTH | UNSEEN_FIFTEENTH
-_WITH_LINKS |= UNSEEN_SIXTEENTH | UNSEEN_SEVENTEENTH
+_WITH_LINKS |= UNSEEN_SIXTEENTH | UNSEEN_SEVENTEENTH | UNSEEN_EIGHTEENTH
 _BEFORE = 1.0  # s under control before a record begins
 
 

@@ -1,0 +1,1 @@
+"""Effects of the vocabulary: by speed, direction, load, time, temperature, chance."""

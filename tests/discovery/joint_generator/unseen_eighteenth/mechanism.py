@@ -1,0 +1,1 @@
+"""Effects of the vocabulary: by place; forces; links, numbers and motors."""

@@ -1,0 +1,1 @@
+"""Effects of the vocabulary: what records say is late, repeated or off."""

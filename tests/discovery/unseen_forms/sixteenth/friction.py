@@ -1,0 +1,1 @@
+"""Effects of the friction law and of what varies it."""
