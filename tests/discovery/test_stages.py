@@ -38,6 +38,7 @@ from stochfric_mb.discovery.stick_slip.validation.explained import unexplained
 from stochfric_mb.discovery.stick_slip.validation.predictive_check import inadequate
 from stochfric_mb.discovery.stick_slip.workflow import recalibrated_model
 from stochfric_mb.effects import make_effect
+from stochfric_mb.effects.traits import SHAPES_SLIPS
 from stochfric_mb.laws import make_law
 from tests.discovery.generator.case import Case
 from tests.discovery.net.rigs import belt_box
@@ -124,7 +125,7 @@ def test_a_candidate_becomes_an_effect_that_confirmation_bears_out(slip_study, c
 
 
 def test_a_candidate_that_never_slips_is_no_explanation(slip_study, candidates, cases, monkeypatch):
-    # a slip that is missed counts a fixed number of deviations: less than one that is there, and wrong by more
+    # a slip that is missed counts a fixed number of deviations, whatever the data: no misfit of it says anything
     stuck = dataclasses.replace(confirm(cases, slip_study.model.with_law(9.0, 8.0), slip_study.uncertainty), chi2=0.0)
     assert not stuck.slips
     monkeypatch.setattr(choice, "confirm", lambda *_, **__: stuck)
@@ -133,6 +134,40 @@ def test_a_candidate_that_never_slips_is_no_explanation(slip_study, candidates, 
     assert before.slips
     chosen = choose(slip_study, slip_study.model, slip_study.baseline, candidates, cases, before, {})
     assert not (isinstance(chosen, Chosen) and chosen.simulated)
+
+
+def test_what_does_not_slip_fits_no_better_than_what_slips_otherwise(slip_study, cases):
+    wrong = [slip_study.model.with_law(mu_s, 0.5 * mu_s) for mu_s in (0.6, 9.0)]
+    slipping, stuck = (confirm(cases, m, slip_study.uncertainty, evaluations=1) for m in wrong)
+    assert (slipping.slips, stuck.slips) == (True, False)
+    assert slipping.chi2 <= stuck.chi2
+
+
+def simulated(slip_study, cases, before, shaping, monkeypatch, chi2):
+    """Return the effects that are simulated of some candidates, each of which leaves ``chi2``."""
+    seen = []
+
+    def confirmed(_cases, model, _uncertainty, **_):
+        seen.append(model.effects[-1])
+        return dataclasses.replace(before, chi2=chi2, model=model, kinds=(model.effects[-1].kind,))
+
+    monkeypatch.setattr(choice, "confirm", confirmed)
+    monkeypatch.setattr(choice, "entrained", lambda *_: [])
+    choice._Simulation(slip_study, slip_study.model, cases, before, {})._tried(shaping)
+    return seen
+
+
+def test_all_forms_of_a_kind_are_simulated_and_all_kinds_where_none_is_adequate(slip_study, candidates, cases, monkeypatch):
+    """Marks are of first order: they tell kinds better than forms, and where no kind explains the slips they told nothing."""
+    before = confirm(cases, slip_study.model, slip_study.uncertainty)
+    shaping = [c for c in candidates if c.has(SHAPES_SLIPS) and not c.is_wave]
+    worth = {c.name for c in shaping if c.score > criteria.WORTH_SIMULATING * shaping[0].score}
+    everything = {c.name for c in shaping if not c.any_shape}
+    assert worth < everything
+    for chi2, kinds in ((0.0, worth), (before.chi2, everything | worth)):
+        seen = simulated(slip_study, cases, before, shaping, monkeypatch, chi2)
+        assert {e.kind for e in seen} == kinds
+        assert {e.tail for e in seen if e.kind == "velocity_weakening"} == {0.0, 1.0}  # an exponential and a hyperbola
 
 
 def test_the_effect_that_was_planted_is_chosen(slip_study, candidates, cases):

@@ -118,7 +118,8 @@ class Box:
         if self.get("unnamed"):
             mu_k += self.table(x)
         if e := self.get("velocity_weakening"):
-            mu_k += e["amplitude"] * math.exp(-((speed / e["decay_velocity"]) ** e.get("shape_exponent", 1.0)))
+            away = (speed / e["decay_velocity"]) ** e.get("shape_exponent", 1.0)
+            mu_k += e["amplitude"] * ((1.0 + e["tail"] * away) ** (-1.0 / e["tail"]) if "tail" in e else math.exp(-away))
         if e := self.get("frictional_lag"):
             mu_s = self.static(t, x, travel, side, dwell) / self.factor(t, x, travel, side)
             mu_k += (mu_s - mu_k) * math.exp(-slip / e.get("distance", math.inf) - slip_time / e.get("time_constant", math.inf))

@@ -73,6 +73,12 @@ def test_lag_in_time(values: dict[str, float]) -> None:
     assert np.abs(fast - slow).max() < TOLERANCE
 
 
+@pytest.mark.parametrize("form", [{"tail": 1.0}, {"tail": 0.5, "shape_exponent": 2.0}, {"shape_exponent": 0.7}])
+def test_a_fall_with_speed_of_other_forms(form: dict[str, float]) -> None:
+    fast, slow = _both({"velocity_weakening": CASES["velocity_weakening"] | form})
+    assert np.abs(fast - slow).max() < TOLERANCE
+
+
 @pytest.mark.parametrize("kind", ["direction_asymmetry", "position_dependent_friction", "dwell_ageing"])
 def test_reversed_belt(kind: str) -> None:
     fast, slow = _both({kind: CASES[kind]}, belt=-2.5e-3)

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 from collections.abc import Mapping
 from typing import ClassVar
@@ -20,23 +21,34 @@ from stochfric_mb.effects.traits import POSITIVE, RATE, SHAPES_SLIPS
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class VelocityWeakening(Effect):
-    """mu_k(v) = mu_k + amplitude exp(-(abs(v)/decay_velocity)^shape_exponent).
+    """mu_k(v) = mu_k + amplitude exp(-s), s = (abs(v)/decay_velocity)^shape_exponent.
+
+    With a tail it is mu_k + amplitude (1 + tail s)^(-1/tail), from which a tail of 0 is the limit.
 
     Reference: B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30, 1994, 1083-1138,
     doi 10.1016/0005-1098(94)90209-7, eq. 7; the exponent: L. C. Bo, D. Pavelescu, Wear 82, 1982, 277-289,
-    doi 10.1016/0043-1648(82)90223-X.
+    doi 10.1016/0043-1648(82)90223-X; 1/(1 + s): D. P. Hess, A. Soom, J. Tribol. 112, 1990, 147-152, doi 10.1115/1.2920220
+    (exponent 2), N. Hinrichs, M. Oestreich, K. Popp, J. Sound Vib. 216, 1998, 435-459, doi 10.1006/jsvi.1998.1736 (exponent 1).
     """
 
     amplitude: float = parameter("-", "rise of mu_k towards zero speed", scale=0.05, fit_low=0.0)
     """Rise of mu_k towards zero speed [-]."""
     decay_velocity: float = parameter("m/s", "speed over which it falls to 1/e", scale=5.0e-3, low=0.0, strict=True)
-    """Speed over which it falls to 1/e [m/s]."""
+    """Speed over which it falls to 1/e, with a tail of 1 to one half [m/s]."""
     shape_exponent: float = parameter("-", "exponent of the speed", scale=1.0, low=0.25, high=4.0, default=1.0)
     """Exponent of the speed [-]: 1, exponential; 2, a Gaussian curve."""
+    tail: float = parameter(
+        "-", "how slowly it levels off: 0, as an exponential; 1, as 1/(1 + s)", scale=1.0, low=0.0, high=4.0, default=0.0
+    )
+    """How slowly it levels off [-]: 0, as exp(-s); 1, as 1/(1 + s)."""
 
     kind: ClassVar[str] = "velocity_weakening"
-    equation: ClassVar[str] = "mu_k(v) = mu_k + amplitude exp(-(abs(v)/decay_velocity)^shape_exponent)"
-    source: ClassVar[str] = "Bo and Pavelescu 1982; Armstrong-Helouvry, Dupont and Canudas de Wit 1994, eq. 7"
+    equation: ClassVar[str] = (
+        "mu_k(v) = mu_k + amplitude exp(-s), s = (abs(v)/decay_velocity)^shape_exponent, or amplitude (1 + tail s)^(-1/tail)"
+    )
+    source: ClassVar[str] = (
+        "Bo and Pavelescu 1982; Armstrong-Helouvry, Dupont and Canudas de Wit 1994, eq. 7; Hess and Soom 1990"
+    )
     group: ClassVar[str] = "friction law"
     traits: ClassVar[frozenset[str]] = frozenset({SHAPES_SLIPS, POSITIVE})
     signatures: ClassVar[tuple[str, ...]] = (RATE,)
@@ -51,30 +63,43 @@ class VelocityWeakening(Effect):
 
     @classmethod
     def at_joint(cls, span: JointSpan) -> JointSignature:
-        """Return a fall of friction over a small, a middling and a large part of the speed."""
+        """Return a fall of friction over a small, a middling and a large part of the speed, exponential or as 1/(1 + s)."""
         size = 0.1 * span.friction / span.stated_load
-        return JointSignature(
-            tuple(cls(amplitude=size, decay_velocity=part * span.speed) for part in (0.05, 0.2, 0.6)), "speed", 2
-        )
+        parts = itertools.product((0.05, 0.2, 0.6), (0.0, 1.0))
+        falls = tuple(cls(amplitude=size, decay_velocity=part * span.speed, tail=tail) for part, tail in parts)
+        return JointSignature(falls, "speed", 2)
 
     @classmethod
     def hypotheses(cls, slips: Slips) -> list[Hypothesis]:
-        """Return N exp(-(v/v_w)**a) in the slip, for decay velocities v_w about the belt's and the slips', and exponents a."""
+        """Return N exp(-(v/v_w)^a) and N/(1 + v/v_w) in the slip, for v_w up to the speed of the slips, and exponents a."""
         speed = slips.relative_velocity
         load = slips.normal_force[:, None]
         fastest = float(np.median(speed.max(axis=1)))
         items: list[Hypothesis] = []
-        for exponent, variant in ((1.0, "exponential"), (0.5, "shaped"), (2.0, "shaped")):
+        for exponent, tail, variant in (
+            (1.0, 0.0, "exponential"),
+            (1.0, 1.0, "hyperbolic"),
+            (0.5, 0.0, "shaped"),
+            (2.0, 0.0, "shaped"),
+        ):
             for decay in fastest * np.array([0.05, 0.1, 0.2, 0.4, 0.8]):
+                form = {"decay_velocity": float(decay), "shape_exponent": exponent, "tail": tail}
+                fall = cls(amplitude=1.0, **form)
 
-                def start(b: Array, decay: float = float(decay), exponent: float = exponent) -> dict[str, float]:
-                    return {"amplitude": float(b[0]), "decay_velocity": decay, "shape_exponent": exponent}
+                def start(b: Array, form: dict[str, float] = form) -> dict[str, float]:
+                    return {"amplitude": float(b[0])} | form
 
-                columns = [slips.column(None, load * np.exp(-((speed / decay) ** exponent)))]
-                items.append(Hypothesis(cls.kind, columns, (float(decay), exponent), start, variant=variant))
+                columns = [slips.column(None, load * fall.curve(speed))]
+                items.append(Hypothesis(cls.kind, columns, (float(decay), exponent, tail), start, variant=variant))
         return items
+
+    def curve(self, speed: Array) -> Array:
+        """Return the rise of mu_k at speeds [m/s], of the same shape [-]."""
+        fall = (speed / self.decay_velocity) ** self.shape_exponent
+        return self.amplitude * (np.exp(-fall) if self.tail == 0.0 else (1.0 + self.tail * fall) ** (-1.0 / self.tail))
 
 
 def friction(world, memory, rates, p):
     """Raise mu_k at low speed."""
-    world[MU_K] += p[0] * math.exp(-((world[SPEED] / p[1]) ** p[2]))
+    fall = (world[SPEED] / p[1]) ** p[2]
+    world[MU_K] += p[0] * (math.exp(-fall) if p[3] <= 0.0 else (1.0 + p[3] * fall) ** (-1.0 / p[3]))

@@ -23,7 +23,7 @@ LEAST_PRELOAD = 0.01
 """Smallest reference load of a load-dependent joint, over its stated load [-]."""
 INSIDE = 1.0e-6
 """Distance kept from bounds that are themselves forbidden [scales]."""
-GIVEN = ("static_share", "reference_temperature", "shape_exponent")
+GIVEN = ("static_share", "reference_temperature", "shape_exponent", "tail")
 """Parameters that say where others hold, what shows at rest only, or the finer shape of a curve: they stay."""
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from stochfric_mb.discovery.stick_slip.records.pool import Pool
 from stochfric_mb.discovery.stick_slip.records.record import Array, Record
-from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, Slips, features_near
+from stochfric_mb.discovery.stick_slip.records.slips import N_FEATURES, EdgeSearch, Slips, features_near
 from stochfric_mb.discovery.stick_slip.screening.regression import Terms
 from stochfric_mb.discovery.stick_slip.simulation.auxiliary_state import auxiliary_state
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
@@ -48,8 +48,8 @@ class Case:
     """Features of the data [N], shape (N_FEATURES,)."""
     whitening: Array
     """Inverse Cholesky factor of their covariance [1/N], shape (N_FEATURES, N_FEATURES)."""
-    ridges: tuple[float, float]
-    """Ridges of the edges of the data, break-aways and re-sticks: those of a simulation are located as firmly [-]."""
+    search: EdgeSearch
+    """How the edges of the data were found: those of a simulation are looked for in the same way."""
     offset: Array
     """What the extraction adds to the truth in the stated model [N], shape (N_FEATURES,)."""
 
@@ -101,9 +101,7 @@ def _forced(pool: Pool, model: Model, rows: np.ndarray) -> list[Case]:
         slips = pool.slips[pool.run[i]]
         k = i - int(np.flatnonzero(pool.run == pool.run[i])[0])
         onset = (float(slips.onset_time[k]), float(slips.onset_position[k]), float(pool.dwell[i]))
-        bare = Case(
-            slips.record, onset, float(lengths[i]), pool.features[i], ANY, (slips.ridge, slips.firm), np.zeros(N_FEATURES)
-        )
+        bare = Case(slips.record, onset, float(lengths[i]), pool.features[i], ANY, slips.search, np.zeros(N_FEATURES))
         predicted = predict(plain, bare)
         if predicted is not None:
             onsets.append(onset)
@@ -156,7 +154,7 @@ def _case(
 ) -> Case:
     load = slips.record.mechanism.normal_force
     whitening = np.asarray(np.linalg.inv(np.linalg.cholesky(covariance + np.diag(_floor(load)))), dtype=np.float64)
-    case = Case(slips.record, onset, length, features, whitening, (slips.ridge, slips.firm), np.zeros(N_FEATURES))
+    case = Case(slips.record, onset, length, features, whitening, slips.search, np.zeros(N_FEATURES))
     plain = model.with_law(features[0] / load, min(features[1], 0.99 * features[0]) / load)
     predicted = predict(plain.bare(slips.record), case)
     if predicted is None:
@@ -230,4 +228,4 @@ def predict(model: Model, case: Case) -> Array | None:
         return None
     time = start.time + model.late + np.arange(1, count + 1) / record.rate
     simulated = dataclasses.replace(record, time=time, position=position, raw=position, outlier=np.zeros(count, dtype=bool))
-    return features_near(simulated, case.onset[0], ridge=case.ridges[0], firm=case.ridges[1])
+    return features_near(simulated, case.onset[0], case.search)

@@ -272,14 +272,12 @@ class _Simulation:
 
     def _tried(self, mine: Sequence[Candidate]) -> list[Trial]:
         """Return the candidates that are worth it, simulated, best first."""
-        # over the best effect, not what follows any shape: where none comes near that the marks are too far from linear
-        best = next((c.score for c in mine if not c.any_shape), 0.0)
-        least = max(criteria.WORTH_SIMULATING * best, criteria.FOLLOWED_UP / 2.0)
         rounds = sum(key.startswith("confirmation") for key in self.details)
-        most = MOST_SIMULATED_LATER if rounds else MOST_SIMULATED
-        worth = [c for c in mine if c.score > least]
-        chosen = [c for c in worth if not c.any_shape][:most] + [c for c in worth if c.any_shape]
-        tried = [(c, confirm(self.cases, self._begin(c), self.study.uncertainty)) for c in chosen]
+        chosen = _worth_simulating(mine, MOST_SIMULATED_LATER if rounds else MOST_SIMULATED)
+        tried = self._simulated(chosen)
+        if not any(_adequate(f, self.before) for _, f in tried if f.slips):
+            # none explains the slips: marks were too far from linear to choose by
+            tried += self._simulated([c for c in mine if c not in chosen and not c.any_shape])
         if not self.model.effects:
             tried += entrained(self.study, self.model, self.cases)
         tried.sort(key=lambda t: t[1].criterion)
@@ -287,6 +285,9 @@ class _Simulation:
         scores = {c.name: [f.chi2, f.criterion] for c, f in reversed(tried)}
         self.details[f"confirmation_{rounds + 1}"] = scores | {"believed": [self.before.chi2, self.before.criterion]}
         return tried
+
+    def _simulated(self, candidates: Sequence[Candidate]) -> list[Trial]:
+        return [(c, confirm(self.cases, self._begin(c), self.study.uncertainty)) for c in candidates]
 
     def _begin(self, candidate: Candidate) -> Model:
         """Return the model with a candidate where fitting begins: of ways far apart at that which a few steps bring nearest."""
@@ -299,6 +300,19 @@ class _Simulation:
             return ways[0]
         rough = [confirm(self.cases, way, self.study.uncertainty, evaluations=ROUGH) for way in ways]
         return min(rough, key=lambda r: r.chi2).model
+
+
+def _worth_simulating(mine: Sequence[Candidate], most: int) -> list[Candidate]:
+    """Return the candidates to simulate first: all forms of the kinds with most evidence.
+
+    Marks are of first order, and tell kinds better than forms of one.
+    """
+    # over the best effect, not what follows any shape: where none comes near that the marks are too far from linear
+    best = next((c.score for c in mine if not c.any_shape), 0.0)
+    least = max(criteria.WORTH_SIMULATING * best, criteria.FOLLOWED_UP / 2.0)
+    kinds = {c.name for c in mine if c.score > least}
+    worth = [c for c in mine if c.name in kinds]
+    return [c for c in worth if not c.any_shape][:most] + [c for c in worth if c.any_shape]
 
 
 def _of_another_rig(model: Model, kind: str) -> Where:

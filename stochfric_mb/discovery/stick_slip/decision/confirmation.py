@@ -29,8 +29,9 @@ DIFFERENCE = 0.01
 """Step of the derivatives, over a natural step of each number [-]."""
 LEVEL_STEP = 0.0154
 """Natural step of mu_s and mu_k [-]."""
-MISSED = 50.0
-"""Deviation that counts for every feature where the candidate does not slip as the data do."""
+MISSED = 1.0e3
+"""Deviation at which that of a feature ends, and which counts for all of them where the candidate does not slip as the data do
+[-]: what slips otherwise must not be worse than what does not slip at all."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -197,4 +198,4 @@ def _error(model: Model, case: Case) -> Array:
     predicted = predict(model, case)
     if predicted is None:
         return np.full(N_FEATURES, MISSED)
-    return np.clip(case.whitening @ (case.features - (predicted - case.offset)), -1.0e3, 1.0e3)
+    return np.clip(case.whitening @ (case.features - (predicted - case.offset)), -MISSED, MISSED)

@@ -94,7 +94,7 @@ def predicted_features(slips: Slips, model: Model, dwell: Array, which: Sequence
         stuck = (typical - previous[i]) / belt if i else float(dwell[i])
         case = Case(
             slips.record, (float(expected), typical, max(stuck, LEAST_DWELL / slips.record.angular_frequency)),
-            float(np.median(slips.restick_time - slips.onset_time)), slips.features[i], ANY, (slips.ridge, slips.firm),
+            float(np.median(slips.restick_time - slips.onset_time)), slips.features[i], ANY, slips.search,
             np.zeros(N_FEATURES),
         )  # fmt: skip
         result = predict(model, case)

@@ -26,6 +26,9 @@ NEAR = (0.41, 0.246)
 FAR = (1.0, 0.85)
 """The same where it comes out at an end of these places: noise that stays for a few samples can hide a slip's first or last
 ones from the smoothed velocity. Into the slip, a fifth of the samples used must remain."""
+NEVER, ALWAYS, IF_BETTER = 0, 1, 2
+"""When places FAR are looked at. Without noise a gentle take-off is a little better there by any measure: those of simulated
+slips are looked for where most of the measured ones were found."""
 PITCH = 0.0234
 """Distance of the places [rad]."""
 FAR_BETTER = 0.75
@@ -112,22 +115,24 @@ def _located(time, position, belt, index, side, frequency, n_stick, n_slip, ridg
 
 
 @compiled
-def locate_edge(position, time, belt, index, side, frequency, n_stick, n_slip, ridge, amplitude, forcing):
-    """Return (t_e [s], x_e [m], a [m], mean squared misfit [m^2]) of the edge near sample ``index``.
+def locate_edge(position, time, belt, index, side, frequency, n_stick, n_slip, ridge, amplitude, forcing, beyond):
+    """Return (t_e [s], x_e [m], a [m], mean squared misfit [m^2], whether it is FAR) of the edge near sample ``index``.
 
     ``n_stick`` and ``n_slip`` are the samples used on either side; ``ridge`` is the weight that holds b small;
-    ``amplitude`` u_0 [m] and ``forcing`` W [rad/s] are those of the excitation.
+    ``amplitude`` u_0 [m] and ``forcing`` W [rad/s] are those of the excitation; ``beyond`` says when edges that NEAR does
+    not hold are taken from FAR: NEVER, ALWAYS or IF_BETTER.
     """
     first = _located(time, position, belt, index, side, frequency, n_stick, n_slip, ridge, amplitude, forcing, NEAR)
-    if not first[4]:
-        return first[0], first[1], first[2], first[3]
+    if not first[4] or beyond == NEVER:
+        return first[0], first[1], first[2], first[3], False
     far = _located(time, position, belt, index, side, frequency, n_stick, n_slip, ridge, amplitude, forcing, FAR)
-    if far[3] > FAR_BETTER * first[3]:
-        return first[0], first[1], first[2], first[3]
+    if beyond == IF_BETTER and far[3] > FAR_BETTER * first[3]:
+        return first[0], first[1], first[2], first[3], False
     centre = index + round((far[0] - time[index]) / (time[1] - time[0]))
     if not n_slip <= centre < len(position) - n_slip:
-        return first[0], first[1], first[2], first[3]
+        return first[0], first[1], first[2], first[3], False
     # at its right place the samples used lie about it as about any other
     again = _located(time, position, belt, centre, side, frequency, n_stick, n_slip, ridge, amplitude, forcing, NEAR)
-    kept = first if again[4] else again
-    return kept[0], kept[1], kept[2], kept[3]
+    if again[4]:
+        return first[0], first[1], first[2], first[3], False
+    return again[0], again[1], again[2], again[3], True

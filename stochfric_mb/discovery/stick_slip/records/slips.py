@@ -12,13 +12,13 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
 
-from stochfric_mb.discovery.stick_slip.records.edges import locate_edge
+from stochfric_mb.discovery.stick_slip.records.edges import ALWAYS, IF_BETTER, NEAR, NEVER, locate_edge
 from stochfric_mb.discovery.stick_slip.records.record import Array, Noise, Record, line_in, noise_of
 from stochfric_mb.discovery.stick_slip.records.segmentation import slips_of
 from stochfric_mb.discovery.stick_slip.records.stick_motion import without_pattern, without_wave
@@ -82,6 +82,18 @@ class StickSamples:
 
 
 @dataclasses.dataclass(frozen=True)
+class EdgeSearch:
+    """How edges are looked for."""
+
+    ridge: float
+    """Ridge of the break-aways' cubic term: how firmly the force there is assumed to be constant [-]."""
+    firm: float
+    """The same of the re-sticks [-]."""
+    beyond: tuple[int, int] = (IF_BETTER, IF_BETTER)
+    """Whether break-aways, and re-sticks, are looked for beyond the first places, see `edges`."""
+
+
+@dataclasses.dataclass(frozen=True)
 class Slips:
     """The slips of one record; arrays have shape (n,) unless said otherwise."""
 
@@ -95,6 +107,8 @@ class Slips:
     """Ridge of the break-aways' cubic term, see `edges` [-]."""
     firm: float
     """The same of the re-sticks [-]."""
+    beyond: tuple[int, int]
+    """Whether most break-aways, and most re-sticks, were found beyond the first places, see `edges`."""
     onset_time: Array
     """Break-away [s]."""
     onset_position: Array
@@ -120,6 +134,11 @@ class Slips:
 
     def __len__(self) -> int:
         return len(self.onset_time)
+
+    @property
+    def search(self) -> EdgeSearch:
+        """How edges of simulated slips are found where those of these were."""
+        return EdgeSearch(self.ridge, self.firm, self.beyond)
 
     @property
     def cycle(self) -> float:
@@ -170,10 +189,10 @@ def extract(record: Record, *, ridge: float | None = None, noise: Noise | None =
     half = 0.5 * float(np.ptp(record.position)) or 1.0
     firm = noise.deviation / (_STIFF * half)
     if ridge is None:
-        misfits = [_edge(record, begin, 1, firm)[3] / noise.deviation**2 for begin, _ in rough[:24]]
+        misfits = [_edge(record, begin, 1, firm, room, IF_BETTER)[3] / noise.deviation**2 for begin, _, room, _ in rough[:24]]
         constant = not misfits or np.median(misfits) < _MISFIT_ALLOWED
         ridge = firm if constant else noise.deviation / (_SOFT * half)
-    table = _edges(record, rough, ridge, firm)
+    table, beyond = _edges(record, rough, EdgeSearch(ridge, firm))
     onset_time, onset_position, restick_time, restick_position = table.T
     moments = np.empty((len(table), N_MOMENTS))
     nodes = np.empty((4, len(table), N_NODES))
@@ -182,13 +201,13 @@ def extract(record: Record, *, ridge: float | None = None, noise: Noise | None =
         moments[i] = _moments(record, edge, u, time, position)
         nodes[:, i] = _smooth(u, position, edge[2] - edge[0], record.mechanism.belt_velocity, edge[0])
     return Slips(
-        record, noise, line_in(quiet, record.rate), ridge, firm,
+        record, noise, line_in(quiet, record.rate), ridge, firm, beyond,
         onset_time, onset_position, restick_time, restick_position, _onset_force(record, onset_time, onset_position), moments,
         nodes[0], nodes[1], nodes[2], nodes[3], _stick(record, table),
     )  # fmt: skip
 
 
-def features_near(record: Record, time: float, *, ridge: float, firm: float) -> Array | None:
+def features_near(record: Record, time: float, search: EdgeSearch) -> Array | None:
     """Return the features of the slip that begins nearest to ``time`` [N], shape (N_FEATURES,); None where there is no slip.
 
     What `extract` says of it, for simulated slips: nothing else is worked out.
@@ -196,39 +215,54 @@ def features_near(record: Record, time: float, *, ridge: float, firm: float) -> 
     Args:
         record: some slips without noise.
         time: where the slip is expected to begin [s].
-        ridge: how firmly the force at break-away is assumed to be constant.
-        firm: the same at re-stick.
+        search: how its edges are looked for.
     """
-    table = _edges(record, list(_inside(record, slips_of(record))), ridge, firm)
+    table, _ = _edges(record, list(_inside(record, slips_of(record))), search)
     if len(table) == 0:
         return None
     edge = table[int(np.argmin(np.abs(table[:, 0] - time)))]
     return np.r_[_onset_force(record, edge[0], edge[1]), _moments(record, edge, *_samples(record, edge))]
 
 
-def _inside(record: Record, slips: list[tuple[int, int]]) -> Iterator[tuple[int, int]]:
-    """Yield the slips whose surroundings lie within the record."""
+Rough = tuple[int, int, int, int]
+"""A slip: samples of its begin and end, and how many samples of stick there are before and after it."""
+
+
+def _inside(record: Record, slips: Sequence[tuple[int, int]]) -> Iterator[Rough]:
+    """Yield the slips whose surroundings lie within the record, with the stick on either side, at most half a period of it."""
     margin = record.samples(3.06)
-    for begin, end in slips:
+    # smoothed velocities end a slip early or late, and an edge is looked for on either side: neither may reach the next one
+    bounds = [-margin, *itertools.chain.from_iterable(slips), len(record.time) + margin]
+    rooms = np.clip(np.diff(bounds)[::2] - 2 * record.samples(NEAR[0]), record.samples(NEAR[0]), margin)
+    for (begin, end), before, after in zip(slips, rooms[:-1], rooms[1:], strict=True):
         if begin >= margin and end <= len(record.time) - margin:
-            yield begin, end
+            yield begin, end, int(before), int(after)
 
 
-def _edge(record: Record, index: int, side: int, ridge: float) -> tuple[float, float, float, float]:
+def _edge(
+    record: Record, index: int, side: int, ridge: float, room: int, beyond: int
+) -> tuple[float, float, float, float, bool]:
     box = record.mechanism
     return locate_edge(
         record.position, record.time, box.belt_velocity, index, side, record.angular_frequency,
-        record.samples(3.06), record.samples(1.07), ridge, box.excitation_amplitude, box.excitation_angular_frequency,
+        room, record.samples(1.07), ridge, box.excitation_amplitude, box.excitation_angular_frequency, beyond,
     )  # fmt: skip
 
 
-def _edges(record: Record, rough: list[tuple[int, int]], ridge: float, firm: float) -> Array:
-    """Return break-away (time [s], position [m]) and re-stick of the slips, shape (n, 4)."""
-    pairs = ((_edge(record, begin, 1, ridge), _edge(record, end, -1, firm)) for begin, end in rough)
+def _edges(record: Record, rough: Sequence[Rough], search: EdgeSearch) -> tuple[Array, tuple[int, int]]:
+    """Return break-away (time [s], position [m]) and re-stick of the slips, shape (n, 4), and where most of each were found."""
+    onsets = [_edge(record, begin, 1, search.ridge, before, search.beyond[0]) for begin, _, before, _ in rough]
+    resticks = [_edge(record, end, -1, search.firm, after, search.beyond[1]) for _, end, _, after in rough]
     shortest = 0.5 / record.angular_frequency
+    pairs = zip(onsets, resticks, strict=True)
     edges = [(*onset[:2], *restick[:2]) for onset, restick in pairs if restick[0] - onset[0] > shortest]
     # two slips may not overlap: a rough slip cut in two can be located twice
-    return np.array([e for i, e in enumerate(edges) if i == 0 or e[0] > edges[i - 1][2]]).reshape(-1, 4)
+    table = np.array([e for i, e in enumerate(edges) if i == 0 or e[0] > edges[i - 1][2]]).reshape(-1, 4)
+    return table, (_mostly(onsets), _mostly(resticks))
+
+
+def _mostly(edges: Sequence[tuple[float, float, float, float, bool]]) -> int:
+    return ALWAYS if 2 * sum(e[4] for e in edges) > len(edges) else NEVER
 
 
 def _onset_force(record: Record, time: Any, position: Any) -> Any:
@@ -237,12 +271,12 @@ def _onset_force(record: Record, time: Any, position: Any) -> Any:
     return box.stiffness * position + box.damping * box.belt_velocity - record.excitation(time)
 
 
-def _quiet(record: Record, rough: list[tuple[int, int]]) -> tuple[list[Array], list[Array]]:
+def _quiet(record: Record, rough: Sequence[Rough]) -> tuple[list[Array], list[Array]]:
     """Return the stick phases between rough slips less their lines [m], sample by sample, and the samples' times [s]."""
     margin = record.samples(0.8)
     phases: list[Array] = []
     times: list[Array] = []
-    for (_, restick), (onset, _) in itertools.pairwise(rough):
+    for (_, restick, *_), (onset, *_) in itertools.pairwise(rough):
         position = record.position[restick + margin : onset - margin]
         if len(position) > 40:
             place = np.linspace(-1.0, 1.0, len(position))

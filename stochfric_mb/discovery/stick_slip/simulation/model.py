@@ -21,7 +21,7 @@ from stochfric_mb.reference.augmented import AugmentedSystem, augmented_system
 
 NOT_FITTED = (
     "reference_load", "spacing", "fraction", "size", "time", "duration", "high", "low", "static_share", "share_below",
-    "shape_exponent", "adhesion", "reference_temperature",
+    "shape_exponent", "tail", "adhesion", "reference_temperature",
 )  # fmt: skip
 """Parameters of effects that forecasts cannot fit, or that are fixed by what they mean."""
 REACH = 0.25
