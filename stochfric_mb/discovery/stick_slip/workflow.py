@@ -6,6 +6,7 @@ import dataclasses
 
 import numpy as np
 
+from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.result import Result
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
@@ -31,8 +32,15 @@ from stochfric_mb.discovery.stick_slip.simulation.prior_model import assumed
 from stochfric_mb.discovery.stick_slip.simulation.refit import Fit, refit, with_deviations
 from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progress, Study, slips_of_run, study
 from stochfric_mb.discovery.stick_slip.validation.anonymous import Anonymous, anonymous, sentence_of
-from stochfric_mb.discovery.stick_slip.validation.answers import Answer, checked_on_held_out, explaining, fitted, with_bump
-from stochfric_mb.discovery.stick_slip.validation.explained import taken_back
+from stochfric_mb.discovery.stick_slip.validation.answers import (
+    Answer,
+    Gaps,
+    checked_on_held_out,
+    explaining,
+    fitted,
+    with_bump,
+)
+from stochfric_mb.discovery.stick_slip.validation.explained import lenient, shown_elsewhere, taken_back
 from stochfric_mb.discovery.stick_slip.validation.feature_skill import leading, slip_force_gap
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.measurement.dataset import Dataset
@@ -86,7 +94,30 @@ def _answer(
     runs = held_out(slips, phased=phased(answer.model))
     answer = dataclasses.replace(answer, model=settled(answer.model, runs))
     answer, runs = checked_on_held_out(answer, study, recalibrated, runs)
+    answer = _explaining_held_out(answer, study, recalibrated, runs)
     return with_bump(answer, decision, study), runs
+
+
+def _explaining_held_out(answer: Answer, study: Study, recalibrated: Fit, runs: HeldOut) -> Answer:
+    """Return the answer without its names where these explain less of held-out runs than they leave.
+
+    What is judged is the score that leads the page, in which the effects show.
+    """
+    kinds = {n.kind for n in answer.decision.named}
+    if not kinds or kinds <= shown_elsewhere(answer.decision.model) or lenient(answer.decision):
+        return answer
+    gap, forces = _gaps((study.model, recalibrated.model, answer.model), runs)
+    lead = forces if leading(gap, forces) == "slip_forces" else gap
+    if lead is None or lead.closed is None or lead.closed >= criteria.EXPLAINED_HELD_OUT:
+        return dataclasses.replace(answer, gaps=(gap, forces))
+    why = f"comes closest, but explains only {max(lead.closed, 0.0):.0%} of what held-out runs show"
+    return Answer(taken_back(answer.decision, why), None, recalibrated.model)
+
+
+def _gaps(models: tuple[Model, Model, Model], runs: HeldOut, *, in_forces: bool = True) -> Gaps:
+    """Return how far stated, recalibrated and augmented model are off in held-out forecasts, and in the forces of slips."""
+    gap = gap_of(*models, runs) if sum(map(len, runs.second)) else None
+    return gap, slip_force_gap(*models, runs.slips) if in_forces else None
 
 
 def _result(
@@ -110,8 +141,7 @@ def _result(
         given: the data set as it was given, its uncertainties not assumed.
     """
     decision = answer.decision
-    gap = gap_of(*models, runs) if sum(map(len, runs.second)) else None
-    forces = slip_force_gap(*models, runs.slips) if decision.named or kept is not None else None
+    gap, forces = answer.gaps or _gaps(models, runs, in_forces=bool(decision.named) or kept is not None)
     final = kept.fit if kept is not None else answer.fit if answer.fit is not None and decision.named else recalibrated
     own, unmeasured = own_parameters(final, models[2], study), not_measured(final)
     beyond = moved(own, given, unmeasured)

@@ -10,10 +10,12 @@ import pytest
 
 from stochfric_mb import Coulomb
 from stochfric_mb.discovery.inference.false_alarms import Evidence
+from stochfric_mb.discovery.result import Gap
+from stochfric_mb.discovery.stick_slip import workflow
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision, selected
 from stochfric_mb.discovery.stick_slip.decision.kinematics import STICK_SHARE
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
-from stochfric_mb.discovery.stick_slip.validation.answers import _by_its_motion, _far_off
+from stochfric_mb.discovery.stick_slip.validation.answers import Answer, _by_its_motion, _far_off
 from stochfric_mb.discovery.stick_slip.validation.explained import (
     MORE_MISSING,
     _enough,
@@ -146,3 +148,27 @@ def test_what_explains_most_may_move_a_number_as_far_as_the_effect_leaves_it_ope
     law = Coulomb(0.2, 0.1)
     models = (_with(law, name, change, kind) for change in (after, 0.0))
     assert (_far_off(*models, _study(law, name), most=True) is not None) is far
+
+
+@pytest.mark.parametrize(
+    ("kind", "closed", "stands"),
+    [
+        ("friction_drift", 0.6, True),
+        ("friction_drift", 0.4, False),
+        ("friction_drift", None, True),  # nothing to close
+        ("random_coefficients", 0.1, True),  # draws are no error that a name takes away
+        ("sensor_outliers", 0.0, True),  # forecasts do not show it
+    ],
+)
+def test_a_name_explains_more_of_held_out_runs_than_it_leaves(kind, closed, stands, monkeypatch):
+    off = 1.0 if closed is None else 3.0  # a recalibrated model at the floor leaves nothing to close
+    gap = Gap("crps_one_cycle", "m", True, 4.0, off, off - 2.0 * (closed or 0.0), 1.0)
+    assert gap.closed == (None if closed is None else pytest.approx(closed))
+    monkeypatch.setattr(workflow, "_gaps", lambda *_: (gap, None))
+    decision = decided(kind)
+    answer = Answer(decision, None, decision.model)
+    judged = workflow._explaining_held_out(answer, SimpleNamespace(model=None), SimpleNamespace(model=None), None)
+    assert (judged.decision is decision) == stands
+    if not stands:
+        assert judged.decision.verdict == "unknown"
+        assert judged.decision.where.text == "friction_drift comes closest, but explains only 40% of what held-out runs show"

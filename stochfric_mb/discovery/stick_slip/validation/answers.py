@@ -8,7 +8,7 @@ from typing import cast
 import numpy as np
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.result import Where
+from stochfric_mb.discovery.result import Gap, Where
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision, Named
 from stochfric_mb.discovery.stick_slip.decision.kinematics import STICK_SHARE
 from stochfric_mb.discovery.stick_slip.decision.random_effects import kicked
@@ -42,6 +42,9 @@ from stochfric_mb.discovery.stick_slip.validation.predictive_check import VARYIN
 from stochfric_mb.effects import kind_with_signature, kinds_with
 from stochfric_mb.effects.traits import SCATTER, WANDER, YIELDING
 
+Gaps = tuple[Gap | None, Gap | None]
+"""How far stated, recalibrated and augmented model are off on held-out runs: in forecasts, and in the forces of slips."""
+
 
 @dataclasses.dataclass(frozen=True)
 class Answer:
@@ -53,6 +56,8 @@ class Answer:
     """The fit of the model with the effects; None where there are none."""
     model: Model
     """That model; the recalibrated one where there are none."""
+    gaps: Gaps | None = None
+    """What it was judged by on held-out runs, if it was."""
 
 
 def fitted(decision: Decision, slip_study: Study, recalibrated: Fit) -> Answer:

@@ -98,10 +98,16 @@ def _enough(decision: Decision) -> float:
     """
     if explained_with_its_form(decision) and not phased(decision.model):
         return criteria.EXPLAINED_RANDOM if STICK_SHARE in decision.details else criteria.CLOSES_NOTHING
-    # what is random beside a named effect does not excuse what that one does not explain
+    return criteria.EXPLAINED_RANDOM if lenient(decision) else criteria.EXPLAINED
+
+
+def lenient(decision: Decision) -> bool:
+    """Return whether forecasts cannot show all of what is named: it is random, or a step at a moment that is not known well.
+
+    What is random beside a named effect does not excuse what that one does not explain.
+    """
     first = next(e for e in decision.model.effects if e.kind == decision.named[0].kind)
-    lenient = first.random or any(n.kind == kind_with_signature(JUMP) for n in decision.named)
-    return criteria.EXPLAINED_RANDOM if lenient else criteria.EXPLAINED
+    return first.random or any(n.kind == kind_with_signature(JUMP) for n in decision.named)
 
 
 def _too_little(decision: Decision, enough: float, without: Array, with_: Array, best: Array) -> Decision | None:
