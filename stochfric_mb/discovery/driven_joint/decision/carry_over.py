@@ -44,7 +44,7 @@ def with_idle(place: PlaceOutcome) -> PlaceOutcome:
         place.selected,
         final=place.selected.recalibrated,
         effects=(),
-        equivalents=(),
+        standing_in=tuple,
         released=(),
         nuisances=place.nuisances,
     )

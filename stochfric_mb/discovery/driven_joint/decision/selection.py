@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -71,8 +72,8 @@ class Selected:
     """With the selected effects."""
     effects: tuple[Trial, ...]
     """Effects, as they were when accepted."""
-    equivalents: tuple[tuple[str, ...], ...]
-    """Effects, and numbers of the mechanism, that could stand in the place of each."""
+    standing_in: Callable[[], tuple[tuple[str, ...], ...]]
+    """Works out `equivalents`, which takes as long as the selection."""
     stages: tuple[Stage, ...]
     """The steps."""
     unknown: str
@@ -87,12 +88,19 @@ class Selected:
     imitated: str = ""
     """Two conditions of a smooth dependence beside which an effect of others explains nothing; empty: all explain something."""
 
+    @functools.cached_property
+    def equivalents(self) -> tuple[tuple[str, ...], ...]:
+        """Effects, and numbers of the mechanism, that could stand in the place of each effect that is named."""
+        return self.standing_in()
+
     @property
     def named(self) -> tuple[str, ...]:
         """Kinds of the effects, and names of the numbers, that were selected."""
         return (*(t.candidate.kind for t in self.effects), *(r.name for r in self.released))
 
 
+State = tuple[frozenset[str], float, list[Nuisance]]
+"""What a selection leaves out, how beliefs weigh in it, and the numbers of the mechanism as they are believed."""
 Fixed = Sequence[tuple[int, str]]
 """Numbers of effects, by their places in a model and names, that a fit leaves as they are."""
 
@@ -150,7 +158,7 @@ class Selector:
             self.recalibrated,
             final,
             tuple(effects),
-            tuple(self._equivalents(final, i, t.candidate.parameters) for i, t in enumerate(effects)),
+            functools.partial(self._equivalents, final, tuple(t.candidate.parameters for t in effects), self._state),
             tuple(stages),
             unknown[0],
             tuple((axis, gain) for axis, gain in left if axis),
@@ -326,7 +334,16 @@ class Selector:
                 current, effects = fitted, [t for t in effects if t.candidate.kind != kind]
         return current, effects
 
-    def _equivalents(self, final: JointFit, number: int, size: int) -> tuple[str, ...]:
+    @property
+    def _state(self) -> State:
+        return self._without, self._noise, self._nuisances
+
+    def _equivalents(self, final: JointFit, sizes: Sequence[int], state: State) -> tuple[tuple[str, ...], ...]:
+        """Return what could stand in the place of each effect of the final model, of so many numbers, as things then stood."""
+        self._without, self._noise, self._nuisances = state
+        return tuple(self._standing_in(final, i, size) for i, size in enumerate(sizes))
+
+    def _standing_in(self, final: JointFit, number: int, size: int) -> tuple[str, ...]:
         """Return what could stand in the place of an effect of ``size`` numbers of the final model, within `criteria.TIE`.
 
         Kinds of effects, and names of numbers of the mechanism that would be beyond their beliefs.
