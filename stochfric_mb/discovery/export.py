@@ -180,10 +180,10 @@ def plain_mjcf(mechanism: PrismaticJoint | HingePendulum) -> str:
     """Return the mechanism as MJCF."""
     if isinstance(mechanism, PrismaticJoint):
         gravity, kind, armature = "0 0 0", 'type="slide" axis="1 0 0"', 0.0
-        place, gain = "0 0 0", mechanism.force_gain or 1.0
+        place, gain = "0 0 0", (mechanism.force_gain or 1.0) * mechanism.drive_factor
     else:
         gravity, kind, armature = f"0 0 {-mechanism.gravity!r}", 'type="hinge" axis="0 1 0"', mechanism.inertia
-        place, gain = f"0 0 {-mechanism.length!r}", mechanism.torque_gain or 1.0
+        place, gain = f"0 0 {-mechanism.length!r}", (mechanism.torque_gain or 1.0) * mechanism.drive_factor
     mass = max(mechanism.mass, 1.0e-3)
     small = 1.0e-6 * mass
     return f"""<mujoco>

@@ -230,6 +230,7 @@ def inertia(run: Run, joint: PrismaticJoint | HingePendulum, angle: float = 1.0)
         drive = gain * run.channels["voltage"]
     if position is None or drive is None:
         return None
+    drive = joint.drive_factor * drive
     others = [np.sin(angle * position), np.cos(angle * position)] if hinge else [position]
     others += [run.channels[name] for name in ("pressure",) if name in run.channels]
     fits = [_force_balance(angle * position, drive, others, run.sample_interval, m) for m in WINDOWS if 20 * m < position.size]

@@ -12,8 +12,8 @@ from stochfric_mb.errors import require_number
 class HingePendulum:
     """(m l^2 + J) q'' + c q' + m g l sin q + offset = driving torque - friction, q = 0 hanging.
 
-    The driving torque is the channel ``torque``, or ``voltage`` times ``torque_gain``. Friction is mu N with N in N m: the
-    load times the radius at which it rubs.
+    The driving torque is the channel ``torque``, or ``voltage`` times ``torque_gain``, times ``drive_factor``. Friction is mu N
+    with N in N m: the load times the radius at which it rubs.
     """
 
     mass: float
@@ -28,6 +28,8 @@ class HingePendulum:
     """Acceleration of gravity g [m/s^2], >= 0."""
     torque_gain: float = 0.0
     """Driving torque per volt [N m/V]; 0: the torque itself is measured."""
+    drive_factor: float = 1.0
+    """True driving torque over the recorded one [-], > 0: another motor constant, or scale of a sensor, than was assumed."""
     damping: float = 0.0
     """Damping c, a motor's back-EMF included [N m s/rad], >= 0."""
     offset: float = 0.0
@@ -47,6 +49,7 @@ class HingePendulum:
         require_number("inertia", self.inertia, low=0.0, unit="kg m^2")
         require_number("gravity", self.gravity, low=0.0, unit="m/s^2")
         require_number("torque_gain", self.torque_gain, unit="N m/V")
+        require_number("drive_factor", self.drive_factor, above=0.0)
         require_number("damping", self.damping, low=0.0, unit="N m s/rad")
         require_number("offset", self.offset, unit="N m")
         require_number("initial_position", self.initial_position, unit="rad")

@@ -12,8 +12,8 @@ from stochfric_mb.errors import require_number
 class PrismaticJoint:
     """m q'' + c q' + p A + offset = driving force - friction, friction mu N against q'.
 
-    The driving force is the channel ``force``, or ``voltage`` times ``force_gain``; p is the channel ``pressure``. With
-    mass 0 the motion is prescribed and slow: the force is what it takes to move.
+    The driving force is the channel ``force``, or ``voltage`` times ``force_gain``, times ``drive_factor``; p is the channel
+    ``pressure``. With mass 0 the motion is prescribed and slow: the force is what it takes to move.
     """
 
     mass: float
@@ -22,6 +22,8 @@ class PrismaticJoint:
     """Load N on the rubbing surfaces [N], > 0: friction is mu N."""
     force_gain: float = 0.0
     """Driving force per volt [N/V]; 0: the force itself is measured."""
+    drive_factor: float = 1.0
+    """True driving force over the recorded one [-], > 0: another motor constant, or scale of a load cell, than was assumed."""
     damping: float = 0.0
     """Damping c [N s/m], >= 0."""
     piston_area: float = 0.0
@@ -40,6 +42,7 @@ class PrismaticJoint:
         require_number("mass", self.mass, low=0.0, unit="kg")
         require_number("normal_force", self.normal_force, above=0.0, unit="N")
         require_number("force_gain", self.force_gain, unit="N/V")
+        require_number("drive_factor", self.drive_factor, above=0.0)
         require_number("damping", self.damping, low=0.0, unit="N s/m")
         require_number("piston_area", self.piston_area, low=0.0, unit="m^2")
         require_number("offset", self.offset, unit="N")

@@ -95,6 +95,7 @@ def _answered(asked: _Asked, without: frozenset[str]) -> PlaceOutcome:
         timing = timing.beside(*_better(selected, late, narrow, nuisances))
         if timing.named:  # the stated model knows nothing of the identified delay
             undelayed, selected, fit_balances = selected.recalibrated.model, late, balances
+    nuisances = [*nuisances, *(n for n in selected.nuisances if all(n.name != known.name for known in nuisances))]
     delay = base + (timing.seconds if timing is not None and timing.named else 0.0)
     test_balances = source.balances(name, "test", delay)
     asked.say("held-out runs")

@@ -99,7 +99,7 @@ def test_white_noise_of_the_channels_is_the_noise_of_the_balance_where_nothing_e
     [
         ("load_dependence.least_friction", "slide", 0.5, "load_dependence"),
         ("constant_force.guide_is_not_level", "arm", 1.0, "constant_force"),
-        ("drive_gain.partly_demagnetised", "mjcf_hinge", 0.5, "payload"),
+        ("drive_gain.partly_demagnetised", "mjcf_hinge", 0.5, "drive_gain"),
         ("backlash.worn_bevel_gear", "mjcf_hinge", 1.0, "backlash"),
         ("backlash.dog_clutch", "mjcf_slide", 0.5, "backlash"),
         ("unknown.meter_rings", "mjcf_hinge", 0.5, "unknown"),

@@ -144,18 +144,35 @@ def test_a_number_at_the_end_of_its_range_stands_for_something_else():
     assert "mass" not in [f.number.name for f in selector._freed(selector.recalibrated)]
 
 
-@pytest.mark.parametrize(("heavier", "louder", "same"), [(1.0, 1.4, ("drive_gain",)), (1.4, 1.0, ())])
-def test_a_drive_that_is_larger_by_a_factor_may_be_a_mass(heavier, louder, same):
+@pytest.mark.parametrize(
+    ("heavier", "louder", "known", "kind", "same"),
+    [
+        (1.0, 1.4, 0.3, "drive_gain", ("payload",)),
+        (1.0, 1.4, 0.02, "drive_gain", ()),
+        (1.4, 1.0, 0.02, "payload", ()),
+    ],
+)
+def test_a_drive_that_is_larger_by_a_factor_is_no_mass_where_friction_is_known(heavier, louder, known, kind, same):
     """Friction as stated tells a mass, which leaves it, from the factor of a drive that was stated as exact, which does not."""
 
     def recorded(run):
         return dataclasses.replace(run, channels=run.channels | {"force": louder * run.channels["force"]})
 
     measured = pair(coulomb, mass=2.0 * heavier)
-    believed = {"mass": 0.05, "mu_k": 0.3 if same else 0.02}
-    stated = dataclasses.replace(measured.scenario, uncertainty=believed)
-    result = joint_outcome(dataclasses.replace(measured, scenario=stated, runs=tuple(map(recorded, measured.runs)))).result
-    (named,) = result.effects
-    assert named.kind == "payload"
+    stated = dataclasses.replace(measured.scenario, uncertainty={"mass": 0.05, "mu_k": known})
+    measured = dataclasses.replace(measured, scenario=stated, runs=tuple(map(recorded, measured.runs)))
+    outcome = joint_outcome(measured)
+    (named,) = outcome.result.effects
+    assert named.kind == kind
     assert named.equivalent_to == same
-    assert ("force gauge" in result.next_experiment) is bool(same)
+    assert ("force gauge" in outcome.result.next_experiment) == (kind == "drive_gain" or bool(same))
+    if kind == "drive_gain":
+        number = named.parameters["drive_factor"]
+        assert number.low < 1.0 / louder < number.high
+        assert "for which no doubt is stated" in named.where.text
+        # the augmented scenario is that drive: asked again, nothing is missing
+        assert outcome.scenario.mechanism.drive_factor == pytest.approx(number.value)
+        again = joint_outcome(dataclasses.replace(measured, scenario=outcome.scenario)).result
+        assert again.verdict == "none"
+        # errors were those of the recorded drive; now they are those of the true one
+        assert again.gap.baseline == pytest.approx(number.value * outcome.result.gap.augmented, rel=1e-6)

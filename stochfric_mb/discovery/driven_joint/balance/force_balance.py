@@ -23,8 +23,10 @@ LEAST_SPEED = 0.02
 """Speed below which a joint is not taken to slide, over its 90 % speed [-]."""
 REMEMBERED = 16
 """Forces of loads that are kept: a fit moves one number after the other, and comes back."""
-GAIN = "gain"
-"""Column of the whole drive, of which a factor is stated as 1."""
+GAIN, DRIVE_FACTOR = "gain", "drive_factor"
+"""Column of the whole drive at a joint of a user's model, and at a slide or hinge, by the number that is its factor there."""
+GAINS = (GAIN, DRIVE_FACTOR, "force_gain", "torque_gain")
+"""Numbers that the whole drive is multiplied by."""
 PAYLOADS = {"centre": "payload_centre", "end": "payload_end"}
 """Place of further mass in the last body of a chain of joints -> its column; none is stated."""
 SURE = 5.0
@@ -88,6 +90,8 @@ class ForceBalance:
     """Change of ``load`` with the driving force, -1 or 1, shape (count,); None: the load is known without it."""
     drive: Array | None = None
     """Driving force, its gain as stated [N or N m], shape (count,); None: the place has none of its own."""
+    drive_factor: float = 1.0
+    """What is stated of the factor of the drive, see `DRIVE_FACTOR` [-]."""
     pressure: Array | None = None
     """Pressure on the piston [Pa], shape (count,); None: none was measured."""
     normal_force: Array | None = None

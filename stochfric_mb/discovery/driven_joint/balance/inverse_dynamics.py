@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from stochfric_mb.discovery.driven_joint.balance.balances import Balances
 from stochfric_mb.discovery.driven_joint.balance.force_balance import (
-    GAIN,
+    DRIVE_FACTOR,
     ForceBalance,
     Nuisance,
     balance_along,
@@ -37,13 +37,17 @@ DRIVEN = ("drive", "force_gain", "torque_gain")
 GAINS = {"force": "N/V", "torque": "N m/V"}
 """Drive that a voltage may stand for -> unit of its gain."""
 UNITS = {
-    "prismatic_joint": {"mass": "kg", "damping": "N s/m", "offset": "N", "piston_area": "m^2", "force_gain": "N/V"},
-    "hinge_pendulum": {"mass": "kg", "inertia": "kg m^2", "damping": "N m s/rad", "offset": "N m", "torque_gain": "N m/V"},
-}
+    "prismatic_joint": {
+        "mass": "kg", "damping": "N s/m", "offset": "N", "piston_area": "m^2", "force_gain": "N/V", DRIVE_FACTOR: "-",
+    },
+    "hinge_pendulum": {
+        "mass": "kg", "inertia": "kg m^2", "damping": "N m s/rad", "offset": "N m", "torque_gain": "N m/V", DRIVE_FACTOR: "-",
+    },
+}  # fmt: skip
 """Numbers of the mechanisms that may be corrected, and their units."""
 ABSOLUTE = ("offset",)
 """Numbers whose uncertainty is given in their own unit, since they may be stated as 0."""
-POSITIVE = ("mass", "inertia", "damping", "piston_area")
+POSITIVE = ("mass", "inertia", "damping", "piston_area", DRIVE_FACTOR)
 """Numbers that cannot be negative."""
 HELD = 0.5
 """How much later than its sample a drive acts that a controller holds until its next sample [samples], on average."""
@@ -109,7 +113,7 @@ class PlainBalances(Balances):
             columns[number] = np.sum(seen, axis=0)
             total = total - values[number] * columns[number]
         drive = next(n for n in DRIVEN if n in terms)
-        columns[GAIN] = values[drive] * columns[drive]
+        columns[DRIVE_FACTOR] = values[drive] / joint.drive_factor * columns[drive]
         velocity = window.through(q, 1)
         least = least_speed(velocity, window.gain(1) * noise_level(q))
         load, load_by_drive = _transmitted_load(run, joint, window)
@@ -128,6 +132,7 @@ class PlainBalances(Balances):
             white=noise,
             before=distance_before(run, self.dataset.runs, lambda r: narrowest(r).through(position_of(r), 1)),
             drive=window.sampled(factor * channel(run, name), late),
+            drive_factor=joint.drive_factor,
             pressure=window.sampled(run.channels["pressure"]) if "pressure" in run.channels else None,
             normal_force=load if self.presses(place) else None,
             motor=functools.cache(lambda: motor_motion(run, joint)),
@@ -149,7 +154,7 @@ def terms_of(run: Run, joint: Joint) -> dict[str, tuple[Term, ...]]:
     else:
         terms["inertia"] = (Term(1.0, q, 2),)
         terms["mass"] = (Term(joint.length**2, q, 2), Term(joint.length * joint.gravity, np.sin(q)))
-    terms[DRIVES[joint.kind][1] if name == "voltage" else "drive"] = (Term(-1.0, channel(run, name)),)
+    terms[DRIVES[joint.kind][1] if name == "voltage" else "drive"] = (Term(-joint.drive_factor, channel(run, name)),)
     return terms
 
 
@@ -157,7 +162,7 @@ def drive_channel(joint: Joint) -> tuple[str, float]:
     """Return the channel that drives a joint, and its factor: the voltage where a gain is stated, otherwise the force."""
     force, gain = DRIVES[joint.kind]
     factor = float(getattr(joint, gain))
-    return ("voltage", factor) if factor else (force, 1.0)
+    return ("voltage", factor * joint.drive_factor) if factor else (force, joint.drive_factor)
 
 
 def position_of(run: Run) -> Array:

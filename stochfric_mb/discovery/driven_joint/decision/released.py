@@ -9,7 +9,14 @@ import numpy as np
 import numpy.typing as npt
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.driven_joint.balance.force_balance import GAIN, PAYLOADS, ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.balance.force_balance import (
+    DRIVE_FACTOR,
+    GAIN,
+    GAINS,
+    PAYLOADS,
+    ForceBalance,
+    Nuisance,
+)
 from stochfric_mb.discovery.driven_joint.fit.beliefs import Belief, beliefs
 from stochfric_mb.discovery.driven_joint.fit.evidence import evidence, settings_of
 from stochfric_mb.discovery.driven_joint.fit.fitting import JointFit, settled
@@ -21,8 +28,7 @@ Array = npt.NDArray[np.float64]
 
 BEYOND = {
     "mass": "payload", **dict.fromkeys(PAYLOADS.values(), "payload"), "inertia": "payload", "armature": "payload",
-    "gain": "drive_gain", "force_gain": "drive_gain",
-    "torque_gain": "drive_gain", "offset": "constant_force",
+    **dict.fromkeys(GAINS, "drive_gain"), "offset": "constant_force",
     "mu_k": "friction_level",
 }  # fmt: skip
 """Number of law or mechanism -> what it is called where it is off by more than its uncertainty; other ones are an effect's."""
@@ -32,6 +38,8 @@ OF_EFFECTS = {"damping": MORE_DAMPING, "piston_area": OTHER_AREA}
 """Number of the mechanism -> the finding of an effect that it is."""
 AT_AN_END = 1.0e-3
 """Distance from the end of its range at which a number has reached it, over its stated standard deviation [-]: rounding."""
+EXACT = 1.0e-3
+"""How firmly a factor of the drive is believed whose uncertainty nobody stated [-]: no force is measured better."""
 UNDRIVEN = 1.0e-9
 """Part of the balance that the mechanism's own terms must leave for a drive to be in it [-]: rounding leaves less."""
 
@@ -107,14 +115,16 @@ def beyond_beliefs(
     asked = [b for b in believed if b.name not in without and (b.owner != MECHANISM or driven)]
     # beside an effect that imitates inertia less mass would only be less noise: it must press against its bound
     pressing = [b for b in asked if not beside or abs(b.off(current.model)) >= criteria.AT_BOUND * criteria.MOST_OFF]
-    for several in [*((b,) for b in pressing), *_together(asked, pressing)]:
+    factor = _factor_of_the_drive(balances, nuisances)
+    exact = [] if factor is None or factor.name in without else [factor]
+    for several in [*((b,) for b in pressing), *_together(asked, pressing), *((b,) for b in exact)]:
         model, wide = current.model, list(nuisances)
         for belief in several:
-            model, wide = belief.given_up(model, wide)
+            model, wide = belief.given_up(*(belief.added_to(model, wide) if belief in exact else (model, wide)))
         fitted, _ = settled(model, balances, wide, noise=noise)
         if any(abs(b.off(fitted.model)) < criteria.MOST_OFF or _at_an_end(b, fitted) for b in several):
             continue
-        cost = len(several) * np.log(max(fitted.independent, 4.0)) + 2.0 * np.log(len(believed))
+        cost = len(several) * np.log(max(fitted.independent, 4.0)) + 2.0 * np.log(len(believed) + len(exact))
         score = evidence(current, fitted, fitted, settings) - float(cost)
         first, *others = (Released(b, score, current.rms, fitted.rms) for b in several)
         freed.append(Freed(first, fitted, wide, tuple(others)))
@@ -128,30 +138,17 @@ def _together(asked: Sequence[Belief], pressing: Sequence[Belief]) -> list[tuple
     return [g for g in groups if len(g) > 1 and any(b in pressing for b in g)]
 
 
-def by_gain(
-    current: JointFit, balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance], noise: float
-) -> Released | None:
-    """Return the factor of a drive that is stated as exact, were it not; None: its belief is stated, or no drive is measured.
+def _factor_of_the_drive(balances: Sequence[ForceBalance], nuisances: Sequence[Nuisance]) -> Belief | None:
+    """Return the factor of the drive that is stated without an uncertainty; None: it has one, or no drive is measured.
 
     A drive that is larger by a factor is a mechanism and friction that are smaller by it: motion alone cannot tell it from a
-    mass.
-
-    Args:
-        current: the fit with all beliefs.
-        balances: fit runs.
-        nuisances: numbers of the mechanism with their priors.
-        noise: weight of beliefs, as of `fit`.
+    mass, and friction tells it as firmly as its coefficient is believed.
     """
-    if any(n.name.endswith(GAIN) for n in nuisances) or any(b.drive is None for b in balances):
+    name = next((n for n in (GAIN, DRIVE_FACTOR) if all(n in b.columns for b in balances)), None)
+    if name is None or any(n.name in GAINS for n in nuisances) or any(b.drive is None for b in balances):
         return None
-    free = [*nuisances, Nuisance(GAIN, 1.0, 1.0, "-", 0.0)]
-    model = dataclasses.replace(current.model, nuisances=dict(current.model.nuisances) | {GAIN: 1.0})
-    fitted, _ = settled(model, balances, free, noise=noise)
-    belief = Belief(MECHANISM, GAIN, 1.0, 1.0)
-    if _at_an_end(belief, fitted):
-        return None
-    cost = np.log(max(fitted.independent, 4.0)) + 2.0 * np.log(len(free))
-    return Released(belief, evidence(current, fitted, fitted, settings_of(balances)) - float(cost), current.rms, fitted.rms)
+    stated = balances[0].drive_factor
+    return Belief(MECHANISM, name, stated, EXACT * stated, stated=False)
 
 
 def _at_an_end(belief: Belief, fitted: JointFit) -> bool:

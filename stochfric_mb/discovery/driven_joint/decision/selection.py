@@ -12,9 +12,9 @@ from scipy.stats import f as fisher
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_state, confounded
-from stochfric_mb.discovery.driven_joint.balance.force_balance import GAIN, ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes, witnesses
-from stochfric_mb.discovery.driven_joint.decision.released import Freed, Released, beyond_beliefs, by_gain
+from stochfric_mb.discovery.driven_joint.decision.released import Freed, Released, beyond_beliefs
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import COMPETITORS, SIGNED, TIMES, SmoothDependences
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.fit.evidence import evidence, settings_of
@@ -206,8 +206,6 @@ class Selector:
         if best is None:
             return None
         others = [f.number for f in freed if f.count == 1 and f.number.name not in {r.name for r in (best.number, *best.also)}]
-        gain = None if GAIN in self._without else by_gain(current, self._balances, self._nuisances, self._noise)
-        others += [] if gain is None else [gain]
         least = max(best.number.score - criteria.TIE, criteria.STANDS_IN * best.number.score)
         self._nuisances, self._noise = best.nuisances, prior_weight(best.fit)
         alike = tuple(r.name for r in others if r.score > least)

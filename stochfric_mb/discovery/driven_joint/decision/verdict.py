@@ -227,10 +227,8 @@ def _off(place: PlaceOutcome, number: Released, size: Interval) -> str:
     """Return by how much a number is off, in words."""
     off = abs(number.belief.off(place.selected.final.model))
     unit = "" if size.unit == "-" else f" {size.unit}"
-    return (
-        f"{number.name}{_at(place)} is {size.value:.4g}{unit} and not {number.belief.value:.4g}: off by {off:.0f} of its "
-        "stated standard deviations"
-    )
+    how = f": off by {off:.0f} of its stated standard deviations" if number.belief.stated else ", for which no doubt is stated"
+    return f"{number.name}{_at(place)} is {size.value:.4g}{unit} and not {number.belief.value:.4g}{how}"
 
 
 def _lacking(place: PlaceOutcome) -> Where:

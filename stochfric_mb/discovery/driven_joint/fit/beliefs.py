@@ -28,6 +28,8 @@ class Belief:
     """What is stated."""
     deviation: float
     """Standard deviation of that, > 0 and finite."""
+    stated: bool = True
+    """Whether that is stated."""
 
     def in_model(self, model: JointModel) -> float:
         """Return the number as it is in a model."""
@@ -36,6 +38,12 @@ class Belief:
     def off(self, model: JointModel) -> float:
         """Return by how many standard deviations it is off in a model [-]."""
         return (self.in_model(model) - self.value) / self.deviation
+
+    def added_to(self, model: JointModel, nuisances: Sequence[Nuisance]) -> tuple[JointModel, list[Nuisance]]:
+        """Return a model and the numbers of its mechanism with this one, which had no uncertainty."""
+        numbers = {**model.nuisances, self.name: self.value}
+        added = Nuisance(self.name, self.value, self.deviation, "-", 0.0)
+        return dataclasses.replace(model, nuisances=numbers), [*nuisances, added]
 
     def given_up(self, model: JointModel, nuisances: Sequence[Nuisance]) -> tuple[JointModel, list[Nuisance]]:
         """Return a model and the numbers of its mechanism without this belief."""

@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.balance.force_balance import GAINS, ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.friction_along import friction_along, reads_drive
 from stochfric_mb.effects import Effect
 from stochfric_mb.laws import Law
@@ -83,9 +83,10 @@ class JointModel:
         by_drive = np.ones(len(rest))
         for n in nuisances:
             if n.name in balance.columns:
-                rest = rest - (self.nuisances[n.name] - n.value) * balance.columns[n.name]
-                if n.name.endswith("gain"):
-                    by_drive = by_drive * self.nuisances[n.name] / n.value
+                value = self.nuisances.get(n.name, n.value)
+                rest = rest - (value - n.value) * balance.columns[n.name]
+                if n.name in GAINS:
+                    by_drive = by_drive * value / n.value
         if changes is not None:
             by_drive = by_drive - changes
         return rest / change_of(by_drive)

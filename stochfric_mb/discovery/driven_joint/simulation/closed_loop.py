@@ -78,10 +78,11 @@ def closed_loop(
     pressure = run.channels.get("pressure", np.zeros(len(q)))
     load = measured_load(run, joint)
     assert load is not None
-    names = ("mass", "damping", "offset", "force_gain", "piston_area")
+    names = ("mass", "damping", "offset", "force_gain", "drive_factor", "piston_area")
     value = {name: model.nuisances.get(name, float(getattr(joint, name))) for name in names}
     links = chain(model.law, model.effects_in(run.name), model.load, contact=model.contact)
-    plant = np.array([value["mass"], value["damping"], value["force_gain"] if joint.force_gain else 1.0])
+    gain = value["drive_factor"] * (value["force_gain"] if joint.force_gain else 1.0)
+    plant = np.array([value["mass"], value["damping"], gain])
     pushed = value["offset"] + value["piston_area"] * pressure
     loop = np.array([controller.position_gain, controller.velocity_gain, controller.limit])
     start = float(np.polyfit(np.arange(FIRST), q[:FIRST], 2)[2])
