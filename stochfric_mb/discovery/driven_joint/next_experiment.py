@@ -35,7 +35,8 @@ def next_experiment(pairs: Sequence[Confounded], places: Sequence[PlaceOutcome],
     if worst:
         first, second = worst[0].first, worst[0].second
         return f"Vary {first} and {second} apart: repeat the experiment with the {second} that each {first} has not had yet."
-    if any(finding(k) == finding(GAIN) for p in places for n in p.selected.released for k in (n.name, *n.alike)):
+    released = [n for p in places for n in p.selected.released if n.alike]
+    if any(finding(name) == finding(GAIN) for n in released for name in (n.name, *n.alike)):
         return "Weigh what moves, or hold the drive against a force gauge: is it the mechanism or the factor of the drive?"
     same = [
         (t.candidate.kind, others)

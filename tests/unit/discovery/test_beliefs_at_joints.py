@@ -179,7 +179,7 @@ def test_a_clock_that_went_together_with_a_place_is_in_one_class_with_effects_of
 )
 def test_the_next_experiment_tells_apart_what_these_runs_do_not(told, alike, says):
     runs = SimpleNamespace(told_by=told, foretold=bool(told))
-    selected = SimpleNamespace(named=alike, released=(SimpleNamespace(alike=alike),), effects=(), equivalents=())
+    selected = SimpleNamespace(named=alike, released=(SimpleNamespace(name="mass", alike=alike),), effects=(), equivalents=())
     place = SimpleNamespace(runs=runs, random=None, selected=selected, forecasts=None, fit=(), test=())
     assert says in next_experiment([], [place] if told or alike else [])
 
