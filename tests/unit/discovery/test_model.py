@@ -2,16 +2,21 @@
 
 import dataclasses
 
+import numpy as np
 import pytest
 
 from stochfric_mb.discovery.inference.free_parameter import LAW, MECHANISM
+from stochfric_mb.discovery.stick_slip.records.record import make_record
 from stochfric_mb.discovery.stick_slip.simulation.model import Model, adjusted, free_parameters
 from stochfric_mb.discovery.stick_slip.simulation.natural_units import NaturalUnits
 from stochfric_mb.effects import make_effect
+from stochfric_mb.errors import SimulationError
 from stochfric_mb.laws import make_law
+from stochfric_mb.mechanisms import BeltBox
 
 UNCERTAINTY = {"stiffness": 0.02, "mass": 0.02, "damping": 0.3}
 RUNS = ("run_1.csv", "run_2.csv")
+BOX = BeltBox(mass=6.08, damping=0.768, stiffness=3956.0, normal_force=13.0, belt_velocity=2.5e-3)
 RIG = NaturalUnits(force=13.0, length=3.3e-3, time=0.04)
 
 
@@ -84,3 +89,12 @@ def test_a_number_that_begins_at_zero_has_a_step_in_the_rigs_own_units():
     scales = {one.name: one.scale for one in free if one.owner == 0}
     assert scales["cubic"] == pytest.approx(0.01 * RIG.force / RIG.length**3)
     assert scales["quadratic"] == pytest.approx(0.01 * RIG.force / RIG.length**2)
+
+
+def test_a_model_whose_scatter_has_no_room_cannot_be_simulated(model):
+    """A fit may bring mu_s and mu_k together: the answer is that this model does not run, not an error of the data."""
+    scattering = dataclasses.replace(model.with_law(0.26, 0.26), effects=(), own={}).plus(
+        make_effect("random_coefficients", sigma_s=0.01, sigma_k=0.01)
+    )
+    with pytest.raises(SimulationError, match="mu_s = 0.26 and mu_k = 0.26 are 0.00 joint standard deviations apart"):
+        scattering.system(make_record("run", np.arange(400) * 1e-3, np.zeros(400), BOX))

@@ -15,6 +15,7 @@ from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, LEAST_CO
 from stochfric_mb.discovery.stick_slip.simulation.natural_units import NaturalUnits, exponents
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects.contract import PHASES
+from stochfric_mb.errors import InputError, SimulationError
 from stochfric_mb.laws import Law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference.augmented import AugmentedSystem, augmented_system
@@ -75,16 +76,18 @@ class Model:
         return tuple(dataclasses.replace(e, **dict(v)) for e, v in zip(self.effects, self.own[run], strict=True))
 
     def system(self, record: Record, *, seed: int = 0, sample: int = 0) -> AugmentedSystem:
-        """Return the simulator of a run; it moves as stated, not mirrored."""
-        return augmented_system(
-            self.mechanism(record.stated),
-            self.law,
-            self.effects_in(record.name),
-            self.process,
-            seed=seed,
-            sample=sample,
-            temperature=record.temperatures,
-        )
+        """Return the simulator of a run; it moves as stated, not mirrored.
+
+        Raises:
+            SimulationError: a fit has brought mu_s and mu_k too close for what scatters about them.
+        """
+        mechanism, effects = self.mechanism(record.stated), self.effects_in(record.name)
+        try:
+            return augmented_system(
+                mechanism, self.law, effects, self.process, seed=seed, sample=sample, temperature=record.temperatures
+            )
+        except InputError as error:
+            raise SimulationError(str(error).split(";")[0]) from error
 
     def with_law(self, mu_s: float, mu_k: float) -> Model:
         """Return the model with other mean coefficients."""
