@@ -96,5 +96,5 @@ def test_a_model_whose_scatter_has_no_room_cannot_be_simulated(model):
     scattering = dataclasses.replace(model.with_law(0.26, 0.26), effects=(), own={}).plus(
         make_effect("random_coefficients", sigma_s=0.01, sigma_k=0.01)
     )
-    with pytest.raises(SimulationError, match="mu_s = 0.26 and mu_k = 0.26 are 0.00 joint standard deviations apart"):
+    with pytest.raises(SimulationError, match=r"mu_s = 0\.26 and mu_k = 0\.26 are 0\.00 joint standard deviations apart"):
         scattering.system(make_record("run", np.arange(400) * 1e-3, np.zeros(400), BOX))
