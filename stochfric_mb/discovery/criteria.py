@@ -29,8 +29,8 @@ SOFTER = 15.0
 """Score by which a stiffness that drifts must beat other drifts, or `ALIKE_SHARE` [-]."""
 ALTERNATES = 0.9
 """Share of a ripple's score that alternation from slip to slip must reach to stand in its place [-]."""
-WORTH_SIMULATING = 0.1
-"""Share of the best effect's score from which on a candidate is simulated [-]."""
+BESIDE_SHAPES = 0.1
+"""Share of the score of shapes that simulating has refuted from which on another effect may be named [-]."""
 FORM_MISSES = 0.03
 """Share of the stated model's misfit that an effect of another form than the simulated one may leave [-]: a sixth of its
 strength. The tests' forms leave 0.016 at most, those of other kinds 0.08 where friction varies along the stroke."""

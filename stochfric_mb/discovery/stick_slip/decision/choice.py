@@ -92,7 +92,7 @@ def choose(
             return outcome
         details[REFUTED] = True
     # simulation does not bear the shape out: what remains are effects that change from slip to slip
-    least = criteria.WORTH_SIMULATING * family.score
+    least = criteria.BESIDE_SHAPES * family.score
     left = [c for c in rest if c.score > least or not c.is_effect]
     return _by_score(study, model, baseline, left, before)
 
@@ -307,9 +307,7 @@ def _worth_simulating(mine: Sequence[Candidate], most: int) -> list[Candidate]:
 
     Marks are of first order, and tell kinds better than forms of one.
     """
-    # over the best effect, not what follows any shape: where none comes near that the marks are too far from linear
-    best = next((c.score for c in mine if not c.any_shape), 0.0)
-    least = max(criteria.WORTH_SIMULATING * best, criteria.FOLLOWED_UP / 2.0)
+    least = criteria.FOLLOWED_UP / 2.0
     kinds = {c.name for c in mine if c.score > least}
     worth = [c for c in mine if c.name in kinds]
     return [c for c in worth if not c.any_shape][:most] + [c for c in worth if c.any_shape]
