@@ -8,6 +8,7 @@ import pytest
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
+from stochfric_mb.discovery.driven_joint.decision import carry_over
 from stochfric_mb.discovery.driven_joint.decision.carry_over import _waves
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector
 from stochfric_mb.discovery.driven_joint.source import source_of
@@ -175,3 +176,22 @@ def test_a_drive_that_is_larger_by_a_factor_is_no_mass_where_friction_is_known(h
         assert again.verdict == "none"
         # errors were those of the recorded drive; now they are those of the true one
         assert again.gap.baseline == pytest.approx(number.value * outcome.result.gap.augmented, rel=1e-6)
+
+
+@pytest.mark.slow
+def test_a_factor_of_the_drive_that_is_not_named_is_exact_again(monkeypatch):
+    """Held-out runs do not bear it out: the answer is the stated drive's, and whatever is asked of it is asked with that."""
+
+    def recorded(run):
+        return dataclasses.replace(run, channels=run.channels | {"force": 1.4 * run.channels["force"]})
+
+    measured = pair(coulomb)
+    stated = dataclasses.replace(measured.scenario, uncertainty={"mass": 0.05, "mu_k": 0.02})
+    measured = dataclasses.replace(measured, scenario=stated, runs=tuple(map(recorded, measured.runs)))
+    monkeypatch.setattr(carry_over, "inadequate", lambda place: "it is not named" if place.selected.named else "")
+    for asked_before in ("above_floor", "runs_apart"):  # bounds of beliefs are asked for where these say nothing
+        monkeypatch.setattr(carry_over, asked_before, lambda _: False)
+    outcome = joint_outcome(measured)
+    assert outcome.result.effects == ()
+    assert outcome.scenario.mechanism.drive_factor == 1.0
+    assert "drive_factor" not in outcome.result.parameters

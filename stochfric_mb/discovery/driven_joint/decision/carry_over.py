@@ -40,16 +40,18 @@ def with_idle(place: PlaceOutcome) -> PlaceOutcome:
         place = dataclasses.replace(place, random=None, runs=None, forecasts=None)
     if not reason or place.late:
         return dataclasses.replace(place, idle=reason, curve=curve)
+    # a factor of the drive that nobody doubted is exact again
+    nuisances = tuple(n for n in place.nuisances if n.name in place.selected.recalibrated.model.nuisances)
     plain = dataclasses.replace(
         place.selected,
         final=place.selected.recalibrated,
         effects=(),
         standing_in=tuple,
         released=(),
-        nuisances=place.nuisances,
+        nuisances=nuisances,
     )
     scores = place.scores | {"augmented": place.scores["recalibrated"]}
-    return dataclasses.replace(place, selected=plain, scores=scores, idle=reason, curve=curve)
+    return dataclasses.replace(place, selected=plain, nuisances=nuisances, scores=scores, idle=reason, curve=curve)
 
 
 def lacks(dataset: Dataset, place: PlaceOutcome) -> bool:

@@ -32,8 +32,8 @@ class Belief:
     """Whether that is stated."""
 
     def in_model(self, model: JointModel) -> float:
-        """Return the number as it is in a model."""
-        return float(model.nuisances[self.name] if self.owner == MECHANISM else getattr(model.law, self.name))
+        """Return the number as it is in a model, which has those that may be off; others are as stated."""
+        return float(model.nuisances.get(self.name, self.value) if self.owner == MECHANISM else getattr(model.law, self.name))
 
     def off(self, model: JointModel) -> float:
         """Return by how many standard deviations it is off in a model [-]."""
