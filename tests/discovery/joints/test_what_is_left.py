@@ -9,8 +9,10 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint import joint_outcome
 from stochfric_mb.discovery.driven_joint.balance.timing import Timing
 from stochfric_mb.discovery.driven_joint.decision import carry_over
+from stochfric_mb.discovery.driven_joint.decision.adequacy import at_bound
 from stochfric_mb.discovery.driven_joint.decision.carry_over import _waves
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector
+from stochfric_mb.discovery.driven_joint.place import place_outcome
 from stochfric_mb.discovery.driven_joint.source import source_of
 from stochfric_mb.measurement import Dataset
 from tests.discovery.joints.test_parts import coulomb, grease, pair, scenario, sine_run
@@ -188,10 +190,10 @@ def test_a_factor_of_the_drive_that_is_not_named_is_exact_again(monkeypatch):
     measured = pair(coulomb)
     stated = dataclasses.replace(measured.scenario, uncertainty={"mass": 0.05, "mu_k": 0.02})
     measured = dataclasses.replace(measured, scenario=stated, runs=tuple(map(recorded, measured.runs)))
-    monkeypatch.setattr(carry_over, "inadequate", lambda place: "it is not named" if place.selected.named else "")
-    for asked_before in ("above_floor", "runs_apart"):  # bounds of beliefs are asked for where these say nothing
-        monkeypatch.setattr(carry_over, asked_before, lambda _: False)
-    outcome = joint_outcome(measured)
-    assert outcome.result.effects == ()
-    assert outcome.scenario.mechanism.drive_factor == 1.0
-    assert "drive_factor" not in outcome.result.parameters
+    place = place_outcome(source_of(measured), lambda _: None, "", [])
+    assert place.selected.named == ("drive_factor",)
+    monkeypatch.setattr(carry_over, "inadequate", lambda _: "it is not named")
+    idle = carry_over.with_idle(place)
+    assert {n.name for n in place.nuisances} - {n.name for n in idle.nuisances} == {"drive_factor"}
+    assert idle.selected.nuisances == idle.nuisances
+    assert at_bound(idle) == ""
