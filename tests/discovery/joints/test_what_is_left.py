@@ -196,4 +196,4 @@ def test_a_factor_of_the_drive_that_is_not_named_is_exact_again(monkeypatch):
     idle = carry_over.with_idle(place)
     assert {n.name for n in place.nuisances} - {n.name for n in idle.nuisances} == {"drive_factor"}
     assert idle.selected.nuisances == idle.nuisances
-    assert at_bound(idle) == ""
+    assert at_bound(idle).startswith("needs mass")  # what believed numbers make of it
