@@ -40,7 +40,7 @@ from stochfric_mb.discovery.stick_slip.validation.answers import (
     fitted,
     with_bump,
 )
-from stochfric_mb.discovery.stick_slip.validation.explained import lenient, shown_elsewhere, taken_back
+from stochfric_mb.discovery.stick_slip.validation.explained import felt, taken_back
 from stochfric_mb.discovery.stick_slip.validation.feature_skill import leading, slip_force_gap
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.measurement.dataset import Dataset
@@ -103,8 +103,7 @@ def _explaining_held_out(answer: Answer, study: Study, recalibrated: Fit, runs: 
 
     What is judged is the score that leads the page, in which the effects show.
     """
-    kinds = {n.kind for n in answer.decision.named}
-    if not kinds or kinds <= shown_elsewhere(answer.decision.model) or lenient(answer.decision):
+    if not felt(answer.decision):
         return answer
     gap, forces = _gaps((study.model, recalibrated.model, answer.model), runs)
     lead = forces if leading(gap, forces) == "slip_forces" else gap

@@ -21,6 +21,7 @@ from stochfric_mb.discovery.stick_slip.validation.explained import (
     _enough,
     _nothing_shown,
     explained_with_its_form,
+    felt,
 )
 from stochfric_mb.effects import make_effect
 
@@ -172,3 +173,16 @@ def test_a_name_explains_more_of_held_out_runs_than_it_leaves(kind, closed, stan
     if not stands:
         assert judged.decision.verdict == "unknown"
         assert judged.decision.where.text == "friction_drift comes closest, but explains only 40% of what held-out runs show"
+
+
+@pytest.mark.parametrize(
+    ("kind", "shape_left", "details", "shown"),
+    [
+        ("friction_drift", 1.0, {}, True),
+        ("friction_drift", 0.01, {}, False),  # simulated slips keep a hundredth of the misfit
+        ("presliding_compliance", 1.0, {STICK_SHARE: 0.9}, True),  # a reading may do so in stick
+        ("belt_speed_ripple", 0.01, {}, True),  # forecasts hold as much of a wave as slips do
+    ],
+)
+def test_forecasts_have_to_show_what_nothing_else_has_shown(kind, shape_left, details, shown):
+    assert felt(decided(kind, details=details, shape_left=shape_left)) == shown

@@ -101,6 +101,17 @@ def _enough(decision: Decision) -> float:
     return criteria.EXPLAINED_RANDOM if lenient(decision) else criteria.EXPLAINED
 
 
+def felt(decision: Decision) -> bool:
+    """Return whether forecasts have to show what is named: nothing else has shown that there is little doubt of it.
+
+    Simulated slips, where they keep next to nothing of the misfit, have: forecasts then miss by what else differs from slip to
+    slip. Stick phases have not, for what a reading does there a contact need not do.
+    """
+    elsewhere = {n.kind for n in decision.named} <= shown_elsewhere(decision.model)
+    by_slips = explained_with_its_form(decision) and not phased(decision.model) and STICK_SHARE not in decision.details
+    return bool(decision.named) and not (elsewhere or by_slips or lenient(decision))
+
+
 def lenient(decision: Decision) -> bool:
     """Return whether forecasts cannot show all of what is named: it is random, or a step at a moment that is not known well.
 
