@@ -96,10 +96,11 @@ class VelocityWeakening(Effect):
     def curve(self, speed: Array) -> Array:
         """Return the rise of mu_k at speeds [m/s], of the same shape [-]."""
         fall = (speed / self.decay_velocity) ** self.shape_exponent
-        return self.amplitude * (np.exp(-fall) if self.tail == 0.0 else (1.0 + self.tail * fall) ** (-1.0 / self.tail))
+        return self.amplitude * np.exp(-fall if self.tail == 0.0 else -np.log1p(self.tail * fall) / self.tail)
 
 
 def friction(world, memory, rates, p):
     """Raise mu_k at low speed."""
     fall = (world[SPEED] / p[1]) ** p[2]
-    world[MU_K] += p[0] * (math.exp(-fall) if p[3] <= 0.0 else (1.0 + p[3] * fall) ** (-1.0 / p[3]))
+    # (1 + tail s)^(-1/tail), to rounding for any tail
+    world[MU_K] += p[0] * math.exp(-fall if p[3] <= 0.0 else -math.log1p(p[3] * fall) / p[3])

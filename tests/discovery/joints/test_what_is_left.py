@@ -180,6 +180,16 @@ def test_a_drive_that_is_larger_by_a_factor_is_no_mass_where_friction_is_known(h
         assert again.gap.baseline == pytest.approx(number.value * outcome.result.gap.augmented, rel=1e-6)
 
 
+def test_a_mass_that_nobody_doubts_is_no_surer_than_the_drive():
+    """Nothing is stated of how sure the numbers are: a heavier mass and a weaker drive are one motion."""
+    measured = pair(coulomb, mass=2.4)
+    stated = dataclasses.replace(measured.scenario, uncertainty={})
+    result = joint_outcome(dataclasses.replace(measured, scenario=stated)).result
+    (named,) = result.effects
+    assert {named.kind, *named.equivalent_to} == {"drive_gain", "payload"}
+    assert "force gauge" in result.next_experiment
+
+
 @pytest.mark.slow
 def test_a_factor_of_the_drive_that_is_not_named_is_exact_again(monkeypatch):
     """Held-out runs do not bear it out: the answer is the stated drive's, and whatever is asked of it is asked with that."""

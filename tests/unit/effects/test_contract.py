@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import tomli_w
 
-from stochfric_mb.effects import EFFECTS, GROUPS, effect_class, effect_from_dict, make_effect
+from stochfric_mb.effects import EFFECTS, GROUPS, contract, effect_class, effect_from_dict, make_effect
+from stochfric_mb.effects.kinds.velocity_weakening import friction
 from stochfric_mb.errors import InputError
 from tests.unit.effects.examples import EXAMPLES, NOTHING, example
 
@@ -138,3 +139,18 @@ def test_impacts_are_a_poisson_process() -> None:
 def test_where_discovery_looks_for_an_effect(kind: str, in_slips: bool, at_joints: bool) -> None:
     cls = effect_class(kind)
     assert (cls.searched_in_slips(), cls.searched_at_joints()) == (in_slips, at_joints)
+
+
+@pytest.mark.parametrize("tail", [1e-15, 1e-9, 1e-3])
+def test_a_fall_with_speed_has_the_exponential_as_the_limit_of_its_tail(tail):
+    """(1 + tail s)^(-1/tail) = exp(-s) (1 + tail s^2/2 + ...), without the rounding that a power of 1/tail would make of it."""
+    speed = np.array([0.0, 1e-3, 5e-3, 2e-2])
+    plain, tailed = (make_effect("velocity_weakening", amplitude=0.05, decay_velocity=5e-3, tail=x) for x in (0.0, tail))
+    s = speed / 5e-3
+    # the next order is (tail s^2)^2, and s is 4 at most
+    assert tailed.curve(speed) == pytest.approx(plain.curve(speed) * (1.0 + 0.5 * tail * s**2), rel=1e-12 + (16.0 * tail) ** 2)
+    world = np.zeros(contract.WORLD)
+    for v, rise in zip(speed, tailed.curve(speed), strict=True):
+        world[contract.SPEED], world[contract.MU_K] = v, 0.3
+        friction(world, np.zeros(4), np.zeros(4), (0.05, 5e-3, 1.0, tail))
+        assert world[contract.MU_K] == pytest.approx(0.3 + rise, rel=1e-14)

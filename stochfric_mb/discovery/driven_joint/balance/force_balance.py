@@ -25,7 +25,7 @@ REMEMBERED = 16
 """Forces of loads that are kept: a fit moves one number after the other, and comes back."""
 GAIN, DRIVE_FACTOR = "gain", "drive_factor"
 """Column of the whole drive at a joint of a user's model, and at a slide or hinge, by the number that is its factor there."""
-GAINS = (GAIN, DRIVE_FACTOR, "force_gain", "torque_gain")
+OF_THE_DRIVE = (GAIN, DRIVE_FACTOR, "force_gain", "torque_gain")
 """Numbers that the whole drive is multiplied by."""
 PAYLOADS = {"centre": "payload_centre", "end": "payload_end"}
 """Place of further mass in the last body of a chain of joints -> its column; none is stated."""

@@ -12,7 +12,7 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.force_balance import (
     DRIVE_FACTOR,
     GAIN,
-    GAINS,
+    OF_THE_DRIVE,
     PAYLOADS,
     ForceBalance,
     Nuisance,
@@ -26,10 +26,11 @@ from stochfric_mb.effects.traits import MORE_DAMPING, OTHER_AREA
 
 Array = npt.NDArray[np.float64]
 
+INERTIAL = ("mass", "inertia", "armature")
+"""Numbers of what moves."""
 BEYOND = {
-    "mass": "payload", **dict.fromkeys(PAYLOADS.values(), "payload"), "inertia": "payload", "armature": "payload",
-    **dict.fromkeys(GAINS, "drive_gain"), "offset": "constant_force",
-    "mu_k": "friction_level",
+    **dict.fromkeys((*INERTIAL, *PAYLOADS.values()), "payload"), **dict.fromkeys(OF_THE_DRIVE, "drive_gain"),
+    "offset": "constant_force", "mu_k": "friction_level",
 }  # fmt: skip
 """Number of law or mechanism -> what it is called where it is off by more than its uncertainty; other ones are an effect's."""
 TOGETHER = (("mass", "inertia"), tuple(PAYLOADS.values()))
@@ -145,7 +146,7 @@ def _factor_of_the_drive(balances: Sequence[ForceBalance], nuisances: Sequence[N
     mass, and friction tells it as firmly as its coefficient is believed.
     """
     name = next((n for n in (GAIN, DRIVE_FACTOR) if all(n in b.columns for b in balances)), None)
-    if name is None or any(n.name in GAINS for n in nuisances) or any(b.drive is None for b in balances):
+    if name is None or any(n.name in OF_THE_DRIVE for n in nuisances) or any(b.drive is None for b in balances):
         return None
     stated = balances[0].drive_factor
     return Belief(MECHANISM, name, stated, EXACT * stated, stated=False)

@@ -14,7 +14,7 @@ from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, by_state, confounded
 from stochfric_mb.discovery.driven_joint.balance.force_balance import ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.decision.cross_validation import blocks, compared, each_run, strokes, witnesses
-from stochfric_mb.discovery.driven_joint.decision.released import Freed, Released, beyond_beliefs
+from stochfric_mb.discovery.driven_joint.decision.released import INERTIAL, Freed, Released, beyond_beliefs
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import COMPETITORS, SIGNED, TIMES, SmoothDependences
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.fit.evidence import evidence, settings_of
@@ -209,6 +209,9 @@ class Selector:
         least = max(best.number.score - criteria.TIE, criteria.STANDS_IN * best.number.score)
         self._nuisances, self._noise = best.nuisances, prior_weight(best.fit)
         alike = tuple(r.name for r in others if r.score > least)
+        # a mass that nobody doubts either is no surer than the drive: the motion shows their ratio alone
+        if not best.number.belief.stated and not any(n.name in INERTIAL for n in self._nuisances):
+            alike = (*alike, INERTIAL[0])
         return [dataclasses.replace(r, alike=alike) for r in (best.number, *best.also)], self._fit(best.fit.model)
 
     def _taken_back(self, current: JointFit, released: list[Released]) -> tuple[JointFit, list[Released]]:

@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from stochfric_mb.discovery.driven_joint.balance.force_balance import GAINS, ForceBalance, Nuisance
+from stochfric_mb.discovery.driven_joint.balance.force_balance import OF_THE_DRIVE, ForceBalance, Nuisance
 from stochfric_mb.discovery.driven_joint.fit.friction_along import friction_along, reads_drive
 from stochfric_mb.effects import Effect
 from stochfric_mb.laws import Law
@@ -85,7 +85,7 @@ class JointModel:
             if n.name in balance.columns:
                 value = self.nuisances.get(n.name, n.value)
                 rest = rest - (value - n.value) * balance.columns[n.name]
-                if n.name in GAINS:
+                if n.name in OF_THE_DRIVE:
                     by_drive = by_drive * value / n.value
         if changes is not None:
             by_drive = by_drive - changes

@@ -303,7 +303,7 @@ class _Simulation:
 
 
 def _worth_simulating(mine: Sequence[Candidate], most: int) -> list[Candidate]:
-    """Return the candidates to simulate first: all forms of the kinds with most evidence.
+    """Return the candidates to simulate first, ``most`` of them: those with most evidence, of kinds a form of which has any.
 
     Marks are of first order, and tell kinds better than forms of one.
     """
