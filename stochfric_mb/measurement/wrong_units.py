@@ -232,6 +232,10 @@ def _require_inertia(run: Run, joint: PrismaticJoint | HingePendulum, mu_k: floa
             level = math.log10(look[1] / (mu_k * joint.normal_force)) - of_friction * math.log10(factor)
             if abs(off) < SAME_FACTOR and abs(level) < FRICTION_FITS:
                 causes.append((name, factor))
+    through = _through(run, joint)
+    if not causes and through and seen is not None:  # a bare number may be off by any factor
+        off, level = seen[0] / stated, seen[1] / (mu_k * joint.normal_force)
+        causes += [("torque" if hinge else "force", off)] if abs(math.log10(level / off)) < FRICTION_FITS else []
     remedies = [text for cause in causes if (text := _in_unit(run, joint, *cause, stated_in))]
     if remedies:
         unit, drive, motion = ("kg m^2", "torque", "angular acceleration") if hinge else ("kg", "force", "acceleration")
@@ -243,6 +247,14 @@ def _require_inertia(run: Run, joint: PrismaticJoint | HingePendulum, mu_k: floa
         raise InputError(f"{run.source}: {what}. Probably {', or '.join(remedies)}")
 
 
+def _through(run: Run, joint: PrismaticJoint | HingePendulum) -> str:
+    """Return the stated number that the recorded drive is multiplied by; empty: it is taken as it is."""
+    if joint.drive_factor != 1.0:
+        return "drive_factor"
+    hinge = isinstance(joint, HingePendulum)
+    return "" if ("torque" if hinge else "force") in run.channels else "torque_gain" if hinge else "force_gain"
+
+
 def _in_unit(run: Run, joint: PrismaticJoint | HingePendulum, name: str, factor: float, stated_in: str) -> str:
     """Return what is in another unit, and what to write; nothing where no unit in use has this size."""
     if name in ("mass", "length"):
@@ -250,10 +262,10 @@ def _in_unit(run: Run, joint: PrismaticJoint | HingePendulum, name: str, factor:
         really = _unit_of(STATED_UNITS[name], 1.0 / factor)
         return f"{name} in {stated_in} is in {really}: write {name} = {value / factor:.6g} ({si})" if really != si else ""
     column = "position" if name == "angle" else name
-    if column in ("force", "torque") and column not in run.channels:  # a drive in volts, through the stated gain
-        gain = "torque_gain" if isinstance(joint, HingePendulum) else "force_gain"
-        label, value = run.file_units.get("voltage", ""), float(getattr(joint, gain))
-        place = f"column voltage [{label}] with {gain} = {value:g} in {stated_in}"
+    through = _through(run, joint)
+    if column in ("force", "torque") and through:  # a drive in volts, for one
+        drive, value = column if column in run.channels else "voltage", float(getattr(joint, through))
+        place = f"column {drive} [{run.file_units.get(drive, '')}] with {through} = {value:g} in {stated_in}"
         return f"{place} is {_times(factor)} what fits: correct one of them"
     label, sizes = run.file_units.get(column, ""), CHANNEL_UNITS[name]
     really = _unit_of(sizes, sizes.get(label, 1.0) / factor)

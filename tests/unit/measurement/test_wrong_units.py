@@ -279,6 +279,22 @@ def test_a_drive_in_volts_is_named_with_its_gain(tmp_path, slide):
         load_dataset(file, tmp_path / "scenario.toml")
 
 
+@pytest.mark.parametrize(
+    ("stated", "channel", "what"),
+    [
+        ("drive_factor = 83.0", {"force__N": 0.83}, r"column force \[N\] with drive_factor = 83 .* is 105[.\d]* times"),
+        ("force_gain = 900.0", {"voltage__V": 20.0}, r"column voltage \[V\] with force_gain = 900 .* is 47[.\d]* times"),
+    ],
+)
+def test_a_bare_number_of_the_drive_may_be_off_by_any_factor(tmp_path, slide, stated, channel, what):
+    """83 for 83 %: no unit is a hundred times another, and yet mass and friction say which number is wrong."""
+    time, position, force = slide
+    (tmp_path / "scenario.toml").write_text(JOINT.format(mass=f"4.0\n{stated}"))
+    file = csv(tmp_path / "run.csv", time__s=time, position__m=position, **{k: force / v for k, v in channel.items()})
+    with pytest.raises(InputError, match=what + " what fits: correct one of them"):
+        load_dataset(file, tmp_path / "scenario.toml")
+
+
 @pytest.fixture(scope="module")
 def swing():
     """An arm of 1.1 kg at 0.4 m in gravity, a bearing with 0.6 N m of friction, and the torque that its motion takes [N m]."""

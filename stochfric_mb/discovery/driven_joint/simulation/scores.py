@@ -112,8 +112,9 @@ def closed_share(before: float, after: float, floor: float) -> float:
     Args:
         before: error without what closes it.
         after: the same with it, in the same unit.
-        floor: what noise alone leaves.
+        floor: what noise alone leaves; nan, where no windows show it, counts as none, and the share is a lower bound.
     """
+    floor = floor if np.isfinite(floor) else 0.0
     return (before**2 - after**2) / max(before**2 - floor**2, 1.0e-12 * before**2, 1.0e-300)
 
 
