@@ -8,7 +8,7 @@ import pytest
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import Confounded, stand_ins
-from stochfric_mb.discovery.driven_joint.decision import verdict
+from stochfric_mb.discovery.driven_joint.decision import findings, remarks
 from stochfric_mb.discovery.driven_joint.decision.adequacy import endless, inadequate
 from stochfric_mb.discovery.driven_joint.decision.released import Released
 from stochfric_mb.discovery.driven_joint.decision.selection import Selector, Trial, simplest_first
@@ -211,21 +211,21 @@ def test_when_most_is_missing_is_told_and_runs_in_which_nothing_slides_are_passe
         SimpleNamespace(run=n, time=time, window=window, sliding=np.full(100, s)) for n, s in (("a", True), ("b", False))
     )
     place = SimpleNamespace(selected=SimpleNamespace(final=SimpleNamespace(remainders=(np.zeros(0), rest))), fit=(still, slid))
-    assert verdict._most_at(place) == ", most about 71.8 s of run a"  # the middle of the fifteenth twentieth
+    assert findings._most_at(place) == ", most about 71.8 s of run a"  # the middle of the fifteenth twentieth
     place.fit, place.selected.final.remainders = (still,), (np.zeros(0),)
-    assert verdict._most_at(place) == ""
+    assert findings._most_at(place) == ""
 
 
 @pytest.mark.parametrize(("left", "drawn", "says"), [(2.3, False, True), (1.2, False, False), (2.3, True, False)])
 def test_names_that_leave_more_than_noise_say_so(monkeypatch, left, drawn, says):
     """Drag over part of a stroke was three names, with 3.5 times the noise left, and not a word of it."""
-    monkeypatch.setattr(verdict, "noise_floor", lambda *_: 1.0)
+    monkeypatch.setattr(remarks, "noise_floor", lambda *_: 1.0)
     selected = SimpleNamespace(
         final=SimpleNamespace(rms=left, model=None), effects=("one",), left=(("speed and direction", 0.1),)
     )
     random = SimpleNamespace(accounted=drawn)
     place = SimpleNamespace(selected=selected, random=random, runs=None, fit=(), nuisances=(), place="", thing="joint")
-    said = verdict._more_missing(place)
+    said = remarks._more_missing(place)
     assert bool(said) is says
     assert not says or said[0].endswith("2.3 times the noise is left with what is named: more is missing; it depends on speed")
 
