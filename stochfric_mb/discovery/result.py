@@ -12,6 +12,7 @@ from stochfric_mb.discovery import criteria
 SCHEMA = "stochfric.discovery/1"
 
 Verdict = Literal["effect", "none", "unknown"]
+Leading = Literal["gap", "slip_forces", "readings"]
 ROUNDING = 1.0e-8
 """Relative difference of two errors up to which they are equal [-]: fits of one model end so close, and files hold no more."""
 
@@ -139,17 +140,26 @@ class Result:
     scenario."""
     slip_forces: Gap | None = None
     """The same in the forces of single slips, the source of evidence; None where nothing was named, or they cannot show it."""
-    leading: Literal["gap", "slip_forces"] = "gap"
-    """The score in which the effects show: that of forecasts, or, where those can hardly be made better, that of the forces."""
+    readings: Gap | None = None
+    """The same in single readings; None where the first effect is no fault that these alone show."""
+    leading: Leading = "gap"
+    """The score in which the effects show: that of forecasts, or, where those can hardly be made better, that of the forces,
+    or, where readings stray or are late, that of the readings."""
     power: dict[str, float] = dataclasses.field(default_factory=dict[str, float])
     """Smallest strength of an effect that would have been named, by kind."""
     details: dict[str, Any] = dataclasses.field(default_factory=dict[str, Any])
     """Numbers behind the report: noise, slips, calibration, confirmation, scores of the channels."""
 
+    @property
+    def leads(self) -> Gap | None:
+        """The gap of the score that leads; None where there is none."""
+        return {"gap": self.gap, "slip_forces": self.slip_forces, "readings": self.readings}[self.leading]
+
     def to_dict(self) -> dict[str, Any]:
         """Return the content of ``result.json``."""
-        gap, forces = (
-            None if one is None else dataclasses.asdict(one) | {"closed": one.closed} for one in (self.gap, self.slip_forces)
+        gap, forces, readings = (
+            None if one is None else dataclasses.asdict(one) | {"closed": one.closed}
+            for one in (self.gap, self.slip_forces, self.readings)
         )
         return {
             "schema": SCHEMA,
@@ -160,6 +170,7 @@ class Result:
             "ranking": [{"kind": kind, "score": score} for kind, score in self.ranking],
             "gap": gap,
             "slip_forces": forces,
+            "readings": readings,
             "leading": self.leading,
             "not_identifiable": list(self.not_identifiable),
             "next_experiment": self.next_experiment,

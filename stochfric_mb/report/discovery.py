@@ -30,13 +30,15 @@ CAPTIONS = {
     "events": "Events in the held-out runs, measured and simulated; bar: the middle nine tenths of all values, tick: median.",
     "ranking": "How well each candidate explains the residual of the recalibrated model. Blue: named. Grey: other effects. "
     "Sand: patterns that name no physics.",
-    "gap": "Forecast error on held-out runs.",
+    "gap": "Error on held-out runs.",
 }
 """What each picture shows."""
 
 METRICS = {
     "crps_one_cycle": "error of forecasts one cycle ahead (CRPS; without scatter, the mean absolute error)",
     "crps_slip_forces": "error of the predicted forces of single slips, over their noise (CRPS)",
+    "log_score_readings": "surprise of single readings (minus their log likelihood, given those around them)",
+    "velocity_of_position": "error of the measured velocity against the rate of the position (root mean square)",
     "closed_loop_voltage": "voltage error of the simulated closed loop (root mean square, over that of the voltage)",
     "closed_loop_drive": "error of the controller's output in the simulated closed loop (root mean square, over its size)",
     "crps_friction": "error of predicted friction while the joint slides (CRPS, with the scatter between runs)",

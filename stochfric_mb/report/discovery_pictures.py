@@ -286,10 +286,14 @@ def _ranking(content: Mapping[str, Any]) -> Figure:
     return figure
 
 
+OVER_NOISE = ("crps_slip_forces", "log_score_readings")
+"""Metrics without a unit that are no percentages."""
+
+
 def _gap(gap: Mapping[str, Any], *, added: bool) -> Figure:
     """Draw the errors on held-out runs; ``added``: whether the last model has more than the stated one."""
     names = ["baseline", "recalibrated", *(["augmented"] if added else [])]
-    shown = {"m": (1.0e6, "µm"), "-": (100.0, "%")} if gap["metric"] != "crps_slip_forces" else {}
+    shown = {"m": (1.0e6, "µm"), "-": (100.0, "%")} if gap["metric"] not in OVER_NOISE else {}
     scale, unit = shown.get(gap["unit"], (1.0, gap["unit"]))
     figure, (axes,) = new_figure(4.8, 2.5)
     colours = {"baseline": COLOURS["believed"]} | COLOURS
@@ -307,7 +311,7 @@ def _gap(gap: Mapping[str, Any], *, added: bool) -> Figure:
         axes.set_xlim(0.0, 1.2 * finite.max())
     axes.axvline(floor, color=COLOURS["floor"], linewidth=1.6, linestyle="--", label=LABELS["floor"])
     axes.set_yticks(range(len(names)), [labels[n].replace(" the ", "\nthe ") for n in reversed(names)])
-    axes.set(xlabel=f"error of the forecast [{unit}]")
+    axes.set(xlabel=f"error on held-out runs [{unit}]")
     axes.grid(visible=False, axis="y")
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper right")
     return figure

@@ -28,8 +28,11 @@ def test_an_effect_shows_in_the_forces_of_held_out_slips(form, design, strength)
     assert gap.floor > 0.9 * truth
 
 
-def test_faults_of_the_sensor_are_not_judged_by_forces():
+def test_stray_readings_are_judged_by_readings_and_not_by_forces():
     result = discover(belt_box(Case("sensor_outliers.spikes", "one_free", 1.0, SEED))).result
     assert [e.kind for e in result.effects] == ["sensor_outliers"]
     assert result.slip_forces is None
     assert result.to_dict()["slip_forces"] is None
+    assert result.leading == "readings"
+    assert result.leads is result.readings
+    assert result.leads.closed > 0.95  # as many stray in the held-out runs, and as far

@@ -15,6 +15,7 @@ from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.prior_model import NOT_STATED
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.discovery.stick_slip.validation.explained import MORE_MISSING
+from stochfric_mb.discovery.stick_slip.validation.feature_skill import Gaps
 from stochfric_mb.effects import effect_class
 from stochfric_mb.effects.traits import BELT
 from stochfric_mb.measurement.dataset import Dataset
@@ -23,17 +24,14 @@ NOT_IN_AUGMENTED = "not_in_augmented"
 """Name under which the details hold the effects that augmented.toml does not."""
 
 
-def notes(
-    study: Study, decision: Decision, model: Model, gap: Gap | None, forces: Gap | None, given: Dataset
-) -> tuple[str, ...]:
+def notes(study: Study, decision: Decision, model: Model, gaps: Gaps, given: Dataset) -> tuple[str, ...]:
     """Return the notes of a result.
 
     Args:
         study: what the fit runs show.
         decision: what was decided, with the numbers behind it.
         model: the augmented model.
-        gap: errors of forecasts on the held-out runs.
-        forces: errors of the forces of their slips.
+        gaps: errors on the held-out runs.
         given: the data set as it was given, its uncertainties not assumed.
     """
     details: dict[str, Any] = decision.details
@@ -45,13 +43,13 @@ def notes(
             f"{seen['without']:.3g} m without"
             for kind, seen in details.get("not_borne_out", {}).items()
         ),
-        *(gap.notes if gap is not None else ()),
+        *(gaps.forecasts.notes if gaps.forecasts is not None else ()),
         *(details[key] for key in (MORE_MISSING, "unnamed_term") if key in details),
         *not_simulated(model),
         *_of_several_tones(model),
         *_of_one_pace(model, study),
-        *_seen_in_forces(gap, forces),
-        *([] if MORE_MISSING in details or not decision.named else _left_in_forces(forces)),
+        *_seen_in_forces(gaps.forecasts, gaps.forces),
+        *([] if MORE_MISSING in details or not decision.named else _left_in_forces(gaps.forces)),
         *(f"{name} is {abs(by):.2g} stated standard deviations off from what is stated" for name, by in beyond.items()),
         *([] if given.scenario.uncertainty else [NOT_STATED]),
     )

@@ -34,14 +34,14 @@ from stochfric_mb.discovery.stick_slip.study import EVERYTHING, Channels, Progre
 from stochfric_mb.discovery.stick_slip.validation.anonymous import Anonymous, anonymous, sentence_of
 from stochfric_mb.discovery.stick_slip.validation.answers import (
     Answer,
-    Gaps,
     checked_on_held_out,
     explaining,
     fitted,
     with_bump,
 )
 from stochfric_mb.discovery.stick_slip.validation.explained import felt, taken_back
-from stochfric_mb.discovery.stick_slip.validation.feature_skill import leading, slip_force_gap
+from stochfric_mb.discovery.stick_slip.validation.feature_skill import Gaps, slip_force_gap
+from stochfric_mb.discovery.stick_slip.validation.reading_skill import reading_gap
 from stochfric_mb.errors import SimulationError
 from stochfric_mb.measurement.dataset import Dataset
 from stochfric_mb.scenario import Scenario
@@ -105,18 +105,20 @@ def _explaining_held_out(answer: Answer, study: Study, recalibrated: Fit, runs: 
     """
     if not felt(answer.decision):
         return answer
-    gap, forces = _gaps((study.model, recalibrated.model, answer.model), runs)
-    lead = forces if leading(gap, forces) == "slip_forces" else gap
+    gaps = _gaps((study.model, recalibrated.model, answer.model), study, runs)
+    lead = gaps.leads
     if lead is None or lead.closed is None or lead.closed >= criteria.EXPLAINED_HELD_OUT:
-        return dataclasses.replace(answer, gaps=(gap, forces))
+        return dataclasses.replace(answer, gaps=gaps)
     why = f"comes closest, but explains only {max(lead.closed, 0.0):.0%} of what held-out runs show"
     return Answer(taken_back(answer.decision, why), None, recalibrated.model)
 
 
-def _gaps(models: tuple[Model, Model, Model], runs: HeldOut, *, in_forces: bool = True) -> Gaps:
-    """Return how far stated, recalibrated and augmented model are off in held-out forecasts, and in the forces of slips."""
+def _gaps(models: tuple[Model, Model, Model], study: Study, runs: HeldOut, *, named: bool = True) -> Gaps:
+    """Return how far stated, recalibrated and augmented model are off held out; ``named``: whether the last has more."""
     gap = gap_of(*models, runs) if sum(map(len, runs.second)) else None
-    return gap, slip_force_gap(*models, runs.slips) if in_forces else None
+    if not named:
+        return Gaps(gap)
+    return Gaps(gap, slip_force_gap(*models, runs.slips), reading_gap(models[2], study, [s.record for s in runs.slips]))
 
 
 def _result(
@@ -140,7 +142,7 @@ def _result(
         given: the data set as it was given, its uncertainties not assumed.
     """
     decision = answer.decision
-    gap, forces = answer.gaps or _gaps(models, runs, in_forces=bool(decision.named) or kept is not None)
+    gaps = answer.gaps or _gaps(models, study, runs, named=bool(decision.named) or kept is not None)
     final = kept.fit if kept is not None else answer.fit if answer.fit is not None and decision.named else recalibrated
     own, unmeasured = own_parameters(final, models[2], study), not_measured(final)
     beyond = moved(own, given, unmeasured)
@@ -152,13 +154,14 @@ def _result(
         effects=tuple(effect_estimate(n, answer.fit, models[2], study) for n in decision.named),
         where=decision.where,
         ranking=tuple((k, float(s)) for k, s in decision.ranking),
-        gap=gap,
-        slip_forces=forces,
-        leading=leading(gap, forces),
+        gap=gaps.forecasts,
+        slip_forces=gaps.forces,
+        readings=gaps.readings,
+        leading=gaps.leading,
         not_identifiable=not_identifiable(study),
         next_experiment=next_experiment(decision, study),
         parameters=own,
-        notes=notes(study, decision, models[2], gap, forces, given),
+        notes=notes(study, decision, models[2], gaps, given),
         unnamed=effect_estimate(form, final, models[2], study) if form is not None else None,
         power=smallest(study) if decision.verdict == "none" else {},
         details=decision.details,

@@ -175,7 +175,7 @@ def _answer(data: Path) -> dict:
     start, begin = time.perf_counter(), sum(os.times()[:4])
     result = discover(data).result
     first = result.effects[0].kind if result.effects else None
-    gap = result.gap if result.leading == "gap" else result.slip_forces
+    gap = result.leads
     closed = gap.closed if gap else None
     seconds, processor = time.perf_counter() - start, sum(os.times()[:4]) - begin  # of children that ended, too
     return {"verdict": result.verdict, "first": first, "closed": closed, "seconds": seconds, "processor_seconds": processor}

@@ -8,7 +8,7 @@ from typing import cast
 import numpy as np
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.result import Gap, Where
+from stochfric_mb.discovery.result import Where
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision, Named
 from stochfric_mb.discovery.stick_slip.decision.kinematics import STICK_SHARE
 from stochfric_mb.discovery.stick_slip.decision.random_effects import kicked
@@ -36,14 +36,11 @@ from stochfric_mb.discovery.stick_slip.validation.explained import (
     unexplained,
     within_noise,
 )
-from stochfric_mb.discovery.stick_slip.validation.feature_skill import slip_force_gap
+from stochfric_mb.discovery.stick_slip.validation.feature_skill import Gaps, slip_force_gap
 from stochfric_mb.discovery.stick_slip.validation.held_out_check import Comparison, compared
 from stochfric_mb.discovery.stick_slip.validation.predictive_check import VARYING, inadequate
 from stochfric_mb.effects import kind_with_signature, kinds_with
 from stochfric_mb.effects.traits import SCATTER, WANDER, YIELDING
-
-Gaps = tuple[Gap | None, Gap | None]
-"""How far stated, recalibrated and augmented model are off on held-out runs: in forecasts, and in the forces of slips."""
 
 
 @dataclasses.dataclass(frozen=True)

@@ -6,13 +6,13 @@ the force at break-away and the coefficients of the friction force within a slip
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
-from typing import Literal
 
 import numpy as np
 
 from stochfric_mb.discovery import criteria
-from stochfric_mb.discovery.result import Gap
+from stochfric_mb.discovery.result import Gap, Leading
 from stochfric_mb.discovery.stick_slip.decision.innovations import predicted_features
 from stochfric_mb.discovery.stick_slip.records.calibration import Calibration, calibrate
 from stochfric_mb.discovery.stick_slip.records.pool import make_pool
@@ -52,12 +52,35 @@ def slip_force_gap(stated: Model, recalibrated: Model, augmented: Model, slips: 
     return Gap("crps_slip_forces", "-", True, before, middle, after, min(floor, after), source)
 
 
-def leading(gap: Gap | None, forces: Gap | None) -> Literal["gap", "slip_forces"]:
-    """Return the score in which effects show: that of the forces where far more of it can be made better than of forecasts."""
-    if forces is None or forces.closed is None or gap is None:
-        return "gap"
-    seen, felt = (g.reducible / g.recalibrated for g in (gap, forces))
-    return "slip_forces" if seen < criteria.SHOWS_IN_FORECASTS * felt else "gap"
+@dataclasses.dataclass(frozen=True)
+class Gaps:
+    """How far stated, recalibrated and augmented model are off on held-out runs."""
+
+    forecasts: Gap | None
+    """In forecasts of a cycle."""
+    forces: Gap | None = None
+    """In the forces of slips."""
+    readings: Gap | None = None
+    """In single readings."""
+
+    @property
+    def leading(self) -> Leading:
+        """The score in which effects show.
+
+        That of readings where these alone show the first effect; that of the forces where far more of it can be made better
+        than of forecasts.
+        """
+        if self.readings is not None and self.readings.closed is not None:
+            return "readings"
+        if self.forces is None or self.forces.closed is None or self.forecasts is None:
+            return "gap"
+        seen, felt = (g.reducible / g.recalibrated for g in (self.forecasts, self.forces))
+        return "slip_forces" if seen < criteria.SHOWS_IN_FORECASTS * felt else "gap"
+
+    @property
+    def leads(self) -> Gap | None:
+        """The gap of that score."""
+        return {"gap": self.forecasts, "slip_forces": self.forces, "readings": self.readings}[self.leading]
 
 
 def _scores(models: Sequence[Model], slips: Slips, calibration: Calibration, rows: np.ndarray) -> Array:
