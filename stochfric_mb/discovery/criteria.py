@@ -253,6 +253,10 @@ STANDS_IN = 0.5
 """Least part of an effect's evidence that one must have which could stand in for it [-]: the larger half."""
 MOST_EFFECTS = 4
 """Most effects in one joint: beyond, errors of the first ones would be explained."""
+SERIES = 3
+"""Names from which on what they leave has to be noise [-]: so many that leave more draw what is there as terms of a series
+would. Chosen, as many as are looked for in slips: of three series of joints all five answers of three names that left more were
+wrong."""
 WINS_BY, WINS_BY_SHARE = 15.0, 0.03
 """A smooth dependence without a name wins by that score, or that part of the best effect's score, whichever is more [-]."""
 MOST_OFF, AT_BOUND = 4.0, 0.95

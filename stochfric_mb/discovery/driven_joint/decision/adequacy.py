@@ -6,6 +6,7 @@ import numpy as np
 
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.driven_joint.balance.confounding import by_clock, confounded, one_curve
+from stochfric_mb.discovery.driven_joint.decision.released import finding
 from stochfric_mb.discovery.driven_joint.decision.smooth_dependence import SIGNED
 from stochfric_mb.discovery.driven_joint.fit.beliefs import at_end, beliefs
 from stochfric_mb.discovery.driven_joint.joint_result import PlaceOutcome
@@ -16,10 +17,10 @@ from stochfric_mb.discovery.driven_joint.simulation.scores import FLOOR, closed_
 def inadequate(place: PlaceOutcome) -> str:
     """Return why what was selected at a place does not stand; empty if it does, or if nothing was.
 
-    It does not where two effects draw one curve, where it explains no more than it leaves on the held-out runs, where as many
-    effects as are looked for leave more than noise, where a number that is believed has to go as far as beliefs allow for it,
-    where one explains nothing beside what they leave, and where more than noise is left and either the typical window errs more
-    with it or what is left plainly depends on conditions that are not its own.
+    It does not where two effects draw one curve, where it explains no more than it leaves on the held-out runs, where three
+    names or more leave more than noise, where a number that is believed has to go as far as beliefs allow for it, where one
+    explains nothing beside what they leave, and where more than noise is left and either the typical window errs more with it
+    or what is left plainly depends on conditions that are not its own.
     """
     kinds = ", ".join(place.selected.named)
     if why := " and ".join(drawn_by_two(place)):
@@ -93,15 +94,16 @@ def at_bound(place: PlaceOutcome) -> str:
 
 
 def endless(place: PlaceOutcome) -> str:
-    """Return what as many effects as are looked for leave; empty: they are fewer, or leave noise.
+    """Return what many names together leave; empty: they are few, or leave noise.
 
-    Selection has then ended by their number and not by evidence: they draw what is there as terms of a series would.
+    They draw what is there as terms of a series would.
     """
     selected = place.selected
     noise = noise_floor(selected.final.model, place.fit, place.nuisances)
-    if len(selected.effects) < criteria.MOST_EFFECTS or selected.final.rms < FLOOR * noise:
+    names = len(selected.effects) + len({finding(number.name) for number in selected.released})
+    if names < criteria.SERIES or selected.final.rms < FLOOR * noise:
         return ""
-    return f"as many effects as are looked for leave {selected.final.rms / noise:.1f} times the noise"
+    return f"{names} names together leave {selected.final.rms / noise:.1f} times the noise"
 
 
 def _worse_at_most_times(place: PlaceOutcome) -> str:
