@@ -144,6 +144,24 @@ def test_where_one_body_moves_a_payload_is_a_factor_on_its_mass(tmp_path):
         without_friction(mujoco, mechanism)
 
 
+def test_geoms_that_overlap_and_stops_are_no_forces_of_a_motion(tmp_path):
+    """A robot's shoulder in its base pushed with 1e14 N m, and a gain that changes was named for it."""
+    text = (ARM.MODEL / "two_joint_arm.xml").read_text(encoding="utf-8")
+    post = '<worldbody><geom type="sphere" size="0.3" mass="1"/>'
+    stop = text.replace("<worldbody>", post, 1).replace('name="elbow"', 'name="elbow" limited="true" range="-0.01 0.01"', 1)
+    assert stop.count("range=") == text.count("range=") + 1
+    scenario = load_any_scenario(ARM.MODEL / "scenario.toml")
+    run = ARM.measured(ARM.nothing, seed=11, role="fit")
+    drives = []
+    for name, model in (("plain", text), ("stop", stop)):
+        (tmp_path / f"{name}.xml").write_text(model, encoding="utf-8")
+        mechanism = dataclasses.replace(scenario.mechanism, file=tmp_path / f"{name}.xml")
+        some = Dataset(title="", scenario_path=None, scenario=dataclasses.replace(scenario, mechanism=mechanism), runs=(run,))
+        balances = mjcf_balances(some)
+        drives.append([balances.balance(run, place, 0.0, 20).driven for place in balances.places])
+    assert np.allclose(drives[0], drives[1], rtol=0.0, atol=1e-9)
+
+
 def test_a_controller_needs_its_reference_and_a_drive():
     run = ARM.measured(ARM.nothing, seed=1, role="fit", duration=2.0)
     without = {k: v for k, v in run.covariates.items() if k != "elbow_target"}

@@ -65,8 +65,9 @@ def mjcf_balances(dataset: Dataset) -> MjcfSource:
             geom_numbers(mujoco, model, pair)
         shapes = copy.copy(model)
         reach_out(shapes)
-        # what contacts push with is asked of the balance: the soft contacts of the model have no part in it
-        model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
+    # soft contacts and stops push by how deep noise puts them, and overlapping geoms of neighbours always: forces that a motion
+    # needs know none of them, and what a pair is pressed with is asked of the balance
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_LIMIT
     return MjcfSource(dataset, mechanism, mujoco, model, tuple(names), tuple(tendons), shapes)
 
 
