@@ -70,6 +70,8 @@ class Study:
     """How the reading bends over; None where there is hardly any stick."""
     outliers: float
     """Share of samples that were outliers [-]."""
+    explained: float = 0.0
+    """Evidence of what the stated model says of friction beyond two coefficients [-]: a law that depends on speed, effects."""
 
     @functools.cached_property
     def windows(self) -> tuple[Windows, ...]:
@@ -119,6 +121,12 @@ def study(dataset: Dataset, *, progress: Progress = lambda _: None) -> Study | N
         curve=reading_curve(pool.slips),
         outliers=float(np.mean(np.concatenate([r.outlier for r in records]))),
     )
+
+
+def retaken(study: Study, corrections: Mapping[str, float]) -> Study:
+    """Return the study with forces taken with a mechanism that differs from the stated one by ``corrections``."""
+    baseline, _ = _taken([extract(s.record.corrected(corrections)) for s in study.pool.slips], study.uncertainty)
+    return dataclasses.replace(study, pool=baseline.pool, baseline=baseline)
 
 
 def _usable(records: Sequence[Record], dataset: Dataset) -> list[Slips]:

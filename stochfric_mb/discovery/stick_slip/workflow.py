@@ -11,6 +11,7 @@ from stochfric_mb.discovery.outcome import Outcome
 from stochfric_mb.discovery.result import Result
 from stochfric_mb.discovery.stick_slip.advice import next_experiment, not_identifiable
 from stochfric_mb.discovery.stick_slip.decision.decision import Decision
+from stochfric_mb.discovery.stick_slip.decision.innovations import beyond_stated
 from stochfric_mb.discovery.stick_slip.decision.rounds import decide
 from stochfric_mb.discovery.stick_slip.notes import not_in_augmented, notes
 from stochfric_mb.discovery.stick_slip.parameters import effect_estimate, moved, not_measured, own_parameters
@@ -60,14 +61,19 @@ def discover_belt_box(dataset: Dataset, *, channels: Channels = EVERYTHING, prog
     """
     require_usable(dataset)
     given, dataset = dataset, assumed(dataset)
-    slip_study = study(dataset, progress=progress)
-    if slip_study is None:
+    measured = study(dataset, progress=progress)
+    if measured is None:
         return _too_few(given)
+    slip_study = beyond_stated(measured)
     decision = decide(slip_study, channels=channels, progress=progress)
     progress("recalibration")
     recalibrated = recalibrated_model(slip_study.model, slip_study)
     progress("refit")
     slips = _held_out_slips(dataset, slip_study)
+    if phased(slip_study.model):  # a wave that is stated has a phase of its own in each run, too
+        halves = held_out(slips, phased=True)
+        slip_study = dataclasses.replace(slip_study, model=settled(slip_study.model, halves))
+        recalibrated = dataclasses.replace(recalibrated, model=settled(recalibrated.model, halves))
     try:
         answer, runs = _answer(decision, slip_study, recalibrated, slips, channels, progress)
     except SimulationError as error:

@@ -52,6 +52,8 @@ class Case:
     """How the edges of the data were found: those of a simulation are looked for in the same way."""
     offset: Array
     """What the extraction adds to the truth in the stated model [N], shape (N_FEATURES,)."""
+    between: float = 0.0
+    """Part of a sample by which the simulation begins earlier [-]: its samples then fall elsewhere in the slip."""
 
 
 def cases_of(pool: Pool, model: Model) -> list[Case]:
@@ -207,7 +209,7 @@ def predict(model: Model, case: Case) -> Array | None:
     box = record.mechanism
     margin = 3.3 / record.angular_frequency
     # from the middle of the stick, so that a break-away that comes early is not missed
-    ahead = max(margin * 1.2, 0.55 * case.onset[2])
+    ahead = max(margin * 1.2, 0.55 * case.onset[2]) + case.between / record.rate
     time, position = case.onset[0] - ahead, record.direction * (case.onset[1] - box.belt_velocity * ahead)
     system = model.system(record)
     since = REMEMBERED / record.angular_frequency if all(e.forgets for e in system.effects) else 0.0

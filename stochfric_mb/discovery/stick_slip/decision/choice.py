@@ -18,7 +18,7 @@ from stochfric_mb.discovery.stick_slip.screening.naming import beside_waves, wit
 from stochfric_mb.discovery.stick_slip.screening.regression import Baseline
 from stochfric_mb.discovery.stick_slip.screening.screen import Candidate, with_overtones
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
-from stochfric_mb.discovery.stick_slip.simulation.refit import likelihood_ratios, refit
+from stochfric_mb.discovery.stick_slip.simulation.refit import REFIT_WINDOWS, likelihood_ratios, refit
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import effect_class, kinds_with
 from stochfric_mb.effects.traits import BETWEEN_POINTS, DRIFTS, SHAPED_IF_FORCED, SHAPES_SLIPS
@@ -31,8 +31,6 @@ MOST_CONTENDERS = 3
 """Candidates that are refitted to forecasts where their marks are about as good."""
 ROUGH = 3
 """Steps of a rough fit, which tells where to begin."""
-REFIT_WINDOWS = 12
-"""Forecasts of each run that such a fit uses."""
 REFUTED = "shapes_refuted"
 """Name under which the details hold that simulating effects which shape every slip alike has not borne them out."""
 

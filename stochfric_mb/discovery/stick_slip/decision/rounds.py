@@ -148,8 +148,10 @@ class _Search:
         return candidate.is_wave and candidate.frequency(float(pool.belt_velocity.min())) * pool.duration < PIECES / 2.0
 
     def _needed(self, round_: int) -> float:
-        """Return the score that is worth a look."""
-        return criteria.NAMED if round_ == 0 else max(criteria.FOLLOWED_UP, criteria.SECOND_SHARE * self.ranking[0][1])
+        """Return the score that is worth a look: of further effects one that is no part of what a form leaves of the first."""
+        if round_ == 0:
+            return max(criteria.NAMED, criteria.SECOND_SHARE * self.working.study.explained)
+        return max(criteria.FOLLOWED_UP, criteria.SECOND_SHARE * self.ranking[0][1])
 
     def _by_chance(self, score: float) -> bool:
         """Return whether a score is no larger than a declared scatter makes by chance."""

@@ -10,10 +10,10 @@ import numpy as np
 from stochfric_mb.discovery import criteria
 from stochfric_mb.discovery.inference.false_alarms import likely
 from stochfric_mb.discovery.stick_slip.decision.cases import Case, cases_of
-from stochfric_mb.discovery.stick_slip.decision.choice import REFIT_WINDOWS, Chosen
+from stochfric_mb.discovery.stick_slip.decision.choice import Chosen
 from stochfric_mb.discovery.stick_slip.decision.confirmation import Confirmed, SeenInSlips, confirm
 from stochfric_mb.discovery.stick_slip.decision.decision import Finding, Named, selected, term_of
-from stochfric_mb.discovery.stick_slip.decision.innovations import left_by
+from stochfric_mb.discovery.stick_slip.decision.innovations import beyond_stated, left_by
 from stochfric_mb.discovery.stick_slip.decision.kinematics import delay_deviation, with_kinematic
 from stochfric_mb.discovery.stick_slip.decision.sensor_zero import steady
 from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, Array, corrections_of
@@ -23,10 +23,10 @@ from stochfric_mb.discovery.stick_slip.screening.screen import Candidate
 from stochfric_mb.discovery.stick_slip.screening.smooth_term import axes_of, smooth_term
 from stochfric_mb.discovery.stick_slip.simulation.delay_compensation import delay_compensated, driven, with_delay, without_delay
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
-from stochfric_mb.discovery.stick_slip.simulation.refit import cost_of, refit
+from stochfric_mb.discovery.stick_slip.simulation.refit import REFIT_WINDOWS, cost_of, refit
 from stochfric_mb.discovery.stick_slip.study import Study
 from stochfric_mb.effects import effect_class, kind_with_signature, kinds_with, make_effect
-from stochfric_mb.effects.traits import BELT_RIPPLE, COURSE_OF_RUN, LATE, MOVES_ZERO, SHAPES_SLIPS, YIELDING
+from stochfric_mb.effects.traits import BELT_RIPPLE, COURSE_OF_RUN, LATE, MOVES_ZERO, YIELDING
 
 
 class WorkingModel:
@@ -89,7 +89,7 @@ class WorkingModel:
         if late and driven(self.study):
             # forces are looked at on time
             self.late = float(finding.values["delay"])
-            self.study = delay_compensated(self.study, self.late)
+            self.study = beyond_stated(delay_compensated(self.study, self.late))
             self.model, self.baseline = at_estimates(self.study), self.study.baseline
         else:
             self.model = with_kinematic(self.study, self.model, finding)
@@ -196,13 +196,13 @@ class WorkingModel:
         """Go on with the records put on time, by the delay that their forecasts show."""
         fit = refit(self.model, self.study.windows, self.study.uncertainty, most=REFIT_WINDOWS, evaluations=20)
         self.model, self.late = without_delay(fit.model), fit.model.late
-        self.study = delay_compensated(self.study, self.late)
+        self.study = beyond_stated(delay_compensated(self.study, self.late))
         self.cases, self.confirmed, self.simulated = [], None, False
         self._take_out()
 
     def _take_out(self) -> None:
         """Go on with what the model leaves of the features."""
-        shaped = any(c.any_shape for c in self.taken) or any(kind in kinds_with(SHAPES_SLIPS) for kind in self.kinds)
+        shaped = any(c.any_shape for c in self.taken) or self.model.shapes_slips
         left = left_by(self.model, self.study, self.baseline, anew=shaped, faults=self.faults)
         self.stalled |= left is None
         self.baseline = left or self.baseline

@@ -15,8 +15,9 @@ from stochfric_mb.discovery.stick_slip.records.record import CORRECTED, LEAST_CO
 from stochfric_mb.discovery.stick_slip.simulation.natural_units import NaturalUnits, exponents
 from stochfric_mb.effects import Effect
 from stochfric_mb.effects.contract import PHASES
+from stochfric_mb.effects.traits import SHAPES_SLIPS
 from stochfric_mb.errors import InputError, SimulationError
-from stochfric_mb.laws import Law
+from stochfric_mb.laws import Law, make_law
 from stochfric_mb.mechanisms import BeltBox
 from stochfric_mb.reference.augmented import AugmentedSystem, augmented_system
 
@@ -62,6 +63,9 @@ class Model:
     """Parameter of an effect that neither forces nor forecasts show, and that no fit may move -> its standard deviation."""
     freed: frozenset[str] = frozenset()
     """Numbers of the mechanism that are not believed although no effect leaves them open."""
+    stated: frozenset[Effect] = frozenset()
+    """Effects that the scenario states: their numbers are exact, as all are for which no uncertainty can be stated, but for
+    the phases of each run."""
 
     def mechanism(self, stated: BeltBox) -> BeltBox:
         """Return a run's mechanism with the corrections applied."""
@@ -94,8 +98,25 @@ class Model:
         return dataclasses.replace(self, law=dataclasses.replace(self.law, mu_s=mu_s, mu_k=min(mu_k, mu_s)))
 
     def bare(self, record: Record) -> Model:
-        """Return the law alone, on the mechanism that a record's forces are taken with."""
-        return Model(self.law, record.corrections)
+        """Return plain friction alone, on the mechanism that a record's forces are taken with."""
+        return Model(self.plain_law, record.corrections)
+
+    @property
+    def plain_law(self) -> Law:
+        """The law without what makes friction depend on speed: Coulomb's of a contact that is rigid in stick, else its own."""
+        if self.law.rest != "rigid":
+            return self.law
+        return make_law("coulomb", mu_s=self.law.mu_s, mu_k=self.law.mu_k)
+
+    @property
+    def shapes_slips(self) -> bool:
+        """Whether it changes how a slip begins and ends: noise then makes other errors in the forces than in plain slips."""
+        return self.plain_law != self.law or any(SHAPES_SLIPS in e.traits for e in self.effects)
+
+    @property
+    def says_more(self) -> bool:
+        """Whether it says more of friction than two coefficients: a law that depends on speed, or effects."""
+        return bool(self.effects) or self.plain_law != self.law
 
     def plus(self, *effects: Effect) -> Model:
         """Return the model with further effects."""
@@ -162,6 +183,8 @@ def _of_effect(model: Model, i: int, units: NaturalUnits, runs: Sequence[str]) -
     for field in dataclasses.fields(effect):
         name, meta, value = field.name, field.metadata, getattr(effect, field.name)
         if name in model.measured or "choices" in meta or not np.isfinite(value) or _stays(effect, name, value):
+            continue
+        if effect in model.stated and name not in effect.own_to_run:
             continue
         if name in effect.own_to_run:
             for run in runs:

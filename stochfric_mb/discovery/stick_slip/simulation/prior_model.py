@@ -31,7 +31,8 @@ def prior_model(scenario: Scenario) -> Model:
             f"law {scenario.law.kind!r} cannot be the stated law of a discovery; use one of {', '.join(LAWS)} "
             "(a regularised law is a Coulomb law that creeps: state the Coulomb law it stands for)"
         )
-    return Model(scenario.law, {}, tuple(getattr(scenario, "effects", ())), scenario.process)
+    effects = tuple(getattr(scenario, "effects", ()))
+    return Model(scenario.law, {}, effects, scenario.process, stated=frozenset(effects))
 
 
 def assumed(dataset: Dataset) -> Dataset:

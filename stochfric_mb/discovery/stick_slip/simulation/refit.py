@@ -17,6 +17,8 @@ from stochfric_mb.discovery.stick_slip.simulation.model import Model, adjusted, 
 from stochfric_mb.discovery.stick_slip.simulation.natural_units import NaturalUnits
 from stochfric_mb.effects import Effect
 
+REFIT_WINDOWS = 12
+"""Forecasts of each run that such a fit uses."""
 MOST_WINDOWS = 16
 """Forecasts a run that a fit uses, spread over the run."""
 UNIT = 3.6e-3

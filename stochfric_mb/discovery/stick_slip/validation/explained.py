@@ -136,7 +136,7 @@ def _too_little(decision: Decision, enough: float, without: Array, with_: Array,
     # what is left beyond the share that may be, and how well so few forecasts tell it
     left = with_ - (1.0 - enough) * without
     doubt = float(np.hypot(_error_of_mean(left), enough * _error_of_mean(best)))
-    share = (before - after) / (before - floor) if before > floor else 1.0
+    share = (before - after) / (before - floor) if before > floor else 0.0
     decision.details["explained"] = {"before": before, "after": after, "floor": floor, "share": share, "doubt": doubt}
     why = f"comes closest, but explains only {max(share, 0.0):.0%} of what the runs show"
     return taken_back(decision, why) if float(left.mean()) - enough * floor > criteria.LACKS * doubt else None

@@ -26,7 +26,7 @@ from stochfric_mb.discovery.stick_slip.simulation.forecast_skill import determin
 from stochfric_mb.discovery.stick_slip.simulation.model import Model
 from stochfric_mb.discovery.stick_slip.simulation.scatter import simulated_slips
 from stochfric_mb.discovery.stick_slip.study import Study
-from stochfric_mb.effects.traits import CLIPPED, JUMP, LATE, MOVES_ZERO, SHAPES_SLIPS
+from stochfric_mb.effects.traits import CLIPPED, JUMP, LATE, MOVES_ZERO
 from stochfric_mb.errors import SimulationError
 
 PARTS = (
@@ -86,7 +86,7 @@ def inadequate(study: Study, model: Model) -> tuple[Where | None, dict[str, list
         left = _left(study.pool, calm, study.uncertainty, random=model.random)
         if left is None:
             return None, {}
-        before = _misfit(dataclasses.replace(study.pool, kept=left[1]), study.uncertainty, random=model.random)
+        before = _misfit(dataclasses.replace(study.baseline.pool, kept=left[1]), study.uncertainty, random=model.random)
         nothing = [np.zeros(N_FEATURES)] * len(before.means), np.zeros(2)
         shown, rest = before.excess(*nothing), left[0].excess(*nothing)
         if not _lacks(shown, rest, left[0].freedom, 0.0).any():
@@ -118,8 +118,7 @@ def _lacks(shown: Array, left: Array, freedom: Array, error: Array | float) -> n
 
 def _left(pool: Pool, calm: Model, uncertainty: Mapping[str, float], *, random: bool) -> tuple[_Misfit, np.ndarray] | None:
     """Return what a model without chances leaves of slips, and which of them count; None where it misses too many."""
-    shaped = any(SHAPES_SLIPS in e.traits for e in calm.effects)
-    left = left_over(_zeroed(pool, calm), calm, anew=shaped)
+    left = left_over(_zeroed(pool, calm), calm, anew=calm.shapes_slips)
     kept = pool.kept & left.kept & ~_jumped(pool, calm)
     if kept.sum() < criteria.LEAST_KEPT * pool.kept.sum():
         return None
