@@ -231,7 +231,7 @@ def test_a_drive_that_is_dead_or_turned_round_is_refused(tmp_path, factor, words
     [
         ("", "No [uncertainty] is stated: every number of the scenario is taken as exact"),
         ("[uncertainty]\nmass = 0.0\n", "No [uncertainty] is stated: every number of the scenario is taken as exact"),
-        ("[uncertainty]\nmass = 5.0\noffset = 0.5\n", "Stated: mass ± 500 %, offset ± 0.5 N; every other number"),
+        ("[uncertainty]\nmass = 0.5\noffset = 0.5\n", "Stated: mass ± 50 %, offset ± 0.5 N; every other number"),
     ],
 )
 def test_how_sure_the_scenario_is_of_its_numbers_is_said(tmp_path, table, said):
