@@ -93,8 +93,10 @@ POWERS: dict[str, tuple[float, float, float]] = {
     "normal_force": (0.0, -1.0, 0.0),
 }
 """What may have a wrong unit -> powers of its factor in the three ratios: speed, length, time."""
+IN_DEGREES = 180.0 / math.pi
+"""Factor of an arc that was made of an angle in degrees, as if that were one in rad [-]."""
 FACTORS: dict[str, tuple[float, ...]] = {
-    "position": (1e3, 1e-3, 1e6, 1e-6, 1e2, 1e-2, 10.0, 0.1, 1.0 / 0.0254, 0.0254, 25.4, 1.0 / 25.4),
+    "position": (1e3, 1e-3, 1e6, 1e-6, 1e2, 1e-2, 10.0, 0.1, 1.0 / 0.0254, 0.0254, 25.4, 1.0 / 25.4, IN_DEGREES),
     "time": (1e3, 1e-3, 1e6, 1e-6, 60.0, 1.0 / 60.0),
     "belt_velocity": (1e3, 1e-3, 1e6, 1e-6, 1e2, 1e-2, 6e4, 60.0, 1.0 / 60.0),
     "stiffness": (1e-3, 1e-6),
@@ -102,7 +104,7 @@ FACTORS: dict[str, tuple[float, ...]] = {
     "normal_force": (1e3, 1e-3),
     "force": (1e3, 1e-3),
     "torque": (1e3, 1e-3, 1e2, 1e-2),
-    "angle": (180.0 / math.pi, math.pi / 180.0),
+    "angle": (IN_DEGREES, 1.0 / IN_DEGREES),
     "length": (1e3, 1e-3),
 }
 """What may have a wrong unit -> factors between the units in use."""

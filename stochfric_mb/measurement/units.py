@@ -19,6 +19,9 @@ from stochfric_mb.measurement.quantities import Quantity
 
 Array = npt.NDArray[np.float64]
 
+ALONG_AN_ARC = "what turns moves along an arc, its angle in rad times the radius of the contact"
+"""What an angle is where friction acts along a line."""
+
 
 def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | None) -> tuple[Array, str]:
     """Return ``values`` in the SI unit of ``quantity``, and that unit; a temperature in K stays in K.
@@ -68,7 +71,7 @@ def _as_arc(quantity: Quantity, targets: Sequence[str]) -> str:
     if len(targets) != 1 or not targets[0].startswith("m"):
         return ""
     return (
-        "; what turns moves along an arc, its angle in rad times the radius of the contact: of 40 mm, "
+        f"; {ALONG_AN_ARC}: of 40 mm, "
         f'scale = {{ {quantity.name} = 0.04 }} and units = {{ {quantity.name} = "{targets[0]}" }} '
         '(docs/datasets.md, "A rig that turns")'
     )

@@ -63,6 +63,13 @@ def test_a_position_in_another_unit_than_its_label(tmp_path, motion, truth, unit
     assert f"write its header as 'position [{really}]'" in text
 
 
+def test_an_arc_of_degrees_is_told_from_inches(tmp_path, motion, truth):
+    with pytest.raises(
+        InputError, match=r"57\.3 times what fits.* probably in deg; what turns .*multiply scale.position by pi / 180"
+    ):
+        _load(tmp_path, motion, truth, scale=180.0 / math.pi)
+
+
 def test_a_time_in_another_unit_than_its_label(tmp_path, motion, truth):
     with pytest.raises(InputError, match=r"column time \[s\] is 1000 times what fits.*probably in ms"):
         _load(tmp_path, motion, truth, time_scale=1e3)
