@@ -21,6 +21,11 @@ Array = npt.NDArray[np.float64]
 
 ALONG_AN_ARC = "what turns moves along an arc, its angle in rad times the radius of the contact"
 """What an angle is where friction acts along a line."""
+ON_THE_SPRING = (
+    "a load cell on the spring of a belt_box shows k x: of 1200 N/m, "
+    'scale = { position = 8.333e-4 }, which is 1/k, and units = { position = "m" }'
+)
+"""How a force is read as a position."""
 
 
 def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | None) -> tuple[Array, str]:
@@ -58,6 +63,8 @@ def to_si(values: Array, unit: str, quantity: Quantity, *, rotational: bool | No
     )
     lever = arm if targets == ("N",) and given.dimensionality == units.Unit("N*m").dimensionality else ""
     lever = _as_arc(quantity, targets) if _turns(units, given) else lever
+    if quantity.name == "position" and targets == ("m",) and given.dimensionality == units.Unit("N").dimensionality:
+        lever = f"; {ON_THE_SPRING}"
     if given.dimensionality == units.Unit("A").dimensionality and targets in (("N",), ("N m",)):
         lever = (
             f"; a motor's current is a force or torque once it is multiplied by its constant: of 0.1 {targets[0]}/A, "

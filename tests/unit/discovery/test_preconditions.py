@@ -8,6 +8,7 @@ import pytest
 from stochfric_mb.discovery.criteria import FEWEST_SAMPLES
 from stochfric_mb.discovery.stick_slip.records.preconditions import require_driven, require_usable
 from stochfric_mb.discovery.stick_slip.records.record import make_record
+from stochfric_mb.discovery.stick_slip.study import record_of
 from stochfric_mb.errors import InputError
 from stochfric_mb.mechanisms import BeltBox
 
@@ -48,6 +49,19 @@ def test_friction_against_the_belt_and_a_zero_that_is_off_are_refused(onset, kin
 def test_rubber_may_hold_more_than_its_load():
     record = SimpleNamespace(name="a", mechanism=BeltBox(**BOX, belt_velocity=2e-3))
     require_driven([SimpleNamespace(record=record, onset_force=np.full(20, 26.0), moments=np.full((20, 7), 20.0))], 0.45)
+
+
+@pytest.mark.parametrize(
+    ("channel", "said"),
+    [
+        ("force", r"a load cell on the spring of a belt_box shows k x: .* which is 1/k, .*name the column of force"),
+        ("velocity", r"a velocity alone does not do.*integrate it from a rest"),
+        ("temperature", r"such as a column 'position \[m\]'$"),
+    ],
+)
+def test_what_a_record_without_a_position_may_have_instead(channel, said):
+    with pytest.raises(InputError, match=said):
+        record_of(SimpleNamespace(name="a", channels={channel: np.zeros(9)}), SimpleNamespace(scenario=None))
 
 
 @pytest.mark.parametrize("rate", [200.0, 1000.0])

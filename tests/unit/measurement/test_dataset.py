@@ -170,6 +170,10 @@ def test_temperature_keeps_its_scale(rig):
         ("units = { position = 3 }", r"units\.position = 3; give a unit in quotes"),
         ('units = { position = "N" }', r"run\.csv: unit 'N' is not one of position, which is kept in m .*; give m, mm"),
         (
+            'units = { position = "kN" }',
+            r"a load cell on the spring .* shows k x: .* scale = \{ position = 8.333e-4 \}, which is 1/k",
+        ),
+        (
             'units = { position = "deg" }',
             r"'deg' is not one of position, which is kept in m \(this mechanism moves along a line\)",
         ),
