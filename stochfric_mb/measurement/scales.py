@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -44,6 +45,13 @@ REPEATED = 0.25
 """Different readings over all, below which a sensor reads in steps [-]."""
 LAGS = 8
 """Distances over which slopes are taken: powers of 2 [samples]."""
+
+GRAVITY = 9.81
+"""Acceleration of gravity [m/s^2]: a load in kg makes coefficients of friction so many times too large."""
+AS_GRAVITY = 0.1
+"""Largest relative distance of every coefficient from that many times the stated one [-]: tables are as good."""
+USUAL_FRICTION = (0.02, 1.5)
+"""Range of mu_s from lubricated bearings to rubber [-]; another one was no guess from a table."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -207,6 +215,23 @@ def likeliest(seen: Shown) -> Cause | None:
         (c for c in known if seen.fits(c) and (not c.time or seen.time - c.time * math.log10(c.factor) <= CORRECTED_TIME)),
         key=lambda cause: abs(seen.speed - cause.speed * math.log10(cause.factor)),
         default=None,
+    )
+
+
+def load_in_kilograms(shown: Sequence[float], stated: Sequence[float], load: float) -> str:
+    """Return what is said of a load [N] that is probably a mass in kg; empty where coefficients do not say so.
+
+    Args:
+        shown: coefficients of friction as a record has them, with this load [-].
+        stated: the same as stated, mu_s or the only one first [-].
+        load: the normal force stated [N].
+    """
+    usual = USUAL_FRICTION[0] <= stated[0] <= USUAL_FRICTION[1]
+    if not usual or any(abs(a / (GRAVITY * b) - 1.0) > AS_GRAVITY for a, b in zip(shown, stated, strict=True)):
+        return ""
+    return (
+        f"friction comes out at {shown[0] / stated[0]:.3g} times what is stated, as much as gravity in m/s^2: normal_force = "
+        f"{load:g} N is probably a mass in kg; write normal_force = {GRAVITY * load:.4g} (N)"
     )
 
 

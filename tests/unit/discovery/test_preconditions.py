@@ -37,6 +37,7 @@ def test_coarse_samples_and_a_belt_at_rest_are_refused(interval, belt, said):
         (-8.0, -5.0, "same positive direction"),
         (8.0, -0.1, "same positive direction"),
         (470.0, 465.0, "36.2 times the normal force, with mu_s stated as 0.45; count the position from where the spring is"),
+        (13.0 * 9.81 * 0.45, 40.0, "normal_force = 13 N is probably a mass in kg; write normal_force = 127.5"),
     ],
 )
 def test_friction_against_the_belt_and_a_zero_that_is_off_are_refused(onset, kinetic, remedy):
